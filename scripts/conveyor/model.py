@@ -1,0 +1,179 @@
+"""The conveyor and the part: parameters with their units, and the excitation (Eqs. 1-12 and 15 of the paper).
+
+The plate moves harmonically, the part is a point mass. With θ = ωt + ψ0 and ω = 2πf,
+
+    z_s = -(a_z/ω²) cos θ,   ż_s = (a_z/ω) sin θ,   z̈_s = a_z cos θ,   ẋ_s = (a_x/ω) sin θ.
+
+With the gap q = z_p - z_s, the contact force acts while q ≤ 0:
+
+    F_c = k_c (-q)^p - d_c q̇,   m z̈_p = -m g + F_c,   m ẍ_p = μ F_c sign(ẋ_s - ẋ_p).
+"""
+
+import math
+from dataclasses import astuple, dataclass
+
+import numpy as np
+
+TENSION_MODES = ("allow", "frictionless", "clip")
+
+# Order of the entries in a packed parameter vector, the form in which compiled kernels receive a conveyor and a start.
+PARAMETERS = (
+    "acceleration",
+    "angle",
+    "frequency",
+    "psi0",
+    "stiffness",
+    "damping",
+    "friction",
+    "mass",
+    "exponent",
+    "gravity",
+    "tension",
+    "z0",
+    "vz0",
+)
+(
+    ACCELERATION,
+    ANGLE,
+    FREQUENCY,
+    PSI0,
+    STIFFNESS,
+    DAMPING,
+    FRICTION,
+    MASS,
+    EXPONENT,
+    GRAVITY,
+    TENSION,
+    Z0,
+    VZ0,
+) = range(len(PARAMETERS))
+TENSION_ALLOW, TENSION_FRICTIONLESS, TENSION_CLIP = range(len(TENSION_MODES))
+
+# Unit and admissible closed interval of every parameter. The intervals reject impossible values and the usual
+# mix-ups of units (degrees for radians, grams for kilograms), not unusual conveyors.
+UNITS = {
+    "acceleration": "m/s²",
+    "angle": "rad",
+    "frequency": "Hz",
+    "psi0": "rad",
+    "stiffness": "N/m^p",
+    "damping": "N s/m",
+    "friction": "1",
+    "mass": "kg",
+    "exponent": "1",
+    "gravity": "m/s²",
+    "tension": "",
+    "z0": "m",
+    "vz0": "m/s",
+}
+RANGES = {
+    "acceleration": (0.0, 1e4),
+    "angle": (0.0, 0.5 * math.pi),
+    "frequency": (1e-2, 1e5),
+    "psi0": (-4.0 * math.pi, 4.0 * math.pi),
+    "stiffness": (1.0, 1e15),
+    "damping": (0.0, 1e6),
+    "friction": (0.0, 10.0),
+    "mass": (1e-12, 1e6),
+    "exponent": (1.0, 3.0),
+    "gravity": (1e-3, 1e3),
+    "z0": (-1.0, 10.0),
+    "vz0": (-100.0, 100.0),
+}
+
+
+def check_parameter(name: str, value: float) -> float:
+    """Return `value` as a float; raise ValueError that names the parameter, its unit and its range if it is outside."""
+    low, high = RANGES[name]
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise ValueError(f"{name} must be a number in {UNITS[name]}, got {value!r}")
+    if not low <= value <= high:
+        raise ValueError(f"{name} = {value!r} is outside [{low:g}, {high:g}] {UNITS[name]}")
+    return float(value)
+
+
+@dataclass(frozen=True, slots=True)
+class Conveyor:
+    """A vibrating plate, the part on it and their contact. SI units; the defaults are those of the paper's Sect. 3.
+
+    Attributes
+    ----------
+    acceleration : excitation amplitude â, m/s²
+    angle : angle of throw φ, rad
+    frequency : excitation frequency f, Hz
+    psi0 : phase of the excitation at t = 0, rad
+    stiffness : contact stiffness k_c, N/m^p
+    damping : contact damping d_c, N s/m
+    friction : friction coefficient μ, 1
+    mass : mass of the part, kg
+    exponent : exponent p of the contact law, in [1, 3] (1 Hooke, 1.5 Hertz)
+    gravity : gravitational acceleration g, m/s²
+    tension : what happens while damping outweighs stiffness (F_c < 0): "allow" keeps Eqs. 7 and 11 as written,
+        "frictionless" lets the contact pull but not rub, "clip" sets F_c = max(F_c, 0)
+
+    Raises
+    ------
+    ValueError
+        names the parameter that is outside its range
+    """
+
+    acceleration: float = 40.0
+    angle: float = math.radians(12.0)
+    frequency: float = 50.0
+    psi0: float = 0.0
+    stiffness: float = 5e5
+    damping: float = 0.3
+    friction: float = 0.15
+    mass: float = 0.7e-3
+    exponent: float = 1.5
+    gravity: float = 9.81
+    tension: str = "allow"
+
+    def __post_init__(self):
+        for name in PARAMETERS[:TENSION]:
+            check_parameter(name, getattr(self, name))
+        if self.tension not in TENSION_MODES:
+            raise ValueError(f"tension = {self.tension!r} is not one of {', '.join(TENSION_MODES)}")
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """Initial conditions of the part: height z (m, or "conveyor" to start on the plate, Eq. 15) and velocity vz (m/s).
+
+    Time starts at 0, the horizontal position and velocity at zero.
+    """
+
+    z: float | str = 0.0
+    vz: float = 0.0
+
+    def __post_init__(self):
+        if self.z != "conveyor":
+            check_parameter("z0", self.z)
+        check_parameter("vz0", self.vz)
+
+
+def pack(conveyor: Conveyor, start: Start) -> np.ndarray:
+    """The parameter vector, float64, shape (13,), in the order of PARAMETERS; z0 is NaN for a start on the conveyor."""
+    *numbers, tension = astuple(conveyor)
+    z0 = math.nan if start.z == "conveyor" else start.z
+    return np.array([*numbers, TENSION_MODES.index(tension), z0, start.vz], dtype=np.float64)
+
+
+def unpack(parameters: np.ndarray) -> tuple[Conveyor, Start]:
+    """The inverse of `pack`."""
+    *numbers, tension, z0, vz0 = (float(value) for value in parameters)
+    return Conveyor(*numbers, TENSION_MODES[int(tension)]), Start("conveyor" if math.isnan(z0) else z0, vz0)
+
+
+def conveyor_motion(conveyor: Conveyor, times: np.ndarray) -> dict[str, np.ndarray]:
+    """Position and velocity of the plate (Eqs. 3, 4, 10) at `times` (s): x, z in m; vx, vz in m/s; same shape."""
+    omega = 2.0 * math.pi * conveyor.frequency
+    phase = omega * np.asarray(times, dtype=np.float64) + conveyor.psi0
+    a_z = conveyor.acceleration * math.sin(conveyor.angle)
+    a_x = conveyor.acceleration * math.cos(conveyor.angle)
+    return {
+        "x": -(a_x / omega**2) * np.cos(phase),
+        "vx": (a_x / omega) * np.sin(phase),
+        "z": -(a_z / omega**2) * np.cos(phase),
+        "vz": (a_z / omega) * np.sin(phase),
+    }

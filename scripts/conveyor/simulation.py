@@ -1,0 +1,168 @@
+"""One call for every method: `simulate` follows one part on one conveyor."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from . import fixed_step, trajectory
+from .model import Conveyor, Start, pack
+
+METHODS = ("event", *fixed_step.METHODS)
+DEFAULT_TOLERANCE = 1e-10
+DEFAULT_STEP = 5e-7  # s, Sect. 3 of the paper
+LAST = 0.25  # share of the run over which the paper takes mean values (Sect. 3.1)
+
+EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U14")])
+NO_TIMES = np.empty(0)
+NO_KINDS = np.empty(0, np.int8)
+
+
+@dataclass(frozen=True)
+class Run:
+    """What `simulate` found. Only the end and the start of the last quarter are kept; `sample` follows the part again.
+
+    Attributes
+    ----------
+    conveyor, start, duration, method, tolerance, step : as they were given
+    status : "ok", or why the run ended early
+    z_end, vz_end, x_end, vx_end : state at the end, m and m/s
+    impacts : number of impacts
+    max_gap : largest distance between part and plate, m
+    contact_fraction : share of the duration with a contact force
+    work : force evaluations (fixed step) or Taylor steps (event)
+    """
+
+    conveyor: Conveyor
+    start: Start
+    duration: float
+    method: str
+    tolerance: float
+    step: float
+    status: str
+    x_last: float
+    z_end: float
+    vz_end: float
+    x_end: float
+    vx_end: float
+    impacts: int
+    max_gap: float
+    contact_fraction: float
+    work: int
+    event_count: int
+
+    def mean_velocity(self, last: float = LAST) -> float:
+        """Mean feeding velocity over the last part of the run, (x(T) - x((1 - last) T)) / (last T), m/s (Sect. 3.1)."""
+        if not 0.0 < last <= 1.0:
+            raise ValueError(f"last = {last!r} must be a share of the run in (0, 1]")
+        x_before = self.x_last
+        if last != LAST:
+            x_before = float(self.sample(np.array([(1.0 - last) * self.duration]))["x"][0])
+        return (self.x_end - x_before) / (last * self.duration)
+
+    def sample(self, times: np.ndarray) -> dict[str, np.ndarray]:
+        """The motion at `times` (s, any shape and order, within the run).
+
+        Returns
+        -------
+        dict of float64 arrays of the shape of `times`: x, z (m), vx, vz (m/s), contact_force, friction_force (N);
+        NaN behind the point where a run ended early
+        """
+        times = np.asarray(times, dtype=np.float64)
+        if not ((times >= 0.0) & (times <= self.duration)).all():
+            raise ValueError(f"times must lie within the run, 0 to {self.duration!r} s")
+        if self.method != "event":
+            return fixed_step.sample(pack(self.conveyor, self.start), times, self.step, self.method)
+        moments, place = np.unique(times, return_inverse=True)
+        samples = np.empty((moments.size, len(trajectory.SAMPLES)))
+        if moments.size:
+            parameters = pack(self.conveyor, self.start)
+            trajectory.integrate(parameters, self.tolerance, True, moments, samples, NO_TIMES, NO_KINDS)
+        return {name: samples[place, k].reshape(times.shape) for k, name in enumerate(trajectory.SAMPLES)}
+
+    @cached_property
+    def events(self) -> np.ndarray:
+        """Events in order of time: a structured array with the fields `time` (s) and `kind` (see trajectory.EVENTS)."""
+        parameters = pack(self.conveyor, self.start)
+        if self.method != "event":
+            return fixed_step.events(parameters, self.duration, self.step, self.method).astype(EVENT_DTYPE)
+        times, kinds = np.empty(self.event_count), np.empty(self.event_count, np.int8)
+        samples = np.empty((1, len(trajectory.SAMPLES)))
+        trajectory.integrate(parameters, self.tolerance, True, np.array([self.duration]), samples, times, kinds)
+        events = np.empty(self.event_count, dtype=EVENT_DTYPE)
+        events["time"] = times
+        events["kind"] = np.array(trajectory.EVENTS)[kinds]
+        return events
+
+
+def simulate(
+    conveyor: Conveyor,
+    start: Start = Start(),  # noqa: B008 - immutable
+    *,
+    duration: float = 1.0,
+    method: str = "event",
+    tolerance: float = DEFAULT_TOLERANCE,
+    step: float = DEFAULT_STEP,
+) -> Run:
+    """Follow one part on one conveyor from rest in x.
+
+    Parameters
+    ----------
+    conveyor, start : see model.Conveyor and model.Start
+    duration : s, > 0
+    method : "event" for the exact event loop, or a method of fixed_step: "euler" (the paper's), "semi_implicit_euler", "rk4"
+    tolerance : relative error per Taylor step, 1e-14 to 1e-2; used by "event"
+    step : step size in s; used by the fixed-step methods
+
+    Returns
+    -------
+    Run, whose status says whether the part could be followed to the end
+
+    Raises
+    ------
+    ValueError
+        names the argument that cannot be used
+    """
+    if not 0.0 < duration < math.inf:
+        raise ValueError(f"duration = {duration!r} s must be positive and finite")
+    if method not in METHODS:
+        raise ValueError(f"method = {method!r} is not one of {', '.join(METHODS)}")
+    parameters = pack(conveyor, start)
+    if method == "event":
+        if not 1e-14 <= tolerance <= 1e-2:
+            raise ValueError(f"tolerance = {tolerance!r} must lie in [1e-14, 1e-2]")
+        times = np.array([(1.0 - LAST) * duration, duration])
+        samples = np.empty((2, len(trajectory.SAMPLES)))
+        code, event_count, impacts, contact_time, max_gap, work = trajectory.integrate(
+            parameters, tolerance, True, times, samples, NO_TIMES, NO_KINDS
+        )
+        x_last = samples[0, trajectory.X]
+        x_end, vx_end, z_end, vz_end = samples[1, :4]
+        status = trajectory.STATUS[code]
+        contact_fraction = contact_time / duration
+    else:
+        found = fixed_step.run(parameters, duration, step, method, LAST)
+        x_end, vx_end, z_end, vz_end = found.x, found.vx, found.z, found.vz
+        x_last = x_end - found.mean_velocity * LAST * duration
+        status, impacts, max_gap = found.status, found.impacts, found.max_gap
+        contact_fraction, work, event_count = found.contact_fraction, found.evaluations, 0
+    return Run(
+        conveyor,
+        start,
+        duration,
+        method,
+        tolerance,
+        step,
+        status,
+        float(x_last),
+        float(z_end),
+        float(vz_end),
+        float(x_end),
+        float(vx_end),
+        int(impacts),
+        float(max_gap),
+        float(contact_fraction),
+        int(work),
+        int(event_count),
+    )
