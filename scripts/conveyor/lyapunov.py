@@ -1,0 +1,239 @@
+"""Lyapunov exponents: from the variational equation, from pairs of trajectories, and as published.
+
+The variational exponents multiply the exact linearisation of the stroboscopic map and orthonormalise after each cycle
+(Benettin et al. 1980). They satisfy λ1 + λ2 = -(d_c/m) × (share of time with contact force) identically.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from . import contact, fixed_step, stroboscope, trajectory
+from .jit import kernel
+from .model import FRICTION, unpack
+from .parallel import for_each_chunk
+from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, simulate
+
+# Columns of the array that the kernel of `spectrum` fills.
+LAMBDA_1, LAMBDA_2, STDERR, CONTACT_FRACTION, CODE = range(5)
+
+
+class Spectrum(NamedTuple):
+    """Vertical exponents of n trajectories; every field has the shape (n,)."""
+
+    lambda_1: np.ndarray  # 1/s, the larger one
+    lambda_2: np.ndarray  # 1/s
+    stderr: np.ndarray  # 1/s, standard error of lambda_1 from means over blocks of cycles
+    contact_fraction: np.ndarray  # share of the time with contact force
+    status: np.ndarray  # "ok", or why there is no result
+
+
+@kernel
+def multiply_stretches(c, series, state, transient, cycles, blocks, out):
+    """Fill `out`, shape (5,), with the exponents of one trajectory; `state` is advanced. See `spectrum`."""
+    features = np.zeros(stroboscope.FEATURES)
+    tangent = np.eye(2)
+    tangent[1, 1] = c.omega
+    total = np.zeros(2)
+    block_mean = np.zeros(blocks)
+    contact_time = 0.0
+    out[:] = np.nan
+    for n in range(transient + blocks * cycles):
+        status = stroboscope.cycle(c, series, state, tangent, features)
+        out[CODE] = status
+        if status != trajectory.OK:
+            return
+        # Gram-Schmidt with velocities divided by ω, which makes both directions comparable.
+        first = math.hypot(tangent[0, 0], tangent[0, 1] / c.omega)
+        tangent[0, :] /= first
+        along = tangent[1, 0] * tangent[0, 0] + tangent[1, 1] * tangent[0, 1] / (c.omega * c.omega)
+        tangent[1, 0] -= along * tangent[0, 0]
+        tangent[1, 1] -= along * tangent[0, 1]
+        second = math.hypot(tangent[1, 0], tangent[1, 1] / c.omega)
+        tangent[1, :] /= second
+        if n >= transient:
+            total[0] += math.log(first)
+            total[1] += math.log(second)
+            block_mean[(n - transient) // cycles] += math.log(first) / (cycles * c.period)
+            contact_time += features[stroboscope.CONTACT_TIME]
+    duration = blocks * cycles * c.period
+    out[LAMBDA_1], out[LAMBDA_2] = total[0] / duration, total[1] / duration
+    out[STDERR] = np.std(block_mean) / math.sqrt(blocks - 1)
+    out[CONTACT_FRACTION] = contact_time / duration
+
+
+@kernel
+def spectra_of_points(parameters, states, tolerance, transient, cycles, blocks, out):
+    """Fill the rows of `out`, shape (n, 5), with the exponents of trajectories from `states`, shape (n, 2)."""
+    series = contact.workspace()
+    for i in range(parameters.shape[0]):
+        c = contact.constants(parameters[i], tolerance)
+        multiply_stretches(c, series, states[i], transient, cycles, blocks, out[i])
+
+
+def initial_states(parameters: np.ndarray, tolerance: float) -> np.ndarray:
+    """Stroboscopic states (δ in m, v in m/s), shape (n, 2), of the starts in `parameters`, shape (n, 13)."""
+    states = np.empty((len(parameters), 2))
+    for row, state in zip(parameters, states, strict=True):
+        stroboscope.initial_state(row, tolerance, state)
+    return states
+
+
+def spectrum(
+    parameters: np.ndarray,
+    states: np.ndarray | None = None,
+    *,
+    transient: int = 200,
+    cycles: int = 100,
+    blocks: int = 20,
+    tolerance: float = DEFAULT_TOLERANCE,
+    threads: int = 1,
+    progress: str | None = None,
+) -> Spectrum:
+    """Both vertical Lyapunov exponents from the variational equation.
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 13), rows as from model.pack
+    states : float64, shape (n, 2), stroboscopic states to begin with (default: the starts in `parameters`)
+    transient : excitation cycles that are followed and not counted
+    cycles, blocks : `blocks` ≥ 2 blocks of `cycles` excitation cycles are counted
+    tolerance, threads, progress : as in sweep.run
+    """
+    if blocks < 2 or cycles < 1 or transient < 0:
+        raise ValueError("blocks must be at least 2, cycles at least 1, transient not negative")
+    parameters = np.ascontiguousarray(parameters, dtype=np.float64)
+    states = initial_states(parameters, tolerance) if states is None else np.array(states, dtype=np.float64)
+    out = np.empty((len(parameters), CODE + 1))
+
+    def work(begin, end):
+        rows = slice(begin, end)
+        spectra_of_points(parameters[rows], states[rows], tolerance, transient, cycles, blocks, out[rows])
+
+    for_each_chunk(work, len(parameters), threads=threads, chunk=4, progress=progress)
+    return Spectrum(*out[:, :CODE].T.copy(), status=np.array(trajectory.STATUS)[out[:, CODE].astype(np.int64)])
+
+
+def horizontal_exponent(parameters: np.ndarray, *, duration: float, last: float, tolerance: float) -> float:
+    """Exponent (1/s) of a perturbation of ẋ_p alone, over the last part of a run.
+
+    While the part slips one way such a perturbation stays as it is. A slip reversal multiplies it by
+    u̇⁺/u̇⁻ = (|ẍ_s| - μF_c/m) / (|ẍ_s| + μF_c/m); a stick erases it, and the exponent is -infinity.
+    """
+    conveyor, start = unpack(parameters)
+    run = simulate(conveyor, start, duration=duration, tolerance=tolerance)
+    events = run.events[run.events["time"] >= (1.0 - last) * duration]
+    if (events["kind"] == "stick").any():
+        return -math.inf
+    times = events["time"][events["kind"] == "slip reversal"]
+    omega = 2.0 * math.pi * conveyor.frequency
+    plate = np.abs(conveyor.acceleration * math.cos(conveyor.angle) * np.cos(omega * times + conveyor.psi0))
+    rub = parameters[FRICTION] * run.sample(times)["contact_force"] / conveyor.mass
+    return float(np.sum(np.log(np.abs((plate - rub) / (plate + rub)))) / (last * duration))
+
+
+def renormalised_pair(
+    parameters: np.ndarray,
+    state: np.ndarray,
+    *,
+    distance: float = 1e-9,
+    transient: int = 200,
+    cycles: int = 2000,
+    tolerance: float = 1e-12,
+) -> float:
+    """Largest exponent (1/s) of one trajectory from a neighbour that is set back to `distance` after every cycle.
+
+    An independent witness for `spectrum` that uses no variational equation. `distance` is relative to the scales of the
+    part at rest, `state` is a stroboscopic state of shape (2,).
+    """
+    c = contact.constants(parameters, tolerance)
+    scale = np.array([c.scale_w**2, c.scale_v])
+    strobes, features = np.empty((1, 2)), np.empty((1, stroboscope.FEATURES))
+    here = np.array(state, dtype=np.float64)
+    there = here + distance * scale / math.sqrt(2.0)
+    total = 0.0
+    for n in range(transient + cycles):
+        stroboscope.follow(parameters, tolerance, here, 1, strobes, features)
+        stroboscope.follow(parameters, tolerance, there, 1, strobes, features)
+        separation = (there - here) / scale
+        stretch = float(np.hypot(*separation)) / distance
+        there = here + separation / stretch * scale
+        if n >= transient:
+            total += math.log(stretch)
+    return total / (cycles * c.period)
+
+
+@kernel
+def sample_points(parameters, times, tolerance, column, feeding, out):
+    """Fill `out`, shape (n, len(times)), with one column of the samples of n event-driven runs."""
+    samples = np.empty((times.size, 6))
+    no_times = np.empty(0)
+    no_kinds = np.empty(0, np.int8)
+    for i in range(parameters.shape[0]):
+        trajectory.integrate(parameters[i], tolerance, feeding, times, samples, no_times, no_kinds)
+        out[i, :] = samples[:, column]
+
+
+@kernel
+def sample_points_by_steps(parameters, indices, step, method, column, out):
+    """Fill `out`, shape (n, len(indices)), with one column of the samples of n fixed-step runs."""
+    samples = np.empty((indices.size, 6))
+    no_events = np.empty((0, 2))
+    for i in range(parameters.shape[0]):
+        samples[:] = np.nan
+        fixed_step.integrate(parameters[i], step, indices[-1], method, indices, samples, no_events)
+        out[i, :] = samples[:, column]
+
+
+def finite_difference_estimate(
+    parameters: np.ndarray,
+    perturbed: np.ndarray,
+    epsilon: float,
+    *,
+    output: str = "vx",
+    duration: float = 1.0,
+    last: float = 0.25,
+    samples: int = 501,
+    method: str = "event",
+    tolerance: float = DEFAULT_TOLERANCE,
+    step: float = DEFAULT_STEP,
+    threads: int = 1,
+    progress: str | None = None,
+) -> np.ndarray:
+    """The paper's estimate of the Lyapunov exponent, (1/t) log(|Δ output| / ε) (Eq. 23), averaged over the end of a run.
+
+    Parameters
+    ----------
+    parameters, perturbed : float64, shape (n, 13): the trajectories and their neighbours
+    epsilon : size of the perturbation, in the unit of the perturbed parameter
+    output : the signal that is compared, one of trajectory.SAMPLES
+    last, samples : the mean is taken over `samples` equidistant times in the last part of the run
+    duration, method, tolerance, step, threads, progress : as in sweep.run
+
+    Returns
+    -------
+    float64, shape (n,), 1/s. A difference below the resolution of the signal counts as that resolution.
+    """
+    column = trajectory.SAMPLES.index(output)
+    feeding = output not in ("z", "vz", "contact_force")
+    times = np.linspace((1.0 - last) * duration, duration, samples)
+    if method != "event":
+        indices = np.rint(times / step).astype(np.int64)
+        times = indices * step
+    both = np.ascontiguousarray(np.stack([parameters, perturbed], axis=1).reshape(-1, parameters.shape[1]))
+    signals = np.empty((len(both), len(times)))
+
+    def work(begin, end):
+        rows = slice(begin, end)
+        if method == "event":
+            sample_points(both[rows], times, tolerance, column, feeding, signals[rows])
+        else:
+            code = fixed_step.METHODS.index(method)
+            sample_points_by_steps(both[rows], indices, step, code, column, signals[rows])
+
+    for_each_chunk(work, len(both), threads=threads, chunk=2, progress=progress)
+    here, there = signals[0::2], signals[1::2]
+    resolution = np.finfo(np.float64).eps * np.maximum(np.abs(here), np.abs(there)).max(axis=1, keepdims=True)
+    difference = np.maximum(np.abs(there - here), resolution)
+    return np.mean(np.log(difference / epsilon) / times, axis=1)

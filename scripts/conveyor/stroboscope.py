@@ -1,0 +1,227 @@
+"""The stroboscopic map: the vertical motion over exactly one excitation cycle, and its linearisation.
+
+A state is the pair (δ, v) at the phase ψ0: penetration δ = z_s - z_p (m, negative in flight) and its rate v (m/s). It
+says everything, since contact is δ > 0 and the sign of the contact force follows from δ and v.
+
+Perturbations are those of (δ, Y) with Y = v + (d_c/m) max(δ, 0), for which the equations of motion
+
+    δ̇ = Y - (d_c/m) max(δ, 0),   Ẏ = g + a_z cos θ - (k_c/m) max(δ, 0)^p
+
+are continuous across impact and separation, so that the linearised flow needs no jump there. Its determinant over a
+cycle is exp(-(d_c/m) T_contact), with T_contact the time with a contact force. `clip` switches the damping off while the
+force would pull; the force is continuous there, and v takes the place of Y.
+"""
+
+import math
+
+import numpy as np
+
+from . import contact, polynomial
+from .flight import gap, next_impact
+from .jit import kernel
+from .model import TENSION_ALLOW, TENSION_CLIP, VZ0, Z0
+from .trajectory import MAX_PIECES, NOT_FINITE, OK, TOO_MANY_EVENTS, begin, in_contact, invert_time, press_on
+
+# What a cycle is characterised by.
+IMPACTS, CONTACT_TIME, LONGEST_FLIGHT, MAX_GAP, SLOWEST_IMPACT, AIRBORNE = range(6)
+FEATURES = 6
+
+
+@kernel
+def initial_state(parameters, tolerance, state):
+    """Fill `state`, shape (2,), with δ (m) and v (m/s) of the start in a packed parameter vector."""
+    c = contact.constants(parameters, tolerance)
+    q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)
+    state[0] = -q
+    state[1] = -rate
+
+
+@kernel
+def expand_tangent(c, series, eta, zeta, free):
+    """Taylor coefficients of a perturbation (η, ζ) of (δ, Y) along a contact step, from their values at s = 0.
+
+    With the derivative in s, η' = w (ζ - (d_c/m) η) and ζ' = -p (k_c/m) w^(2p-1) η. `free` leaves the force out.
+    """
+    w, square, stiff = series.w, series.square, series.scratch
+    order = c.order
+    damping = 0.0 if free else c.damping
+    stiffness = 0.0 if free else c.exponent * c.stiffness
+    hertz = c.exponent == 1.5
+    hooke = c.exponent == 1.0
+    if not hertz and not hooke:
+        power = 2.0 * c.exponent - 1.0
+        general = w[0] > c.edge_w
+        stiff[:] = 0.0
+        if general:
+            stiff[0] = w[0] ** power
+            for n in range(1, order):
+                total = 0.0
+                for k in range(1, n + 1):
+                    total += (k * power - (n - k)) * w[k] * stiff[n - k]
+                stiff[n] = total / (n * w[0])
+    for n in range(order):
+        drift = 0.0
+        pull = 0.0
+        if hertz:
+            for k in range(n + 1):
+                drift += w[k] * (zeta[n - k] - damping * eta[n - k])
+                pull += square[k] * eta[n - k]
+        elif hooke:
+            for k in range(n + 1):
+                drift += w[k] * (zeta[n - k] - damping * eta[n - k])
+                pull += w[k] * eta[n - k]
+        else:
+            for k in range(n + 1):
+                drift += w[k] * (zeta[n - k] - damping * eta[n - k])
+                pull += stiff[k] * eta[n - k]
+        eta[n + 1] = drift / (n + 1)
+        zeta[n + 1] = -stiffness * pull / (n + 1)
+
+
+@kernel
+def cycle(c, series, state, tangent, features):
+    """Advance `state` by one excitation cycle, exactly.
+
+    Parameters
+    ----------
+    c, series : contact.Constants and a contact.Series to work in
+    state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced
+    tangent : float64, shape (n, 2), n perturbations of (δ, Y); replaced; n = 0 where none are wanted
+    features : float64, shape (6,), replaced but for AIRBORNE, the time (s) since the last separation, which goes on:
+        number of impacts, time with contact force (s), longest flight that ended (s), largest gap (m),
+        slowest impact (m/s; infinity without one)
+
+    Returns
+    -------
+    status code of trajectory.STATUS
+    """
+    order = c.order
+    speed_z = c.a_z / c.omega
+    height = speed_z / c.omega
+    eta, zeta = np.empty(contact.MAX_ORDER + 1), np.empty(contact.MAX_ORDER + 1)
+    features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = features[MAX_GAP] = 0.0
+    features[SLOWEST_IMPACT] = math.inf
+    t = 0.0
+    theta = c.psi0
+    sine, cosine = math.sin(theta), math.cos(theta)
+    penetration, v = state[0], state[1]
+    touching = in_contact(c, -penetration, -v, theta)
+    w = math.sqrt(max(penetration, 0.0))
+    pulled = touching and c.tension != TENSION_ALLOW and contact.force(c, w, v) < 0.0
+    if pulled and c.tension == TENSION_CLIP:
+        for i in range(tangent.shape[0]):
+            tangent[i, 1] -= c.damping * tangent[i, 0]
+    q, rate = -penetration, -v
+    z, vz = q - height * cosine, rate + speed_z * sine
+    for _ in range(MAX_PIECES):
+        remaining = c.period - t
+        if not touching:
+            tau, speed, highest = next_impact(z, vz, q, rate, theta, c.gravity, c.a_z, c.omega, remaining)
+            features[MAX_GAP] = max(features[MAX_GAP], highest)
+            flown = min(tau, remaining)
+            for i in range(tangent.shape[0]):
+                tangent[i, 0] += tangent[i, 1] * flown
+            features[AIRBORNE] += flown
+            if not tau < math.inf:
+                q, rate = gap(z, vz, remaining, theta, c.gravity, c.a_z, c.omega)
+                state[0], state[1] = -max(q, 0.0), -rate
+                return OK if math.isfinite(q) else NOT_FINITE
+            features[IMPACTS] += 1.0
+            features[LONGEST_FLIGHT] = max(features[LONGEST_FLIGHT], features[AIRBORNE])
+            features[SLOWEST_IMPACT] = min(features[SLOWEST_IMPACT], speed)
+            features[AIRBORNE] = 0.0
+            touching = True
+            pulled = False
+            t += tau
+            w, v = 0.0, speed
+            theta = c.psi0 + c.omega * t
+            sine, cosine = math.sin(theta), math.cos(theta)
+            continue
+        if w == 0.0 and v <= 0.0:
+            if c.gravity + c.a_z * cosine > 0.0:
+                w, v, lapse = press_on(c, theta)
+                t += lapse
+            else:
+                touching = False
+                q, rate = 0.0, 0.0
+                z, vz = -height * cosine, speed_z * sine
+                continue
+        length, event = contact.step(c, series, w, v, sine, cosine, pulled)
+        lapse = polynomial.value(series.t, order, length)
+        complete = not lapse < remaining
+        if complete:
+            length = invert_time(series, order, length, remaining)
+            lapse = remaining
+        free = pulled and c.tension == TENSION_CLIP
+        for i in range(tangent.shape[0]):
+            eta[0], zeta[0] = tangent[i, 0], tangent[i, 1]
+            expand_tangent(c, series, eta, zeta, free)
+            tangent[i, 0] = polynomial.value(eta, order, length)
+            tangent[i, 1] = polynomial.value(zeta, order, length)
+        w, v = polynomial.value(series.w, order, length), polynomial.value(series.v, order, length)
+        if not free:
+            features[CONTACT_TIME] += lapse
+        if not (math.isfinite(w) and math.isfinite(v)):
+            return NOT_FINITE
+        if complete:
+            if free:
+                for i in range(tangent.shape[0]):
+                    tangent[i, 1] += c.damping * tangent[i, 0]
+            state[0], state[1] = w * w, v
+            return OK
+        t += lapse
+        theta = c.psi0 + c.omega * t
+        sine, cosine = math.sin(theta), math.cos(theta)
+        if event == contact.SEPARATION:
+            touching = False
+            q, rate = 0.0, -v
+            z, vz = -height * cosine, speed_z * sine - v
+        elif event == contact.FORCE_SIGN:
+            pulled = not pulled
+            if c.tension == TENSION_CLIP:
+                sign = -1.0 if pulled else 1.0
+                for i in range(tangent.shape[0]):
+                    tangent[i, 1] += sign * c.damping * tangent[i, 0]
+    return TOO_MANY_EVENTS
+
+
+@kernel
+def follow(parameters, tolerance, state, cycles, strobes, features):
+    """Advance `state` by a number of cycles.
+
+    strobes : float64, shape (cycles, 2), filled with δ and v after each cycle
+    features : float64, shape (cycles, 6), filled with the features of each cycle
+    Returns the status code; rows behind a failure are NaN.
+    """
+    c = contact.constants(parameters, tolerance)
+    series = contact.workspace()
+    no_tangent = np.empty((0, 2))
+    found = np.zeros(FEATURES)
+    strobes[:] = np.nan
+    features[:] = np.nan
+    for n in range(cycles):
+        status = cycle(c, series, state, no_tangent, found)
+        if status != OK:
+            return status
+        strobes[n, :] = state
+        features[n, :] = found
+    return OK
+
+
+@kernel
+def monodromy(parameters, tolerance, state, cycles, matrix, features):
+    """Advance `state` by a number of cycles and fill `matrix`, shape (2, 2), with ∂(δ, Y)_end/∂(δ, Y)_start.
+
+    features : float64, shape (cycles, 6), filled with the features of each cycle. Returns the status code.
+    """
+    c = contact.constants(parameters, tolerance)
+    series = contact.workspace()
+    tangent = np.eye(2)
+    found = np.zeros(FEATURES)
+    for n in range(cycles):
+        status = cycle(c, series, state, tangent, found)
+        features[n, :] = found
+        if status != OK:
+            return status
+    matrix[:, :] = tangent.T
+    return OK
