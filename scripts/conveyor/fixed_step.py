@@ -16,8 +16,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from conveyor.jit import kernel
-from conveyor.model import (
+from .jit import kernel
+from .model import (
     ACCELERATION,
     ANGLE,
     DAMPING,
@@ -146,8 +146,8 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
     Returns
     -------
     tuple
-        x (m), vx (m/s), z (m), vz (m/s) at the last step; number of events; impacts; time in contact (s); largest gap
-        (m) at the steps; number of force evaluations; status
+        x (m), vx (m/s), z (m), vz (m/s) at the last step; number of events; impacts; time with contact force (s);
+        largest gap (m) at the steps; number of force evaluations; status
     """
     omega = 2.0 * math.pi * parameters[FREQUENCY]
     psi0 = parameters[PSI0]
@@ -202,7 +202,7 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
             rub, push, gap = accelerations(vx, z, vz, sine[k], cosine[k], plate, contact, friction, tension)
             max_gap = max(max_gap, gap)
             touching = gap <= 0.0
-            contact_steps += touching
+            contact_steps += push != 0.0
             if touching != in_contact:
                 in_contact = touching
                 n_impacts += touching
@@ -239,7 +239,7 @@ class Summary(NamedTuple):
     vz: float  # m/s
     mean_velocity: float  # m/s, over the last part of the run
     impacts: int
-    contact_fraction: float  # of the duration
+    contact_fraction: float  # share of the run with a contact force
     max_gap: float  # m
     evaluations: int  # of the force
     status: str  # one of STATUSES
