@@ -1,0 +1,167 @@
+"""Fit of the critical initial height by a hyperbola, z0 = A / (B + â) + C (Eq. 13), and how well it is determined.
+
+For given B the problem is linear in A and C, and exactly solved (variable projection): `profile` gives the best error
+over B, a valley along which very different triples fit almost equally well; `fit_least_squares` goes to its bottom.
+`fit_pymoo` searches in all three parameters as the paper does, by an evolution strategy.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from pymoo.algorithms.soo.nonconvex.cmaes import CMAES
+from pymoo.core.callback import Callback
+from pymoo.core.problem import Problem
+from pymoo.optimize import minimize
+from scipy.optimize import least_squares
+
+STARTS = 400  # values of B at which the valley is searched for its minima
+
+
+class Hyperbola(NamedTuple):
+    """Parameters of Eq. 13: A (m²/s²), B (m/s²), C (m)."""
+
+    A: float
+    B: float
+    C: float
+
+
+class Fit(NamedTuple):
+    """Result of a fit.
+
+    Attributes
+    ----------
+    parameters : the best triple
+    error : its mean squared error, m²
+    evaluations : number of triples (values of B for `fit_least_squares`) whose error was computed
+    history : best error so far, m², over the number of evaluations, float64, shape (steps, 2)
+    """
+
+    parameters: Hyperbola
+    error: float
+    evaluations: int
+    history: np.ndarray
+
+
+def critical_height(acceleration: np.ndarray, parameters: Hyperbola | np.ndarray) -> np.ndarray:
+    """z0 in m by Eq. 13 at `acceleration` (m/s², shape (n,)); `parameters` of shape (…, 3) give shape (…, n)."""
+    a, b, c = np.moveaxis(np.asarray(parameters, dtype=np.float64)[..., None], -2, 0)
+    return a / (b + acceleration) + c
+
+
+def mean_squared_error(acceleration: np.ndarray, height: np.ndarray, parameters: Hyperbola | np.ndarray) -> np.ndarray:
+    """Mean squared error of Eq. 13 in m², shape (…) for `parameters` of shape (…, 3).
+
+    The unit is that of a squared height; the paper states it so, and 4.14e-11 m² means deviations of 6.4 µm.
+    """
+    return np.mean((critical_height(acceleration, parameters) - height) ** 2, axis=-1)
+
+
+def profile(acceleration: np.ndarray, height: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The valley: best triple for each value of B (m/s², shape (k,)), shape (k, 3), and its error in m², shape (k,)."""
+    x = 1.0 / (np.asarray(b, dtype=np.float64)[:, None] + acceleration)
+    centred = x - x.mean(axis=1, keepdims=True)
+    a = centred @ (height - np.mean(height)) / np.sum(centred**2, axis=1)
+    c = np.mean(height) - a * x.mean(axis=1)
+    parameters = np.stack([a, b, c], axis=1)
+    return parameters, mean_squared_error(acceleration, height, parameters)
+
+
+def fit_least_squares(acceleration: np.ndarray, height: np.ndarray, bounds: tuple[float, float]) -> Fit:
+    """Least-squares fit with B within `bounds` (m/s²), A and C free; the global minimum.
+
+    Parameters
+    ----------
+    acceleration, height : data, m/s² and m, shape (n,), n ≥ 3
+    bounds : B + â must not change its sign over the data: the pole of Eq. 13 lies outside them
+
+    Raises
+    ------
+    ValueError
+        if the data or the bounds cannot be used
+    """
+    acceleration, height = check_data(acceleration, height, bounds)
+    starts = np.linspace(*bounds, STARTS)
+    _, errors = profile(acceleration, height, starts)
+    best = int(np.argmin(errors))
+    scale = np.ptp(height) or 1.0
+
+    def residuals(b: np.ndarray) -> np.ndarray:
+        parameters, _ = profile(acceleration, height, b)
+        return (critical_height(acceleration, parameters[0]) - height) / scale
+
+    bracket = starts[max(best - 1, 0)], starts[min(best + 1, STARTS - 1)]
+    solution = least_squares(residuals, starts[best], bounds=bracket, jac="3-point", xtol=1e-15, ftol=1e-15, gtol=1e-15)
+    parameters, error = profile(acceleration, height, solution.x)
+    evaluations = STARTS + 3 * solution.nfev
+    history = np.array([[STARTS, errors[best]], [evaluations, error[0]]])
+    return Fit(Hyperbola(*map(float, parameters[0])), float(error[0]), evaluations, history)
+
+
+def fit_pymoo(
+    acceleration: np.ndarray,
+    height: np.ndarray,
+    bounds: dict[str, tuple[float, float]],
+    seed: int,
+    evaluations: int,
+) -> Fit:
+    """Fit by CMA-ES (pymoo), which learns the direction of the narrow, curved valley; same seed, same result.
+
+    Parameters
+    ----------
+    acceleration, height : data, m/s² and m, shape (n,), n ≥ 3
+    bounds : low and high of "A" (m²/s²), "B" (m/s²) and "C" (m); see `fit_least_squares` for B
+    evaluations : largest number of triples to try
+
+    Raises
+    ------
+    ValueError
+        if the data or the bounds cannot be used
+    """
+    acceleration, height = check_data(acceleration, height, bounds["B"])
+    low, high = np.array([bounds[name] for name in Hyperbola._fields], dtype=np.float64).T
+    # In the unit cube and in units of the data's variance, which suit the algorithm's own scales and tolerances.
+    unit = np.var(height) or 1.0
+
+    class Error(Problem):
+        def __init__(self):
+            super().__init__(n_var=3, n_obj=1, xl=0.0, xu=1.0)
+
+        def _evaluate(self, x, out):
+            out["F"] = mean_squared_error(acceleration, height, low + x * (high - low)) / unit
+
+    # The strategy draws from NumPy's global generator and takes seed 0 as a wish for the clock.
+    history = History()
+    result = minimize(
+        Error(), CMAES(x0=np.full(3, 0.5), sigma=0.3), ("n_eval", evaluations), seed=seed + 1, callback=history
+    )
+    best = np.array(history.best)
+    best[:, 1] *= unit
+    parameters = low + result.X * (high - low)
+    error = float(mean_squared_error(acceleration, height, parameters))
+    return Fit(Hyperbola(*map(float, parameters)), error, int(result.algorithm.evaluator.n_eval), best)
+
+
+class History(Callback):
+    """Keeps (number of evaluations, best objective so far) after each generation."""
+
+    def __init__(self):
+        super().__init__()
+        self.best = []
+
+    def update(self, algorithm):
+        self.best.append((algorithm.evaluator.n_eval, float(algorithm.opt[0].F[0])))
+
+
+def check_data(
+    acceleration: np.ndarray, height: np.ndarray, bounds: tuple[float, float]
+) -> tuple[np.ndarray, np.ndarray]:
+    """The data as float64 arrays; ValueError that names what is wrong with them or with the bounds of B."""
+    acceleration, height = np.asarray(acceleration, dtype=np.float64), np.asarray(height, dtype=np.float64)
+    if acceleration.ndim != 1 or acceleration.shape != height.shape or len(np.unique(acceleration)) < 3:
+        raise ValueError("acceleration and height must have one shape (n,) with at least three different accelerations")
+    if not (np.isfinite(acceleration).all() and np.isfinite(height).all()):
+        raise ValueError("acceleration and height must be finite")
+    low, high = bounds
+    if not low < high or (low + acceleration.min()) * (high + acceleration.max()) <= 0.0:
+        raise ValueError(f"bounds of B = {bounds!r} m/s² must be ascending and keep B + acceleration from zero")
+    return acceleration, height

@@ -1,0 +1,73 @@
+"""Amplitude spectra in the unit of the signal: one-sided, with the constant part at frequency zero."""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.ndimage import maximum_filter1d
+from scipy.signal.windows import hann
+
+HANN_MAIN_LOBE = 2  # half-width, bins
+
+
+class Spectrum(NamedTuple):
+    """One-sided amplitude spectrum; a cosine of amplitude A within a constant A_0 gives a line A at its frequency.
+
+    Attributes
+    ----------
+    frequency : Hz, k / duration, float64, shape (n // 2 + 1,)
+    amplitude : unit of the signal, same shape; entry 0 is the modulus of the mean value
+    main_lobe : number of bins on either side over which a line spreads
+    """
+
+    frequency: np.ndarray
+    amplitude: np.ndarray
+    main_lobe: int
+
+
+def harmonics(samples: np.ndarray, duration: float) -> Spectrum:
+    """Spectrum of a settled orbit from n equidistant samples over whole periods, t = 0, T/n, … (T = `duration`, s).
+
+    No window and no leakage: every harmonic and subharmonic below n / (2T) falls on a bin.
+    """
+    samples = check(samples)
+    return one_sided(samples, duration, len(samples), 0)
+
+
+def windowed(samples: np.ndarray, duration: float) -> Spectrum:
+    """Spectrum of any other motion from n equidistant samples over `duration` (s), with a Hann window.
+
+    Amplitudes are divided by the window's mean, so that a line on a bin has its true height; one half-way between
+    two bins is lower by the factor 8/(3π), 15 %. The mean value is taken out before the window is applied.
+    """
+    samples = check(samples)
+    window = hann(len(samples), sym=False)
+    mean = window @ samples / window.sum()
+    spectrum = one_sided((samples - mean) * window, duration, window.sum(), HANN_MAIN_LOBE)
+    spectrum.amplitude[0] = abs(mean)
+    return spectrum
+
+
+def count_lines(spectrum: Spectrum, threshold: float) -> int:
+    """Number of lines with an amplitude above `threshold` (unit of the signal), the constant part apart.
+
+    Behind a window a line is a bin that no other within the main lobe exceeds; side lobes reach 3 % of their line.
+    """
+    amplitude = spectrum.amplitude[1:]
+    peak = amplitude == maximum_filter1d(amplitude, 2 * spectrum.main_lobe + 1, mode="constant")
+    return int(np.count_nonzero(peak & (amplitude > threshold)))
+
+
+def check(samples: np.ndarray) -> np.ndarray:
+    """The samples as float64; ValueError unless they are finite, one-dimensional and at least two."""
+    samples = np.asarray(samples, dtype=np.float64)
+    if samples.ndim != 1 or len(samples) < 2 or not np.isfinite(samples).all():
+        raise ValueError(f"samples must be finite and of shape (n,) with n >= 2, got shape {samples.shape}")
+    return samples
+
+
+def one_sided(samples: np.ndarray, duration: float, gain: float, main_lobe: int) -> Spectrum:
+    """Amplitudes |Σ samples e^(-iωt)| / gain, doubled where a line shares its height with a negative frequency."""
+    n = len(samples)
+    amplitude = np.abs(np.fft.rfft(samples)) / gain
+    amplitude[1 : (n + 1) // 2] *= 2.0
+    return Spectrum(np.arange(len(amplitude)) / duration, amplitude, main_lobe)
