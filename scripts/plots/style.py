@@ -1,0 +1,80 @@
+"""The one look of all figures: sizes, fonts, colours, and the one place that saves them."""
+
+import os
+from collections.abc import Iterable
+from contextlib import AbstractContextManager
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+mpl.use("Agg")
+
+MM = 1.0 / 25.4
+COLUMN = 84.0  # mm, width of a column of the journal
+PAGE = 174.0  # mm, width of its page
+
+# Okabe and Ito's colours, which the colour-blind tell apart.
+STATE_COLOURS = {"first": "#0072B2", "second": "#E69F00", "chaos": "#009E73", "undecided": "#CC79A7"}
+CONVERGED = "#0072B2"
+PUBLISHED = "#D55E00"
+CONVERGED_LABEL = "converged (exact events)"
+PUBLISHED_LABEL = "published (Euler, 0.5 µs)"
+PLATE = "#555555"
+
+RESOLUTION = 600  # dpi of rasterised parts and of PNG files
+PARAMETERS = {
+    "font.family": "DejaVu Sans",
+    "font.size": 7.5,
+    "mathtext.fontset": "dejavusans",
+    "axes.labelsize": 7.5,
+    "axes.titlesize": 7.5,
+    "axes.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "xtick.labelsize": 7.0,
+    "ytick.labelsize": 7.0,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "legend.fontsize": 7.0,
+    "legend.frameon": False,
+    "lines.linewidth": 1.0,
+    "lines.markersize": 3.0,
+    "figure.constrained_layout.use": True,
+    "savefig.dpi": RESOLUTION,
+    "pdf.fonttype": 42,  # embedded as TrueType: text stays text
+}
+
+
+def applied() -> AbstractContextManager:
+    """A context within which figures are made in this style."""
+    return mpl.rc_context(PARAMETERS)
+
+
+def figure(width: float, height: float) -> Figure:
+    """An empty figure of a size in mm."""
+    return Figure(figsize=(width * MM, height * MM))
+
+
+def mark(axes: Axes, x: float, label: str) -> None:
+    """A thin vertical line at x with a label at its upper end."""
+    axes.axvline(x, color="black", linewidth=0.6, linestyle=":")
+    axes.annotate(
+        label,
+        (x, 1.0),
+        xycoords=("data", "axes fraction"),
+        xytext=(2, -1),
+        textcoords="offset points",
+        va="top",
+        size=7.0,
+    )
+
+
+def save(figure: Figure, paths: Iterable[str]) -> None:
+    """Write a figure to files of any of matplotlib's formats; equal figures give equal bytes."""
+    with applied():
+        for path in paths:
+            part = f"{path}.part"
+            ending = path.rsplit(".", 1)[1]
+            figure.savefig(part, format=ending, metadata={"CreationDate": None} if ending == "pdf" else None)
+            os.replace(part, path)

@@ -1,0 +1,21 @@
+# What is made from the motion of single trajectories or from sweeps: exponents, orbits, spectra, dimensions.
+
+
+rule estimate:
+    output:
+        table("estimates"),
+    log:
+        log_file("estimates"),
+    benchmark:
+        benchmark_file("estimates")
+    threads: 2
+    resources:
+        mem_mb=2000,
+        runtime=30,
+    params:
+        settings=settings("estimates"),
+        code=source_hash("estimate"),
+    message:
+        "Lyapunov exponents by finite differences, {wildcards.name}"
+    script:
+        "../../scripts/estimate.py"

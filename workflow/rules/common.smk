@@ -1,0 +1,39 @@
+# What all rules share: where files are, what an entry of the config depends on, what a script runs.
+import math
+
+from workflow.configuration import count_points, resolve
+from workflow.source_hash import source_hash
+
+# "" or "NAME/": a config with a prefix keeps its results apart.
+PREFIX = config["prefix"] and f"{config['prefix']}/"
+
+
+wildcard_constraints:
+    name="[A-Za-z][A-Za-z0-9_-]*",
+
+
+def table(section, name="{name}"):
+    """The Parquet table of an entry of the config."""
+    return f"results/{PREFIX}{section}/{name}.parquet"
+
+
+def log_file(section, name="{name}"):
+    return f"results/{PREFIX}logs/{section}/{name}.log"
+
+
+def benchmark_file(section, name="{name}"):
+    return f"results/{PREFIX}benchmarks/{section}/{name}.tsv"
+
+
+def one_of(names):
+    """A wildcard constraint: one of these names, none other."""
+    return "|".join(map(re.escape, names)) or "(?!)"
+
+
+def settings(section):
+    """A param: all that the entry {name} of `section` depends on (see workflow/configuration.py)."""
+
+    def settings_of(wildcards):
+        return resolve(config, section, wildcards.name)
+
+    return settings_of

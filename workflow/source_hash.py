@@ -1,0 +1,83 @@
+"""Content hashes of what a script runs: its own source, the modules it imports, the numerical packages.
+
+Snakemake sees a changed script but not a changed module behind it. With such a hash among its params a rule runs
+again exactly if something that it executes has changed in content.
+"""
+
+import ast
+import hashlib
+from collections.abc import Iterator
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+
+SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
+# Third-party packages whose version may change a number or a picture.
+PACKAGES = {"matplotlib", "numba", "numpy", "pyarrow", "pymoo", "scipy"}
+
+
+def imported_names(path: Path) -> Iterator[tuple[str, str | None]]:
+    """All (module, name) pairs that `path` imports, the name None for `import module`; relative ones made absolute."""
+    package = path.relative_to(SCRIPTS).parent.parts
+    for node in ast.walk(ast.parse(path.read_bytes())):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                yield alias.name, None
+        elif isinstance(node, ast.ImportFrom):
+            base = package[: len(package) - node.level + 1] if node.level else ()
+            module = ".".join([*base, *([node.module] if node.module else [])])
+            for alias in node.names:
+                yield module, alias.name
+
+
+def module_file(module: str) -> Path | None:
+    """The file of a module below scripts/, or None if it is not one of ours."""
+    place = SCRIPTS.joinpath(*module.split("."))
+    for candidate in (place.with_suffix(".py"), place / "__init__.py"):
+        if candidate.is_file():
+            return candidate
+    return None
+
+
+@cache
+def direct_imports(path: Path) -> tuple[frozenset[Path], frozenset[str]]:
+    """Files below scripts/ and top-level names of other packages that `path` itself imports.
+
+    A package's __init__ counts only where a name is taken from it, not where it merely leads to a module: importing
+    conveyor.tables executes conveyor/__init__.py, but does not depend on the solver that is offered there.
+    """
+    files, packages = set(), set()
+    for module, name in imported_names(path):
+        file = (module_file(f"{module}.{name}") if name else None) or module_file(module)
+        if file:
+            files.add(file)
+        else:
+            packages.add(module.split(".")[0])
+    return frozenset(files), frozenset(packages)
+
+
+def closure(*scripts: str) -> tuple[list[Path], list[str]]:
+    """Sorted files below scripts/ and packages that the scripts, named as in `source_hash`, need at any depth."""
+    todo = [SCRIPTS / f"{script}.py" for script in scripts]
+    files, packages = set(), set()
+    while todo:
+        path = todo.pop()
+        if path in files:
+            continue
+        files.add(path)
+        more_files, more_packages = direct_imports(path)
+        todo.extend(more_files)
+        packages |= more_packages
+    return sorted(files), sorted(packages)
+
+
+def source_hash(*scripts: str) -> str:
+    """Hash of scripts, named by their paths below scripts/ without ".py", and of everything that they import."""
+    files, packages = closure(*scripts)
+    digest = hashlib.sha256()
+    for file in files:
+        digest.update(f"{file.relative_to(SCRIPTS)}\0".encode() + file.read_bytes() + b"\0")
+    for package in packages:
+        if package in PACKAGES:
+            digest.update(f"{package}=={version(package)}\0".encode())
+    return digest.hexdigest()[:16]
