@@ -20,7 +20,7 @@ SCALES = np.geomspace(COARSEST_SCALE, FINEST_SCALE, 18 * SCALES_PER_OCTAVE + 1)
 SHIFTS = 16  # positions of each grid over which box counts are averaged
 SAMPLES_PER_BOX = 5.0  # with fewer, too many boxes stay empty by chance (e^-5 of them in a uniform set)
 MINIMUM_PAIRS = 1000  # closer than the smallest radius: 3 % noise
-MAXIMUM_PAIRS = 1e8  # distances to compute; larger sets are seen from fewer reference points
+MAXIMUM_PAIRS = 6e7  # distances to compute; larger sets are seen from fewer reference points
 BLOCKS = 8  # stretches of a series whose correlation sums are compared
 SHORTEST_REGION = 8.0  # ratio of the largest to the smallest scale
 RIM_PENALTY = 1e-5  # (residual 0.01 / rim 3)²: keeps the rim's coefficient of order one
@@ -251,14 +251,13 @@ def pair_counts(points, references, theiler, squares):
     for i in references:
         x = points[i, 0]
         y = points[i, 1]
-        for j in range(len(points)):
-            if abs(i - j) <= theiler:
-                continue
-            pairs += 1
-            square = (points[j, 0] - x) ** 2 + (points[j, 1] - y) ** 2
-            k = 0
-            while k < len(squares) and square < squares[k]:
-                k += 1
-            if k > 0:
-                shells[k - 1] += 1
+        for begin, end in ((0, i - theiler), (i + theiler + 1, len(points))):
+            for j in range(begin, end):
+                square = (points[j, 0] - x) ** 2 + (points[j, 1] - y) ** 2
+                k = 0
+                while k < len(squares) and square < squares[k]:
+                    k += 1
+                if k > 0:
+                    shells[k - 1] += 1
+            pairs += max(end - begin, 0)
     return shells, pairs

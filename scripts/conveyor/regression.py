@@ -14,7 +14,7 @@ from pymoo.core.problem import Problem
 from pymoo.optimize import minimize
 from scipy.optimize import least_squares
 
-STARTS = 400  # values of B at which the valley is searched for its minima
+STARTS = 100  # values of B at which the valley is searched for its minima
 
 
 class Hyperbola(NamedTuple):
@@ -67,7 +67,7 @@ def profile(acceleration: np.ndarray, height: np.ndarray, b: np.ndarray) -> tupl
 
 
 def fit_least_squares(acceleration: np.ndarray, height: np.ndarray, bounds: tuple[float, float]) -> Fit:
-    """Least-squares fit with B within `bounds` (m/s²), A and C free; the global minimum.
+    """Least-squares fit with B within `bounds` (m/s²), A and C free: the lowest minimum that a scan of B shows.
 
     Parameters
     ----------
