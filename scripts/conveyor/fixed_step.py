@@ -315,9 +315,9 @@ def sample(parameters: np.ndarray, times: np.ndarray, step: float, method: str =
     times = np.asarray(times, dtype=np.float64)
     if not (np.isfinite(times) & (times >= 0.0)).all():
         raise ValueError("times must be finite and not negative")
+    n_steps = step_count(max(times.max(initial=0.0), step), step)
     indices = np.rint(times.ravel() / step).astype(np.int64)
     order = np.argsort(indices, kind="stable")
-    n_steps = step_count(max(times.max(initial=0.0), step), step)
     _, samples, _ = _integrate(parameters, step, n_steps, method, indices[order])
     values = np.empty_like(samples)
     values[order] = samples

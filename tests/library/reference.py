@@ -10,9 +10,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from conveyor import Conveyor, Start
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, minimize_scalar
+
+from conveyor import Conveyor, Start
 
 STEPS_PER_PERIOD = 200
 MAX_SEGMENTS = 100_000
