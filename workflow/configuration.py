@@ -11,6 +11,14 @@ from jsonschema.exceptions import ValidationError
 
 ROOT = Path(__file__).resolve().parent.parent
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
+# What YAML calls the types of JSON schema.
+KINDS = {
+    "array": "a list",
+    "integer": "a whole number",
+    "number": "a number",
+    "object": "a mapping of keys to values",
+    "string": "text",
+}
 
 
 def key_of(path) -> str:
@@ -70,9 +78,9 @@ def explain(error: ValidationError) -> str:
                     f"{key} = {value!r} is text to YAML; write it with a decimal point and a signed exponent (1.0e-4)"
                 )
             wanted = schema["type"]
-            kinds = " or ".join([wanted] if isinstance(wanted, str) else wanted)
+            kinds = " or ".join(KINDS[kind] for kind in ([wanted] if isinstance(wanted, str) else wanted))
             unit = f" ({schema['unit']})" if "unit" in schema else ""
-            return f"{key} = {value!r} is not a valid {kinds}{unit}"
+            return f"{key} = {value!r} is not {kinds}{unit}"
     return f"{key}: {error.message}"
 
 
@@ -136,4 +144,4 @@ def resolve(config: dict, section: str, name: str) -> dict:
 
 def count_points(axes: dict) -> int:
     """Number of points in the product of axes."""
-    return math.prod(len(axis) if isinstance(axis, list) else axis["num"] for axis in axes.values())
+    return math.prod(len(axis) if isinstance(axis, list) else int(axis["num"]) for axis in axes.values())

@@ -24,7 +24,7 @@ def axis_values(name: str, axis: Axis) -> np.ndarray:
         names the axis that is empty or has a value outside its range
     """
     if isinstance(axis, Mapping):
-        axis = np.linspace(axis["start"], axis["stop"], axis["num"])
+        axis = np.linspace(axis["start"], axis["stop"], int(axis["num"]))
     if len(axis) == 0:
         raise ValueError(f"axis {name} is empty")
     if name == PARAMETERS[TENSION]:

@@ -43,21 +43,28 @@ AXES = {name: number(name, UNITS[name], "axis of the sweep") for name in PARAMET
 AXES["z0"] = number("z0", UNITS["z0"], "axis of the sweep; null for a start on the conveyor (Eq. 15)")
 AXES[PARAMETERS[TENSION]] = text(PARAMETERS[TENSION], "axis of the sweep")
 
-# The columns behind the axes, by kind of table, which is the section of the config that describes it.
+RESULTS = (
+    number("mean_velocity", "m/s", "mean feeding velocity over the last quarter; null for vertical needs"),
+    number("z_end", "m", "height of the part at the end"),
+    number("vz_end", "m/s", "vertical velocity of the part at the end"),
+    number("x_end", "m", "horizontal position of the part at the end; null for vertical needs"),
+    number("vx_end", "m/s", "horizontal velocity of the part at the end; null for vertical needs"),
+)
+STATE = (
+    text("state", "state of motion that the run leads to: first, second, chaos, undecided"),
+    count("period", "period of that motion in excitation cycles; 0 for none"),
+)
+FEATURES = (
+    number("max_gap", "m", "largest distance between part and plate"),
+    count("impacts", "number of impacts"),
+    number("contact_fraction", "1", "share of the duration with a contact force"),
+    text("status", "ok, or why there is no result"),
+)
+
+# The columns behind the axes, by kind of table.
 COLUMNS = {
-    "sweeps": (
-        number("mean_velocity", "m/s", "mean feeding velocity over the last quarter; null for vertical needs"),
-        number("z_end", "m", "height of the part at the end"),
-        number("vz_end", "m/s", "vertical velocity of the part at the end"),
-        number("x_end", "m", "horizontal position of the part at the end; null for vertical needs"),
-        number("vx_end", "m/s", "horizontal velocity of the part at the end; null for vertical needs"),
-        text("state", "state of motion that the run leads to: first, second, chaos, undecided"),
-        count("period", "period of that motion in excitation cycles; 0 for none"),
-        number("max_gap", "m", "largest distance between part and plate"),
-        count("impacts", "number of impacts"),
-        number("contact_fraction", "1", "share of the duration with a contact force"),
-        text("status", "ok, or why there is no result"),
-    ),
+    "runs": RESULTS + FEATURES,
+    "sweeps": RESULTS + STATE + FEATURES,
     "estimates": (number("lambda", "1/s", "Lyapunov exponent by finite differences (Eq. 23)"),),
 }
 
@@ -67,14 +74,8 @@ def schema(kind: str, axes: Sequence[str] = ()) -> pa.Schema:
     return pa.schema([*(AXES[name] for name in axes), *COLUMNS[kind]])
 
 
-def make(kind: str, columns: Mapping[str, np.ndarray], *, axes: Sequence[str] = (), settings: dict) -> pa.Table:
-    """A table from its columns, in any order, all of shape (n,); NaN becomes null.
-
-    Raises
-    ------
-    ValueError
-        names the columns that lack, are too many or do not fit their type
-    """
+def make(kind: str, columns: Mapping[str, np.ndarray], axes: Sequence[str], settings: dict) -> pa.Table:
+    """The table that `write` writes."""
     wanted = schema(kind, axes)
     if difference := set(wanted.names) ^ set(columns):
         raise ValueError(f"columns of a table of {kind}: {', '.join(sorted(difference))} lacking or unknown")
@@ -84,45 +85,45 @@ def make(kind: str, columns: Mapping[str, np.ndarray], *, axes: Sequence[str] = 
             arrays.append(pa.array(columns[column.name], type=column.type, from_pandas=True))
         except (pa.ArrowInvalid, pa.ArrowTypeError) as error:
             raise ValueError(f"column {column.name} of a table of {kind} is not {column.type}: {error}") from error
-    metadata = {SETTINGS: json.dumps(settings, sort_keys=True)}
+    metadata = {SETTINGS: json.dumps(settings)}
     return pa.Table.from_arrays(arrays, schema=wanted.with_metadata(metadata))
-
-
-def save(path: str | Path, table: pa.Table) -> None:
-    """Write a table to `path` at once or not at all; its bytes depend on its content and on pyarrow's version only."""
-    path = Path(path)
-    part = path.with_name(f"{path.name}.part")
-    pq.write_table(table.combine_chunks(), part, compression="zstd", row_group_size=ROW_GROUP)
-    os.replace(part, path)
 
 
 def write(
     path: str | Path, kind: str, columns: Mapping[str, np.ndarray], *, axes: Sequence[str] = (), settings: dict
 ) -> None:
-    """`make` a table and `save` it."""
-    save(path, make(kind, columns, axes=axes, settings=settings))
+    """Write a table to `path` at once or not at all; its bytes depend on its content and on pyarrow's version only.
 
-
-def load(path: str | Path, kind: str) -> pa.Table:
-    """The table at `path`.
+    Parameters
+    ----------
+    path : of the file; its folder exists
+    kind : one of COLUMNS
+    columns : by name, in any order, all of shape (n,); NaN becomes null
+    axes : names of the axes, which come first
+    settings : what was computed, as JSON can write it
 
     Raises
     ------
     ValueError
-        if its columns are not those of its kind
+        names the columns that lack, are too many or do not fit their type
     """
-    table = pq.read_table(path)
-    axes = table.column_names[: -len(COLUMNS[kind])]
-    if not set(axes) <= set(AXES) or not table.schema.equals(schema(kind, axes)):
-        raise ValueError(f"{path} is not a table of {kind}: it has the columns {', '.join(table.column_names)}")
-    return table
+    path = Path(path)
+    part = path.with_name(f"{path.name}.part")
+    table = make(kind, columns, axes, settings)
+    pq.write_table(table, part, compression="zstd", row_group_size=ROW_GROUP)
+    os.replace(part, path)
 
 
 def read(path: str | Path, kind: str) -> pd.DataFrame:
-    """`load` a table as a DataFrame, its settings in `attrs`."""
-    return load(path, kind).to_pandas()
+    """The table at `path`, its settings in `attrs`.
 
-
-def join(paths: Sequence[str | Path], kind: str) -> pa.Table:
-    """The tables at `paths`, all of one kind, below each other."""
-    return pa.concat_tables([load(path, kind) for path in paths])
+    Raises
+    ------
+    ValueError
+        if its columns, types or units are not those of its kind
+    """
+    table = pq.read_table(path)
+    axes = table.column_names[: -len(COLUMNS[kind])]
+    if not set(axes) <= set(AXES) or not table.schema.remove_metadata().equals(schema(kind, axes), check_metadata=True):
+        raise ValueError(f"{path} is not a table of {kind}: it has the columns {', '.join(table.column_names)}")
+    return table.to_pandas()

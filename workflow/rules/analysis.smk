@@ -8,6 +8,8 @@ rule estimate:
         log_file("estimates"),
     benchmark:
         benchmark_file("estimates")
+    wildcard_constraints:
+        name=one_of(config["estimates"]),
     threads: 2
     resources:
         mem_mb=2000,

@@ -1,52 +1,30 @@
-# Sweeps: a product of axes, one trajectory per point, one table per entry of the config. Large ones are cut into
-# shards, so that a cluster can share them and an interrupted run loses little; the table does not depend on it.
+# Sweeps: a product of axes, one trajectory per point, one table per entry of the config. They are simulated in shards, so
+# that a cluster can share a large one, and classified as a whole; the table does not depend on how it was cut.
 
 POINTS_PER_JOB = config["solver"]["points_per_job"]
-SWEEP_SIZES = {name: count_points(entry["axes"]) for name, entry in config["sweeps"].items()}
+
+
+def rows_of_shard(wildcards):
+    """First row of a shard and the row behind its last one."""
+    begin = int(wildcards.shard) * POINTS_PER_JOB
+    return [begin, min(begin + POINTS_PER_JOB, count_points(config["sweeps"][wildcards.name]["axes"]))]
 
 
 def shards_of_sweep(wildcards):
     """The files of all shards, in the order of their rows."""
-    shards = math.ceil(SWEEP_SIZES[wildcards.name] / POINTS_PER_JOB)
-    return [f"results/{PREFIX}sweeps/{wildcards.name}.shards/{shard}.parquet" for shard in range(shards)]
-
-
-def rows_of_shard(wildcards):
-    """First row and row behind the last one."""
-    begin = int(wildcards.shard) * POINTS_PER_JOB
-    return [begin, min(begin + POINTS_PER_JOB, SWEEP_SIZES[wildcards.name])]
+    shards = math.ceil(count_points(config["sweeps"][wildcards.name]["axes"]) / POINTS_PER_JOB)
+    return [table("runs", f"{wildcards.name}/{shard}") for shard in range(shards)]
 
 
 rule sweep:
     output:
-        table("sweeps"),
+        table("runs", "{name}/{shard}"),
     log:
-        log_file("sweeps"),
+        log_file("runs", "{name}/{shard}"),
     benchmark:
-        benchmark_file("sweeps")
+        benchmark_file("runs", "{name}/{shard}")
     wildcard_constraints:
-        name=one_of(name for name, size in SWEEP_SIZES.items() if size <= POINTS_PER_JOB),
-    threads: 2
-    resources:
-        mem_mb=1000,
-        runtime=30,
-    params:
-        settings=settings("sweeps"),
-        code=source_hash("sweep"),
-    message:
-        "Sweep {wildcards.name}"
-    script:
-        "../../scripts/sweep.py"
-
-
-rule sweep_shard:
-    output:
-        temp(f"results/{PREFIX}sweeps/{{name}}.shards/{{shard}}.parquet"),
-    log:
-        log_file("sweeps", "{name}.{shard}"),
-    benchmark:
-        benchmark_file("sweeps", "{name}.{shard}")
-    wildcard_constraints:
+        name=one_of(config["sweeps"]),
         shard=r"\d+",
     threads: 2
     resources:
@@ -62,7 +40,7 @@ rule sweep_shard:
         "../../scripts/sweep.py"
 
 
-rule join_sweep:
+rule classify:
     input:
         shards_of_sweep,
     output:
@@ -72,15 +50,15 @@ rule join_sweep:
     benchmark:
         benchmark_file("sweeps")
     wildcard_constraints:
-        name=one_of(name for name, size in SWEEP_SIZES.items() if size > POINTS_PER_JOB),
-    threads: 1
+        name=one_of(config["sweeps"]),
+    threads: 2
     resources:
         mem_mb=2000,
-        runtime=10,
+        runtime=60,
     params:
         settings=settings("sweeps"),
-        code=source_hash("join_sweep", "sweep"),
+        code=source_hash("classify"),
     message:
-        "Sweep {wildcards.name}: join its shards"
+        "States of motion of sweep {wildcards.name}"
     script:
-        "../../scripts/join_sweep.py"
+        "../../scripts/classify.py"
