@@ -39,6 +39,10 @@ def text(name: str, description: str) -> pa.Field:
     return field(name, pa.string(), "", description)
 
 
+def flag(name: str, description: str) -> pa.Field:
+    return field(name, pa.bool_(), "", description)
+
+
 AXES = {name: number(name, UNITS[name], "axis of the sweep") for name in PARAMETERS}
 AXES["z0"] = number("z0", UNITS["z0"], "axis of the sweep; null for a start on the conveyor (Eq. 15)")
 AXES[PARAMETERS[TENSION]] = text(PARAMETERS[TENSION], "axis of the sweep")
@@ -66,6 +70,13 @@ COLUMNS = {
     "runs": RESULTS + FEATURES,
     "sweeps": RESULTS + STATE + FEATURES,
     "estimates": (number("lambda", "1/s", "Lyapunov exponent by finite differences (Eq. 23)"),),
+    "critical": (
+        number("z0", "m", "initial height at which the state of motion changes"),
+        count("crossing", "number of the change at this conveyor, from below, 1 the first"),
+        text("state_below", "state of motion that starts just below lead to"),
+        text("state_above", "state of motion that starts just above lead to"),
+        flag("is_critical", "the lowest change out of the first state"),
+    ),
 }
 
 
@@ -122,8 +133,8 @@ def read(path: str | Path, kind: str) -> pd.DataFrame:
     ValueError
         if its columns, types or units are not those of its kind
     """
-    table = pq.read_table(path)
-    axes = table.column_names[: -len(COLUMNS[kind])]
-    if not set(axes) <= set(AXES) or not table.schema.remove_metadata().equals(schema(kind, axes), check_metadata=True):
-        raise ValueError(f"{path} is not a table of {kind}: it has the columns {', '.join(table.column_names)}")
-    return table.to_pandas()
+    found = pq.read_schema(path).remove_metadata()
+    axes = found.names[: -len(COLUMNS[kind])]
+    if not set(axes) <= set(AXES) or not found.equals(schema(kind, axes), check_metadata=True):
+        raise ValueError(f"{path} is not a table of {kind}: it has the columns {', '.join(found.names)}")
+    return pd.read_parquet(path)
