@@ -43,3 +43,69 @@ rule critical:
         "Critical initial heights, {wildcards.name}"
     script:
         "../../scripts/critical.py"
+
+
+rule signals:
+    output:
+        table("signals"),
+    log:
+        log_file("signals"),
+    benchmark:
+        benchmark_file("signals")
+    wildcard_constraints:
+        name=one_of(config["signals"]),
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=10,
+    params:
+        settings=settings("signals"),
+        code=source_hash("signals"),
+    message:
+        "Signals over time, {wildcards.name}"
+    script:
+        "../../scripts/signals.py"
+
+
+rule spectra:
+    output:
+        table("spectra"),
+    log:
+        log_file("spectra"),
+    benchmark:
+        benchmark_file("spectra")
+    wildcard_constraints:
+        name=one_of(config["spectra"]),
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=10,
+    params:
+        settings=settings("spectra"),
+        code=source_hash("spectra"),
+    message:
+        "Spectra of the velocities, {wildcards.name}"
+    script:
+        "../../scripts/spectra.py"
+
+
+rule impacts:
+    output:
+        table("impacts"),
+    log:
+        log_file("impacts"),
+    benchmark:
+        benchmark_file("impacts")
+    wildcard_constraints:
+        name=one_of(config["impacts"]),
+    threads: 2
+    resources:
+        mem_mb=1000,
+        runtime=10,
+    params:
+        settings=settings("impacts"),
+        code=source_hash("impacts"),
+    message:
+        "First impacts, {wildcards.name}"
+    script:
+        "../../scripts/impacts.py"
