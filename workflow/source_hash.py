@@ -19,7 +19,7 @@ PACKAGES = {"matplotlib", "numba", "numpy", "pyarrow", "pymoo", "scipy"}
 def imported_names(path: Path) -> Iterator[tuple[str, str | None]]:
     """All (module, name) pairs that `path` imports, the name None for `import module`; relative ones made absolute."""
     package = path.relative_to(SCRIPTS).parent.parts
-    for node in ast.walk(ast.parse(path.read_bytes())):
+    for node in ast.walk(ast.parse(path.read_bytes(), filename=str(path))):
         if isinstance(node, ast.Import):
             for alias in node.names:
                 yield alias.name, None

@@ -103,6 +103,20 @@ COLUMNS = {
         text("state_above", "state of motion that starts just above lead to"),
         flag("is_critical", "the lowest change out of the first state"),
     ),
+    "regressions": (
+        text("fit", "pymoo, least_squares, published (the paper's triple) or valley (the best A and C for a given B)"),
+        number("A", "m²/s²", "parameter of Eq. 13"),
+        number("B", "m/s²", "parameter of Eq. 13"),
+        number("C", "m", "parameter of Eq. 13"),
+        number("error", "m²", "mean squared error of Eq. 13"),
+        count("evaluations", "number of triples, or of values of B, whose error was computed; 0 for given triples"),
+    ),
+    "dimensions": (
+        number("dimension", "1", "fractal dimension of the phase portrait ż_p over z_p (Eq. 25)"),
+        number("error", "1", "half-width of its 95 % interval; null where the points resolve too few scales"),
+        number("scale_low", "1", "smallest scale of the scaling region, in units of the portrait's extent"),
+        number("scale_high", "1", "largest scale of the scaling region, in units of the portrait's extent"),
+    ),
 }
 
 

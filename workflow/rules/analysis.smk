@@ -45,6 +45,52 @@ rule critical:
         "../../scripts/critical.py"
 
 
+rule regressions:
+    input:
+        critical=lambda wildcards: table("critical", config["regressions"][wildcards.name]["critical"]),
+    output:
+        table("regressions"),
+    log:
+        log_file("regressions"),
+    benchmark:
+        benchmark_file("regressions")
+    wildcard_constraints:
+        name=one_of(config["regressions"]),
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=10,
+    params:
+        settings=lambda wildcards: config["regressions"][wildcards.name],
+        code=source_hash("regressions"),
+    message:
+        "Fit of Eq. 13, {wildcards.name}"
+    script:
+        "../../scripts/regressions.py"
+
+
+rule dimensions:
+    output:
+        table("dimensions"),
+    log:
+        log_file("dimensions"),
+    benchmark:
+        benchmark_file("dimensions")
+    wildcard_constraints:
+        name=one_of(config["dimensions"]),
+    threads: 2
+    resources:
+        mem_mb=2000,
+        runtime=30,
+    params:
+        settings=settings("dimensions"),
+        code=source_hash("dimensions"),
+    message:
+        "Fractal dimensions, {wildcards.name}"
+    script:
+        "../../scripts/dimensions.py"
+
+
 rule signals:
     output:
         table("signals"),

@@ -1,0 +1,56 @@
+"""Rule dimensions: fractal dimension of the phase portrait ż_p over z_p, over the axes of an entry of the config."""
+
+import numpy as np
+
+from conveyor import dimension, grid, tables
+from conveyor.dimension import Dimension
+from conveyor.model import unpack
+from conveyor.parallel import for_each_chunk
+from conveyor.simulation import simulate
+from rule_log import logged
+
+
+def portrait(parameters: np.ndarray, settings: dict) -> np.ndarray:
+    """Consecutive points (z_p in m, ż_p in m/s) of one trajectory, shape (samples, 2)."""
+    conveyor, start = unpack(parameters)
+    cycles = settings["interval"] * np.arange(settings["samples"])
+    times = settings["begin"] + cycles / conveyor.frequency
+    options = {name: settings[name] for name in ("method", "tolerance", "step") if name in settings}
+    motion = simulate(conveyor, start, duration=times[-1], **options).sample(times)
+    return np.stack([motion["z"], motion["vz"]], axis=1)
+
+
+def estimate(points: np.ndarray, settings: dict) -> Dimension:
+    """The dimension of a portrait by the estimator that the settings name."""
+    match settings["estimator"]:
+        case "published":
+            return dimension.box_dimension_published(points, 0.5 ** np.arange(1, settings["octaves"] + 1))
+        case "box":
+            return dimension.box_dimension(points)
+        case "correlation":
+            return dimension.correlation_dimension(points, settings["theiler"])
+
+
+def columns(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
+    """The columns of a table of dimensions for the resolved `settings` of an entry of the config."""
+    axes, parameters = grid.product(settings["axes"], settings["model"])
+    results = np.empty((len(parameters), 4))
+
+    def work(begin, end):
+        for i in range(begin, end):
+            results[i] = estimate(portrait(parameters[i], settings), settings)[:4]
+
+    for_each_chunk(work, len(parameters), threads=threads, chunk=1, progress=progress)
+    return axes | dict(zip(("dimension", "error", "scale_low", "scale_high"), results.T, strict=True))
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        settings = snakemake.params.settings
+        tables.write(
+            snakemake.output[0],
+            "dimensions",
+            columns(settings, threads=snakemake.threads, progress=snakemake.wildcards.name),
+            axes=list(settings["axes"]),
+            settings=settings,
+        )

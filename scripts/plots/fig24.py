@@ -1,0 +1,39 @@
+"""Fig. 24: dimension of phase portraits over the acceleration amplitude, published method and converged solution."""
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from plots import style
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the dimensions `published`, `converged` and `correlation`; settings: critical_acceleration, m/s²."""
+    figure = style.figure(style.COLUMN, 70.0)
+    axes = figure.subplots()
+    for dimension in (1.0, 2.0):
+        axes.axhline(dimension, color="0.8", linewidth=0.6)
+    curves = (
+        ("published", "o-", style.PUBLISHED, "published: boxes, Euler, 1 s"),
+        ("converged", "s", style.CONVERGED, "converged: boxes, settled motion"),
+        ("correlation", "x", "#009E73", "converged: correlation sum"),
+    )
+    for role, marker, colour, label in curves:
+        table = tables[role]
+        axes.errorbar(
+            table.acceleration,
+            table.dimension,
+            yerr=table.error,
+            fmt=marker,
+            color=colour,
+            markersize=2.0,
+            markeredgewidth=0.6,
+            linewidth=0.6,
+            elinewidth=0.4,
+            label=label,
+        )
+    style.mark(axes, settings["critical_acceleration"], f"{settings['critical_acceleration']:g} m/s²")
+    axes.set_ylim(0.8, 2.4)
+    axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    axes.set_ylabel("dimension of the phase portrait")
+    axes.legend(loc="upper left", fontsize=6.5)
+    return figure

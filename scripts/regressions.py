@@ -1,0 +1,35 @@
+"""Rule regressions: Eq. 13 fitted to the critical initial heights, and the valley of nearly equal fits."""
+
+import numpy as np
+import pandas as pd
+
+from conveyor import regression, tables
+from conveyor.regression import Hyperbola
+from rule_log import logged
+
+
+def columns(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
+    """The columns of a table of regressions from a table of critical heights."""
+    low, high = settings["acceleration"]
+    data = critical[critical.is_critical & critical.acceleration.between(low, high)]
+    data = data.acceleration.to_numpy(), data.z0.to_numpy()
+    published = Hyperbola(**settings["published"])
+    bounds = {name: tuple(limits) for name, limits in settings["bounds"].items()}
+    pymoo = regression.fit_pymoo(*data, bounds, settings["seed"], settings["evaluations"])
+    least_squares = regression.fit_least_squares(*data, bounds["B"])
+    valley = settings["valley"]
+    valley, errors = regression.profile(*data, np.linspace(valley["start"], valley["stop"], int(valley["num"])))
+    triples = np.vstack([pymoo.parameters, least_squares.parameters, published, valley])
+    return {
+        "fit": np.array(["pymoo", "least_squares", "published"] + ["valley"] * len(valley)),
+        **dict(zip(Hyperbola._fields, triples.T, strict=True)),
+        "error": np.array([pymoo.error, least_squares.error, regression.mean_squared_error(*data, published), *errors]),
+        "evaluations": np.array([pymoo.evaluations, least_squares.evaluations, 0] + [1] * len(valley)),
+    }
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        settings = snakemake.params.settings
+        critical = tables.read(snakemake.input.critical, "critical")
+        tables.write(snakemake.output[0], "regressions", columns(critical, settings), settings=settings)
