@@ -19,7 +19,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     """From critical heights `converged` and regressions `fit`, `fit_published`; settings: published_error, m²."""
     figure = style.figure(style.PAGE, 62.0)
     errors, triples, heights = figure.subplots(1, 3)
-    fit, fit_published, data = tables["fit"], tables["fit_published"], tables["converged"]
+    fit, data = tables["fit"], tables["converged"]
     valley = fit[fit.fit == "valley"]
     flat = valley[valley.error <= settings["published_error"]]
 
