@@ -1,0 +1,61 @@
+"""What runs again after which change."""
+
+import os
+
+import pytest
+
+from project import FIGURES, TARGETS
+
+PLOTS = {f"plot_{figure}": 1 for figure in FIGURES}
+# A change in content that every module of the library can bear.
+REMARK = ("import numpy as np\n", "import numpy as np  # changed\n")
+
+
+def test_nothing_after_nothing(built):
+    assert built.planned(*TARGETS) == {}
+    assert built.planned("figures/fig22.png") == {}
+
+
+def test_nothing_after_a_touch(built):
+    for file in ("scripts/sweep.py", "scripts/conveyor/contact.py", "scripts/plots/fig22.py"):
+        os.utime(built.folder / file)
+    assert built.planned(*TARGETS) == {}
+
+
+def test_one_plot_after_a_colour(edited):
+    project = edited("scripts/plots/fig22.py", "color=style.CONVERGED", 'color="#123456"')
+    assert project.planned(*TARGETS) == {"plot_fig22": 1}
+
+
+def test_all_plots_after_the_style(edited):
+    project = edited("scripts/plots/style.py", '"#0072B2"', '"#123456"')
+    assert project.planned(*TARGETS) == PLOTS
+
+
+def test_simulations_after_the_contact(edited):
+    project = edited("scripts/conveyor/contact.py", *REMARK)
+    assert project.planned(*TARGETS) == {"sweep": 2, "classify": 2, "estimate": 2, **PLOTS}
+    assert project.planned("figures/fig22.pdf") == {"estimate": 2, "plot_fig22": 1}
+
+
+def test_no_sweep_after_the_exponents(edited):
+    project = edited("scripts/conveyor/lyapunov.py", *REMARK)
+    assert project.planned(*TARGETS) == {"classify": 2, "estimate": 2, **PLOTS}
+
+
+def test_no_simulation_after_the_states(edited):
+    project = edited("scripts/conveyor/states.py", *REMARK)
+    assert project.planned("figures/fig08.pdf") == {"classify": 2, "plot_fig08": 1}
+
+
+@pytest.mark.parametrize(
+    ("change", "expected"),
+    [
+        ({"estimates": {"phase": {"samples": 17}}}, {"estimate": 1, "plot_fig22": 1}),
+        ({"figures": {"fig22": {"settings": {"critical_acceleration": 51.0}}}}, {"plot_fig22": 1}),
+        # The amplitude is an axis everywhere here: its default reaches no table.
+        ({"model": {"acceleration": 41.0}}, {}),
+    ],
+)
+def test_only_users_after_a_config_value(built, change, expected):
+    assert built.under(change).planned(*TARGETS) == expected

@@ -1,0 +1,75 @@
+"""Which sources a script depends on."""
+
+import pytest
+
+from workflow import source_hash
+
+
+@pytest.fixture
+def scripts(tmp_path, monkeypatch):
+    """A folder of small scripts in place of the project's."""
+    files = {
+        "use.py": "import numpy\nfrom library import solve\n",
+        "read.py": "from library import tables\n",
+        "late.py": "def main():\n    import library.deep\n",
+        "library/__init__.py": "from .solver import solve\n",
+        "library/solver.py": "from . import deep\nsolve = deep.solve\n",
+        "library/deep.py": "from .model import g\n",
+        "library/model.py": "import math\ng = 9.81\n",
+        "library/tables.py": "from .model import g\n",
+    }
+    (tmp_path / "library").mkdir()
+    for name, text in files.items():
+        (tmp_path / name).write_text(text)
+    monkeypatch.setattr(source_hash, "SCRIPTS", tmp_path)
+    return tmp_path
+
+
+def modules(*scripts):
+    files, _ = source_hash.closure(*scripts)
+    return {str(file.relative_to(source_hash.SCRIPTS)) for file in files}
+
+
+def test_imports_are_followed_to_any_depth(scripts):
+    library = {"library/__init__.py", "library/solver.py", "library/deep.py", "library/model.py"}
+    assert modules("use") == {"use.py", *library}
+    assert source_hash.closure("use")[1] == ["math", "numpy"]
+
+
+def test_a_package_on_the_way_to_a_module_does_not_count(scripts):
+    assert modules("read") == {"read.py", "library/tables.py", "library/model.py"}
+
+
+def test_imports_inside_functions_count(scripts):
+    assert modules("late") == {"late.py", "library/deep.py", "library/model.py"}
+
+
+def test_hash_changes_with_what_is_imported_only(scripts):
+    before = source_hash.source_hash("read")
+    (scripts / "library/deep.py").write_text("solve = None\n")
+    source_hash.direct_imports.cache_clear()
+    assert source_hash.source_hash("read") == before
+    (scripts / "library/model.py").write_text("g = 9.8\n")
+    assert source_hash.source_hash("read") != before
+
+
+def test_hash_changes_with_the_version_of_a_numerical_package(scripts, monkeypatch):
+    before = source_hash.source_hash("use")
+    monkeypatch.setattr(source_hash, "version", lambda package: "0.0")
+    assert source_hash.source_hash("use") != before
+
+
+def test_plots_depend_on_no_solver():
+    for figure in ("fig03", "fig22"):
+        assert modules("plot_figure", f"plots/{figure}") == {
+            "plot_figure.py",
+            "rule_log.py",
+            f"plots/{figure}.py",
+            "plots/style.py",
+        }
+
+
+def test_the_library_knows_nothing_of_snakemake():
+    for module in (source_hash.SCRIPTS / "conveyor").glob("*.py"):
+        imported = {name.split(".")[0] for name, _ in source_hash.imported_names(module)}
+        assert not imported & {"snakemake", "workflow"}, module
