@@ -8,16 +8,30 @@ from plots import style
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     """From the estimates `converged`, `published` and the critical heights `edge`; settings: first_positive, m/s²."""
-    figure = style.figure(style.COLUMN, 62.0)
-    axes = figure.subplots()
-    axes.axhline(0.0, color="black", linewidth=0.6)
-    published, converged, edge = tables["published"], tables["converged"], tables["edge"]
-    between = edge.acceleration[edge.is_critical & (edge.z0 < converged.attrs["epsilon"])]
-    axes.axvspan(between.min(), between.max(), color="0.9", linewidth=0.0, label="neighbours in different basins")
-    axes.plot(published.acceleration, published["lambda"], color=style.PUBLISHED, label=style.PUBLISHED_LABEL)
-    axes.plot(converged.acceleration, converged["lambda"], color=style.CONVERGED, label=style.CONVERGED_LABEL)
-    style.mark(axes, settings["first_positive"], f"{settings['first_positive']:g} m/s²")
-    axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
-    axes.set_ylabel("Lyapunov exponent of $z_p$ in 1/s")
-    axes.legend(loc="lower right")
+    figure = style.figure(style.COLUMN, 84.0)
+    panels = figure.subplots(2, 1, sharex=True, sharey=True)
+    edge = tables["edge"]
+    curves = {
+        "published": (style.PUBLISHED, style.PUBLISHED_LABEL),
+        "converged": (style.CONVERGED, style.CONVERGED_LABEL),
+    }
+    for axes, (role, (colour, label)) in zip(panels, curves.items(), strict=True):
+        table = tables[role]
+        between = edge.acceleration[edge.is_critical & (edge.z0 < table.attrs["epsilon"])]
+        axes.axvspan(between.min(), between.max(), color="0.88", linewidth=0.0)
+        axes.axhline(0.0, color="black", linewidth=0.6)
+        axes.plot(table.acceleration, table["lambda"], color=colour, linewidth=0.8)
+        axes.axvline(settings["first_positive"], color="black", linewidth=0.6, linestyle=":")
+        axes.annotate(
+            f"{settings['first_positive']:g} m/s²",
+            (settings["first_positive"], 0.0),
+            xytext=(-3, -9),
+            textcoords="offset points",
+            ha="right",
+            size=7.0,
+        )
+        axes.annotate("two basins", (between.mean(), -20.0), ha="center", va="center", rotation=90, size=7.0)
+        axes.set_title(label, color=colour)
+        axes.set_ylabel("exponent of $z_p$ in 1/s")
+    panels[1].set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     return figure

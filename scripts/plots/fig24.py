@@ -31,9 +31,17 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
             elinewidth=0.4,
             label=label,
         )
-    style.mark(axes, settings["critical_acceleration"], f"{settings['critical_acceleration']:g} m/s²")
-    axes.set_ylim(0.8, 2.4)
+    axes.axvline(settings["critical_acceleration"], ymax=0.78, color="black", linewidth=0.6, linestyle=":")
+    axes.annotate(
+        f"{settings['critical_acceleration']:g} m/s²",
+        (settings["critical_acceleration"], 2.2),
+        xytext=(-3, 0),
+        textcoords="offset points",
+        ha="right",
+        size=7.0,
+    )
+    axes.set_ylim(0.75, 2.75)
     axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     axes.set_ylabel("dimension of the phase portrait")
-    axes.legend(loc="upper left", fontsize=6.5)
+    axes.legend(loc="upper left")
     return figure

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pandas as pd
+from matplotlib import colormaps
 from matplotlib.figure import Figure
 
 from conveyor.regression import Hyperbola, critical_height
@@ -26,19 +27,21 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     errors.axhline(1e6 * settings["published_error"] ** 0.5, color="black", linewidth=0.6, linestyle=":")
     errors.annotate(
         "the paper's error",
-        (valley.B.max(), 1e6 * settings["published_error"] ** 0.5),
+        (-20.0, 1e6 * settings["published_error"] ** 0.5),
         xytext=(0, 2),
         textcoords="offset points",
-        ha="right",
-        size=6.5,
+        ha="center",
+        size=7.0,
     )
     labels = {"fit": (style.CONVERGED, "converged data"), "fit_published": (style.PUBLISHED, "published data")}
     for role, (colour, label) in labels.items():
         curve = tables[role][tables[role].fit == "valley"]
         errors.plot(curve.B, 1e6 * curve.error**0.5, color=colour, linewidth=0.8, label=label)
     errors.set_yscale("log")
+    errors.set_yticks([4.0, 6.0, 10.0, 20.0], ["4", "6", "10", "20"])
+    errors.minorticks_off()
     errors.set_ylabel("smallest rms deviation in µm")
-    errors.legend(loc="upper right", bbox_to_anchor=(1.0, 0.72))
+    errors.legend(loc="upper right")
 
     triples.plot(1e3 * valley.A, 1e3 * valley.C, color="0.6", linewidth=0.8, label="valley")
     triples.plot(1e3 * flat.A, 1e3 * flat.C, color="0.6", linewidth=4.0, alpha=0.5, label="no worse than the paper")
@@ -49,14 +52,17 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         style_of = {"marker": marker, "color": colour, "linestyle": "", "markersize": 4.0, "markerfacecolor": "none"}
         errors.plot(row.B, 1e6 * row.error**0.5, **style_of)
         triples.plot(1e3 * row.A, 1e3 * row.C, **style_of, label=label)
-    triples.legend(loc="upper right")
+    triples.legend(loc="lower left", fontsize=6.5)
     errors.set_xlabel("$B$ in m/s²")
 
     range_of_fit = np.linspace(*fit.attrs["acceleration"], 200)
-    for index in np.linspace(0, len(flat) - 1, CURVES).astype(int):
+    for index, shade in zip(
+        np.linspace(0, len(flat) - 1, CURVES).astype(int), np.linspace(0.0, 0.9, CURVES), strict=True
+    ):
         row = flat.iloc[index]
         curve = critical_height(range_of_fit, Hyperbola(row.A, row.B, row.C))
-        heights.plot(range_of_fit, 1e3 * curve, linewidth=0.6, label=f"$B$ = {row.B:.1f} m/s²")
+        colour = colormaps["viridis"](shade)
+        heights.plot(range_of_fit, 1e3 * curve, color=colour, linewidth=0.6, label=f"$B$ = {row.B:.1f} m/s²")
     edge = data[data.is_critical]
     heights.plot(
         edge.acceleration, 1e3 * edge.z0, ".", color="black", markersize=2.0, markeredgewidth=0.0, label="data"
