@@ -19,7 +19,7 @@ from collections import namedtuple
 
 import numpy as np
 
-from . import polynomial
+from . import polynomial, unrolled
 from .jit import kernel
 from .model import (
     ACCELERATION,
@@ -33,21 +33,27 @@ from .model import (
     PSI0,
     STIFFNESS,
     TENSION,
+    TENSION_ALLOW,
+    TENSION_CLIP,
 )
+from .polynomial import ORDER, SIZE
 
-MAX_ORDER = 30
 # What ends a contact step before its full length.
 NOTHING, SEPARATION, FORCE_SIGN = range(3)
+# A separation is searched for behind this part of a step that begins with an impact, where w = 0 as well.
+LEAVE_IMPACT = 1e-6
 
 # Constants of one conveyor in the form in which the equations need them; all per unit mass, SI units.
 Constants = namedtuple(
     "Constants",
     "omega period psi0 a_x a_z gravity stiffness damping exponent friction mass tension "
-    "order tolerance scale_w scale_v edge_w",
+    "tolerance scale_w scale_v edge_w rest_speed rest_force",
 )
 
-# Taylor coefficients of one step, each of shape (MAX_ORDER + 1,); `force` and `scratch` are filled when needed.
-Series = namedtuple("Series", "w t v sine cosine square power force scratch")
+# Rows of the Taylor coefficients of one step, an array of shape (ROWS, SIZE): SQUARE is w², SPRING w^(2p+1), COSINE_W
+# the cosine times w. SCRATCH is free, and the row behind it is left to the search for roots.
+W, T, V, SINE, COSINE, SQUARE, SPRING, COSINE_W, SCRATCH = range(9)
+ROWS = 10
 
 
 @kernel
@@ -58,8 +64,6 @@ def constants(parameters, tolerance):
     gravity = parameters[GRAVITY]
     exponent = parameters[EXPONENT]
     stiffness = parameters[STIFFNESS] / mass
-    # Half the digits of the tolerance, in natural logarithms, is the order at which a digit costs least.
-    order = min(max(int(math.ceil(2.0 - 0.55 * math.log(tolerance))), 5), MAX_ORDER)
     static_penetration = (gravity / stiffness) ** (1.0 / exponent)
     edge_w = 0.0
     if exponent != 1.5 and exponent != 1.0:
@@ -77,29 +81,21 @@ def constants(parameters, tolerance):
         parameters[FRICTION],
         mass,
         int(parameters[TENSION]),
-        order,
         tolerance,
         math.sqrt(static_penetration),
         math.sqrt(2.0 * gravity * static_penetration),
         edge_w,
+        # Slower impacts and separations cannot be told from rest at this tolerance.
+        10.0 * tolerance * math.sqrt(2.0 * gravity * static_penetration),
+        # Nor can weaker contact forces be told from none; per mass.
+        10.0 * tolerance * gravity,
     )
 
 
 @kernel
 def workspace():
-    """Empty Series."""
-    size = MAX_ORDER + 1
-    return Series(
-        np.empty(size),
-        np.empty(size),
-        np.empty(size),
-        np.empty(size),
-        np.empty(size),
-        np.empty(size),
-        np.empty(size),
-        np.empty(size),
-        np.empty(size),
-    )
+    """An empty series."""
+    return np.zeros((ROWS, SIZE))
 
 
 @kernel
@@ -110,22 +106,20 @@ def force(c, w, v):
     return c.stiffness * max(w, 0.0) ** (2.0 * c.exponent) + c.damping * v
 
 
+expand_hertz = kernel(unrolled.expand_hertz)
+
+
 @kernel
 def expand(c, series, w0, v0, sine0, cosine0, free):
-    """Fill w, t, v, sine, cosine of `series` from their values at s = 0; `free` leaves the contact force out."""
-    w, t, v, sine, cosine, square, power = (
-        series.w,
-        series.t,
-        series.v,
-        series.sine,
-        series.cosine,
-        series.square,
-        series.power,
-    )
+    """Fill the rows W to COSINE_W of `series` from their values at s = 0; `free` leaves the contact force out."""
     stiffness = 0.0 if free else c.stiffness
     damping = 0.0 if free else c.damping
     gravity, a_z, omega = c.gravity, c.a_z, c.omega
-    hertz = c.exponent == 1.5
+    if c.exponent == 1.5:
+        expand_hertz(w0, v0, sine0, cosine0, gravity, a_z, omega, stiffness, damping, series)
+        return
+    w, t, v, square, spring = series[W], series[T], series[V], series[SQUARE], series[SPRING]
+    sine, cosine = series[SINE], series[COSINE]
     hooke = c.exponent == 1.0
     exponent = 2.0 * c.exponent + 1.0
     w[0] = w0
@@ -135,101 +129,72 @@ def expand(c, series, w0, v0, sine0, cosine0, free):
     cosine[0] = cosine0
     square[0] = w0 * w0
     # Without the recurrence for the power (w near zero) the spring does not act: see the head of this file.
-    general = not hertz and not hooke and w0 > c.edge_w
-    if not hertz and not hooke:
-        power[:] = 0.0
-        if general:
-            power[0] = w0**exponent
-    for n in range(c.order):
+    general = not hooke and w0 > c.edge_w
+    spring[:] = 0.0
+    if general:
+        spring[0] = w0**exponent
+    for n in range(ORDER):
         inverse = 1.0 / (n + 1)
         w[n + 1] = 0.5 * v[n] * inverse
         t[n + 1] = w[n] * inverse
-        # Products of two series; the terms k and n - k are summed together, squares need only half of them.
-        cosine_w, cosine_w_mirrored = 0.0, 0.0
-        sine_w, sine_w_mirrored = 0.0, 0.0
-        spring = 0.0
-        doubled = 0.0
-        middle = (n + 1) // 2
-        for k in range(middle):
+        cosine_w = sine_w = cube = 0.0
+        doubled = w[n + 1] * w0
+        for k in range(n + 1):
             cosine_w += cosine[k] * w[n - k]
-            cosine_w_mirrored += cosine[n - k] * w[k]
             sine_w += sine[k] * w[n - k]
-            sine_w_mirrored += sine[n - k] * w[k]
-            spring += square[k] * square[n - k]
+            cube += square[k] * w[n - k]
             doubled += w[k] * w[n + 1 - k]
-        if n % 2 == 0:
-            cosine_w += cosine[middle] * w[middle]
-            sine_w += sine[middle] * w[middle]
-            spring = 2.0 * spring + square[middle] * square[middle]
-            square[n + 1] = 2.0 * (doubled + w[middle] * w[middle + 1])
-        else:
-            spring = 2.0 * spring
-            square[n + 1] = 2.0 * doubled + w[middle] * w[middle]
-        cosine_w += cosine_w_mirrored
-        sine_w += sine_w_mirrored
-        if not hertz:
-            spring = power[n]
-            if hooke:
-                spring = 0.0
-                for k in range(n + 1):
-                    spring += square[k] * w[n - k]
+        if hooke:
+            spring[n] = cube
+        series[COSINE_W, n] = cosine_w
+        square[n + 1] = doubled
         cosine[n + 1] = -omega * sine_w * inverse
         sine[n + 1] = omega * cosine_w * inverse
-        # d/ds (v + d_c/m w²) needs no product of v and w, since w² has the derivative v w.
-        rate = gravity * w[n] + a_z * cosine_w - stiffness * spring
-        v[n + 1] = rate * inverse - damping * square[n + 1]
+        rate = gravity * w[n] + a_z * cosine_w - stiffness * spring[n]
+        v[n + 1] = rate * inverse - damping * doubled
         if general:
-            total = 0.0
-            for k in range(1, n + 2):
-                total += (k * exponent - (n + 1 - k)) * w[k] * power[n + 1 - k]
-            power[n + 1] = total * inverse / w0
+            spring[n + 1] = power_term(w, spring, exponent, n + 1)
 
 
 @kernel
-def expand_force(c, series):
-    """Fill `force` of `series`: the contact force per mass along a step, from w, v and square."""
-    w, v, square, out, scratch = series.w, series.v, series.square, series.force, series.scratch
-    if c.exponent == 1.0:
-        for n in range(c.order + 1):
-            out[n] = c.stiffness * square[n] + c.damping * v[n]
-    elif c.exponent == 1.5:
-        for n in range(c.order + 1):
-            total = 0.0
-            for k in range(n + 1):
-                total += square[k] * w[n - k]
-            out[n] = c.stiffness * total + c.damping * v[n]
-    else:
-        exponent = 2.0 * c.exponent
-        general = w[0] > c.edge_w
-        scratch[0] = w[0] ** exponent if general else 0.0
-        for n in range(c.order + 1):
-            if n > 0:
-                total = 0.0
-                if general:
-                    for k in range(1, n + 1):
-                        total += (k * exponent - (n - k)) * w[k] * scratch[n - k]
-                    total /= n * w[0]
-                scratch[n] = total
-            out[n] = c.stiffness * scratch[n] + c.damping * v[n]
+def power_term(w, power, exponent, n):
+    """Coefficient n ≥ 1 of w^exponent from those below it, for w_0 > 0."""
+    total = 0.0
+    for k in range(1, n + 1):
+        total += (k * exponent - (n - k)) * w[k] * power[n - k]
+    return total / (n * w[0])
+
+
+@kernel
+def expand_force(c, series, scale, plate, slack):
+    """Fill the row SCRATCH with the series of w (scale F_c/m + plate cos θ + slack), of the sign of the bracket."""
+    out, spring, square, cosine_w = series[SCRATCH], series[SPRING], series[SQUARE], series[COSINE_W]
+    w = series[W]
+    out[:] = 0.0
+    for n in range(ORDER):
+        force = c.stiffness * spring[n] + c.damping * (n + 1) * square[n + 1]
+        out[n] = scale * force + plate * cosine_w[n] + slack * w[n]
 
 
 @kernel
 def step_length(c, series, w0, v0):
-    """Length in s at which the last two terms of v's series are below the tolerance; those of w = ∫ v/2 ds then are too.
+    """Length in s at which the last two terms of the series are below the tolerance.
 
-    The scale is the speed of an impact with the present energy, and never less than that of the part at rest.
+    Those of v and of the excitation's phase count; w = ∫ v/2 ds follows v. The scale of v is the speed of an impact
+    with the present energy, and never less than that of the part at rest.
     """
-    order = c.order
-    potential = w0**5 if c.exponent == 1.5 else w0 ** (2.0 * c.exponent + 2.0)
+    w2 = w0 * w0
+    potential = w2 * w2 * w0 if c.exponent == 1.5 else w0 ** (2.0 * c.exponent + 2.0)
     scale = math.sqrt(v0 * v0 + 2.0 * c.stiffness * potential / (c.exponent + 1.0))
-    allowed = c.tolerance * max(scale, c.scale_v)
-    last = abs(series.v[order])
-    before = abs(series.v[order - 1])
+    scale = max(scale, c.scale_v)
+    allowed = c.tolerance * scale
+    last = max(abs(series[V, ORDER]), scale * max(abs(series[SINE, ORDER]), abs(series[COSINE, ORDER])))
+    before = abs(series[V, ORDER - 1])
     length = 1e300
     if last > 0.0:
-        length = (allowed / last) ** (1.0 / order)
+        length = (allowed / last) ** (1.0 / ORDER)
     if before > 0.0:
-        length = min(length, (allowed / before) ** (1.0 / (order - 1)))
+        length = min(length, (allowed / before) ** (1.0 / (ORDER - 1)))
     return length
 
 
@@ -239,38 +204,48 @@ def step(c, series, w0, v0, sine0, cosine0, pulled):
 
     Parameters
     ----------
-    c, series : Constants and the Series to fill
+    c, series : Constants and the series to fill
     w0, v0 : √penetration (√m) and speed of approach (m/s)
     sine0, cosine0 : of the excitation's phase
     pulled : True while the contact force is negative; looked at for `frictionless` and `clip` only
 
     Returns
     -------
-    length, event : length of the step in s, and NOTHING, SEPARATION or FORCE_SIGN (the contact force passes zero)
+    length, w, v, lapse, event : length of the step in s; w, v at its end and the time it takes (s); what ends it:
+        NOTHING, SEPARATION or FORCE_SIGN (the contact force passes zero)
     """
-    order = c.order
-    expand(c, series, w0, v0, sine0, cosine0, pulled and c.tension == 2)
+    expand(c, series, w0, v0, sine0, cosine0, pulled and c.tension == TENSION_CLIP)
     length = step_length(c, series, w0, v0)
-    w = series.w
     event = NOTHING
-    if c.edge_w > 0.0 and w0 <= c.edge_w and polynomial.value(w, order, length) > c.edge_w:
-        for n in range(order + 1):
-            series.scratch[n] = -w[n]
-        series.scratch[0] += c.edge_w * (1.0 + 1e-9)
-        length = min(length, polynomial.first_root(series.scratch, order, 0.0, length))
-    # w is convex or concave between zeros of the acceleration, so only a fall can end on, or dip below, zero.
-    if v0 < 0.0 or polynomial.value(series.v, order, length) < 0.0:
-        root = polynomial.first_root(w, order, 0.0, length)
+    w, v = polynomial.value(series, W, length), polynomial.value(series, V, length)
+    shortened = False
+    if c.edge_w > 0.0 and w0 <= c.edge_w and w > c.edge_w:
+        series[SCRATCH] = -series[W]
+        series[SCRATCH, 0] += c.edge_w * (1.0 + 1e-9)
+        length = min(length, polynomial.first_root(series, SCRATCH, 0.0, length))
+        shortened = True
+    elif w <= 0.0:
+        # w starts upwards at an impact and falls through zero once: w'' has the sign of w where the plate presses on.
+        length = polynomial.root_of_crossing(series, W, 0.0 if w0 > 0.0 else LEAVE_IMPACT * length, length)
+        event = SEPARATION
+        shortened = True
+    elif v0 < 0.0 and v > 0.0:
+        root = polynomial.first_root(series, W, 0.0, length)
         if root <= length:
             length = root
             event = SEPARATION
-    if c.tension != 0 and c.damping > 0.0:
-        expand_force(c, series)
-        sign = -1.0 if pulled else 1.0
-        for n in range(order + 1):
-            series.scratch[n] = sign * series.force[n]
-        root = polynomial.first_root(series.scratch, order, 0.0, length)
-        if root < length:
+            shortened = True
+    if c.tension != TENSION_ALLOW and c.damping > 0.0:
+        expand_force(c, series, -1.0 if pulled else 1.0, 0.0, 0.0)
+        # The series has the factor w, and so a root of its own at a separation.
+        end = length * (1.0 - LEAVE_IMPACT) if event == SEPARATION else length
+        root = polynomial.first_root(series, SCRATCH, 0.0, end)
+        if root < end:
             length = root
             event = FORCE_SIGN
-    return length, event
+            shortened = True
+    if shortened:
+        w, v = polynomial.value(series, W, length), polynomial.value(series, V, length)
+    if event == SEPARATION:
+        w = 0.0
+    return length, w, v, polynomial.value(series, T, length), event

@@ -4,11 +4,8 @@ These are the methods that the event-driven solver is compared with. They step o
 friction is sign(ẋ_s - ẋ_p) with sign(0) = 0, so that they chatter where the part should stick. In contact (q ≤ 0) the
 force may be negative, as in Eqs. 7 and 11, unless the model's `tension` says otherwise.
 
-The plate's sine and cosine cost more than the rest of an Euler step if they are evaluated directly. They are evaluated
-once per block of BLOCK steps; inside a block they follow from the sum formulas and a table of sin(jωΔt), cos(jωΔt). No
-error accumulates: each value is a sum of two products of correctly rounded factors, within 5e-16 of the exact sine of
-its phase, nearer than the rounding of the phase itself after a few revolutions. Time is the step number times the step
-and does not drift.
+Each evaluation of the forces takes the plate's sine and cosine directly, as the equations are written. Time is the step
+number times the step and does not drift.
 """
 
 import math
@@ -44,7 +41,7 @@ IMPACT, SEPARATION = range(len(EVENT_KINDS))
 SAMPLE_COLUMNS = ("x", "vx", "z", "vz", "contact_force", "friction_force")
 EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U10")])
 
-BLOCK = 256  # steps; longer blocks gain nothing, and the tables still fit into the first-level cache
+CHECK = 256  # steps between checks that the state is finite
 
 
 @kernel
@@ -90,35 +87,24 @@ def accelerations(vx, z, vz, sine, cosine, plate, contact, friction, tension):
 
 
 @kernel
-def fill_block(phase, table_sine, table_cosine, sine, cosine):
-    """Fill `sine` and `cosine` for the phases at `phase` (rad) plus those of the tables; arrays of equal shape (n,)."""
-    sine_0 = math.sin(phase)
-    cosine_0 = math.cos(phase)
-    for k in range(len(sine)):
-        sine[k] = sine_0 * table_cosine[k] + cosine_0 * table_sine[k]
-        cosine[k] = cosine_0 * table_cosine[k] - sine_0 * table_sine[k]
+def rk4_step(state, rub1, push1, step, phase, turn, plate, contact, friction, gravity, tension):
+    """(x, vx, z, vz) one classical Runge-Kutta step later, from the state, its F_r/m and F_c/m, and its phase (rad).
 
-
-@kernel
-def rk4_step(state, rub1, push1, step, sine, cosine, k, plate, contact, friction, gravity, tension):
-    """(x, vx, z, vz) one classical Runge-Kutta step later, from the state and its F_r/m and F_c/m.
-
-    Entries k, k + 1, k + 2 of `sine` and `cosine` belong to the begin, middle and end of the step.
+    `turn` is the change of the phase within the step.
     """
     x, vx1, z, vz1 = state
     half = 0.5 * step
+    sine, cosine = math.sin(phase + 0.5 * turn), math.cos(phase + 0.5 * turn)
     vx2 = vx1 + half * rub1
     vz2 = vz1 + half * (push1 - gravity)
-    middle = sine[k + 1], cosine[k + 1]
-    rub2, push2, _ = accelerations(vx2, z + half * vz1, vz2, middle[0], middle[1], plate, contact, friction, tension)
+    rub2, push2, _ = accelerations(vx2, z + half * vz1, vz2, sine, cosine, plate, contact, friction, tension)
     vx3 = vx1 + half * rub2
     vz3 = vz1 + half * (push2 - gravity)
-    rub3, push3, _ = accelerations(vx3, z + half * vz2, vz3, middle[0], middle[1], plate, contact, friction, tension)
+    rub3, push3, _ = accelerations(vx3, z + half * vz2, vz3, sine, cosine, plate, contact, friction, tension)
     vx4 = vx1 + step * rub3
     vz4 = vz1 + step * (push3 - gravity)
-    rub4, push4, _ = accelerations(
-        vx4, z + step * vz3, vz4, sine[k + 2], cosine[k + 2], plate, contact, friction, tension
-    )
+    sine, cosine = math.sin(phase + turn), math.cos(phase + turn)
+    rub4, push4, _ = accelerations(vx4, z + step * vz3, vz4, sine, cosine, plate, contact, friction, tension)
     return (
         x + step / 6.0 * (vx1 + 2.0 * (vx2 + vx3) + vx4),
         vx1 + step / 6.0 * (rub1 + 2.0 * (rub2 + rub3) + rub4),
@@ -160,14 +146,6 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
     gravity = parameters[GRAVITY]
     tension = parameters[TENSION]
 
-    # RK4 also needs the plate at half steps.
-    stride = 2 if method == RK4 else 1
-    spacing = omega * step / stride
-    table_sine = np.sin(spacing * np.arange(BLOCK * stride + 1))
-    table_cosine = np.cos(spacing * np.arange(BLOCK * stride + 1))
-    sine = np.empty_like(table_sine)
-    cosine = np.empty_like(table_sine)
-
     x = 0.0
     vx = 0.0
     z = -plate[0] * math.cos(psi0) if math.isnan(parameters[Z0]) else parameters[Z0]
@@ -181,50 +159,42 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
 
     i = 0
     while True:
-        begin = i % BLOCK
-        if begin == 0:
-            if not math.isfinite(x + vx + z + vz):
-                break
-            fill_block(omega * (i * step) + psi0, table_sine, table_cosine, sine, cosine)
+        if i % CHECK == 0 and not math.isfinite(x + vx + z + vz):
+            break
+        phase = omega * (i * step) + psi0
+        sine, cosine = math.sin(phase), math.cos(phase)
+        rub, push, gap = accelerations(vx, z, vz, sine, cosine, plate, contact, friction, tension)
         while n_sampled < len(sample_indices) and sample_indices[n_sampled] == i:
-            k = stride * begin
-            rub, push, gap = accelerations(vx, z, vz, sine[k], cosine[k], plate, contact, friction, tension)
             # Adding zero removes the sign of a negative zero.
             samples[n_sampled] = (x, vx, z, vz, mass * push, mass * rub + 0.0)
             n_sampled += 1
         if i == n_steps:
             break
-        stop = min(i - begin + BLOCK, n_steps)
-        if n_sampled < len(sample_indices):
-            stop = min(stop, sample_indices[n_sampled])
-        for j in range(begin, begin + stop - i):
-            k = stride * j
-            rub, push, gap = accelerations(vx, z, vz, sine[k], cosine[k], plate, contact, friction, tension)
-            max_gap = max(max_gap, gap)
-            touching = gap <= 0.0
-            contact_steps += push != 0.0
-            if touching != in_contact:
-                in_contact = touching
-                n_impacts += touching
-                if n_events < len(events):
-                    events[n_events, 0] = (i + j - begin) * step
-                    events[n_events, 1] = IMPACT if touching else SEPARATION
-                n_events += 1
-            if method == EULER:
-                x += step * vx
-                vx += step * rub
-                z += step * vz
-                vz += step * (push - gravity)
-            elif method == SEMI_IMPLICIT_EULER:
-                vx += step * rub
-                x += step * vx
-                vz += step * (push - gravity)
-                z += step * vz
-            else:
-                x, vx, z, vz = rk4_step(
-                    (x, vx, z, vz), rub, push, step, sine, cosine, k, plate, contact, friction, gravity, tension
-                )
-        i = stop
+        max_gap = max(max_gap, gap)
+        touching = gap <= 0.0
+        contact_steps += push != 0.0
+        if touching != in_contact:
+            in_contact = touching
+            n_impacts += touching
+            if n_events < len(events):
+                events[n_events, 0] = i * step
+                events[n_events, 1] = IMPACT if touching else SEPARATION
+            n_events += 1
+        if method == EULER:
+            x += step * vx
+            vx += step * rub
+            z += step * vz
+            vz += step * (push - gravity)
+        elif method == SEMI_IMPLICIT_EULER:
+            vx += step * rub
+            x += step * vx
+            vz += step * (push - gravity)
+            z += step * vz
+        else:
+            x, vx, z, vz = rk4_step(
+                (x, vx, z, vz), rub, push, step, phase, omega * step, plate, contact, friction, gravity, tension
+            )
+        i += 1
     evaluations = i * (4 if method == RK4 else 1)
     status = OK if math.isfinite(x + vx + z + vz) else NOT_FINITE
     return x, vx, z, vz, n_events, n_impacts, contact_steps * step, max_gap, evaluations, status

@@ -45,10 +45,13 @@ def next_impact(z, vz, q, rate, theta, gravity, a_z, omega, limit):
         # From the plate the parabola has no room; the bound |d³q/dt³| ≤ a_z ω and the actual q̈ do.
         tau = 2.0 * max(rate, 0.0) / bound
         jerk = a_z * omega
-        if jerk > 0.0:
-            half = -0.5 * (gravity + a_z * math.cos(theta))
-            root = half * half + 2.0 / 3.0 * jerk * max(rate, 0.0)
-            tau = max(tau, 3.0 * (half + math.sqrt(root)) / jerk)
+        half = -0.5 * (gravity + a_z * math.cos(theta))
+        root = math.sqrt(half * half + 2.0 / 3.0 * jerk * max(rate, 0.0))
+        # Either form of the root of a quadratic where it does not cancel.
+        if half < 0.0:
+            tau = max(tau, 2.0 * max(rate, 0.0) / (root - half))
+        elif jerk > 0.0:
+            tau = max(tau, 3.0 * (half + root) / jerk)
         tau = max(tau, 1e-9 / omega)
         q, rate = gap(z, vz, tau, theta, gravity, a_z, omega)
     for _ in range(MAX_STEPS):
@@ -72,7 +75,7 @@ def next_impact(z, vz, q, rate, theta, gravity, a_z, omega, limit):
 
 @kernel
 def summit(z, vz, low, high, theta, gravity, a_z, omega):
-    """Largest gap between two times of a flight where its rate is positive and negative, by safeguarded Newton steps."""
+    """Largest gap between two times of a flight, its rate positive at the first one, by safeguarded Newton steps."""
     tau = 0.5 * (low + high)
     for _ in range(60):
         q, rate = gap(z, vz, tau, theta, gravity, a_z, omega)

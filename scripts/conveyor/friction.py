@@ -12,8 +12,21 @@ the margin of stick are polynomials.
 import math
 
 from . import polynomial
-from .contact import expand_force
+from .contact import SCRATCH, SINE, T, V, expand_force
 from .jit import kernel
+from .polynomial import SIZE
+
+
+@kernel
+def keeps_slipping(c, slip, lapse, gain, fastest):
+    """Whether bounds alone show that the slip velocity `slip` (m/s) does not vanish within a contact step.
+
+    The plate changes its velocity by at most a_x Δt. Friction changes the part's by μ∫|F_c/m| dt; its signed integral
+    is Δż_p + g Δt = `gain`, and the force pulls with at most (d_c/m) times the speed of separation, which stays below
+    `fastest` plus what gravity and the plate can add.
+    """
+    pull = c.damping * (fastest + 2.0 * (c.gravity + c.a_z) * lapse) * lapse
+    return abs(slip) > c.a_x * lapse + c.friction * (abs(gain) + 2.0 * pull)
 
 
 @kernel
@@ -22,42 +35,33 @@ def slip_end(c, series, start, length, slip, sigma, mu):
 
     `slip` is the slip velocity at `start` (m/s), `sigma` its sign (±1), `mu` the friction coefficient that acts.
     """
-    order = c.order
-    out, sine, v, t = series.scratch, series.sine, series.v, series.t
-    plate = sigma * c.a_x / c.omega
-    lift = mu * c.a_z / c.omega
+    out, sine, v, t = series[SCRATCH], series[SINE], series[V], series[T]
+    plate = sigma * c.a_x / c.omega - mu * c.a_z / c.omega
     fall = mu * c.gravity
-    for n in range(1, order + 1):
-        out[n] = (plate - lift) * sine[n] + mu * v[n] - fall * t[n]
+    for n in range(SIZE):
+        out[n] = plate * sine[n] + mu * v[n] - fall * t[n]
     out[0] = 0.0
-    out[0] = sigma * slip - polynomial.value(out, order, start)
-    return polynomial.first_root(out, order, start, length)
+    out[0] = sigma * slip - polynomial.value(series, SCRATCH, start)
+    return polynomial.first_root(series, SCRATCH, start, length)
 
 
 @kernel
 def stick_end(c, series, start, length):
     """Where, in (start, length] of a contact step, |ẍ_s| outgrows μ F_c/m; infinity if it does not."""
-    order = c.order
-    expand_force(c, series)
     end = math.inf
     for direction in (-1.0, 1.0):
-        for n in range(order + 1):
-            series.scratch[n] = c.friction * series.force[n] + direction * c.a_x * series.cosine[n]
-        end = min(end, polynomial.first_root(series.scratch, order, start, length))
+        expand_force(c, series, c.friction, direction * c.a_x, c.friction * c.rest_force)
+        end = min(end, polynomial.first_root(series, SCRATCH, start, length))
     return end
 
 
 @kernel
-def direction_at_rest(plate_acceleration, force, mu, sigma):
+def direction_at_rest(c, plate_acceleration, force, mu):
     """Sign of the slip that follows when the slip velocity is zero, or 0 for stick (Filippov's condition).
 
-    plate_acceleration : ẍ_s, m/s²; force : F_c/m, m/s²; mu : friction coefficient that acts;
-    sigma : sign of the slip before, which goes over to its opposite where friction cannot hold the part
+    plate_acceleration : ẍ_s, m/s²; force : F_c/m, m/s²; mu : friction coefficient that acts
     """
-    if force > 0.0 and mu > 0.0:
-        if abs(plate_acceleration) <= mu * force:
-            return 0.0
-        return math.copysign(1.0, plate_acceleration)
-    if sigma != 0.0:
-        return -sigma
+    # The little that the force may lack keeps a part that barely touches from sticking and slipping without end.
+    if mu > 0.0 and abs(plate_acceleration) <= mu * (force + c.rest_force):
+        return 0.0
     return math.copysign(1.0, plate_acceleration)

@@ -201,7 +201,7 @@ def finite_difference_estimate(
     threads: int = 1,
     progress: str | None = None,
 ) -> np.ndarray:
-    """The paper's estimate of the Lyapunov exponent, (1/t) log(|Δ output| / ε) (Eq. 23), averaged over the end of a run.
+    """The paper's estimate of the Lyapunov exponent, (1/t) log(|Δ output| / ε) (Eq. 23), averaged over a run's end.
 
     Parameters
     ----------

@@ -17,7 +17,9 @@ def for_each_chunk(
     """
     ranges = [(begin, min(begin + chunk, count)) for begin in range(0, count, chunk)]
     with (
-        tqdm(total=count, desc=progress, unit="point", disable=progress is None, file=sys.stderr, mininterval=1.0) as bar,
+        tqdm(
+            total=count, desc=progress, unit="point", disable=progress is None, file=sys.stderr, mininterval=1.0
+        ) as bar,
         ThreadPoolExecutor(threads) as pool,
     ):
         futures = {pool.submit(work, begin, end): end - begin for begin, end in ranges}

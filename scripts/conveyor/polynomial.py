@@ -1,72 +1,157 @@
-"""Real polynomials on a step: evaluation, and the first root that no sign test at the ends could hide."""
+"""Taylor polynomials of one order, the rows of an array: values, and the first root that no sign test could hide."""
 
 import math
 
 from .jit import kernel
 
+# Order of every series, and the length of its coefficient arrays, whose tail stays zero.
+ORDER = 20
+SIZE = 24
+
 # A root that a search starts on is left behind by at least this part of the step, so that it is not found twice.
 LEAVE = 1e-6
-ROOT_RESOLUTION = 1e-15
+RESOLUTION = 1e-15
+# Values below this part of the sum of all terms have no sign that one could trust.
+NOISE = 1e-15
 MAX_ITERATIONS = 200
+# Steps of a search before its piece is cut, and pieces before it is given up.
+MAX_STEPS = 60
+MAX_PIECES = 1000
+
+# What a search ends with.
+FOUND, ABSENT, OPEN = range(3)
+# The last row of every series is free for the functions of this module.
+SHIFTED = -1
 
 
 @kernel
-def value(coefficients, order, s):
-    """Σ c_n sⁿ, n = 0 … order."""
-    total = coefficients[order]
-    for n in range(order - 1, -1, -1):
-        total = total * s + coefficients[n]
-    return total
+def value(series, row, s):
+    """Σ c_n sⁿ, in four interleaved sums that do not wait for each other."""
+    s2 = s * s
+    s4 = s2 * s2
+    sum0 = sum1 = sum2 = sum3 = 0.0
+    for n in range(SIZE - 4, -1, -4):
+        sum0 = sum0 * s4 + series[row, n]
+        sum1 = sum1 * s4 + series[row, n + 1]
+        sum2 = sum2 * s4 + series[row, n + 2]
+        sum3 = sum3 * s4 + series[row, n + 3]
+    return (sum0 + s * sum1) + s2 * (sum2 + s * sum3)
 
 
 @kernel
-def value_and_slope(coefficients, order, s):
-    """Σ c_n sⁿ and its derivative."""
-    total = coefficients[order]
-    slope = 0.0
-    for n in range(order - 1, -1, -1):
-        slope = slope * s + total
-        total = total * s + coefficients[n]
-    return total, slope
+def slope(series, row, s):
+    """Σ n c_n sⁿ⁻¹."""
+    s2 = s * s
+    s4 = s2 * s2
+    sum0 = sum1 = sum2 = sum3 = 0.0
+    for n in range(SIZE - 4, -1, -4):
+        sum0 = sum0 * s4 + (n + 1) * series[row, n + 1]
+        sum1 = sum1 * s4 + (n + 2) * series[row, n + 2]
+        sum2 = sum2 * s4 + (n + 3) * series[row, n + 3]
+        sum3 = sum3 * s4 + ((n + 4) * series[row, n + 4] if n + 4 < SIZE else 0.0)
+    return (sum0 + s * sum1) + s2 * (sum2 + s * sum3)
 
 
 @kernel
-def first_root(coefficients, order, start, end):
-    """First root of a polynomial in (start, end] that is positive just behind `start`; infinity if there is none.
+def root_of_crossing(series, row, low, high):
+    """The root of a polynomial that changes its sign once between `low` and `high`, by safeguarded Newton steps."""
+    resolution = RESOLUTION * max(abs(low), abs(high))
+    f_low, f_high = value(series, row, low), value(series, row, high)
+    sign = 1.0 if f_high > 0.0 else -1.0
+    s = high - f_high * (high - low) / (f_high - f_low) if f_high != f_low else high
+    for _ in range(MAX_ITERATIONS):
+        f = value(series, row, s)
+        if sign * f > 0.0:
+            high = s
+        else:
+            low = s
+        gradient = slope(series, row, s)
+        following = s - f / gradient if gradient != 0.0 else low
+        if not low < following < high:
+            following = 0.5 * (low + high)
+        if abs(following - s) <= resolution:
+            return following
+        s = following
+    return s
+
+
+@kernel
+def shift(series, row, s):
+    """Expand the polynomial of a row about `s` instead, into the row SHIFTED."""
+    shifted = series[SHIFTED]
+    shifted[:] = series[row]
+    for k in range(ORDER):
+        for n in range(ORDER - 1, k - 1, -1):
+            shifted[n] += s * shifted[n + 1]
+
+
+@kernel
+def search(series, row, start, end, shortest, noise):
+    """Look for the first root in (start, end]: whether there is one, where the search stands, and `shortest`.
 
     The largest |second derivative| on [0, end] makes a parabola that lies below the polynomial. Steps to the roots of
     such parabolas cannot jump over a root, whatever the signs at the ends are, and converge quadratically to a simple
-    root.
+    root. While `shortest` > 0 the search leaves a root on which it began: steps have at least this length, and values
+    below `noise` no sign.
+
+    Returns
+    -------
+    answer, s, shortest : FOUND with the root, ABSENT with `end`, or OPEN where the parabolas are too narrow to get on
     """
-    reach = 0.0
     curvature = 0.0
-    power = end
-    for n in range(1, order + 1):
-        magnitude = abs(coefficients[n]) * power
-        reach += magnitude
-        curvature += n * (n - 1) * magnitude
+    power = 1.0
+    for n in range(2, ORDER + 1):
+        curvature += n * (n - 1) * abs(series[row, n]) * power
         power *= end
-    if coefficients[0] > reach:
-        return math.inf
-    curvature /= end * end
     s = start
-    f, slope = value_and_slope(coefficients, order, s)
-    shortest = LEAVE * end
-    for _ in range(MAX_ITERATIONS):
+    f = value(series, row, s)
+    for _ in range(MAX_STEPS):
         f = max(f, 0.0)
-        if curvature > 0.0:
-            advance = (slope + math.sqrt(slope * slope + 2.0 * curvature * f)) / curvature
-        elif slope < 0.0:
-            advance = -f / slope
-        else:
-            return math.inf
-        if shortest == 0.0 and advance <= ROOT_RESOLUTION * end:
-            return s
+        gradient = slope(series, row, s)
+        if abs(gradient) > curvature * (end - s):
+            # Monotone from here on: the sign at the end decides.
+            low = s + shortest
+            if gradient > 0.0 or low >= end or value(series, row, end) > (-noise if shortest > 0.0 else 0.0):
+                return ABSENT, end, 0.0
+            return FOUND, low if value(series, row, low) <= 0.0 else root_of_crossing(series, row, low, end), 0.0
+        advance = (gradient + math.sqrt(gradient * gradient + 2.0 * curvature * f)) / curvature
+        if shortest == 0.0 and advance <= RESOLUTION * end:
+            return FOUND, s, 0.0
+        if s + max(advance, shortest) > end:
+            return ABSENT, end, shortest
         s += max(advance, shortest)
-        if s > end:
-            return math.inf
-        f, slope = value_and_slope(coefficients, order, s)
-        if f <= 0.0:
+        f = value(series, row, s)
+        if shortest > 0.0 and abs(f) <= noise:
+            shortest *= 2.0
+        elif f <= 0.0:
+            return FOUND, s, 0.0
+        else:
+            shortest = 0.0
+    return OPEN, s, shortest
+
+
+@kernel
+def first_root(series, row, start, end):
+    """First root of a polynomial in (start, end] that is positive just behind `start`; infinity if there is none."""
+    reach = 0.0
+    power = end
+    for n in range(1, ORDER + 1):
+        reach += abs(series[row, n]) * power
+        power *= end
+    if series[row, 0] > reach or reach == 0.0:
+        return math.inf
+    noise = NOISE * (abs(series[row, 0]) + reach)
+    answer, s, shortest = search(series, row, start, end, LEAVE * end, noise)
+    piece = end - s
+    for _ in range(MAX_PIECES):
+        if answer == FOUND:
             return s
-        shortest = 0.0
-    return s
+        if answer == ABSENT and s >= end:
+            return math.inf
+        # Bounds on a shorter piece, from the expansion about its start, are tighter.
+        piece *= 2.0 if answer == ABSENT else 0.25
+        piece = min(piece, end - s)
+        shift(series, row, s)
+        answer, ahead, shortest = search(series, SHIFTED, 0.0, piece, shortest, noise)
+        s = end if answer == ABSENT and piece == end - s else s + ahead
+    return math.inf

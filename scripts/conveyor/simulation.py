@@ -111,7 +111,7 @@ def simulate(
     ----------
     conveyor, start : see model.Conveyor and model.Start
     duration : s, > 0
-    method : "event" for the exact event loop, or a method of fixed_step: "euler" (the paper's), "semi_implicit_euler", "rk4"
+    method : "event" for the exact event loop, or one of fixed_step: "euler" (the paper's), "semi_implicit_euler", "rk4"
     tolerance : relative error per Taylor step, 1e-14 to 1e-2; used by "event"
     step : step size in s; used by the fixed-step methods
 

@@ -116,7 +116,7 @@ def classify(
 
     Returns
     -------
-    state, period : str ("first", "second", "chaos", "undecided") and int64 (in excitation cycles, 0 for none), shape (n,)
+    state, period : str (one of STATES) and int64 (in excitation cycles, 0 for none), shape (n,)
     """
     parameters = np.ascontiguousarray(parameters, dtype=np.float64)
     points = lyapunov.initial_states(parameters, tolerance)

@@ -8,8 +8,8 @@ Perturbations are those of (δ, Y) with Y = v + (d_c/m) max(δ, 0), for which th
     δ̇ = Y - (d_c/m) max(δ, 0),   Ẏ = g + a_z cos θ - (k_c/m) max(δ, 0)^p
 
 are continuous across impact and separation, so that the linearised flow needs no jump there. Its determinant over a
-cycle is exp(-(d_c/m) T_contact), with T_contact the time with a contact force. `clip` switches the damping off while the
-force would pull; the force is continuous there, and v takes the place of Y.
+cycle is exp(-(d_c/m) T_contact), with T_contact the time with a contact force. `clip` switches the damping off while
+the force would pull; the force is continuous there, and v takes the place of Y.
 """
 
 import math
@@ -20,6 +20,7 @@ from . import contact, polynomial
 from .flight import gap, next_impact
 from .jit import kernel
 from .model import TENSION_ALLOW, TENSION_CLIP, VZ0, Z0
+from .polynomial import ORDER, SIZE
 from .trajectory import MAX_PIECES, NOT_FINITE, OK, TOO_MANY_EVENTS, begin, in_contact, invert_time, press_on
 
 # What a cycle is characterised by.
@@ -37,13 +38,13 @@ def initial_state(parameters, tolerance, state):
 
 
 @kernel
-def expand_tangent(c, series, eta, zeta, free):
-    """Taylor coefficients of a perturbation (η, ζ) of (δ, Y) along a contact step, from their values at s = 0.
+def expand_tangent(c, series, tangent, free):
+    """Taylor coefficients of a perturbation along a contact step: rows η, ζ of `tangent`, from their values at s = 0.
 
     With the derivative in s, η' = w (ζ - (d_c/m) η) and ζ' = -p (k_c/m) w^(2p-1) η. `free` leaves the force out.
     """
-    w, square, stiff = series.w, series.square, series.scratch
-    order = c.order
+    w, square, stiff = series[contact.W], series[contact.SQUARE], series[contact.SCRATCH]
+    eta, zeta = tangent[0], tangent[1]
     damping = 0.0 if free else c.damping
     stiffness = 0.0 if free else c.exponent * c.stiffness
     hertz = c.exponent == 1.5
@@ -54,12 +55,9 @@ def expand_tangent(c, series, eta, zeta, free):
         stiff[:] = 0.0
         if general:
             stiff[0] = w[0] ** power
-            for n in range(1, order):
-                total = 0.0
-                for k in range(1, n + 1):
-                    total += (k * power - (n - k)) * w[k] * stiff[n - k]
-                stiff[n] = total / (n * w[0])
-    for n in range(order):
+            for n in range(1, ORDER):
+                stiff[n] = contact.power_term(w, stiff, power, n)
+    for n in range(ORDER):
         drift = 0.0
         pull = 0.0
         if hertz:
@@ -84,7 +82,7 @@ def cycle(c, series, state, tangent, features):
 
     Parameters
     ----------
-    c, series : contact.Constants and a contact.Series to work in
+    c, series : contact.Constants and a contact.workspace to work in
     state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced
     tangent : float64, shape (n, 2), n perturbations of (δ, Y); replaced; n = 0 where none are wanted
     features : float64, shape (6,), replaced but for AIRBORNE, the time (s) since the last separation, which goes on:
@@ -95,10 +93,9 @@ def cycle(c, series, state, tangent, features):
     -------
     status code of trajectory.STATUS
     """
-    order = c.order
     speed_z = c.a_z / c.omega
     height = speed_z / c.omega
-    eta, zeta = np.empty(contact.MAX_ORDER + 1), np.empty(contact.MAX_ORDER + 1)
+    expansion = np.zeros((2, SIZE))
     features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = features[MAX_GAP] = 0.0
     features[SLOWEST_IMPACT] = math.inf
     t = 0.0
@@ -137,28 +134,28 @@ def cycle(c, series, state, tangent, features):
             theta = c.psi0 + c.omega * t
             sine, cosine = math.sin(theta), math.cos(theta)
             continue
-        if w == 0.0 and v <= 0.0:
+        if w == 0.0 and v <= c.rest_speed:
             if c.gravity + c.a_z * cosine > 0.0:
                 w, v, lapse = press_on(c, theta)
                 t += lapse
-            else:
+            elif v <= 0.0:
                 touching = False
                 q, rate = 0.0, 0.0
                 z, vz = -height * cosine, speed_z * sine
                 continue
-        length, event = contact.step(c, series, w, v, sine, cosine, pulled)
-        lapse = polynomial.value(series.t, order, length)
+        length, w_end, v_end, lapse, event = contact.step(c, series, w, v, sine, cosine, pulled)
         complete = not lapse < remaining
         if complete:
-            length = invert_time(series, order, length, remaining)
+            length = invert_time(series, length, remaining)
             lapse = remaining
+            w_end, v_end = polynomial.value(series, contact.W, length), polynomial.value(series, contact.V, length)
         free = pulled and c.tension == TENSION_CLIP
         for i in range(tangent.shape[0]):
-            eta[0], zeta[0] = tangent[i, 0], tangent[i, 1]
-            expand_tangent(c, series, eta, zeta, free)
-            tangent[i, 0] = polynomial.value(eta, order, length)
-            tangent[i, 1] = polynomial.value(zeta, order, length)
-        w, v = polynomial.value(series.w, order, length), polynomial.value(series.v, order, length)
+            expansion[0, 0], expansion[1, 0] = tangent[i, 0], tangent[i, 1]
+            expand_tangent(c, series, expansion, free)
+            tangent[i, 0] = polynomial.value(expansion, 0, length)
+            tangent[i, 1] = polynomial.value(expansion, 1, length)
+        w, v = w_end, v_end
         if not free:
             features[CONTACT_TIME] += lapse
         if not (math.isfinite(w) and math.isfinite(v)):
@@ -172,7 +169,9 @@ def cycle(c, series, state, tangent, features):
         t += lapse
         theta = c.psi0 + c.omega * t
         sine, cosine = math.sin(theta), math.cos(theta)
-        if event == contact.SEPARATION:
+        if event == contact.SEPARATION and v >= -c.rest_speed and c.gravity + c.a_z * cosine > 0.0:
+            v = 0.0
+        elif event == contact.SEPARATION:
             touching = False
             q, rate = 0.0, -v
             z, vz = -height * cosine, speed_z * sine - v

@@ -36,8 +36,8 @@ def follow_by_events(parameters, duration, tolerance, feeding, out):
 @kernel
 def follow_by_steps(parameters, duration, step, method, out):
     """Fill the rows of `out`, shape (n, 9), for `parameters`, shape (n, 13), with a fixed-step method."""
-    count = max(1, int(round(duration / step)))
-    first = min(int(round((1.0 - LAST) * count)), count - 1)
+    count = max(1, round(duration / step))
+    first = min(round((1.0 - LAST) * count), count - 1)
     indices = np.array([first])
     samples = np.empty((1, 6))
     no_events = np.empty((0, 2))

@@ -94,7 +94,9 @@ COLUMNS = {
         number("impact_velocity", "m/s", "vertical velocity of the part then (Eq. 17)"),
         number("impact_phase", "rad", "phase of the excitation then (Eq. 18), not wrapped"),
         text("state", "state of motion that the start leads to"),
-        text("mapped_state", "state that a start on the plate with this phase and velocity leads to; null without impact"),
+        text(
+            "mapped_state", "state that a start on the plate with this phase and velocity leads to; null without impact"
+        ),
     ),
     "critical": (
         number("z0", "m", "initial height at which the state of motion changes"),

@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from . import contact, friction, polynomial
-from .flight import gap, next_impact
+from .flight import next_impact
 from .jit import kernel
 from .model import TENSION_ALLOW, TENSION_CLIP, VZ0, Z0
 
@@ -59,14 +59,14 @@ def press_on(c, theta):
 
 
 @kernel
-def invert_time(series, order, length, tau):
+def invert_time(series, length, tau):
     """The s in [0, length] of a contact step at which the time since its start is `tau` (s)."""
     low, high = 0.0, length
-    total, _ = polynomial.value_and_slope(series.t, order, length)
+    total = polynomial.value(series, contact.T, length)
     s = length * min(max(tau / total, 0.0), 1.0)
     for _ in range(100):
-        t, w = polynomial.value_and_slope(series.t, order, s)
-        error = t - tau
+        error = polynomial.value(series, contact.T, s) - tau
+        w = polynomial.value(series, contact.W, s)
         if error > 0.0:
             high = s
         else:
@@ -94,12 +94,11 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
 
     Returns
     -------
-    status, events, impacts, contact_time (s), max_gap (m), pieces : the status code, numbers of events and of impacts, time
-        with contact force, largest gap, number of Taylor steps
+    status, events, impacts, contact_time (s), max_gap (m), steps : the status code, numbers of events and of impacts,
+        time with contact force, largest gap, number of Taylor steps
     """
     c = contact.constants(parameters, tolerance)
     series = contact.workspace()
-    order = c.order
     speed_x = c.a_x / c.omega
     speed_z = c.a_z / c.omega
     height = speed_z / c.omega
@@ -131,7 +130,7 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
         slip = speed_x * sine
         sigma = math.copysign(1.0, slip)
         if slip == 0.0:
-            sigma = friction.direction_at_rest(c.a_x * cosine, contact.force(c, w, v), c.friction, 0.0)
+            sigma = friction.direction_at_rest(c, c.a_x * cosine, contact.force(c, w, v), c.friction)
 
     while next_sample < times.size:
         pieces += 1
@@ -171,14 +170,14 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
                 slip = speed_x * sine - vx
                 sigma = math.copysign(1.0, slip)
                 if slip == 0.0:
-                    sigma = friction.direction_at_rest(c.a_x * cosine, c.damping * v, c.friction, 0.0)
+                    sigma = friction.direction_at_rest(c, c.a_x * cosine, c.damping * v, c.friction)
         else:
-            if w == 0.0 and v <= 0.0:
+            if w == 0.0 and v <= c.rest_speed:
                 # Grazing: the part touches with no speed and is either pressed on or left behind by the plate.
                 if c.gravity + c.a_z * cosine > 0.0:
                     w, v, lapse = press_on(c, theta)
                     t += lapse
-                else:
+                elif v <= 0.0:
                     touching = False
                     q, rate = 0.0, 0.0
                     z, vz = -height * cosine, speed_z * sine
@@ -187,12 +186,8 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
                         event_kinds[events] = SEPARATED
                     events += 1
                     continue
-            length, event = contact.step(c, series, w, v, sine, cosine, pulled)
+            length, w_end, v_end, lapse, event = contact.step(c, series, w, v, sine, cosine, pulled)
             steps += 1
-            w_end, v_end = polynomial.value(series.w, order, length), polynomial.value(series.v, order, length)
-            lapse = polynomial.value(series.t, order, length)
-            if event == contact.SEPARATION:
-                w_end = 0.0
             theta_end = c.psi0 + c.omega * (t + lapse)
             sine_end, cosine_end = math.sin(theta_end), math.cos(theta_end)
             pressing = not (pulled and c.tension == TENSION_CLIP)
@@ -204,10 +199,12 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
             here = 0.0
             w_here, v_here, t_here, sine_here, cosine_here = w, v, 0.0, sine, cosine
             slip = speed_x * sine - vx
+            gain = speed_z * (sine_end - sine) - v_end + v + c.gravity * lapse
+            keeps = sigma != 0.0 and friction.keeps_slipping(c, slip, lapse, gain, max(abs(v), abs(v_end)))
             while True:
                 there = length
                 changed = False
-                if feeding:
+                if feeding and not keeps:
                     if sigma == 0.0:
                         change = friction.stick_end(c, series, here, length)
                     else:
@@ -216,8 +213,9 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
                         there = change
                         changed = True
                 if changed:
-                    w_there, v_there = polynomial.value(series.w, order, there), polynomial.value(series.v, order, there)
-                    t_there = polynomial.value(series.t, order, there)
+                    w_there = polynomial.value(series, contact.W, there)
+                    v_there = polynomial.value(series, contact.V, there)
+                    t_there = polynomial.value(series, contact.T, there)
                     phase = theta + c.omega * t_there
                     sine_there, cosine_there = math.sin(phase), math.cos(phase)
                 else:
@@ -226,9 +224,9 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
                 vz_here = speed_z * sine_here - v_here
                 while next_sample < times.size and base + t + t_there >= times[next_sample]:
                     tau = times[next_sample] - base - t
-                    s = invert_time(series, order, length, tau)
+                    s = invert_time(series, length, tau)
                     phase = theta + c.omega * tau
-                    w_s, v_s = polynomial.value(series.w, order, s), polynomial.value(series.v, order, s)
+                    w_s, v_s = polynomial.value(series, contact.W, s), polynomial.value(series, contact.V, s)
                     samples[next_sample, Z] = -height * math.cos(phase) - w_s * w_s
                     samples[next_sample, VZ] = speed_z * math.sin(phase) - v_s
                     force = contact.force(c, w_s, v_s) if pressing else 0.0
@@ -245,6 +243,8 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
                         samples[next_sample, VX] = vx + sigma * mu * gain
                         samples[next_sample, FRICTION_FORCE] = c.mass * sigma * mu * force
                     next_sample += 1
+                if next_sample == times.size:
+                    break
                 if feeding:
                     tau = t_there - t_here
                     if sigma == 0.0:
@@ -253,9 +253,7 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
                     else:
                         z_there = -height * cosine_there - w_there * w_there
                         vz_there = speed_z * sine_there - v_there
-                        x += vx * tau + sigma * mu * (
-                            z_there - z_here - vz_here * tau + 0.5 * c.gravity * tau * tau
-                        )
+                        x += vx * tau + sigma * mu * (z_there - z_here - vz_here * tau + 0.5 * c.gravity * tau * tau)
                         vx += sigma * mu * (vz_there - vz_here + c.gravity * tau)
                 if not changed:
                     break
@@ -268,7 +266,7 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
                 if sigma == 0.0:
                     sigma = math.copysign(1.0, cosine_there)
                 else:
-                    sigma = friction.direction_at_rest(c.a_x * cosine_there, force, mu, sigma)
+                    sigma = friction.direction_at_rest(c, c.a_x * cosine_there, force, mu)
                 if events < room:
                     event_times[events] = base + t + t_there
                     event_kinds[events] = SLIP if before == 0.0 else (STICK if sigma == 0.0 else SLIP_REVERSAL)
@@ -277,13 +275,17 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
                 slip = 0.0
                 w_here, v_here, t_here, sine_here, cosine_here = w_there, v_there, t_there, sine_there, cosine_there
 
+            if next_sample == times.size:
+                break
             t += lapse
             theta, sine, cosine = theta_end, sine_end, cosine_end
             w, v = w_end, v_end
             if not (math.isfinite(w) and math.isfinite(v) and math.isfinite(t)):
                 status = NOT_FINITE
                 break
-            if event == contact.SEPARATION:
+            if event == contact.SEPARATION and v >= -c.rest_speed and c.gravity + c.a_z * cosine > 0.0:
+                v = 0.0
+            elif event == contact.SEPARATION:
                 touching = False
                 q, rate = 0.0, -v
                 z, vz = -height * cosine, speed_z * sine - v

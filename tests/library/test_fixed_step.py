@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from reference import reference_mean_velocity
 from scipy.special import gamma
 
 from conveyor import Conveyor, Start, fixed_step
 from conveyor.model import pack
+from reference import reference_mean_velocity
 
 # A contact that stays closed (p = 1, a_z < g), smooth in time.
 LINEAR = Conveyor(acceleration=30.0, exponent=1.0, stiffness=3e3, psi0=0.4)
@@ -80,16 +80,6 @@ def test_compiled_loop_is_the_plain_loop(method, tension, exponent):
     assert run.max_gap == pytest.approx(gap.max(), rel=1e-10)
     assert run.mean_velocity == pytest.approx((slow[-1, 0] - slow[1125, 0]) / (375 * step), rel=1e-9)
     assert run.evaluations == n_steps * (4 if method == "rk4" else 1)
-
-
-def test_sine_and_cosine_of_a_block():
-    """The sum formulas stay at the last digit of the directly evaluated functions."""
-    spacing, phase = 1.7e-2, 0.3
-    offsets = spacing * np.arange(fixed_step.BLOCK)
-    sine, cosine = np.empty_like(offsets), np.empty_like(offsets)
-    fixed_step.fill_block(phase, np.sin(offsets), np.cos(offsets), sine, cosine)
-    np.testing.assert_allclose(sine, np.sin(phase + offsets), rtol=0.0, atol=1e-15)
-    np.testing.assert_allclose(cosine, np.cos(phase + offsets), rtol=0.0, atol=1e-15)
 
 
 def test_published_numbers():

@@ -138,11 +138,13 @@ def test_friction_impulse_is_bounded():
     assert 0.3 * (1.0 + e) * speed < plate_velocity < 3.0 * (1.0 + e) * speed
 
 
+# Mostly slip; stick in between; slip both ways out of stick; backward only; never; no friction; nothing at all.
 @pytest.mark.parametrize(
-    ("acceleration", "friction"), [(30.0, 0.15), (30.0, 0.6), (5.0, 0.6), (45.0, 0.02), (0.0, 0.0)]
+    ("acceleration", "friction"),
+    [(30.0, 0.15), (30.0, 0.6), (8.0, 0.6), (6.5, 0.6), (5.0, 0.6), (45.0, 0.02), (45.0, 0.0), (0.0, 0.0)],
 )
 def test_slip_and_stick_at_rest(acceleration, friction):
-    """The closed form against small steps of m ẍ = ±μ m (g + a_z cos θ): slip both ways, stick, and never slipping."""
+    """The closed form against small steps of ẍ = ±μ (g + a_z cos θ), which the plate's velocity bounds."""
     conveyor = Conveyor(acceleration=acceleration, friction=friction, psi0=0.7)
     times = np.linspace(0.0, 0.06, 31)
     a_x, a_z = (acceleration * shape(conveyor.angle) for shape in (math.cos, math.sin))
@@ -160,7 +162,7 @@ def test_slip_and_stick_at_rest(acceleration, friction):
             vx += min(max(plate_vx[i] - vx, -hold[i]), hold[i])
             x += 0.5 * h * (before + vx)
     slow = np.array(slow)
-    scale = max(np.abs(slow[:, 1]).max(), 1e-12)
+    scale = max(np.abs(slow[:, 1]).max(), 1e-9)
     np.testing.assert_allclose(samples["vx"], slow[:, 1], rtol=0.0, atol=2e-4 * scale)
     np.testing.assert_allclose(samples["x"], slow[:, 0], rtol=0.0, atol=2e-4 * scale * times[-1])
 

@@ -1,0 +1,74 @@
+"""Random conveyors and starts, to find out whether any of them breaks the solver."""
+
+import math
+
+import numpy as np
+
+from .model import (
+    ACCELERATION,
+    ANGLE,
+    DAMPING,
+    EXPONENT,
+    FREQUENCY,
+    FRICTION,
+    GRAVITY,
+    MASS,
+    PARAMETERS,
+    PSI0,
+    STIFFNESS,
+    TENSION,
+    TENSION_MODES,
+    VZ0,
+    Z0,
+    Conveyor,
+    Start,
+)
+
+
+def random_points(count: int, seed: int) -> np.ndarray:
+    """Packed parameters, shape (count, 13): log-uniform over two decades around the defaults where that has a meaning.
+
+    Amplitudes reach 150 m/s², frequencies 5 to 500 Hz, exponents all of [1, 3] with the usual ones more often; every
+    tenth start lies on the plate.
+    """
+    generator = np.random.default_rng(seed)
+    default = Conveyor()
+
+    def around(value):
+        return value * 10.0 ** generator.uniform(-1.0, 1.0, count)
+
+    points = np.empty((count, len(PARAMETERS)))
+    points[:, ACCELERATION] = np.minimum(around(default.acceleration), 150.0)
+    points[:, ANGLE] = np.minimum(around(default.angle), 0.5 * math.pi)
+    points[:, FREQUENCY] = around(default.frequency)
+    points[:, PSI0] = generator.uniform(0.0, 2.0 * math.pi, count)
+    points[:, STIFFNESS] = around(default.stiffness)
+    points[:, DAMPING] = around(default.damping)
+    points[:, FRICTION] = around(default.friction)
+    points[:, MASS] = around(default.mass)
+    usual = generator.choice([1.0, 1.5, 1.5, 2.0, 3.0], count)
+    points[:, EXPONENT] = np.where(generator.random(count) < 0.5, usual, generator.uniform(1.0, 3.0, count))
+    points[:, GRAVITY] = default.gravity
+    points[:, TENSION] = generator.integers(len(TENSION_MODES), size=count)
+    points[:, Z0] = np.where(generator.random(count) < 0.1, np.nan, generator.uniform(-1e-4, 5e-3, count))
+    points[:, VZ0] = generator.normal(0.0, 0.2, count)
+    return points
+
+
+def deepest_possible(conveyor: Conveyor, start: Start) -> float:
+    """A penetration (m) that no run can exceed: the spring has taken up all energy that there can be.
+
+    In the frame of the plate the part starts with the speed |v| ≤ |ż0| + a_z/ω above the plate by at most h; each
+    flight can add up to the plate's own speed to it. The bound takes the speed after falling from the highest point
+    that repeated throws without loss reach, generously: twice the sum of all speeds, and the pull of gravity and plate.
+    """
+    omega = 2.0 * math.pi * conveyor.frequency
+    a_z = conveyor.acceleration * math.sin(conveyor.angle)
+    height = 0.0 if start.z == "conveyor" else abs(start.z)
+    throws = 2.0 + 0.2 * conveyor.frequency
+    speed = abs(start.vz) + 2.0 * throws * a_z / omega + math.sqrt(2.0 * conveyor.gravity * (height + a_z / omega**2))
+    power = conveyor.exponent + 1.0
+    kinetic = (power * conveyor.mass * speed**2 / (2.0 * conveyor.stiffness)) ** (1.0 / power)
+    static = (power * conveyor.mass * (conveyor.gravity + a_z) / conveyor.stiffness) ** (1.0 / conveyor.exponent)
+    inside = max(-start.z - a_z / omega**2, 0.0) if start.z != "conveyor" else 0.0
+    return 2.0 * (kinetic + static) + 2.0 * (inside + height + a_z / omega**2)
