@@ -195,6 +195,11 @@ def step_length(c, series, w0, v0):
         length = (allowed / last) ** (1.0 / ORDER)
     if before > 0.0:
         length = min(length, (allowed / before) ** (1.0 / (ORDER - 1)))
+    if c.edge_w > 0.0 and series[SPRING, 0] > 0.0:
+        # Behind the radius of convergence of w^(2p+1) v may still be right, but not the sign of the force.
+        of_spring = c.stiffness * abs(series[SPRING, ORDER - 1])
+        allowed = c.tolerance * (c.stiffness * series[SPRING, 0] + w0 * (c.damping * abs(v0) + c.gravity))
+        length = min(length, (allowed / of_spring) ** (1.0 / (ORDER - 1)))
     return length
 
 

@@ -34,5 +34,5 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     axes.set_ylabel("mean feeding velocity in m/s")
     axes.set_ylim(bottom=0.0)
-    axes.legend(loc="upper left")
+    style.legend_above(figure, axes, ncols=2)
     return figure

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from conveyor.model import Conveyor, conveyor_motion
 from plots import style
@@ -34,8 +35,13 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     panels[0].set_ylabel("mean feeding velocity in m/s")
     panels[0].set_ylim(bottom=0.0)
-    states = [state for state in style.STATE_COLOURS if any((table.state == state).any() for table in tables.values())]
-    handles = [Line2D([], [], color=style.STATE_COLOURS[state], marker="o", linestyle="") for state in states]
-    handles.append(Line2D([], [], color=style.PLATE, linewidth=0.8, linestyle="--"))
-    panels[1].legend(handles, [*states, "largest velocity of the conveyor"], loc="lower right")
+    present = {state for table in tables.values() for state in table.state}
+    handles = {
+        state: Line2D([], [], color=colour, marker="o", linestyle="")
+        for state, colour in style.STATE_COLOURS.items()
+        if state in present
+    }
+    handles["largest velocity of the conveyor"] = Line2D([], [], color=style.PLATE, linewidth=0.8, linestyle="--")
+    handles["two states (paper)"] = Patch(color="0.93")
+    figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=len(handles))
     return figure

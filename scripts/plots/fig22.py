@@ -11,11 +11,13 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     figure = style.figure(style.COLUMN, 62.0)
     axes = figure.subplots()
     axes.axhline(0.0, color="black", linewidth=0.6)
-    published, converged = tables["published"], tables["converged"]
-    axes.plot(published.acceleration, published["lambda"], color=style.PUBLISHED, label=style.PUBLISHED_LABEL)
-    axes.plot(converged.acceleration, converged["lambda"], color=style.CONVERGED, label=style.CONVERGED_LABEL)
+    for role, colour, width, label in (
+        ("published", style.PUBLISHED, 1.6, style.PUBLISHED_LABEL),
+        ("converged", style.CONVERGED, 0.8, style.CONVERGED_LABEL),
+    ):
+        axes.plot(tables[role].acceleration, tables[role]["lambda"], color=colour, linewidth=width, label=label)
     style.mark(axes, settings["critical_acceleration"], f"{settings['critical_acceleration']:g} m/s²")
     axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     axes.set_ylabel("Lyapunov exponent of $\\dot{x}_p$ in 1/s")
-    axes.legend(loc="upper left")
+    style.legend_above(figure, axes, ncols=2)
     return figure

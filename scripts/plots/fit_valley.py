@@ -52,7 +52,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         style_of = {"marker": marker, "color": colour, "linestyle": "", "markersize": 4.0, "markerfacecolor": "none"}
         errors.plot(row.B, 1e6 * row.error**0.5, **style_of)
         triples.plot(1e3 * row.A, 1e3 * row.C, **style_of, label=label)
-    triples.legend(loc="lower left", fontsize=6.5)
+    triples.legend(loc="lower left")
     errors.set_xlabel("$B$ in m/s²")
 
     range_of_fit = np.linspace(*fit.attrs["acceleration"], 200)

@@ -5,8 +5,14 @@ from collections.abc import Iterable
 from contextlib import AbstractContextManager
 
 import matplotlib as mpl
+import numpy as np
+import pandas as pd
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 mpl.use("Agg")
 
@@ -21,6 +27,13 @@ PUBLISHED = "#D55E00"
 CONVERGED_LABEL = "converged (exact events)"
 PUBLISHED_LABEL = "published (Euler, 0.5 µs)"
 PLATE = "#555555"
+# Curves of both methods in one panel: where they coincide, the dashes lie on the line.
+CURVES = {
+    "converged": {"color": CONVERGED, "linewidth": 1.4, "label": CONVERGED_LABEL},
+    "published": {"color": PUBLISHED, "linewidth": 0.8, "linestyle": (0, (3, 3)), "label": PUBLISHED_LABEL},
+}
+# The plate's own curves, behind those of the part.
+PLATE_CURVE = {"color": "0.8", "linewidth": 2.5, "label": "conveyor"}
 
 RESOLUTION = 600  # dpi of rasterised parts and of PNG files
 PARAMETERS = {
@@ -68,6 +81,39 @@ def mark(axes: Axes, x: float, label: str) -> None:
         va="top",
         size=7.0,
     )
+
+
+def state_map(axes: Axes, table: pd.DataFrame, x: str, y: str) -> None:
+    """Colour the plane of two axes of a sweep by its column `state`; the axes keep their units."""
+    states = list(STATE_COLOURS)
+    grid = table.assign(code=table.state.map(states.index)).pivot(index=y, columns=x, values="code")
+    axes.pcolormesh(
+        grid.columns.to_numpy(),
+        grid.index.to_numpy(),
+        grid.to_numpy(),
+        cmap=ListedColormap(list(STATE_COLOURS.values())),
+        vmin=-0.5,
+        vmax=len(states) - 0.5,
+        shading="nearest",
+        rasterized=True,
+    )
+
+
+def state_handles(*tables: pd.DataFrame) -> list[Artist]:
+    """Handles of a legend of the states that occur in the tables."""
+    occur = set().union(*(table.state.unique() for table in tables))
+    return [Patch(color=colour, label=state) for state, colour in STATE_COLOURS.items() if state in occur]
+
+
+def phase_axis(axis: Axis) -> None:
+    """Ticks of an axis of phases (rad) at multiples of π/2."""
+    names = ("0", "π/2", "π", "3π/2", "2π")
+    axis.set_ticks(0.5 * np.pi * np.arange(len(names)), names)
+
+
+def legend_above(figure: Figure, axes: Axes, **options) -> None:
+    """A legend of the artists of `axes` above all panels, where it hides no data."""
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", **options)
 
 
 def save(figure: Figure, paths: Iterable[str]) -> None:

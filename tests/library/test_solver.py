@@ -232,7 +232,7 @@ def test_errors_name_what_is_wrong(call, name):
 
 @pytest.mark.parametrize("acceleration", [0.0, 1e-300, 2.220446049250313e-16, 1e-9])
 def test_a_nearly_still_plate_is_not_passed(acceleration):
-    """Without damping a part that falls on a plate at rest comes back to its height; a root that cancels would miss it."""
+    """Without damping a part that falls on a plate at rest comes back to its height; a root that cancels misses it."""
     conveyor = Conveyor(acceleration=acceleration, damping=0.0)
     times = np.linspace(0.0, 0.3, 3001)
     gap = simulate(conveyor, Start("conveyor", vz=-0.07), duration=0.3).sample(times)["z"]

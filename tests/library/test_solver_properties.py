@@ -37,7 +37,8 @@ starts = st.builds(Start, z=st.one_of(st.just("conveyor"), st.floats(-1e-4, 1e-2
 
 @settings(max_examples=300, deadline=None, phases=NO_SHRINKING, suppress_health_check=[HealthCheck.too_slow])
 @given(conveyors, starts)
-# Found by this test: a root lost to cancellation, slip reversals without end, a stick that outlived its friction.
+# Found by this test: a root lost to cancellation, slip reversals without end, a stick that outlived its friction,
+# a force whose series did not converge, sticking and slipping at rest without end.
 @example(
     Conveyor(acceleration=2.2e-16, angle=0.75, frequency=124.0, psi0=1e-15, damping=0.0, mass=1.6e-4),
     Start("conveyor", vz=-0.07),
@@ -59,6 +60,19 @@ starts = st.builds(Start, z=st.one_of(st.just("conveyor"), st.floats(-1e-4, 1e-2
     Conveyor(acceleration=51.0, angle=5e-324, frequency=339.0, stiffness=6e4, friction=1.45, mass=2.2e-3, exponent=1.9),
     Start("conveyor"),
 )
+@example(
+    Conveyor(
+        acceleration=3.8,
+        angle=0.835,
+        frequency=17.6,
+        psi0=2.12,
+        stiffness=2.32e5,
+        damping=0.375,
+        exponent=1.15,
+        tension="clip",
+    ),
+    Start("conveyor", vz=0.412),
+)
 @example(Conveyor(acceleration=0.0, angle=0.0, frequency=7.39, damping=0.0, exponent=1.0), Start("conveyor"))
 def test_any_run_ends_with_a_finite_motion_above_the_plate(conveyor, start):
     run = simulate(conveyor, start, duration=0.2, tolerance=1e-9)
@@ -69,7 +83,7 @@ def test_any_run_ends_with_a_finite_motion_above_the_plate(conveyor, start):
     depth = conveyor_motion(conveyor, times)["z"] - sample["z"]
     assert depth.max() <= deepest_possible(conveyor, start)
     assert 0.0 <= run.contact_fraction <= 1.0 + 1e-12
-    assert (np.diff(run.events["time"]) >= -1e-16).all()  # of one moment, up to rounding
+    assert (np.diff(run.events["time"]) >= -1e-15).all()  # of one moment, up to rounding
     assert (np.abs(sample["friction_force"]) <= conveyor.friction * np.abs(sample["contact_force"]) + 1e-9).all()
 
 

@@ -1,0 +1,121 @@
+"""Rule work_precision: error and force evaluations of every method over its tolerances or steps, in one scene.
+
+The truth is the solver at its tightest tolerance. It is not its own judge: an independent integration, scipy's DOP853
+from event to event at its tightest tolerance, is among the rows, and its error is the difference of the two.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from conveyor import fixed_step, peers, states, tables
+from conveyor.model import Conveyor, Start, conveyor_motion, pack
+from conveyor.polynomial import ORDER
+from conveyor.simulation import simulate
+from rule_log import logged
+
+TRUTH = 1e-14  # tolerance
+# Where no digit is right, and where a part is that is deeper in the plate than the plate moves.
+WRONG = "wrong state"
+THROUGH = "through the plate"
+
+
+class Method(NamedTuple):
+    """One run of the chart; the tolerance or the step is None."""
+
+    method: str
+    treatment: str  # of impacts and slip reversals: exact, fixed step, or one of peers.TREATMENTS
+    tolerance: float | None
+    step: float | None
+
+
+class Result(NamedTuple):
+    """What a run comes to, in the terms that all methods share."""
+
+    mean_velocity: float  # m/s
+    end: np.ndarray  # ẋ, z, ż (m/s, m, m/s), shape (3,)
+    evaluations: int
+    status: str
+
+
+def methods(settings: dict) -> list[Method]:
+    """All runs of a scene in the order of the table."""
+    listed = [Method("event", "exact", tolerance, None) for tolerance in settings["tolerances"]]
+    listed += [Method(name, "fixed step", None, step) for name in fixed_step.METHODS for step in settings["steps"]]
+    for treatment, integrators in settings["peers"].items():
+        for name, tolerances in integrators.items():
+            listed += [Method(name, treatment, tolerance, None) for tolerance in tolerances]
+    return listed
+
+
+def scene(settings: dict) -> tuple[Conveyor, Start]:
+    """The conveyor and the start that the settings describe."""
+    model = dict(settings["model"])
+    start = Start(model.pop("z0"), model.pop("vz0"))
+    return Conveyor(**model), start
+
+
+def follow(method: Method, settings: dict) -> Result:
+    """One run. A Taylor step of order n counts as n force evaluations: it finds n derivatives of the force."""
+    conveyor, start = scene(settings)
+    if method.treatment in peers.TREATMENTS:
+        run = peers.run(
+            pack(conveyor, start),
+            settings["duration"],
+            method.method,
+            method.treatment,
+            method.tolerance,
+            settings["max_evaluations"],
+        )
+        return Result(run.mean_velocity, np.array([run.vx, run.z, run.vz]), run.evaluations, run.status)
+    accuracy = {"tolerance": method.tolerance} if method.step is None else {"step": method.step}
+    run = simulate(conveyor, start, duration=settings["duration"], method=method.method, **accuracy)
+    evaluations = run.work * (ORDER if method.treatment == "exact" else 1)
+    return Result(run.mean_velocity(), np.array([run.vx_end, run.z_end, run.vz_end]), evaluations, run.status)
+
+
+def leads_to(settings: dict, end: np.ndarray) -> str:
+    """State of motion that a run with this end leads to."""
+    parameters = pack(*scene(settings))[None]
+    later = states.continued(parameters, end[1:2], end[2:3], settings["duration"])
+    return str(states.classify(later)[0][0])
+
+
+def outcome(result: Result, error: float, settings: dict, state: str) -> str:
+    """ "ok", or what is wrong with a run, which its own status need not say."""
+    if result.status != "ok":
+        return result.status
+    conveyor, _ = scene(settings)
+    plate = conveyor_motion(conveyor, np.array([settings["duration"], 0.5 / conveyor.frequency]))["z"]
+    stroke = np.abs(plate).max()
+    if result.end[1] < plate[0] - stroke:
+        return THROUGH
+    if not error < 1.0 or leads_to(settings, result.end) != state:
+        return WRONG
+    return "ok"
+
+
+def columns(settings: dict) -> dict[str, np.ndarray]:
+    """The columns of a table of work and precision for the resolved `settings` of an entry of the config."""
+    truth = follow(Method("event", "exact", TRUTH, None), settings)
+    state = leads_to(settings, truth.end)
+    _, *scale = peers.scales(pack(*scene(settings)))
+    listed = methods(settings)
+    results = [follow(method, settings) for method in listed]
+    velocity = np.array([result.mean_velocity for result in results])
+    velocity_error = np.abs(velocity / truth.mean_velocity - 1.0)
+    outcomes = [outcome(result, error, settings, state) for result, error in zip(results, velocity_error, strict=True)]
+    return {
+        **{name: np.array(column) for name, column in zip(Method._fields, zip(*listed, strict=True), strict=True)},
+        "evaluations": np.array([result.evaluations for result in results]),
+        "mean_velocity": velocity,
+        "velocity_error": velocity_error,
+        "state_error": np.array([np.abs((result.end - truth.end) / scale).max() for result in results]),
+        "outcome": np.array(outcomes),
+    }
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        settings = snakemake.params.settings
+        tables.write(snakemake.output[0], "work_precision", columns(settings), settings=settings)
