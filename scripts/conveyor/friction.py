@@ -18,15 +18,28 @@ from .polynomial import SIZE
 
 
 @kernel
-def keeps_slipping(c, slip, lapse, gain, fastest):
-    """Whether bounds alone show that the slip velocity `slip` (m/s) does not vanish within a contact step.
+def keeps_slipping(c, slip, plate, gain, lapse, cosine, cosine_end, fastest, mu):
+    """Whether bounds alone show that the slip velocity does not vanish during a time `lapse` (s) of contact.
 
-    The plate changes its velocity by at most a_x Δt. Friction changes the part's by μ∫|F_c/m| dt; its signed integral
-    is Δż_p + g Δt = `gain`, and the force pulls with at most (d_c/m) times the speed of separation, which stays below
-    `fastest` plus what gravity and the plate can add.
+    Parameters
+    ----------
+    slip, plate : slip velocity at the beginning and the change of ẋ_s until the end, times the slip's sign, m/s
+    gain : ∫ F_c/m dt, m/s
+    cosine, cosine_end : cos θ at both ends
+    fastest : m/s; the speed of separation stays below it plus what gravity and the plate add
+    mu : friction coefficient that acts
+
+    Friction lowers the slip by μ times the impulse of the force, and raises it again where the force pulls. The plate
+    changes its velocity one way while cos θ keeps its sign.
     """
     pull = c.damping * (fastest + 2.0 * (c.gravity + c.a_z) * lapse) * lapse
-    return abs(slip) > c.a_x * lapse + c.friction * (abs(gain) + 2.0 * pull)
+    turn = c.omega * lapse
+    rise, fall = max(plate, 0.0), max(-plate, 0.0)
+    if cosine * cosine_end <= 0.0 or turn > 1.0:
+        rise = fall = c.a_x * min(max(abs(cosine), abs(cosine_end)) + turn, 1.0) * lapse
+    forward = slip - fall - mu * (gain + pull)
+    backward = slip + plate - mu * gain - rise - mu * pull
+    return max(forward, backward) > 0.0
 
 
 @kernel
@@ -46,12 +59,16 @@ def slip_end(c, series, start, length, slip, sigma, mu):
 
 
 @kernel
-def stick_end(c, series, start, length):
-    """Where, in (start, length] of a contact step, |ẍ_s| outgrows μ F_c/m; infinity if it does not."""
+def stick_end(c, series, start, length, cosine, cosine_end):
+    """Where, in (start, length] of a contact step, |ẍ_s| outgrows μ F_c/m; infinity if it does not.
+
+    `cosine` and `cosine_end` are cos θ at the ends: |ẍ_s| = a_x |cos θ| has one branch where they agree in sign.
+    """
     end = math.inf
     for direction in (-1.0, 1.0):
-        expand_force(c, series, c.friction, direction * c.a_x, c.friction * c.rest_force)
-        end = min(end, polynomial.first_root(series, SCRATCH, start, length))
+        if direction * cosine <= 0.0 or direction * cosine_end <= 0.0:
+            expand_force(c, series, c.friction, direction * c.a_x, c.friction * c.rest_force)
+            end = min(end, polynomial.first_root(series, SCRATCH, start, length))
     return end
 
 

@@ -199,16 +199,22 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
             here = 0.0
             w_here, v_here, t_here, sine_here, cosine_here = w, v, 0.0, sine, cosine
             slip = speed_x * sine - vx
-            gain = speed_z * (sine_end - sine) - v_end + v + c.gravity * lapse
-            keeps = sigma != 0.0 and friction.keeps_slipping(c, slip, lapse, gain, max(abs(v), abs(v_end)))
+            fastest = max(-v, -v_end, 0.0)
             while True:
                 there = length
                 changed = False
-                if feeding and not keeps:
+                if feeding:
+                    change = math.inf
                     if sigma == 0.0:
-                        change = friction.stick_end(c, series, here, length)
+                        change = friction.stick_end(c, series, here, length, cosine_here, cosine_end)
                     else:
-                        change = friction.slip_end(c, series, here, length, slip, sigma, mu)
+                        ahead = lapse - t_here
+                        plate = sigma * speed_x * (sine_end - sine_here)
+                        gain = speed_z * (sine_end - sine_here) - v_end + v_here + c.gravity * ahead
+                        if not friction.keeps_slipping(
+                            c, sigma * slip, plate, gain, ahead, cosine_here, cosine_end, fastest, mu
+                        ):
+                            change = friction.slip_end(c, series, here, length, slip, sigma, mu)
                     if change < length:
                         there = change
                         changed = True
