@@ -19,6 +19,7 @@ report: "workflow/report/workflow.rst"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/sweeps.smk"
 include: "workflow/rules/analysis.smk"
+include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/figures.smk"
 
 

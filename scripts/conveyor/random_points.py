@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from .lyapunov import sample_points
 from .model import (
     ACCELERATION,
     ANGLE,
@@ -22,7 +23,10 @@ from .model import (
     Z0,
     Conveyor,
     Start,
+    unpack,
 )
+from .parallel import for_each_chunk
+from .trajectory import SAMPLES
 
 
 def random_points(count: int, seed: int) -> np.ndarray:
@@ -53,6 +57,38 @@ def random_points(count: int, seed: int) -> np.ndarray:
     points[:, Z0] = np.where(generator.random(count) < 0.1, np.nan, generator.uniform(-1e-4, 5e-3, count))
     points[:, VZ0] = generator.normal(0.0, 0.2, count)
     return points
+
+
+def deepest(
+    parameters: np.ndarray,
+    times: np.ndarray,
+    tolerance: float,
+    *,
+    threads: int = 1,
+    progress: str | None = None,
+) -> np.ndarray:
+    """Largest penetration (m) at `times` (s, ascending, shape (k,)) of the runs of `parameters`, shape (n, 13).
+
+    Shape (n,); NaN for a run that does not reach the last time. The other parameters are those of sweep.run.
+    """
+    depths = np.empty(len(parameters))
+
+    def work(begin, end):
+        rows = parameters[begin:end]
+        heights = np.empty((len(rows), len(times)))
+        sample_points(rows, times, tolerance, SAMPLES.index("z"), False, heights)
+        omega = 2.0 * math.pi * rows[:, FREQUENCY, None]
+        stroke = rows[:, ACCELERATION, None] * np.sin(rows[:, ANGLE, None]) / omega**2
+        plates = -stroke * np.cos(omega * times + rows[:, PSI0, None])
+        depths[begin:end] = np.max(plates - heights, axis=1)
+
+    for_each_chunk(work, len(parameters), threads=threads, progress=progress)
+    return depths
+
+
+def deepest_allowed(parameters: np.ndarray) -> np.ndarray:
+    """`deepest_possible` for each row of `parameters`, shape (n, 13): m, shape (n,)."""
+    return np.array([deepest_possible(*unpack(row)) for row in parameters])
 
 
 def deepest_possible(conveyor: Conveyor, start: Start) -> float:

@@ -119,6 +119,31 @@ COLUMNS = {
         number("scale_low", "1", "smallest scale of the scaling region, in units of the portrait's extent"),
         number("scale_high", "1", "largest scale of the scaling region, in units of the portrait's extent"),
     ),
+    "random_points": (
+        *RESULTS,
+        *FEATURES,
+        number("max_depth", "m", "largest penetration at the moments that were looked at"),
+        number("allowed_depth", "m", "penetration that no run can exceed"),
+    ),
+    "benchmark": (
+        text("case", "name of the case"),
+        text("motion", "what the part does"),
+        number("acceleration", "m/s²", "amplitude of the excitation"),
+        number("z0", "m", "initial height"),
+        number("duration", "s", "length of the timed runs"),
+        number("compared", "s", "length of the runs whose mean velocities are compared"),
+        number("mean_velocity", "m/s", "mean feeding velocity, from an independent integration"),
+        number("error", "1", "relative error of the solver's mean velocity"),
+        number("euler_error", "1", "relative error of Euler's mean velocity"),
+        count("steps", "Taylor steps of a timed run"),
+        count("evaluations", "derivatives of the contact force in a timed run"),
+        count("events", "events of a timed run"),
+        count("euler_steps", "steps of Euler in a timed run"),
+        number("seconds", "s", "median wall time of the solver"),
+        number("euler_seconds", "s", "median wall time of Euler"),
+        number("speed", "1", "ratio of the two"),
+        count("repeats", "rounds of timed runs"),
+    ),
 }
 
 

@@ -16,6 +16,8 @@ PARTS = ("Snakefile", "workflow", "profiles", "config", "scripts")
 
 FIGURES = ("fig03", "fig08", "fig22")
 TARGETS = tuple(f"figures/{figure}.pdf" for figure in FIGURES)
+# Sections that are no entries with a table each.
+SINGLE = ("benchmark", "random_points")
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}
 COARSE_PAIRS = {"axes": {"acceleration": {"num": 3}}, "duration": 0.1}
 TINY = {
@@ -41,7 +43,7 @@ def small_config() -> dict:
     config = merged(read_config(), TINY)
     config["figures"] = {figure: config["figures"][figure] for figure in FIGURES}
     used = {table for entry in config["figures"].values() for table in entry["tables"].values()}
-    for section in set(config) - {"prefix", "model", "solver", "figures"}:
+    for section in set(config) - {"prefix", "model", "solver", "figures", *SINGLE}:
         config[section] = {name: entry for name, entry in config[section].items() if f"{section}/{name}" in used}
     return config
 
