@@ -60,16 +60,20 @@ def slip_end(c, series, start, length, slip, sigma, mu):
 
 @kernel
 def stick_end(c, series, start, length, cosine, cosine_end):
-    """Where, in (start, length] of a contact step, |ẍ_s| outgrows μ F_c/m; infinity if it does not.
+    """Where, in (start, length] of a contact step, |ẍ_s| outgrows μ F_c/m, and whether it stays so until the end.
 
-    `cosine` and `cosine_end` are cos θ at the ends: |ẍ_s| = a_x |cos θ| has one branch where they agree in sign.
+    `cosine` and `cosine_end` are cos θ at the ends: |ẍ_s| = a_x |cos θ| has one branch where they agree in sign. The
+    answer is infinity where the part sticks on. While |ẍ_s| > μ F_c/m the slip that begins cannot end.
     """
-    end = math.inf
+    end, lasting = math.inf, False
     for direction in (-1.0, 1.0):
         if direction * cosine <= 0.0 or direction * cosine_end <= 0.0:
             expand_force(c, series, c.friction, direction * c.a_x, c.friction * c.rest_force)
-            end = min(end, polynomial.first_root(series, SCRATCH, start, length))
-    return end
+            root = polynomial.first_root(series, SCRATCH, start, length)
+            if root < end:
+                series[SCRATCH] *= -1.0
+                end, lasting = root, polynomial.first_root(series, SCRATCH, root, length) == math.inf
+    return end, lasting
 
 
 @kernel

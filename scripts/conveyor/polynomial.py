@@ -10,7 +10,8 @@ SIZE = 24
 
 # A root that a search starts on is left behind by at least this part of the step, so that it is not found twice.
 LEAVE = 1e-6
-RESOLUTION = 1e-15
+# Corrections of this relative size end an iteration that converges quadratically: the next one would be its square.
+CLOSE = 1e-9
 # Values below this part of the sum of all terms have no sign that one could trust.
 NOISE = 1e-15
 MAX_ITERATIONS = 200
@@ -39,39 +40,38 @@ def value(series, row, s):
 
 
 @kernel
-def slope(series, row, s):
-    """Σ n c_n sⁿ⁻¹."""
+def derivatives(series, row, s):
+    """Σ c_n sⁿ and its first and second derivatives, each in two sums that do not wait for each other."""
+    value0 = value1 = slope0 = slope1 = bend0 = bend1 = 0.0
     s2 = s * s
-    s4 = s2 * s2
-    sum0 = sum1 = sum2 = sum3 = 0.0
-    for n in range(SIZE - 4, -1, -4):
-        sum0 = sum0 * s4 + (n + 1) * series[row, n + 1]
-        sum1 = sum1 * s4 + (n + 2) * series[row, n + 2]
-        sum2 = sum2 * s4 + (n + 3) * series[row, n + 3]
-        sum3 = sum3 * s4 + ((n + 4) * series[row, n + 4] if n + 4 < SIZE else 0.0)
-    return (sum0 + s * sum1) + s2 * (sum2 + s * sum3)
+    for n in range(ORDER, -1, -2):
+        c0, c1, c2, c3 = series[row, n], series[row, n + 1], series[row, n + 2], series[row, n + 3]
+        value0 = value0 * s2 + c0
+        value1 = value1 * s2 + c1
+        slope0 = slope0 * s2 + (n + 1) * c1
+        slope1 = slope1 * s2 + (n + 2) * c2
+        bend0 = bend0 * s2 + (n + 1) * (n + 2) * c2
+        bend1 = bend1 * s2 + (n + 2) * (n + 3) * c3
+    return value0 + s * value1, slope0 + s * slope1, bend0 + s * bend1
 
 
 @kernel
 def root_of_crossing(series, row, low, high):
     """The root of a polynomial that changes its sign once between `low` and `high`, by safeguarded Newton steps."""
-    resolution = RESOLUTION * max(abs(low), abs(high))
+    close = CLOSE * max(abs(low), abs(high))
     f_low, f_high = value(series, row, low), value(series, row, high)
     sign = 1.0 if f_high > 0.0 else -1.0
     s = high - f_high * (high - low) / (f_high - f_low) if f_high != f_low else high
     for _ in range(MAX_ITERATIONS):
-        f = value(series, row, s)
+        f, gradient, _ = derivatives(series, row, s)
         if sign * f > 0.0:
             high = s
         else:
             low = s
-        gradient = slope(series, row, s)
         following = s - f / gradient if gradient != 0.0 else low
-        if not low < following < high:
-            following = 0.5 * (low + high)
-        if abs(following - s) <= resolution:
-            return following
-        s = following
+        if abs(following - s) <= close:
+            return min(max(following, low), high)
+        s = following if low < following < high else 0.5 * (low + high)
     return s
 
 
@@ -89,38 +89,47 @@ def shift(series, row, s):
 def search(series, row, start, end, shortest, noise):
     """Look for the first root in (start, end]: whether there is one, where the search stands, and `shortest`.
 
-    The largest |second derivative| on [0, end] makes a parabola that lies below the polynomial. Steps to the roots of
-    such parabolas cannot jump over a root, whatever the signs at the ends are, and converge quadratically to a simple
-    root. While `shortest` > 0 the search leaves a root on which it began: steps have at least this length, and values
-    below `noise` no sign.
+    The second derivative at s and bounds on the second and third make a parabola that lies below the polynomial from s
+    to `end`. Steps to the roots of such parabolas cannot jump over a root, whatever the signs at the ends are, and
+    converge quadratically to a simple root. While `shortest` > 0 the search leaves a root on which it began: steps
+    have at least this length, and values below `noise` no sign.
 
     Returns
     -------
     answer, s, shortest : FOUND with the root, ABSENT with `end`, or OPEN where the parabolas are too narrow to get on
     """
-    curvature = 0.0
+    second = third = 0.0
     power = 1.0
     for n in range(2, ORDER + 1):
-        curvature += n * (n - 1) * abs(series[row, n]) * power
+        second += n * (n - 1) * abs(series[row, n]) * power
+        third += (n + 1) * n * (n - 1) * abs(series[row, n + 1]) * power
         power *= end
     s = start
-    f = value(series, row, s)
+    f, gradient, bend = derivatives(series, row, s)
     for _ in range(MAX_STEPS):
         f = max(f, 0.0)
-        gradient = slope(series, row, s)
-        if abs(gradient) > curvature * (end - s):
-            # Monotone from here on: the sign at the end decides.
+        left = end - s
+        lowest, highest = max(-second, bend - third * left), min(second, bend + third * left)
+        if gradient >= 0.0 and gradient + min(lowest, 0.0) * left >= 0.0:
+            return ABSENT, end, 0.0
+        if gradient + max(highest, 0.0) * left < 0.0:
+            # Falling from here on: the sign at the end decides.
             low = s + shortest
-            if gradient > 0.0 or low >= end or value(series, row, end) > (-noise if shortest > 0.0 else 0.0):
+            if low >= end or value(series, row, end) > (-noise if shortest > 0.0 else 0.0):
                 return ABSENT, end, 0.0
             return FOUND, low if value(series, row, low) <= 0.0 else root_of_crossing(series, row, low, end), 0.0
-        advance = (gradient + math.sqrt(gradient * gradient + 2.0 * curvature * f)) / curvature
-        if shortest == 0.0 and advance <= RESOLUTION * end:
-            return FOUND, s, 0.0
+        root = math.sqrt(max(gradient * gradient - 2.0 * lowest * f, 0.0))
+        advance = 0.0
+        if gradient > 0.0:
+            advance = (gradient + root) / -lowest
+        elif f > 0.0:
+            advance = 2.0 * f / (root - gradient)
+        if shortest == 0.0 and advance <= CLOSE * end:
+            return FOUND, s + advance, 0.0
         if s + max(advance, shortest) > end:
             return ABSENT, end, shortest
         s += max(advance, shortest)
-        f = value(series, row, s)
+        f, gradient, bend = derivatives(series, row, s)
         if shortest > 0.0 and abs(f) <= noise:
             shortest *= 2.0
         elif f <= 0.0:

@@ -200,13 +200,14 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
             w_here, v_here, t_here, sine_here, cosine_here = w, v, 0.0, sine, cosine
             slip = speed_x * sine - vx
             fastest = max(-v, -v_end, 0.0)
+            released = False
             while True:
                 there = length
                 changed = False
-                if feeding:
+                if feeding and not released:
                     change = math.inf
                     if sigma == 0.0:
-                        change = friction.stick_end(c, series, here, length, cosine_here, cosine_end)
+                        change, released = friction.stick_end(c, series, here, length, cosine_here, cosine_end)
                     else:
                         ahead = lapse - t_here
                         plate = sigma * speed_x * (sine_end - sine_here)

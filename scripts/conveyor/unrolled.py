@@ -7,19 +7,28 @@ half the time. Writing them out is left to this module.
 from .polynomial import ORDER
 
 
-def product(a: str, b: str, n: int) -> str:
-    """Source of Σ_k a_k b_{n-k}, in up to four sums that do not wait for each other."""
-    terms = [f"{a}{k} * {b}{n - k}" for k in range(n + 1)]
+def total(terms: list[str]) -> str:
+    """Source of a sum, in up to four partial sums that do not wait for each other."""
     return " + ".join(f"({' + '.join(terms[lane::4])})" for lane in range(min(4, len(terms))))
 
 
+def product(a: str, b: str, n: int) -> str:
+    """Source of Σ_k a_k b_{n-k}. The newest coefficients, a_n and b_n, come last: the sum of the others is ready by then."""
+    ends = [f"{a}0 * {b}{n}"] + ([f"{a}{n} * {b}0"] if n else [])
+    middle = [f"{a}{k} * {b}{n - k}" for k in range(1, n)]
+    return (f"({total(middle)}) + " if middle else "") + f"({' + '.join(ends)})"
+
+
 def square(a: str, n: int) -> str:
-    """Source of Σ_k a_k a_{n-k}, each pair once."""
-    pairs = " + ".join(f"{a}{k} * {a}{n - k}" for k in range((n + 1) // 2))
-    parts = [f"2.0 * ({pairs})"] if pairs else []
+    """Source of Σ_k a_k a_{n-k}, each pair once, the newest coefficient a_n last."""
+    if n == 0:
+        return f"{a}0 * {a}0"
+    pairs = [f"{a}{k} * {a}{n - k}" for k in range(1, (n + 1) // 2)]
+    parts = [f"2.0 * ({total(pairs)})"] if pairs else []
     if n % 2 == 0:
         parts.append(f"{a}{n // 2} * {a}{n // 2}")
-    return " + ".join(parts)
+    middle = f"({' + '.join(parts)}) + " if parts else ""
+    return f"{middle}2.0 * {a}0 * {a}{n}"
 
 
 def hertz_source() -> str:
