@@ -13,7 +13,7 @@ def total(terms: list[str]) -> str:
 
 
 def product(a: str, b: str, n: int) -> str:
-    """Source of Σ_k a_k b_{n-k}. The newest coefficients, a_n and b_n, come last: by then the sum of the others is ready."""
+    """Source of Σ_k a_k b_{n-k}; the newest coefficients, a_n and b_n, last: by then the sum of the others is ready."""
     ends = [f"{a}0 * {b}{n}"] + ([f"{a}{n} * {b}0"] if n else [])
     middle = [f"{a}{k} * {b}{n - k}" for k in range(1, n)]
     return (f"({total(middle)}) + " if middle else "") + f"({' + '.join(ends)})"
