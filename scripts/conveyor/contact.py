@@ -36,7 +36,7 @@ from .model import (
     TENSION_ALLOW,
     TENSION_CLIP,
 )
-from .polynomial import ORDER, SIZE
+from .polynomial import ORDER, SHIFTED, SIZE
 
 # What ends a contact step before its full length.
 NOTHING, SEPARATION, FORCE_SIGN = range(3)
@@ -50,10 +50,13 @@ Constants = namedtuple(
     "tolerance scale_w scale_v edge_w rest_speed rest_force",
 )
 
-# Rows of the Taylor coefficients of one step, an array of shape (ROWS, SIZE): SQUARE is w², SPRING w^(2p+1), COSINE_W
-# the cosine times w. SCRATCH is free, and the row behind it is left to the search for roots.
-W, T, V, SINE, COSINE, SQUARE, SPRING, COSINE_W, SCRATCH = range(9)
-ROWS = 10
+# A workspace is an array of rows of Taylor coefficients, shape (FIRST + steps ROWS, SIZE). The first row is left to the
+# search for roots, SCRATCH is free, and each step has ROWS rows from some row `at` on: `at` + W, and so forth. SQUARE
+# is w², SPRING w^(2p+1), COSINE_W the cosine times w.
+SCRATCH = SHIFTED + 1
+FIRST = SCRATCH + 1
+W, T, V, SINE, COSINE, SQUARE, SPRING, COSINE_W = range(8)
+ROWS = 8
 
 
 @kernel
@@ -94,8 +97,8 @@ def constants(parameters, tolerance):
 
 @kernel
 def workspace():
-    """An empty series."""
-    return np.zeros((ROWS, SIZE))
+    """Room for the series of one step."""
+    return np.zeros((FIRST + ROWS, SIZE))
 
 
 @kernel
@@ -110,74 +113,72 @@ expand_hertz = kernel(unrolled.expand_hertz)
 
 
 @kernel
-def expand(c, series, w0, v0, sine0, cosine0, free):
-    """Fill the rows W to COSINE_W of `series` from their values at s = 0; `free` leaves the contact force out."""
+def expand(c, series, at, w0, v0, sine0, cosine0, free):
+    """Fill the rows W to COSINE_W of a step from their values at s = 0; `free` leaves the contact force out."""
     stiffness = 0.0 if free else c.stiffness
     damping = 0.0 if free else c.damping
     gravity, a_z, omega = c.gravity, c.a_z, c.omega
     if c.exponent == 1.5:
-        expand_hertz(w0, v0, sine0, cosine0, gravity, a_z, omega, stiffness, damping, series)
+        expand_hertz(w0, v0, sine0, cosine0, gravity, a_z, omega, stiffness, damping, series, at)
         return
-    w, t, v, square, spring = series[W], series[T], series[V], series[SQUARE], series[SPRING]
-    sine, cosine = series[SINE], series[COSINE]
+    w, t, v, sine, cosine = at + W, at + T, at + V, at + SINE, at + COSINE
+    square, spring = at + SQUARE, at + SPRING
     hooke = c.exponent == 1.0
     exponent = 2.0 * c.exponent + 1.0
-    w[0] = w0
-    t[0] = 0.0
-    v[0] = v0
-    sine[0] = sine0
-    cosine[0] = cosine0
-    square[0] = w0 * w0
+    series[w, 0] = w0
+    series[t, 0] = 0.0
+    series[v, 0] = v0
+    series[sine, 0] = sine0
+    series[cosine, 0] = cosine0
+    series[square, 0] = w0 * w0
     # Without the recurrence for the power (w near zero) the spring does not act: see the head of this file.
     general = not hooke and w0 > c.edge_w
-    spring[:] = 0.0
+    series[spring, :] = 0.0
     if general:
-        spring[0] = w0**exponent
+        series[spring, 0] = w0**exponent
     for n in range(ORDER):
         inverse = 1.0 / (n + 1)
-        w[n + 1] = 0.5 * v[n] * inverse
-        t[n + 1] = w[n] * inverse
+        series[w, n + 1] = 0.5 * series[v, n] * inverse
+        series[t, n + 1] = series[w, n] * inverse
         cosine_w = sine_w = cube = 0.0
-        doubled = w[n + 1] * w0
+        doubled = series[w, n + 1] * w0
         for k in range(n + 1):
-            cosine_w += cosine[k] * w[n - k]
-            sine_w += sine[k] * w[n - k]
-            cube += square[k] * w[n - k]
-            doubled += w[k] * w[n + 1 - k]
+            cosine_w += series[cosine, k] * series[w, n - k]
+            sine_w += series[sine, k] * series[w, n - k]
+            cube += series[square, k] * series[w, n - k]
+            doubled += series[w, k] * series[w, n + 1 - k]
         if hooke:
-            spring[n] = cube
-        series[COSINE_W, n] = cosine_w
-        square[n + 1] = doubled
-        cosine[n + 1] = -omega * sine_w * inverse
-        sine[n + 1] = omega * cosine_w * inverse
-        rate = gravity * w[n] + a_z * cosine_w - stiffness * spring[n]
-        v[n + 1] = rate * inverse - damping * doubled
+            series[spring, n] = cube
+        series[at + COSINE_W, n] = cosine_w
+        series[square, n + 1] = doubled
+        series[cosine, n + 1] = -omega * sine_w * inverse
+        series[sine, n + 1] = omega * cosine_w * inverse
+        rate = gravity * series[w, n] + a_z * cosine_w - stiffness * series[spring, n]
+        series[v, n + 1] = rate * inverse - damping * doubled
         if general:
-            spring[n + 1] = power_term(w, spring, exponent, n + 1)
+            series[spring, n + 1] = power_term(series, w, spring, exponent, n + 1)
 
 
 @kernel
-def power_term(w, power, exponent, n):
-    """Coefficient n ≥ 1 of w^exponent from those below it, for w_0 > 0."""
+def power_term(series, w, power, exponent, n):
+    """Coefficient n ≥ 1 of w^exponent (row `power`) from those below it, for w_0 > 0."""
     total = 0.0
     for k in range(1, n + 1):
-        total += (k * exponent - (n - k)) * w[k] * power[n - k]
-    return total / (n * w[0])
+        total += (k * exponent - (n - k)) * series[w, k] * series[power, n - k]
+    return total / (n * series[w, 0])
 
 
 @kernel
-def expand_force(c, series, scale, plate, slack):
+def expand_force(c, series, at, scale, plate, slack):
     """Fill the row SCRATCH with the series of w (scale F_c/m + plate cos θ + slack), of the sign of the bracket."""
-    out, spring, square, cosine_w = series[SCRATCH], series[SPRING], series[SQUARE], series[COSINE_W]
-    w = series[W]
-    out[:] = 0.0
     for n in range(ORDER):
-        force = c.stiffness * spring[n] + c.damping * (n + 1) * square[n + 1]
-        out[n] = scale * force + plate * cosine_w[n] + slack * w[n]
+        force = c.stiffness * series[at + SPRING, n] + c.damping * (n + 1) * series[at + SQUARE, n + 1]
+        series[SCRATCH, n] = scale * force + plate * series[at + COSINE_W, n] + slack * series[at + W, n]
+    series[SCRATCH, ORDER] = 0.0
 
 
 @kernel
-def step_length(c, series, w0, v0):
+def step_length(c, series, at, w0, v0):
     """Length in s at which the last two terms of the series are below the tolerance.
 
     Those of v and of the excitation's phase count; w = ∫ v/2 ds follows v. The scale of v is the speed of an impact
@@ -188,28 +189,28 @@ def step_length(c, series, w0, v0):
     scale = math.sqrt(v0 * v0 + 2.0 * c.stiffness * potential / (c.exponent + 1.0))
     scale = max(scale, c.scale_v)
     allowed = c.tolerance * scale
-    last = max(abs(series[V, ORDER]), scale * max(abs(series[SINE, ORDER]), abs(series[COSINE, ORDER])))
-    before = abs(series[V, ORDER - 1])
+    last = max(abs(series[at + V, ORDER]), scale * max(abs(series[at + SINE, ORDER]), abs(series[at + COSINE, ORDER])))
+    before = abs(series[at + V, ORDER - 1])
     length = 1e300
-    if last > 0.0:
-        length = (allowed / last) ** (1.0 / ORDER)
     if before > 0.0:
-        length = min(length, (allowed / before) ** (1.0 / (ORDER - 1)))
-    if c.edge_w > 0.0 and series[SPRING, 0] > 0.0:
+        length = (allowed / before) ** (1.0 / (ORDER - 1))
+    if last * length > before:
+        length = min(length, (allowed / last) ** (1.0 / ORDER))
+    if c.edge_w > 0.0 and series[at + SPRING, 0] > 0.0:
         # Behind the radius of convergence of w^(2p+1) v may still be right, but not the sign of the force.
-        of_spring = c.stiffness * abs(series[SPRING, ORDER - 1])
-        allowed = c.tolerance * (c.stiffness * series[SPRING, 0] + w0 * (c.damping * abs(v0) + c.gravity))
+        of_spring = c.stiffness * abs(series[at + SPRING, ORDER - 1])
+        allowed = c.tolerance * (c.stiffness * series[at + SPRING, 0] + w0 * (c.damping * abs(v0) + c.gravity))
         length = min(length, (allowed / of_spring) ** (1.0 / (ORDER - 1)))
     return length
 
 
 @kernel
-def step(c, series, w0, v0, sine0, cosine0, pulled):
+def step(c, series, at, w0, v0, sine0, cosine0, pulled):
     """Expand the motion from w0 ≥ 0, v0 and find where its step ends.
 
     Parameters
     ----------
-    c, series : Constants and the series to fill
+    c, series, at : Constants, a workspace, and the first row of this step in it
     w0, v0 : √penetration (√m) and speed of approach (m/s)
     sine0, cosine0 : of the excitation's phase
     pulled : True while the contact force is negative; looked at for `frictionless` and `clip` only
@@ -219,29 +220,30 @@ def step(c, series, w0, v0, sine0, cosine0, pulled):
     length, w, v, lapse, event : length of the step in s; w, v at its end and the time it takes (s); what ends it:
         NOTHING, SEPARATION or FORCE_SIGN (the contact force passes zero)
     """
-    expand(c, series, w0, v0, sine0, cosine0, pulled and c.tension == TENSION_CLIP)
-    length = step_length(c, series, w0, v0)
+    expand(c, series, at, w0, v0, sine0, cosine0, pulled and c.tension == TENSION_CLIP)
+    length = step_length(c, series, at, w0, v0)
     event = NOTHING
-    w, v = polynomial.value(series, W, length), polynomial.value(series, V, length)
+    w, v = polynomial.value(series, at + W, length), polynomial.value(series, at + V, length)
     shortened = False
     if c.edge_w > 0.0 and w0 <= c.edge_w and w > c.edge_w:
-        series[SCRATCH] = -series[W]
+        for n in range(SIZE):
+            series[SCRATCH, n] = -series[at + W, n]
         series[SCRATCH, 0] += c.edge_w * (1.0 + 1e-9)
         length = min(length, polynomial.first_root(series, SCRATCH, 0.0, length))
         shortened = True
     elif w <= 0.0:
         # w starts upwards at an impact and falls through zero once: w'' has the sign of w where the plate presses on.
-        length = polynomial.root_of_crossing(series, W, 0.0 if w0 > 0.0 else LEAVE_IMPACT * length, length)
+        length = polynomial.root_of_crossing(series, at + W, 0.0 if w0 > 0.0 else LEAVE_IMPACT * length, length)
         event = SEPARATION
         shortened = True
     elif v0 < 0.0 and v > 0.0:
-        root = polynomial.first_root(series, W, 0.0, length)
+        root = polynomial.first_root(series, at + W, 0.0, length)
         if root <= length:
             length = root
             event = SEPARATION
             shortened = True
     if c.tension != TENSION_ALLOW and c.damping > 0.0:
-        expand_force(c, series, -1.0 if pulled else 1.0, 0.0, 0.0)
+        expand_force(c, series, at, -1.0 if pulled else 1.0, 0.0, 0.0)
         # The series has the factor w, and so a root of its own at a separation.
         end = length * (1.0 - LEAVE_IMPACT) if event == SEPARATION else length
         root = polynomial.first_root(series, SCRATCH, 0.0, end)
@@ -250,7 +252,7 @@ def step(c, series, w0, v0, sine0, cosine0, pulled):
             event = FORCE_SIGN
             shortened = True
     if shortened:
-        w, v = polynomial.value(series, W, length), polynomial.value(series, V, length)
+        w, v = polynomial.value(series, at + W, length), polynomial.value(series, at + V, length)
     if event == SEPARATION:
         w = 0.0
-    return length, w, v, polynomial.value(series, T, length), event
+    return length, w, v, polynomial.value(series, at + T, length), event

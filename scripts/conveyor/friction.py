@@ -14,7 +14,7 @@ import math
 from . import polynomial
 from .contact import SCRATCH, SINE, T, V, expand_force
 from .jit import kernel
-from .polynomial import SIZE
+from .polynomial import ORDER
 
 
 @kernel
@@ -43,23 +43,23 @@ def keeps_slipping(c, slip, plate, gain, lapse, cosine, cosine_end, fastest, mu)
 
 
 @kernel
-def slip_end(c, series, start, length, slip, sigma, mu):
+def slip_end(c, series, at, start, length, slip, sigma, mu):
     """Where, in (start, length] of a contact step, the slip velocity reaches zero; infinity if it does not.
 
-    `slip` is the slip velocity at `start` (m/s), `sigma` its sign (±1), `mu` the friction coefficient that acts.
+    `at` is the first row of the step, `slip` the slip velocity at `start` (m/s), `sigma` its sign (±1), `mu` the
+    friction coefficient that acts.
     """
-    out, sine, v, t = series[SCRATCH], series[SINE], series[V], series[T]
     plate = sigma * c.a_x / c.omega - mu * c.a_z / c.omega
     fall = mu * c.gravity
-    for n in range(SIZE):
-        out[n] = plate * sine[n] + mu * v[n] - fall * t[n]
-    out[0] = 0.0
-    out[0] = sigma * slip - polynomial.value(series, SCRATCH, start)
+    for n in range(ORDER + 1):
+        series[SCRATCH, n] = plate * series[at + SINE, n] + mu * series[at + V, n] - fall * series[at + T, n]
+    series[SCRATCH, 0] = 0.0
+    series[SCRATCH, 0] = sigma * slip - polynomial.value(series, SCRATCH, start)
     return polynomial.first_root(series, SCRATCH, start, length)
 
 
 @kernel
-def stick_end(c, series, start, length, cosine, cosine_end):
+def stick_end(c, series, at, start, length, cosine, cosine_end):
     """Where, in (start, length] of a contact step, |ẍ_s| outgrows μ F_c/m, and whether it stays so until the end.
 
     `cosine` and `cosine_end` are cos θ at the ends: |ẍ_s| = a_x |cos θ| has one branch where they agree in sign. The
@@ -68,10 +68,11 @@ def stick_end(c, series, start, length, cosine, cosine_end):
     end, lasting = math.inf, False
     for direction in (-1.0, 1.0):
         if direction * cosine <= 0.0 or direction * cosine_end <= 0.0:
-            expand_force(c, series, c.friction, direction * c.a_x, c.friction * c.rest_force)
+            expand_force(c, series, at, c.friction, direction * c.a_x, c.friction * c.rest_force)
             root = polynomial.first_root(series, SCRATCH, start, length)
             if root < end:
-                series[SCRATCH] *= -1.0
+                for n in range(ORDER):
+                    series[SCRATCH, n] *= -1.0
                 end, lasting = root, polynomial.first_root(series, SCRATCH, root, length) == math.inf
     return end, lasting
 

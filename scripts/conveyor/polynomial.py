@@ -5,8 +5,8 @@ import math
 from .jit import kernel
 
 # Order of every series, and the length of its coefficient arrays, whose tail stays zero.
-ORDER = 20
-SIZE = 24
+ORDER = 16
+SIZE = 20
 
 # A root that a search starts on is left behind by at least this part of the step, so that it is not found twice.
 LEAVE = 1e-6
@@ -21,8 +21,8 @@ MAX_PIECES = 1000
 
 # What a search ends with.
 FOUND, ABSENT, OPEN = range(3)
-# The last row of every series is free for the functions of this module.
-SHIFTED = -1
+# The first row of every array is free for the functions of this module.
+SHIFTED = 0
 
 
 @kernel
@@ -78,11 +78,11 @@ def root_of_crossing(series, row, low, high):
 @kernel
 def shift(series, row, s):
     """Expand the polynomial of a row about `s` instead, into the row SHIFTED."""
-    shifted = series[SHIFTED]
-    shifted[:] = series[row]
+    for n in range(SIZE):
+        series[SHIFTED, n] = series[row, n]
     for k in range(ORDER):
         for n in range(ORDER - 1, k - 1, -1):
-            shifted[n] += s * shifted[n + 1]
+            series[SHIFTED, n] += s * series[SHIFTED, n + 1]
 
 
 @kernel

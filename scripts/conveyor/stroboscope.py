@@ -17,6 +17,7 @@ import math
 import numpy as np
 
 from . import contact, polynomial
+from .contact import FIRST
 from .flight import gap, next_impact
 from .jit import kernel
 from .model import TENSION_ALLOW, TENSION_CLIP, VZ0, Z0
@@ -43,7 +44,7 @@ def expand_tangent(c, series, tangent, free):
 
     With the derivative in s, η' = w (ζ - (d_c/m) η) and ζ' = -p (k_c/m) w^(2p-1) η. `free` leaves the force out.
     """
-    w, square, stiff = series[contact.W], series[contact.SQUARE], series[contact.SCRATCH]
+    w, square, stiff = series[FIRST + contact.W], series[FIRST + contact.SQUARE], series[contact.SCRATCH]
     eta, zeta = tangent[0], tangent[1]
     damping = 0.0 if free else c.damping
     stiffness = 0.0 if free else c.exponent * c.stiffness
@@ -56,7 +57,7 @@ def expand_tangent(c, series, tangent, free):
         if general:
             stiff[0] = w[0] ** power
             for n in range(1, ORDER):
-                stiff[n] = contact.power_term(w, stiff, power, n)
+                stiff[n] = contact.power_term(series, FIRST + contact.W, contact.SCRATCH, power, n)
     for n in range(ORDER):
         drift = 0.0
         pull = 0.0
@@ -143,12 +144,15 @@ def cycle(c, series, state, tangent, features):
                 q, rate = 0.0, 0.0
                 z, vz = -height * cosine, speed_z * sine
                 continue
-        length, w_end, v_end, lapse, event = contact.step(c, series, w, v, sine, cosine, pulled)
+        length, w_end, v_end, lapse, event = contact.step(c, series, FIRST, w, v, sine, cosine, pulled)
         complete = not lapse < remaining
         if complete:
-            length = invert_time(series, length, remaining)
+            length = invert_time(series, FIRST, length, remaining)
             lapse = remaining
-            w_end, v_end = polynomial.value(series, contact.W, length), polynomial.value(series, contact.V, length)
+            w_end, v_end = (
+                polynomial.value(series, FIRST + contact.W, length),
+                polynomial.value(series, FIRST + contact.V, length),
+            )
         free = pulled and c.tension == TENSION_CLIP
         for i in range(tangent.shape[0]):
             expansion[0, 0], expansion[1, 0] = tangent[i, 0], tangent[i, 1]

@@ -8,10 +8,16 @@ import math
 
 import numpy as np
 
-from . import contact, friction, polynomial
+from . import contact, friction, memory, polynomial
 from .flight import next_impact
 from .jit import kernel
 from .model import TENSION_ALLOW, TENSION_CLIP, VZ0, Z0
+
+# Phase at which a cycle is taken to begin, rad.
+BEGIN_OF_CYCLE = -math.pi
+
+# What ends a contact step besides contact.NOTHING, SEPARATION and FORCE_SIGN.
+END_OF_CYCLE = 3
 
 # Status of a run.
 OK, TOO_MANY_EVENTS, NOT_FINITE = range(3)
@@ -59,14 +65,14 @@ def press_on(c, theta):
 
 
 @kernel
-def invert_time(series, length, tau):
+def invert_time(series, at, length, tau):
     """The s in [0, length] of a contact step at which the time since its start is `tau` (s)."""
     low, high = 0.0, length
-    total = polynomial.value(series, contact.T, length)
+    total = polynomial.value(series, at + contact.T, length)
     s = length * min(max(tau / total, 0.0), 1.0)
     for _ in range(100):
-        error = polynomial.value(series, contact.T, s) - tau
-        w = polynomial.value(series, contact.W, s)
+        error = polynomial.value(series, at + contact.T, s) - tau
+        w = polynomial.value(series, at + contact.W, s)
         if error > 0.0:
             high = s
         else:
@@ -94,20 +100,22 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
 
     Returns
     -------
-    status, events, impacts, contact_time (s), max_gap (m), steps : the status code, numbers of events and of impacts,
+    status, events, impacts, contact_time (s), max_gap (m), work : the status code, numbers of events and of impacts,
         time with contact force, largest gap, number of Taylor steps
     """
     c = contact.constants(parameters, tolerance)
-    series = contact.workspace()
+    series, steps = memory.unused()
     speed_x = c.a_x / c.omega
     speed_z = c.a_z / c.omega
     height = speed_z / c.omega
     end = times[-1]
     room = event_times.size
 
+    # Cycles begin at the plate's top, where a part that leaves the plate at all is in the air.
+    offset = ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega
     cycle = 0
-    base = 0.0
-    t = 0.0
+    base = -offset
+    t = offset
     theta = c.psi0
     sine, cosine = math.sin(theta), math.cos(theta)
     q, rate = begin(c, parameters[Z0], parameters[VZ0], theta)
@@ -119,7 +127,7 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
     sigma = 0.0
     pulled = False
     next_sample = 0
-    events = impacts = steps = pieces = 0
+    events = impacts = work = pieces = place = 0
     contact_time = 0.0
     max_gap = max(q, 0.0)
     status = OK
@@ -164,7 +172,7 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
             events += 1
             w, v = 0.0, speed
             pulled = False
-            theta = c.psi0 + c.omega * t
+            theta = BEGIN_OF_CYCLE + c.omega * t
             sine, cosine = math.sin(theta), math.cos(theta)
             if feeding:
                 slip = speed_x * sine - vx
@@ -186,10 +194,23 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
                         event_kinds[events] = SEPARATED
                     events += 1
                     continue
-            length, w_end, v_end, lapse, event = contact.step(c, series, w, v, sine, cosine, pulled)
-            steps += 1
-            theta_end = c.psi0 + c.omega * (t + lapse)
-            sine_end, cosine_end = math.sin(theta_end), math.cos(theta_end)
+            at = memory.first_row(series, steps, place)
+            if memory.repeats(c, steps, place, t, w, v, pulled):
+                length, w_end, v_end, lapse, event, sine_end, cosine_end = memory.recall(steps, place)
+            else:
+                length, w_end, v_end, lapse, event = contact.step(c, series, at, w, v, sine, cosine, pulled)
+                if t + lapse > c.period:
+                    # Every cycle begins with a step of its own, so that its steps are comparable with the last one's.
+                    lapse = c.period - t
+                    length = invert_time(series, at, length, lapse)
+                    w_end = polynomial.value(series, at + contact.W, length)
+                    v_end = polynomial.value(series, at + contact.V, length)
+                    event = END_OF_CYCLE
+                phase = BEGIN_OF_CYCLE + c.omega * (t + lapse)
+                sine_end, cosine_end = math.sin(phase), math.cos(phase)
+                memory.keep(steps, place, t, w, v, pulled, length, w_end, v_end, lapse, event, sine_end, cosine_end)
+                work += 1
+            place = min(place + 1, memory.PLACES - 1)
             pressing = not (pulled and c.tension == TENSION_CLIP)
             if pressing:
                 contact_time += min(lapse, end - base - t)
@@ -207,7 +228,7 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
                 if feeding and not released:
                     change = math.inf
                     if sigma == 0.0:
-                        change, released = friction.stick_end(c, series, here, length, cosine_here, cosine_end)
+                        change, released = friction.stick_end(c, series, at, here, length, cosine_here, cosine_end)
                     else:
                         ahead = lapse - t_here
                         plate = sigma * speed_x * (sine_end - sine_here)
@@ -215,14 +236,14 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
                         if not friction.keeps_slipping(
                             c, sigma * slip, plate, gain, ahead, cosine_here, cosine_end, fastest, mu
                         ):
-                            change = friction.slip_end(c, series, here, length, slip, sigma, mu)
+                            change = friction.slip_end(c, series, at, here, length, slip, sigma, mu)
                     if change < length:
                         there = change
                         changed = True
                 if changed:
-                    w_there = polynomial.value(series, contact.W, there)
-                    v_there = polynomial.value(series, contact.V, there)
-                    t_there = polynomial.value(series, contact.T, there)
+                    w_there = polynomial.value(series, at + contact.W, there)
+                    v_there = polynomial.value(series, at + contact.V, there)
+                    t_there = polynomial.value(series, at + contact.T, there)
                     phase = theta + c.omega * t_there
                     sine_there, cosine_there = math.sin(phase), math.cos(phase)
                 else:
@@ -231,9 +252,9 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
                 vz_here = speed_z * sine_here - v_here
                 while next_sample < times.size and base + t + t_there >= times[next_sample]:
                     tau = times[next_sample] - base - t
-                    s = invert_time(series, length, tau)
+                    s = invert_time(series, at, length, tau)
                     phase = theta + c.omega * tau
-                    w_s, v_s = polynomial.value(series, contact.W, s), polynomial.value(series, contact.V, s)
+                    w_s, v_s = polynomial.value(series, at + contact.W, s), polynomial.value(series, at + contact.V, s)
                     samples[next_sample, Z] = -height * math.cos(phase) - w_s * w_s
                     samples[next_sample, VZ] = speed_z * math.sin(phase) - v_s
                     force = contact.force(c, w_s, v_s) if pressing else 0.0
@@ -284,8 +305,8 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
 
             if next_sample == times.size:
                 break
-            t += lapse
-            theta, sine, cosine = theta_end, sine_end, cosine_end
+            t = c.period if event == END_OF_CYCLE else t + lapse
+            theta, sine, cosine = BEGIN_OF_CYCLE + c.omega * t, sine_end, cosine_end
             w, v = w_end, v_end
             if not (math.isfinite(w) and math.isfinite(v) and math.isfinite(t)):
                 status = NOT_FINITE
@@ -309,13 +330,13 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
         while t >= c.period:
             t -= c.period
             cycle += 1
-            base = cycle * c.period
-            pieces = 0
-            theta = c.psi0 + c.omega * t
+            base = cycle * c.period - offset
+            pieces = place = 0
+            theta = BEGIN_OF_CYCLE + c.omega * t
     if not feeding:
         samples[:, X] = np.nan
         samples[:, VX] = np.nan
         samples[:, FRICTION_FORCE] = np.nan
     for n in range(next_sample, times.size):
         samples[n, :] = np.nan
-    return status, events, impacts, contact_time, max_gap, steps
+    return status, events, impacts, contact_time, max_gap, work

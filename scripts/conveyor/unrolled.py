@@ -34,11 +34,11 @@ def square(a: str, n: int) -> str:
 def hertz_source() -> str:
     """Source of `expand_hertz`, which fills the first rows of a step's series.
 
-    It takes the values at s = 0, then gravity, a_z, omega, stiffness and damping per mass, then the series. Equations
-    and rows (w, t, v, sine, cosine, w², w⁴, w cosine) are those of contact.py. d/ds (v + d_c/m w²) needs no product of
-    v and w, since w² has the derivative v w.
+    It takes the values at s = 0, then gravity, a_z, omega, stiffness and damping per mass, then the array and its first
+    row to fill. Equations and rows (w, t, v, sine, cosine, w², w⁴, w cosine) are those of contact.py. With the
+    derivative v w of w², d/ds (v + d_c/m w²) needs no product of v and w.
     """
-    lines = ["def expand_hertz(w0, v0, s0, c0, gravity, a_z, omega, stiffness, damping, series):"]
+    lines = ["def expand_hertz(w0, v0, s0, c0, gravity, a_z, omega, stiffness, damping, series, at):"]
     lines += ["t0 = 0.0", "q0 = w0 * w0"]
     for n in range(ORDER):
         lines += [
@@ -54,7 +54,7 @@ def hertz_source() -> str:
         ]
     for row, letter in enumerate("wtvscqpx"):
         terms = ORDER if letter in "px" else ORDER + 1
-        lines += [f"series[{row}, {n}] = {letter}{n}" for n in range(terms)]
+        lines += [f"series[at + {row}, {n}] = {letter}{n}" for n in range(terms)]
     return "\n    ".join(lines) + "\n"
 
 
