@@ -10,7 +10,8 @@ With the gap q = z_p - z_s, the contact force acts while q ≤ 0:
 """
 
 import math
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
+from operator import attrgetter
 
 import numpy as np
 
@@ -47,6 +48,8 @@ PARAMETERS = (
     Z0,
     VZ0,
 ) = range(len(PARAMETERS))
+# The parameters of a Conveyor that are numbers, in this order.
+numbers_of = attrgetter(*PARAMETERS[:TENSION])
 TENSION_ALLOW, TENSION_FRICTIONLESS, TENSION_CLIP = range(len(TENSION_MODES))
 
 # Unit and admissible closed interval of every parameter. The intervals reject impossible values and the usual
@@ -130,8 +133,8 @@ class Conveyor:
     tension: str = "allow"
 
     def __post_init__(self):
-        for name in PARAMETERS[:TENSION]:
-            check_parameter(name, getattr(self, name))
+        for name, value in zip(PARAMETERS, numbers_of(self), strict=False):
+            check_parameter(name, value)
         if self.tension not in TENSION_MODES:
             raise ValueError(f"tension = {self.tension!r} is not one of {', '.join(TENSION_MODES)}")
 
@@ -154,9 +157,9 @@ class Start:
 
 def pack(conveyor: Conveyor, start: Start) -> np.ndarray:
     """The parameter vector, float64, shape (13,), in the order of PARAMETERS; z0 is NaN for a start on the conveyor."""
-    *numbers, tension = astuple(conveyor)
     z0 = math.nan if start.z == "conveyor" else start.z
-    return np.array([*numbers, TENSION_MODES.index(tension), z0, start.vz], dtype=np.float64)
+    tension = TENSION_MODES.index(conveyor.tension)
+    return np.array([*numbers_of(conveyor), tension, z0, start.vz], dtype=np.float64)
 
 
 def unpack(parameters: np.ndarray) -> tuple[Conveyor, Start]:
