@@ -57,7 +57,7 @@ def arrow(axes: Axes, tail: tuple[float, float], tip: tuple[float, float], look:
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     """No tables, no settings."""
-    figure = style.figure(style.COLUMN, 56.0)
+    figure = style.figure(style.COLUMN, 42.0)
     axes = figure.subplots()
     axes.set_aspect("equal")
     axes.axis("off")
@@ -75,15 +75,15 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
 
     arrow(axes, project(5.7, 1.5, 0.75), project(8.0, 1.5, 0.75), colour=style.PUBLISHED)
     axes.text(*project(5.8, 1.5, 0.95), "feeding", color=style.PUBLISHED)
-    axes.text(*project(3.9, 2.0, 1.25), "part $O$")
-    axes.text(3.3, -0.75, "vibrating channel $N$", va="top")
+    axes.text(*project(3.2, 2.9, 1.25), "part $O$")
+    axes.text(2.05, -0.75, "vibrating channel $N$", va="top")
     arrow(axes, (9.3, -1.55), (10.9, -1.05), "<|-|>", style.CONVERGED)
-    axes.text(9.35, -1.75, "vibration\nin $x$ and $z$", color=style.CONVERGED, va="top")
+    axes.text(10.2, -1.6, "vibration\nin $x$ and $z$", color=style.CONVERGED, va="top")
     origin = (-1.6, -0.6)
     for tip, name in (((1.3, 0.0), "$x$"), ((0.9 * DEPTH[0] * 2, 0.9 * DEPTH[1] * 2), "$y$"), ((0.0, 1.3), "$z$")):
         end = origin[0] + tip[0], origin[1] + tip[1]
         arrow(axes, origin, end)
         axes.annotate(name, end, (2, 1), textcoords="offset points")
-    axes.set_xlim(-2.0, 11.6)
+    axes.set_xlim(-2.0, 13.2)
     axes.set_ylim(-2.9, 2.6)
     return figure

@@ -14,7 +14,7 @@ THROW = math.radians(25.0)  # drawn steeper than the paper's 12°, to be seen
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     """No tables, no settings."""
-    figure = style.figure(style.COLUMN, 56.0)
+    figure = style.figure(style.COLUMN, 42.0)
     axes = figure.subplots()
     axes.set_aspect("equal")
     axes.axis("off")
@@ -28,7 +28,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     axes.text(6.2, plate - 0.175, "conveyor", va="center", ha="center", size=7.0)
 
     axes.plot([-0.3, 8.4], [0.0, 0.0], color="0.4", linewidth=0.6, linestyle="--")
-    axes.text(8.4, 0.08, "$z = 0$", ha="right")
+    axes.text(6.9, 0.08, "$z = 0$", ha="right")
     for x, height, name in ((2.6, plate, "$z_s(t)$"), (4.2, part, "$z_p(t)$")):
         arrow(axes, (x, 0.0), (x, height), "<|-|>")
         axes.text(x - 0.1, 0.52 * height if height > plate else 0.3 * height, name, ha="right", va="center")
@@ -45,7 +45,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     axes.plot([centre[0], centre[0] + reach], [centre[1]] * 2, color="0.4", linewidth=0.6)
     axes.add_patch(Arc(centre, 1.5, 1.5, theta2=math.degrees(THROW), linewidth=0.8))
     axes.text(centre[0] + 0.85, centre[1] + 0.13, "$\\varphi$")
-    axes.text(centre[0], centre[1] + 0.75, "$\\hat{a}$", color=style.PUBLISHED)
+    axes.text(centre[0] + 0.1, centre[1] + 0.35, "$\\hat{a}$", color=style.PUBLISHED)
     axes.set_xlim(-0.6, 10.0)
     axes.set_ylim(-0.4, 3.4)
     return figure
