@@ -20,6 +20,7 @@ include: "workflow/rules/common.smk"
 include: "workflow/rules/sweeps.smk"
 include: "workflow/rules/analysis.smk"
 include: "workflow/rules/accuracy.smk"
+include: "workflow/rules/claims.smk"
 include: "workflow/rules/figures.smk"
 
 
@@ -27,6 +28,8 @@ rule all:
     default_target: True
     input:
         figure_files(),
+        result("claims.md"),
+        result("checked.txt"),
     localrule: True
     message:
-        "All figures are up to date"
+        "All figures and claims are up to date"

@@ -13,6 +13,7 @@ ROOT = Path(__file__).resolve().parent.parent
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 # What YAML calls the types of JSON schema.
 KINDS = {
+    "null": "null",
     "array": "a list",
     "integer": "a whole number",
     "number": "a number",
@@ -96,6 +97,13 @@ def numbers(value, path=()) -> Iterator[tuple[tuple, float]]:
         yield path, value
 
 
+def entry_of(config: dict, reference: str) -> dict | None:
+    """The entry of the config that a reference SECTION/NAME names, or None."""
+    section, name = reference.split("/")
+    entries = config.get(section)
+    return entries.get(name) if isinstance(entries, dict) else None
+
+
 def contradictions(config: dict) -> Iterator[str]:
     """What a schema cannot say: one line per contradiction between parts of a config that follows the schema."""
     for section, entries in config.items():
@@ -109,13 +117,20 @@ def contradictions(config: dict) -> Iterator[str]:
         for file in (f"scripts/plots/{figure}.py", f"workflow/report/{figure}.rst"):
             if not (ROOT / file).is_file():
                 yield f"figures.{figure} has no {file}; a figure needs a plot script and a caption of its name"
-        for role, reference in entry["tables"].items():
-            section, name = reference.split("/")
-            table = config.get(section, {}).get(name) if isinstance(config.get(section), dict) else None
-            if table is None:
-                yield f"figures.{figure}.tables.{role} = {reference!r} is no entry of the config"
-            elif entry["needs"] == "feeding" and table.get("needs") == "vertical":
+        for reference in entry["tables"].values():
+            table = entry_of(config, reference)
+            if table and entry["needs"] == "feeding" and table.get("needs") == "vertical":
                 yield f"figures.{figure} needs feeding, but {reference} is computed for vertical needs only"
+    for user in ("figures", "claims"):
+        for name, entry in config[user].items():
+            for role, reference in entry["tables"].items():
+                if entry_of(config, reference) is None:
+                    yield f"{user}.{name}.tables.{role} = {reference!r} is no entry of the config"
+    for claim, entry in config["claims"].items():
+        for key in ("paper", "accepted"):
+            if len(entry[key]) != len(entry["quantities"]):
+                counts = f"{len(entry[key])} items for {len(entry['quantities'])} quantities"
+                yield f"claims.{claim}.{key} has {counts}; give one for each"
 
 
 def problems(config: dict) -> list[str]:

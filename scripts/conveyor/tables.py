@@ -39,6 +39,11 @@ def text(name: str, description: str) -> pa.Field:
     return field(name, pa.string(), "", description)
 
 
+def several(name: str, kind: pa.DataType, unit: str, description: str) -> pa.Field:
+    """A column of lists."""
+    return field(name, pa.list_(pa.field("element", kind)), unit, description)
+
+
 def flag(name: str, description: str) -> pa.Field:
     return field(name, pa.bool_(), "", description)
 
@@ -124,6 +129,19 @@ COLUMNS = {
         *FEATURES,
         number("max_depth", "m", "largest penetration at the moments that were looked at"),
         number("allowed_depth", "m", "penetration that no run can exceed"),
+    ),
+    "claims": (
+        text("claim", "name of the statement"),
+        text("place", "where the paper makes it"),
+        text("statement", "what it says"),
+        several("quantities", pa.string(), "", "what its numbers are, with units"),
+        several("paper", pa.float64(), "see quantities", "the paper's numbers; null where it gives none"),
+        several("published", pa.float64(), "see quantities", "by the paper's method; empty where it has no say"),
+        several("converged", pa.float64(), "see quantities", "converged; empty where the statement is on Euler"),
+        several("accepted_low", pa.float64(), "see quantities", "least numbers that bear it out; null for none"),
+        several("accepted_high", pa.float64(), "see quantities", "largest ones; null for none"),
+        text("verdict", "reproduced, reproduced by the published method only, or not reproduced"),
+        text("reason", "computed reason of any other verdict than reproduced"),
     ),
     "benchmark": (
         text("case", "name of the case"),

@@ -7,7 +7,7 @@ from plots import style
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the sweep `map` over acceleration and z0; settings: marks, m/s²."""
+    """From the sweep `map` over acceleration and z0."""
     figure = style.figure(style.COLUMN, 70.0)
     axes = figure.subplots()
     table = tables["map"]

@@ -2,11 +2,6 @@
 # themselves; such a time changes whenever it is taken, so that nothing which must have equal bytes is made from it.
 
 
-def result(name):
-    """A result that is not an entry of a section of the config."""
-    return f"results/{PREFIX}{name}"
-
-
 def benchmark_cases():
     """The cases of the benchmark with all defaults, by name."""
     cases = config["benchmark"]["cases"]

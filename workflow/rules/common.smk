@@ -1,5 +1,6 @@
 # What all rules share: where files are, what an entry of the config depends on, what a script runs.
 import math
+from pathlib import Path
 
 from workflow.configuration import count_points, resolve
 from workflow.source_hash import source_hash
@@ -15,6 +16,11 @@ wildcard_constraints:
 def table(section, name="{name}"):
     """The Parquet table of an entry of the config."""
     return f"results/{PREFIX}{section}/{name}.parquet"
+
+
+def result(name):
+    """A result that is not an entry of a section of the config."""
+    return f"results/{PREFIX}{name}"
 
 
 def log_file(section, name="{name}"):

@@ -1,0 +1,225 @@
+"""Findings from made-up tables whose answer is known, and verdicts that come out each way."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import claims
+from findings import chaos, states
+from findings.finding import Finding, onset
+
+AMPLITUDES = np.arange(20.0, 91.0)
+
+
+def sweep(state, velocity=0.1, heights=(0.0, 1e-4)):
+    """A sweep in which `state` and `velocity` are functions of amplitude and height, or constant."""
+    rows = [(a, z) for a in AMPLITUDES for z in heights]
+    table = pd.DataFrame(rows, columns=["acceleration", "z0"])
+    table["state"] = [state(a, z) if callable(state) else state for a, z in rows]
+    table["mean_velocity"] = [velocity(a, z) if callable(velocity) else velocity for a, z in rows]
+    table["period"] = np.where(table.state == "chaos", 0, 1)
+    return table
+
+
+def both(table):
+    return {"converged": table, "published": table}
+
+
+@pytest.mark.parametrize(
+    ("holds", "expected"),
+    [
+        ([0, 0, 1, 1], 3.0),
+        ([1, 1, 1, 1], 1.0),
+        ([0, 1, 0, 0, 1, 1, 1], 5.0),  # a single early one is no onset
+        ([0, 0, 1, 1, 0, 1, 1], 3.0),  # nor does a window end what has begun
+    ],
+)
+def test_onset(holds, expected):
+    assert onset(np.arange(1.0, len(holds) + 1), holds) == expected
+
+
+def test_no_onset():
+    assert math.isnan(onset(np.arange(3.0), [False] * 3))
+
+
+@pytest.mark.parametrize(
+    ("published", "converged", "expected"),
+    [
+        ((1.0,), (1.0,), claims.REPRODUCED),
+        ((2.0,), (1.0,), claims.REPRODUCED),
+        ((1.0,), (2.0,), claims.PUBLISHED_ONLY),
+        ((2.0,), (2.0,), claims.NOT_REPRODUCED),
+        ((2.0,), (math.nan,), claims.NOT_REPRODUCED),
+        ((), (1.0,), claims.REPRODUCED),
+        ((), (2.0,), claims.NOT_REPRODUCED),
+        ((1.0,), (), claims.REPRODUCED),
+        ((2.0,), (), claims.NOT_REPRODUCED),
+    ],
+)
+def test_verdicts(published, converged, expected):
+    assert claims.verdict(Finding(published, converged), [[0.5, 1.5]]) == expected
+
+
+def test_null_is_no_bound():
+    assert claims.holds((1e300, -1e300), [[0.0, None], [None, 0.0]])
+    assert not claims.holds((-1.0,), [[0.0, None]])
+
+
+def test_reason_says_which_number_is_outside():
+    claim = {"accepted": [[0.0, 1.0], [0.0, 1.0]], "quantities": ["height in mm", "width in mm"]}
+    text = claims.outside(Finding((0.5, 0.5), (0.5, 3.25)), claim)
+    assert text == "width in mm: 3.25 by the converged solution is not in [0, 1]"
+
+
+def test_critical_acceleration_looks_at_the_start_at_rest():
+    table = sweep(lambda a, z: "second" if a >= 50.0 or z > 0.0 else "first")
+    assert states.critical_acceleration(both(table)).converged == (50.0,)
+
+
+def test_interval_of_two_states():
+    table = sweep(lambda a, z: "second" if a > 47.0 or (a >= 29.0 and z > 0.0) else "first")
+    assert states.interval(both(table)).converged == (29.0, 47.0)
+    assert all(math.isnan(end) for end in states.interval(both(sweep("first"))).converged)
+
+
+def test_onset_of_chaos_by_scatter_and_by_state():
+    table = sweep(lambda a, z: "chaos" if a >= 63.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
+    finding = states.onset_of_chaos(both(table))
+    assert (finding.published, finding.converged) == ((55.0,), (63.0,))
+    assert "100 % of the starts have a period" in finding.reason
+
+
+def test_critical_heights_are_read_between_amplitudes():
+    table = pd.DataFrame(
+        {
+            "acceleration": [29.0, 35.0, 35.0, 41.0],
+            "z0": [3e-4, 1e-4, 4e-4, 0.5e-4],
+            "is_critical": [True, True, False, True],
+        }
+    )
+    assert states.critical_height(38.0)(both(table)).converged == pytest.approx((0.075,))
+    assert states.largest_critical_height(both(table)).converged == pytest.approx((0.3,))
+    assert math.isnan(states.critical_height(50.0)(both(table)).converged[0])
+
+
+def test_velocities_of_both_states():
+    table = sweep(
+        lambda a, z: "first" if a < 29.0 or (z == 0.0 and a <= 47.0) else "second",
+        lambda a, z: 1e-3 * a if z == 0.0 and a <= 47.0 else 0.07 - 1e-4 * (a - 29.0),
+    )
+    assert states.first_velocity(both(table)).converged == pytest.approx((2.9, 4.7))
+    assert states.second_velocity(both(table)).converged == pytest.approx((0.18,))
+
+
+def test_fit_is_that_of_the_regression():
+    table = pd.DataFrame(
+        {
+            "fit": ["pymoo", "published", "valley", "valley"],
+            "A": 0.004,
+            "B": [-20.0, -19.5, -21.0, -18.0],
+            "C": -1e-4,
+            "error": [1e-11, 2e-11, 3e-11, 1e-10],
+        }
+    )
+    finding = states.fit(both(table))
+    assert finding.converged == (0.004, -20.0, -1e-4, 1e-11)
+    assert "every B from -21 to -21" in finding.reason
+
+
+def test_spread_of_onsets():
+    assert states.one_onset(both(sweep(lambda a, z: "chaos" if a >= 60.0 else "second"))).converged == (0.0,)
+    slanted = sweep(lambda a, z: "chaos" if a >= 60.0 + 2e4 * z else "second")
+    assert states.one_onset(both(slanted)).converged == (2.0,)
+
+
+def test_impact_line():
+    velocity = np.array([-0.1, -0.05, 0.0, np.nan])
+    table = pd.DataFrame({"impact_velocity": velocity, "impact_phase": -32.0 * velocity})
+    assert states.impact_line({"converged": table}).converged == pytest.approx((-32.0, 0.0), abs=1e-12)
+
+
+def spectrum(acceleration, signal, amplitudes):
+    frequencies = 50.0 * np.arange(len(amplitudes))
+    return pd.DataFrame(
+        {"acceleration": acceleration, "signal": signal, "frequency": frequencies, "amplitude": amplitudes}
+    )
+
+
+def test_lines_of_spectra():
+    vertical = [spectrum(40.0, "vz", [0.0, 1.0, 0.01]), spectrum(50.0, "vz", [0.0, 1.0, 0.5, 0.3, 0.01])]
+    assert states.vertical_lines(both(pd.concat(vertical))).converged == (2.0,)
+    horizontal = [spectrum(40.0, "vx", [1.0, 0.5, 0.2]), spectrum(50.0, "vx", [1.0, 0.01, 0.01])]
+    assert states.horizontal_lines(both(pd.concat(horizontal))).converged == pytest.approx((2.0, 100.0))
+
+
+def test_overlap_of_maps():
+    low = pd.DataFrame({"state": ["first", "first", "second", "second"]})
+    high = pd.DataFrame({"state": ["first", "second", "first", "chaos"]})
+    maps = {
+        f"{place}_{level}": table for place in ("height", "velocity") for level, table in (("low", low), ("high", high))
+    }
+    assert states.overlap(maps).converged == (0.5, 0.25, 0.5, 0.25)
+
+
+def test_mapped_states():
+    table = pd.DataFrame({"state": ["first", "second", "first"], "mapped_state": ["first", "first", None]})
+    assert states.mapped({"converged": table}).converged == (0.5,)
+
+
+def test_error_of_euler_in_regular_motion_only():
+    converged = sweep(lambda a, z: "chaos" if a > 60.0 else "second")
+    published = converged.assign(mean_velocity=np.where(converged.state == "chaos", 1.0, 0.101))
+    finding = states.euler_error({"converged": converged, "published": published})
+    assert finding.published == pytest.approx((0.01, 0.01))
+
+
+def test_no_period():
+    assert chaos.no_period(both(pd.DataFrame({"period": [0, 0, 4, 0]}))).converged == (0.75,)
+
+
+def test_irregular_dependence():
+    z0 = np.linspace(0.0, 1e-3, 400)
+    noise = np.random.default_rng(1).normal(size=400)
+    step = np.where(z0 > 5e-4, 1.0, 0.0)
+    for velocity, low, high in ((noise, 0.8, 1.1), (step, 0.0, 0.01)):
+        table = pd.DataFrame({"z0": z0, "mean_velocity": velocity})
+        assert low <= chaos.irregular(both(table)).converged[0] <= high
+
+
+def exponents(first_positive, crossing=None):
+    values = np.where(first_positive <= AMPLITUDES, 1.0, -1.0)
+    if crossing:
+        values[crossing <= AMPLITUDES] = -1.0
+    return pd.DataFrame({"acceleration": AMPLITUDES, "lambda": values})
+
+
+def test_height_estimate():
+    assert chaos.height_estimate(both(exponents(42.0, crossing=55.0))).converged == (42.0, 1.0)
+
+
+def test_phase_estimate():
+    tables = {"converged": exponents(59.0), "published": exponents(50.0), "states": sweep("second")}
+    finding = chaos.phase_estimate(tables)
+    assert (finding.published, finding.converged) == ((50.0,), (59.0,))
+    assert "100 % of these amplitudes settle to a period" in finding.reason
+
+
+def test_portraits_in_the_order_of_the_states():
+    table = pd.DataFrame(
+        {
+            "acceleration": [80.0, 40.0, 80.0, 40.0],
+            "z0": [0.0, 3e-4, 3e-4, 0.0],
+            "dimension": [1.9, 1.1, 1.8, 1.0],
+            "error": 0.1,
+        }
+    )
+    assert chaos.portraits(both(table)).converged == (1.0, 1.1, 1.9)
+
+
+def test_onset_by_dimension():
+    table = pd.DataFrame({"acceleration": AMPLITUDES, "dimension": np.where(AMPLITUDES >= 62.0, 2.0, 1.0)})
+    tables = {**both(table), "converged_exponent": exponents(59.0), "published_exponent": exponents(62.0)}
+    finding = chaos.predicted_onset(tables)
+    assert (finding.published, finding.converged) == ((0.0, 1.0), (3.0, 1.0))

@@ -1,0 +1,54 @@
+# The paper's statements with their verdicts, and the tests of the results.
+
+
+def claim_references():
+    """The tables that the claims need, as SECTION/NAME, sorted."""
+    return sorted({reference for claim in config["claims"].values() for reference in claim["tables"].values()})
+
+
+rule claims:
+    input:
+        [table(*reference.split("/")) for reference in claim_references()],
+    output:
+        table=result("claims.parquet"),
+        report=report(result("claims.md"), caption="../report/claims.rst", category="Claims"),
+    log:
+        log_file("checks", "claims"),
+    benchmark:
+        benchmark_file("checks", "claims")
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=10,
+    params:
+        claims=config["claims"],
+        references=claim_references(),
+        code=source_hash("claims"),
+    message:
+        "The paper's statements"
+    script:
+        "../../scripts/claims.py"
+
+
+rule check_results:
+    input:
+        claims=result("claims.parquet"),
+        random_points=result("random_points.parquet"),
+        tests=sorted(Path(workflow.basedir).glob("tests/results/*.py")),
+    output:
+        result("checked.txt"),
+    log:
+        log_file("checks", "results"),
+    benchmark:
+        benchmark_file("checks", "results")
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=10,
+    params:
+        results=f"results/{PREFIX}",
+    message:
+        "Tests of the results"
+    shell:
+        "CONVEYOR_RESULTS={params.results} python -m pytest tests/results > {log} 2>&1"
+        " || (cat {log} >&2; exit 1); tail -n 1 {log} > {output}"
