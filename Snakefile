@@ -20,6 +20,7 @@ include: "workflow/rules/common.smk"
 include: "workflow/rules/sweeps.smk"
 include: "workflow/rules/analysis.smk"
 include: "workflow/rules/accuracy.smk"
+include: "workflow/rules/orbits.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/figures.smk"
 

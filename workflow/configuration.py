@@ -11,6 +11,12 @@ from jsonschema.exceptions import ValidationError
 
 ROOT = Path(__file__).resolve().parent.parent
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
+# Sections that make tables of their own, instead of one for each of their entries.
+TABLES = {
+    "orbits": ("branches", "folds_and_doublings", "cascade"),
+    "attractors": ("strobes",),
+    "lyapunov": ("spectrum", "witnesses"),
+}
 # What YAML calls the types of JSON schema.
 KINDS = {
     "null": "null",
@@ -98,8 +104,10 @@ def numbers(value, path=()) -> Iterator[tuple[tuple, float]]:
 
 
 def entry_of(config: dict, reference: str) -> dict | None:
-    """The entry of the config that a reference SECTION/NAME names, or None."""
+    """What the config says about the table SECTION/NAME, or None if there is no such table."""
     section, name = reference.split("/")
+    if name in TABLES.get(section, ()):
+        return config[section]
     entries = config.get(section)
     return entries.get(name) if isinstance(entries, dict) else None
 

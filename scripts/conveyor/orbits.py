@@ -9,6 +9,7 @@ The product of the multipliers is positive and at most 1, so that no other bifur
 import cmath
 import math
 from collections.abc import Callable, Iterable
+from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
@@ -103,16 +104,17 @@ class ReturnMap:
         return np.array([self.scaled(unknown[2] * self.unit[2], state) for state in states])
 
     def linearised(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """(δ, Y) after n cycles in their units, the monodromy matrix (SI units) and the features of each cycle."""
-        state, matrix = self.state(unknown), np.empty((2, 2))
+        """(δ, Y) after n cycles in their units, the matrices (SI units) and the features of all cycles."""
+        state, matrices = self.state(unknown), np.empty((self.period, 2, 2))
         features = np.zeros((self.period, stroboscope.FEATURES))
-        if stroboscope.monodromy(self.row(unknown), TOLERANCE, state, self.period, matrix, features) != OK:
-            return np.full(2, np.nan), np.full((2, 2), np.nan), features
-        return self.scaled(unknown[2], state)[:2], matrix, features
+        if stroboscope.monodromy(self.row(unknown), TOLERANCE, state, matrices, features) != OK:
+            return np.full(2, np.nan), np.full((self.period, 2, 2), np.nan), features
+        return self.scaled(unknown[2], state)[:2], matrices, features
 
     def residual(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """P(X) - X, shape (2,), and its derivative by (δ, Y), shape (2, 2), scaled."""
-        image, matrix, _ = self.linearised(unknown)
+        image, matrices, _ = self.linearised(unknown)
+        matrix = reduce(lambda product, following: following @ product, matrices)
         return image - unknown[:2], matrix * self.unit[:2] / self.unit[:2, None] - np.eye(2)
 
     def slope(self, unknown: np.ndarray) -> np.ndarray:
@@ -163,10 +165,12 @@ class ReturnMap:
 
     def describe(self, unknown: np.ndarray) -> Orbit:
         """The Orbit of a fixed point."""
-        _, matrix, features = self.linearised(unknown)
-        trace, determinant = float(np.trace(matrix)), float(np.linalg.det(matrix))
+        _, matrices, features = self.linearised(unknown)
+        matrix = reduce(lambda product, following: following @ product, matrices)
+        trace, determinant = float(np.trace(matrix)), float(np.prod(np.linalg.det(matrices)))
         root = cmath.sqrt(0.25 * trace * trace - determinant)
-        first, second = sorted((0.5 * trace + root, 0.5 * trace - root), key=abs, reverse=True)
+        first = max(0.5 * trace + root, 0.5 * trace - root, key=abs)
+        second = determinant / first if first != 0.0 else 0.0j
         flights = features[:, [stroboscope.LONGEST_FLIGHT, stroboscope.AIRBORNE]]
         return Orbit(
             acceleration=float(unknown[2] * self.unit[2]),

@@ -78,6 +78,21 @@ def expand_tangent(c, series, tangent, free):
 
 
 @kernel
+def tangent_length(c, expansion):
+    """Length in s at which the last two terms of a perturbation's expansion are below the tolerance.
+
+    A perturbation rings at the frequency of the contact, also where the motion itself is slow or at rest.
+    """
+    scale = c.omega * abs(expansion[0, 0]) + abs(expansion[1, 0])
+    length = 1e300
+    for order in (ORDER - 1, ORDER):
+        last = max(c.omega * abs(expansion[0, order]), abs(expansion[1, order]))
+        if last > 0.0:
+            length = min(length, (c.tolerance * scale / last) ** (1.0 / order))
+    return length
+
+
+@kernel
 def cycle(c, series, state, tangent, features):
     """Advance `state` by one excitation cycle, exactly.
 
@@ -96,7 +111,7 @@ def cycle(c, series, state, tangent, features):
     """
     speed_z = c.a_z / c.omega
     height = speed_z / c.omega
-    expansion = np.zeros((2, SIZE))
+    expansions = np.zeros((tangent.shape[0], 2, SIZE))
     features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = features[MAX_GAP] = 0.0
     features[SLOWEST_IMPACT] = math.inf
     t = 0.0
@@ -145,20 +160,26 @@ def cycle(c, series, state, tangent, features):
                 z, vz = -height * cosine, speed_z * sine
                 continue
         length, w_end, v_end, lapse, event = contact.step(c, series, FIRST, w, v, sine, cosine, pulled)
+        free = pulled and c.tension == TENSION_CLIP
+        shorter = length
+        for i in range(tangent.shape[0]):
+            expansions[i, 0, 0], expansions[i, 1, 0] = tangent[i, 0], tangent[i, 1]
+            expand_tangent(c, series, expansions[i], free)
+            shorter = min(shorter, tangent_length(c, expansions[i]))
+        cut = shorter < length
+        if cut:
+            length, event = shorter, contact.NOTHING
+            lapse = polynomial.value(series, FIRST + contact.T, length)
         complete = not lapse < remaining
         if complete:
             length = invert_time(series, FIRST, length, remaining)
             lapse = remaining
-            w_end, v_end = (
-                polynomial.value(series, FIRST + contact.W, length),
-                polynomial.value(series, FIRST + contact.V, length),
-            )
-        free = pulled and c.tension == TENSION_CLIP
+        if complete or cut:
+            w_end = polynomial.value(series, FIRST + contact.W, length)
+            v_end = polynomial.value(series, FIRST + contact.V, length)
         for i in range(tangent.shape[0]):
-            expansion[0, 0], expansion[1, 0] = tangent[i, 0], tangent[i, 1]
-            expand_tangent(c, series, expansion, free)
-            tangent[i, 0] = polynomial.value(expansion, 0, length)
-            tangent[i, 1] = polynomial.value(expansion, 1, length)
+            tangent[i, 0] = polynomial.value(expansions[i], 0, length)
+            tangent[i, 1] = polynomial.value(expansions[i], 1, length)
         w, v = w_end, v_end
         if not free:
             features[CONTACT_TIME] += lapse
@@ -212,19 +233,20 @@ def follow(parameters, tolerance, state, cycles, strobes, features):
 
 
 @kernel
-def monodromy(parameters, tolerance, state, cycles, matrix, features):
-    """Advance `state` by a number of cycles and fill `matrix`, shape (2, 2), with ∂(δ, Y)_end/∂(δ, Y)_start.
+def monodromy(parameters, tolerance, state, matrices, features):
+    """Advance `state` by n cycles and fill `matrices`, shape (n, 2, 2), with ∂(δ, Y)_end/∂(δ, Y)_start of each cycle.
 
-    features : float64, shape (cycles, 6), filled with the features of each cycle. Returns the status code.
+    The monodromy matrix is their product; its determinant is the product of theirs without loss of digits.
+    features : float64, shape (n, 6), filled with the features of each cycle. Returns the status code.
     """
     c = contact.constants(parameters, tolerance)
     series = contact.workspace()
-    tangent = np.eye(2)
     found = np.zeros(FEATURES)
-    for n in range(cycles):
+    for n in range(matrices.shape[0]):
+        tangent = np.eye(2)
         status = cycle(c, series, state, tangent, found)
         features[n, :] = found
+        matrices[n, :, :] = tangent.T
         if status != OK:
             return status
-    matrix[:, :] = tangent.T
     return OK

@@ -70,8 +70,79 @@ FEATURES = (
     text("status", "ok, or why there is no result"),
 )
 
+STROBE = (
+    number("delta", "m", "penetration at the phase ψ0; negative in the air"),
+    number("v", "m/s", "speed of approach at the phase ψ0"),
+)
+ORBIT = (
+    count("period", "excitation cycles"),
+    number("acceleration", "m/s²", "amplitude of the excitation"),
+    *STROBE,
+    number("multiplier_1_real", "1", "Floquet multiplier of larger modulus, real part"),
+    number("multiplier_1_imag", "1", "imaginary part"),
+    number("multiplier_2_real", "1", "the other one, real part"),
+    number("multiplier_2_imag", "1", "imaginary part"),
+    number("determinant", "1", "their product, from the monodromy matrix; exp(-(d_c/m) contact_time)"),
+    number("contact_time", "s", "time with contact force in a period"),
+    count("impacts", "impacts in a period"),
+    number("longest_flight", "1", "longest flight, in excitation cycles"),
+)
+
 # The columns behind the axes, by kind of table.
 COLUMNS = {
+    "branches": (
+        count("branch", "number of the branch"),
+        count("point", "number of the orbit along its branch"),
+        count("cycle", "excitation cycle within the period; delta and v are those at its end"),
+        flag("stable", "both multipliers inside the unit circle"),
+        *ORBIT,
+    ),
+    "folds_and_doublings": (
+        text("kind", "fold, period_doubling or grazing"),
+        *ORBIT[:2],
+        number("multiplier", "1", "the multiplier at +1 or -1; for a grazing the real part of the larger one"),
+        *ORBIT[2:],
+        count("branch", "number of the branch"),
+    ),
+    "cascade": (
+        count("number", "number of the doubling"),
+        *ORBIT,
+        number("multiplier", "1", "the multiplier at -1"),
+        number("ratio", "1", "distance to the doubling before over that to the one behind (Feigenbaum: 4.669…)"),
+        number("accumulation", "m/s²", "where the doublings so far accumulate, by Aitken's process"),
+        number("accumulation_error", "m/s²", "how far the last doubling moved it"),
+    ),
+    "strobes": (
+        text("branch", "up: the amplitude grew step by step; down: it fell"),
+        ORBIT[1],
+        count("cycle", "number of the recorded cycle"),
+        *STROBE,
+        *STATE,
+        text("status", "ok, or why there is no result"),
+    ),
+    "spectrum": (
+        ORBIT[1],
+        text("branch", "up or down, see the strobes"),
+        number("lambda_1", "1/s", "larger vertical Lyapunov exponent"),
+        number("lambda_2", "1/s", "smaller vertical Lyapunov exponent"),
+        number("stderr", "1/s", "standard error of lambda_1, from means over blocks"),
+        number("contact_fraction", "1", "share of the time with contact force; λ1 + λ2 = -(d_c/m) times it"),
+        number("lambda_x", "1/s", "exponent of a perturbation of ẋ_p; -infinity where a stick erases it"),
+        text("status", "ok, or why there is no result"),
+    ),
+    "witnesses": (
+        ORBIT[1],
+        text("branch", "up or down, see the strobes"),
+        number("lambda_1", "1/s", "larger vertical Lyapunov exponent"),
+        number("stderr", "1/s", "its standard error"),
+        number("zero_one", "1", "K of the 0-1 test: 0 for regular, 1 for chaotic motion"),
+        *STATE,
+        flag("by_exponent", "chaotic by the exponent"),
+        flag("by_zero_one", "chaotic by the 0-1 test"),
+        flag("by_period", "chaotic for want of a period"),
+        flag("agree", "whether the three agree"),
+        text("reason", "why not; null where they agree"),
+    ),
     "runs": RESULTS + FEATURES,
     "sweeps": RESULTS + STATE + FEATURES,
     "estimates": (number("lambda", "1/s", "Lyapunov exponent by finite differences (Eq. 23)"),),

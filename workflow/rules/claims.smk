@@ -34,6 +34,8 @@ rule check_results:
     input:
         claims=result("claims.parquet"),
         random_points=result("random_points.parquet"),
+        orbits=[table("orbits", name) for name in ("branches", "folds_and_doublings", "cascade")],
+        exponents=[table("lyapunov", name) for name in ("spectrum", "witnesses")],
         tests=sorted(Path(workflow.basedir).glob("tests/results/*.py")),
     output:
         result("checked.txt"),

@@ -1,0 +1,42 @@
+"""Rule attractors: stroboscopic states over the amplitude, swept up and down, with the states of motion."""
+
+import numpy as np
+
+from conveyor import attractors, grid, states, tables
+from rule_log import logged
+
+BRANCHES = ("up", "down")
+
+
+def columns(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
+    """The columns of the table for the settings of the config; rows by branch, amplitude, cycle."""
+    amplitudes = grid.axis_values("acceleration", settings["acceleration"])
+    parts = []
+    for branch, order in zip(BRANCHES, (slice(None), slice(None, None, -1)), strict=True):
+        _, parameters = grid.product({"acceleration": list(amplitudes[order])}, settings["model"])
+        points, status = attractors.sweep(
+            parameters, transient=settings["transient"], strobes=settings["strobes"], tolerance=settings["tolerance"]
+        )
+        starts = attractors.as_starts(parameters, points[:, -1], settings["tolerance"])
+        state, period = states.classify(starts, threads=threads, progress=progress and f"{progress}, {branch}")
+        count = settings["strobes"]
+        parts.append(
+            {
+                "branch": np.full(points[order].shape[:2], branch).ravel(),
+                "acceleration": np.repeat(amplitudes, count),
+                "cycle": np.tile(np.arange(count), len(amplitudes)),
+                "delta": points[order, :, 0].ravel(),
+                "v": points[order, :, 1].ravel(),
+                "state": np.repeat(state[order], count),
+                "period": np.repeat(period[order], count),
+                "status": np.repeat(status[order], count),
+            }
+        )
+    return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        settings = snakemake.params.settings
+        found = columns(settings, threads=snakemake.threads, progress="attractors")
+        tables.write(snakemake.output[0], "strobes", found, settings=settings)

@@ -1,0 +1,96 @@
+# Periodic orbits, attractors over the amplitude, their exponents, and whether they are chaotic.
+
+
+def of_sections(*sections):
+    """A param: these sections of the config with the model and the tolerance, overrides included, later ones first."""
+    merged = {"tolerance": config["solver"]["tolerance"]}
+    for section in sections:
+        merged.update(config[section])
+    return {**merged, "model": {**config["model"], **merged.get("model", {})}}
+
+
+rule orbits:
+    output:
+        branches=table("orbits", "branches"),
+        folds_and_doublings=table("orbits", "folds_and_doublings"),
+        cascade=table("orbits", "cascade"),
+    log:
+        log_file("orbits", "orbits"),
+    benchmark:
+        benchmark_file("orbits", "orbits")
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=30,
+    params:
+        settings=of_sections("orbits"),
+        code=source_hash("orbits"),
+    message:
+        "Periodic orbits"
+    script:
+        "../../scripts/orbits.py"
+
+
+rule attractors:
+    output:
+        table("attractors", "strobes"),
+    log:
+        log_file("attractors", "strobes"),
+    benchmark:
+        benchmark_file("attractors", "strobes")
+    threads: 2
+    resources:
+        mem_mb=1000,
+        runtime=30,
+    params:
+        settings=of_sections("attractors"),
+        code=source_hash("attractors"),
+    message:
+        "Attractors over the amplitude"
+    script:
+        "../../scripts/attractors.py"
+
+
+rule lyapunov:
+    input:
+        table("attractors", "strobes"),
+    output:
+        table("lyapunov", "spectrum"),
+    log:
+        log_file("lyapunov", "spectrum"),
+    benchmark:
+        benchmark_file("lyapunov", "spectrum")
+    threads: 2
+    resources:
+        mem_mb=1000,
+        runtime=30,
+    params:
+        settings=of_sections("attractors", "lyapunov"),
+        code=source_hash("lyapunov"),
+    message:
+        "Lyapunov exponents over the amplitude"
+    script:
+        "../../scripts/lyapunov.py"
+
+
+rule witnesses:
+    input:
+        strobes=table("attractors", "strobes"),
+        spectrum=table("lyapunov", "spectrum"),
+    output:
+        table("lyapunov", "witnesses"),
+    log:
+        log_file("lyapunov", "witnesses"),
+    benchmark:
+        benchmark_file("lyapunov", "witnesses")
+    threads: 2
+    resources:
+        mem_mb=1000,
+        runtime=30,
+    params:
+        settings=of_sections("attractors", "witnesses"),
+        code=source_hash("witnesses"),
+    message:
+        "Chaotic or not, by three witnesses"
+    script:
+        "../../scripts/witnesses.py"
