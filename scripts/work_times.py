@@ -13,7 +13,7 @@ from tqdm import tqdm
 
 from conveyor import tables
 from rule_log import logged
-from work_precision import Method, follow
+from work import Method, follow
 
 
 def columns(precision: pd.DataFrame, settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
@@ -47,6 +47,6 @@ def columns(precision: pd.DataFrame, settings: dict, *, progress: str | None = N
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         settings = snakemake.params.settings
-        precision = tables.read(snakemake.input.precision, "work_precision")
+        precision = tables.read(snakemake.input[0], "work")
         found = columns(precision, settings, progress=snakemake.wildcards.name)
         tables.write(snakemake.output[0], "work_times", found, settings=settings)

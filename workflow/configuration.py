@@ -16,6 +16,7 @@ TABLES = {
     "orbits": ("branches", "folds_and_doublings", "cascade"),
     "attractors": ("strobes",),
     "lyapunov": ("spectrum", "witnesses"),
+    "results": ("estimators", "stability", "scene_budget"),
 }
 # What YAML calls the types of JSON schema.
 KINDS = {
@@ -107,7 +108,9 @@ def entry_of(config: dict, reference: str) -> dict | None:
     """What the config says about the table SECTION/NAME, or None if there is no such table."""
     section, name = reference.split("/")
     if name in TABLES.get(section, ()):
-        return config[section]
+        return config[name if section == "results" else section]
+    if section in ("work", "work_times"):
+        return config["work"] if name in config["work"]["scenes"] else None
     entries = config.get(section)
     return entries.get(name) if isinstance(entries, dict) else None
 

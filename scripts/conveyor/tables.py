@@ -88,6 +88,13 @@ ORBIT = (
     number("longest_flight", "1", "longest flight, in excitation cycles"),
 )
 
+RUN = (
+    text("method", "event, a fixed-step method, or one of scipy's integrators"),
+    text("treatment", "of impacts and slip reversals: exact, fixed step, sign, events or modes"),
+    number("tolerance", "1", "relative tolerance; null for fixed steps"),
+    number("step", "s", "step; null for tolerances"),
+)
+
 # The columns behind the axes, by kind of table.
 COLUMNS = {
     "branches": (
@@ -213,6 +220,53 @@ COLUMNS = {
         several("accepted_high", pa.float64(), "see quantities", "largest ones; null for none"),
         text("verdict", "reproduced, reproduced by the published method only, or not reproduced"),
         text("reason", "computed reason of any other verdict than reproduced"),
+    ),
+    "work": (
+        *RUN,
+        count("evaluations", "force evaluations; derivatives of the force for a Taylor step"),
+        number("mean_velocity", "m/s", "mean feeding velocity over the last quarter"),
+        number("velocity_error", "1", "its relative error"),
+        number("state_error", "1", "largest error of ẋ, z, ż at the end, in units of the plate's motion"),
+        text("outcome", "ok, or what is wrong, whatever the run itself reports"),
+    ),
+    "work_times": (
+        *RUN,
+        number("seconds", "s", "median wall time"),
+        count("repeats", "timed runs"),
+    ),
+    "estimators": (
+        text("quantity", "exponent, dimension or fit"),
+        text("estimator", "how it is estimated"),
+        number("work", "1", "simulated cycles, points or evaluations"),
+        number("error", "1", "relative error of the exponent; error of the dimension; relative gap to the best fit"),
+    ),
+    "stability": (
+        text("panel", "stiffness, damping, impact velocity, edge, chatter, estimate, or hard and a case"),
+        text("method", "euler, semi_implicit_euler, rk4 or event"),
+        number("x", "see panel", "step in s; estimate: perturbation in rad; hard: number of events"),
+        number(
+            "y",
+            "see panel",
+            "stiffness in N/m (also edge), damping in N s/m, velocity in m/s; chatter: slip in m/s; estimate: exponent "
+            "in 1/s; hard: relative change of the end at a hundredth of the tolerance",
+        ),
+        text("outcome", "right, wrong state, energy grows or blow-up"),
+        number("theory", "s", "largest stable step in theory; null where there is none"),
+    ),
+    "scene_budget": (
+        text("sweep", "sweep of the config whose points are sampled"),
+        text("variant", "feeding or vertical needs, or the rigid bouncing part"),
+        number("tolerance", "1", "relative error of a step; null for the rigid part"),
+        number("seconds", "s", "wall time of a point"),
+        number("full_seconds", "s", "wall time of a point of the full model at tight tolerance"),
+        number("ratio", "1", "the latter over the former"),
+        number("states_known", "1", "share of the points whose state a tiny shift of the start does not change"),
+        number("states_changed", "1", "share of those with another state than the full model's"),
+        number("velocities_known", "1", "share of the points whose velocity it does not change, chaos left out"),
+        number("velocities_changed", "1", "share of those whose velocity is off by more than a line is wide"),
+        flag("visible", "whether a reader would see the difference"),
+        flag("chosen", "whether this is what the config chooses"),
+        text("figures", "figures that show the sweep"),
     ),
     "benchmark": (
         text("case", "name of the case"),

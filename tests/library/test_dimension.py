@@ -4,29 +4,11 @@ import numpy as np
 import pytest
 
 from conveyor import dimension
+from known_sets import cantor, circle, sierpinski, square
 
 CANTOR = np.log(2) / np.log(3)
 SIERPINSKI = np.log(3) / np.log(2)
 LARGEST_ERROR = 0.05
-
-
-def cantor(rng, n):
-    x = (2 * rng.integers(0, 2, (n, 32)) / 3.0 ** np.arange(1, 33)).sum(axis=1)
-    return np.column_stack([x, np.zeros(n)])
-
-
-def sierpinski(rng, n):
-    corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.5, 0.75**0.5]])
-    return np.einsum("nkd,k->nd", corners[rng.integers(0, 3, (n, 40))], 0.5 ** np.arange(1, 41))
-
-
-def circle(rng, n):
-    angle = rng.uniform(0.0, 2 * np.pi, n)
-    return np.column_stack([np.cos(angle), np.sin(angle)])
-
-
-def square(rng, n):
-    return rng.random((n, 2))
 
 
 def henon(rng, n):

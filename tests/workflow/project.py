@@ -17,7 +17,17 @@ PARTS = ("Snakefile", "workflow", "profiles", "config", "scripts")
 FIGURES = ("fig03", "fig08", "fig22")
 TARGETS = tuple(f"figures/{figure}.pdf" for figure in FIGURES)
 # Sections that are no entries with a table each.
-SINGLE = ("orbits", "attractors", "lyapunov", "witnesses", "benchmark", "random_points")
+SINGLE = (
+    "orbits",
+    "attractors",
+    "lyapunov",
+    "witnesses",
+    "benchmark",
+    "work",
+    "estimators",
+    "stability",
+    "random_points",
+)
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}
 COARSE_PAIRS = {"axes": {"acceleration": {"num": 3}}, "duration": 0.1}
 TINY = {

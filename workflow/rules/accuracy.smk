@@ -49,3 +49,134 @@ rule random_points:
         "Random conveyors and starts"
     script:
         "../../scripts/random_points.py"
+
+
+def scene(wildcards):
+    """A param: one scene of the section `work` with its model."""
+    work = config["work"]
+    model = {**config["model"], **work["scenes"][wildcards.name]}
+    shared = {name: work[name] for name in ("duration", "tolerances", "steps", "peers", "max_evaluations")}
+    return {**shared, "model": model}
+
+
+rule work:
+    output:
+        table("work"),
+    log:
+        log_file("work"),
+    benchmark:
+        benchmark_file("work")
+    wildcard_constraints:
+        name=one_of(config["work"]["scenes"]),
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=30,
+    params:
+        settings=scene,
+        code=source_hash("work"),
+    message:
+        "Error against work, {wildcards.name}"
+    script:
+        "../../scripts/work.py"
+
+
+rule work_times:
+    input:
+        table("work"),
+    output:
+        table("work_times"),
+    log:
+        log_file("work_times"),
+    benchmark:
+        benchmark_file("work_times")
+    wildcard_constraints:
+        name=one_of(config["work"]["scenes"]),
+    threads: workflow.cores
+    resources:
+        mem_mb=1000,
+        runtime=30,
+    params:
+        settings={name: config["work"][name] for name in ("repeats", "seconds")},
+        code=source_hash("work_times"),
+    message:
+        "Wall times, {wildcards.name}"
+    script:
+        "../../scripts/work_times.py"
+
+
+rule estimators:
+    input:
+        table("critical", config["regressions"]["height"]["critical"]) if "height" in config["regressions"] else [],
+    output:
+        result("estimators.parquet"),
+    log:
+        log_file("accuracy", "estimators"),
+    benchmark:
+        benchmark_file("accuracy", "estimators")
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=30,
+    params:
+        settings=config["estimators"],
+        model=config["model"],
+        fit=config["regressions"].get("height"),
+        code=source_hash("estimators"),
+    message:
+        "Error against work of the estimators"
+    script:
+        "../../scripts/estimators.py"
+
+
+rule stability:
+    output:
+        result("stability.parquet"),
+    log:
+        log_file("accuracy", "stability"),
+    benchmark:
+        benchmark_file("accuracy", "stability")
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=30,
+    params:
+        settings=config["stability"],
+        code=source_hash("stability"),
+    message:
+        "Where methods stop working"
+    script:
+        "../../scripts/stability.py"
+
+
+def shown_sweeps():
+    """The figures that show each converged sweep, by its name."""
+    shown = {}
+    for figure, entry in config["figures"].items():
+        for reference in entry["tables"].values():
+            section, name = reference.split("/")
+            if section == "sweeps" and "method" not in config["sweeps"][name]:
+                shown.setdefault(name, []).append(figure)
+    return shown
+
+
+rule scene_budget:
+    output:
+        result("scene_budget.parquet"),
+    log:
+        log_file("accuracy", "scene_budget"),
+    benchmark:
+        benchmark_file("accuracy", "scene_budget")
+    threads: workflow.cores
+    resources:
+        mem_mb=1000,
+        runtime=30,
+    params:
+        sweeps={name: resolve(config, "sweeps", name) for name in shown_sweeps()},
+        figures=shown_sweeps(),
+        budget=config["scene_budget"],
+        code=source_hash("scene_budget"),
+    message:
+        "What each sweep needs"
+    script:
+        "../../scripts/scene_budget.py"

@@ -36,6 +36,11 @@ rule check_results:
         random_points=result("random_points.parquet"),
         orbits=[table("orbits", name) for name in ("branches", "folds_and_doublings", "cascade")],
         exponents=[table("lyapunov", name) for name in ("spectrum", "witnesses")],
+        accuracy=[
+            *(table("work", scene) for scene in config["work"]["scenes"]),
+            result("stability.parquet"),
+            result("scene_budget.parquet"),
+        ],
         tests=sorted(Path(workflow.basedir).glob("tests/results/*.py")),
     output:
         result("checked.txt"),

@@ -14,7 +14,9 @@ wildcard_constraints:
 
 
 def table(section, name="{name}"):
-    """The Parquet table of an entry of the config."""
+    """The Parquet table of an entry of the config; those of the section `results` lie in the folder itself."""
+    if section == "results":
+        return result(f"{name}.parquet")
     return f"results/{PREFIX}{section}/{name}.parquet"
 
 

@@ -1,4 +1,4 @@
-"""Rule work_precision: error and force evaluations of every method over its tolerances or steps, in one scene.
+"""Rule work: error and force evaluations of every method over its tolerances or steps, in one scene.
 
 The truth is the solver at its tightest tolerance. It is not its own judge: an independent integration, scipy's DOP853
 from event to event at its tightest tolerance, is among the rows, and its error is the difference of the two.
@@ -118,4 +118,4 @@ def columns(settings: dict) -> dict[str, np.ndarray]:
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         settings = snakemake.params.settings
-        tables.write(snakemake.output[0], "work_precision", columns(settings), settings=settings)
+        tables.write(snakemake.output[0], "work", columns(settings), settings=settings)
