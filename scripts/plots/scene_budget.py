@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.ticker import NullFormatter
 
 from plots import style
 
@@ -41,11 +42,13 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     labels = table.groupby("sweep", sort=False).figures.first()
     cost.set_yticks(range(len(names)), [f"{name}\n{labels[name]}" for name in names])
     cost.invert_yaxis()
+    cost.set_xlim(0.01, 1.0)
     for axes in (cost, seen):
         axes.set_xscale("log")
+        axes.xaxis.set_minor_formatter(NullFormatter())
         axes.grid(axis="y", linewidth=0.3)
     cost.set_xlabel("wall time of a point in ms")
-    seen.set_xlabel("share of points that change visibly in 1 (0.001: none)")
+    seen.set_xlabel("share of points that change visibly (0.001: none)")
     handles = [
         Line2D([], [], linestyle="", marker=marker, color=colour, label=kind)
         for kind, (marker, colour) in LOOKS.items()

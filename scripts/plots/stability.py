@@ -55,12 +55,12 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         chatter.loglog(rows.x, rows.y.clip(lower=1e-18), ".-", color=colour, label=label)
         rows = table[(table.panel == "estimate") & (table.method == method)]
         estimate.semilogx(rows.x, rows.y, ".-", color=colour, label=label)
-    chatter.set_title("slip of a part that sticks")
+    chatter.set_title("slip while sticking")
     chatter.set_xlabel("step in s")
     chatter.set_ylabel("slip velocity in m/s")
     chatter.legend()
     estimate.axhline(0.0, color="black", linewidth=0.6)
-    estimate.set_title("published exponent, regular motion")
+    estimate.set_title("published exponent")
     estimate.set_xlabel("perturbation in rad")
     estimate.set_ylabel("exponent of $\\dot{x}_p$ in 1/s")
     handles = [Patch(color=colour, label=outcome) for outcome, colour in OUTCOMES.items()]

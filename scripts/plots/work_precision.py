@@ -24,6 +24,7 @@ LOOKS = {
     ("LSODA", "modes"): ("LSODA, modes", "black", "p"),
 }
 LEAST, LARGEST = 1e-14, 1.0
+TOP = 10.0  # room for the crosses of failed runs
 QUANTITIES = {
     "exponent": ("simulated cycles", "relative error of $\\lambda_1$"),
     "dimension": ("points", "error of the dimension"),
@@ -53,10 +54,10 @@ def draw_scene(axes: Axes, table: pd.DataFrame, work: str, published_step: float
         published = good[np.isclose(good.step.astype(float), published_step)]
         if method == "euler":
             axes.plot(published[work], published.velocity_error, marker, color=colour, markersize=5.0, zorder=4)
-        axes.plot(failed[work], np.full(len(failed), LARGEST), "x", color=colour, markersize=3.5, clip_on=False)
+        axes.plot(failed[work], np.full(len(failed), LARGEST), "x", color=colour, markersize=3.5)
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_ylim(LEAST, LARGEST)
+    axes.set_ylim(LEAST, TOP)
     axes.set_yticks(10.0 ** np.arange(-14, 1, 4))
 
 
@@ -68,7 +69,7 @@ def failures(table: pd.DataFrame) -> str:
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     """From the tables of work and times of the scenes and that of the estimators; settings: published_step, s."""
-    figure = style.figure(style.PAGE, 190.0)
+    figure = style.figure(style.PAGE, 200.0)
     panels = figure.subplots(3, 3)
     keys = ["method", "treatment", "tolerance", "step"]
     for column, (scene, title) in enumerate(SCENES.items()):
@@ -88,6 +89,9 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
             axes.loglog(curve.work, curve.error.clip(lower=1e-16), ".-", color=colour, linewidth=0.8, label=name)
         axes.set_xlabel(work)
         axes.set_ylabel(label)
-        axes.legend(loc="best")
+        # Room for the legend above the curves.
+        low, high = axes.get_ylim()
+        axes.set_ylim(low, high * (high / low) ** 0.3)
+        axes.legend(loc="upper right", handlelength=1.2)
     figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
     return figure
