@@ -20,7 +20,7 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
     start = {name: [settings[name]] for name in ("acceleration", "z0")}
     _, rows = grid.product(start, model)
     state = lyapunov.initial_states(rows, TOLERANCE)[0]
-    orbit, _ = orbits.settled_orbit(rows[0], settings["acceleration"], state, 4, 1000)
+    orbit, _ = orbits.settled_orbit(rows[0], settings["acceleration"], state, (1, 2, 4), 1000)
     cycle = 1.0 / model["frequency"]
     truth = math.log(abs(orbit.multipliers[0])) / (orbit.period * cycle)
     here = attractors.as_starts(rows, orbit.state[None], TOLERANCE)

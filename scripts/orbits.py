@@ -25,7 +25,7 @@ def seeds(settings: dict) -> list[Orbit]:
         row = grid.product({name: [value] for name, value in start.items()}, settings["model"])[1]
         state = lyapunov.initial_states(row, orbits.TOLERANCE)[0]
         orbit, _ = orbits.settled_orbit(
-            row[0], start["acceleration"], state, settings["max_period"], settings["cycles"]
+            row[0], start["acceleration"], state, range(1, settings["max_period"] + 1), settings["cycles"]
         )
         if orbit is None:
             raise ValueError(

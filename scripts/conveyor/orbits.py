@@ -30,6 +30,7 @@ STRAIGHT = 0.95  # cosine of the largest turn of a branch within one step
 MAX_ORBITS = 5000
 FEIGENBAUM = 4.669201609102990
 RESOLVED = 1e-6  # of 1 + μ at a doubling of the cascade: six digits of its distance to the next one
+SECANT_STEPS = 12  # after which a doubling of the cascade is not resolved
 
 
 class Orbit(NamedTuple):
@@ -216,7 +217,7 @@ def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, p
 
 
 def settled_orbit(
-    parameters: np.ndarray, acceleration: float, state: np.ndarray, max_period: int, cycles: int
+    parameters: np.ndarray, acceleration: float, state: np.ndarray, periods: Iterable[int], cycles: int
 ) -> tuple[Orbit | None, np.ndarray]:
     """The stable orbit that a trajectory from `state` ends in, and the state after `cycles` cycles.
 
@@ -225,7 +226,7 @@ def settled_orbit(
     parameters : float64, shape (13,); its amplitude is ignored
     acceleration : amplitude, m/s²
     state : δ (m) and v (m/s)
-    max_period : the orbit is None if its period is longer
+    periods : that are tried, in this order; the orbit is None if it has none of them
     cycles : excitation cycles after which the motion has come near its orbit; Newton's iteration does the rest
     """
     row = parameters.copy()
@@ -235,7 +236,7 @@ def settled_orbit(
     if stroboscope.follow(row, TOLERANCE, end, cycles, strobes, features) != OK:
         return None, end
     unit = ReturnMap(parameters, 1).unit[:2]
-    for period in range(1, max_period + 1):
+    for period in periods:
         if np.abs((strobes[-1] - strobes[-1 - period]) / unit).max() < 1e-2:
             orbit = find_orbit(parameters, acceleration, end, period)
             if orbit is not None and orbit.stable and np.abs((orbit.state - end) / unit).max() < 0.1:
@@ -409,11 +410,13 @@ def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurca
         last = cascade[-1].orbit
         gap = (last.acceleration - cascade[-2].orbit.acceleration) / FEIGENBAUM
         period = 2 * last.period
-        before, _ = settled_orbit(parameters, last.acceleration + 0.5 * gap, last.state, period, 30 * period)
-        if before is None or before.period != period:
+        before, _ = settled_orbit(parameters, last.acceleration + 0.5 * gap, last.state, (period,), 30 * period)
+        if before is None:
             return cascade
         here = find_orbit(parameters, last.acceleration + 0.6 * gap, before.state, period)
-        while here is not None and abs(doubling_test(here)) > RESOLVED:
+        for _ in range(SECANT_STEPS):
+            if here is None or abs(doubling_test(here)) <= RESOLVED:
+                break
             # A secant step in â, from which Newton's iteration starts on the secant of the states.
             part = doubling_test(here) / (doubling_test(before) - doubling_test(here))
             acceleration = here.acceleration + part * (here.acceleration - before.acceleration)
@@ -421,7 +424,7 @@ def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurca
             before, here = here, find_orbit(parameters, acceleration, state, period)
             if abs(acceleration - last.acceleration - gap) > 0.5 * abs(gap) or acceleration == before.acceleration:
                 return cascade
-        if here is None:
+        if here is None or abs(doubling_test(here)) > RESOLVED:
             return cascade
         cascade.append(Bifurcation("period_doubling", here, min(value.real for value in here.multipliers)))
 

@@ -16,7 +16,7 @@ DECAY = CONVEYOR.damping / CONVEYOR.mass
 def settled(acceleration, z0, max_period=4, cycles=800):
     row = pack(Conveyor(acceleration=acceleration), Start(z0))
     state = lyapunov.initial_states(row[None], orbits.TOLERANCE)[0]
-    return orbits.settled_orbit(row, acceleration, state, max_period, cycles)[0]
+    return orbits.settled_orbit(row, acceleration, state, range(1, max_period + 1), cycles)[0]
 
 
 @pytest.fixture(scope="module")
