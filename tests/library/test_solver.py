@@ -239,3 +239,15 @@ def test_a_nearly_still_plate_is_not_passed(acceleration):
     deepest = (5.0 * 0.7e-3 * 0.07**2 / (4.0 * 5e5)) ** 0.4
     assert -1.1 * deepest < gap.min() < -deepest  # a little more, since the weight presses too
     assert gap.max() == pytest.approx(0.07**2 / (2.0 * 9.81), rel=1e-3)
+
+
+@pytest.mark.parametrize("acceleration", [30.0, 47.0])
+def test_steps_of_a_settled_motion_are_used_again(acceleration):
+    """The vertical motion settles within the first second; from then on no step is computed, and nothing changes."""
+    short, long = (simulate(Conveyor(acceleration=acceleration), duration=duration) for duration in (1.0, 20.0))
+    assert long.work < 1.2 * short.work
+    tight = simulate(Conveyor(acceleration=acceleration), duration=20.0, tolerance=1e-13)
+    assert long.mean_velocity() == pytest.approx(tight.mean_velocity(), rel=1e-8)
+    assert (long.z_end, long.vz_end) == pytest.approx((tight.z_end, tight.vz_end), rel=1e-7)
+    assert long.impacts == tight.impacts
+    assert len(long.events) == len(tight.events)

@@ -46,3 +46,65 @@ for figure, entry in config["figures"].items():
             f"Draw {figure}: {entry['title']}"
         script:
             "../../scripts/plot_figure.py"
+
+
+def jobs_of(reference):
+    """The benchmark files of the jobs that a table SECTION/NAME needs."""
+    section, name = reference.split("/")
+    if section == "sweeps":
+        shards = math.ceil(count_points(config["sweeps"][name]["axes"]) / POINTS_PER_JOB)
+        return [benchmark_file("runs", f"{name}/{k}") for k in range(shards)] + [benchmark_file(section, name)]
+    if section == "regressions":
+        return jobs_of(f"critical/{config['regressions'][name]['critical']}") + [benchmark_file(section, name)]
+    if section == "orbits":
+        return [benchmark_file("orbits", "orbits")]
+    if section == "lyapunov":
+        return jobs_of("attractors/strobes") + [benchmark_file(section, name)]
+    if section == "work_times":
+        return jobs_of(f"work/{name}") + [benchmark_file(section, name)]
+    return [benchmark_file("accuracy" if section == "results" else section, name)]
+
+
+def costs():
+    """A param: the tables of each figure and the benchmark files of all jobs that it needs."""
+    found = {}
+    for figure, entry in config["figures"].items():
+        references = list(entry["tables"].values())
+        files = {file for reference in references for file in jobs_of(reference)}
+        found[figure] = {"tables": references, "files": sorted(files | {benchmark_file("figures", figure)})}
+    return found
+
+
+# Pages of the documentation, made on the paper's config only.
+rule figure_costs:
+    input:
+        figure_files(),
+    output:
+        "docs/figures.md" if not PREFIX else result("figures.md"),
+    log:
+        log_file("docs", "figures"),
+    localrule: True
+    params:
+        figures=costs(),
+        code=source_hash("figure_costs"),
+    message:
+        "What each figure costs"
+    script:
+        "../../scripts/figure_costs.py"
+
+
+rule gallery:
+    input:
+        figure_files("png"),
+    output:
+        "docs/gallery.png" if not PREFIX else result("gallery.png"),
+    log:
+        log_file("docs", "gallery"),
+    localrule: True
+    params:
+        names=list(config["figures"]),
+        code=source_hash("gallery"),
+    message:
+        "All figures side by side"
+    script:
+        "../../scripts/gallery.py"
