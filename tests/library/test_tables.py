@@ -37,7 +37,8 @@ def test_every_column_has_unit_and_description():
     for kind in tables.COLUMNS:
         for field in tables.schema(kind, UNITS):
             assert field.metadata[b"description"]
-            assert bool(field.metadata[b"unit"]) == (field.type in ("double", "int64"))
+            kind_of_value = getattr(field.type, "value_type", field.type)
+            assert bool(field.metadata[b"unit"]) == (kind_of_value in ("double", "int64"))
 
 
 def test_equal_content_gives_equal_bytes(tmp_path):

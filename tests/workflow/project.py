@@ -26,6 +26,7 @@ SINGLE = (
     "work",
     "estimators",
     "stability",
+    "scene_budget",
     "random_points",
 )
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}
