@@ -75,12 +75,12 @@ def columns(claims: dict[str, dict], found: dict[str, Finding]) -> dict[str, lis
     """The columns of the table of claims."""
     verdicts = [verdict(found[name], claim["accepted"]) for name, claim in claims.items()]
     reasons = [
-        None if result == REPRODUCED else "; ".join(filter(None, (outside(found[name], claim), found[name].reason)))
+        "; ".join(filter(None, ("" if result == REPRODUCED else outside(found[name], claim), found[name].reason))) or None
         for result, (name, claim) in zip(verdicts, claims.items(), strict=True)
     ]
     return {
-        "claim": list(claims),
-        **{name: [claim[name] for claim in claims.values()] for name in ("place", "statement", "quantities", "paper")},
+        "id": list(claims),
+        **{name: [claim[name] for claim in claims.values()] for name in ("where", "statement", "quantities", "paper")},
         "published": [list(found[name].published) for name in claims],
         "converged": [list(found[name].converged) for name in claims],
         "accepted_low": [[low for low, _ in claim["accepted"]] for claim in claims.values()],
@@ -88,6 +88,12 @@ def columns(claims: dict[str, dict], found: dict[str, Finding]) -> dict[str, lis
         "verdict": verdicts,
         "reason": reasons,
     }
+
+
+def schema(reference: str) -> str:
+    """The schema of the table SECTION/NAME; those of the section `results` have one of their own."""
+    section, name = reference.split("/")
+    return name if section == "results" else section
 
 
 def report(rows: pd.DataFrame) -> str:
@@ -113,11 +119,12 @@ def report(rows: pd.DataFrame) -> str:
             for low, high in zip(row.accepted_low, row.accepted_high, strict=True)
         )
         lines.append(
-            f"| {row.claim} | {row.place} | {row.statement} | {'; '.join(row.quantities)} | {numbers(row.paper)} "
+            f"| {row.id} | {row.where} | {row.statement} | {'; '.join(row.quantities)} | {numbers(row.paper)} "
             f"| {numbers(row.published)} | {numbers(row.converged)} | {accepted} | **{row.verdict}** |"
         )
-    lines += ["", "## Reasons", ""]
-    lines += [f"- **{row.claim}** {row.reason}." for row in rows.itertuples() if row.verdict != REPRODUCED]
+    told = rows.dropna(subset="reason")
+    for title, part in (("Reasons", told[told.verdict != REPRODUCED]), ("Notes", told[told.verdict == REPRODUCED])):
+        lines += ["", f"## {title}", "", *(f"- **{row.id}** {row.reason}." for row in part.itertuples())]
     return "\n".join(lines) + "\n"
 
 
@@ -125,7 +132,7 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]):
         claims = snakemake.params.claims
         paths = dict(zip(snakemake.params.references, snakemake.input, strict=True))
-        read = {reference: tables.read(path, reference.split("/")[0]) for reference, path in paths.items()}
+        read = {reference: tables.read(path, schema(reference)) for reference, path in paths.items()}
         found = {
             name: FINDINGS[name]({role: read[reference] for role, reference in claim["tables"].items()})
             for name, claim in claims.items()

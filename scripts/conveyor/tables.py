@@ -209,8 +209,8 @@ COLUMNS = {
         number("allowed_depth", "m", "penetration that no run can exceed"),
     ),
     "claims": (
-        text("claim", "name of the statement"),
-        text("place", "where the paper makes it"),
+        text("id", "name of the statement"),
+        text("where", "where the paper makes it"),
         text("statement", "what it says"),
         several("quantities", pa.string(), "", "what its numbers are, with units"),
         several("paper", pa.float64(), "see quantities", "the paper's numbers; null where it gives none"),
@@ -219,7 +219,7 @@ COLUMNS = {
         several("accepted_low", pa.float64(), "see quantities", "least numbers that bear it out; null for none"),
         several("accepted_high", pa.float64(), "see quantities", "largest ones; null for none"),
         text("verdict", "reproduced, reproduced by the published method only, or not reproduced"),
-        text("reason", "computed reason of any other verdict than reproduced"),
+        text("reason", "computed reason of any other verdict than reproduced; else a note, null for none"),
     ),
     "work": (
         *RUN,

@@ -6,9 +6,35 @@ import pandas as pd
 from findings.finding import Finding, lowest, onset
 
 
+LONGEST_PERIOD = 64  # excitation cycles
+BACK = 0.05  # of the largest position or velocity: nearer than that, a motion has come back
+
+
+def least_return(run: pd.DataFrame) -> tuple[float, int]:
+    """How near a motion, seen once in an excitation cycle, comes back again and again, and after how many cycles.
+
+    The distance is the largest one of the last LONGEST_PERIOD samples from those one period before, in units of the
+    largest position and velocity; the period is that with the least distance.
+    """
+    seen = run.sort_values("time")[["z", "vz"]].to_numpy()
+    seen = seen / np.abs(seen).max(axis=0)
+    last = np.arange(len(seen) - LONGEST_PERIOD, len(seen))
+    distances = [float(np.abs(seen[last] - seen[last - period]).max()) for period in range(1, LONGEST_PERIOD + 1)]
+    return min(distances), int(np.argmin(distances)) + 1
+
+
 def no_period(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C15: share of the starts that do not settle to a period (up to 64 cycles) in a long run."""
-    return Finding(*((float((tables[role].period == 0).mean()),) for role in ("published", "converged")))
+    """C15: share of the starts whose motion has no period of up to 64 cycles at the end of a long run."""
+    returns = {
+        role: [least_return(run) for _, run in tables[role].groupby("z0")] for role in ("published", "converged")
+    }
+    shares = [(float(np.mean([distance > BACK for distance, _ in found])),) for found in returns.values()]
+    nearest = {role: min(found) for role, found in returns.items()}
+    reason = "of all starts and periods, the motion comes back to " + " and ".join(
+        f"{100 * distance:.2g} % after {period} cycles ({method})"
+        for method, (distance, period) in (("Euler", nearest["published"]), ("converged", nearest["converged"]))
+    )
+    return Finding(*shares, reason)
 
 
 def irregular(tables: dict[str, pd.DataFrame]) -> Finding:
@@ -39,18 +65,38 @@ def phase_estimate(tables: dict[str, pd.DataFrame]) -> Finding:
     """C19: amplitude (m/s²) above which the estimate is positive."""
     found = {role: positive_onset(tables[role]) for role in ("published", "converged")}
     states = tables["states"]
-    settled = states[(states.acceleration >= 50.0) & (states.acceleration < found["converged"])]
+    settled = states[(states.acceleration >= found["published"]) & (states.acceleration < found["converged"])]
     settled = settled[settled.z0 == settled.z0.min()]
-    medians = {
-        role: tables[role][tables[role].acceleration.between(50.0, found["converged"])]["lambda"].median()
-        for role in found
+    between = {
+        role: table[(table.acceleration >= found["published"]) & (table.acceleration < found["converged"])]["lambda"]
+        for role, table in ((role, tables[role]) for role in found)
     }
+    texts = [
+        f"{100 * (values > 0.0).mean():.0f} % of the amplitudes {method} (median {values.median():+.2f} 1/s)"
+        for method, values in (("by Euler", between["published"]), ("converged", between["converged"]))
+    ]
     reason = (
-        f"between 50 and {found['converged']:g} m/s² the estimate's median is {medians['published']:+.2f} 1/s by Euler "
-        f"and {medians['converged']:+.2f} 1/s converged; "
-        f"{100 * (settled.period > 0).mean():.0f} % of these amplitudes settle to a period"
+        f"between {found['published']:g} and {found['converged']:g} m/s² the estimate is positive at {texts[0]} and at "
+        f"{texts[1]}, and {100 * (settled.period > 0).mean():.0f} % settle to a period; {of_perturbations(tables)}"
     )
     return Finding((found["published"],), (found["converged"],), reason)
+
+
+def of_perturbations(tables: dict[str, pd.DataFrame]) -> str:
+    """How the estimate in a regular motion depends on the perturbation."""
+    table = tables["stability"]
+    rows = table[table.panel == "estimate"]
+    ranges = [
+        f"{values.min():+.2f} to {values.max():+.2f} 1/s {method}"
+        for method, values in (
+            ("by Euler", rows[rows.method == "euler"].y),
+            ("converged", rows[rows.method == "event"].y),
+        )
+    ]
+    return (
+        f"at {table.attrs['estimate']['acceleration']:g} m/s², a settled motion, perturbations from {rows.x.min():g} to "
+        f"{rows.x.max():g} rad give {ranges[0]} and {ranges[1]}"
+    )
 
 
 def portraits(tables: dict[str, pd.DataFrame]) -> Finding:
@@ -89,6 +135,18 @@ def predicted_onset(tables: dict[str, pd.DataFrame]) -> Finding:
     reason = (
         f"by dimension chaos begins at {dimension_onset(tables['converged']):g} m/s², by the estimate of Fig. 22 at "
         f"{positive_onset(tables['converged_exponent']):g} m/s²; by Euler at {dimension_onset(tables['published']):g} "
-        f"and {positive_onset(tables['published_exponent']):g} m/s²"
+        f"and {positive_onset(tables['published_exponent']):g} m/s², where the second state begins: its boxes give "
+        f"{dimension_range(tables, 'second')} in that and {dimension_range(tables, 'chaos')} in chaos"
     )
     return Finding(found[0], found[1], reason)
+
+
+def dimension_range(tables: dict[str, pd.DataFrame], state: str) -> str:
+    """Least and largest published dimension of the motions that settle to a state, from the same start."""
+    states = tables["states"]
+    states = states[states.z0 == states.z0.min()].sort_values("acceleration")[["acceleration", "state"]]
+    rows = pd.merge_asof(
+        tables["published"].sort_values("acceleration"), states, on="acceleration", direction="nearest"
+    )
+    found = rows[rows.state == state].dimension
+    return f"{found.min():.2f} to {found.max():.2f}"

@@ -9,7 +9,8 @@ NONE = float("nan")
 
 
 class Finding(NamedTuple):
-    """The quantities of one statement by both methods, and the reason if they are not the paper's.
+    """The quantities of one statement by both methods, and what stands behind them: the reason if they are not the
+    paper's, else a note.
 
     A method that has no say in a statement has no quantities.
     """

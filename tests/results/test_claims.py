@@ -5,7 +5,7 @@ from claims import FINDINGS, NOT_REPRODUCED, PUBLISHED_ONLY, REPRODUCED
 
 def test_every_claim_has_a_verdict(result):
     table = result("claims")
-    assert list(table.claim) == sorted(FINDINGS)
+    assert list(table.id) == sorted(FINDINGS)
     assert set(table.verdict) <= {REPRODUCED, PUBLISHED_ONLY, NOT_REPRODUCED}
 
 
