@@ -75,7 +75,8 @@ def columns(claims: dict[str, dict], found: dict[str, Finding]) -> dict[str, lis
     """The columns of the table of claims."""
     verdicts = [verdict(found[name], claim["accepted"]) for name, claim in claims.items()]
     reasons = [
-        "; ".join(filter(None, ("" if result == REPRODUCED else outside(found[name], claim), found[name].reason))) or None
+        "; ".join(filter(None, ("" if result == REPRODUCED else outside(found[name], claim), found[name].reason)))
+        or None
         for result, (name, claim) in zip(verdicts, claims.items(), strict=True)
     ]
     return {

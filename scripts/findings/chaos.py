@@ -5,7 +5,6 @@ import pandas as pd
 
 from findings.finding import Finding, lowest, onset
 
-
 LONGEST_PERIOD = 64  # excitation cycles
 BACK = 0.05  # of the largest position or velocity: nearer than that, a motion has come back
 
@@ -30,8 +29,8 @@ def no_period(tables: dict[str, pd.DataFrame]) -> Finding:
     }
     shares = [(float(np.mean([distance > BACK for distance, _ in found])),) for found in returns.values()]
     nearest = {role: min(found) for role, found in returns.items()}
-    reason = "of all starts and periods, the motion comes back to " + " and ".join(
-        f"{100 * distance:.2g} % after {period} cycles ({method})"
+    reason = "the motions come back no nearer than " + " and ".join(
+        f"{100 * distance:.2g} % of their extent, after {period} cycles ({method})"
         for method, (distance, period) in (("Euler", nearest["published"]), ("converged", nearest["converged"]))
     )
     return Finding(*shares, reason)
@@ -94,8 +93,8 @@ def of_perturbations(tables: dict[str, pd.DataFrame]) -> str:
         )
     ]
     return (
-        f"at {table.attrs['estimate']['acceleration']:g} m/s², a settled motion, perturbations from {rows.x.min():g} to "
-        f"{rows.x.max():g} rad give {ranges[0]} and {ranges[1]}"
+        f"at {table.attrs['estimate']['acceleration']:g} m/s², a settled motion, perturbations from {rows.x.min():g} "
+        f"to {rows.x.max():g} rad give {ranges[0]} and {ranges[1]}"
     )
 
 

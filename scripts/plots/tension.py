@@ -8,9 +8,9 @@ from matplotlib.figure import Figure
 from plots import style
 
 MODES = {
-    "allow": ("pulls and rubs, as written", "#0072B2", "-"),
-    "frictionless": ("pulls, does not rub", "#D55E00", (0, (4, 2))),
-    "clip": ("does not pull", "black", (0, (1, 1))),
+    "allow": ("pulls and rubs, as written", "black", "-", 1.4),
+    "frictionless": ("pulls, does not rub", "0.7", (0, (4, 2)), 1.0),
+    "clip": ("does not pull", "#D55E00", (0, (1, 1)), 1.4),
 }
 
 
@@ -19,15 +19,20 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     figure = style.figure(style.PAGE, 104.0)
     panels = figure.subplot_mosaic([["velocity", "edge"], ["states", "states"]], height_ratios=(2.0, 1.2))
     sweep, edge = tables["sweep"], tables["edge"]
-    for mode, (label, colour, dashes) in MODES.items():
+    for mode, (label, colour, dashes, width) in MODES.items():
         regular = sweep[(sweep.tension == mode) & (sweep.state != "chaos") & (sweep.period == 1)]
         for state, rows in regular.groupby("state"):
             curve = rows.groupby("acceleration").mean_velocity.median()
             panels["velocity"].plot(
-                curve.index, curve, color=colour, linestyle=dashes, label=label if state == "first" else None
+                curve.index,
+                curve,
+                color=colour,
+                linestyle=dashes,
+                linewidth=width,
+                label=label if state == "first" else None,
             )
         rows = edge[(edge.tension == mode) & edge.is_critical]
-        panels["edge"].plot(rows.acceleration, 1e3 * rows.z0, color=colour, linestyle=dashes)
+        panels["edge"].plot(rows.acceleration, 1e3 * rows.z0, color=colour, linestyle=dashes, linewidth=width)
     panels["velocity"].set_ylabel("mean feeding velocity in m/s")
     panels["velocity"].set_ylim(bottom=0.0)
     panels["velocity"].set_title("motions with the period of the excitation")

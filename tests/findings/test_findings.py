@@ -1,10 +1,12 @@
 """Findings from made-up tables whose answer is known, and verdicts that come out each way."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
 
 import claims
 from findings import chaos, states
@@ -62,6 +64,44 @@ def test_verdicts(published, converged, expected):
     assert claims.verdict(Finding(published, converged), [[0.5, 1.5]]) == expected
 
 
+CLAIMS = yaml.safe_load((Path(__file__).parents[2] / "config/config.yaml").read_text())["claims"]
+
+
+def inside(low, high):
+    if low is None or high is None:
+        return (high if low is None else low) if (low, high) != (None, None) else 0.0
+    return 0.5 * (low + high)
+
+
+def beyond(low, high):
+    return high + 1.0 if low is None else low - 1.0
+
+
+@pytest.mark.parametrize("name", claims.FINDINGS)
+def test_accepted_intervals_bring_each_verdict(name):
+    accepted = CLAIMS[name]["accepted"]
+    right = tuple(inside(*interval) for interval in accepted)
+    assert claims.verdict(Finding(right, right), accepted) == claims.REPRODUCED
+    for place, interval in enumerate(accepted):
+        wrong = (*right[:place], beyond(*interval), *right[place + 1 :])
+        assert claims.verdict(Finding(right, wrong), accepted) == claims.PUBLISHED_ONLY
+        assert claims.verdict(Finding(wrong, wrong), accepted) == claims.NOT_REPRODUCED
+
+
+@pytest.mark.parametrize("name", claims.FINDINGS)
+def test_the_papers_own_numbers_are_accepted(name):
+    claim = CLAIMS[name]
+    for number, interval in zip(claim["paper"], claim["accepted"], strict=True):
+        assert number is None or claims.holds((number,), [interval])
+
+
+def test_notes_stand_beside_verdicts():
+    claim = CLAIMS["C01"]
+    table = claims.columns({"a": claim, "b": claim}, {"a": Finding((), (50.0,), "note 1"), "b": Finding((), (50.0,))})
+    assert table["verdict"] == [claims.REPRODUCED] * 2
+    assert table["reason"] == ["note 1", None]
+
+
 def test_null_is_no_bound():
     assert claims.holds((1e300, -1e300), [[0.0, None], [None, 0.0]])
     assert not claims.holds((-1.0,), [[0.0, None]])
@@ -84,6 +124,12 @@ def test_interval_of_two_states():
     assert all(math.isnan(end) for end in states.interval(both(sweep("first"))).converged)
 
 
+def test_interval_by_the_reading_of_the_contact_force():
+    table = sweep(lambda a, z: "second" if a > 47.0 or (a >= 29.0 and z > 0.0) else "first")
+    finding = states.interval({**both(table), "tension": table.assign(tension="clip")})
+    assert finding.reason.endswith("29 to 47 m/s² (clip)")
+
+
 def test_onset_of_chaos_by_scatter_and_by_state():
     table = sweep(lambda a, z: "chaos" if a >= 63.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
     finding = states.onset_of_chaos(both(table))
@@ -96,6 +142,7 @@ def test_critical_heights_are_read_between_amplitudes():
         {
             "acceleration": [29.0, 35.0, 35.0, 41.0],
             "z0": [3e-4, 1e-4, 4e-4, 0.5e-4],
+            "crossing": [1, 1, 2, 1],
             "is_critical": [True, True, False, True],
         }
     )
@@ -109,8 +156,10 @@ def test_velocities_of_both_states():
         lambda a, z: "first" if a < 29.0 or (z == 0.0 and a <= 47.0) else "second",
         lambda a, z: 1e-3 * a if z == 0.0 and a <= 47.0 else 0.07 - 1e-4 * (a - 29.0),
     )
-    assert states.first_velocity(both(table)).converged == pytest.approx((2.9, 4.7))
-    assert states.second_velocity(both(table)).converged == pytest.approx((0.18,))
+    tables = {**both(table), "tension": table.assign(tension="clip")}
+    assert states.first_velocity(tables).converged == pytest.approx((2.9, 4.7))
+    assert states.second_velocity(tables).converged == pytest.approx((0.18,))
+    assert states.first_velocity(tables).reason.endswith("4.70 cm/s (clip)")
 
 
 def test_fit_is_that_of_the_regression():
@@ -120,18 +169,27 @@ def test_fit_is_that_of_the_regression():
             "A": 0.004,
             "B": [-20.0, -19.5, -21.0, -18.0],
             "C": -1e-4,
-            "error": [1e-11, 2e-11, 3e-11, 1e-10],
+            "error": [1e-11, 2e-11, 3e-11, 1.5e-11],
         }
     )
     finding = states.fit(both(table))
     assert finding.converged == (0.004, -20.0, -1e-4, 1e-11)
-    assert "every B from -21 to -21" in finding.reason
+    assert "every B from -21 to -21" not in finding.reason  # 3e-11 is more than the paper's triple has
+    assert "every B from -18 to -18" in finding.reason
 
 
 def test_spread_of_onsets():
-    assert states.one_onset(both(sweep(lambda a, z: "chaos" if a >= 60.0 else "second"))).converged == (0.0,)
+    straight = states.one_onset({"converged": sweep(lambda a, z: "chaos" if a >= 60.0 else "second")})
+    assert (straight.published, straight.converged) == ((), (0.0,))
     slanted = sweep(lambda a, z: "chaos" if a >= 60.0 + 2e4 * z else "second")
-    assert states.one_onset(both(slanted)).converged == (2.0,)
+    assert states.one_onset({"converged": slanted}).converged == (2.0,)
+
+
+def test_early_chaos_of_some_heights_is_told():
+    early = sweep(lambda a, z: "chaos" if a >= 63.0 or (a == 53.0 and z == 0.0) else "second")
+    finding = states.one_onset({"converged": early})
+    assert finding.converged == (0.0,)
+    assert "from 53.00 to 53.00 m/s² already, for 50 % of the starts there" in finding.reason
 
 
 def test_impact_line():
@@ -160,7 +218,9 @@ def test_overlap_of_maps():
     maps = {
         f"{place}_{level}": table for place in ("height", "velocity") for level, table in (("low", low), ("high", high))
     }
-    assert states.overlap(maps).converged == (0.5, 0.25, 0.5, 0.25)
+    finding = states.overlap(maps)
+    assert finding.converged == (0.5, 0.25, 0.5, 0.25)
+    assert finding.reason.startswith("0 points")  # the chaos of the higher amplitude is not counted
 
 
 def test_mapped_states():
@@ -171,12 +231,26 @@ def test_mapped_states():
 def test_error_of_euler_in_regular_motion_only():
     converged = sweep(lambda a, z: "chaos" if a > 60.0 else "second")
     published = converged.assign(mean_velocity=np.where(converged.state == "chaos", 1.0, 0.101))
-    finding = states.euler_error({"converged": converged, "published": published})
-    assert finding.published == pytest.approx((0.01, 0.01))
+    estimates = {"converged_exponent": exponents(60.0), "published_exponent": exponents(50.0)}
+    finding = states.euler_error({"converged": converged, "published": published, **estimates})
+    assert finding.published == pytest.approx((math.nan, 0.01, 61 / 71), nan_ok=True)
+    assert "wrong at 10 of 71 amplitudes" in finding.reason
 
 
-def test_no_period():
-    assert chaos.no_period(both(pd.DataFrame({"period": [0, 0, 4, 0]}))).converged == (0.75,)
+def strobes(z0, values):
+    return pd.DataFrame({"z0": z0, "time": 0.02 * np.arange(len(values)), "z": values, "vz": values})
+
+
+def test_a_motion_comes_back_after_its_period():
+    period_3 = np.tile([1.0, -0.5, 0.2], 43)[:128]
+    assert chaos.least_return(strobes(0.0, period_3)) == (0.0, 3)
+    assert chaos.least_return(strobes(0.0, np.tile(np.arange(65.0), 2)[:128]))[0] > chaos.BACK
+
+
+def test_share_without_a_period():
+    noise = strobes(0.0, np.random.default_rng(1).normal(size=128))
+    regular = strobes(1e-4, np.tile([1.0, -1.0], 64))
+    assert chaos.no_period(both(pd.concat([noise, regular]))).converged == (0.5,)
 
 
 def test_irregular_dependence():
@@ -199,11 +273,33 @@ def test_height_estimate():
     assert chaos.height_estimate(both(exponents(42.0, crossing=55.0))).converged == (42.0, 1.0)
 
 
+def perturbations():
+    """The estimate of a settled motion over the perturbation, by both methods."""
+    table = pd.DataFrame(
+        {"panel": "estimate", "method": ["euler", "euler", "event", "event"], "x": [1e-8, 1e-6] * 2, "y": 0.0}
+    )
+    table["y"] = [0.5, 1.5, -9.0, -8.0]
+    table.attrs = {"estimate": {"acceleration": 55.0}}
+    return table
+
+
+def estimates(published, converged):
+    """The tables of C19 with onsets as given."""
+    return {
+        "published": exponents(published),
+        "converged": exponents(converged),
+        "states": sweep("second"),
+        "stability": perturbations(),
+    }
+
+
 def test_phase_estimate():
-    tables = {"converged": exponents(59.0), "published": exponents(50.0), "states": sweep("second")}
-    finding = chaos.phase_estimate(tables)
+    finding = chaos.phase_estimate(estimates(50.0, 59.0))
     assert (finding.published, finding.converged) == ((50.0,), (59.0,))
-    assert "100 % of these amplitudes settle to a period" in finding.reason
+    assert "positive at 100 % of the amplitudes by Euler" in finding.reason
+    assert "at 0 % of the amplitudes converged" in finding.reason
+    assert "100 % settle to a period" in finding.reason
+    assert "+0.50 to +1.50 1/s by Euler and -9.00 to -8.00 1/s converged" in finding.reason
 
 
 def test_portraits_in_the_order_of_the_states():
@@ -220,6 +316,12 @@ def test_portraits_in_the_order_of_the_states():
 
 def test_onset_by_dimension():
     table = pd.DataFrame({"acceleration": AMPLITUDES, "dimension": np.where(AMPLITUDES >= 62.0, 2.0, 1.0)})
-    tables = {**both(table), "converged_exponent": exponents(59.0), "published_exponent": exponents(62.0)}
+    tables = {
+        **both(table),
+        "converged_exponent": exponents(59.0),
+        "published_exponent": exponents(62.0),
+        "states": sweep(lambda a, z: "chaos" if a >= 63.0 else "second"),
+    }
     finding = chaos.predicted_onset(tables)
     assert (finding.published, finding.converged) == ((0.0, 1.0), (3.0, 1.0))
+    assert "1.00 to 2.00 in that and 2.00 to 2.00 in chaos" in finding.reason
