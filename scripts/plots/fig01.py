@@ -57,7 +57,7 @@ def arrow(axes: Axes, tail: tuple[float, float], tip: tuple[float, float], look:
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     """No tables, no settings."""
-    figure = style.figure(style.COLUMN, 42.0)
+    figure = style.figure(style.COLUMN, 32.0)
     axes = figure.subplots()
     axes.set_aspect("equal")
     axes.axis("off")
@@ -79,11 +79,11 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     axes.text(2.05, -0.75, "vibrating channel $N$", va="top")
     arrow(axes, (9.3, -1.55), (10.9, -1.05), "<|-|>", style.CONVERGED)
     axes.text(10.2, -1.6, "vibration\nin $x$ and $z$", color=style.CONVERGED, va="top")
-    origin = (-1.6, -0.6)
+    origin = (-2.6, -0.6)
     for tip, name in (((1.3, 0.0), "$x$"), ((0.9 * DEPTH[0] * 2, 0.9 * DEPTH[1] * 2), "$y$"), ((0.0, 1.3), "$z$")):
         end = origin[0] + tip[0], origin[1] + tip[1]
         arrow(axes, origin, end)
         axes.annotate(name, end, (2, 1), textcoords="offset points")
-    axes.set_xlim(-2.0, 13.2)
-    axes.set_ylim(-2.9, 2.6)
+    axes.set_xlim(-2.8, 13.2)
+    axes.set_ylim(-2.8, 2.6)
     return figure

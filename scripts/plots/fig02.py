@@ -14,7 +14,7 @@ THROW = math.radians(25.0)  # drawn steeper than the paper's 12°, to be seen
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     """No tables, no settings."""
-    figure = style.figure(style.COLUMN, 42.0)
+    figure = style.figure(style.COLUMN, 32.0)
     axes = figure.subplots()
     axes.set_aspect("equal")
     axes.axis("off")

@@ -18,13 +18,14 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
             panels[0, column].set_title(f"{('below', 'above')[column]}, $\\hat{{a}}$ = {acceleration:g} m/s²")
             for axes, force in zip(panels[:, column], FORCES, strict=True):
                 axes.plot(rows.time, 1e3 * rows[force], **look)
-    for axes, label in zip(panels[:, 0], FORCES.values(), strict=True):
-        axes.set_ylabel(label)
+    for line, label in zip(panels, FORCES.values(), strict=True):
+        for axes in line:
+            axes.set_ylabel(label)
     for axes in panels[1]:
         axes.set_xlim(settings["begin"], tables["converged"].time.max())
         axes.locator_params(axis="x", nbins=5)
         axes.set_xlabel("time in s")
-    figure.align_ylabels(panels[:, 0])
+    figure.align_ylabels()
     figure.get_layout_engine().set(wspace=0.06)
     figure.legend(handles=panels[0, 0].lines, loc="outside upper center", ncols=2)
     return figure

@@ -22,14 +22,16 @@ def plot_signal(tables: dict[str, pd.DataFrame], signal: str, symbol: str, highe
     for role, look in looks.items():
         table = tables[role]
         shown = table[(table.signal == signal) & (table.frequency <= highest)]
-        for axes, (acceleration, rows) in zip(panels, shown.groupby("acceleration"), strict=True):
+        for axes, place, (acceleration, rows) in zip(
+            panels, ("below", "above"), shown.groupby("acceleration"), strict=True
+        ):
             axes.plot(rows.frequency, rows.amplitude, linestyle="", markersize=4.0, markeredgewidth=0.6, **look)
             if role == "converged":
                 axes.vlines(rows.frequency, 0.0, rows.amplitude, color=look["color"], linewidth=0.8)
-            axes.set_title(f"$\\hat{{a}}$ = {acceleration:g} m/s²")
+            axes.set_title(f"{place}, $\\hat{{a}}$ = {acceleration:g} m/s²")
             axes.set_xlabel("frequency in Hz")
             axes.set_ylim(bottom=0.0)
-    panels[0].set_ylabel(f"amplitude of {symbol} in m/s")
+            axes.set_ylabel(f"amplitude of {symbol} in m/s")
     panels[1].legend(loc="upper right")
     return figure
 
