@@ -7,6 +7,7 @@ from event to event at its tightest tolerance, is among the rows, and its error 
 from typing import NamedTuple
 
 import numpy as np
+from tqdm import tqdm
 
 from conveyor import fixed_step, peers, states, tables
 from conveyor.model import Conveyor, Start, conveyor_motion, pack
@@ -15,7 +16,7 @@ from conveyor.simulation import simulate
 from rule_log import logged
 
 TRUTH = 1e-14  # tolerance
-# Where no digit is right, and where a part is that is deeper in the plate than the plate moves.
+# Where a run ends in another state of motion, and where its part is deeper in the plate than the plate moves.
 WRONG = "wrong state"
 THROUGH = "through the plate"
 
@@ -82,7 +83,7 @@ def leads_to(settings: dict, end: np.ndarray) -> str:
 
 
 def outcome(result: Result, error: float, settings: dict, state: str) -> str:
-    """ "ok", or what is wrong with a run, which its own status need not say."""
+    """ "ok", or what is wrong with a run, which its own status need not say; `state` is the right state of motion."""
     if result.status != "ok":
         return result.status
     conveyor, _ = scene(settings)
@@ -95,18 +96,21 @@ def outcome(result: Result, error: float, settings: dict, state: str) -> str:
     return "ok"
 
 
-def columns(settings: dict) -> dict[str, np.ndarray]:
-    """The columns of a table of work and precision for the resolved `settings` of an entry of the config."""
+def columns(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
+    """The columns of a table of work and precision for the `settings` of one scene with its model."""
     truth = follow(Method("event", "exact", TRUTH, None), settings)
     state = leads_to(settings, truth.end)
     _, *scale = peers.scales(pack(*scene(settings)))
     listed = methods(settings)
-    results = [follow(method, settings) for method in listed]
+    results = [follow(method, settings) for method in tqdm(listed, progress, unit="run", disable=progress is None)]
     velocity = np.array([result.mean_velocity for result in results])
     velocity_error = np.abs(velocity / truth.mean_velocity - 1.0)
     outcomes = [outcome(result, error, settings, state) for result, error in zip(results, velocity_error, strict=True)]
     return {
-        **{name: np.array(column) for name, column in zip(Method._fields, zip(*listed, strict=True), strict=True)},
+        "method": np.array([method.method for method in listed]),
+        "treatment": np.array([method.treatment for method in listed]),
+        "tolerance": np.array([method.tolerance for method in listed], dtype=np.float64),
+        "step": np.array([method.step for method in listed], dtype=np.float64),
         "evaluations": np.array([result.evaluations for result in results]),
         "mean_velocity": velocity,
         "velocity_error": velocity_error,
@@ -118,4 +122,5 @@ def columns(settings: dict) -> dict[str, np.ndarray]:
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         settings = snakemake.params.settings
-        tables.write(snakemake.output[0], "work", columns(settings), settings=settings)
+        found = columns(settings, progress=snakemake.wildcards.name)
+        tables.write(snakemake.output[0], "work", found, settings=settings)

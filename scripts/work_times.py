@@ -15,24 +15,15 @@ from conveyor import tables
 from rule_log import logged
 from work import Method, follow
 
-SHORT = 0.01  # s
-
-
-def timed(method: Method, scene: dict) -> float:
-    """Wall time (s) of a run; of the fastest of five where it is so short that a cold cache would count."""
-    times = []
-    while not times or (times[0] < SHORT and len(times) < 5):
-        begin = perf_counter()
-        follow(method, scene)
-        times.append(perf_counter() - begin)
-    return min(times)
+# A turn of a fast method is repeated for this long, so that what ran before it leaves no trace in the median.
+TURN = 0.01  # s
 
 
 def columns(precision: pd.DataFrame, settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of a table of times for a table of work and precision.
 
-    In each round every run gets its turn, until it has had `repeats` of them or `seconds` are spent on it. The first
-    round, which compiles, does not count.
+    In each of `repeats` rounds every run gets a turn, unless `seconds` are spent on it. What has to be compiled is
+    compiled before the first one.
     """
     listed = [
         Method(row.method, row.treatment, *(None if np.isnan(value) else value for value in (row.tolerance, row.step)))
@@ -40,13 +31,18 @@ def columns(precision: pd.DataFrame, settings: dict, *, progress: str | None = N
     ]
     scene = precision.attrs
     times: list[list[float]] = [[] for _ in listed]
-    for method in dict.fromkeys(method._replace(tolerance=1e-2, step=method.step and 1e-3) for method in listed):
-        follow(method, scene | {"duration": 1e-3})
-    turns = tqdm(range(settings["repeats"]), desc=progress, unit="round", disable=progress is None, file=sys.stderr)
-    for _ in turns:
+    for method in listed:
+        follow(method, scene | {"max_evaluations": 1000, "duration": 1e-3})
+    for _ in tqdm(range(settings["repeats"]), progress, unit="round", disable=progress is None, file=sys.stderr):
         for method, spent in zip(listed, times, strict=True):
-            if sum(spent) < settings["seconds"]:
-                spent.append(timed(method, scene))
+            turn_ends = perf_counter() + TURN
+            while sum(spent) < settings["seconds"]:
+                begin = perf_counter()
+                follow(method, scene)
+                end = perf_counter()
+                spent.append(end - begin)
+                if end > turn_ends:
+                    break
     return {
         **{name: precision[name].to_numpy() for name in Method._fields},
         "seconds": np.array([np.median(spent) for spent in times]),

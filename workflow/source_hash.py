@@ -8,12 +8,12 @@ import ast
 import hashlib
 from collections.abc import Iterator
 from functools import cache
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
 # Third-party packages whose version may change a number or a picture.
-PACKAGES = {"matplotlib", "numba", "numpy", "pyarrow", "pymoo", "scipy"}
+PACKAGES = {"heyoka", "matplotlib", "numba", "numpy", "pyarrow", "pymoo", "scipy"}
 
 
 def imported_names(path: Path) -> Iterator[tuple[str, str | None]]:
@@ -71,6 +71,14 @@ def closure(*scripts: str) -> tuple[list[Path], list[str]]:
     return sorted(files), sorted(packages)
 
 
+def version_of(package: str) -> str:
+    """Installed version of a package, or "none": heyoka need not be there."""
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "none"
+
+
 def source_hash(*scripts: str) -> str:
     """Hash of scripts, named by their paths below scripts/ without ".py", and of everything that they import."""
     files, packages = closure(*scripts)
@@ -79,5 +87,5 @@ def source_hash(*scripts: str) -> str:
         digest.update(f"{file.relative_to(SCRIPTS)}\0".encode() + file.read_bytes() + b"\0")
     for package in packages:
         if package in PACKAGES:
-            digest.update(f"{package}=={version(package)}\0".encode())
+            digest.update(f"{package}=={version_of(package)}\0".encode())
     return digest.hexdigest()[:16]

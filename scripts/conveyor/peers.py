@@ -1,4 +1,6 @@
-"""scipy's integrators on the same model, as one would write it down for them: peers to compare the solver with.
+"""Other integrators on the same model, as one would write it down for them: peers to compare the solver with.
+
+They are those of scipy's `solve_ivp`, and heyoka where that is installed.
 
 `treatment` says how the jumps of the right-hand side are handled:
 
@@ -7,7 +9,7 @@
   `solve_ivp` ends each. The next mode begins at the state that the event has found.
 - "modes": the same, and the next mode begins beside the zero of that event, on its own side.
 
-The right-hand sides are compiled, so that the comparison is one of methods, not of Python against machine code.
+scipy's right-hand sides are compiled, so that the comparison is one of methods, not of Python against machine code.
 """
 
 import math
@@ -17,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from . import heyoka_peer
 from .fixed_step import contact_acceleration, friction_acceleration
 from .jit import kernel
 from .model import (
@@ -35,10 +38,11 @@ from .model import (
     Z0,
 )
 
-INTEGRATORS = ("RK45", "DOP853", "Radau", "LSODA")
+HEYOKA = "heyoka"
+INTEGRATORS = ("RK45", "DOP853", "Radau", "LSODA", HEYOKA)
 TREATMENTS = ("sign", "events", "modes")
-STATUSES = ("ok", "gave up", "step too small", "event lost", "not finite")
-OK, GAVE_UP, STEP_TOO_SMALL, EVENT_LOST, NOT_FINITE = STATUSES
+STATUSES = ("ok", "gave up", "step too small", "event lost", "not finite", "not installed")
+OK, GAVE_UP, STEP_TOO_SMALL, EVENT_LOST, NOT_FINITE, NOT_INSTALLED = STATUSES
 
 SIGN, FLIGHT, FORWARD, BACKWARD, STICK = range(5)
 # Where "modes" puts the variable of an event that is handled, in units of the plate's motion: a few roundings beside
@@ -157,8 +161,22 @@ def put_beside(parameters: np.ndarray, t: float, state: np.ndarray, ended: Calla
         state[1] = vx + beside_vx
 
 
+# The same modes and events under heyoka's names.
+HEYOKA_MODES = {
+    FLIGHT: heyoka_peer.FLIGHT,
+    FORWARD: heyoka_peer.FORWARD,
+    BACKWARD: heyoka_peer.BACKWARD,
+    STICK: heyoka_peer.STICK,
+}
+HEYOKA_EVENTS = {heyoka_peer.GAP: gap_of, heyoka_peer.SLIP: slip_of, heyoka_peer.GRIP: grip_of}
+
+
 class GaveUp(Exception):
     """More evaluations than allowed."""
+
+
+class EventLost(Exception):
+    """The search for an event finds no change of sign: LSODA's interpolant does not meet its own steps."""
 
 
 class Counted:
@@ -187,21 +205,49 @@ def watch(parameters: np.ndarray, function: Callable, direction: float) -> Calla
     return event
 
 
+def leg_of_scipy(right_side: Counted, t: float, end: float, state: np.ndarray, options: dict):
+    """Follow `state` in one mode to an event or to `end`: time, state and event, or None where the integrator fails."""
+    ends = ENDS[right_side.mode]
+    watched = [watch(right_side.parameters, function, direction) for function, direction in ends]
+    try:
+        # Radau's numerical Jacobian of a part that never moves sideways overflows; what comes of it is judged below.
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = solve_ivp(right_side, (t, end), state, events=watched, **options)
+    except ValueError as error:
+        raise EventLost from error
+    if not found.success:
+        return None
+    ended = None
+    if found.status == 1:
+        ended = next(function for (function, _), times in zip(ends, found.t_events, strict=True) if len(times))
+    return float(found.t[-1]), found.y[:, -1].copy(), ended
+
+
+def leg_of_heyoka(right_side: Counted, t: float, end: float, state: np.ndarray, options: dict):
+    """The same by heyoka."""
+    mode, limit = HEYOKA_MODES[right_side.mode], right_side.limit - right_side.count
+    leg = heyoka_peer.follow(right_side.parameters, mode, t, end, state, options["rtol"], limit)
+    if leg is None:
+        return None
+    right_side.count += leg.evaluations
+    if right_side.count >= right_side.limit:
+        raise GaveUp
+    return leg.t, leg.state, HEYOKA_EVENTS.get(leg.ended)
+
+
 def advance(right_side: Counted, begin: float, end: float, state: np.ndarray, treatment: str, options: dict):
     """State at the time `end` (s), or None where the integrator fails; `options` are those of solve_ivp."""
     parameters = right_side.parameters
     t, state = begin, state.copy()
+    follow_leg = leg_of_heyoka if options["method"] == HEYOKA else leg_of_scipy
     if treatment != "sign" and right_side.mode == SIGN:
         right_side.mode = next_mode(parameters, t, state, None, SIGN)
     while t < end:
-        ends = ENDS[right_side.mode]
-        watched = [watch(parameters, function, direction) for function, direction in ends]
-        found = solve_ivp(right_side, (t, end), state, events=watched, **options)
-        if not found.success:
+        leg = follow_leg(right_side, t, end, state, options)
+        if leg is None:
             return None
-        t, state = float(found.t[-1]), found.y[:, -1].copy()
-        if found.status == 1:
-            ended = next(function for (function, _), times in zip(ends, found.t_events, strict=True) if len(times))
+        t, state, ended = leg
+        if ended is not None:
             right_side.mode = next_mode(parameters, t, state, ended, right_side.mode)
             if treatment == "modes":
                 put_beside(parameters, t, state, ended, right_side.mode)
@@ -231,9 +277,9 @@ def run(
     ----------
     parameters : float64, shape (13,), from `model.pack`
     duration : s
-    integrator : one of INTEGRATORS, a method of scipy's solve_ivp
-    treatment : one of TREATMENTS
-    tolerance : relative tolerance of solve_ivp; the absolute one is `tolerance` times `scales`
+    integrator : one of INTEGRATORS, methods of scipy's solve_ivp but the last one
+    treatment : one of TREATMENTS; heyoka knows "modes" only
+    tolerance : relative tolerance; the absolute one of solve_ivp is `tolerance` times `scales`
     max_evaluations : of the right-hand side, after which a run is given up
     last : share of the run over which the mean velocity is taken
 
@@ -244,19 +290,22 @@ def run(
     """
     if integrator not in INTEGRATORS or treatment not in TREATMENTS:
         raise ValueError(f"{integrator!r} with {treatment!r} is none of {INTEGRATORS} with {TREATMENTS}")
+    lost = (math.nan,) * 5
+    if integrator == HEYOKA and treatment != "modes":
+        raise ValueError(f"heyoka handles events by modes, not by {treatment}")
+    if integrator == HEYOKA and not heyoka_peer.installed():
+        return Summary(*lost, 0, NOT_INSTALLED)
     right_side = Counted(parameters, max_evaluations)
     z0 = parameters[Z0]
     state = np.array([0.0, 0.0, plate_motion(parameters, 0.0)[0] if math.isnan(z0) else z0, parameters[VZ0]])
     middle = (1.0 - last) * duration
     options = {"method": integrator, "rtol": tolerance, "atol": tolerance * scales(parameters)}
-    lost = (math.nan,) * 5
     try:
         before = advance(right_side, 0.0, middle, state, treatment, options)
         after = None if before is None else advance(right_side, middle, duration, before, treatment, options)
     except GaveUp:
         return Summary(*lost, right_side.limit, GAVE_UP)
-    except ValueError:
-        # The search for an event finds no change of sign: LSODA's interpolant does not meet its own steps.
+    except EventLost:
         return Summary(*lost, right_side.count, EVENT_LOST)
     if after is None:
         return Summary(*lost, right_side.count, STEP_TOO_SMALL)

@@ -1,10 +1,14 @@
 """Stages that compare the solver with other methods: what they find, on the cases of the config."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import benchmark
 import random_points
+import work
+import work_times
+from conveyor import heyoka_peer
 from project import merged, read_config
 
 CONFIG = read_config()
@@ -31,6 +35,46 @@ def test_benchmark_is_as_accurate_as_wanted(cases):
     assert [line.split(" | ")[0] for line in lines if line.startswith("| ") and "Case" not in line] == [
         f"| {name}" for name in cases
     ]
+
+
+@pytest.fixture(scope="module", params=["jumping", "riding", "bouncing"])
+def precision(request):
+    """Work and precision of the solver and of two peers, as a table with its settings."""
+    settings = {
+        "duration": 1.0,
+        "model": CONFIG["model"] | CONFIG["work"]["scenes"][request.param],
+        "tolerances": [1e-4, 1e-8, 1e-12],
+        "steps": [5e-7],
+        "peers": {"modes": {"DOP853": [1e-4, 1e-13], "heyoka": [1e-10]}},
+        "max_evaluations": CONFIG["work"]["max_evaluations"],
+    }
+    table = pd.DataFrame(work.columns(settings))
+    table.attrs = settings
+    return table
+
+
+def test_solver_and_an_independent_integration_meet(precision):
+    best = precision[(precision.method == "DOP853") & (precision.tolerance == 1e-13)].iloc[0]
+    assert best.outcome == "ok"
+    assert best.velocity_error < 1e-11
+    assert best.state_error < 1e-11
+
+
+def test_heyoka_need_not_be_installed(precision):
+    heyoka = precision[precision.method == "heyoka"].iloc[0]
+    assert heyoka.outcome == ("ok" if heyoka_peer.installed() else "not installed")
+    assert heyoka.velocity_error < 1e-8 or not heyoka_peer.installed()
+
+
+def test_times_belong_to_the_same_runs(precision):
+    few = precision[precision.tolerance.isin([1e-4, 1e-8])]
+    few.attrs = precision.attrs
+    found = work_times.columns(few, {"repeats": 2, "seconds": 0.05})
+    for name in work.Method._fields:
+        np.testing.assert_array_equal(found[name], few[name])
+    assert (found["repeats"] >= 1).all()
+    solver = found["method"] == "event"
+    assert 0.0 < found["seconds"][solver].max() < found["seconds"][~solver].min()
 
 
 def test_random_points_know_how_deep_they_get():
