@@ -22,7 +22,7 @@ def test_an_independent_integration_agrees(result):
 
 
 def test_solver_needs_fewest_evaluations(result):
-    """For every run of another method with four digits the solver has one with a smaller error and fewer evaluations."""
+    """For every run of another method with four right digits the solver has a better one with fewer evaluations."""
     for scene in SCENES:
         # A mean velocity alone may be right by luck, the state at the end with it hardly.
         table = result(f"work/{scene}").assign(error=lambda rows: rows[["velocity_error", "state_error"]].max(axis=1))
