@@ -6,7 +6,9 @@ point where a shift of the initial height that nobody can set (config: `shift`) 
 transients, does not count, nor does a velocity in chaos: there the model itself makes no statement.
 """
 
+from collections.abc import Callable
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 
@@ -16,6 +18,21 @@ from rule_log import logged
 
 FULL = {"needs": "feeding", "tolerance": 1e-13}
 RIGID = "rigid part"
+ROUNDS, ENOUGH = 3, 0.05  # of a timed run: at least that many, and that many seconds altogether
+
+
+def least_time(work: Callable[[], Any]) -> tuple[float, Any]:
+    """Least wall time (s) of repeated rounds, and what `work` returns: other load on the machine only adds to a time.
+
+    The first round, which may have to load compiled code, is not timed.
+    """
+    result = work()
+    times = []
+    while len(times) < ROUNDS or sum(times) < ENOUGH:
+        begin = perf_counter()
+        work()
+        times.append(perf_counter() - begin)
+    return min(times), result
 
 
 def sample_of(settings: dict, count: int, seed: int) -> np.ndarray:
@@ -30,10 +47,7 @@ def follow(
 ) -> tuple[float, np.ndarray, np.ndarray]:
     """Wall time (s), mean velocities (m/s; NaN for vertical needs) and states that the runs lead to."""
     options = {"duration": duration, "needs": needs, "tolerance": tolerance}
-    sweep.run(parameters[:1], **options)
-    begin = perf_counter()
-    runs = sweep.run(parameters, **options)
-    seconds = perf_counter() - begin
+    seconds, runs = least_time(lambda: sweep.run(parameters, **options))
     later = states.continued(parameters, runs["z_end"], runs["vz_end"], duration)
     return seconds, runs["mean_velocity"], states.classify(later)[0]
 
@@ -41,10 +55,7 @@ def follow(
 def follow_rigid(parameters: np.ndarray, duration: float, speeds: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
     """The same for rigid parts whose restitution is that of the contact; second if the longest flights are long."""
     restitution = speeds, rigid_ball.restitution_coefficients(parameters[0], speeds)
-    rigid_ball.run(parameters[0], duration, restitution)
-    begin = perf_counter()
-    runs = [rigid_ball.run(row, duration, restitution) for row in parameters]
-    seconds = perf_counter() - begin
+    seconds, runs = least_time(lambda: [rigid_ball.run(row, duration, restitution) for row in parameters])
     found = [rigid_state(row, duration, restitution) for row in parameters]
     return seconds, np.array([run.mean_velocity for run in runs]), np.array(found)
 

@@ -69,17 +69,19 @@ def onset_of_chaos(tables: dict[str, pd.DataFrame]) -> Finding:
     """
     converged = tables["converged"]
     scatter, chaos = scatter_onset(tables["published"]), chaos_onset(converged)
-    between = converged[(converged.acceleration >= scatter) & (converged.acceleration < chaos)]
-    periods = ", ".join(
-        f"period {period} for {100 * share:.0f} %"
-        for period, share in between[between.period > 0].period.value_counts(normalize=True).head(3).items()
-    )
     reason = (
         f"the velocities of a run scatter from {scatter:g} m/s² on by Euler and from {scatter_onset(converged):g} m/s² "
-        f"on in the converged solution, but the motions settle later: between {scatter:g} and {chaos:g} m/s² "
-        f"{100 * (between.period > 0).mean():.0f} % of the starts have a period ({periods}); most are chaotic from "
-        f"{chaos:g} m/s² on"
+        f"on in the converged solution; most settled motions are chaotic from {chaos:g} m/s² on"
     )
+    between = converged[(converged.acceleration >= scatter) & (converged.acceleration < chaos)]
+    if len(between):
+        periods = ", ".join(
+            f"period {period} for {100 * share:.0f} %"
+            for period, share in between[between.period > 0].period.value_counts(normalize=True).head(3).items()
+        )
+        reason += (
+            f", while in between {100 * (between.period > 0).mean():.0f} % of the starts settle to a period ({periods})"
+        )
     return Finding((scatter,), (chaos,), reason)
 
 

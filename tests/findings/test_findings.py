@@ -102,6 +102,13 @@ def test_notes_stand_beside_verdicts():
     assert table["reason"] == ["note 1", None]
 
 
+def test_a_reason_begins_with_the_numbers_that_miss():
+    table = claims.columns({"C01": CLAIMS["C01"]}, {"C01": Finding((50.0,), (60.0,), "because of 1")})
+    assert table["verdict"] == [claims.PUBLISHED_ONLY]
+    number = "critical amplitude in m/s²: 60 by the converged solution is not in [49, 51]"
+    assert table["reason"] == [f"{number}; because of 1"]
+
+
 def test_null_is_no_bound():
     assert claims.holds((1e300, -1e300), [[0.0, None], [None, 0.0]])
     assert not claims.holds((-1.0,), [[0.0, None]])
@@ -134,7 +141,9 @@ def test_onset_of_chaos_by_scatter_and_by_state():
     table = sweep(lambda a, z: "chaos" if a >= 63.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
     finding = states.onset_of_chaos(both(table))
     assert (finding.published, finding.converged) == ((55.0,), (63.0,))
-    assert "100 % of the starts have a period" in finding.reason
+    assert "in between 100 % of the starts settle to a period (period 1 for 100 %)" in finding.reason
+    late = sweep(lambda a, z: "chaos" if a >= 50.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
+    assert "nan" not in states.onset_of_chaos(both(late)).reason
 
 
 def test_critical_heights_are_read_between_amplitudes():
