@@ -108,3 +108,17 @@ rule gallery:
         "All figures side by side"
     script:
         "../../scripts/gallery.py"
+
+
+rule readme_chart:
+    input:
+        figure_file("work_precision", "png"),
+    output:
+        "docs/work_precision.png" if not PREFIX else result("work_precision.png"),
+    log:
+        log_file("docs", "readme_chart"),
+    localrule: True
+    message:
+        "The chart of the README"
+    shell:
+        "cp {input} {output} 2> {log}"
