@@ -109,8 +109,8 @@ def entry_of(config: dict, reference: str) -> dict | None:
     section, name = reference.split("/")
     if name in TABLES.get(section, ()):
         return config[name if section == "results" else section]
-    if section in ("work", "work_times"):
-        return config["work"] if name in config["work"]["scenes"] else None
+    if section in ("precision", "wall_times"):
+        return config["precision"] if name in config["precision"]["scenes"] else None
     entries = config.get(section)
     return entries.get(name) if isinstance(entries, dict) else None
 

@@ -19,23 +19,8 @@ from collections import namedtuple
 
 import numpy as np
 
-from . import polynomial, unrolled
+from . import model, polynomial, unrolled
 from .jit import kernel
-from .model import (
-    ACCELERATION,
-    ANGLE,
-    DAMPING,
-    EXPONENT,
-    FREQUENCY,
-    FRICTION,
-    GRAVITY,
-    MASS,
-    PSI0,
-    STIFFNESS,
-    TENSION,
-    TENSION_ALLOW,
-    TENSION_CLIP,
-)
 from .polynomial import ORDER, SHIFTED, SIZE
 
 # What ends a contact step before its full length.
@@ -62,28 +47,28 @@ ROWS = 8
 @kernel
 def constants(parameters, tolerance):
     """The Constants of a packed parameter vector (see model.PARAMETERS) at a relative tolerance per step."""
-    omega = 2.0 * math.pi * parameters[FREQUENCY]
-    mass = parameters[MASS]
-    gravity = parameters[GRAVITY]
-    exponent = parameters[EXPONENT]
-    stiffness = parameters[STIFFNESS] / mass
+    omega = 2.0 * math.pi * parameters[model.FREQUENCY]
+    mass = parameters[model.MASS]
+    gravity = parameters[model.GRAVITY]
+    exponent = parameters[model.EXPONENT]
+    stiffness = parameters[model.STIFFNESS] / mass
     static_penetration = (gravity / stiffness) ** (1.0 / exponent)
     edge_w = 0.0
     if exponent != 1.5 and exponent != 1.0:
         edge_w = (tolerance * gravity / stiffness) ** (0.5 / exponent)
     return Constants(
         omega,
-        1.0 / parameters[FREQUENCY],
-        parameters[PSI0],
-        parameters[ACCELERATION] * math.cos(parameters[ANGLE]),
-        parameters[ACCELERATION] * math.sin(parameters[ANGLE]),
+        1.0 / parameters[model.FREQUENCY],
+        parameters[model.PSI0],
+        parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE]),
+        parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]),
         gravity,
         stiffness,
-        parameters[DAMPING] / mass,
+        parameters[model.DAMPING] / mass,
         exponent,
-        parameters[FRICTION],
+        parameters[model.FRICTION],
         mass,
-        int(parameters[TENSION]),
+        int(parameters[model.TENSION]),
         tolerance,
         math.sqrt(static_penetration),
         math.sqrt(2.0 * gravity * static_penetration),
@@ -220,7 +205,7 @@ def step(c, series, at, w0, v0, sine0, cosine0, pulled):
     length, w, v, lapse, event : length of the step in s; w, v at its end and the time it takes (s); what ends it:
         NOTHING, SEPARATION or FORCE_SIGN (the contact force passes zero)
     """
-    expand(c, series, at, w0, v0, sine0, cosine0, pulled and c.tension == TENSION_CLIP)
+    expand(c, series, at, w0, v0, sine0, cosine0, pulled and c.tension == model.TENSION_CLIP)
     length = step_length(c, series, at, w0, v0)
     event = NOTHING
     w, v = polynomial.value(series, at + W, length), polynomial.value(series, at + V, length)
@@ -242,7 +227,7 @@ def step(c, series, at, w0, v0, sine0, cosine0, pulled):
             length = root
             event = SEPARATION
             shortened = True
-    if c.tension != TENSION_ALLOW and c.damping > 0.0:
+    if c.tension != model.TENSION_ALLOW and c.damping > 0.0:
         expand_force(c, series, at, -1.0 if pulled else 1.0, 0.0, 0.0)
         # The series has the factor w, and so a root of its own at a separation.
         end = length * (1.0 - LEAVE_IMPACT) if event == SEPARATION else length

@@ -13,24 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from . import model
 from .jit import kernel
-from .model import (
-    ACCELERATION,
-    ANGLE,
-    DAMPING,
-    EXPONENT,
-    FREQUENCY,
-    FRICTION,
-    GRAVITY,
-    MASS,
-    PSI0,
-    STIFFNESS,
-    TENSION,
-    TENSION_CLIP,
-    TENSION_FRICTIONLESS,
-    VZ0,
-    Z0,
-)
 
 METHODS = ("euler", "semi_implicit_euler", "rk4")
 EULER, SEMI_IMPLICIT_EULER, RK4 = range(len(METHODS))
@@ -57,7 +41,7 @@ def contact_acceleration(gap, gap_velocity, stiffness, damping, exponent, tensio
     else:
         spring = depth**exponent
     force = stiffness * spring - damping * gap_velocity
-    if tension == TENSION_CLIP and force < 0.0:
+    if tension == model.TENSION_CLIP and force < 0.0:
         return 0.0
     return force
 
@@ -65,7 +49,7 @@ def contact_acceleration(gap, gap_velocity, stiffness, damping, exponent, tensio
 @kernel
 def friction_acceleration(force, slip, friction, tension):
     """F_r/m in m/s² from F_c/m (m/s²) and the slip ẋ_s - ẋ_p (m/s) (Eqs. 11 and 12)."""
-    if tension == TENSION_FRICTIONLESS and force < 0.0:
+    if tension == model.TENSION_FRICTIONLESS and force < 0.0:
         return 0.0
     bound = friction * force
     if slip > 0.0:
@@ -135,21 +119,21 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
         x (m), vx (m/s), z (m), vz (m/s) at the last step; number of events; impacts; time with contact force (s);
         largest gap (m) at the steps; number of force evaluations; status
     """
-    omega = 2.0 * math.pi * parameters[FREQUENCY]
-    psi0 = parameters[PSI0]
-    a_z = parameters[ACCELERATION] * math.sin(parameters[ANGLE])
-    a_x = parameters[ACCELERATION] * math.cos(parameters[ANGLE])
+    omega = 2.0 * math.pi * parameters[model.FREQUENCY]
+    psi0 = parameters[model.PSI0]
+    a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
+    a_x = parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE])
     plate = (a_z / omega**2, a_z / omega, a_x / omega)
-    mass = parameters[MASS]
-    contact = (parameters[STIFFNESS] / mass, parameters[DAMPING] / mass, parameters[EXPONENT])
-    friction = parameters[FRICTION]
-    gravity = parameters[GRAVITY]
-    tension = parameters[TENSION]
+    mass = parameters[model.MASS]
+    contact = (parameters[model.STIFFNESS] / mass, parameters[model.DAMPING] / mass, parameters[model.EXPONENT])
+    friction = parameters[model.FRICTION]
+    gravity = parameters[model.GRAVITY]
+    tension = parameters[model.TENSION]
 
     x = 0.0
     vx = 0.0
-    z = -plate[0] * math.cos(psi0) if math.isnan(parameters[Z0]) else parameters[Z0]
-    vz = parameters[VZ0]
+    z = -plate[0] * math.cos(psi0) if math.isnan(parameters[model.Z0]) else parameters[model.Z0]
+    vz = parameters[model.VZ0]
     max_gap = z + plate[0] * math.cos(psi0)
     in_contact = max_gap <= 0.0
     contact_steps = 0

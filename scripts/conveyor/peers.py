@@ -19,24 +19,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from . import heyoka_peer
+from . import heyoka_peer, model
 from .fixed_step import contact_acceleration, friction_acceleration
 from .jit import kernel
-from .model import (
-    ACCELERATION,
-    ANGLE,
-    DAMPING,
-    EXPONENT,
-    FREQUENCY,
-    FRICTION,
-    GRAVITY,
-    MASS,
-    PSI0,
-    STIFFNESS,
-    TENSION,
-    VZ0,
-    Z0,
-)
 
 HEYOKA = "heyoka"
 INTEGRATORS = ("RK45", "DOP853", "Radau", "LSODA", HEYOKA)
@@ -65,10 +50,10 @@ class Summary(NamedTuple):
 @kernel
 def plate_motion(parameters, t):
     """z_s (m), ż_s, ẋ_s (m/s) and ẍ_s (m/s²) at the time t (s) (Eqs. 3, 4, 10)."""
-    omega = 2.0 * math.pi * parameters[FREQUENCY]
-    phase = omega * t + parameters[PSI0]
-    a_z = parameters[ACCELERATION] * math.sin(parameters[ANGLE])
-    a_x = parameters[ACCELERATION] * math.cos(parameters[ANGLE])
+    omega = 2.0 * math.pi * parameters[model.FREQUENCY]
+    phase = omega * t + parameters[model.PSI0]
+    a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
+    a_x = parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE])
     sine, cosine = math.sin(phase), math.cos(phase)
     return -a_z / omega**2 * cosine, a_z / omega * sine, a_x / omega * sine, a_x * cosine
 
@@ -78,14 +63,14 @@ def normal_force(parameters, t, state):
     """Gap (m) and F_c/m (m/s²) as if in contact, of the state (x, ẋ, z, ż)."""
     z, vz, _, _ = plate_motion(parameters, t)
     gap = state[2] - z
-    mass = parameters[MASS]
+    mass = parameters[model.MASS]
     push = contact_acceleration(
         min(gap, 0.0),
         state[3] - vz,
-        parameters[STIFFNESS] / mass,
-        parameters[DAMPING] / mass,
-        parameters[EXPONENT],
-        parameters[TENSION],
+        parameters[model.STIFFNESS] / mass,
+        parameters[model.DAMPING] / mass,
+        parameters[model.EXPONENT],
+        parameters[model.TENSION],
     )
     return gap, push
 
@@ -105,8 +90,8 @@ def rates(t, state, parameters, mode):
             slip = 1.0
         elif mode == BACKWARD:
             slip = -1.0
-        rub = friction_acceleration(push, slip, parameters[FRICTION], parameters[TENSION])
-    return np.array([state[1], rub, state[3], push - parameters[GRAVITY]])
+        rub = friction_acceleration(push, slip, parameters[model.FRICTION], parameters[model.TENSION])
+    return np.array([state[1], rub, state[3], push - parameters[model.GRAVITY]])
 
 
 @kernel
@@ -125,7 +110,7 @@ def slip_of(t, state, parameters):
 def grip_of(t, state, parameters):
     """What friction can hold beyond what the plate asks of a part that sticks, m/s²."""
     _, push = normal_force(parameters, t, state)
-    return parameters[FRICTION] * push - abs(plate_motion(parameters, t)[3])
+    return parameters[model.FRICTION] * push - abs(plate_motion(parameters, t)[3])
 
 
 # The event functions that end each mode, and the direction of their zeros.
@@ -256,9 +241,9 @@ def advance(right_side: Counted, begin: float, end: float, state: np.ndarray, tr
 
 def scales(parameters: np.ndarray) -> np.ndarray:
     """Sizes of x, ẋ, z, ż (m, m/s) that absolute tolerances refer to: those of the plate's motion, shape (4,)."""
-    omega = 2.0 * math.pi * parameters[FREQUENCY]
-    a_z = parameters[ACCELERATION] * math.sin(parameters[ANGLE])
-    a_x = parameters[ACCELERATION] * math.cos(parameters[ANGLE])
+    omega = 2.0 * math.pi * parameters[model.FREQUENCY]
+    a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
+    a_x = parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE])
     return np.array([a_x / omega**2, a_x / omega, a_z / omega**2, a_z / omega])
 
 
@@ -296,8 +281,8 @@ def run(
     if integrator == HEYOKA and not heyoka_peer.installed():
         return Summary(*lost, 0, NOT_INSTALLED)
     right_side = Counted(parameters, max_evaluations)
-    z0 = parameters[Z0]
-    state = np.array([0.0, 0.0, plate_motion(parameters, 0.0)[0] if math.isnan(z0) else z0, parameters[VZ0]])
+    z0 = parameters[model.Z0]
+    state = np.array([0.0, 0.0, plate_motion(parameters, 0.0)[0] if math.isnan(z0) else z0, parameters[model.VZ0]])
     middle = (1.0 - last) * duration
     options = {"method": integrator, "rtol": tolerance, "atol": tolerance * scales(parameters)}
     try:

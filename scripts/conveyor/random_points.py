@@ -4,27 +4,9 @@ import math
 
 import numpy as np
 
+from . import model
 from .lyapunov import sample_points
-from .model import (
-    ACCELERATION,
-    ANGLE,
-    DAMPING,
-    EXPONENT,
-    FREQUENCY,
-    FRICTION,
-    GRAVITY,
-    MASS,
-    PARAMETERS,
-    PSI0,
-    STIFFNESS,
-    TENSION,
-    TENSION_MODES,
-    VZ0,
-    Z0,
-    Conveyor,
-    Start,
-    unpack,
-)
+from .model import Conveyor, Start, unpack
 from .parallel import for_each_chunk
 from .trajectory import SAMPLES
 
@@ -41,21 +23,21 @@ def random_points(count: int, seed: int) -> np.ndarray:
     def around(value):
         return value * 10.0 ** generator.uniform(-1.0, 1.0, count)
 
-    points = np.empty((count, len(PARAMETERS)))
-    points[:, ACCELERATION] = np.minimum(around(default.acceleration), 150.0)
-    points[:, ANGLE] = np.minimum(around(default.angle), 0.5 * math.pi)
-    points[:, FREQUENCY] = around(default.frequency)
-    points[:, PSI0] = generator.uniform(0.0, 2.0 * math.pi, count)
-    points[:, STIFFNESS] = around(default.stiffness)
-    points[:, DAMPING] = around(default.damping)
-    points[:, FRICTION] = around(default.friction)
-    points[:, MASS] = around(default.mass)
+    points = np.empty((count, len(model.PARAMETERS)))
+    points[:, model.ACCELERATION] = np.minimum(around(default.acceleration), 150.0)
+    points[:, model.ANGLE] = np.minimum(around(default.angle), 0.5 * math.pi)
+    points[:, model.FREQUENCY] = around(default.frequency)
+    points[:, model.PSI0] = generator.uniform(0.0, 2.0 * math.pi, count)
+    points[:, model.STIFFNESS] = around(default.stiffness)
+    points[:, model.DAMPING] = around(default.damping)
+    points[:, model.FRICTION] = around(default.friction)
+    points[:, model.MASS] = around(default.mass)
     usual = generator.choice([1.0, 1.5, 1.5, 2.0, 3.0], count)
-    points[:, EXPONENT] = np.where(generator.random(count) < 0.5, usual, generator.uniform(1.0, 3.0, count))
-    points[:, GRAVITY] = default.gravity
-    points[:, TENSION] = generator.integers(len(TENSION_MODES), size=count)
-    points[:, Z0] = np.where(generator.random(count) < 0.1, np.nan, generator.uniform(-1e-4, 5e-3, count))
-    points[:, VZ0] = generator.normal(0.0, 0.2, count)
+    points[:, model.EXPONENT] = np.where(generator.random(count) < 0.5, usual, generator.uniform(1.0, 3.0, count))
+    points[:, model.GRAVITY] = default.gravity
+    points[:, model.TENSION] = generator.integers(len(model.TENSION_MODES), size=count)
+    points[:, model.Z0] = np.where(generator.random(count) < 0.1, np.nan, generator.uniform(-1e-4, 5e-3, count))
+    points[:, model.VZ0] = generator.normal(0.0, 0.2, count)
     return points
 
 
@@ -77,9 +59,9 @@ def deepest(
         rows = parameters[begin:end]
         heights = np.empty((len(rows), len(times)))
         sample_points(rows, times, tolerance, SAMPLES.index("z"), False, heights)
-        omega = 2.0 * math.pi * rows[:, FREQUENCY, None]
-        stroke = rows[:, ACCELERATION, None] * np.sin(rows[:, ANGLE, None]) / omega**2
-        plates = -stroke * np.cos(omega * times + rows[:, PSI0, None])
+        omega = 2.0 * math.pi * rows[:, model.FREQUENCY, None]
+        stroke = rows[:, model.ACCELERATION, None] * np.sin(rows[:, model.ANGLE, None]) / omega**2
+        plates = -stroke * np.cos(omega * times + rows[:, model.PSI0, None])
         depths[begin:end] = np.max(plates - heights, axis=1)
 
     for_each_chunk(work, len(parameters), threads=threads, progress=progress)

@@ -12,24 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from . import model
 from .fixed_step import contact_acceleration
 from .flight import gap, next_impact
 from .jit import kernel
-from .model import (
-    ACCELERATION,
-    ANGLE,
-    DAMPING,
-    EXPONENT,
-    FREQUENCY,
-    FRICTION,
-    GRAVITY,
-    MASS,
-    PSI0,
-    STIFFNESS,
-    TENSION,
-    VZ0,
-    Z0,
-)
 
 STATUSES = ("ok", "too many events", "impact not found")
 OK, TOO_MANY_EVENTS, IMPACT_NOT_FOUND = range(len(STATUSES))
@@ -64,10 +50,10 @@ def restitution_coefficient(parameters, speed):
 
     It is 0 where damping lets the contact creep back without ever separating.
     """
-    stiffness = parameters[STIFFNESS] / parameters[MASS]
-    damping = parameters[DAMPING] / parameters[MASS]
-    exponent = parameters[EXPONENT]
-    tension = parameters[TENSION]
+    stiffness = parameters[model.STIFFNESS] / parameters[model.MASS]
+    damping = parameters[model.DAMPING] / parameters[model.MASS]
+    exponent = parameters[model.EXPONENT]
+    tension = parameters[model.TENSION]
     share = 1.0 / (exponent + 1.0)
     duration = 3.0 * (speed * speed / (2.0 * share * stiffness)) ** share / speed
     # More than six times the critical damping of a linear contact: no use to integrate.
@@ -219,25 +205,25 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
     tuple
         number of impacts; time at rest on the plate (s); largest gap (m); status
     """
-    omega = TURN * parameters[FREQUENCY]
+    omega = TURN * parameters[model.FREQUENCY]
     plate = Plate(
         omega,
-        parameters[ACCELERATION] * math.cos(parameters[ANGLE]),
-        parameters[ACCELERATION] * math.sin(parameters[ANGLE]),
-        parameters[GRAVITY],
-        parameters[FRICTION],
+        parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE]),
+        parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]),
+        parameters[model.GRAVITY],
+        parameters[model.FRICTION],
     )
     gravity, a_z = plate.gravity, plate.a_z
-    period = 1.0 / parameters[FREQUENCY]
+    period = 1.0 / parameters[model.FREQUENCY]
     end = times[-1]
 
     # Time is the start of an excitation cycle plus the time in it, so that long runs keep the precision of the phase.
     cycle, t = 0, 0.0
-    theta = parameters[PSI0]
+    theta = parameters[model.PSI0]
     z = -a_z / omega**2 * math.cos(theta)
-    q = max(parameters[Z0] - z, 0.0) if parameters[Z0] == parameters[Z0] else 0.0
+    q = max(parameters[model.Z0] - z, 0.0) if parameters[model.Z0] == parameters[model.Z0] else 0.0
     z += q
-    vz = parameters[VZ0]
+    vz = parameters[model.VZ0]
     rate = vz - a_z / omega * math.sin(theta)
     x, vx, sigma = 0.0, 0.0, 0.0
     arriving = q == 0.0 and rate <= 0.0
@@ -253,7 +239,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
             cycle += 1
             n_events = 0
         base = cycle * period
-        theta = parameters[PSI0] + omega * t
+        theta = parameters[model.PSI0] + omega * t
         n_events += 1
         if n_events > MAX_EVENTS:
             samples[n_sampled:] = math.nan

@@ -221,7 +221,7 @@ COLUMNS = {
         text("verdict", "reproduced, reproduced by the published method only, or not reproduced"),
         text("reason", "computed reason of any other verdict than reproduced; else a note, null for none"),
     ),
-    "work": (
+    "precision": (
         *RUN,
         count("evaluations", "force evaluations; derivatives of the force for a Taylor step"),
         number("mean_velocity", "m/s", "mean feeding velocity over the last quarter"),
@@ -229,7 +229,7 @@ COLUMNS = {
         number("state_error", "1", "largest error of ẋ, z, ż at the end, in units of the plate's motion"),
         text("outcome", "ok, or what is wrong, whatever the run itself reports"),
     ),
-    "work_times": (
+    "wall_times": (
         *RUN,
         number("seconds", "s", "median wall time"),
         count("repeats", "timed runs"),

@@ -7,7 +7,7 @@ SCENES = ("jumping", "riding", "bouncing")
 
 def test_solver_is_right_at_every_tolerance(result):
     for scene in SCENES:
-        table = result(f"work/{scene}")
+        table = result(f"precision/{scene}")
         own = table[table.method == "event"]
         assert (own.outcome == "ok").all()
         assert (own[own.tolerance <= 1e-9].velocity_error < 1e-7).all()
@@ -16,7 +16,7 @@ def test_solver_is_right_at_every_tolerance(result):
 def test_an_independent_integration_agrees(result):
     """scipy's DOP853 from event to event knows nothing of the solver."""
     for scene in SCENES:
-        table = result(f"work/{scene}")
+        table = result(f"precision/{scene}")
         peers = table[(table.treatment == "modes") & (table.outcome == "ok")]
         assert peers.velocity_error.min() < 1e-8
 
@@ -25,7 +25,9 @@ def test_solver_needs_fewest_evaluations(result):
     """For every run of another method with four right digits the solver has a better one with fewer evaluations."""
     for scene in SCENES:
         # A mean velocity alone may be right by luck, the state at the end with it hardly.
-        table = result(f"work/{scene}").assign(error=lambda rows: rows[["velocity_error", "state_error"]].max(axis=1))
+        table = result(f"precision/{scene}").assign(
+            error=lambda rows: rows[["velocity_error", "state_error"]].max(axis=1)
+        )
         own = table[table.method == "event"]
         others = table[(table.method != "event") & (table.outcome == "ok") & (table.error < 1e-4)]
         for other in others.itertuples():
@@ -35,7 +37,7 @@ def test_solver_needs_fewest_evaluations(result):
 def test_failures_are_told_whatever_the_methods_report(result):
     """Euler's largest step leaves the right state; a part that falls through the plate has a finite velocity."""
     for scene in SCENES:
-        table = result(f"work/{scene}")
+        table = result(f"precision/{scene}")
         largest = table[(table.method == "euler") & (table.step == table.step.max())]
         assert (largest.outcome != "ok").all()
         through = table[table.outcome == "through the plate"]

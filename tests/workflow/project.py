@@ -23,7 +23,7 @@ SINGLE = (
     "lyapunov",
     "witnesses",
     "benchmark",
-    "work",
+    "precision",
     "estimators",
     "stability",
     "scene_budget",

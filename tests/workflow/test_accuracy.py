@@ -6,8 +6,7 @@ import pytest
 
 import benchmark
 import random_points
-import work
-import work_times
+import wall_times
 from conveyor import heyoka_peer
 from project import merged, read_config
 
@@ -42,13 +41,13 @@ def precision(request):
     """Work and precision of the solver and of two peers, as a table with its settings."""
     settings = {
         "duration": 1.0,
-        "model": CONFIG["model"] | CONFIG["work"]["scenes"][request.param],
+        "model": CONFIG["model"] | CONFIG["precision"]["scenes"][request.param],
         "tolerances": [1e-4, 1e-8, 1e-12],
         "steps": [5e-7],
         "peers": {"modes": {"DOP853": [1e-4, 1e-13], "heyoka": [1e-10]}},
-        "max_evaluations": CONFIG["work"]["max_evaluations"],
+        "max_evaluations": CONFIG["precision"]["max_evaluations"],
     }
-    table = pd.DataFrame(work.columns(settings))
+    table = pd.DataFrame(precision.columns(settings))
     table.attrs = settings
     return table
 
@@ -69,8 +68,8 @@ def test_heyoka_need_not_be_installed(precision):
 def test_times_belong_to_the_same_runs(precision):
     few = precision[precision.tolerance.isin([1e-4, 1e-8])]
     few.attrs = precision.attrs
-    found = work_times.columns(few, {"repeats": 2, "seconds": 0.05})
-    for name in work.Method._fields:
+    found = wall_times.columns(few, {"repeats": 2, "seconds": 0.05})
+    for name in precision.Method._fields:
         np.testing.assert_array_equal(found[name], few[name])
     assert (found["repeats"] >= 1).all()
     solver = found["method"] == "event"

@@ -52,57 +52,57 @@ rule random_points:
 
 
 def scene(wildcards):
-    """A param: one scene of the section `work` with its model."""
-    work = config["work"]
-    model = {**config["model"], **work["scenes"][wildcards.name]}
-    shared = {name: work[name] for name in ("duration", "tolerances", "steps", "peers", "max_evaluations")}
+    """A param: one scene of the section `precision` with its model."""
+    precision = config["precision"]
+    model = {**config["model"], **precision["scenes"][wildcards.name]}
+    shared = {name: precision[name] for name in ("duration", "tolerances", "steps", "peers", "max_evaluations")}
     return {**shared, "model": model}
 
 
-rule work:
+rule precision:
     output:
-        table("work"),
+        table("precision"),
     log:
-        log_file("work"),
+        log_file("precision"),
     benchmark:
-        benchmark_file("work")
+        benchmark_file("precision")
     wildcard_constraints:
-        name=one_of(config["work"]["scenes"]),
+        name=one_of(config["precision"]["scenes"]),
     threads: 1
     resources:
         mem_mb=1000,
         runtime=30,
     params:
         settings=scene,
-        code=source_hash("work"),
+        code=source_hash("precision"),
     message:
         "Error against work, {wildcards.name}"
     script:
-        "../../scripts/work.py"
+        "../../scripts/precision.py"
 
 
-rule work_times:
+rule wall_times:
     input:
-        table("work"),
+        table("precision"),
     output:
-        table("work_times"),
+        table("wall_times"),
     log:
-        log_file("work_times"),
+        log_file("wall_times"),
     benchmark:
-        benchmark_file("work_times")
+        benchmark_file("wall_times")
     wildcard_constraints:
-        name=one_of(config["work"]["scenes"]),
+        name=one_of(config["precision"]["scenes"]),
     threads: workflow.cores
     resources:
         mem_mb=1000,
         runtime=30,
     params:
-        settings={name: config["work"][name] for name in ("repeats", "seconds")},
-        code=source_hash("work_times"),
+        settings={name: config["precision"][name] for name in ("repeats", "seconds")},
+        code=source_hash("wall_times"),
     message:
         "Wall times, {wildcards.name}"
     script:
-        "../../scripts/work_times.py"
+        "../../scripts/wall_times.py"
 
 
 rule estimators:

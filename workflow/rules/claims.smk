@@ -37,7 +37,7 @@ rule check_results:
         orbits=[table("orbits", name) for name in ("branches", "folds_and_doublings", "cascade")],
         exponents=[table("lyapunov", name) for name in ("spectrum", "witnesses")],
         accuracy=[
-            *(table("work", scene) for scene in config["work"]["scenes"]),
+            *(table("precision", scene) for scene in config["precision"]["scenes"]),
             result("stability.parquet"),
             result("scene_budget.parquet"),
         ],

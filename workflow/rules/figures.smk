@@ -60,8 +60,8 @@ def jobs_of(reference):
         return [benchmark_file("orbits", "orbits")]
     if section == "lyapunov":
         return jobs_of("attractors/strobes") + [benchmark_file(section, name)]
-    if section == "work_times":
-        return jobs_of(f"work/{name}") + [benchmark_file(section, name)]
+    if section == "wall_times":
+        return jobs_of(f"precision/{name}") + [benchmark_file(section, name)]
     return [benchmark_file("accuracy" if section == "results" else section, name)]
 
 
@@ -103,6 +103,7 @@ rule gallery:
     localrule: True
     params:
         names=list(config["figures"]),
+        columns=4,
         code=source_hash("gallery"),
     message:
         "All figures side by side"
@@ -118,7 +119,11 @@ rule readme_chart:
     log:
         log_file("docs", "readme_chart"),
     localrule: True
+    params:
+        names=["work_precision"],
+        columns=1,
+        code=source_hash("gallery"),
     message:
         "The chart of the README"
-    shell:
-        "cp {input} {output} 2> {log}"
+    script:
+        "../../scripts/gallery.py"

@@ -1,4 +1,4 @@
-"""Rule work: error and force evaluations of every method over its tolerances or steps, in one scene.
+"""Rule precision: error and force evaluations of every method over its tolerances or steps, in one scene.
 
 The truth is the solver at its tightest tolerance. It is not its own judge: an independent integration, scipy's DOP853
 from event to event at its tightest tolerance, is among the rows, and its error is the difference of the two.
@@ -123,4 +123,4 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]):
         settings = snakemake.params.settings
         found = columns(settings, progress=snakemake.wildcards.name)
-        tables.write(snakemake.output[0], "work", found, settings=settings)
+        tables.write(snakemake.output[0], "precision", found, settings=settings)

@@ -1,4 +1,4 @@
-"""Rule work_times: wall time of every run of a table of work and precision, the methods alternating.
+"""Rule wall_times: wall time of every run of a table of work and precision, the methods alternating.
 
 Times differ from run to run and from machine to machine. They have a table of their own, so that what does not stays as
 it is.
@@ -12,8 +12,8 @@ import pandas as pd
 from tqdm import tqdm
 
 from conveyor import tables
+from precision import Method, follow
 from rule_log import logged
-from work import Method, follow
 
 # A turn of a fast method is repeated for this long, so that what ran before it leaves no trace in the median.
 TURN = 0.01  # s
@@ -53,6 +53,6 @@ def columns(precision: pd.DataFrame, settings: dict, *, progress: str | None = N
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         settings = snakemake.params.settings
-        precision = tables.read(snakemake.input[0], "work")
+        precision = tables.read(snakemake.input[0], "precision")
         found = columns(precision, settings, progress=snakemake.wildcards.name)
-        tables.write(snakemake.output[0], "work_times", found, settings=settings)
+        tables.write(snakemake.output[0], "wall_times", found, settings=settings)
