@@ -5,6 +5,7 @@ import pandas as pd
 import pytest
 
 import benchmark
+import precision
 import random_points
 import wall_times
 from conveyor import heyoka_peer
@@ -37,7 +38,7 @@ def test_benchmark_is_as_accurate_as_wanted(cases):
 
 
 @pytest.fixture(scope="module", params=["jumping", "riding", "bouncing"])
-def precision(request):
+def compared(request):
     """Work and precision of the solver and of two peers, as a table with its settings."""
     settings = {
         "duration": 1.0,
@@ -52,22 +53,22 @@ def precision(request):
     return table
 
 
-def test_solver_and_an_independent_integration_meet(precision):
-    best = precision[(precision.method == "DOP853") & (precision.tolerance == 1e-13)].iloc[0]
+def test_solver_and_an_independent_integration_meet(compared):
+    best = compared[(compared.method == "DOP853") & (compared.tolerance == 1e-13)].iloc[0]
     assert best.outcome == "ok"
     assert best.velocity_error < 1e-11
     assert best.state_error < 1e-11
 
 
-def test_heyoka_need_not_be_installed(precision):
-    heyoka = precision[precision.method == "heyoka"].iloc[0]
+def test_heyoka_need_not_be_installed(compared):
+    heyoka = compared[compared.method == "heyoka"].iloc[0]
     assert heyoka.outcome == ("ok" if heyoka_peer.installed() else "not installed")
     assert heyoka.velocity_error < 1e-8 or not heyoka_peer.installed()
 
 
-def test_times_belong_to_the_same_runs(precision):
-    few = precision[precision.tolerance.isin([1e-4, 1e-8])]
-    few.attrs = precision.attrs
+def test_times_belong_to_the_same_runs(compared):
+    few = compared[compared.tolerance.isin([1e-4, 1e-8])]
+    few.attrs = compared.attrs
     found = wall_times.columns(few, {"repeats": 2, "seconds": 0.05})
     for name in precision.Method._fields:
         np.testing.assert_array_equal(found[name], few[name])
