@@ -1,7 +1,7 @@
 """Lyapunov exponents: from the variational equation, from pairs of trajectories, and as published.
 
-The variational exponents multiply the exact linearisation of the stroboscopic map and orthonormalise after each cycle
-(Benettin et al. 1980). They satisfy λ1 + λ2 = -(d_c/m) × (share of time with contact force) identically.
+The variational exponents multiply the exact linearisation of the stroboscopic map. They satisfy
+λ1 + λ2 = -(d_c/m) × (share of time with contact force) identically.
 """
 
 import math
@@ -9,14 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import contact, fixed_step, stroboscope, trajectory
+from . import contact, fixed_step, stretching, stroboscope, trajectory
 from .jit import kernel
-from .model import FRICTION, unpack
+from .model import FREQUENCY, FRICTION, unpack
 from .parallel import for_each_chunk
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, simulate
-
-# Columns of the array that the kernel of `spectrum` fills.
-LAMBDA_1, LAMBDA_2, STDERR, CONTACT_FRACTION, CODE = range(5)
 
 
 class Spectrum(NamedTuple):
@@ -30,46 +27,30 @@ class Spectrum(NamedTuple):
 
 
 @kernel
-def multiply_stretches(c, series, state, transient, cycles, blocks, out):
-    """Fill `out`, shape (5,), with the exponents of one trajectory; `state` is advanced. See `spectrum`."""
-    features = np.zeros(stroboscope.FEATURES)
-    tangent = np.eye(2)
-    tangent[1, 1] = c.omega
-    total = np.zeros(2)
-    block_mean = np.zeros(blocks)
-    contact_time = 0.0
-    out[:] = np.nan
-    for n in range(transient + blocks * cycles):
-        status = stroboscope.cycle(c, series, state, tangent, features)
-        out[CODE] = status
-        if status != trajectory.OK:
-            return
-        # Gram-Schmidt with velocities divided by ω, which makes both directions comparable.
-        first = math.hypot(tangent[0, 0], tangent[0, 1] / c.omega)
-        tangent[0, :] /= first
-        along = tangent[1, 0] * tangent[0, 0] + tangent[1, 1] * tangent[0, 1] / (c.omega * c.omega)
-        tangent[1, 0] -= along * tangent[0, 0]
-        tangent[1, 1] -= along * tangent[0, 1]
-        second = math.hypot(tangent[1, 0], tangent[1, 1] / c.omega)
-        tangent[1, :] /= second
-        if n >= transient:
-            total[0] += math.log(first)
-            total[1] += math.log(second)
-            block_mean[(n - transient) // cycles] += math.log(first) / (cycles * c.period)
-            contact_time += features[stroboscope.CONTACT_TIME]
-    duration = blocks * cycles * c.period
-    out[LAMBDA_1], out[LAMBDA_2] = total[0] / duration, total[1] / duration
-    out[STDERR] = np.std(block_mean) / math.sqrt(blocks - 1)
-    out[CONTACT_FRACTION] = contact_time / duration
+def stretches_of_points(parameters, states, tolerance, transient, stretches, contact_times, codes):
+    """Follow trajectories from `states`, shape (n, 2), and fill rows of arrays with what happens in their cycles.
 
-
-@kernel
-def spectra_of_points(parameters, states, tolerance, transient, cycles, blocks, out):
-    """Fill the rows of `out`, shape (n, 5), with the exponents of trajectories from `states`, shape (n, 2)."""
+    stretches : float64, shape (n, cycles, 2), see stretching; NaN from a failure on
+    contact_times : float64, shape (n, cycles), s
+    codes : int64, shape (n,), status codes of trajectory.STATUS
+    """
     series = contact.workspace()
+    features = np.zeros(stroboscope.FEATURES)
+    discarded = np.empty(2)
+    stretches[:] = np.nan
     for i in range(parameters.shape[0]):
         c = contact.constants(parameters[i], tolerance)
-        multiply_stretches(c, series, states[i], transient, cycles, blocks, out[i])
+        # Velocities count in units of ω × length, which makes both directions comparable.
+        tangent = np.eye(2)
+        for n in range(-transient, stretches.shape[1]):
+            tangent[:, 1] *= c.omega
+            codes[i] = stroboscope.cycle(c, series, states[i], tangent, features)
+            if codes[i] != trajectory.OK:
+                break
+            tangent[:, 1] /= c.omega
+            stretching.orthonormalise(tangent, stretches[i, n] if n >= 0 else discarded)
+            if n >= 0:
+                contact_times[i, n] = features[stroboscope.CONTACT_TIME]
 
 
 def initial_states(parameters: np.ndarray, tolerance: float) -> np.ndarray:
@@ -105,14 +86,22 @@ def spectrum(
         raise ValueError("blocks must be at least 2, cycles at least 1, transient not negative")
     parameters = np.ascontiguousarray(parameters, dtype=np.float64)
     states = initial_states(parameters, tolerance) if states is None else np.array(states, dtype=np.float64)
-    out = np.empty((len(parameters), CODE + 1))
+    stretches = np.empty((len(parameters), blocks * cycles, 2))
+    contact_times = np.full((len(parameters), blocks * cycles), np.nan)
+    codes = np.zeros(len(parameters), dtype=np.int64)
 
     def work(begin, end):
         rows = slice(begin, end)
-        spectra_of_points(parameters[rows], states[rows], tolerance, transient, cycles, blocks, out[rows])
+        stretches_of_points(
+            parameters[rows], states[rows], tolerance, transient, stretches[rows], contact_times[rows], codes[rows]
+        )
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4, progress=progress)
-    return Spectrum(*out[:, :CODE].T.copy(), status=np.array(trajectory.STATUS)[out[:, CODE].astype(np.int64)])
+    period = 1.0 / parameters[:, FREQUENCY]
+    values, errors = stretching.exponents(stretches, blocks)
+    lambda_1, lambda_2 = (values / period[:, None]).T
+    contact_fraction = contact_times.mean(axis=1) / period
+    return Spectrum(lambda_1, lambda_2, errors[:, 0] / period, contact_fraction, np.array(trajectory.STATUS)[codes])
 
 
 def horizontal_exponent(parameters: np.ndarray, *, duration: float, last: float, tolerance: float) -> float:
