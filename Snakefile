@@ -21,8 +21,8 @@ include: "workflow/rules/sweeps.smk"
 include: "workflow/rules/analysis.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/orbits.smk"
-include: "workflow/rules/claims.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/claims.smk"
 
 
 rule all:

@@ -1,15 +1,9 @@
-"""Tests of results that the pipeline has made, not of its code: `snakemake` runs them as its rule check_results.
-
-They look into the folder that CONVEYOR_RESULTS names, else into the paper's results, and fail for want of a table.
-"""
-
-import os
-from pathlib import Path
+"""Tests of results that the pipeline has made, not of its code: `snakemake` runs them as its rule check_results."""
 
 import pandas as pd
 import pytest
 
-RESULTS = Path(os.environ.get("CONVEYOR_RESULTS", Path(__file__).resolve().parents[2] / "results"))
+from made import RESULTS
 
 
 @pytest.fixture(scope="session")

@@ -41,6 +41,7 @@ rule check_results:
             result("stability.parquet"),
             result("scene_budget.parquet"),
         ],
+        figures=figure_files(),
         tests=sorted(Path(workflow.basedir).glob("tests/results/*.py")),
     output:
         result("checked.txt"),
@@ -54,8 +55,9 @@ rule check_results:
         runtime=10,
     params:
         results=f"results/{PREFIX}",
+        figures=json.dumps(config["figures"]),
     message:
         "Tests of the results"
     shell:
-        "CONVEYOR_RESULTS={params.results} python -m pytest tests/results > {log} 2>&1"
+        "CONVEYOR_RESULTS={params.results} CONVEYOR_FIGURES={params.figures:q} python -m pytest tests/results > {log} 2>&1"
         " || (cat {log} >&2; exit 1); grep --only-matching '^[0-9]* passed' {log} > {output}"

@@ -1,4 +1,5 @@
 # What all rules share: where files are, what an entry of the config depends on, what a script runs.
+import json
 import math
 from pathlib import Path
 

@@ -1,0 +1,20 @@
+"""What has been made: the results below the folder that CONVEYOR_RESULTS names and the figures, as in the config, that
+CONVEYOR_FIGURES holds as JSON; else those of the paper.
+"""
+
+import json
+import os
+from pathlib import Path
+
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+RESULTS = (ROOT / os.environ.get("CONVEYOR_RESULTS", "results")).resolve()
+FIGURES = ROOT / "figures" / RESULTS.relative_to(ROOT / "results")
+
+
+def entries() -> dict[str, dict]:
+    """The entries of the figures by their names."""
+    if "CONVEYOR_FIGURES" in os.environ:
+        return json.loads(os.environ["CONVEYOR_FIGURES"])
+    return yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))["figures"]

@@ -1,0 +1,85 @@
+"""All figures as they have been made: the journal's size, units on every axis, fonts, equal bytes, fine maps."""
+
+import re
+from functools import cache
+
+import matplotlib.text
+import pytest
+
+from made import FIGURES, RESULTS, entries
+from plot_figure import draw
+from plots import style
+
+ENTRIES = entries()
+PAGE_HEIGHT = 234.0  # mm, of the journal's page
+MAPS = ("fig12", "fig13", "fig14", "fig18", "fig19")
+UNITS = {"m/s²", "m/s", "mm", "µm", "mN", "Hz", "s", "ms", "rad", "1/s", "m²/s²", "10$^{-3}$ m²/s²", "N/m", "N s/m"}
+# Counts and ratios.
+NO_UNIT = ("dimension", "error", "evaluations", "cycles", "points", "share", "relative", "samples", "changes")
+
+
+def drawn_afresh(name):
+    """A figure, once more from its tables."""
+    entry = ENTRIES[name]
+    paths = {}
+    for role, reference in entry["tables"].items():
+        section, table = reference.split("/")
+        paths[role] = RESULTS / (f"{table}.parquet" if section == "results" else f"{reference}.parquet")
+    return draw(name, paths, entry.get("settings", {}))
+
+
+@cache
+def drawn(name):
+    """The same with its layout made, for tests that look at it."""
+    figure = drawn_afresh(name)
+    figure.draw_without_rendering()
+    return figure
+
+
+@pytest.mark.parametrize("name", ENTRIES)
+def test_size_and_type_are_the_journal_s(name):
+    figure = drawn(name)
+    assert round(figure.get_figwidth() / style.MM, 6) in (style.COLUMN, style.PAGE)
+    assert figure.get_figheight() / style.MM <= PAGE_HEIGHT
+    texts = [text for text in figure.findobj(matplotlib.text.Text) if text.get_text() and text.get_visible()]
+    assert min(text.get_fontsize() for text in texts) >= 7.0
+
+
+@pytest.mark.parametrize("name", ENTRIES)
+def test_axes_have_units(name):
+    """An axis, or one that shares its scale, names a quantity with its unit, unless its ticks are words."""
+    for axes in drawn(name).axes:
+        if not axes.axison:
+            continue
+        for axis, shared in (("xaxis", axes.get_shared_x_axes()), ("yaxis", axes.get_shared_y_axes())):
+            siblings = [getattr(one, axis) for one in shared.get_siblings(axes)]
+            labels = {one.get_label_text() for one in siblings} - {""}
+            assert labels or any(in_words(one) for one in siblings), f"{axis} without a label"
+            for label in labels:
+                unit = label.rsplit(" in ", 1)[-1]
+                assert unit in UNITS or any(word in label for word in NO_UNIT), label
+
+
+def in_words(axis):
+    """Whether the ticks of an axis are words, or absent."""
+    texts = [label.get_text() for label in axis.get_ticklabels()]
+    return not texts or any(re.search("[a-z]{3}", text) for text in texts)
+
+
+@pytest.mark.parametrize("name", ENTRIES)
+def test_pages_are_equal_vectors_with_embedded_fonts(name, tmp_path):
+    """Equal to the byte to those of another process, which has drawn nothing else."""
+    copy = tmp_path / f"{name}.pdf"
+    style.save(drawn_afresh(name), [str(copy)])
+    content = (FIGURES / copy.name).read_bytes()
+    assert content == copy.read_bytes()
+    assert b"/FontFile2" in content
+    assert b"/Type3" not in content
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_maps_are_rasterised_finely(name):
+    width = max(map(int, re.findall(rb"/Width (\d+)", (FIGURES / f"{name}.pdf").read_bytes())))
+    figure = drawn(name)
+    wanted = figure.axes[0].get_position().width * figure.get_figwidth() * style.RESOLUTION
+    assert width == pytest.approx(wanted, rel=0.02)
