@@ -20,7 +20,7 @@ from collections import namedtuple
 import numpy as np
 
 from . import model, polynomial, unrolled
-from .jit import kernel
+from .jit import inlined, kernel
 from .polynomial import ORDER, SHIFTED, SIZE
 
 # What ends a contact step before its full length.
@@ -86,7 +86,7 @@ def workspace():
     return np.zeros((FIRST + ROWS, SIZE))
 
 
-@kernel
+@inlined
 def force(c, w, v):
     """Contact force per mass, m/s², at w = √penetration and the speed of approach v (Eq. 9)."""
     if c.exponent == 1.5:
@@ -97,7 +97,7 @@ def force(c, w, v):
 expand_hertz = kernel(unrolled.expand_hertz)
 
 
-@kernel
+@inlined
 def expand(c, series, at, w0, v0, sine0, cosine0, free):
     """Fill the rows W to COSINE_W of a step from their values at s = 0; `free` leaves the contact force out."""
     stiffness = 0.0 if free else c.stiffness
@@ -153,7 +153,7 @@ def power_term(series, w, power, exponent, n):
     return total / (n * series[w, 0])
 
 
-@kernel
+@inlined
 def expand_force(c, series, at, scale, plate, slack):
     """Fill the row SCRATCH with the series of w (scale F_c/m + plate cos θ + slack), of the sign of the bracket."""
     for n in range(ORDER):
@@ -162,7 +162,7 @@ def expand_force(c, series, at, scale, plate, slack):
     series[SCRATCH, ORDER] = 0.0
 
 
-@kernel
+@inlined
 def step_length(c, series, at, w0, v0):
     """Length in s at which the last two terms of the series are below the tolerance.
 
@@ -189,7 +189,7 @@ def step_length(c, series, at, w0, v0):
     return length
 
 
-@kernel
+@inlined
 def step(c, series, at, w0, v0, sine0, cosine0, pulled):
     """Expand the motion from w0 ≥ 0, v0 and find where its step ends.
 

@@ -6,13 +6,13 @@ a_z - g. The parabola of the lower bound reaches the plate before the part does,
 
 import math
 
-from .jit import kernel
+from .jit import inlined
 
 MAX_STEPS = 400
 EPSILON = 2.220446049250313e-16
 
 
-@kernel
+@inlined
 def gap(z, vz, tau, theta, gravity, a_z, omega):
     """Gap (m) and its rate (m/s) after the time `tau` of a flight from z, vz at the phase `theta`."""
     phase = theta + omega * tau
@@ -21,7 +21,7 @@ def gap(z, vz, tau, theta, gravity, a_z, omega):
     return q, rate
 
 
-@kernel
+@inlined
 def next_impact(z, vz, q, rate, theta, gravity, a_z, omega, limit):
     """Duration (s) of the flight from gap q ≥ 0 (m) with its rate (m/s), approach speed at its end, and largest gap.
 
@@ -73,7 +73,7 @@ def next_impact(z, vz, q, rate, theta, gravity, a_z, omega, limit):
     return math.inf, 0.0, highest
 
 
-@kernel
+@inlined
 def summit(z, vz, low, high, theta, gravity, a_z, omega):
     """Largest gap between two times of a flight, its rate positive at the first one, by safeguarded Newton steps."""
     tau = 0.5 * (low + high)

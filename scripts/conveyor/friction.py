@@ -13,11 +13,11 @@ import math
 
 from . import polynomial
 from .contact import SCRATCH, SINE, T, V, expand_force
-from .jit import kernel
+from .jit import inlined
 from .polynomial import ORDER
 
 
-@kernel
+@inlined
 def keeps_slipping(c, slip, plate, gain, lapse, cosine, cosine_end, fastest, mu):
     """Whether bounds alone show that the slip velocity does not vanish during a time `lapse` (s) of contact.
 
@@ -42,7 +42,7 @@ def keeps_slipping(c, slip, plate, gain, lapse, cosine, cosine_end, fastest, mu)
     return max(forward, backward) > 0.0
 
 
-@kernel
+@inlined
 def slip_end(c, series, at, start, length, slip, sigma, mu):
     """Where, in (start, length] of a contact step, the slip velocity reaches zero; infinity if it does not.
 
@@ -58,7 +58,7 @@ def slip_end(c, series, at, start, length, slip, sigma, mu):
     return polynomial.first_root(series, SCRATCH, start, length)
 
 
-@kernel
+@inlined
 def stick_end(c, series, at, start, length, cosine, cosine_end):
     """Where, in (start, length] of a contact step, |ẍ_s| outgrows μ F_c/m, and whether it stays so until the end.
 
@@ -77,7 +77,7 @@ def stick_end(c, series, at, start, length, cosine, cosine_end):
     return end, lasting
 
 
-@kernel
+@inlined
 def direction_at_rest(c, plate_acceleration, force, mu):
     """Sign of the slip that follows when the slip velocity is zero, or 0 for stick (Filippov's condition).
 

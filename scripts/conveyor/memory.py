@@ -9,7 +9,7 @@ come as close.
 import numpy as np
 
 from .contact import FIRST, ROWS
-from .jit import kernel
+from .jit import inlined, kernel
 from .polynomial import SIZE
 
 # Steps kept; more in a cycle share the last place.
@@ -31,7 +31,7 @@ def unused():
     return series, steps
 
 
-@kernel
+@inlined
 def first_row(series, steps, place):
     """The first row of a step's series. Most places are never used, so a place is cleared when it first is."""
     row = FIRST + place * ROWS
@@ -42,7 +42,7 @@ def first_row(series, steps, place):
     return row
 
 
-@kernel
+@inlined
 def repeats(c, steps, place, t, w, v, pulled):
     """Whether a step at the time `t` in its cycle (s) from w (√m), v (m/s) begins where the kept one began."""
     close = CLOSE * c.tolerance
@@ -54,7 +54,7 @@ def repeats(c, steps, place, t, w, v, pulled):
     )
 
 
-@kernel
+@inlined
 def keep(steps, place, t, w, v, pulled, length, w_end, v_end, lapse, event, sine_end, cosine_end):
     """Keep a step."""
     steps[place, BEGIN_T], steps[place, BEGIN_W], steps[place, BEGIN_V], steps[place, PULLED] = t, w, v, pulled
@@ -63,7 +63,7 @@ def keep(steps, place, t, w, v, pulled, length, w_end, v_end, lapse, event, sine
     steps[place, END_SINE], steps[place, END_COSINE] = sine_end, cosine_end
 
 
-@kernel
+@inlined
 def recall(steps, place):
     """What was found of a kept step, in the order in which `keep` takes it."""
     return (

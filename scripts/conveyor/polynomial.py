@@ -2,7 +2,7 @@
 
 import math
 
-from .jit import kernel
+from .jit import fused, inlined, kernel
 
 # Order of every series, and the length of its coefficient arrays, whose tail stays zero.
 ORDER = 16
@@ -25,37 +25,37 @@ FOUND, ABSENT, OPEN = range(3)
 SHIFTED = 0
 
 
-@kernel
+@inlined
 def value(series, row, s):
     """Σ c_n sⁿ, in four interleaved sums that do not wait for each other."""
     s2 = s * s
     s4 = s2 * s2
     sum0 = sum1 = sum2 = sum3 = 0.0
     for n in range(SIZE - 4, -1, -4):
-        sum0 = sum0 * s4 + series[row, n]
-        sum1 = sum1 * s4 + series[row, n + 1]
-        sum2 = sum2 * s4 + series[row, n + 2]
-        sum3 = sum3 * s4 + series[row, n + 3]
+        sum0 = fused(sum0, s4, series[row, n])
+        sum1 = fused(sum1, s4, series[row, n + 1])
+        sum2 = fused(sum2, s4, series[row, n + 2])
+        sum3 = fused(sum3, s4, series[row, n + 3])
     return (sum0 + s * sum1) + s2 * (sum2 + s * sum3)
 
 
-@kernel
+@inlined
 def derivatives(series, row, s):
     """Σ c_n sⁿ and its first and second derivatives, each in two sums that do not wait for each other."""
     value0 = value1 = slope0 = slope1 = bend0 = bend1 = 0.0
     s2 = s * s
     for n in range(ORDER, -1, -2):
         c0, c1, c2, c3 = series[row, n], series[row, n + 1], series[row, n + 2], series[row, n + 3]
-        value0 = value0 * s2 + c0
-        value1 = value1 * s2 + c1
-        slope0 = slope0 * s2 + (n + 1) * c1
-        slope1 = slope1 * s2 + (n + 2) * c2
-        bend0 = bend0 * s2 + (n + 1) * (n + 2) * c2
-        bend1 = bend1 * s2 + (n + 2) * (n + 3) * c3
+        value0 = fused(value0, s2, c0)
+        value1 = fused(value1, s2, c1)
+        slope0 = fused(slope0, s2, (n + 1) * c1)
+        slope1 = fused(slope1, s2, (n + 2) * c2)
+        bend0 = fused(bend0, s2, (n + 1) * (n + 2) * c2)
+        bend1 = fused(bend1, s2, (n + 2) * (n + 3) * c3)
     return value0 + s * value1, slope0 + s * slope1, bend0 + s * bend1
 
 
-@kernel
+@inlined
 def root_of_crossing(series, row, low, high):
     """The root of a polynomial that changes its sign once between `low` and `high`, by safeguarded Newton steps."""
     close = CLOSE * max(abs(low), abs(high))
@@ -105,7 +105,9 @@ def search(series, row, start, end, shortest, noise):
         third += (n + 1) * n * (n - 1) * abs(series[row, n + 1]) * power
         power *= end
     s = start
-    f, gradient, bend = derivatives(series, row, s)
+    f, gradient, bend = series[row, 0], series[row, 1], 2.0 * series[row, 2]
+    if s != 0.0:
+        f, gradient, bend = derivatives(series, row, s)
     for _ in range(MAX_STEPS):
         f = max(f, 0.0)
         left = end - s

@@ -206,8 +206,11 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
                     w_end = polynomial.value(series, at + contact.W, length)
                     v_end = polynomial.value(series, at + contact.V, length)
                     event = END_OF_CYCLE
-                phase = BEGIN_OF_CYCLE + c.omega * (t + lapse)
-                sine_end, cosine_end = math.sin(phase), math.cos(phase)
+                if event == END_OF_CYCLE:
+                    sine_end, cosine_end = math.sin(BEGIN_OF_CYCLE), math.cos(BEGIN_OF_CYCLE)
+                else:
+                    sine_end = polynomial.value(series, at + contact.SINE, length)
+                    cosine_end = polynomial.value(series, at + contact.COSINE, length)
                 memory.keep(steps, place, t, w, v, pulled, length, w_end, v_end, lapse, event, sine_end, cosine_end)
                 work += 1
             place = min(place + 1, memory.PLACES - 1)

@@ -4,31 +4,42 @@ The recurrences are short loops of varying length, which a processor predicts ba
 half the time. Writing them out is left to this module.
 """
 
+from .jit import fused  # noqa: F401 (called by the generated code)
 from .polynomial import ORDER
 
+# Partial sums that do not wait for each other.
+LANES = 3
 
-def total(terms: list[str]) -> str:
-    """Source of a sum, in up to four partial sums that do not wait for each other."""
-    return " + ".join(f"({' + '.join(terms[lane::4])})" for lane in range(min(4, len(terms))))
+
+def total(products: list[tuple[str, str]]) -> str:
+    """Source of a sum of products, in up to LANES partial sums."""
+    sums = []
+    for lane in range(min(LANES, len(products))):
+        (a, b), *others = products[lane::LANES]
+        partial = f"{a} * {b}"
+        for a, b in others:
+            partial = f"fused({a}, {b}, {partial})"
+        sums.append(partial)
+    return " + ".join(sums)
 
 
 def product(a: str, b: str, n: int) -> str:
     """Source of Σ_k a_k b_{n-k}; the newest coefficients, a_n and b_n, last: by then the sum of the others is ready."""
-    ends = [f"{a}0 * {b}{n}"] + ([f"{a}{n} * {b}0"] if n else [])
-    middle = [f"{a}{k} * {b}{n - k}" for k in range(1, n)]
-    return (f"({total(middle)}) + " if middle else "") + f"({' + '.join(ends)})"
+    if n == 0:
+        return f"{a}0 * {b}0"
+    middle = [(f"{a}{k}", f"{b}{n - k}") for k in range(1, n)]
+    return f"fused({a}{n}, {b}0, fused({a}0, {b}{n}, {total(middle) or '0.0'}))"
 
 
 def square(a: str, n: int) -> str:
     """Source of Σ_k a_k a_{n-k}, each pair once, the newest coefficient a_n last."""
     if n == 0:
         return f"{a}0 * {a}0"
-    pairs = [f"{a}{k} * {a}{n - k}" for k in range(1, (n + 1) // 2)]
-    parts = [f"2.0 * ({total(pairs)})"] if pairs else []
+    pairs = [(f"{a}{k}", f"{a}{n - k}") for k in range(1, (n + 1) // 2)]
+    source = f"2.0 * ({total(pairs)})" if pairs else "0.0"
     if n % 2 == 0:
-        parts.append(f"{a}{n // 2} * {a}{n // 2}")
-    middle = f"({' + '.join(parts)}) + " if parts else ""
-    return f"{middle}2.0 * {a}0 * {a}{n}"
+        source = f"fused({a}{n // 2}, {a}{n // 2}, {source})"
+    return f"fused(2.0 * {a}0, {a}{n}, {source})"
 
 
 def hertz_source() -> str:
@@ -41,16 +52,19 @@ def hertz_source() -> str:
     lines = ["def expand_hertz(w0, v0, s0, c0, gravity, a_z, omega, stiffness, damping, series, at):"]
     lines += ["t0 = 0.0", "q0 = w0 * w0"]
     for n in range(ORDER):
+        inverse = 1.0 / (n + 1)
         lines += [
-            f"w{n + 1} = v{n} * {0.5 / (n + 1)!r}",
-            f"t{n + 1} = w{n} * {1.0 / (n + 1)!r}",
+            f"w{n + 1} = v{n} * {0.5 * inverse!r}",
+            f"t{n + 1} = w{n} * {inverse!r}",
             f"q{n + 1} = {square('w', n + 1)}",
             f"x{n} = {product('c', 'w', n)}",
             f"sine_w = {product('s', 'w', n)}",
             f"p{n} = {square('q', n)}",
-            f"v{n + 1} = (gravity * w{n} + a_z * x{n} - stiffness * p{n}) * {1.0 / (n + 1)!r} - damping * q{n + 1}",
-            f"c{n + 1} = -omega * sine_w * {1.0 / (n + 1)!r}",
-            f"s{n + 1} = omega * x{n} * {1.0 / (n + 1)!r}",
+            f"rate = fused(-stiffness, p{n}, fused(a_z, x{n}, gravity * w{n}))",
+            f"v{n + 1} = fused(-damping, q{n + 1}, rate * {inverse!r})",
+            f"turn = omega * {inverse!r}",
+            f"c{n + 1} = -turn * sine_w",
+            f"s{n + 1} = turn * x{n}",
         ]
     for row, letter in enumerate("wtvscqpx"):
         terms = ORDER if letter in "px" else ORDER + 1
