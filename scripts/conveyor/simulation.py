@@ -10,7 +10,7 @@ from . import fixed_step, trajectory
 from .model import Conveyor, Start, pack
 
 METHODS = ("event", *fixed_step.METHODS)
-DEFAULT_TOLERANCE = 1e-9
+DEFAULT_TOLERANCE = 3e-10
 DEFAULT_STEP = 5e-7  # s, Sect. 3 of the paper
 LAST = 0.25  # share of the run over which the paper takes mean values (Sect. 3.1)
 
