@@ -241,17 +241,32 @@ COLUMNS = {
         number("error", "1", "relative error of the exponent; error of the dimension; relative gap to the best fit"),
     ),
     "stability": (
-        text("panel", "stiffness, damping, impact velocity, edge, chatter, estimate, or hard and a case"),
+        text(
+            "panel", "stiffness, damping, impact velocity, conveyor; edge of one of them; chatter; or hard and a case"
+        ),
         text("method", "euler, semi_implicit_euler, rk4 or event"),
-        number("x", "see panel", "step in s; estimate: perturbation in rad; hard: number of events"),
+        number("x", "see panel", "step in s; hard: number of events"),
         number(
             "y",
             "see panel",
-            "stiffness in N/m (also edge), damping in N s/m, velocity in m/s; chatter: slip in m/s; estimate: exponent "
-            "in 1/s; hard: relative change of the end at a hundredth of the tolerance",
+            "stiffness in N/m, damping in N s/m, velocity in m/s, conveyor: amplitude in m/s²; chatter: slip in m/s; "
+            "hard: relative error of the height at the end",
         ),
         text("outcome", "right, wrong state, energy grows or blow-up"),
         number("theory", "s", "largest stable step in theory; null where there is none"),
+    ),
+    "stability_estimates": (
+        text("panel", "what is varied: perturbation, time or step; known set, samples or run time"),
+        text("case", "motion or set"),
+        text("estimator", "event or euler for exponents; boxes, boxes as published, or correlation sum"),
+        number("epsilon", "rad or m", "perturbation of the phase or of the initial height; null for dimensions"),
+        number("duration", "s", "time of the run; null for points of known sets and settled portraits"),
+        number("step", "s", "step of Euler; null for dimensions"),
+        number("samples", "1", "number of points; null for exponents"),
+        number("value", "1/s or 1", "the estimate: an exponent in 1/s, or a dimension"),
+        number("error", "1", "half-width of its 95 % interval; null for exponents"),
+        number("truth", "1/s or 1", "what it should be; null where nobody knows"),
+        number("bound", "1/s", "estimate of a pair that is as far apart as the signal goes; null for dimensions"),
     ),
     "scene_budget": (
         text("sweep", "sweep of the config whose points are sampled"),

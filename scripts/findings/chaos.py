@@ -83,18 +83,14 @@ def phase_estimate(tables: dict[str, pd.DataFrame]) -> Finding:
 
 def of_perturbations(tables: dict[str, pd.DataFrame]) -> str:
     """How the estimate in a regular motion depends on the perturbation."""
-    table = tables["stability"]
-    rows = table[table.panel == "estimate"]
-    ranges = [
-        f"{values.min():+.2f} to {values.max():+.2f} 1/s {method}"
-        for method, values in (
-            ("by Euler", rows[rows.method == "euler"].y),
-            ("converged", rows[rows.method == "event"].y),
-        )
-    ]
+    table = tables["estimates"]
+    rows = table[(table.panel == "perturbation") & (table.case == "orbit_phase")]
+    by_euler, converged = (rows[rows.estimator == method].value for method in ("euler", "event"))
+    acceleration = table.attrs["exponent"]["cases"]["orbit_phase"]["acceleration"]
     return (
-        f"at {table.attrs['estimate']['acceleration']:g} m/s², a settled motion, perturbations from {rows.x.min():g} "
-        f"to {rows.x.max():g} rad give {ranges[0]} and {ranges[1]}"
+        f"at {acceleration:g} m/s², a settled motion, perturbations from {rows.epsilon.min():g} to "
+        f"{rows.epsilon.max():g} rad give {by_euler.min():+.2f} to {by_euler.max():+.2f} 1/s by Euler and "
+        f"{converged.min():+.2f} to {converged.max():+.2f} 1/s converged"
     )
 
 

@@ -285,10 +285,15 @@ def test_height_estimate():
 def perturbations():
     """The estimate of a settled motion over the perturbation, by both methods."""
     table = pd.DataFrame(
-        {"panel": "estimate", "method": ["euler", "euler", "event", "event"], "x": [1e-8, 1e-6] * 2, "y": 0.0}
+        {
+            "panel": "perturbation",
+            "case": "orbit_phase",
+            "estimator": ["euler", "euler", "event", "event"],
+            "epsilon": [1e-8, 1e-6] * 2,
+            "value": [0.5, 1.5, -9.0, -8.0],
+        }
     )
-    table["y"] = [0.5, 1.5, -9.0, -8.0]
-    table.attrs = {"estimate": {"acceleration": 55.0}}
+    table.attrs = {"exponent": {"cases": {"orbit_phase": {"acceleration": 55.0}}}}
     return table
 
 
@@ -298,7 +303,7 @@ def estimates(published, converged):
         "published": exponents(published),
         "converged": exponents(converged),
         "states": sweep("second"),
-        "stability": perturbations(),
+        "estimates": perturbations(),
     }
 
 

@@ -26,6 +26,7 @@ SINGLE = (
     "precision",
     "estimators",
     "stability",
+    "stability_estimates",
     "scene_budget",
     "random_points",
 )

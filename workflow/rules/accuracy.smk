@@ -149,6 +149,27 @@ rule stability:
         "../../scripts/stability.py"
 
 
+rule stability_estimates:
+    output:
+        result("stability_estimates.parquet"),
+    log:
+        log_file("accuracy", "stability_estimates"),
+    benchmark:
+        benchmark_file("accuracy", "stability_estimates")
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=30,
+    params:
+        settings=config["stability_estimates"],
+        model=config["model"],
+        code=source_hash("stability_estimates"),
+    message:
+        "How far the published estimates carry"
+    script:
+        "../../scripts/stability_estimates.py"
+
+
 def shown_sweeps():
     """The figures that show each converged sweep, by its name."""
     shown = {}

@@ -39,6 +39,7 @@ rule check_results:
         accuracy=[
             *(table("precision", scene) for scene in config["precision"]["scenes"]),
             result("stability.parquet"),
+            result("stability_estimates.parquet"),
             result("scene_budget.parquet"),
         ],
         figures=figure_files(),
