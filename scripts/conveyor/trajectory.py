@@ -216,7 +216,8 @@ def integrate(parameters, tolerance, feeding, times, samples, event_times, event
             place = min(place + 1, memory.PLACES - 1)
             pressing = not (pulled and c.tension == TENSION_CLIP)
             if pressing:
-                contact_time += min(lapse, end - base - t)
+                # A repeated step has the lapse of the one it repeats; what counts is where the cycle ends.
+                contact_time += min(c.period - t if event == END_OF_CYCLE else lapse, end - base - t)
 
             # The segments of constant slip direction within this step.
             mu = 0.0 if pulled else c.friction

@@ -74,6 +74,19 @@ starts = st.builds(Start, z=st.one_of(st.just("conveyor"), st.floats(-1e-4, 1e-2
     Start("conveyor", vz=0.412),
 )
 @example(Conveyor(acceleration=0.0, angle=0.0, frequency=7.39, damping=0.0, exponent=1.0), Start("conveyor"))
+@example(
+    Conveyor(
+        acceleration=79.4690520074417,
+        angle=0.01,
+        frequency=278.83430837729395,
+        psi0=3.793713574955103,
+        stiffness=249154.80776273232,
+        damping=0.2382365126085746,
+        mass=0.000555885196086674,
+        exponent=2.0,
+    ),
+    Start(z=-2.2250738585e-313, vz=-0.0988428044562999),
+)
 def test_any_run_ends_with_a_finite_motion_above_the_plate(conveyor, start):
     run = simulate(conveyor, start, duration=0.2, tolerance=1e-9)
     assert run.status == "ok"
