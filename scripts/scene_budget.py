@@ -1,9 +1,9 @@
 """Rule scene_budget: what the data of each figure need, what that costs, and what a reader would see of less.
 
-A sample of the points of each sweep that a figure shows is followed with the settings of the config and with every
-variant: other tolerances, with and without the horizontal motion, the rigid bouncing part in place of the contact. A
-point where a shift of the initial height that nobody can set (config: `shift`) changes what a reader sees, as in long
-transients, does not count, nor does a velocity in chaos: there the model itself makes no statement.
+Some points of each table that a figure draws are computed as the config says, with the full model at a tight tolerance,
+and with variants of both: other tolerances, with the horizontal motion, half the time, a rigid bouncing part in place of
+the contact. Drawn values that a shift of the initial height nobody can set (config: `shift`) changes visibly, as in chaos
+and in long transients, do not count: there the model itself makes no statement.
 """
 
 from collections.abc import Callable
@@ -11,133 +11,147 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
+import pandas as pd
+from tqdm import tqdm
 
-from conveyor import grid, rigid_ball, states, sweep, tables
-from conveyor.model import Z0, unpack
+import observables
+import rigid_part
+from conveyor import grid, tables
+from conveyor.model import unpack
+from conveyor.simulation import simulate
+from observables import SHOWN, Shown
 from rule_log import logged
 
-FULL = {"needs": "feeding", "tolerance": 1e-13}
-RIGID = "rigid part"
-ROUNDS, ENOUGH = 3, 0.05  # of a timed run: at least that many, and that many seconds altogether
+TIGHT = 1e-13
+ROUNDS, ENOUGH = 3, 0.2  # of a timed run: at most that many, until that many seconds altogether
+FULL, HALF, RIGID, DRAWING = "full model", "half the time", "rigid part", "drawing"
+NOTHING = {
+    "table": "none",
+    "needs": "nothing",
+    "shows": "a drawing, or numbers from other rules",
+    "variant": DRAWING,
+    "tolerance": np.nan,
+    "duration": np.nan,
+    "points": 0,
+    "seconds": 0.0,
+    "full_seconds": 0.0,
+    "ratio": np.nan,
+    "steps": 0.0,
+    "sticks": np.nan,
+    "known": np.nan,
+    "changed": 0.0,
+    "visible": False,
+    "chosen": True,
+    "reason": None,
+}
 
 
 def least_time(work: Callable[[], Any]) -> tuple[float, Any]:
-    """Least wall time (s) of repeated rounds, and what `work` returns: other load on the machine only adds to a time.
-
-    The first round, which may have to load compiled code, is not timed.
-    """
-    result = work()
+    """Least wall time (s) of repeated rounds, and what `work` returns: other load on the machine only adds to a time."""
     times = []
-    while len(times) < ROUNDS or sum(times) < ENOUGH:
+    while not times or (len(times) < ROUNDS and sum(times) < ENOUGH):
         begin = perf_counter()
-        work()
+        result = work()
         times.append(perf_counter() - begin)
     return min(times), result
 
 
-def sample_of(settings: dict, count: int, seed: int) -> np.ndarray:
-    """Parameter vectors of some points of a sweep, drawn without repetition, shape (count, 13)."""
+def variants_of(section: str, settings: dict, tolerances: list[float]) -> list[tuple[str, dict]]:
+    """Names and settings of all variants of a table, that of the config first."""
+    needs, chosen = settings.get("needs", "feeding"), settings["tolerance"]
+    found = [(needs, settings)]
+    if section == "impacts":
+        return found  # closed forms: there is no tolerance
+    found += [(needs, settings | {"tolerance": tolerance}) for tolerance in tolerances if tolerance != chosen]
+    if needs == "vertical":
+        found.append(("feeding", settings | {"needs": "feeding"}))
+    if section == "sweeps":
+        found.append((HALF, settings | {"duration": 0.5 * settings["duration"]}))
+    return found
+
+
+def work_of(parameters: np.ndarray, tolerance: float) -> tuple[float, float]:
+    """Taylor steps of a second of the motion, the mean over the points, and the share of points whose part sticks."""
+    runs = [simulate(*unpack(row), tolerance=tolerance) for row in parameters]
+    return float(np.mean([run.work for run in runs])), float(np.mean(["stick" in run.events["kind"] for run in runs]))
+
+
+def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
+    """One row for each variant of one table, SECTION/NAME, with the settings of its entry."""
+    section = reference.split("/")[0]
+    shown: Shown = SHOWN[section]
+    settings = settings | {"axes": observables.thinned(settings["axes"], budget["points"][section])}
     _, parameters = grid.product(settings["axes"], settings["model"])
-    rows = np.random.default_rng(seed).choice(len(parameters), min(count, len(parameters)), replace=False)
-    return parameters[np.sort(rows)]
+    full_settings = settings | {"needs": "feeding", "tolerance": TIGHT}
+    shown.observe(settings)  # loads compiled code
+    full_seconds, truth = least_time(lambda: shown.observe(full_settings))
+    known = ~observables.differences(
+        shown,
+        truth,
+        observables.observe_shifted(shown, full_settings, budget["shift"]),
+        settings["axes"],
+        budget["line"],
+    )
 
+    def row(variant: str, of: dict, seconds: float, found: pd.DataFrame) -> dict:
+        seen = observables.differences(shown, truth, found, settings["axes"], budget["line"])
+        shares = [seen[name][known[name]].mean() for name in shown.drawn if known[name].any()]
+        steps, sticks = work_of(parameters[:: max(1, len(parameters) // 50)], of["tolerance"])
+        return {
+            "table": reference,
+            "needs": settings.get("needs", "feeding"),
+            "shows": shown.what,
+            "variant": variant,
+            "tolerance": np.nan if variant == RIGID or section == "impacts" else of["tolerance"],
+            "duration": of["duration"],
+            "points": len(parameters),
+            "seconds": seconds / len(parameters),
+            "full_seconds": full_seconds / len(parameters),
+            "ratio": full_seconds / seconds,
+            "steps": np.nan if variant == RIGID else steps,
+            "sticks": sticks,
+            "known": float(known.to_numpy().mean()),
+            "changed": float(max(shares, default=0.0)),
+            "visible": bool(max(shares, default=0.0) > budget["pixels"]),
+            "chosen": of is settings,
+            "reason": budget["reasons"].get(reference) if of is settings else None,
+        }
 
-def follow(
-    parameters: np.ndarray, duration: float, needs: str, tolerance: float
-) -> tuple[float, np.ndarray, np.ndarray]:
-    """Wall time (s), mean velocities (m/s; NaN for vertical needs) and states that the runs lead to."""
-    options = {"duration": duration, "needs": needs, "tolerance": tolerance}
-    seconds, runs = least_time(lambda: sweep.run(parameters, **options))
-    later = states.continued(parameters, runs["z_end"], runs["vz_end"], duration)
-    return seconds, runs["mean_velocity"], states.classify(later)[0]
-
-
-def follow_rigid(parameters: np.ndarray, duration: float, speeds: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
-    """The same for rigid parts whose restitution is that of the contact; second if the longest flights are long."""
-    restitution = speeds, rigid_ball.restitution_coefficients(parameters[0], speeds)
-    seconds, runs = least_time(lambda: [rigid_ball.run(row, duration, restitution) for row in parameters])
-    found = [rigid_state(row, duration, restitution) for row in parameters]
-    return seconds, np.array([run.mean_velocity for run in runs]), np.array(found)
-
-
-def rigid_state(row: np.ndarray, duration: float, restitution: tuple[np.ndarray, np.ndarray]) -> str:
-    """State of a rigid part at the end of a run: by its flights, and by whether it repeats itself."""
-    conveyor, _ = unpack(row)
-    cycle = 1.0 / conveyor.frequency
-    hits = rigid_ball.impacts(row, duration, restitution)
-    late = hits[hits["time"] > 0.75 * duration]
-    flights = np.diff(late["time"])
-    if len(flights) == 0 or flights.max() < states.LONG_FLIGHT * cycle:
-        return "first"
-    strobes = duration - cycle * np.arange(8)
-    height = rigid_ball.sample(row, strobes, restitution)["z"]
-    closest = min(np.abs(height[period:] - height[:-period]).max() for period in (1, 2, 4))
-    last_cycle = rigid_ball.sample(row, duration - cycle * np.linspace(0.0, 1.0, 50), restitution)["z"]
-    return "second" if closest < 0.01 * np.ptp(last_cycle) else "chaos"
-
-
-def changed(truth: tuple, found: tuple, line: float) -> tuple[np.ndarray, np.ndarray]:
-    """Points with another state, and points whose velocity differs by more than a line is wide; both of shape (n,)."""
-    _, velocity, state = truth
-    _, other, other_state = found
-    return other_state != state, np.abs(other - velocity) > line * np.ptp(velocity)
-
-
-def rows_of_sweep(name: str, settings: dict, budget: dict) -> list[dict]:
-    """One row for each variant of one sweep."""
-    parameters = sample_of(settings, budget["points"], budget["seed"])
-    duration, needs = settings["duration"], settings.get("needs", "feeding")
-    truth = follow(parameters, duration, **FULL)
-    shifted = parameters.copy()
-    shifted[:, Z0] += budget["shift"]
-    state, velocity = changed(truth, follow(shifted, duration, **FULL), budget["line"])
-    known = ~state, ~(state | velocity | (truth[2] == "chaos"))
-    variants = {(needs, tolerance) for tolerance in budget["tolerances"]}
-    variants |= {(needs, settings["tolerance"]), ("feeding", settings["tolerance"])}
-    rows = []
-    for kind, tolerance in sorted(variants):
-        found = follow(parameters, duration, kind, tolerance)
-        rows.append(row(name, kind, tolerance, found, truth, known, budget))
-        rows[-1]["chosen"] = kind == needs and tolerance == settings["tolerance"]
-    if len(np.unique(parameters[:, 4:10], axis=0)) == 1:
-        found = follow_rigid(parameters, duration, np.geomspace(1e-3, 1.0, 16))
-        rows.append(row(name, RIGID, np.nan, found, truth, known, budget))
+    rows = [row(FULL, full_settings, full_seconds, truth)]
+    for variant, of in variants_of(section, settings, budget["tolerances"]):
+        rows.append(row(variant, of, *least_time(lambda of=of: shown.observe(of))))
+    if section == "sweeps" and "tension" not in settings["axes"]:
+        seconds, found = least_time(lambda: rigid_part.swept(settings))
+        rows.append(row(RIGID, settings | {"rigid": True}, seconds, found))
     return rows
 
 
-def row(name: str, kind: str, tolerance: float, found: tuple, truth: tuple, known: tuple, budget: dict) -> dict:
-    """One variant: its cost and what it changes among the points whose truth is known."""
-    shares = [
-        float(differs[counts].mean()) if counts.any() and kind_counts else 0.0
-        for differs, counts, kind_counts in zip(
-            changed(truth, found, budget["line"]), known, (True, kind != "vertical"), strict=True
-        )
-    ]
-    return {
-        "sweep": name,
-        "variant": kind,
-        "tolerance": tolerance,
-        "seconds": found[0] / len(truth[1]),
-        "full_seconds": truth[0] / len(truth[1]),
-        "ratio": truth[0] / found[0],
-        "states_known": float(known[0].mean()),
-        "states_changed": shares[0],
-        "velocities_known": float(known[1].mean()),
-        "velocities_changed": shares[1],
-        "visible": max(shares) > budget["pixels"],
-        "chosen": False,
+def columns(
+    entries: dict[str, dict], drawn: dict[str, list[str]], budget: dict, *, progress: str | None = None
+) -> dict[str, np.ndarray]:
+    """The columns of the table of budgets: rows by figure, table and variant.
+
+    Parameters
+    ----------
+    entries : settings of the tables by their names, SECTION/NAME
+    drawn : names of the tables that each figure draws
+    budget : the section `scene_budget` of the config
+    progress : name of a progress bar, or None
+    """
+    found = {
+        reference: rows_of_table(reference, settings, budget)
+        for reference, settings in tqdm(entries.items(), desc=progress, unit="tables", disable=progress is None)
     }
-
-
-def columns(sweeps: dict[str, dict], figures: dict[str, list[str]], budget: dict) -> dict[str, np.ndarray]:
-    """The columns of the table of budgets for sweeps by name and the figures that show them."""
-    rows = [one for name, settings in sweeps.items() for one in rows_of_sweep(name, settings, budget)]
-    found = {name: np.array([one[name] for one in rows]) for name in rows[0]}
-    return {**found, "figures": np.array([", ".join(figures[name]) for name in found["sweep"]])}
+    rows = [
+        {"figure": figure, **row}
+        for figure, references in drawn.items()
+        for row in ([one for reference in references for one in found[reference]] if references else [NOTHING])
+    ]
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         parameters = snakemake.params
-        found = columns(parameters.sweeps, parameters.figures, parameters.budget)
+        found = columns(parameters.entries, parameters.drawn, parameters.budget, progress="scene budget")
         tables.write(snakemake.output[0], "scene_budget", found, settings=parameters.budget)

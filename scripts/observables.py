@@ -1,0 +1,132 @@
+"""What figures show of the tables they draw: which columns, of which rows, and how far two tables are apart for a reader."""
+
+import math
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+import attractors
+import classify
+import critical
+import dimensions
+import estimate
+import impacts
+import lyapunov
+import signals
+import spectra
+import sweep
+from conveyor import grid
+from conveyor.model import Conveyor
+
+
+class Shown(NamedTuple):
+    """What a figure shows of a table of a section of the config."""
+
+    observe: Callable[[dict], pd.DataFrame]  # the table, from the settings of its entry
+    keys: tuple[str, ...]  # columns that tell its rows apart, beside the axes
+    drawn: tuple[str, ...]  # columns that a figure draws
+    each: bool  # whether every motion has a panel, and so a range of values, of its own
+    what: str  # in words
+
+
+def swept(settings: dict) -> pd.DataFrame:
+    """A table of sweeps."""
+    points = math.prod(len(grid.axis_values(name, axis)) for name, axis in settings["axes"].items())
+    runs = pd.DataFrame(sweep.columns(settings, (0, points)))
+    return pd.DataFrame(classify.columns(runs, settings))
+
+
+def critical_heights(settings: dict) -> pd.DataFrame:
+    """The critical ones in a table of heights at which the state changes."""
+    found = pd.DataFrame(critical.columns(settings))
+    return found[found.is_critical]
+
+
+def strobes(settings: dict) -> pd.DataFrame:
+    """A table of strobes; those of an amplitude in the order of their size, as a diagram shows them."""
+    found = pd.DataFrame(attractors.columns(settings | settings["axes"]))
+    return found.assign(v=found.groupby(["branch", "acceleration"]).v.transform(lambda v: np.sort(v.to_numpy())))
+
+
+def exponents(settings: dict) -> pd.DataFrame:
+    """A table of Lyapunov exponents, on attractors of its own."""
+    found = pd.DataFrame(attractors.columns(settings | settings["axes"]))
+    return pd.DataFrame(lyapunov.columns(found, settings))
+
+
+def made_by(stage: Callable[[dict], Mapping[str, np.ndarray]]) -> Callable[[dict], pd.DataFrame]:
+    """The table that a stage of the pipeline makes from the settings of an entry."""
+    return lambda settings: pd.DataFrame(stage(settings))
+
+
+SHOWN = {
+    "sweeps": Shown(swept, (), ("mean_velocity", "state"), False, "mean velocity, state"),
+    "signals": Shown(
+        made_by(signals.columns), ("time",), ("x", "vx", "z", "vz", "contact_force", "friction_force"), True, "samples"
+    ),
+    "spectra": Shown(made_by(spectra.columns), ("signal", "frequency"), ("amplitude",), True, "spectrum"),
+    "estimates": Shown(made_by(estimate.columns), (), ("lambda",), False, "exponent"),
+    "critical": Shown(critical_heights, (), ("z0",), False, "critical height"),
+    "impacts": Shown(
+        made_by(impacts.columns), (), ("impact_velocity", "impact_phase", "state"), False, "first impact, state"
+    ),
+    "dimensions": Shown(made_by(dimensions.columns), (), ("dimension",), False, "dimension"),
+    "attractors": Shown(strobes, ("branch", "cycle"), ("v",), False, "stroboscopic states"),
+    "lyapunov": Shown(exponents, ("branch",), ("lambda_1",), False, "exponent"),
+}
+
+
+def thinned(axes: dict, points: int) -> dict:
+    """Axes with evenly chosen values, about `points` of their product, ends included; axes of text stay whole."""
+    values = {
+        name: list(axis) if name == "tension" or "conveyor" in axis else [float(x) for x in grid.axis_values(name, axis)]
+        for name, axis in axes.items()
+    }
+    numbers = [name for name in values if name != "tension"]
+    share = min(1.0, points / math.prod(map(len, values.values()))) ** (1.0 / len(numbers))
+    for name in numbers:
+        count = max(1, math.ceil(share * len(values[name])))
+        values[name] = [values[name][k] for k in np.unique(np.linspace(0, len(values[name]) - 1, count).astype(int))]
+    return values
+
+
+def observe_shifted(shown: Shown, settings: dict, shift: float) -> pd.DataFrame:
+    """The table of parts that start higher by `shift` (m); on the conveyor, faster by as much in a radian."""
+    axes, model = settings["axes"], settings["model"]
+    speed = 2.0 * math.pi * model.get("frequency", Conveyor().frequency) * shift
+    if "z0" in axes:
+        name, change = "z0", shift
+    else:
+        name, change = ("vz0", speed) if model["z0"] == "conveyor" else ("z0", shift)
+    if name not in axes:
+        return shown.observe(settings | {"model": model | {name: model[name] + change}})
+    moved = [value + change for value in axes[name]]
+    table = shown.observe(settings | {"axes": axes | {name: moved}})
+    return table.assign(**{name: table[name].map(dict(zip(moved, axes[name], strict=True)))})
+
+
+def differences(shown: Shown, truth: pd.DataFrame, found: pd.DataFrame, axes: dict, line: float) -> pd.DataFrame:
+    """Which of the drawn values of two tables a reader can tell apart; rows as in `truth`, a column for each drawn one.
+
+    Numbers that differ by more than `line`, a share of their range, and all texts that differ; what only one of the
+    tables has differs. A column that was not computed (no value at all in `found`) does not count.
+    """
+    keys = [*axes, *shown.keys]
+    both = truth.set_index(keys)[list(shown.drawn)].join(
+        found.set_index(keys)[list(shown.drawn)], how="left", rsuffix=" found"
+    )
+    seen = {}
+    for name in shown.drawn:
+        here, there = both[name], both[f"{name} found"]
+        if not pd.api.types.is_numeric_dtype(here):
+            seen[name] = here.ne(there) & ~(here.isna() & there.isna())
+        elif found[name].notna().any():
+            groups = here.groupby(level=list(axes)) if shown.each else here.groupby(lambda _: 0)
+            extent = groups.transform("max") - groups.transform("min")
+            alike = (here.sub(there).abs() <= line * extent) | (here.isna() & there.isna())
+            seen[name] = ~alike
+        else:
+            seen[name] = pd.Series(False, index=both.index)
+    return pd.DataFrame(seen)
