@@ -1,4 +1,4 @@
-"""What figures show of the tables they draw: which columns, of which rows, and how far two tables are apart for a reader."""
+"""What figures show of the tables they draw, and where a reader can tell two tables of the same points apart."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -27,8 +27,10 @@ class Shown(NamedTuple):
     observe: Callable[[dict], pd.DataFrame]  # the table, from the settings of its entry
     keys: tuple[str, ...]  # columns that tell its rows apart, beside the axes
     drawn: tuple[str, ...]  # columns that a figure draws
-    each: bool  # whether every motion has a panel, and so a range of values, of its own
     what: str  # in words
+    vertical: bool = False  # whether the vertical motion is enough
+    motion: tuple[str, ...] = ()  # columns beside the axes that tell motions apart which are known as a whole
+    each: bool = False  # whether every motion has a panel, and so a range of values, of its own
 
 
 def swept(settings: dict) -> pd.DataFrame:
@@ -62,26 +64,36 @@ def made_by(stage: Callable[[dict], Mapping[str, np.ndarray]]) -> Callable[[dict
 
 
 SHOWN = {
-    "sweeps": Shown(swept, (), ("mean_velocity", "state"), False, "mean velocity, state"),
+    "sweeps": Shown(swept, (), ("mean_velocity", "state"), "mean velocity, state"),
     "signals": Shown(
-        made_by(signals.columns), ("time",), ("x", "vx", "z", "vz", "contact_force", "friction_force"), True, "samples"
+        made_by(signals.columns),
+        ("time",),
+        ("x", "vx", "z", "vz", "contact_force", "friction_force"),
+        "samples",
+        each=True,
     ),
-    "spectra": Shown(made_by(spectra.columns), ("signal", "frequency"), ("amplitude",), True, "spectrum"),
-    "estimates": Shown(made_by(estimate.columns), (), ("lambda",), False, "exponent"),
-    "critical": Shown(critical_heights, (), ("z0",), False, "critical height"),
+    "spectra": Shown(made_by(spectra.columns), ("signal", "frequency"), ("amplitude",), "spectrum", each=True),
+    "estimates": Shown(made_by(estimate.columns), (), ("lambda",), "exponent"),
+    "critical": Shown(critical_heights, (), ("z0",), "critical height", vertical=True),
     "impacts": Shown(
-        made_by(impacts.columns), (), ("impact_velocity", "impact_phase", "state"), False, "first impact, state"
+        made_by(impacts.columns),
+        (),
+        ("impact_velocity", "impact_phase", "state"),
+        "first impact, state",
+        vertical=True,
     ),
-    "dimensions": Shown(made_by(dimensions.columns), (), ("dimension",), False, "dimension"),
-    "attractors": Shown(strobes, ("branch", "cycle"), ("v",), False, "stroboscopic states"),
-    "lyapunov": Shown(exponents, ("branch",), ("lambda_1",), False, "exponent"),
+    "dimensions": Shown(made_by(dimensions.columns), (), ("dimension",), "dimension", vertical=True),
+    "attractors": Shown(strobes, ("branch", "cycle"), ("v",), "strobes", vertical=True, motion=("branch",)),
+    "lyapunov": Shown(exponents, ("branch",), ("lambda_1",), "exponent", vertical=True),
 }
 
 
 def thinned(axes: dict, points: int) -> dict:
     """Axes with evenly chosen values, about `points` of their product, ends included; axes of text stay whole."""
     values = {
-        name: list(axis) if name == "tension" or "conveyor" in axis else [float(x) for x in grid.axis_values(name, axis)]
+        name: list(axis)
+        if name == "tension" or "conveyor" in axis
+        else [float(x) for x in grid.axis_values(name, axis)]
         for name, axis in axes.items()
     }
     numbers = [name for name in values if name != "tension"]
@@ -130,3 +142,19 @@ def differences(shown: Shown, truth: pd.DataFrame, found: pd.DataFrame, axes: di
         else:
             seen[name] = pd.Series(False, index=both.index)
     return pd.DataFrame(seen)
+
+
+def known_values(
+    shown: Shown, truth: pd.DataFrame, others: list[pd.DataFrame], axes: dict, line: float
+) -> pd.DataFrame:
+    """Which of the drawn values a reader cannot tell from those of the `others`; rows and columns as `differences`.
+
+    Samples behind one that differs differ, and so do all strobes of a motion with one that does: if two chaotic motions
+    look alike at a moment, it is by chance.
+    """
+    differ = sum(differences(shown, truth, other, axes, line).astype(int) for other in others) > 0
+    if shown.each and "time" in shown.keys:
+        differ = differ.groupby(level=list(axes)).cummax()
+    if shown.motion:
+        differ = differ.groupby(level=[*axes, *shown.motion]).transform("max")
+    return ~differ

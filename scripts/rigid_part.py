@@ -13,10 +13,11 @@ from tqdm import tqdm
 
 from conveyor import grid, rigid_ball, states, tables
 from conveyor.model import ACCELERATION, Conveyor, Start, pack, unpack
-from conveyor.rigid_orbit import rigid_orbit
+from conveyor.rigid_orbit import RigidOrbit, rigid_orbit
 from rule_log import logged
 
-SPEEDS = np.geomspace(1e-3, 1.0, 16)  # m/s, of approach, at which the contact's restitution is tabulated
+SPEEDS = np.geomspace(1e-3, 1.0, 64)  # m/s, of approach, at which the contact's restitution is tabulated
+SETTLED = 4.0  # s, after which a rigid part has found its motion
 CLOSE = 1e-2  # of the height of a jump: nearer than that, a motion has come back
 CONTACT, RIGID, ONE_NUMBER = "contact", "rigid part, e(u)", "rigid part, one e"
 
@@ -26,16 +27,16 @@ def table_of_restitution(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray
     return SPEEDS, rigid_ball.restitution_coefficients(parameters, SPEEDS)
 
 
-def state_of(row: np.ndarray, duration: float, restitution: tuple[np.ndarray, np.ndarray]) -> str:
-    """State of a rigid part at the end of a run: by its flights, and by whether it repeats itself."""
+def state_of(row: np.ndarray, restitution: tuple[np.ndarray, np.ndarray]) -> str:
+    """State of motion of a rigid part: by its last flights, and by whether it repeats itself."""
     conveyor, _ = unpack(row)
     cycle = 1.0 / conveyor.frequency
-    hits = rigid_ball.impacts(row, duration, restitution)
-    late = hits[hits["time"] > 0.75 * duration]
+    hits = rigid_ball.impacts(row, SETTLED, restitution)
+    late = hits[hits["time"] > 0.75 * SETTLED]
     flights = np.diff(late["time"])
     if len(flights) == 0 or flights.max() < states.LONG_FLIGHT * cycle:
         return "first"
-    return "chaos" if period_of(row, duration, restitution, (1, 2, 4)) == 0 else "second"
+    return "chaos" if period_of(row, SETTLED, restitution, (1, 2, 4)) == 0 else "second"
 
 
 def period_of(row: np.ndarray, duration: float, restitution, periods: tuple[int, ...], close: float = CLOSE) -> int:
@@ -60,29 +61,44 @@ def swept(settings: dict) -> pd.DataFrame:
         {
             **axes,
             "mean_velocity": [rigid_ball.run(row, duration, restitution).mean_velocity for row in parameters],
-            "state": [state_of(row, duration, restitution) for row in parameters],
+            "state": [state_of(row, restitution) for row in parameters],
         }
     )
 
 
-def doubling(conveyor: Conveyor, restitution, period: int, low: float, high: float, settings: dict) -> float:
-    """Amplitude (m/s²) between `low` and `high` at which the period of the rigid part's jumps grows beyond `period`."""
+def doubling(conveyor: Conveyor, restitution, period: int, low: float, settings: dict) -> float:
+    """Amplitude (m/s²) beyond `low` at which the period of the rigid part's jumps grows beyond `period`.
+
+    Steps of `settings["margin"]` find the first amplitude without that period, bisection where it ends.
+    """
+
+    def repeats(acceleration: float) -> bool:
+        row = pack(conveyor, Start(settings["z0"]))
+        row[ACCELERATION] = acceleration
+        return period_of(row, settings["duration"], restitution, (period,), settings["close"]) > 0
+
+    low += settings["margin"]
+    high = low
+    while repeats(high):
+        low, high = high, high + settings["margin"]
     while high - low > settings["resolution"]:
         middle = 0.5 * (low + high)
-        row = pack(conveyor, Start(settings["z0"]))
-        row[ACCELERATION] = middle
-        found = period_of(row, settings["duration"], restitution, (period,), settings["close"])
-        low, high = (middle, high) if found else (low, middle)
+        low, high = (middle, high) if repeats(middle) else (low, middle)
     return 0.5 * (low + high)
 
 
-def bifurcation_rows(model: str, conveyor: Conveyor, restitution, speeds, settings: dict) -> list[dict]:
+def orbit_of(conveyor: Conveyor, restitution: tuple[np.ndarray, np.ndarray]) -> RigidOrbit:
+    """The orbit with one impact in a cycle, from a table of restitution."""
+    return rigid_orbit(conveyor, lambda speed: float(np.interp(speed, *restitution)))
+
+
+def bifurcation_rows(model: str, conveyor: Conveyor, restitution, settings: dict) -> list[dict]:
     """The fold and the first period doublings of the jumps of a rigid part."""
-    orbit = rigid_orbit(conveyor, lambda u: float(np.interp(u, *speeds)))
+    orbit = orbit_of(conveyor, restitution)
     rows = [bifurcation(model, "fold", 1, orbit.fold), bifurcation(model, "period doubling", 1, orbit.doubling)]
     low = orbit.doubling
     for number in range(2, settings["doublings"] + 1):
-        low = doubling(conveyor, restitution, 2 ** (number - 1), low + settings["margin"], settings["highest"], settings)
+        low = doubling(conveyor, restitution, 2 ** (number - 1), low, settings)
         rows.append(bifurcation(model, "period doubling", number, low))
     return rows
 
@@ -113,11 +129,10 @@ def columns(
     _, parameters = grid.product({"acceleration": [0.0]}, sweep["model"])
     conveyor, _ = unpack(parameters[0])
     of_speed = table_of_restitution(parameters[0])
-    at_fold = rigid_orbit(conveyor, lambda u: float(np.interp(u, *of_speed))).restitution
-    one_number = np.array([SPEEDS[0], SPEEDS[-1]]), np.array([at_fold, at_fold])
+    one_number = SPEEDS, np.full(len(SPEEDS), orbit_of(conveyor, of_speed).restitution)
 
     rows = []
-    heights = contact["sweep"].z0.unique()[settings["starts"]]
+    heights = contact["sweep"].z0.agg(["min", "max"])
     starts = contact["sweep"][contact["sweep"].z0.isin(heights)]
     axes = {"z0": list(heights), "acceleration": list(starts.acceleration.unique())}
     rigid = swept({**sweep, "axes": axes})
@@ -133,8 +148,8 @@ def columns(
         for row in doublings.itertuples()
     ]
     models = {RIGID: of_speed, ONE_NUMBER: one_number}
-    for model, speeds in tqdm(models.items(), desc=progress, disable=progress is None):
-        rows += bifurcation_rows(model, conveyor, speeds, speeds, settings)
+    for model, restitution in tqdm(models.items(), desc=progress, disable=progress is None):
+        rows += bifurcation_rows(model, conveyor, restitution, settings)
     return {name: np.array([row[name] for row in rows]) for name in rows[-1]}
 
 

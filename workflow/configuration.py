@@ -16,7 +16,7 @@ TABLES = {
     "orbits": ("branches", "folds_and_doublings", "cascade"),
     "attractors": ("strobes",),
     "lyapunov": ("spectrum", "witnesses"),
-    "results": ("estimators", "stability", "stability_estimates", "scene_budget"),
+    "results": ("estimators", "stability", "stability_estimates", "scene_budget", "rigid_part"),
 }
 # What YAML calls the types of JSON schema.
 KINDS = {

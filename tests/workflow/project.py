@@ -28,6 +28,7 @@ SINGLE = (
     "stability",
     "stability_estimates",
     "scene_budget",
+    "rigid_part",
     "random_points",
 )
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}

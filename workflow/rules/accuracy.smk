@@ -170,15 +170,27 @@ rule stability_estimates:
         "../../scripts/stability_estimates.py"
 
 
-def shown_sweeps():
-    """The figures that show each converged sweep, by its name."""
-    shown = {}
-    for figure, entry in config["figures"].items():
-        for reference in entry["tables"].values():
-            section, name = reference.split("/")
-            if section == "sweeps" and "method" not in config["sweeps"][name]:
-                shown.setdefault(name, []).append(figure)
-    return shown
+def entry_settings(reference):
+    """All that a converged table depends on, with an axis over the amplitude where its section has no axes."""
+    section, name = reference.split("/")
+    if section in ("attractors", "lyapunov"):
+        merged = of_sections("attractors") if section == "attractors" else of_sections("attractors", "lyapunov")
+        return {**merged, "axes": {"acceleration": merged["acceleration"]}, "duration": None}
+    return resolve(config, section, name)
+
+
+def drawn_tables():
+    """The converged tables of trajectories that each figure draws, by its name."""
+    sections = config["scene_budget"]["points"]
+    return {
+        figure: [
+            reference
+            for reference in dict.fromkeys(entry["tables"].values())
+            if reference.split("/")[0] in sections and reference != "lyapunov/witnesses"
+            if "method" not in (entry_of(config, reference) or {})
+        ]
+        for figure, entry in config["figures"].items()
+    }
 
 
 rule scene_budget:
@@ -193,11 +205,36 @@ rule scene_budget:
         mem_mb=1000,
         runtime=30,
     params:
-        sweeps={name: resolve(config, "sweeps", name) for name in shown_sweeps()},
-        figures=shown_sweeps(),
+        entries={name: entry_settings(name) for names in drawn_tables().values() for name in names},
+        drawn=drawn_tables(),
         budget=config["scene_budget"],
         code=source_hash("scene_budget"),
     message:
-        "What each sweep needs"
+        "What the data of each figure need"
     script:
         "../../scripts/scene_budget.py"
+
+
+rule rigid_part:
+    input:
+        sweep=table("sweeps", "amplitudes"),
+        bifurcations=table("orbits", "folds_and_doublings"),
+        cascade=table("orbits", "cascade"),
+    output:
+        result("rigid_part.parquet"),
+    log:
+        log_file("accuracy", "rigid_part"),
+    benchmark:
+        benchmark_file("accuracy", "rigid_part")
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=30,
+    params:
+        sweep=resolve(config, "sweeps", "amplitudes"),
+        settings=config["rigid_part"],
+        code=source_hash("rigid_part"),
+    message:
+        "A rigid part in place of the contact"
+    script:
+        "../../scripts/rigid_part.py"

@@ -41,6 +41,7 @@ rule check_results:
             result("stability.parquet"),
             result("stability_estimates.parquet"),
             result("scene_budget.parquet"),
+            result("rigid_part.parquet"),
         ],
         figures=figure_files(),
         tests=sorted(Path(workflow.basedir).glob("tests/results/*.py")),
