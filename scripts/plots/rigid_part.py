@@ -18,11 +18,9 @@ def draw_velocities(axes: Axes, rows: pd.DataFrame) -> None:
     for model, (marker, colour) in MODELS.items():
         of = rows[rows.model == model]
         regular = of.mean_velocity.where(of.state != "chaos")
-        axes.plot(of.acceleration, 100.0 * regular, color=colour, linewidth=1.0)
+        axes.plot(of.acceleration, regular, color=colour, linewidth=1.0)
         chaos = of[of.state == "chaos"]
-        axes.plot(
-            chaos.acceleration, 100.0 * chaos.mean_velocity, marker, color=colour, markersize=1.5, markeredgewidth=0
-        )
+        axes.plot(chaos.acceleration, chaos.mean_velocity, marker, color=colour, markersize=1.5, markeredgewidth=0)
     axes.set_title(f"start at $z_0$ = {1e3 * rows.z0.iloc[0]:g} mm")
     axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
 
@@ -36,7 +34,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     low, high = velocities.z0.min(), velocities.z0.max()
     for name, height in (("low", low), ("high", high)):
         draw_velocities(panels[name], velocities[velocities.z0 == height])
-    panels["low"].set_ylabel("mean feeding velocity in cm/s")
+    panels["low"].set_ylabel("mean feeding velocity in m/s")
     panels["high"].sharey(panels["low"])
 
     places = panels["places"]
@@ -52,7 +50,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
                     xytext=(0, 5),
                     textcoords="offset points",
                     ha="center",
-                    size=6.5,
+                    size=7.0,
                 )
     places.set_yticks(range(len(MODELS)), MODELS)
     places.set_ylim(len(MODELS) - 0.5, -0.8)

@@ -74,7 +74,7 @@ def draw_edges(axes: Axes, table: pd.DataFrame) -> None:
     axes.set_xscale("log")
     axes.set_ylim(0.7, 1.3)
     axes.set_xlabel("limit in theory in s")
-    axes.set_ylabel("measured limit over theory")
+    axes.set_ylabel("relative limit, measured")
     axes.legend(
         handles=[
             Line2D([], [], linestyle="", marker=marker, color="0.4", label=name) for name, marker in EDGES.items()
@@ -104,12 +104,12 @@ def draw_hard(axes: Axes, table: pd.DataFrame) -> None:
         for method in ("euler", "event"):
             axes.semilogx(rows.y[method], place, "o", color=METHOD_COLOURS[method], markersize=4.0)
         axes.annotate(
-            f"{case.removeprefix('hard: ')}: {rows.outcome['euler']} by Euler",
+            f"{case.removeprefix('hard: ')}; Euler: {rows.outcome['euler']}",
             (0.02, place),
             xycoords=("axes fraction", "data"),
             xytext=(0, 4),
             textcoords="offset points",
-            size=6.5,
+            size=7.0,
         )
     axes.set_ylim(len(cases) - 0.5, -0.9)
     axes.set_xlim(1e-15, 1e2)

@@ -8,9 +8,9 @@ from matplotlib.lines import Line2D
 from plots import style
 
 CASES = {
-    "orbit_phase": "exponent of $\\dot{x}_p$ in 1/s,\norbit, phase shifted",
-    "orbit_height": "exponent of $z_p$ in 1/s,\norbit, height shifted",
-    "chaos_phase": "exponent of $\\dot{x}_p$ in 1/s,\nchaos, phase shifted",
+    "orbit_phase": "orbit, phase shifted:\nexponent of $\\dot{x}_p$ in 1/s",
+    "orbit_height": "orbit, height shifted:\nexponent of $z_p$ in 1/s",
+    "chaos_phase": "chaos, phase shifted:\nexponent of $\\dot{x}_p$ in 1/s",
 }
 VARIED = {
     "perturbation": ("epsilon", "perturbation in rad"),
@@ -66,7 +66,7 @@ def draw_dimensions(axes: Axes, rows: pd.DataFrame, column: str, label: str) -> 
                 textcoords="offset points",
                 va="bottom" if case == "chaos" else "top",
                 ha="right",
-                size=6.5,
+                size=7.0,
             )
     for truth in rows.truth.dropna().unique():
         axes.axhline(truth, **TRUTH)
