@@ -85,6 +85,8 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         for axes, panel in zip(row, VARIED, strict=True):
             draw_exponents(axes, table[(table.panel == panel) & (table.case == case)], panel)
         row[0].set_ylabel(label)
+        for axes in row[1:]:
+            axes.set_ylabel("exponent in 1/s")
     panels[1, 0].set_xlabel("perturbation in m")
     handles = [Line2D([], [], marker=".", color=colour, label=name) for name, colour in METHODS.values()]
     handles.append(Line2D([], [], **TRUTH, label="truth"))
