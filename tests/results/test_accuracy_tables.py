@@ -34,6 +34,20 @@ def test_solver_needs_fewest_evaluations(result):
             assert ((own.evaluations < other.evaluations) & (own.error <= max(other.error, 1e-12))).any(), other
 
 
+def test_solver_is_the_lower_left_edge_in_time(result):
+    """For every run of another method that is right to a hundredth the solver has a better one in less time."""
+    run = ["method", "treatment", "tolerance", "step"]
+    for scene in SCENES:
+        table = result(f"precision/{scene}").merge(result(f"wall_times/{scene}"), on=run)
+        own = table[table.method == "event"]
+        for error in ("velocity_error", "state_error"):
+            for other in table[
+                (table.method != "event") & (table.outcome == "ok") & (table[error] < 1e-2)
+            ].itertuples():
+                better = (own.seconds < other.seconds) & (own[error] <= max(getattr(other, error), 1e-12))
+                assert better.any(), other
+
+
 def test_failures_are_told_whatever_the_methods_report(result):
     """Euler's largest step leaves the right state; a part that falls through the plate has a finite velocity."""
     for scene in SCENES:
