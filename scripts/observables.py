@@ -99,7 +99,7 @@ def thinned(axes: dict, points: int) -> dict:
     numbers = [name for name in values if name != "tension"]
     share = min(1.0, points / math.prod(map(len, values.values()))) ** (1.0 / len(numbers))
     for name in numbers:
-        count = max(1, math.ceil(share * len(values[name])))
+        count = max(min(2, len(values[name])), math.ceil(share * len(values[name])))
         values[name] = [values[name][k] for k in np.unique(np.linspace(0, len(values[name]) - 1, count).astype(int))]
     return values
 
@@ -127,7 +127,7 @@ def differences(shown: Shown, truth: pd.DataFrame, found: pd.DataFrame, axes: di
     """
     keys = [*axes, *shown.keys]
     both = truth.set_index(keys)[list(shown.drawn)].join(
-        found.set_index(keys)[list(shown.drawn)], how="left", rsuffix=" found"
+        found.set_index(keys)[list(shown.drawn)].add_suffix(" found"), how="left"
     )
     seen = {}
     for name in shown.drawn:
