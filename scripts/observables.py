@@ -96,11 +96,13 @@ def thinned(axes: dict, points: int) -> dict:
         else [float(x) for x in grid.axis_values(name, axis)]
         for name, axis in axes.items()
     }
-    numbers = [name for name in values if name != "tension"]
-    share = min(1.0, points / math.prod(map(len, values.values()))) ** (1.0 / len(numbers))
-    for name in numbers:
-        count = max(min(2, len(values[name])), math.ceil(share * len(values[name])))
-        values[name] = [values[name][k] for k in np.unique(np.linspace(0, len(values[name]) - 1, count).astype(int))]
+    room = points / len(values.get("tension", "1"))
+    numbers = sorted((name for name in values if name != "tension"), key=lambda name: len(values[name]))
+    for left, name in zip(range(len(numbers), 0, -1), numbers, strict=True):
+        length = len(values[name])
+        count = min(length, max(2, math.ceil(room ** (1.0 / left))))
+        values[name] = [values[name][k] for k in np.unique(np.linspace(0, length - 1, count).astype(int))]
+        room = max(1.0, room / count)
     return values
 
 
