@@ -175,6 +175,11 @@ def test_half_the_time_and_the_rigid_part_are_seen(result):
     assert table[table.variant.isin(["half the time", "rigid part"])].visible.all()
 
 
+def test_parts_stick_where_velocities_are_drawn(result):
+    table = result("scene_budget")
+    assert (table[table.chosen & (table["shows"] == "mean velocity, state")].sticks > 0.1).all()
+
+
 def test_rigid_part_doubles_near_the_contact_but_does_not_jump_by_itself(result):
     table = result("rigid_part")
     places = table[table.kind != "velocity"].pivot_table(
