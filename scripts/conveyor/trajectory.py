@@ -69,7 +69,9 @@ def invert_time(series, at, length, tau):
     """The s in [0, length] of a contact step at which the time since its start is `tau` (s)."""
     low, high = 0.0, length
     total = polynomial.value(series, at + contact.T, length)
-    s = length * min(max(tau / total, 0.0), 1.0)
+    if tau >= total:  # also a step that is too short to take time
+        return length
+    s = length * max(tau / total, 0.0)
     for _ in range(100):
         error = polynomial.value(series, at + contact.T, s) - tau
         w = polynomial.value(series, at + contact.W, s)

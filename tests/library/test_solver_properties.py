@@ -87,6 +87,17 @@ starts = st.builds(Start, z=st.one_of(st.just("conveyor"), st.floats(-1e-4, 1e-2
     ),
     Start(z=-2.2250738585e-313, vz=-0.0988428044562999),
 )
+@example(
+    Conveyor(
+        acceleration=5.5098383852502805e-294,
+        angle=0.2579561182693924,
+        frequency=9.20538288096514,
+        psi0=3.3956519001046797,
+        damping=0.0,
+        exponent=1.0,
+    ),
+    Start(z=-3.0002967305539988e-276, vz=0.6268767624463796),
+)
 def test_any_run_ends_with_a_finite_motion_above_the_plate(conveyor, start):
     run = simulate(conveyor, start, duration=0.2, tolerance=1e-9)
     assert run.status == "ok"
