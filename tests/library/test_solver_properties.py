@@ -94,6 +94,7 @@ starts = st.builds(Start, z=st.one_of(st.just("conveyor"), st.floats(-1e-4, 1e-2
         frequency=9.20538288096514,
         psi0=3.3956519001046797,
         damping=0.0,
+        mass=0.001130736797650768,
         exponent=1.0,
     ),
     Start(z=-3.0002967305539988e-276, vz=0.6268767624463796),
