@@ -29,6 +29,7 @@ class Shown(NamedTuple):
     drawn: tuple[str, ...]  # columns that a figure draws
     what: str  # in words
     vertical: bool = False  # whether the vertical motion is enough
+    settled: bool = False  # whether it is of the motion that a start ends in, not of the way there
     motion: tuple[str, ...] = ()  # columns beside the axes that tell motions apart which are known as a whole
     each: bool = False  # whether every motion has a panel, and so a range of values, of its own
 
@@ -72,9 +73,11 @@ SHOWN = {
         "samples",
         each=True,
     ),
-    "spectra": Shown(made_by(spectra.columns), ("signal", "frequency"), ("amplitude",), "spectrum", each=True),
+    "spectra": Shown(
+        made_by(spectra.columns), ("signal", "frequency"), ("amplitude",), "spectrum", settled=True, each=True
+    ),
     "estimates": Shown(made_by(estimate.columns), (), ("lambda",), "exponent"),
-    "critical": Shown(critical_heights, (), ("z0",), "critical height", vertical=True),
+    "critical": Shown(critical_heights, (), ("z0",), "critical height", vertical=True, settled=True),
     "impacts": Shown(
         made_by(impacts.columns),
         (),
@@ -82,9 +85,11 @@ SHOWN = {
         "first impact, state",
         vertical=True,
     ),
-    "dimensions": Shown(made_by(dimensions.columns), (), ("dimension",), "dimension", vertical=True),
-    "attractors": Shown(strobes, ("branch", "cycle"), ("v",), "strobes", vertical=True, motion=("branch",)),
-    "lyapunov": Shown(exponents, ("branch",), ("lambda_1",), "exponent", vertical=True),
+    "dimensions": Shown(made_by(dimensions.columns), (), ("dimension",), "dimension", vertical=True, settled=True),
+    "attractors": Shown(
+        strobes, ("branch", "cycle"), ("v",), "strobes", vertical=True, settled=True, motion=("branch",)
+    ),
+    "lyapunov": Shown(exponents, ("branch",), ("lambda_1",), "exponent", vertical=True, settled=True),
 }
 
 

@@ -29,6 +29,7 @@ NOTHING = {
     "table": "none",
     "needs": "nothing",
     "shows": "a drawing, or numbers from other rules",
+    "settled": False,
     "variant": DRAWING,
     "tolerance": np.nan,
     "duration": np.nan,
@@ -88,7 +89,7 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     shown = SHOWN[section]
     needs = "vertical" if shown.vertical else settings.get("needs", "feeding")
     if section == "sweeps" and needs == "vertical":
-        shown = shown._replace(drawn=("state",), what="state")
+        shown = shown._replace(drawn=("state",), what="state", settled=True)
     settings = settings | {"axes": observables.thinned(settings["axes"], budget["points"][section])}
     _, parameters = grid.product(settings["axes"], settings["model"])
     full_settings = settings | {"needs": "feeding", "tolerance": TIGHT}
@@ -106,6 +107,7 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
             "table": reference,
             "needs": needs,
             "shows": shown.what,
+            "settled": shown.settled,
             "variant": variant,
             "tolerance": np.nan if variant == RIGID or section == "impacts" else of["tolerance"],
             "duration": np.nan if of["duration"] is None else of["duration"],

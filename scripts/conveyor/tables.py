@@ -273,6 +273,7 @@ COLUMNS = {
         text("table", "table that it draws, SECTION/NAME; none for a drawing"),
         text("needs", "feeding or vertical motion, or nothing"),
         text("shows", "what the figure shows of the table"),
+        flag("settled", "whether that is of the motion that a start ends in, not of the way there"),
         text("variant", "full model, feeding or vertical needs, half the time, rigid part, or drawing"),
         number("tolerance", "1", "relative error of a step; null where there is none"),
         number("duration", "s", "length of the runs; null where they last until they settle"),
