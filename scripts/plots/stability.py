@@ -40,8 +40,7 @@ def draw_map(axes: Axes, rows: pd.DataFrame, panel: str) -> None:
         vmin=-0.5,
         vmax=len(OUTCOMES) - 0.5,
         shading="nearest",
-        edgecolors="face",  # no white seams between the cells, which are few enough for vectors
-        linewidth=0.6,
+        rasterized=True,
     )
     theory = rows.groupby("y").theory.first()
     axes.plot(theory, theory.index, **LIMIT)

@@ -36,7 +36,7 @@ for figure, entry in config["figures"].items():
             benchmark_file("figures", figure)
         threads: 1
         resources:
-            mem_mb=1000,
+            mem_mb=1500,
             runtime=10,
         params:
             figure=figure,
