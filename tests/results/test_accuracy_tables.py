@@ -160,7 +160,7 @@ def test_no_invisible_variant_needs_far_fewer_steps(result):
     for name, rows in table.groupby("table"):
         chosen = rows[rows.chosen].iloc[0]
         least = rows[~rows.visible].steps.min()
-        assert chosen.steps <= 1.7 * least or chosen.reason is not None, name
+        assert chosen.steps <= 1.7 * least or isinstance(chosen.reason, str), name
 
 
 def test_maps_are_computed_without_the_horizontal_motion(result):
