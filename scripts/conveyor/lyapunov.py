@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import contact, fixed_step, stretching, stroboscope, trajectory
+from .horizontal import SAMPLES
 from .jit import kernel
 from .model import FREQUENCY, FRICTION, unpack
 from .parallel import for_each_chunk
@@ -160,7 +161,7 @@ def sample_points(parameters, times, tolerance, column, feeding, out):
     no_times = np.empty(0)
     no_kinds = np.empty(0, np.int8)
     for i in range(parameters.shape[0]):
-        trajectory.integrate(parameters[i], tolerance, feeding, times, samples, no_times, no_kinds)
+        trajectory.integrate(parameters[i], tolerance, feeding, True, times, samples, no_times, no_kinds)
         out[i, :] = samples[:, column]
 
 
@@ -196,7 +197,7 @@ def finite_difference_estimate(
     ----------
     parameters, perturbed : float64, shape (n, 13): the trajectories and their neighbours
     epsilon : size of the perturbation, in the unit of the perturbed parameter
-    output : the signal that is compared, one of trajectory.SAMPLES
+    output : the signal that is compared, one of horizontal.SAMPLES
     last, samples : the mean is taken over `samples` equidistant times in the last part of the run
     duration, method, tolerance, step, threads, progress : as in sweep.run
 
@@ -204,7 +205,7 @@ def finite_difference_estimate(
     -------
     float64, shape (n,), 1/s. A difference below the resolution of the signal counts as that resolution.
     """
-    column = trajectory.SAMPLES.index(output)
+    column = SAMPLES.index(output)
     feeding = output not in ("z", "vz", "contact_force")
     times = np.linspace((1.0 - last) * duration, duration, samples)
     if method != "event":

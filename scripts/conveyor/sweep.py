@@ -15,15 +15,17 @@ COLUMNS = ("mean_velocity", "z_end", "vz_end", "x_end", "vx_end", "max_gap", "im
 
 
 @kernel
-def follow_by_events(parameters, duration, tolerance, feeding, out):
-    """Fill the rows of `out`, shape (n, 9), for `parameters`, shape (n, 13), with the event-driven method."""
-    times = np.array([(1.0 - LAST) * duration, duration])
+def follow_by_events(parameters, durations, tolerance, feeding, out):
+    """Fill the rows of `out`, shape (n, 9), for `parameters`, shape (n, 13), and `durations`, with the event-driven method."""
+    times = np.empty(2)
     samples = np.empty((2, 6))
     no_times = np.empty(0)
     no_kinds = np.empty(0, np.int8)
     for i in range(parameters.shape[0]):
-        status, _, impacts, contact_time, max_gap, _ = trajectory.integrate(
-            parameters[i], tolerance, feeding, times, samples, no_times, no_kinds
+        duration = durations[i]
+        times[0], times[1] = (1.0 - LAST) * duration, duration
+        status, _, impacts, contact_time, max_gap, _, _ = trajectory.integrate(
+            parameters[i], tolerance, feeding, True, times, samples, no_times, no_kinds
         )
         out[i, MEAN_VELOCITY] = (samples[1, 0] - samples[0, 0]) / (LAST * duration)
         out[i, X_END], out[i, VX_END], out[i, Z_END], out[i, VZ_END] = samples[1, :4]
@@ -57,7 +59,7 @@ def follow_by_steps(parameters, duration, step, method, out):
 def run(
     parameters: np.ndarray,
     *,
-    duration: float = 1.0,
+    duration: float | np.ndarray = 1.0,
     method: str = "event",
     tolerance: float = DEFAULT_TOLERANCE,
     step: float = DEFAULT_STEP,
@@ -66,7 +68,7 @@ def run(
     chunk: int = 64,
     progress: str | None = None,
 ) -> dict[str, np.ndarray]:
-    """Follow every point for `duration`.
+    """Follow every point for `duration` (s); the event-driven method takes one for each point, too, shape (n,).
 
     Parameters
     ----------
@@ -87,10 +89,12 @@ def run(
     parameters = np.ascontiguousarray(parameters, dtype=np.float64)
     out = np.empty((len(parameters), CODE + 1))
     feeding = needs == "feeding"
+    durations = np.broadcast_to(np.asarray(duration, dtype=np.float64), len(parameters)).copy()
 
     def work(begin, end):
         if method == "event":
-            follow_by_events(parameters[begin:end], duration, tolerance, feeding, out[begin:end])
+            rows = slice(begin, end)
+            follow_by_events(parameters[rows], durations[rows], tolerance, feeding, out[rows])
         else:
             follow_by_steps(parameters[begin:end], duration, step, fixed_step.METHODS.index(method), out[begin:end])
 

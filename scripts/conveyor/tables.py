@@ -203,6 +203,8 @@ COLUMNS = {
         number("scale_high", "1", "largest scale of the scaling region, in units of the portrait's extent"),
     ),
     "random_points": (
+        text("drawn", "around the paper or over the whole ranges"),
+        number("duration", "s", "length of the run"),
         *RESULTS,
         *FEATURES,
         number("max_depth", "m", "largest penetration at the moments that were looked at"),

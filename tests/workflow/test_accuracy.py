@@ -78,12 +78,14 @@ def test_times_belong_to_the_same_runs(compared):
 
 
 def test_random_points_know_how_deep_they_get():
-    found = random_points.columns({"count": 300, "seed": 3, "duration": 0.05, "tolerance": 1e-8})
+    found = random_points.columns(
+        {"count": {"around the paper": 300, "whole ranges": 50}, "seed": 3, "cycles": 3, "tolerance": 1e-8}
+    )
     ok = found["status"] == "ok"
-    assert ok.all()
-    assert np.isfinite(found["max_depth"]).all()
-    assert (found["max_depth"] <= found["allowed_depth"]).all()
+    assert ok[:300].all()
+    assert np.isfinite(found["max_depth"][ok]).all()
+    assert (found["max_depth"][ok] <= found["allowed_depth"][ok] * (1.0 + 1e-9)).all()
     # A part that starts on the plate and is pressed on gets into it.
-    on_plate = np.isnan(found["z0"]) & (found["vz0"] < 0.0)
+    on_plate = ok & np.isnan(found["z0"]) & (found["vz0"] < 0.0)
     assert on_plate.any()
     assert (found["max_depth"][on_plate] > 0.0).all()
