@@ -59,7 +59,7 @@ def moved(c, segment, tau, sine, cosine, z, vz):
 
 @inlined
 def segment_end(c, series, at, segment, piece, released, fastest):
-    """Where in s a segment ends (infinity if not within the step), and whether the slip that follows lasts to its end."""
+    """Where in s a segment ends (infinity: not in this step), and whether slip that follows lasts to its end."""
     if released:
         return math.inf, True
     if segment.sigma == 0.0:
@@ -125,7 +125,7 @@ def feed(
 
     Returns
     -------
-    x, vx, sigma, sampled, events, segments : at the end of the step; number of segments, MAX_SEGMENTS if it was given up
+    x, vx, sigma, sampled, events, segments : at the end of the step; MAX_SEGMENTS segments if it was given up
     """
     speed_x, speed_z = c.a_x / c.omega, c.a_z / c.omega
     pressing = not (motion.pulled and c.tension == TENSION_CLIP)
@@ -155,7 +155,6 @@ def feed(
         x, vx = moved(c, segment, t - segment.t, sine, cosine, z, vz)
         if not changed or segments == MAX_SEGMENTS:
             break
-        before = sigma
         if sigma == 0.0:
             sigma = math.copysign(1.0, cosine)
             kind = SLIP

@@ -105,7 +105,7 @@ def deepest(
 
 
 def deepest_allowed(parameters: np.ndarray, max_gap: np.ndarray) -> np.ndarray:
-    """Penetration (m) that no run can exceed whose largest gap is `max_gap` (m): shape (n,), as the rows of `parameters`.
+    """Penetration (m), shape (n,), that no run can exceed whose largest gap is `max_gap` (m, shape (n,)).
 
     Seen from the plate the part is pulled down with g + a_z at most. It hits the plate no faster than it does from the
     largest gap under this pull, the speed of the start added in squares, and is stopped where the spring has taken up

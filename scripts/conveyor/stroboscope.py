@@ -175,9 +175,8 @@ def cycle(c, series, state, tangent, features):
                 features[IMPACTS] += 1.0
                 features[LONGEST_FLIGHT] = max(features[LONGEST_FLIGHT], features[AIRBORNE])
                 features[AIRBORNE] = 0.0
-        elif piece.kind == CONTACT:
-            if not (motion.pulled and c.tension == TENSION_CLIP):
-                features[CONTACT_TIME] += piece.duration
+        elif piece.kind == CONTACT and not (motion.pulled and c.tension == TENSION_CLIP):
+            features[CONTACT_TIME] += piece.duration
         lone = lone + 1 if piece.end == contact.NOTHING else 0
         if lone > most:
             return TOO_STIFF

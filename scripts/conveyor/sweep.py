@@ -16,7 +16,7 @@ COLUMNS = ("mean_velocity", "z_end", "vz_end", "x_end", "vx_end", "max_gap", "im
 
 @kernel
 def follow_by_events(parameters, durations, tolerance, feeding, out):
-    """Fill the rows of `out`, shape (n, 9), for `parameters`, shape (n, 13), and `durations`, with the event-driven method."""
+    """Fill the rows of `out`, shape (n, 9), for `parameters`, shape (n, 13), and `durations` (s), by events."""
     times = np.empty(2)
     samples = np.empty((2, 6))
     no_times = np.empty(0)

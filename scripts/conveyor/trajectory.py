@@ -31,7 +31,7 @@ from .jit import borrowed, kernel
 from .model import TENSION_CLIP, VZ0, Z0
 from .vertical import CONTACT, FLIGHT, LIMIT, LOST, arrive, begin, in_cycle, motion_at, next_piece
 
-# Phase at which a cycle is taken to begin, rad: the plate's top, where a part that leaves the plate at all is in the air.
+# Phase at which a cycle is taken to begin, rad: the plate's top, where a part that leaves the plate is in the air.
 BEGIN_OF_CYCLE = -math.pi
 
 # Status of a run.

@@ -23,7 +23,7 @@ IMPACT, LIMIT, LOST = range(3, 6)
 # square root w of the penetration (√m), the speed of approach v (m/s), and whether the contact force is negative
 # (looked at for `frictionless` and `clip` only). In the air: height z, velocity vz, gap q and its rate (m, m/s).
 Motion = namedtuple("Motion", "t theta sine cosine touching w v pulled z vz q rate")
-# A piece: what it is, its duration (s), its length in s where it is a step, what ends it, and w, v, sine and cosine then.
+# A piece: what it is, its duration (s), its length in s if it is a step, what ends it, and w, v, sine, cosine then.
 Piece = namedtuple("Piece", "kind duration length end w v sine cosine")
 
 

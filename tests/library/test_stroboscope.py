@@ -83,6 +83,6 @@ def test_linearised_map_is_the_derivative_of_the_map(tension, exponent):
 def test_time_in_the_air_goes_on_over_cycles():
     """A flight of many cycles is one flight."""
     conveyor = Conveyor(acceleration=1.0)
-    strobes, features = strobes_of(conveyor, Start(z=0.05))
+    _, features = strobes_of(conveyor, Start(z=0.05))
     assert (features[:, stroboscope.IMPACTS][:-1] == 0.0).all()
     assert features[:-1, stroboscope.AIRBORNE] == pytest.approx(np.arange(1, CYCLES) / conveyor.frequency)

@@ -17,7 +17,7 @@ rule benchmark:
         log_file("accuracy", "benchmark"),
     benchmark:
         benchmark_file("accuracy", "benchmark")
-    threads: workflow.cores
+    threads: WHOLE_MACHINE
     resources:
         mem_mb=1000,
         runtime=10,
@@ -92,7 +92,7 @@ rule wall_times:
         benchmark_file("wall_times")
     wildcard_constraints:
         name=one_of(config["precision"]["scenes"]),
-    threads: workflow.cores
+    threads: WHOLE_MACHINE
     resources:
         mem_mb=1000,
         runtime=30,
@@ -200,7 +200,7 @@ rule scene_budget:
         log_file("accuracy", "scene_budget"),
     benchmark:
         benchmark_file("accuracy", "scene_budget")
-    threads: workflow.cores
+    threads: WHOLE_MACHINE
     resources:
         mem_mb=1000,
         runtime=30,
