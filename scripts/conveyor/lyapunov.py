@@ -219,7 +219,8 @@ def finite_difference_estimate(
             code = fixed_step.METHODS.index(method)
             sample_points_by_steps(both[rows], indices, step, code, column, signals[rows])
 
-    for_each_chunk(work, len(both), threads=threads, chunk=2, progress=progress)
+    # Fixed steps fill the lanes of a register.
+    for_each_chunk(work, len(both), threads=threads, chunk=2 if method == "event" else 8, progress=progress)
     here, there = signals[0::2], signals[1::2]
     resolution = np.finfo(np.float64).eps * np.maximum(np.abs(here), np.abs(there)).max(axis=1, keepdims=True)
     difference = np.maximum(np.abs(there - here), resolution)
