@@ -14,7 +14,7 @@ def decide(parameters: np.ndarray, settings: dict, threads: int) -> np.ndarray:
     if settings["method"] == "event":
         return states.classify(parameters, tolerance=settings["tolerance"], threads=threads)[0]
     options = {name: settings[name] for name in ("duration", "method", "step")}
-    runs = sweep.run(parameters, needs="vertical", chunk=1, threads=threads, **options)
+    runs = sweep.run(parameters, needs="vertical", chunk=8, threads=threads, **options)
     ends = states.continued(parameters, runs["z_end"], runs["vz_end"], settings["duration"])
     return states.classify(ends, threads=threads)[0]
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import contact, fixed_step, stretching, stroboscope, trajectory
+from . import contact, euler_lanes, fixed_step, stretching, stroboscope, trajectory
 from .horizontal import SAMPLES
 from .jit import kernel
 from .model import FREQUENCY, FRICTION, unpack
@@ -165,15 +165,13 @@ def sample_points(parameters, times, tolerance, column, feeding, out):
         out[i, :] = samples[:, column]
 
 
-@kernel
 def sample_points_by_steps(parameters, indices, step, method, column, out):
     """Fill `out`, shape (n, len(indices)), with one column of the samples of n fixed-step runs."""
-    samples = np.empty((indices.size, 6))
-    no_events = np.empty((0, 2))
-    for i in range(parameters.shape[0]):
-        samples[:] = np.nan
-        fixed_step.integrate(parameters[i], step, indices[-1], method, indices, samples, no_events)
-        out[i, :] = samples[:, column]
+    n = parameters.shape[0]
+    samples = np.full((n, indices.size, 6), np.nan)
+    results = np.empty((n, euler_lanes.RESULTS))
+    fixed_step.integrate_all(parameters, step, indices[-1], method, indices, samples, np.empty((n, 0, 2)), results)
+    out[:] = samples[:, :, column]
 
 
 def finite_difference_estimate(
@@ -222,7 +220,8 @@ def finite_difference_estimate(
             code = fixed_step.METHODS.index(method)
             sample_points_by_steps(both[rows], indices, step, code, column, signals[rows])
 
-    for_each_chunk(work, len(both), threads=threads, chunk=2, progress=progress)
+    # Fixed steps fill the lanes of a register.
+    for_each_chunk(work, len(both), threads=threads, chunk=2 if method == "event" else 8, progress=progress)
     here, there = signals[0::2], signals[1::2]
     resolution = np.finfo(np.float64).eps * np.maximum(np.abs(here), np.abs(there)).max(axis=1, keepdims=True)
     difference = np.maximum(np.abs(there - here), resolution)

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from . import fixed_step, trajectory
+from . import euler_lanes, fixed_step, trajectory
 from .jit import kernel
 from .parallel import for_each_chunk
-from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST
+from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, METHODS
 
 STATUS = trajectory.STATUS
 NEEDS = ("feeding", "vertical")
@@ -35,20 +35,17 @@ def follow_by_events(parameters, durations, tolerance, feeding, out):
         out[i, CODE] = status
 
 
-@kernel
 def follow_by_steps(parameters, duration, step, method, out):
     """Fill the rows of `out`, shape (n, 9), for `parameters`, shape (n, 13), with a fixed-step method."""
-    count = max(1, round(duration / step))
+    count = fixed_step.step_count(duration, step)
     first = min(round((1.0 - LAST) * count), count - 1)
-    indices = np.array([first])
-    samples = np.empty((1, 6))
-    no_events = np.empty((0, 2))
-    for i in range(parameters.shape[0]):
-        samples[:] = np.nan
-        x, vx, z, vz, _, impacts, contact_time, max_gap, _, status = fixed_step.integrate(
-            parameters[i], step, count, method, indices, samples, no_events
-        )
-        out[i, MEAN_VELOCITY] = (x - samples[0, 0]) / ((count - first) * step)
+    n = parameters.shape[0]
+    samples = np.full((n, 1, 6), np.nan)
+    results = np.empty((n, euler_lanes.RESULTS))
+    fixed_step.integrate_all(parameters, step, count, method, np.array([first]), samples, np.empty((n, 0, 2)), results)
+    for i in range(n):
+        x, vx, z, vz, _, impacts, contact_time, max_gap, _, status = results[i]
+        out[i, MEAN_VELOCITY] = (x - samples[i, 0, 0]) / ((count - first) * step)
         out[i, X_END], out[i, VX_END], out[i, Z_END], out[i, VZ_END] = x, vx, z, vz
         out[i, MAX_GAP] = max_gap
         out[i, IMPACTS] = impacts
@@ -86,6 +83,10 @@ def run(
     """
     if needs not in NEEDS:
         raise ValueError(f"needs = {needs!r} is not one of {', '.join(NEEDS)}")
+    if method not in METHODS:
+        raise ValueError(f"method = {method!r} is not one of {', '.join(METHODS)}")
+    if method != "event" and np.ndim(duration) > 0:
+        raise ValueError("only the event-driven method takes a duration for each point")
     parameters = np.ascontiguousarray(parameters, dtype=np.float64)
     out = np.empty((len(parameters), CODE + 1))
     feeding = needs == "feeding"
