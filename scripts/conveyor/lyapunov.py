@@ -28,9 +28,10 @@ class Spectrum(NamedTuple):
 
 
 @kernel
-def stretches_of_points(parameters, states, tolerance, transient, stretches, contact_times, codes):
+def stretches_of_points(parameters, states, tolerance, begin_of_cycle, transient, stretches, contact_times, codes):
     """Follow trajectories from `states`, shape (n, 2), and fill rows of arrays with what happens in their cycles.
 
+    begin_of_cycle : whether the states are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
     stretches : float64, shape (n, cycles, 2), see stretching; NaN from a failure on
     contact_times : float64, shape (n, cycles), s
     codes : int64, shape (n,), status codes of trajectory.STATUS
@@ -41,11 +42,12 @@ def stretches_of_points(parameters, states, tolerance, transient, stretches, con
     stretches[:] = np.nan
     for i in range(parameters.shape[0]):
         c = contact.constants(parameters[i], tolerance)
+        phase = trajectory.BEGIN_OF_CYCLE if begin_of_cycle else c.psi0
         # Velocities count in units of ω × length, which makes both directions comparable.
         tangent = np.eye(2)
         for n in range(-transient, stretches.shape[1]):
             tangent[:, 1] *= c.omega
-            codes[i] = stroboscope.cycle(c, series, states[i], tangent, features)
+            codes[i] = stroboscope.advance(c, series, states[i], phase, c.period, tangent, features)
             if codes[i] != trajectory.OK:
                 break
             tangent[:, 1] /= c.omega
@@ -66,6 +68,7 @@ def spectrum(
     parameters: np.ndarray,
     states: np.ndarray | None = None,
     *,
+    begin_of_cycle: bool = False,
     transient: int = 200,
     cycles: int = 100,
     blocks: int = 20,
@@ -79,6 +82,7 @@ def spectrum(
     ----------
     parameters : float64, shape (n, 13), rows as from model.pack
     states : float64, shape (n, 2), stroboscopic states to begin with (default: the starts in `parameters`)
+    begin_of_cycle : whether `states` are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
     transient : excitation cycles that are followed and not counted
     cycles, blocks : `blocks` ≥ 2 blocks of `cycles` excitation cycles are counted
     tolerance, threads, progress : as in sweep.run
@@ -94,7 +98,14 @@ def spectrum(
     def work(begin, end):
         rows = slice(begin, end)
         stretches_of_points(
-            parameters[rows], states[rows], tolerance, transient, stretches[rows], contact_times[rows], codes[rows]
+            parameters[rows],
+            states[rows],
+            tolerance,
+            begin_of_cycle,
+            transient,
+            stretches[rows],
+            contact_times[rows],
+            codes[rows],
         )
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4, progress=progress)

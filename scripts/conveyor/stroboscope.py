@@ -21,7 +21,7 @@ from .contact import FIRST
 from .jit import borrowed, inlined, kernel
 from .model import TENSION_CLIP, VZ0, Z0
 from .polynomial import ORDER, SIZE
-from .trajectory import IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, patience
+from .trajectory import BEGIN_OF_CYCLE, IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, patience
 from .vertical import (
     CONTACT,
     FLIGHT,
@@ -141,13 +141,14 @@ def switch_damping(c, tangent, pulled):
 
 
 @kernel
-def cycle(c, series, state, tangent, features):
-    """Advance `state` by one excitation cycle, exactly.
+def advance(c, series, state, phase, duration, tangent, features):
+    """Advance `state` from a phase of the excitation by a time of at most one cycle, exactly.
 
     Parameters
     ----------
     c, series : contact.Constants and a contact.workspace to work in
-    state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced
+    state : float64, shape (2,), δ (m) and v (m/s) at `phase` (rad); replaced
+    duration : s
     tangent : float64, shape (n, 2), n perturbations of (δ, Y); replaced; n = 0 where none are wanted
     features : float64, shape (4,), replaced but for AIRBORNE, the time (s) since the last separation, which goes on:
         number of impacts, time with contact force (s), longest flight that ended (s)
@@ -159,14 +160,14 @@ def cycle(c, series, state, tangent, features):
     series, state, tangent, features = borrowed(series), borrowed(state), borrowed(tangent), borrowed(features)
     expansions = np.zeros((tangent.shape[0], 2, SIZE))
     features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = 0.0
-    motion = motion_at(c, -state[0], -state[1], 0.0, c.psi0)
+    motion = motion_at(c, -state[0], -state[1], 0.0, phase)
     if motion.pulled:
         switch_damping(c, tangent, True)
     most = patience(c)
     lone = 0
     for _ in range(MAX_PIECES):
-        remaining = c.period - motion.t
-        piece = advance_tangent(c, series, tangent, expansions, motion, next_piece(c, series, FIRST, motion, remaining))
+        piece = next_piece(c, series, FIRST, motion, duration - motion.t)
+        piece = advance_tangent(c, series, tangent, expansions, motion, piece)
         if piece.kind == FLIGHT:
             if piece.end == LOST:
                 return IMPACT_LOST
@@ -180,7 +181,7 @@ def cycle(c, series, state, tangent, features):
         lone = lone + 1 if piece.end == contact.NOTHING else 0
         if lone > most:
             return TOO_STIFF
-        motion = arrive(c, motion, piece, c.psi0)
+        motion = arrive(c, motion, piece, phase)
         if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)):
             return NOT_FINITE
         if piece.end == LIMIT:
@@ -191,6 +192,33 @@ def cycle(c, series, state, tangent, features):
             state[1] = motion.v if motion.touching else -motion.rate
             return OK
     return TOO_STIFF
+
+
+@kernel
+def cycle(c, series, state, tangent, features):
+    """Advance `state`, at the phase ψ0, by one excitation cycle: see `advance`."""
+    return advance(c, series, state, c.psi0, c.period, tangent, features)
+
+
+@kernel
+def to_begin_of_cycle(parameters, tolerance, states):
+    """Fill `states`, shape (n, 2), with those of the starts of `parameters` when the plate is next at its top."""
+    series = contact.workspace()
+    no_tangent = np.empty((0, 2))
+    features = np.zeros(FEATURES)
+    for i in range(parameters.shape[0]):
+        c = contact.constants(parameters[i], tolerance)
+        initial_state(parameters[i], tolerance, states[i])
+        remaining = ((BEGIN_OF_CYCLE - c.psi0) % (2.0 * math.pi)) / c.omega
+        if advance(c, series, states[i], c.psi0, remaining, no_tangent, features) != OK:
+            states[i, :] = np.nan
+
+
+def states_at_begin_of_cycle(parameters: np.ndarray, tolerance: float) -> np.ndarray:
+    """δ (m) and v (m/s) of starts, shape (n, 13), when the plate is next at its top, shape (n, 2); NaN if lost."""
+    states = np.empty((len(parameters), 2))
+    to_begin_of_cycle(np.ascontiguousarray(parameters, dtype=np.float64), tolerance, states)
+    return states
 
 
 @kernel
