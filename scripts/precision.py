@@ -79,7 +79,7 @@ def leads_to(settings: dict, end: np.ndarray) -> str:
     """State of motion that a run with this end leads to."""
     parameters = pack(*scene(settings))[None]
     later = states.continued(parameters, end[1:2], end[2:3], settings["duration"])
-    return str(states.classify(later)[0][0])
+    return str(states.classify(later).state[0])
 
 
 def outcome(result: Result, error: float, settings: dict, state: str) -> str:

@@ -18,6 +18,8 @@ TABLES = {
     "lyapunov": ("spectrum", "witnesses"),
     "results": ("estimators", "stability", "stability_estimates", "scene_budget", "rigid_part"),
 }
+# Sections whose tables say what motion a start ends in.
+SETTLING = ("sweeps", "critical", "impacts", "spectra")
 # What YAML calls the types of JSON schema.
 KINDS = {
     "null": "null",
@@ -161,6 +163,8 @@ def resolve(config: dict, section: str, name: str) -> dict:
         **{key: config["solver"][key] for key in ("duration", "method", "tolerance", "step")},
         **config[section][name],
     }
+    if section in SETTLING:
+        entry["settling"] = config["solver"]["settling"]
     entry["model"] = {**config["model"], **entry.get("model", {})}
     for axis in entry.get("axes", ()):
         del entry["model"][axis]

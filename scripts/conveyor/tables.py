@@ -151,7 +151,14 @@ COLUMNS = {
         text("reason", "why not; null where they agree"),
     ),
     "runs": RESULTS + FEATURES,
-    "sweeps": RESULTS + STATE + FEATURES,
+    "sweeps": (
+        *RESULTS,
+        *STATE,
+        *FEATURES,
+        number(
+            "longest_flight", "1", "of that motion, in excitation cycles; tells motions of one state apart; else null"
+        ),
+    ),
     "estimates": (number("lambda", "1/s", "Lyapunov exponent by finite differences (Eq. 23)"),),
     "signals": (
         number("time", "s", "time since the start"),

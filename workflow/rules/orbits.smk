@@ -4,6 +4,8 @@
 def of_sections(*sections):
     """A param: these sections of the config with the model and the tolerance, overrides included, later ones first."""
     merged = {"tolerance": config["solver"]["tolerance"]}
+    if "attractors" in sections:
+        merged["settling"] = config["solver"]["settling"]
     for section in sections:
         merged.update(config[section])
     return {**merged, "model": {**config["model"], **merged.get("model", {})}}
