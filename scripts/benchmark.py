@@ -67,7 +67,7 @@ def columns(cases: dict[str, dict], repeats: int, *, progress: str | None = None
     eulers = [timed(case, case["duration"], "euler")[1] for case in cases.values()]
     truths = [peers.run(pack(*part(case)), case["compared"], **TRUTH).mean_velocity for case in cases.values()]
     found = [timed(case, case["compared"], "event")[1].mean_velocity() for case in cases.values()]
-    published = [timed(case, case["compared"], "euler")[1].mean_velocity() for case in cases.values()]
+    euler = [timed(case, case["compared"], "euler")[1].mean_velocity() for case in cases.values()]
     seconds, euler_seconds = times(cases, repeats, progress)
     truth = np.array(truths)
     return {
@@ -77,7 +77,7 @@ def columns(cases: dict[str, dict], repeats: int, *, progress: str | None = None
         **{name: np.array([case[name] for case in cases.values()]) for name in ("duration", "compared")},
         "mean_velocity": truth,
         "error": np.abs(np.array(found) / truth - 1.0),
-        "euler_error": np.abs(np.array(published) / truth - 1.0),
+        "euler_error": np.abs(np.array(euler) / truth - 1.0),
         "steps": np.array([run.work for run in runs]),
         "evaluations": np.array([run.work * ORDER for run in runs]),
         "events": np.array([run.event_count for run in runs]),

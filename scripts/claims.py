@@ -36,7 +36,7 @@ FINDINGS = {
     "C23": states.mapped,
 }
 REPRODUCED = "reproduced"
-PUBLISHED_ONLY = "reproduced by the published method only"
+PAPER_METHOD_ONLY = "reproduced by the paper's method only"
 NOT_REPRODUCED = "not reproduced"
 
 
@@ -49,17 +49,17 @@ def holds(values: tuple[float, ...], accepted: list[list[float | None]]) -> bool
 
 
 def verdict(finding: Finding, accepted: list[list[float | None]]) -> str:
-    """What the numbers say: the converged ones decide, those of the published method where there are no others."""
-    published = bool(finding.published) and holds(finding.published, accepted)
-    if holds(finding.converged, accepted) if finding.converged else published:
+    """What the numbers say: the converged ones decide, those of the paper's method where there are no others."""
+    euler = bool(finding.euler) and holds(finding.euler, accepted)
+    if holds(finding.converged, accepted) if finding.converged else euler:
         return REPRODUCED
-    return PUBLISHED_ONLY if published else NOT_REPRODUCED
+    return PAPER_METHOD_ONLY if euler else NOT_REPRODUCED
 
 
 def outside(finding: Finding, claim: dict) -> str:
     """Which quantities miss their accepted interval, in numbers."""
     texts = []
-    for method, values in (("published method", finding.published), ("converged solution", finding.converged)):
+    for method, values in (("paper's method", finding.euler), ("converged solution", finding.converged)):
         for value, interval, quantity in zip(values, claim["accepted"], claim["quantities"], strict=bool(values)):
             if not holds((value,), [interval]):
                 texts.append(f"{quantity}: {value:.4g} by the {method} is not in {written(interval)}")
@@ -82,7 +82,7 @@ def columns(claims: dict[str, dict], found: dict[str, Finding]) -> dict[str, lis
     return {
         "id": list(claims),
         **{name: [claim[name] for claim in claims.values()] for name in ("where", "statement", "quantities", "paper")},
-        "published": [list(found[name].published) for name in claims],
+        "paper_method": [list(found[name].euler) for name in claims],
         "converged": [list(found[name].converged) for name in claims],
         "accepted_low": [[low for low, _ in claim["accepted"]] for claim in claims.values()],
         "accepted_high": [[high for _, high in claim["accepted"]] for claim in claims.values()],
@@ -107,11 +107,11 @@ def report(rows: pd.DataFrame) -> str:
         "# The paper's statements",
         "",
         "Each verdict follows from the numbers: `reproduced` if the converged ones lie in the accepted intervals (the "
-        "published method's, where the statement is about the method), else `reproduced by the published method only` "
+        "paper's method's, where the statement is about the method), else `reproduced by the paper's method only` "
         "or `not reproduced`. What each number is, and why its interval is as wide as it is, says the section `claims` "
         "of the config.",
         "",
-        "| | Where | Statement | Quantities | Paper | Published method | Converged | Accepted | Verdict |",
+        "| | Where | Statement | Quantities | Paper | Paper's method, computed here | Converged | Accepted | Verdict |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
     for row in rows.itertuples():
@@ -121,7 +121,7 @@ def report(rows: pd.DataFrame) -> str:
         )
         lines.append(
             f"| {row.id} | {row.where} | {row.statement} | {'; '.join(row.quantities)} | {numbers(row.paper)} "
-            f"| {numbers(row.published)} | {numbers(row.converged)} | {accepted} | **{row.verdict}** |"
+            f"| {numbers(row.paper_method)} | {numbers(row.converged)} | {accepted} | **{row.verdict}** |"
         )
     told = rows.dropna(subset="reason")
     for title, part in (("Reasons", told[told.verdict != REPRODUCED]), ("Notes", told[told.verdict == REPRODUCED])):

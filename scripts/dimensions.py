@@ -23,8 +23,8 @@ def portrait(parameters: np.ndarray, settings: dict) -> np.ndarray:
 def estimate(points: np.ndarray, settings: dict) -> Dimension:
     """The dimension of a portrait by the estimator that the settings name."""
     match settings["estimator"]:
-        case "published":
-            return dimension.box_dimension_published(points, 0.5 ** np.arange(1, settings["octaves"] + 1))
+        case "paper":
+            return dimension.box_dimension_of_paper(points, 0.5 ** np.arange(1, settings["octaves"] + 1))
         case "box":
             return dimension.box_dimension(points)
         case "correlation":

@@ -245,7 +245,7 @@ def hard_rows(settings: dict, step: float) -> list[dict]:
 def columns(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table of stability."""
     rows = region_rows(settings, progress) + chatter_rows(settings)
-    rows += hard_rows(settings["hard"], settings["published_step"])
+    rows += hard_rows(settings["hard"], settings["paper_step"])
     return {name: np.array([one[name] for one in rows]) for name in rows[0]}
 
 

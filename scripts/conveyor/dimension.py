@@ -74,7 +74,7 @@ def box_dimension(points: np.ndarray) -> Dimension:
     return Dimension(-value, error, low, high, scales, counts)
 
 
-def box_dimension_published(points: np.ndarray, sizes: Iterable[float] = tuple(0.5 ** np.arange(1, 9))) -> Dimension:
+def box_dimension_of_paper(points: np.ndarray, sizes: Iterable[float] = tuple(0.5 ** np.arange(1, 9))) -> Dimension:
     """Box counting without precautions: one grid, a straight line through the counts of all `sizes`.
 
     The error is twice the standard error of the slope, as if the counts scattered independently.

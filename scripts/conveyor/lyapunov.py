@@ -1,4 +1,4 @@
-"""Lyapunov exponents: from the variational equation, from pairs of trajectories, and as published.
+"""Lyapunov exponents: from the variational equation, from pairs of trajectories, and as in the paper.
 
 The variational exponents multiply the exact linearisation of the stroboscopic map. They satisfy
 λ1 + λ2 = -(d_c/m) × (share of time with contact force) identically.

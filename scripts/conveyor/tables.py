@@ -196,7 +196,7 @@ COLUMNS = {
         flag("is_critical", "the lowest change out of the first state"),
     ),
     "regressions": (
-        text("fit", "pymoo, least_squares, published (the paper's triple) or valley (the best A and C for a given B)"),
+        text("fit", "pymoo, least_squares, paper (the paper's own triple) or valley (the best A and C for a given B)"),
         number("A", "m²/s²", "parameter of Eq. 13"),
         number("B", "m/s²", "parameter of Eq. 13"),
         number("C", "m", "parameter of Eq. 13"),
@@ -223,11 +223,16 @@ COLUMNS = {
         text("statement", "what it says"),
         several("quantities", pa.string(), "", "what its numbers are, with units"),
         several("paper", pa.float64(), "see quantities", "the paper's numbers; null where it gives none"),
-        several("published", pa.float64(), "see quantities", "by the paper's method; empty where it has no say"),
+        several(
+            "paper_method",
+            pa.float64(),
+            "see quantities",
+            "by the paper's method, computed here; empty where it has no say",
+        ),
         several("converged", pa.float64(), "see quantities", "converged; empty where the statement is on Euler"),
         several("accepted_low", pa.float64(), "see quantities", "least numbers that bear it out; null for none"),
         several("accepted_high", pa.float64(), "see quantities", "largest ones; null for none"),
-        text("verdict", "reproduced, reproduced by the published method only, or not reproduced"),
+        text("verdict", "reproduced, reproduced by the paper's method only, or not reproduced"),
         text("reason", "computed reason of any other verdict than reproduced; else a note, null for none"),
     ),
     "precision": (
@@ -267,7 +272,7 @@ COLUMNS = {
     "stability_estimates": (
         text("panel", "what is varied: perturbation, time or step; known set, samples or run time"),
         text("case", "motion or set"),
-        text("estimator", "event or euler for exponents; boxes, boxes as published, or correlation sum"),
+        text("estimator", "event or euler for exponents; boxes, boxes as in the paper, or correlation sum"),
         number("epsilon", "rad or m", "perturbation of the phase or of the initial height; null for dimensions"),
         number("duration", "s", "time of the run; null for points of known sets and settled portraits"),
         number("step", "s", "step of Euler; null for dimensions"),

@@ -24,14 +24,12 @@ def least_return(run: pd.DataFrame) -> tuple[float, int]:
 
 def no_period(tables: dict[str, pd.DataFrame]) -> Finding:
     """C15: share of the starts whose motion has no period of up to 64 cycles at the end of a long run."""
-    returns = {
-        role: [least_return(run) for _, run in tables[role].groupby("z0")] for role in ("published", "converged")
-    }
+    returns = {role: [least_return(run) for _, run in tables[role].groupby("z0")] for role in ("euler", "converged")}
     shares = [(float(np.mean([distance > BACK for distance, _ in found])),) for found in returns.values()]
     nearest = {role: min(found) for role, found in returns.items()}
     reason = "the motions come back no nearer than " + " and ".join(
         f"{100 * distance:.2g} % of their extent, after {period} cycles ({method})"
-        for method, (distance, period) in (("Euler", nearest["published"]), ("converged", nearest["converged"]))
+        for method, (distance, period) in (("Euler", nearest["euler"]), ("converged", nearest["converged"]))
     )
     return Finding(*shares, reason)
 
@@ -39,7 +37,7 @@ def no_period(tables: dict[str, pd.DataFrame]) -> Finding:
 def irregular(tables: dict[str, pd.DataFrame]) -> Finding:
     """C16: median step of the velocity from one initial height to the next over its standard deviation."""
     shares = []
-    for role in ("published", "converged"):
+    for role in ("euler", "converged"):
         velocity = tables[role].sort_values("z0").mean_velocity.to_numpy()
         shares.append((float(np.median(np.abs(np.diff(velocity))) / np.std(velocity)),))
     return Finding(*shares)
@@ -48,7 +46,7 @@ def irregular(tables: dict[str, pd.DataFrame]) -> Finding:
 def height_estimate(tables: dict[str, pd.DataFrame]) -> Finding:
     """C18: lowest amplitude (m/s²) with a positive estimate, and changes of its sign between 50 and 60 m/s²."""
     found = []
-    for role in ("published", "converged"):
+    for role in ("euler", "converged"):
         table = tables[role]
         between = table[(table.acceleration >= 50.0) & (table.acceleration <= 60.0)]
         changes = float((np.diff(np.sign(between["lambda"])) != 0.0).sum())
@@ -62,23 +60,23 @@ def positive_onset(table: pd.DataFrame) -> float:
 
 def phase_estimate(tables: dict[str, pd.DataFrame]) -> Finding:
     """C19: amplitude (m/s²) above which the estimate is positive."""
-    found = {role: positive_onset(tables[role]) for role in ("published", "converged")}
+    found = {role: positive_onset(tables[role]) for role in ("euler", "converged")}
     states = tables["states"]
-    settled = states[(states.acceleration >= found["published"]) & (states.acceleration < found["converged"])]
+    settled = states[(states.acceleration >= found["euler"]) & (states.acceleration < found["converged"])]
     settled = settled[settled.z0 == settled.z0.min()]
     between = {
-        role: table[(table.acceleration >= found["published"]) & (table.acceleration < found["converged"])]["lambda"]
+        role: table[(table.acceleration >= found["euler"]) & (table.acceleration < found["converged"])]["lambda"]
         for role, table in ((role, tables[role]) for role in found)
     }
     texts = [
         f"{100 * (values > 0.0).mean():.0f} % of the amplitudes {method} (median {values.median():+.2f} 1/s)"
-        for method, values in (("by Euler", between["published"]), ("converged", between["converged"]))
+        for method, values in (("by Euler", between["euler"]), ("converged", between["converged"]))
     ]
     reason = (
-        f"between {found['published']:g} and {found['converged']:g} m/s² the estimate is positive at {texts[0]} and at "
+        f"between {found['euler']:g} and {found['converged']:g} m/s² the estimate is positive at {texts[0]} and at "
         f"{texts[1]}, and {100 * (settled.period > 0).mean():.0f} % settle to a period; {of_perturbations(tables)}"
     )
-    return Finding((found["published"],), (found["converged"],), reason)
+    return Finding((found["euler"],), (found["converged"],), reason)
 
 
 def of_perturbations(tables: dict[str, pd.DataFrame]) -> str:
@@ -97,14 +95,14 @@ def of_perturbations(tables: dict[str, pd.DataFrame]) -> str:
 def portraits(tables: dict[str, pd.DataFrame]) -> Finding:
     """C20: dimensions of the portraits in the first state, the second state and chaos."""
     found = []
-    for role in ("published", "converged"):
+    for role in ("euler", "converged"):
         table = tables[role].sort_values(["acceleration", "z0"])
         low, high = (table[table.acceleration == end] for end in (table.acceleration.min(), table.acceleration.max()))
         found.append((*map(float, low.dimension), float(high.dimension.iloc[0])))
     errors = tables["converged"].sort_values(["acceleration", "z0"]).error
     reason = (
         f"converged {found[1][0]:.3f}, {found[1][1]:.3f}, {found[1][2]:.3f} with 95 % intervals of at most "
-        f"±{errors.max():.2f}; boxes of the published kind count the transient and too few scales: "
+        f"±{errors.max():.2f}; boxes counted as in the paper count the transient and too few scales: "
         f"{found[0][0]:.2f}, {found[0][1]:.2f}, {found[0][2]:.2f}"
     )
     return Finding(found[0], found[1], reason)
@@ -123,25 +121,23 @@ def predicted_onset(tables: dict[str, pd.DataFrame]) -> Finding:
     largest step of the dimension between neighbouring amplitudes.
     """
     found = []
-    for role in ("published", "converged"):
+    for role in ("euler", "converged"):
         by_dimension, by_exponent = dimension_onset(tables[role]), positive_onset(tables[f"{role}_exponent"])
         step = float(np.abs(np.diff(tables[role].sort_values("acceleration").dimension)).max())
         found.append((abs(by_dimension - by_exponent), step))
     reason = (
         f"by dimension chaos begins at {dimension_onset(tables['converged']):g} m/s², by the estimate of Fig. 22 at "
-        f"{positive_onset(tables['converged_exponent']):g} m/s²; by Euler at {dimension_onset(tables['published']):g} "
-        f"and {positive_onset(tables['published_exponent']):g} m/s², where the second state begins: its boxes give "
+        f"{positive_onset(tables['converged_exponent']):g} m/s²; by Euler at {dimension_onset(tables['euler']):g} "
+        f"and {positive_onset(tables['euler_exponent']):g} m/s², where the second state begins: its boxes give "
         f"{dimension_range(tables, 'second')} in that and {dimension_range(tables, 'chaos')} in chaos"
     )
     return Finding(found[0], found[1], reason)
 
 
 def dimension_range(tables: dict[str, pd.DataFrame], state: str) -> str:
-    """Least and largest published dimension of the motions that settle to a state, from the same start."""
+    """Least and largest dimension by the paper's boxes of the motions that settle to a state, from the same start."""
     states = tables["states"]
     states = states[states.z0 == states.z0.min()].sort_values("acceleration")[["acceleration", "state"]]
-    rows = pd.merge_asof(
-        tables["published"].sort_values("acceleration"), states, on="acceleration", direction="nearest"
-    )
+    rows = pd.merge_asof(tables["euler"].sort_values("acceleration"), states, on="acceleration", direction="nearest")
     found = rows[rows.state == state].dimension
     return f"{found.min():.2f} to {found.max():.2f}"

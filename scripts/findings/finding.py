@@ -15,7 +15,7 @@ class Finding(NamedTuple):
     A method that has no say in a statement has no quantities.
     """
 
-    published: tuple[float, ...]
+    euler: tuple[float, ...]
     converged: tuple[float, ...]
     reason: str = ""
 

@@ -18,7 +18,7 @@ def second_from_rest(table: pd.DataFrame) -> float:
 
 def critical_acceleration(tables: dict[str, pd.DataFrame]) -> Finding:
     """C01."""
-    return Finding(*((second_from_rest(tables[role]),) for role in ("published", "converged")))
+    return Finding(*((second_from_rest(tables[role]),) for role in ("euler", "converged")))
 
 
 def two_states(table: pd.DataFrame) -> tuple[float, float]:
@@ -35,7 +35,7 @@ def readings(table: pd.DataFrame, text: Callable[[pd.DataFrame], str]) -> str:
 
 def interval(tables: dict[str, pd.DataFrame]) -> Finding:
     """C02 and C10."""
-    published, converged = two_states(tables["published"]), two_states(tables["converged"])
+    euler, converged = two_states(tables["euler"]), two_states(tables["converged"])
     table = tables["converged"]
     at_end = table[(table.acceleration == converged[1]) & (table.state == "first")]
     reason = (
@@ -46,7 +46,7 @@ def interval(tables: dict[str, pd.DataFrame]) -> Finding:
     if "tension" in tables:
         found = readings(tables["tension"], lambda rows: "{:g} to {:g} m/s²".format(*two_states(rows)))
         reason += f"; by the reading of a contact force that pulls, with two starts only: {found}"
-    return Finding(published, converged, reason)
+    return Finding(euler, converged, reason)
 
 
 def scatter_onset(table: pd.DataFrame, spread: float = 0.05) -> float:
@@ -64,11 +64,11 @@ def chaos_onset(table: pd.DataFrame) -> float:
 
 
 def onset_of_chaos(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C03: the published protocol looks for velocities that scatter; the converged solution for settled motion that is
+    """C03: the paper's protocol looks for velocities that scatter; the converged solution for settled motion that is
     chaotic.
     """
     converged = tables["converged"]
-    scatter, chaos = scatter_onset(tables["published"]), chaos_onset(converged)
+    scatter, chaos = scatter_onset(tables["euler"]), chaos_onset(converged)
     reason = (
         f"the velocities of a run scatter from {scatter:g} m/s² on by Euler and from {scatter_onset(converged):g} m/s² "
         f"on in the converged solution; most settled motions are chaotic from {chaos:g} m/s² on"
@@ -93,7 +93,7 @@ def critical_at(table: pd.DataFrame, acceleration: float) -> float:
 
 def largest_critical_height(tables: dict[str, pd.DataFrame]) -> Finding:
     """C04, at the lower end of the paper's interval."""
-    found = [MM * critical_at(tables[role], 29.0) for role in ("published", "converged")]
+    found = [MM * critical_at(tables[role], 29.0) for role in ("euler", "converged")]
     table = tables["converged"]
     top = table.loc[table[table.is_critical].z0.idxmax()] if table.is_critical.any() else None
     reason = f"the critical height is steep in â there: converged {found[1]:.4g} mm at 29 m/s²" + (
@@ -110,7 +110,7 @@ def critical_height(acceleration: float):
     """C07 and C08: the critical height (mm) at one amplitude."""
 
     def finding(tables: dict[str, pd.DataFrame]) -> Finding:
-        return Finding(*((MM * critical_at(tables[role], acceleration),) for role in ("published", "converged")))
+        return Finding(*((MM * critical_at(tables[role], acceleration),) for role in ("euler", "converged")))
 
     return finding
 
@@ -129,20 +129,20 @@ def relative(value: float, reference: float) -> float:
 
 def first_velocity(tables: dict[str, pd.DataFrame]) -> Finding:
     """C05."""
-    published, converged = (velocities(tables[role], "first") for role in ("published", "converged"))
+    euler, converged = (velocities(tables[role], "first") for role in ("euler", "converged"))
     found = readings(
         tables["tension"], lambda rows: f"{100.0 * highest(rows[rows.state == 'first'].mean_velocity):.2f} cm/s"
     )
     reason = (
-        f"it rises by {converged[1] - converged[0]:.2f} cm/s; Euler is {relative(published[1], converged[1]):+.1f} % "
+        f"it rises by {converged[1] - converged[0]:.2f} cm/s; Euler is {relative(euler[1], converged[1]):+.1f} % "
         f"off at the upper end; at any amplitude its largest is, by the reading of a contact force that pulls: {found}"
     )
-    return Finding(published, converged, reason)
+    return Finding(euler, converged, reason)
 
 
 def second_velocity(tables: dict[str, pd.DataFrame]) -> Finding:
     """C06."""
-    ends = {role: velocities(tables[role], "second") for role in ("published", "converged")}
+    ends = {role: velocities(tables[role], "second") for role in ("euler", "converged")}
     falls = {role: first - last for role, (first, last) in ends.items()}
     table = tables["converged"]
     medians = 100.0 * table[table.state == "second"].groupby("acceleration").mean_velocity.median()
@@ -152,15 +152,15 @@ def second_velocity(tables: dict[str, pd.DataFrame]) -> Finding:
         f"it falls from {ends['converged'][0]:.2f} to {ends['converged'][1]:.2f} cm/s; {least}"
         f"by the reading of a contact force that pulls, each over its own interval: {found}"
     )
-    return Finding((falls["published"],), (falls["converged"],), reason)
+    return Finding((falls["euler"],), (falls["converged"],), reason)
 
 
 def fit(tables: dict[str, pd.DataFrame]) -> Finding:
     """C09."""
-    rows = {role: tables[role].set_index("fit").loc["pymoo"] for role in ("published", "converged")}
+    rows = {role: tables[role].set_index("fit").loc["pymoo"] for role in ("euler", "converged")}
     found = [tuple(float(row[name]) for name in ("A", "B", "C", "error")) for row in rows.values()]
     table = tables["converged"]
-    triple = float(table.set_index("fit").loc["published"].error)
+    triple = float(table.set_index("fit").loc["paper"].error)
     valley = table[(table.fit == "valley") & (table.error <= triple)]
     reason = (
         f"A, B and C lie in a valley: on the converged heights the paper's triple has the error {triple:.3g} m², "
@@ -212,13 +212,13 @@ def lines(table: pd.DataFrame, signal: str) -> tuple[int, int, float]:
 
 def vertical_lines(tables: dict[str, pd.DataFrame]) -> Finding:
     """C13: how many more lines ż_p has in the second state than in the first."""
-    found = [lines(tables[role], "vz") for role in ("published", "converged")]
+    found = [lines(tables[role], "vz") for role in ("euler", "converged")]
     return Finding(*((float(second - first),) for first, second, _ in found))
 
 
 def horizontal_lines(tables: dict[str, pd.DataFrame]) -> Finding:
     """C14: how many more lines ẋ_p has in the first state than in the second, and the second's mean over its lines."""
-    found = [lines(tables[role], "vx") for role in ("published", "converged")]
+    found = [lines(tables[role], "vx") for role in ("euler", "converged")]
     return Finding(*((float(first - second), ratio) for first, second, ratio in found))
 
 
@@ -245,12 +245,12 @@ def euler_error(tables: dict[str, pd.DataFrame]) -> Finding:
     lead to the same motion with the period of the excitation, and share of the amplitudes of Fig. 22 at which its
     estimate has the right sign.
     """
-    published, converged = tables["published"], tables["converged"]
-    regular = ((converged.period == 1) & (published.period == 1) & (converged.state == published.state)).to_numpy()
-    signed = (published.mean_velocity / converged.mean_velocity - 1.0)[regular]
+    euler, converged = tables["euler"], tables["converged"]
+    regular = ((converged.period == 1) & (euler.period == 1) & (converged.state == euler.state)).to_numpy()
+    signed = (euler.mean_velocity / converged.mean_velocity - 1.0)[regular]
     errors = signed.abs().groupby(converged.state[regular]).median().reindex(["first", "second"])
     exponent = tables["converged_exponent"]
-    right = np.sign(tables["published_exponent"]["lambda"]) == np.sign(exponent["lambda"])
+    right = np.sign(tables["euler_exponent"]["lambda"]) == np.sign(exponent["lambda"])
     wrong = exponent[~right].acceleration
     reason = (
         f"{len(signed)} runs of period 1 are compared, of which Euler feeds {100 * (signed < 0.0).mean():.0f} % too "

@@ -1,4 +1,4 @@
-"""Fig. 24: dimension of phase portraits over the acceleration amplitude, published method and converged solution."""
+"""Fig. 24: dimension of phase portraits over the acceleration amplitude, paper's method and converged solution."""
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -7,13 +7,13 @@ from plots import style
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the dimensions `published`, `converged` and `correlation`; settings: critical_acceleration, m/s²."""
+    """From the dimensions `euler`, `converged` and `correlation`; settings: critical_acceleration, m/s²."""
     figure = style.figure(style.COLUMN, 70.0)
     axes = figure.subplots()
     for dimension in (1.0, 2.0):
         axes.axhline(dimension, color="0.8", linewidth=0.6)
     curves = (
-        ("published", "o-", style.PUBLISHED, "published: boxes, Euler, 1 s"),
+        ("euler", "o-", style.EULER, "paper's method: boxes, Euler, 1 s"),
         ("converged", "s", style.CONVERGED, "converged: boxes, settled motion"),
         ("correlation", "x", "#009E73", "converged: correlation sum"),
     )

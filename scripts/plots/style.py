@@ -23,14 +23,14 @@ PAGE = 174.0  # mm, width of its page
 # Okabe and Ito's colours, which the colour-blind tell apart.
 STATE_COLOURS = {"first": "#0072B2", "second": "#E69F00", "chaos": "#009E73", "undecided": "#CC79A7"}
 CONVERGED = "#0072B2"
-PUBLISHED = "#D55E00"
+EULER = "#D55E00"
 CONVERGED_LABEL = "converged (exact events)"
-PUBLISHED_LABEL = "published (Euler, 0.5 µs)"
+EULER_LABEL = "paper's method (Euler, 0.5 µs)"
 PLATE = "#555555"
 # Curves of both methods in one panel: where they coincide, the dashes lie on the line.
 CURVES = {
     "converged": {"color": CONVERGED, "linewidth": 1.4, "label": CONVERGED_LABEL},
-    "published": {"color": PUBLISHED, "linewidth": 0.8, "linestyle": (0, (3, 3)), "label": PUBLISHED_LABEL},
+    "euler": {"color": EULER, "linewidth": 0.8, "linestyle": (0, (3, 3)), "label": EULER_LABEL},
 }
 # The plate's own curves, behind those of the part.
 PLATE_CURVE = {"color": "0.8", "linewidth": 2.5, "label": "conveyor"}

@@ -26,7 +26,7 @@ def sweep(state, velocity=0.1, heights=(0.0, 1e-4)):
 
 
 def both(table):
-    return {"converged": table, "published": table}
+    return {"converged": table, "euler": table}
 
 
 @pytest.mark.parametrize(
@@ -47,11 +47,11 @@ def test_no_onset():
 
 
 @pytest.mark.parametrize(
-    ("published", "converged", "expected"),
+    ("euler", "converged", "expected"),
     [
         ((1.0,), (1.0,), claims.REPRODUCED),
         ((2.0,), (1.0,), claims.REPRODUCED),
-        ((1.0,), (2.0,), claims.PUBLISHED_ONLY),
+        ((1.0,), (2.0,), claims.PAPER_METHOD_ONLY),
         ((2.0,), (2.0,), claims.NOT_REPRODUCED),
         ((2.0,), (math.nan,), claims.NOT_REPRODUCED),
         ((), (1.0,), claims.REPRODUCED),
@@ -60,8 +60,8 @@ def test_no_onset():
         ((2.0,), (), claims.NOT_REPRODUCED),
     ],
 )
-def test_verdicts(published, converged, expected):
-    assert claims.verdict(Finding(published, converged), [[0.5, 1.5]]) == expected
+def test_verdicts(euler, converged, expected):
+    assert claims.verdict(Finding(euler, converged), [[0.5, 1.5]]) == expected
 
 
 CLAIMS = yaml.safe_load((Path(__file__).parents[2] / "config/config.yaml").read_text())["claims"]
@@ -84,7 +84,7 @@ def test_accepted_intervals_bring_each_verdict(name):
     assert claims.verdict(Finding(right, right), accepted) == claims.REPRODUCED
     for place, interval in enumerate(accepted):
         wrong = (*right[:place], beyond(*interval), *right[place + 1 :])
-        assert claims.verdict(Finding(right, wrong), accepted) == claims.PUBLISHED_ONLY
+        assert claims.verdict(Finding(right, wrong), accepted) == claims.PAPER_METHOD_ONLY
         assert claims.verdict(Finding(wrong, wrong), accepted) == claims.NOT_REPRODUCED
 
 
@@ -104,7 +104,7 @@ def test_notes_stand_beside_verdicts():
 
 def test_a_reason_begins_with_the_numbers_that_miss():
     table = claims.columns({"C01": CLAIMS["C01"]}, {"C01": Finding((50.0,), (60.0,), "because of 1")})
-    assert table["verdict"] == [claims.PUBLISHED_ONLY]
+    assert table["verdict"] == [claims.PAPER_METHOD_ONLY]
     number = "critical amplitude in m/s²: 60 by the converged solution is not in [49, 51]"
     assert table["reason"] == [f"{number}; because of 1"]
 
@@ -140,7 +140,7 @@ def test_interval_by_the_reading_of_the_contact_force():
 def test_onset_of_chaos_by_scatter_and_by_state():
     table = sweep(lambda a, z: "chaos" if a >= 63.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
     finding = states.onset_of_chaos(both(table))
-    assert (finding.published, finding.converged) == ((55.0,), (63.0,))
+    assert (finding.euler, finding.converged) == ((55.0,), (63.0,))
     assert "in between 100 % of the starts settle to a period (period 1 for 100 %)" in finding.reason
     late = sweep(lambda a, z: "chaos" if a >= 50.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
     assert "nan" not in states.onset_of_chaos(both(late)).reason
@@ -174,7 +174,7 @@ def test_velocities_of_both_states():
 def test_fit_is_that_of_the_regression():
     table = pd.DataFrame(
         {
-            "fit": ["pymoo", "published", "valley", "valley"],
+            "fit": ["pymoo", "paper", "valley", "valley"],
             "A": 0.004,
             "B": [-20.0, -19.5, -21.0, -18.0],
             "C": -1e-4,
@@ -189,7 +189,7 @@ def test_fit_is_that_of_the_regression():
 
 def test_spread_of_onsets():
     straight = states.one_onset({"converged": sweep(lambda a, z: "chaos" if a >= 60.0 else "second")})
-    assert (straight.published, straight.converged) == ((), (0.0,))
+    assert (straight.euler, straight.converged) == ((), (0.0,))
     slanted = sweep(lambda a, z: "chaos" if a >= 60.0 + 2e4 * z else "second")
     assert states.one_onset({"converged": slanted}).converged == (2.0,)
 
@@ -239,10 +239,10 @@ def test_mapped_states():
 
 def test_error_of_euler_in_regular_motion_only():
     converged = sweep(lambda a, z: "chaos" if a > 60.0 else "second")
-    published = converged.assign(mean_velocity=np.where(converged.state == "chaos", 1.0, 0.101))
-    estimates = {"converged_exponent": exponents(60.0), "published_exponent": exponents(50.0)}
-    finding = states.euler_error({"converged": converged, "published": published, **estimates})
-    assert finding.published == pytest.approx((math.nan, 0.01, 61 / 71), nan_ok=True)
+    euler = converged.assign(mean_velocity=np.where(converged.state == "chaos", 1.0, 0.101))
+    estimates = {"converged_exponent": exponents(60.0), "euler_exponent": exponents(50.0)}
+    finding = states.euler_error({"converged": converged, "euler": euler, **estimates})
+    assert finding.euler == pytest.approx((math.nan, 0.01, 61 / 71), nan_ok=True)
     assert "wrong at 10 of 71 amplitudes" in finding.reason
 
 
@@ -297,10 +297,10 @@ def perturbations():
     return table
 
 
-def estimates(published, converged):
+def estimates(euler, converged):
     """The tables of C19 with onsets as given."""
     return {
-        "published": exponents(published),
+        "euler": exponents(euler),
         "converged": exponents(converged),
         "states": sweep("second"),
         "estimates": perturbations(),
@@ -309,7 +309,7 @@ def estimates(published, converged):
 
 def test_phase_estimate():
     finding = chaos.phase_estimate(estimates(50.0, 59.0))
-    assert (finding.published, finding.converged) == ((50.0,), (59.0,))
+    assert (finding.euler, finding.converged) == ((50.0,), (59.0,))
     assert "positive at 100 % of the amplitudes by Euler" in finding.reason
     assert "at 0 % of the amplitudes converged" in finding.reason
     assert "100 % settle to a period" in finding.reason
@@ -333,9 +333,9 @@ def test_onset_by_dimension():
     tables = {
         **both(table),
         "converged_exponent": exponents(59.0),
-        "published_exponent": exponents(62.0),
+        "euler_exponent": exponents(62.0),
         "states": sweep(lambda a, z: "chaos" if a >= 63.0 else "second"),
     }
     finding = chaos.predicted_onset(tables)
-    assert (finding.published, finding.converged) == ((0.0, 1.0), (3.0, 1.0))
+    assert (finding.euler, finding.converged) == ((0.0, 1.0), (3.0, 1.0))
     assert "1.00 to 2.00 in that and 2.00 to 2.00 in chaos" in finding.reason

@@ -82,7 +82,7 @@ def test_compiled_loop_is_the_plain_loop(method, tension, exponent):
     assert run.evaluations == n_steps * (4 if method == "rk4" else 1)
 
 
-def test_published_numbers():
+def test_the_paper_s_numbers():
     """Mean feeding velocities of the paper's method at its step of 5e-7 s."""
     for acceleration, z, expected in ((30.0, 0.0, 0.00709042), (40.0, 3e-4, 0.0646877)):
         run = fixed_step.run(pack(Conveyor(acceleration=acceleration), Start(z=z)), 1.0, 5e-7)

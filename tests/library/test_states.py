@@ -127,7 +127,7 @@ def test_a_conveyor_may_have_two_chaotic_attractors():
 
 
 def test_a_period_is_the_shortest():
-    """Next to its period doubling a motion comes back after twice its period first, from the other side of its orbit."""
+    """Next to its period doubling a motion comes back after twice its period first, from the other side."""
     found = states.classify(np.array([pack(Conveyor(acceleration=72.98), Start(2.3e-4))]))
     assert found.period[0] == 2
 

@@ -96,7 +96,7 @@ def test_solver_holds_in_hard_cases_and_euler_does_not(result):
     assert (euler.outcome == "energy grows").any()
 
 
-def test_published_exponent_of_an_orbit_has_the_wrong_sign(result):
+def test_euler_exponent_of_an_orbit_has_the_wrong_sign(result):
     """A shift of the phase dies on a settled orbit; Euler keeps it alive, however small it is."""
     table = result("stability_estimates")
     rows = table[(table.panel == "perturbation") & (table.case == "orbit_phase") & (table.epsilon < 1e-6)]
@@ -104,7 +104,7 @@ def test_published_exponent_of_an_orbit_has_the_wrong_sign(result):
     assert (rows[rows.estimator == "event"].value < 0.0).all()
 
 
-def test_published_exponent_of_chaos_is_no_more_than_the_signal_allows(result):
+def test_euler_exponent_of_chaos_is_no_more_than_the_signal_allows(result):
     """After 1 s the pair is as far apart as the signal goes: the estimate tells the perturbation, not the motion."""
     table = result("stability_estimates")
     rows = table[(table.case == "chaos_phase") & (table.estimator == "event")]
@@ -115,19 +115,19 @@ def test_published_exponent_of_chaos_is_no_more_than_the_signal_allows(result):
 
 
 def test_dimensions_of_known_sets(result):
-    """Our intervals hold the truth; boxes as published miss it, the more the fewer the points."""
+    """Our intervals hold the truth; boxes as in the paper miss it, the more the fewer the points."""
     table = result("stability_estimates").query("panel == 'known set'")
-    own = table[(table.estimator != "boxes, published") & table.value.notna()]
+    own = table[(table.estimator != "boxes, as in the paper") & table.value.notna()]
     off = (own.value - own.truth).abs()
     assert (off < own.error).mean() >= 0.9  # intervals of 95 %
     assert (off < 2.0 * own.error).all()
-    published = table[table.estimator == "boxes, published"]
-    few, many = (published[published.samples == count] for count in (published.samples.min(), published.samples.max()))
+    paper = table[table.estimator == "boxes, as in the paper"]
+    few, many = (paper[paper.samples == count] for count in (paper.samples.min(), paper.samples.max()))
     assert (few.value - few.truth).abs().sum() > 2.0 * (many.value - many.truth).abs().sum()
-    assert not ((published.value - published.truth).abs() < published.error).all()
+    assert not ((paper.value - paper.truth).abs() < paper.error).all()
 
 
-def test_published_boxes_take_a_transient_for_the_orbit(result):
+def test_the_paper_s_boxes_take_a_transient_for_the_orbit(result):
     table = result("stability_estimates")
     boxes = table[(table.panel == "run time") & (table.case == "second")]
     assert (boxes.value > 1.2).all()

@@ -1,12 +1,12 @@
 """The claims: all there, each with a verdict, each verdict other than `reproduced` with a reason."""
 
-from claims import FINDINGS, NOT_REPRODUCED, PUBLISHED_ONLY, REPRODUCED
+from claims import FINDINGS, NOT_REPRODUCED, PAPER_METHOD_ONLY, REPRODUCED
 
 
 def test_every_claim_has_a_verdict(result):
     table = result("claims")
     assert list(table.id) == sorted(FINDINGS)
-    assert set(table.verdict) <= {REPRODUCED, PUBLISHED_ONLY, NOT_REPRODUCED}
+    assert set(table.verdict) <= {REPRODUCED, PAPER_METHOD_ONLY, NOT_REPRODUCED}
 
 
 def test_every_other_verdict_has_a_reason_with_numbers(result):

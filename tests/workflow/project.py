@@ -34,8 +34,8 @@ SINGLE = (
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}
 COARSE_PAIRS = {"axes": {"acceleration": {"num": 3}}, "duration": 0.1}
 TINY = {
-    "sweeps": {"amplitudes": COARSE, "amplitudes_published": COARSE},
-    "estimates": {"phase": COARSE_PAIRS, "phase_published": COARSE_PAIRS},
+    "sweeps": {"amplitudes": COARSE, "amplitudes_euler": COARSE},
+    "estimates": {"phase": COARSE_PAIRS, "phase_euler": COARSE_PAIRS},
 }
 
 

@@ -44,8 +44,8 @@ WRONG = [
     ({"sweeps": {"my sweep": MINE}}, "sweeps = 'my sweep' is not a name of letters"),
     ({"estimates": {"phase": {"epsilon": 0.0}}}, "estimates.phase.epsilon = 0.0 is outside (0, 1]"),
     (
-        {"figures": {"fig03": {"tables": {"published": "sweeps/none"}}}},
-        "figures.fig03.tables.published = 'sweeps/none'",
+        {"figures": {"fig03": {"tables": {"euler": "sweeps/none"}}}},
+        "figures.fig03.tables.euler = 'sweeps/none'",
     ),
     ({"sweeps": {"amplitudes": {"needs": "vertical"}}}, "figures.fig03 needs feeding, but sweeps/amplitudes"),
     ({"figures": {"fig99": {**CONFIG["figures"]["fig03"]}}}, "figures.fig99 has no scripts/plots/fig99.py"),

@@ -165,7 +165,7 @@ rule stability_estimates:
         model=config["model"],
         code=source_hash("stability_estimates"),
     message:
-        "How far the published estimates carry"
+        "How far the paper's estimates carry"
     script:
         "../../scripts/stability_estimates.py"
 
