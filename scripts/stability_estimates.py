@@ -98,7 +98,7 @@ def estimates(points: np.ndarray, theiler: int, settings: dict) -> dict[str, Dim
 
 
 def dimension_rows(settings: dict, model: dict, seed: int, progress: str | None) -> list[dict]:
-    """Dimensions of known sets and of settled portraits over the number of points, of those of the paper over the time."""
+    """Dimensions of known sets and of settled portraits over the number of points, the paper's over the time."""
     rows = []
 
     def add(panel, case, found, truth, **run):

@@ -1,8 +1,10 @@
 """The config: checked with errors that name the key and the remedy, and resolved to what one table depends on."""
 
+import ast
 import difflib
 import math
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import yaml
@@ -117,6 +119,19 @@ def entry_of(config: dict, reference: str) -> dict | None:
     return entries.get(name) if isinstance(entries, dict) else None
 
 
+@cache
+def finding_names() -> frozenset[str]:
+    """MODULE.FUNCTION of all functions of scripts/findings that give a Finding."""
+    return frozenset(
+        f"{path.stem}.{node.name}"
+        for path in (ROOT / "scripts/findings").glob("*.py")
+        for node in ast.parse(path.read_bytes()).body
+        if isinstance(node, ast.FunctionDef)
+        and getattr(node.returns, "id", None) == "Finding"
+        and path.stem != "finding"
+    )
+
+
 def contradictions(config: dict) -> Iterator[str]:
     """What a schema cannot say: one line per contradiction between parts of a config that follows the schema."""
     for section, entries in config.items():
@@ -140,10 +155,14 @@ def contradictions(config: dict) -> Iterator[str]:
                 if entry_of(config, reference) is None:
                     yield f"{user}.{name}.tables.{role} = {reference!r} is no entry of the config"
     for claim, entry in config["claims"].items():
-        for key in ("paper", "accepted"):
-            if len(entry[key]) != len(entry["quantities"]):
-                counts = f"{len(entry[key])} items for {len(entry['quantities'])} quantities"
-                yield f"claims.{claim}.{key} has {counts}; give one for each"
+        if entry["finding"] not in finding_names():
+            known = ", ".join(sorted(finding_names()))
+            yield f"claims.{claim}.finding = {entry['finding']!r} is no function of scripts/findings; there are {known}"
+        for name, quantity in entry["quantities"].items():
+            low, high = quantity["accepted"]
+            if low is not None and high is not None and low > high:
+                key = f"claims.{claim}.quantities.{name}.accepted"
+                yield f"{key} = {quantity['accepted']!r} is reversed; give [least, largest]"
 
 
 def problems(config: dict) -> list[str]:

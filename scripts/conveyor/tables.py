@@ -232,6 +232,7 @@ COLUMNS = {
         several("converged", pa.float64(), "see quantities", "converged; empty where the statement is on Euler"),
         several("accepted_low", pa.float64(), "see quantities", "least numbers that bear it out; null for none"),
         several("accepted_high", pa.float64(), "see quantities", "largest ones; null for none"),
+        several("because", pa.string(), "", "why the accepted numbers are these"),
         text("verdict", "reproduced, reproduced by the paper's method only, or not reproduced"),
         text("reason", "computed reason of any other verdict than reproduced; else a note, null for none"),
     ),
