@@ -22,6 +22,8 @@ TABLES = {
 }
 # Sections whose tables say what motion a start ends in.
 SETTLING = ("sweeps", "critical", "impacts", "spectra")
+# Sections whose entries may be followed by a fixed-step method for their duration.
+METHODS = ("sweeps", "estimates", "critical", "signals", "spectra")
 # What YAML calls the types of JSON schema.
 KINDS = {
     "null": "null",
@@ -48,10 +50,12 @@ def reads_as_number(text: str) -> bool:
 
 def explain_range(value, schema: dict) -> str:
     """How a number misses the range of its schema, with the unit and the usual mix-up of units."""
-    low, high = schema.get("minimum", schema.get("exclusiveMinimum")), schema.get("maximum", math.inf)
+    low = schema.get("minimum", schema.get("exclusiveMinimum"))
+    high = schema.get("maximum", schema.get("exclusiveMaximum", math.inf))
     left = "(" if "exclusiveMinimum" in schema else "["
+    right = ")" if "exclusiveMaximum" in schema else "]"
     unit = schema.get("unit", "")
-    text = f"= {value!r} is outside {left}{low:g}, {high:g}] {unit}".rstrip()
+    text = f"= {value!r} is outside {left}{low:g}, {high:g}{right} {unit}".rstrip()
     if unit == "rad" and abs(value) > high:
         text += f"; angles are in radians, {value:g}° are {math.radians(value):.4f} rad"
     return text
@@ -72,7 +76,7 @@ def explain(error: ValidationError) -> str:
         case "required":
             missing = [name for name in schema["required"] if name not in value]
             return f"{key} lacks {', '.join(missing)}"
-        case "minimum" | "maximum" | "exclusiveMinimum":
+        case "minimum" | "maximum" | "exclusiveMinimum" | "exclusiveMaximum":
             if key.endswith(".num"):
                 return f"{key} = {value!r} makes an empty axis; give at least 1"
             return f"{key} {explain_range(value, schema)}"
@@ -141,6 +145,13 @@ def contradictions(config: dict) -> Iterator[str]:
             if isinstance(entry, dict):
                 for axis in sorted(set(entry.get("axes", ())) & set(entry.get("model", ()))):
                     yield f"{section}.{name}.model.{axis} is an axis of this entry too; keep one of them"
+    for section in METHODS:
+        for name in config[section]:
+            entry = resolve(config, section, name)
+            if "step" in entry and not whole_steps(entry["duration"], entry["step"]):
+                count = max(1, round(entry["duration"] / entry["step"]))
+                reason = f"does not divide its duration of {entry['duration']!r} s; take {entry['duration'] / count!r}"
+                yield f"{section}.{name}.step = {entry['step']!r} s {reason}"
     for figure, entry in config["figures"].items():
         for file in (f"scripts/plots/{figure}.py", f"workflow/report/{figure}.rst"):
             if not (ROOT / file).is_file():
@@ -189,6 +200,12 @@ def resolve(config: dict, section: str, name: str) -> dict:
         del entry["model"][axis]
     del entry["step" if entry["method"] == "event" else "tolerance"]
     return entry
+
+
+def whole_steps(duration: float, step: float) -> bool:
+    """Whether a duration (s) is a whole number of steps (s), up to the rounding of both."""
+    count = round(duration / step)
+    return count > 0 and abs(duration / step - count) <= 1e-9 * count
 
 
 def count_points(axes: dict) -> int:

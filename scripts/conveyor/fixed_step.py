@@ -201,6 +201,12 @@ class Summary(NamedTuple):
     status: str  # one of STATUSES
 
 
+def check_positive(name: str, value: float) -> None:
+    """ValueError that names a time (s) which is not positive and finite."""
+    if not 0.0 < value < math.inf:
+        raise ValueError(f"{name} = {value!r} s is not positive and finite")
+
+
 def step_count(duration: float, step: float) -> int:
     """The number of steps (s) in `duration` (s).
 
@@ -209,9 +215,8 @@ def step_count(duration: float, step: float) -> int:
     ValueError
         if either is not positive and finite, or if the duration is no whole number of steps: a run would end elsewhere
     """
-    for name, value in (("duration", duration), ("step", step)):
-        if not 0.0 < value < math.inf:
-            raise ValueError(f"{name} = {value!r} s is not positive and finite")
+    check_positive("duration", duration)
+    check_positive("step", step)
     count = round(duration / step)
     if abs(duration / step - count) > WHOLE * max(count, 1) or count == 0:
         nearest = max(count, 1)
@@ -289,6 +294,7 @@ def sample(parameters: np.ndarray, times: np.ndarray, step: float, method: str =
     times = np.asarray(times, dtype=np.float64)
     if not (np.isfinite(times) & (times >= 0.0)).all():
         raise ValueError("times must be finite and not negative")
+    check_positive("step", step)
     indices = np.rint(times.ravel() / step).astype(np.int64)
     n_steps = int(indices.max(initial=1))
     order = np.argsort(indices, kind="stable")

@@ -214,6 +214,8 @@ def finite_difference_estimate(
     -------
     float64, shape (n,), 1/s. A difference below the resolution of the signal counts as that resolution.
     """
+    if not 0.0 < last < 1.0:
+        raise ValueError(f"last = {last!r} must be a share of the run in (0, 1): at its beginning Eq. 23 has no value")
     column = SAMPLES.index(output)
     feeding = output not in ("z", "vz", "contact_force")
     times = np.linspace((1.0 - last) * duration, duration, samples)

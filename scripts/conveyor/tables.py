@@ -204,10 +204,15 @@ COLUMNS = {
         count("evaluations", "number of triples, or of values of B, whose error was computed; 0 for given triples"),
     ),
     "dimensions": (
-        number("dimension", "1", "fractal dimension of the phase portrait ż_p over z_p (Eq. 25)"),
+        number(
+            "dimension",
+            "1",
+            "fractal dimension of the phase portrait ż_p over z_p (Eq. 25); null where nothing is known",
+        ),
         number("error", "1", "half-width of its 95 % interval; null where the points resolve too few scales"),
         number("scale_low", "1", "smallest scale of the scaling region, in units of the portrait's extent"),
         number("scale_high", "1", "largest scale of the scaling region, in units of the portrait's extent"),
+        text("status", "ok, or why there is no dimension"),
     ),
     "random_points": (
         text("drawn", "around the paper or over the whole ranges"),
@@ -348,7 +353,10 @@ def make(kind: str, columns: Mapping[str, np.ndarray], axes: Sequence[str], sett
     arrays = []
     for column in wanted:
         try:
-            arrays.append(pa.array(columns[column.name], type=column.type, from_pandas=True))
+            values = columns[column.name]
+            if pa.types.is_floating(column.type):
+                values = np.asarray(values, dtype=np.float64) + 0.0  # no negative zero
+            arrays.append(pa.array(values, type=column.type, from_pandas=True))
         except (pa.ArrowInvalid, pa.ArrowTypeError) as error:
             raise ValueError(f"column {column.name} of a table of {kind} is not {column.type}: {error}") from error
     metadata = {SETTINGS: json.dumps(settings)}

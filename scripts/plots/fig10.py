@@ -18,6 +18,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     figure = style.figure(style.COLUMN, 66.0)
     axes = figure.subplots()
     converged, euler = tables["converged"], tables["euler"]
+    euler = euler[euler.is_critical]
     fitted = np.linspace(*tables["fit"].attrs["acceleration"], 200)
     curves = (
         (tables["fit"], "pymoo", style.CONVERGED, "-", "Eq. 13, fitted to converged"),

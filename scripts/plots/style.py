@@ -24,6 +24,7 @@ PAGE = 174.0  # mm, width of its page
 STATE_COLOURS = {"first": "#0072B2", "second": "#E69F00", "chaos": "#009E73", "undecided": "#CC79A7"}
 CONVERGED = "#0072B2"
 EULER = "#D55E00"
+SECOND_ESTIMATE = "#CC79A7"  # beside CONVERGED; green means chaos elsewhere
 CONVERGED_LABEL = "converged (exact events)"
 EULER_LABEL = "paper's method (Euler, 0.5 µs)"
 PLATE = "#555555"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import gamma
 
-from conveyor import Conveyor, Start, fixed_step, lyapunov, sweep
+from conveyor import Conveyor, Start, fixed_step, lyapunov, simulate, sweep
 from conveyor.model import pack
 from reference import reference_mean_velocity
 
@@ -284,8 +284,8 @@ def test_explicit_euler_shakes_the_resting_part_off():
     limit = conveyor.damping / (1.5 * conveyor.stiffness * math.sqrt(depth))
     assert limit == pytest.approx(1.7e-4, rel=0.02)
     disturbed = pack(conveyor, Start(z=-1.05 * depth))
-    calm = fixed_step.run(disturbed, 1.0, 0.9 * limit)
-    shaken = fixed_step.run(disturbed, 1.0, 1.1 * limit)
+    calm = fixed_step.run(disturbed, 7000 * 0.9 * limit, 0.9 * limit)
+    shaken = fixed_step.run(disturbed, 6000 * 1.1 * limit, 1.1 * limit)
     assert calm.impacts == 0
     assert calm.z == pytest.approx(-depth, rel=1e-6)
     assert shaken.impacts > 10
@@ -338,3 +338,28 @@ def test_status_not_finite():
 def test_errors_name_the_argument(call, word):
     with pytest.raises(ValueError, match=word):
         call(pack(Conveyor(), Start()))
+
+
+def test_a_run_ends_where_it_is_said_to_end():
+    """Steps that do not divide the duration would end early."""
+    with pytest.raises(ValueError, match=r"no whole number of steps of 3e-07 s; take step = 3.00000030"):
+        simulate(Conveyor(), duration=1.0, method="euler", step=3e-7)
+    with pytest.raises(ValueError, match="whole number"):
+        sweep.run(pack(Conveyor(), Start())[None], duration=1e-3, method="euler", step=5e-3)
+    assert simulate(Conveyor(), duration=0.3, method="euler", step=1e-5).status == "ok"  # 0.3 / 1e-5 rounds
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: fixed_step.run(pack(Conveyor(), Start()), 0.01, 1e-5, "heun"),
+        lambda: sweep.run(pack(Conveyor(), Start())[None], duration=0.01, method="heun"),
+        lambda: simulate(Conveyor(), duration=0.01, method="heun"),
+        lambda: fixed_step.integrate(
+            pack(Conveyor(), Start()), 1e-5, 10, 7, np.empty(0, int), np.empty((0, 6)), np.empty((0, 2))
+        ),
+    ],
+)
+def test_an_unknown_method_never_runs_as_another(call):
+    with pytest.raises(ValueError, match="method"):
+        call()
