@@ -21,7 +21,7 @@ TABLES = {
     "results": ("estimators", "stability", "stability_estimates", "scene_budget", "rigid_part"),
 }
 # Sections whose tables say what motion a start ends in.
-SETTLING = ("sweeps", "critical", "impacts", "spectra")
+SETTLING = ("sweeps", "critical", "impacts", "signals", "spectra")
 # Sections whose entries may be followed by a fixed-step method for their duration.
 METHODS = ("sweeps", "estimates", "critical", "signals", "spectra")
 # What YAML calls the types of JSON schema.

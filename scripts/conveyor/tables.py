@@ -161,6 +161,7 @@ COLUMNS = {
     ),
     "estimates": (number("lambda", "1/s", "Lyapunov exponent by finite differences (Eq. 23)"),),
     "signals": (
+        *STATE,
         number("time", "s", "time since the start"),
         number("x", "m", "horizontal position of the part"),
         number("vx", "m/s", "horizontal velocity of the part"),
