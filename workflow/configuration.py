@@ -18,8 +18,18 @@ TABLES = {
     "orbits": ("branches", "folds_and_doublings", "cascade"),
     "attractors": ("strobes",),
     "lyapunov": ("spectrum", "witnesses"),
-    "results": ("estimators", "stability", "stability_estimates", "scene_budget", "rigid_part"),
+    "results": (
+        "estimators",
+        "stability",
+        "stability_estimates",
+        "scene_budget",
+        "budget_times",
+        "rigid_part",
+        "settling_times",
+    ),
 }
+# Tables of the folder of results that another section than that of their name makes.
+SECTION_OF = {"budget_times": "scene_budget"}
 # Sections whose tables say what motion a start ends in.
 SETTLING = ("sweeps", "critical", "impacts", "signals", "spectra")
 # Sections whose entries may be followed by a fixed-step method for their duration.
@@ -116,7 +126,7 @@ def entry_of(config: dict, reference: str) -> dict | None:
     """What the config says about the table SECTION/NAME, or None if there is no such table."""
     section, name = reference.split("/")
     if name in TABLES.get(section, ()):
-        return config[name if section == "results" else section]
+        return config[SECTION_OF.get(name, name) if section == "results" else section]
     if section in ("precision", "wall_times"):
         return config["precision"] if name in config["precision"]["scenes"] else None
     entries = config.get(section)
@@ -162,9 +172,10 @@ def contradictions(config: dict) -> Iterator[str]:
                 yield f"figures.{figure} needs feeding, but {reference} is computed for vertical needs only"
     for user in ("figures", "claims"):
         for name, entry in config[user].items():
-            for role, reference in entry["tables"].items():
-                if entry_of(config, reference) is None:
-                    yield f"{user}.{name}.tables.{role} = {reference!r} is no entry of the config"
+            for key in ("tables", "caption_tables"):
+                for role, reference in entry.get(key, {}).items():
+                    if entry_of(config, reference) is None:
+                        yield f"{user}.{name}.{key}.{role} = {reference!r} is no entry of the config"
     for claim, entry in config["claims"].items():
         if entry["finding"] not in finding_names():
             known = ", ".join(sorted(finding_names()))

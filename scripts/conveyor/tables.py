@@ -90,7 +90,10 @@ ORBIT = (
 
 RUN = (
     text("method", "event, a fixed-step method, or one of scipy's integrators"),
-    text("treatment", "of impacts and slip reversals: exact, fixed step, sign, events or modes"),
+    text(
+        "treatment",
+        "of impacts and slip reversals: exact, with or without repeated steps, fixed step, sign, events or modes",
+    ),
     number("tolerance", "1", "relative tolerance; null for fixed steps"),
     number("step", "s", "step; null for tolerances"),
 )
@@ -215,6 +218,15 @@ COLUMNS = {
         number("scale_high", "1", "largest scale of the scaling region, in units of the portrait's extent"),
         text("status", "ok, or why there is no dimension"),
     ),
+    "settling_times": (
+        number("acceleration", "m/s²", "amplitude of the excitation"),
+        number("z0", "m", "initial height"),
+        number("psi0", "rad", "phase of the excitation at the start"),
+        *STATE,
+        count(
+            "cycles", "excitation cycles for which the start was followed: until it settled, or as long as asked for"
+        ),
+    ),
     "random_points": (
         text("drawn", "around the paper or over the whole ranges"),
         number("duration", "s", "length of the run"),
@@ -244,7 +256,8 @@ COLUMNS = {
     ),
     "precision": (
         *RUN,
-        count("evaluations", "force evaluations; derivatives of the force for a Taylor step"),
+        count("evaluations", "force evaluations that are computed; derivatives of the force for a Taylor step"),
+        count("repeated_evaluations", "those of a settled motion that are used again instead"),
         number("mean_velocity", "m/s", "mean feeding velocity over the last quarter"),
         number("velocity_error", "1", "its relative error"),
         number("state_error", "1", "largest error of ẋ, z, ż at the end, in units of the plate's motion"),
@@ -299,9 +312,6 @@ COLUMNS = {
         number("tolerance", "1", "relative error of a step; null where there is none"),
         number("duration", "s", "length of the runs; null where they last until they settle"),
         count("points", "points of the table that were computed"),
-        number("seconds", "s", "wall time of a point on one core"),
-        number("full_seconds", "s", "wall time of a point of the full model at tight tolerance"),
-        number("ratio", "1", "the latter over the former"),
         number("steps", "1/s", "Taylor steps in a second of the motion; null for the rigid part"),
         number("sticks", "1", "share of the points whose part sticks at some time"),
         number("known", "1", "share of the drawn values that a tiny shift of the start does not change visibly"),
@@ -309,6 +319,14 @@ COLUMNS = {
         flag("visible", "whether a reader would see the difference"),
         flag("chosen", "whether this is what the config chooses"),
         text("reason", "why the choice is tighter than the picture needs; null where it is not"),
+    ),
+    "budget_times": (
+        text("table", "table that a figure draws, SECTION/NAME"),
+        text("variant", "as in the table of budgets"),
+        number("tolerance", "1", "relative error of a step; null where there is none"),
+        number("seconds", "s", "wall time of a point on one core"),
+        number("full_seconds", "s", "wall time of a point of the full model at tight tolerance"),
+        number("ratio", "1", "the latter over the former"),
     ),
     "rigid_part": (
         text("model", "contact, or a rigid part whose restitution depends on the speed of approach or is one number"),
@@ -322,6 +340,10 @@ COLUMNS = {
     "benchmark": (
         text("case", "name of the case"),
         text("motion", "what the part does"),
+        text(
+            "chosen", "which tolerance this is: default, or the loosest that keeps the error, chosen against the truth"
+        ),
+        number("tolerance", "1", "relative error of a step"),
         number("acceleration", "m/s²", "amplitude of the excitation"),
         number("z0", "m", "initial height"),
         number("duration", "s", "length of the timed runs"),
@@ -329,13 +351,16 @@ COLUMNS = {
         number("mean_velocity", "m/s", "mean feeding velocity, from an independent integration"),
         number("error", "1", "relative error of the solver's mean velocity"),
         number("euler_error", "1", "relative error of Euler's mean velocity"),
-        count("steps", "Taylor steps of a timed run"),
+        count("steps", "Taylor steps that a timed run computes"),
+        count("repeated_steps", "Taylor steps of a settled motion that it repeats"),
         count("evaluations", "derivatives of the contact force in a timed run"),
         count("events", "events of a timed run"),
         count("euler_steps", "steps of Euler in a timed run"),
         number("seconds", "s", "median wall time of the solver"),
+        number("seconds_without", "s", "the same if every step is computed"),
         number("euler_seconds", "s", "median wall time of Euler"),
-        number("speed", "1", "ratio of the two"),
+        number("speed", "1", "wall time of Euler over that of the solver"),
+        number("speed_without", "1", "the same if every step is computed"),
         count("repeats", "rounds of timed runs"),
     ),
 }

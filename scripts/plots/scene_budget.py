@@ -23,8 +23,9 @@ def look(row) -> tuple[str, str]:
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the table of budgets."""
-    table = tables["budget"]
+    """From the table `budget` and its wall `times`."""
+    table = tables["budget"].merge(tables["times"], on=["table", "variant", "tolerance"], how="left")
+    table.attrs = tables["budget"].attrs
     drawn = table[table.table != "none"]
     names = list(dict.fromkeys(drawn.table))
     figures = drawn.groupby("table").figure.unique().map(", ".join)

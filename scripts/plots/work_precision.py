@@ -23,6 +23,7 @@ METHODS = {
 }
 TREATMENTS = {
     "exact": ("o", "-", None),
+    "exact, nothing repeated": ("o", "-.", "this solver, every step computed"),
     "fixed step": (".", "-", None),
     "sign": ("x", ":", "sign() friction"),
     "events": ("^", "--", "events, naive restart"),
@@ -74,7 +75,7 @@ def curve(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
         color=colour,
         markersize=3.0 if ours else 2.2,
         markeredgewidth=0.6,
-        linewidth=1.4 if ours else 0.6,
+        linewidth=1.4 if treatment == "exact" else 0.6,
         markerfacecolor=colour if treatment in ("exact", "fixed step") else "none",
         zorder=3 if ours else 2,
     )

@@ -28,6 +28,7 @@ SINGLE = (
     "stability",
     "stability_estimates",
     "scene_budget",
+    "settling_times",
     "rigid_part",
     "random_points",
 )

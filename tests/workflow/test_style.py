@@ -3,6 +3,8 @@
 import re
 import zlib
 
+import matplotlib as mpl
+
 from plots import style
 
 
@@ -16,7 +18,7 @@ def streams(content):
 
 
 def line(y, path):
-    with style.applied():
+    with style.applied(), mpl.rc_context({"figure.constrained_layout.use": False}):
         figure = style.figure(50.0, 50.0)
         axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
         axes.axis("off")
@@ -37,5 +39,5 @@ def test_no_negative_zeros(tmp_path):
 
 def test_negative_numbers_stay(tmp_path):
     text = b"\n".join(streams(line(-0.5, tmp_path / "line.pdf")))
-    assert re.search(rb"0 -70\.86\d* m", text)
+    assert b" -1 m" in text  # clipped just outside the page
     assert style.NEGATIVE_ZERO.sub(b"0", b"-0 -0.5 1e-0 -0.0 10 -0\n") == b"0 -0.5 1e-0 0 10 0\n"

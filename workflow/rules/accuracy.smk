@@ -5,7 +5,7 @@
 def benchmark_cases():
     """The cases of the benchmark with all defaults, by name."""
     cases = config["benchmark"]["cases"]
-    solver = {key: config["solver"][key] for key in ("duration", "tolerance", "step")}
+    solver = {key: config["solver"][key] for key in ("duration", "step")}
     return {name: {**solver, **case, "model": {**config["model"], **case["model"]}} for name, case in cases.items()}
 
 
@@ -23,6 +23,7 @@ rule benchmark:
         runtime=10,
     params:
         cases=benchmark_cases(),
+        tolerance=config["solver"]["tolerance"],
         repeats=config["benchmark"]["repeats"],
         code=source_hash("benchmark"),
     message:
@@ -170,6 +171,28 @@ rule stability_estimates:
         "../../scripts/stability_estimates.py"
 
 
+rule settling_times:
+    output:
+        result("settling_times.parquet"),
+    log:
+        log_file("accuracy", "settling_times"),
+    benchmark:
+        benchmark_file("accuracy", "settling_times")
+    threads: 2
+    resources:
+        mem_mb=1000,
+        runtime=30,
+    params:
+        settings={**config["settling_times"], "settling": config["solver"]["settling"]},
+        model=config["model"],
+        tolerance=config["solver"]["tolerance"],
+        code=source_hash("settling_times"),
+    message:
+        "After how many cycles starts have settled"
+    script:
+        "../../scripts/settling_times.py"
+
+
 def entry_settings(reference):
     """All that a converged table depends on, with an axis over the amplitude where its section has no axes."""
     section, name = reference.split("/")
@@ -195,7 +218,8 @@ def drawn_tables():
 
 rule scene_budget:
     output:
-        result("scene_budget.parquet"),
+        table=result("scene_budget.parquet"),
+        times=result("budget_times.parquet"),
     log:
         log_file("accuracy", "scene_budget"),
     benchmark:
