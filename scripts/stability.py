@@ -216,7 +216,7 @@ def chatter_rows(settings: dict) -> list[dict]:
     for step in settings["chatter_steps"]:
         times = 0.1 + step * np.arange(2000)
         for method in ("euler", "event"):
-            duration = whole(times[-1], step)
+            duration = whole(times[-1] + step, step)
             run = simulate(conveyor, Start("conveyor"), duration=duration, method=method, step=step)
             slips = run.sample(times)["vx"] - conveyor_motion(conveyor, times)["vx"]
             slip = float(np.sqrt(np.mean(slips**2)))

@@ -28,7 +28,7 @@ CONVERGED = "#0072B2"
 EULER = "#D55E00"
 SECOND_ESTIMATE = "#CC79A7"  # beside CONVERGED; green means chaos elsewhere
 CONVERGED_LABEL = "converged (exact events)"
-EULER_LABEL = "paper's method (Euler, 0.5 µs)"
+EULER_LABEL = "paper's method (Euler)"
 PLATE = "#555555"
 # Curves of both methods in one panel: where they coincide, the dashes lie on the line.
 CURVES = {

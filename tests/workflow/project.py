@@ -16,6 +16,7 @@ PARTS = ("Snakefile", "workflow", "profiles", "config", "scripts")
 
 FIGURES = ("fig03", "fig08", "fig22")
 TARGETS = tuple(f"figures/{figure}.pdf" for figure in FIGURES)
+CAPTIONS = tuple(f"results/captions/{figure}.rst" for figure in FIGURES)
 # Sections that are no entries with a table each.
 SINGLE = (
     "orbits",
@@ -35,6 +36,8 @@ SINGLE = (
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}
 COARSE_PAIRS = {"axes": {"acceleration": {"num": 3}}, "duration": 0.1}
 TINY = {
+    "attractors": {"acceleration": {"num": 3}, "transient": 20, "strobes": 8},
+    "lyapunov": {"cycles": 20, "blocks": 5, "horizontal_duration": 0.2},
     "sweeps": {"amplitudes": COARSE, "amplitudes_euler": COARSE},
     "estimates": {"phase": COARSE_PAIRS, "phase_euler": COARSE_PAIRS},
 }

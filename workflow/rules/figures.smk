@@ -104,6 +104,45 @@ rule figure_costs:
         "../../scripts/figure_costs.py"
 
 
+rule readme:
+    input:
+        template="workflow/templates/README.md",
+        claims=result("claims.parquet"),
+        benchmark=result("benchmark.parquet"),
+        edge=table("critical", "edge"),
+        edge_euler=table("critical", "edge_euler"),
+        spectrum=table("lyapunov", "spectrum"),
+        cascade=table("orbits", "cascade"),
+    output:
+        "README.md" if not PREFIX else result("README.md"),
+    log:
+        log_file("docs", "readme"),
+    localrule: True
+    params:
+        figures={name: {key: entry[key] for key in ("title", "section")} for name, entry in config["figures"].items()},
+        code=source_hash("readme"),
+    message:
+        "The README"
+    script:
+        "../../scripts/readme.py"
+
+
+rule claims_page:
+    input:
+        result("claims.md"),
+    output:
+        "docs/claims.md" if not PREFIX else result("claims_page.md"),
+    log:
+        log_file("docs", "claims"),
+    localrule: True
+    params:
+        code=source_hash("copy_page"),
+    message:
+        "The page of claims that later builds are compared with"
+    script:
+        "../../scripts/copy_page.py"
+
+
 rule gallery:
     input:
         figure_files("png"),
