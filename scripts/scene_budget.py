@@ -90,7 +90,8 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     needs = "vertical" if shown.vertical else settings.get("needs", "feeding")
     if section == "sweeps" and needs == "vertical":
         shown = shown._replace(drawn=("state",), what="state", settled=True)
-    settings = settings | {"axes": observables.thinned(settings["axes"], budget["points"][section])}
+    thinned = observables.thinned(settings["axes"], budget["points"][section])
+    settings = settings | {"axes": thinned, "settling": budget["settling"]}
     _, parameters = grid.product(settings["axes"], settings["model"])
     full_settings = settings | {"needs": "feeding", "tolerance": TIGHT}
     shown.observe(settings)  # loads compiled code
