@@ -12,8 +12,17 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
-# Third-party packages whose version may change a number or a picture.
-PACKAGES = {"heyoka", "matplotlib", "numba", "numpy", "pyarrow", "pymoo", "scipy"}
+# Third-party packages whose version may change a number or a picture, by the names under which they are imported.
+PACKAGES = {
+    "flint": "python-flint",
+    "heyoka": "heyoka",
+    "matplotlib": "matplotlib",
+    "numba": "numba",
+    "numpy": "numpy",
+    "pyarrow": "pyarrow",
+    "pymoo": "pymoo",
+    "scipy": "scipy",
+}
 
 
 def imported_names(path: Path) -> Iterator[tuple[str, str | None]]:
@@ -87,5 +96,5 @@ def source_hash(*scripts: str) -> str:
         digest.update(f"{file.relative_to(SCRIPTS)}\0".encode() + file.read_bytes() + b"\0")
     for package in packages:
         if package in PACKAGES:
-            digest.update(f"{package}=={version_of(package)}\0".encode())
+            digest.update(f"{package}=={version_of(PACKAGES[package])}\0".encode())
     return digest.hexdigest()[:16]

@@ -19,6 +19,7 @@ TARGETS = tuple(f"figures/{figure}.pdf" for figure in FIGURES)
 # Sections that are no entries with a table each.
 SINGLE = (
     "orbits",
+    "certificates",
     "attractors",
     "lyapunov",
     "witnesses",

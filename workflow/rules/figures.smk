@@ -57,7 +57,8 @@ def jobs_of(reference):
     if section == "regressions":
         return jobs_of(f"critical/{config['regressions'][name]['critical']}") + [benchmark_file(section, name)]
     if section == "orbits":
-        return [benchmark_file("orbits", "orbits")]
+        proved = [benchmark_file("orbits", "certificates")] if name.startswith("certif") else []
+        return [benchmark_file("orbits", "orbits"), *proved]
     if section == "lyapunov":
         return jobs_of("attractors/strobes") + [benchmark_file(section, name)]
     if section == "wall_times":

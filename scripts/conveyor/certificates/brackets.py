@@ -19,19 +19,19 @@ SEARCHED_ARC, SEARCHES = 1e-4, 2
 
 
 class Doubling(NamedTuple):
-    """Between `low` and `high` (m/s², read as decimals) a multiplier of the orbit passes -1."""
+    """Within `acceleration` (m/s²) a multiplier of the orbit passes -1."""
 
-    low: float
-    high: float
-    ends: tuple[ProvedOrbit, ProvedOrbit]
+    acceleration: arb
+    tests: tuple[arb, arb]  # (1 + μ1)(1 + μ2) at both ends
     branch: ProvedOrbit  # over all amplitudes between them
 
 
 class Fold(NamedTuple):
     """An arc of a branch has its least amplitude within, where a multiplier is +1."""
 
-    least: arb  # encloses the least amplitude, m/s²
-    ends: tuple[tuple[arb, arb], tuple[arb, arb]]  # (1 - μ1)(1 - μ2) and (1 + μ1)(1 + μ2) at both ends of the arc
+    acceleration: arb  # encloses the least amplitude, m/s²
+    tests: tuple[arb, arb]  # (1 - μ1)(1 - μ2) at both ends of the arc
+    opposite: tuple[arb, arb]  # (1 + μ1)(1 + μ2) there
     branch: Zero  # over the whole arc
 
 
@@ -87,7 +87,7 @@ def bracket_doubling(shooting: Shooting, acceleration: float, strobes: np.ndarra
     branch = prove_orbit(shooting, between(ends[0].gamma, ends[1].gamma), strobes)
     for end in ends:
         check_within(end.zero, branch.zero)
-    return Doubling(low, high, ends, branch)
+    return Doubling(between(exactly(low), exactly(high)), tuple(end.doubling_test for end in ends), branch)
 
 
 def bracket_fold(shooting: Shooting, acceleration: float, strobes: np.ndarray, half_arc: float) -> Fold:
@@ -141,4 +141,4 @@ def bracket_fold(shooting: Shooting, acceleration: float, strobes: np.ndarray, h
     if not (folds[0][0] > 0 > folds[1][0] or folds[0][0] < 0 < folds[1][0]):
         raise Refused("1 - trace + determinant has no two different signs at the ends of the arc")
     least = between(gammas[3].lower(), gammas[2].upper()) / shooting.law.slope
-    return Fold(least, tuple(folds), branch)
+    return Fold(least, *zip(*folds, strict=True), branch)

@@ -244,11 +244,11 @@ def prove_horseshoe(
         with the reason
     """
     sets = [Parallelogram(exact(point[:, None]), exact(frame)) for point, frame in zip(points, axes, strict=True)]
-    corners = arb_mat([[UNIT], [UNIT]])
-    images = [carried(law, accuracy, gamma, nodes, part.centre, part.axes * corners) for part in sets]
-    check_covering(images[0], sets[0], sets[0])
-    for k, image in enumerate(images):
-        check_covering(image, sets[k], sets[(k + 1) % len(sets)])
     for part in sets[1:]:
         check_apart(sets[0], part)
+    for k, part in enumerate(sets):
+        image = carried(law, accuracy, gamma, nodes, part.centre, part.axes * arb_mat([[UNIT], [UNIT]]))
+        if k == 0:
+            check_covering(image, part, part)
+        check_covering(image, part, sets[(k + 1) % len(sets)])
     return Horseshoe(sets, entropy_of(len(sets)))

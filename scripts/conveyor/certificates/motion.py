@@ -22,7 +22,6 @@ MAX_PIECES, SHORTER_STEPS = 2000, 12
 class Accuracy(NamedTuple):
     """How the steps are made."""
 
-    bits: int
     order: int
     tolerance: float  # of the last terms of a step's series
 

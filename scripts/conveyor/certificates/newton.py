@@ -11,6 +11,8 @@ from .balls import Refused, middle
 
 # Corrections of an approximate zero, and enlargements of a box that is too small.
 CORRECTIONS, INFLATIONS = 8, 4
+# A correction of this size leads somewhere else.
+FARTHEST = 1.0
 
 # f(x) and f'(x), None where it is not wanted, over a ball of unknowns, and whatever else was found on the way.
 Equations = Callable[[arb_mat, bool], tuple[arb_mat, arb_mat | None, Any]]
@@ -55,6 +57,11 @@ def corrected(equations: Equations, start: arb_mat, close: float) -> tuple[arb_m
     """An approximate zero, exact, and an approximate inverse of the slope there; nothing is proved here.
 
     close : size of a correction after which no further one is made
+
+    Raises
+    ------
+    Refused
+        if there is none nearby
     """
     centre = start
     value, slope, _ = equations(centre, True)
@@ -63,6 +70,8 @@ def corrected(equations: Equations, start: arb_mat, close: float) -> tuple[arb_m
     for _ in range(CORRECTIONS):
         step = inverse * value
         size = float(max(abs(middle(entry)) for entry in step.entries()))
+        if not size < FARTHEST:
+            raise Refused("Newton's iteration finds nothing nearby")
         if not size < 0.5 * last:
             break
         last = size
@@ -93,11 +102,14 @@ def krawczyk(value: arb_mat, slope: arb_mat, inverse: arb_mat, deviation: arb_ma
     return (identity - inverse * slope) * deviation - inverse * value
 
 
-def prove(equations: Equations, centre: arb_mat, inverse: arb_mat, least: float, what: str) -> Zero:
+def prove(
+    equations: Equations, centre: arb_mat, inverse: arb_mat, least: float, what: str, radius: float | None = None
+) -> Zero:
     """Exactly one zero in a box around an exact centre.
 
     The box is twice as wide as Newton's correction, whose width a parameter with a wide ball makes, and at least as
-    wide as `least`; a box that proves nothing is enlarged where its image sticks out.
+    wide as `least`; a box that proves nothing is enlarged where its image sticks out. With a `radius` this box alone
+    is tried.
 
     Raises
     ------
@@ -105,9 +117,9 @@ def prove(equations: Equations, centre: arb_mat, inverse: arb_mat, least: float,
         with the reason
     """
     value, _, _ = equations(centre, False)
-    radii = [2 * abs(step).upper() + least for step in (inverse * value).entries()]
-    for _ in range(INFLATIONS):
-        deviation = arb_mat([[arb(0, radius)] for radius in radii])
+    radii = [2 * abs(step).upper() + least if radius is None else arb(radius) for step in (inverse * value).entries()]
+    for _ in range(INFLATIONS if radius is None else 1):
+        deviation = arb_mat([[arb(0, size)] for size in radii])
         box = centre + deviation
         _, slope, evidence = equations(box, True)
         image = krawczyk(value, slope, inverse, deviation)
@@ -116,5 +128,5 @@ def prove(equations: Equations, centre: arb_mat, inverse: arb_mat, least: float,
             return Zero(centre + image, box, evidence)
         if any(not wide.overlaps(narrow) for wide, narrow in pairs):
             raise Refused(f"there is no {what} in the box")
-        radii = [radius.max(2 * abs(narrow).upper()) for radius, (_, narrow) in zip(radii, pairs, strict=True)]
+        radii = [size.max(2 * abs(narrow).upper()) for size, (_, narrow) in zip(radii, pairs, strict=True)]
     raise Refused(f"no {what} is proved: Newton's image of the box does not lie inside it")

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, arb_mat
 
-from .balls import Refused, middle
+from .balls import Refused, bounds, middle
 from .motion import Arrival, Impact
 from .newton import Zero, corrected, exact, floats, prove
 from .shooting import AtAmplitude, Shooting
@@ -26,6 +26,16 @@ class ProvedOrbit(NamedTuple):
         """(δ, Y) at the beginning of a cycle of the period, in units of the law."""
         row = 2 * self.shooting.nodes * cycle
         return self.zero.enclosure[row, 0], self.zero.enclosure[row + 1, 0]
+
+    @property
+    def duration(self) -> arb:
+        """The period as a phase, rad."""
+        return 2 * arb.pi() * self.shooting.period
+
+    @property
+    def half_width(self) -> float:
+        """The largest half-width of the enclosure of a state at any node, in units of the law."""
+        return max(bounds(value.rad())[1] for value in self.zero.enclosure.entries())
 
     @property
     def impacts(self) -> list[Impact]:
@@ -143,3 +153,18 @@ def check_period(orbit: ProvedOrbit) -> None:
             first, later = orbit.strobe(0), orbit.strobe(period // prime)
             if all(a.overlaps(b) for a, b in zip(first, later, strict=True)):
                 raise Refused(f"its period may be {period // prime} instead of {period} cycles")
+
+
+def check_near(orbit: ProvedOrbit, strobes: np.ndarray, closeness: float) -> float:
+    """The distance between the orbit and approximate states at the beginnings of its cycles, in units of the law.
+
+    Raises
+    ------
+    Refused
+        if it is larger than `closeness`: what was proved is another orbit than the one that was meant
+    """
+    enclosed = np.array([[float(value) for value in orbit.strobe(cycle)] for cycle in range(orbit.shooting.period)])
+    distance = float(np.abs(enclosed - strobes).max())
+    if not distance <= closeness:
+        raise Refused(f"the orbit that is proved lies {distance:.1e} away, in g/ω² and g/ω: it is another one")
+    return distance

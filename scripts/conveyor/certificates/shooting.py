@@ -14,6 +14,9 @@ from .balls import middle
 from .law import Law
 from .motion import Accuracy, Arrival, follow
 
+# Nodes in an excitation cycle: the contact of a riding part rings about five times in it.
+NODES = 8
+
 
 class Shooting(NamedTuple):
     """The orbits of `period` excitation cycles, cut at `nodes` phases of each."""
