@@ -117,7 +117,7 @@ def orbits_to_prove(settings: dict, branches: pd.DataFrame, cascade: pd.DataFram
     parameters, wanted = parameters_of(settings), amplitudes(settings)
     lines = stored_lines(branches, settings["longest_period"])
     periods = int(branches.period.max()), settings["longest_period"]
-    more = doubled_lines(parameters, cascade, periods, (wanted[0] - 0.1, wanted[-1] + 0.1))
+    more = doubled_lines(parameters, cascade, periods, (wanted[0], settings["doubled_limit"]))
     lines |= dict(enumerate(more, start=int(branches.branch.max()) + 1))
     return [
         found

@@ -140,8 +140,9 @@ def _press(law: Law, made: taylor.Step, here: _Contact, end: arb) -> tuple[arb, 
     for _ in range(SHORTER_STEPS):
         # A shorter step may end where w and the phase have a sign.
         try:
-            separation = first_root(w, slope, length, here.w.is_zero(), "the penetration of a contact")
-            reach = length if separation is None else separation[0]
+            found = first_root(w, slope, length, here.w.is_zero(), "the penetration of a contact")
+            separation = None if found is None else sharpen(w, slope, *found)
+            reach = length if separation is None else separation.lower()
             # dφ/ds = w > 0 up to here: the phase is reached at most once.
             arrival = None if ahead(reach) > 0 else _arrival(w, ahead, pace, reach)
         except Refused as refused:
@@ -152,10 +153,9 @@ def _press(law: Law, made: taylor.Step, here: _Contact, end: arb) -> tuple[arb, 
             return arrival, "end"
         if separation is None:
             return length, "step"
-        root = sharpen(w, slope, *separation)
-        if not ahead(root) > 0:
+        if not ahead(separation) > 0:
             raise Refused("a separation lies at the section")
-        return root, "separation"
+        return separation, "separation"
     raise refusal
 
 
