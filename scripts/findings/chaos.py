@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 
+from findings import proofs
 from findings.finding import Finding, lowest, onset
 
 LONGEST_PERIOD = 64  # excitation cycles
@@ -33,7 +34,7 @@ def no_period(tables: dict[str, pd.DataFrame]) -> Finding:
         f"{100 * distance:.2g} % of their extent, after {period} cycles ({method})"
         for method, (distance, period) in (("Euler", nearest["published"]), ("converged", nearest["converged"]))
     )
-    return Finding(*shares, reason)
+    return Finding(*shares, reason + proofs.chaotic(tables))
 
 
 def irregular(tables: dict[str, pd.DataFrame]) -> Finding:
@@ -78,7 +79,7 @@ def phase_estimate(tables: dict[str, pd.DataFrame]) -> Finding:
         f"between {found['published']:g} and {found['converged']:g} m/s² the estimate is positive at {texts[0]} and at "
         f"{texts[1]}, and {100 * (settled.period > 0).mean():.0f} % settle to a period; {of_perturbations(tables)}"
     )
-    return Finding((found["published"],), (found["converged"],), reason)
+    return Finding((found["published"],), (found["converged"],), reason + proofs.regular(tables, found["published"]))
 
 
 def of_perturbations(tables: dict[str, pd.DataFrame]) -> str:

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pandas as pd
 
+from findings import proofs
 from findings.finding import NONE, Finding, highest, lowest, onset
 
 MM = 1e3
@@ -46,7 +47,7 @@ def interval(tables: dict[str, pd.DataFrame]) -> Finding:
     if "tension" in tables:
         found = readings(tables["tension"], lambda rows: "{:g} to {:g} m/s²".format(*two_states(rows)))
         reason += f"; by the reading of a contact force that pulls, with two starts only: {found}"
-    return Finding(published, converged, reason)
+    return Finding(published, converged, reason + proofs.both_states(tables))
 
 
 def scatter_onset(table: pd.DataFrame, spread: float = 0.05) -> float:
@@ -82,7 +83,7 @@ def onset_of_chaos(tables: dict[str, pd.DataFrame]) -> Finding:
         reason += (
             f", while in between {100 * (between.period > 0).mean():.0f} % of the starts settle to a period ({periods})"
         )
-    return Finding((scatter,), (chaos,), reason)
+    return Finding((scatter,), (chaos,), reason + proofs.regular(tables, scatter))
 
 
 def critical_at(table: pd.DataFrame, acceleration: float) -> float:
