@@ -115,9 +115,8 @@ is `figures/certificates.pdf`. All numbers on this page come from the tables of 
 - **Numbers**: those of the config, each the decimal that is written, not the nearest float: 0.3 is 3/10, 0.7e-3 is
   7/10000, g = 9.81 is 981/100, and the angle of throw is 12° = π/15 exactly. So are the amplitudes. Where columns of
   a table end in `_low` and `_high` they are floats, rounded outwards.
-- One solution: at an impact and at a separation with a speed the right-hand side is Lipschitz on either side and
-  crossed, so that each start has exactly one motion. Speeds are proved positive there; an impact without speed
-  (grazing) is refused.
+- One solution: written for δ and Y = δ̇ + (d_c/m) max(δ, 0) the rates are Lipschitz, so that each start has exactly
+  one motion. They are smooth but at δ = 0, which is crossed with a speed, by proof; an orbit that grazes is refused.
 
 ## Periodic orbits
 

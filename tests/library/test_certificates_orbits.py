@@ -7,7 +7,7 @@ import pytest
 from flint import arb, arb_mat
 
 from conveyor import lyapunov, orbits
-from conveyor.certificates import covering
+from conveyor.certificates import brackets, covering
 from conveyor.certificates.balls import Refused, bounds, exactly, precision
 from conveyor.certificates.brackets import bracket_doubling, bracket_fold
 from conveyor.certificates.law import law_of
@@ -155,9 +155,12 @@ def test_the_doubling_is_bracketed(branch):
     assert found.tests[0] > 0 > found.tests[1]
 
 
-def test_no_doubling_is_bracketed_where_there_is_none(jumping):
-    """The secants of the search leave the branch, or the signs at the ends are equal."""
+def test_no_doubling_is_bracketed_where_there_is_none(jumping, monkeypatch):
+    """Far from a doubling the search leads nowhere; without a search the signs at the ends are equal."""
     with pytest.raises(Refused):
+        bracket_doubling(shooting(1), 40.0, jumping, 1e-9)
+    monkeypatch.setattr(brackets, "SECANT_STEPS", 0)
+    with pytest.raises(Refused, match="no two different signs"):
         bracket_doubling(shooting(1), 40.0, jumping, 1e-9)
 
 
@@ -170,8 +173,16 @@ def test_the_fold_is_bracketed(branch):
     assert not found.tests[0].overlaps(found.tests[1])
 
 
-def test_no_fold_is_bracketed_where_there_is_none(jumping):
+def test_no_fold_is_bracketed_where_there_is_none(jumping, branch, monkeypatch):
+    """Nor where the arc lies beside the turn, or is so long that it is not proved."""
     with pytest.raises(Refused):
+        bracket_fold(shooting(1), 40.0, jumping, 1e-6)
+    orbit = bifurcation(branch, "fold")
+    start = strobes(orbit.acceleration, orbit.state, 1)
+    with pytest.raises(Refused):
+        bracket_fold(shooting(1), orbit.acceleration, start, 0.1)
+    monkeypatch.setattr(brackets, "SEARCHES", 0)
+    with pytest.raises(Refused, match="not least within the arc"):
         bracket_fold(shooting(1), 40.0, jumping, 1e-6)
 
 
@@ -203,10 +214,11 @@ def test_a_horseshoe_is_proved(horseshoe_plan):
 
 def test_a_false_horseshoe_is_refused(horseshoe_plan):
     centres, axes = horseshoe_plan
-    with pytest.raises(Refused, match="unstable sides"):
+    with pytest.raises(Refused, match="beyond both unstable sides"):
         horseshoe(centres[[0, *range(2, len(centres))]], [axes[0], *axes[2:]])
-    with pytest.raises(Refused, match="stable sides"):
-        horseshoe(centres, [frame[:, ::-1] for frame in axes])
+    flat = [axes[0], axes[1] * [1.0, 1e-3], *axes[2:]]
+    with pytest.raises(Refused, match="between the stable sides"):
+        horseshoe(centres, flat)
     with pytest.raises(Refused, match="disjoint"):
         horseshoe(centres[[0, 0, *range(1, len(centres))]], [axes[0], axes[0], *axes[1:]])
 

@@ -175,6 +175,12 @@ def test_remainder_holds_what_a_short_series_leaves_out():
     assert abs(left_out) <= short.remainders[taylor.Y]
 
 
+def test_series_are_not_cut_off_unseen():
+    law = law_of(Conveyor())
+    with precision(128, 16), pytest.raises(ValueError, match="series of order 24 in a context for 16"):
+        follow(law, FINE, law.gamma(arb(40)), arb(0), arb(1), arb(1), arb(1))
+
+
 def test_grazing_is_refused():
     """A flight whose gap touches zero from above, and a box of flights of which some hit and some miss."""
     gamma, touch = arb(3), arb.pi()
@@ -220,9 +226,10 @@ def test_numbers_are_read_as_decimals():
 
 
 def test_floats_are_rounded_outwards():
-    third = arb(1) / 3
-    low, high = bounds(third)
-    assert arb(low) < third < arb(high)
-    assert high == math.nextafter(low, 1.0)
+    """The nearest float of 1/3 is below it, that of 1/10 above."""
+    for number in (arb(1) / 3, arb(1) / 10):
+        low, high = bounds(number)
+        assert arb(low) < number < arb(high)
+        assert high == math.nextafter(low, 1.0)
     assert bounds(arb(0.25)) == (0.25, 0.25)
     assert between(arb(0), arb(1)).contains(0.5)

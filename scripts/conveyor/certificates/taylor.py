@@ -20,7 +20,7 @@ on Σ |f_n| hⁿ survives the limit of the coefficients.
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from flint import arb, arb_mat, arb_poly, arb_series
+from flint import arb, arb_mat, arb_poly, arb_series, ctx
 
 from .balls import Refused
 from .law import Law
@@ -114,7 +114,14 @@ def expand(law: Law, gamma: arb, start: Sequence[arb], columns: int, order: int)
     """The exact series of the solutions from all points of `start`, up to an order, in balls.
 
     Each of Picard's iterations makes one more coefficient exact, and computes the earlier ones as before.
+
+    Raises
+    ------
+    ValueError
+        where the context (see balls.precision) cuts series off before the order: the remainder would be wrong
     """
+    if ctx.cap <= order:
+        raise ValueError(f"series of order {order} in a context for {ctx.cap - 1}")
     series = [arb_series([value], prec=1) for value in start]
     constants = [arb_series([value], prec=order + 1) for value in start]
     for _ in range(order):
