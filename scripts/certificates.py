@@ -4,6 +4,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import suppress
 from multiprocessing import get_context
 from types import SimpleNamespace
 from typing import NamedTuple
@@ -69,17 +70,21 @@ def known(branch: int, returns: ReturnMap, unknown: np.ndarray) -> Known:
 
 
 def crossings(parameters: np.ndarray, branch: int, line: Line, acceleration: float) -> list[Known]:
-    """The orbits of a branch at an amplitude, none twice: a branch may come by an orbit in several of its cycles."""
+    """The orbits of a branch at an amplitude, none twice: a branch may come by an orbit in several of its cycles.
+
+    Where floating point finds none from the neighbours on the branch, their mean is taken: the proof says why it fails.
+    """
     returns, found = ReturnMap(parameters, line.period), []
     above = line.points[:, 2] > acceleration
     for i in np.flatnonzero(above[1:] != above[:-1]):
         begin, end = line.points[i : i + 2]
         point = begin + (acceleration - begin[2]) / (end[2] - begin[2]) * (end - begin)
-        unknown = returns.newton(returns.scaled(acceleration, point[:2]))
-        if unknown is not None:
-            distances = [np.abs(other.strobes - unknown[:2]).max(axis=1).min() for other in found]
-            if min(distances, default=np.inf) > orbits.SAME:
-                found.append(known(branch, returns, unknown))
+        guess = returns.scaled(acceleration, point[:2])
+        unknown = returns.newton(guess)
+        unknown = guess if unknown is None else unknown
+        distances = [np.abs(other.strobes - unknown[:2]).max(axis=1).min() for other in found]
+        if min(distances, default=np.inf) > orbits.SAME:
+            found.append(known(branch, returns, unknown))
     return found
 
 
@@ -136,15 +141,15 @@ def ends(name: str, ball, unit=1) -> dict[str, float]:
 def certificate(units: Law, orbit: ProvedOrbit | None) -> dict:
     """The columns of an orbit that is proved; nulls for None."""
     columns = {}
-    if orbit is None:
-        delta = v = duration = contact = trace = determinant = phase = speed = None
-        multipliers = [(None, None)] * 2
-    else:
+    delta = v = duration = contact = trace = determinant = phase = speed = None
+    multipliers = [(None, None)] * 2
+    if orbit is not None:
         delta, y = orbit.strobe(0)
         v = y - units.beta * delta if delta > 0 else y
         duration, contact = orbit.duration / units.omega, orbit.contact / units.omega
         trace, determinant = orbit.trace, orbit.determinant
-        multipliers = orbit.multipliers()
+        with suppress(Refused):
+            multipliers = orbit.multipliers()
         first = orbit.impacts[0] if orbit.impacts else None
         phase, speed = (first.phase, first.speed) if first else (None, None)
     columns |= ends("delta", delta, units.length) | ends("v", v, units.speed)

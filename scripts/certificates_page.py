@@ -53,11 +53,14 @@ def listed(values) -> str:
 
 def bifurcations(table: pd.DataFrame) -> str:
     """Brackets of folds and doublings, as a table."""
-    lines = ["| Bifurcation | Orbit | Amplitude in m/s², between | Stored |", "|---|---|---|---|"]
+    lines = [
+        "| Bifurcation | Period of the orbit in cycles | Amplitude in m/s², within | In floating point |",
+        "|---|---|---|---|",
+    ]
     for row in table.itertuples():
         kind = "fold" if row.kind == "fold" else "period doubling"
         amplitude = digits(row.acceleration_low, row.acceleration_high) if row.proved else f"refused: {row.reason}"
-        lines.append(f"| {kind} {row.number} | {row.period} cycles | {amplitude} | {row.stored_acceleration:.10f} |")
+        lines.append(f"| {kind} {row.number} | {row.period} | {amplitude} | {row.stored_acceleration:.10f} |")
     return "\n".join(lines)
 
 
@@ -104,7 +107,8 @@ Other pages of this project compute; this one lists theorems. Each says that som
 of the model, with no error of rounding, of truncation, or of an iteration that was stopped. They are proved by the
 rule `certificates` (`snakemake results/orbits/certificates.parquet`) with interval arithmetic: every number is a ball
 that contains the exact one, and every formula is evaluated so that the result contains all exact results. The figure
-is `figures/certificates.pdf`. All numbers on this page come from the tables of that rule.
+is `figures/certificates.pdf`. All numbers on this page come from the tables of that rule. In `results/claims.md` the
+statements on two states (C02), on regular motion (C03, C19) and on chaos (C15) quote them.
 
 ## The model that the theorems are about
 
