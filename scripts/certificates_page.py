@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor import tables
+from findings.proofs import stable_motions
 from rule_log import logged
 
 
@@ -43,8 +44,8 @@ def refused(orbits: pd.DataFrame) -> str:
 
 def both_stable(orbits: pd.DataFrame) -> list[float]:
     """Amplitudes (m/s²) at which at least two stable motions are proved."""
-    found = orbits[orbits.stability == "stable"].groupby("acceleration").size()
-    return [float(acceleration) for acceleration in found.index[found >= 2]]
+    counts = stable_motions(orbits)
+    return [float(acceleration) for acceleration in counts.index[counts >= 2]]
 
 
 def listed(values) -> str:
@@ -136,8 +137,8 @@ from the proved ones.
 
 {counts(orbits)}
 
-**Two stable motions coexist** at {listed(both_stable(orbits))} m/s²: two different orbits are proved to be stable
-there.
+**Two stable motions coexist** at {listed(both_stable(orbits))} m/s²: orbits that are proved to be stable, and to differ
+by their times in contact.
 
 ## Fold and doublings
 

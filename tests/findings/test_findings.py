@@ -147,7 +147,16 @@ def test_onset_of_chaos_by_scatter_and_by_state():
 
 
 def certificates(*stable):
-    return pd.DataFrame({"acceleration": stable, "stability": "stable"})
+    """Stable orbits at amplitudes, all different."""
+    contact = np.linspace(0.01, 0.02, len(stable))
+    return pd.DataFrame(
+        {
+            "acceleration": stable,
+            "stability": "stable",
+            "contact_time_low": contact - 1e-9,
+            "contact_time_high": contact + 1e-9,
+        }
+    )
 
 
 def test_what_is_proved_is_told():
@@ -165,6 +174,11 @@ def test_what_is_proved_is_told():
     assert "is proved at 80 m/s²" in proofs.chaotic({"horseshoes": horseshoes})
     assert [proofs.both_states({}), proofs.regular({}, 0.0), proofs.chaotic({})] == ["", "", ""]
     assert proofs.regular({"certificates": proved}, 60.0) == ""
+
+
+def test_one_orbit_twice_is_not_two_motions():
+    once = certificates(30.0)
+    assert proofs.both_states({"certificates": pd.concat([once, once])}) == ""
 
 
 def test_statements_name_what_is_proved():
