@@ -111,6 +111,10 @@ def bifurcation(tables: Tables, settings: dict) -> dict[str, str]:
     }
 
 
+def longest_period(tables: Tables, settings: dict) -> dict[str, str]:
+    return {"longest_period": str(settings["longest_period"])}
+
+
 def rigid_part(tables: Tables, settings: dict) -> dict[str, str]:
     table = tables["rigid"]
     contact = table[(table.model == "contact") & (table.kind == "velocity")]
@@ -143,6 +147,7 @@ NUMBERS: dict[str, Callable[[Tables, dict], dict[str, str]]] = {
     "fig23": fig23,
     "fig24": fig24,
     "bifurcation": bifurcation,
+    "certificates": longest_period,
     "rigid_part": rigid_part,
     "settling": settling,
     "stability": stability_maps,

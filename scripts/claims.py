@@ -92,9 +92,9 @@ def columns(claims: dict[str, dict], found: dict[str, Finding]) -> dict[str, lis
 
 
 def schema(reference: str) -> str:
-    """The schema of the table SECTION/NAME; those of the section `results` have one of their own."""
+    """The schema of the table SECTION/NAME; those of the sections `results` and `orbits` have one of their own each."""
     section, name = reference.split("/")
-    return name if section == "results" else section
+    return name if section in ("results", "orbits") else section
 
 
 def report(rows: pd.DataFrame) -> str:

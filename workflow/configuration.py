@@ -15,7 +15,15 @@ ROOT = Path(__file__).resolve().parent.parent
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 # Sections that make tables of their own, instead of one for each of their entries.
 TABLES = {
-    "orbits": ("branches", "folds_and_doublings", "cascade"),
+    "orbits": (
+        "branches",
+        "folds_and_doublings",
+        "cascade",
+        "certificates",
+        "certified_bifurcations",
+        "certified_chaos",
+        "certificate_times",
+    ),
     "attractors": ("strobes",),
     "lyapunov": ("spectrum", "witnesses"),
     "results": (

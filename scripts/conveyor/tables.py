@@ -88,6 +88,20 @@ ORBIT = (
     number("longest_flight", "1", "longest flight, in excitation cycles"),
 )
 
+
+def ends(name: str, unit: str, description: str) -> tuple[pa.Field, pa.Field]:
+    """Two columns: the ends of an interval that holds a number by proof, rounded outwards."""
+    return (
+        number(f"{name}_low", unit, f"{description}: no larger than it, by proof; null where nothing is proved"),
+        number(f"{name}_high", unit, f"{description}: no smaller than it, by proof"),
+    )
+
+
+ARITHMETIC = (
+    count("bits", "bits of the arithmetic"),
+    count("order", "order of the Taylor series"),
+)
+
 RUN = (
     text("method", "event, a fixed-step method, or one of scipy's integrators"),
     text(
@@ -121,6 +135,69 @@ COLUMNS = {
         number("ratio", "1", "distance to the doubling before over that to the one behind (Feigenbaum: 4.669…)"),
         number("accumulation", "m/s²", "where the doublings so far accumulate, by Aitken's process"),
         number("accumulation_error", "m/s²", "how far the last doubling moved it"),
+    ),
+    "certificates": (
+        count("branch", "number of the branch; those above the stored ones are longer orbits of the cascade"),
+        count("period", "excitation cycles; the least period, if the orbit is proved"),
+        number("acceleration", "m/s²", "amplitude of the excitation, the decimal that is written"),
+        flag("contained", "whether exactly one orbit is proved in a box around the stored one"),
+        text("reason", "why not; null where it is"),
+        text("stability", "proved: stable or unstable; else open"),
+        count("impacts", "impacts in a period, proved if the orbit is"),
+        number(
+            "stored_delta",
+            "m",
+            "penetration at the phase ψ0 of the orbit in floating point, found from the stored ones",
+        ),
+        number("stored_v", "m/s", "its speed of approach there"),
+        *ends("delta", "m", "penetration at the phase ψ0"),
+        *ends("v", "m/s", "speed of approach at the phase ψ0"),
+        *ends("impact_phase", "rad", "phase of the first impact after it"),
+        *ends("impact_speed", "m/s", "speed of approach at the first impact"),
+        *ends("duration", "s", "the period"),
+        *ends("contact_time", "s", "time with contact force in a period"),
+        *ends("trace", "1", "sum of the Floquet multipliers"),
+        *ends("determinant", "1", "their product, exp(-(d_c/m) contact_time)"),
+        *ends("multiplier_1_real", "1", "multiplier of larger modulus, real part; null where it is open which that is"),
+        *ends("multiplier_1_imag", "1", "imaginary part"),
+        *ends("multiplier_2_real", "1", "the other one, real part"),
+        *ends("multiplier_2_imag", "1", "imaginary part"),
+        number("half_width", "1", "largest half-width of an enclosure of a state, in g/ω² and g/ω"),
+        number("distance", "1", "of the stored orbit from the enclosed one, in g/ω² and g/ω"),
+        *ARITHMETIC,
+    ),
+    "certified_bifurcations": (
+        text("kind", "fold or period_doubling"),
+        count("number", "number of its kind"),
+        count("period", "excitation cycles of the orbit that folds or doubles"),
+        flag("proved", "whether it is"),
+        text("reason", "why not; null where it is"),
+        number("stored_acceleration", "m/s²", "amplitude that was computed in floating point"),
+        *ends("acceleration", "m/s²", "amplitude of the bifurcation"),
+        *ends(
+            "test_begin",
+            "1",
+            "(1 ∓ μ1)(1 ∓ μ2) of a fold (-) or doubling (+) at the lower amplitude or first end of the arc",
+        ),
+        *ends("test_end", "1", "the same at the higher amplitude or the other end"),
+        *ARITHMETIC,
+    ),
+    "certified_chaos": (
+        number("acceleration", "m/s²", "amplitude of the excitation, the decimal that is written"),
+        flag("proved", "whether covering relations that make chaos are proved"),
+        text("reason", "why not; null where they are"),
+        count("sets", "parallelograms; an excursion from the first one and back takes as many excitation cycles"),
+        number("entropy", "1", "topological entropy per excitation cycle: no larger than it, by proof"),
+        number("delta", "m", "penetration at the phase ψ0 of the orbit of one cycle in the first parallelogram"),
+        number("v", "m/s", "its speed of approach there"),
+        *ARITHMETIC,
+    ),
+    "certificate_times": (
+        text("kind", "table of what was proved"),
+        number("acceleration", "m/s²", "amplitude of the excitation"),
+        count("period", "excitation cycles"),
+        count("impacts", "impacts in a period"),
+        number("seconds", "s", "wall time; it differs from run to run"),
     ),
     "strobes": (
         text("branch", "up: the amplitude grew step by step; down: it fell"),

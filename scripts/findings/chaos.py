@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 
+from findings import proofs
 from findings.finding import METHODS, NONE, Finding, by_both, lowest, onset, told
 
 LONGEST_PERIOD = 64  # excitation cycles
@@ -32,7 +33,7 @@ def no_period(tables: dict[str, pd.DataFrame]) -> Finding:
         for method, (distance, period) in nearest.items()
     )
     shares = ({"share": float(np.mean([distance > BACK for distance, _ in found]))} for found in returns.values())
-    return Finding(*shares, note)
+    return Finding(*shares, note + proofs.chaotic(tables))
 
 
 def irregular(tables: dict[str, pd.DataFrame]) -> Finding:
@@ -77,7 +78,8 @@ def phase_estimate(tables: dict[str, pd.DataFrame]) -> Finding:
         f"between {told(found['euler'])} and {told(found['converged'])} the estimate is positive at {texts[0]} and at "
         f"{texts[1]}, and {100 * (settled.period > 0).mean():.0f} % settle to a period; {of_perturbations(tables)}"
     )
-    return Finding(*({"amplitude": found[method]} for method in METHODS), note)
+    proved = proofs.regular(tables, found["euler"])
+    return Finding(*({"amplitude": found[method]} for method in METHODS), note + proved)
 
 
 def of_perturbations(tables: dict[str, pd.DataFrame]) -> str:

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 import pandas as pd
 
+from findings import proofs
 from findings.finding import METHODS, NONE, Finding, by_both, highest, lowest, onset, told
 
 MM = 1e3
@@ -46,7 +47,7 @@ def interval(tables: dict[str, pd.DataFrame]) -> Finding:
     if "tension" in tables:
         found = readings(tables["tension"], lambda rows: "{:g} to {:g} m/s²".format(*two_states(rows)))
         note += f"; by the reading of a contact force that pulls, with two starts only: {found}"
-    return Finding(ends["euler"], ends["converged"], note)
+    return Finding(ends["euler"], ends["converged"], note + proofs.both_states(tables))
 
 
 def scatter_onset(table: pd.DataFrame, spread: float = 0.05) -> float:
@@ -81,7 +82,8 @@ def onset_of_chaos(tables: dict[str, pd.DataFrame]) -> Finding:
         note += (
             f", while in between {100 * (between.period > 0).mean():.0f} % of the starts settle to a period ({periods})"
         )
-    return Finding(*({"onset": scatter[method]} for method in METHODS), note)
+    proved = proofs.regular(tables, scatter["converged"])
+    return Finding(*({"onset": scatter[method]} for method in METHODS), note + proved)
 
 
 def critical_at(table: pd.DataFrame, acceleration: float) -> float:

@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 import claims
-from findings import chaos, states
+from findings import chaos, proofs, states
 from findings.finding import Finding, onset
 
 AMPLITUDES = np.arange(20.0, 91.0)
@@ -168,6 +168,47 @@ def test_onset_of_chaos_by_scatter_and_by_state():
     assert "in between 100 % of the starts settle to a period (period 1 for 100 %)" in finding.note
     late = sweep(lambda a, z: "chaos" if a >= 50.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
     assert "nan" not in states.onset_of_chaos(both(late)).note
+
+
+def certificates(*stable):
+    """Stable orbits at amplitudes, all different."""
+    contact = np.linspace(0.01, 0.02, len(stable))
+    return pd.DataFrame(
+        {
+            "acceleration": stable,
+            "stability": "stable",
+            "contact_time_low": contact - 1e-9,
+            "contact_time_high": contact + 1e-9,
+        }
+    )
+
+
+def test_what_is_proved_is_told():
+    """Two stable orbits at 30 and at 40 m/s², one at 56 m/s²; open ones do not count."""
+    proved = pd.concat(
+        [certificates(30.0, 30.0, 40.0, 40.0, 56.0), certificates(45.0, 45.0, 70.0).assign(stability="open")]
+    )
+    assert "two stable motions are proved at 2 amplitudes from 30 to 40 m/s²" in proofs.both_states(
+        {"certificates": proved}
+    )
+    assert "a stable periodic motion is proved at 1 amplitudes from 56 to 56 m/s²" in proofs.regular(
+        {"certificates": proved}, 55.0
+    )
+    horseshoes = pd.DataFrame({"acceleration": [65.0, 80.0], "proved": [False, True]})
+    assert "is proved at 80 m/s²" in proofs.chaotic({"horseshoes": horseshoes})
+    assert [proofs.both_states({}), proofs.regular({}, 0.0), proofs.chaotic({})] == ["", "", ""]
+    assert proofs.regular({"certificates": proved}, 60.0) == ""
+
+
+def test_one_orbit_twice_is_not_two_motions():
+    once = certificates(30.0)
+    assert proofs.both_states({"certificates": pd.concat([once, once])}) == ""
+
+
+def test_statements_name_what_is_proved():
+    table = sweep(lambda a, z: "second" if a > 47.0 or (a >= 29.0 and z > 0.0) else "first")
+    tables = {**both(table), "certificates": certificates(30.0, 30.0)}
+    assert states.interval(tables).note.endswith("(docs/certificates.md)")
 
 
 def test_critical_heights_are_read_between_amplitudes():

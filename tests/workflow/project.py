@@ -20,6 +20,7 @@ CAPTIONS = tuple(f"results/captions/{figure}.rst" for figure in FIGURES)
 # Sections that are no entries with a table each.
 SINGLE = (
     "orbits",
+    "certificates",
     "attractors",
     "lyapunov",
     "witnesses",

@@ -34,7 +34,7 @@ rule check_results:
     input:
         claims=result("claims.parquet"),
         random_points=result("random_points.parquet"),
-        orbits=[table("orbits", name) for name in ("branches", "folds_and_doublings", "cascade")],
+        orbits=[table("orbits", name) for name in TABLES["orbits"]],
         exponents=[table("lyapunov", name) for name in ("spectrum", "witnesses")],
         accuracy=[
             *(table("precision", scene) for scene in config["precision"]["scenes"]),

@@ -3,7 +3,7 @@ import json
 import math
 from pathlib import Path
 
-from workflow.configuration import count_points, entry_of, resolve
+from workflow.configuration import TABLES, count_points, entry_of, resolve
 from workflow.source_hash import source_hash
 
 # "" or "NAME/": a config with a prefix keeps its results apart.

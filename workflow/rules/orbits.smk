@@ -33,6 +33,52 @@ rule orbits:
         "../../scripts/orbits.py"
 
 
+# Wall times differ from run to run and have a table of their own; the others have equal bytes every time.
+rule certificates:
+    input:
+        branches=table("orbits", "branches"),
+        folds_and_doublings=table("orbits", "folds_and_doublings"),
+        cascade=table("orbits", "cascade"),
+    output:
+        certificates=table("orbits", "certificates"),
+        certified_bifurcations=table("orbits", "certified_bifurcations"),
+        certified_chaos=table("orbits", "certified_chaos"),
+        times=table("orbits", "certificate_times"),
+    log:
+        log_file("orbits", "certificates"),
+    benchmark:
+        benchmark_file("orbits", "certificates")
+    threads: 2
+    resources:
+        mem_mb=1500,
+        runtime=60,
+    params:
+        settings={**config["certificates"], "model": of_sections("orbits")["model"]},
+        code=source_hash("certificates"),
+    message:
+        "Orbits, bifurcations and chaos, proved"
+    script:
+        "../../scripts/certificates.py"
+
+
+rule certificates_page:
+    input:
+        certificates=table("orbits", "certificates"),
+        certified_bifurcations=table("orbits", "certified_bifurcations"),
+        certified_chaos=table("orbits", "certified_chaos"),
+    output:
+        "docs/certificates.md" if not PREFIX else result("certificates.md"),
+    log:
+        log_file("docs", "certificates"),
+    localrule: True
+    params:
+        code=source_hash("certificates_page"),
+    message:
+        "What is proved, in words"
+    script:
+        "../../scripts/certificates_page.py"
+
+
 rule attractors:
     output:
         table("attractors", "strobes"),
