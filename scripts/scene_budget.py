@@ -91,7 +91,7 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     if section == "sweeps" and needs == "vertical":
         shown = shown._replace(drawn=("state",), what="state", settled=True)
     thinned = observables.thinned(settings["axes"], budget["points"][section])
-    settings = settings | {"axes": thinned, "settling": budget["settling"]}
+    settings = settings | {"axes": thinned} | budget["shortened"].get(section, {})
     _, parameters = grid.product(settings["axes"], settings["model"])
     full_settings = settings | {"needs": "feeding", "tolerance": TIGHT}
     shown.observe(settings)  # loads compiled code
