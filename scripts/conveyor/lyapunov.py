@@ -12,9 +12,9 @@ import numpy as np
 from . import contact, euler_lanes, fixed_step, stretching, stroboscope, trajectory
 from .horizontal import SAMPLES
 from .jit import kernel
-from .model import FREQUENCY, FRICTION, unpack
+from .model import FREQUENCY
 from .parallel import for_each_chunk
-from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, simulate
+from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE
 
 
 class Spectrum(NamedTuple):
@@ -114,24 +114,6 @@ def spectrum(
     lambda_1, lambda_2 = (values / period[:, None]).T
     contact_fraction = contact_times.mean(axis=1) / period
     return Spectrum(lambda_1, lambda_2, errors[:, 0] / period, contact_fraction, np.array(trajectory.STATUS)[codes])
-
-
-def horizontal_exponent(parameters: np.ndarray, *, duration: float, last: float, tolerance: float) -> float:
-    """Exponent (1/s) of a perturbation of ẋ_p alone, over the last part of a run.
-
-    While the part slips one way such a perturbation stays as it is. A slip reversal multiplies it by
-    u̇⁺/u̇⁻ = (|ẍ_s| - μF_c/m) / (|ẍ_s| + μF_c/m); a stick erases it, and the exponent is -infinity.
-    """
-    conveyor, start = unpack(parameters)
-    run = simulate(conveyor, start, duration=duration, tolerance=tolerance)
-    events = run.events[run.events["time"] >= (1.0 - last) * duration]
-    if (events["kind"] == "stick").any():
-        return -math.inf
-    times = events["time"][events["kind"] == "slip reversal"]
-    omega = 2.0 * math.pi * conveyor.frequency
-    plate = np.abs(conveyor.acceleration * math.cos(conveyor.angle) * np.cos(omega * times + conveyor.psi0))
-    rub = parameters[FRICTION] * run.sample(times)["contact_force"] / conveyor.mass
-    return float(np.sum(np.log(np.abs((plate - rub) / (plate + rub)))) / (last * duration))
 
 
 def renormalised_pair(

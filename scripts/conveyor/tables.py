@@ -214,7 +214,6 @@ COLUMNS = {
         number("lambda_2", "1/s", "smaller vertical Lyapunov exponent"),
         number("stderr", "1/s", "standard error of lambda_1, from means over blocks"),
         number("contact_fraction", "1", "share of the time with contact force; λ1 + λ2 = -(d_c/m) times it"),
-        number("lambda_x", "1/s", "exponent of a perturbation of ẋ_p; -infinity where a stick erases it"),
         text("status", "ok, or why there is no result"),
     ),
     "witnesses": (
