@@ -1,11 +1,10 @@
 """Lyapunov exponents: the trace identity, an independent pair of trajectories, known limits, and what rides."""
 
-import math
 
 import numpy as np
 import pytest
 
-from conveyor import Conveyor, Start, lyapunov, simulate
+from conveyor import Conveyor, Start, lyapunov
 from conveyor.model import pack
 
 DECAY = Conveyor().damping / Conveyor().mass
