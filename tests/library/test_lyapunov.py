@@ -1,6 +1,5 @@
 """Lyapunov exponents: the trace identity, an independent pair of trajectories, known limits, and what rides."""
 
-
 import numpy as np
 import pytest
 
