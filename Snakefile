@@ -18,11 +18,15 @@ report: "workflow/report/workflow.rst"
 
 include: "workflow/rules/common.smk"
 include: "workflow/rules/sweeps.smk"
-include: "workflow/rules/analysis.smk"
+include: "workflow/rules/motion.smk"
 include: "workflow/rules/orbits.smk"
+include: "workflow/rules/dimensions.smk"
+include: "workflow/rules/fit.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/claims.smk"
+include: "workflow/rules/docs.smk"
+include: "workflow/rules/make.smk"
 
 
 rule all:

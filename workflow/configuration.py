@@ -27,6 +27,9 @@ TABLES = {
     "attractors": ("strobes",),
     "lyapunov": ("spectrum", "witnesses"),
     "results": (
+        "claims",
+        "benchmark",
+        "random_points",
         "estimators",
         "stability",
         "stability_estimates",
@@ -141,16 +144,21 @@ def entry_of(config: dict, reference: str) -> dict | None:
     return entries.get(name) if isinstance(entries, dict) else None
 
 
+def kind_of(reference: str) -> str:
+    """The kind of the table SECTION/NAME: sections that make tables of their own have one for each."""
+    section, name = reference.split("/")
+    return name if section in TABLES else section
+
+
 @cache
 def finding_names() -> frozenset[str]:
-    """MODULE.FUNCTION of all functions of scripts/findings that give a Finding."""
+    """MODULE.FUNCTION of all functions of scripts/claims that give a Finding."""
     return frozenset(
         f"{path.stem}.{node.name}"
-        for path in (ROOT / "scripts/findings").glob("*.py")
+        for path in (ROOT / "scripts/claims").glob("about_*.py")
         for node in ast.parse(path.read_bytes()).body
         if isinstance(node, ast.FunctionDef)
         and getattr(node.returns, "id", None) == "Finding"
-        and path.stem != "finding"
     )
 
 
@@ -171,7 +179,7 @@ def contradictions(config: dict) -> Iterator[str]:
                 reason = f"does not divide its duration of {entry['duration']!r} s; take {entry['duration'] / count!r}"
                 yield f"{section}.{name}.step = {entry['step']!r} s {reason}"
     for figure, entry in config["figures"].items():
-        for file in (f"scripts/plots/{figure}.py", f"workflow/report/{figure}.rst"):
+        for file in (f"scripts/figures/plots/{figure}.py", f"workflow/report/{figure}.rst"):
             if not (ROOT / file).is_file():
                 yield f"figures.{figure} has no {file}; a figure needs a plot script and a caption of its name"
         for reference in entry["tables"].values():
@@ -187,7 +195,7 @@ def contradictions(config: dict) -> Iterator[str]:
     for claim, entry in config["claims"].items():
         if entry["finding"] not in finding_names():
             known = ", ".join(sorted(finding_names()))
-            yield f"claims.{claim}.finding = {entry['finding']!r} is no function of scripts/findings; there are {known}"
+            yield f"claims.{claim}.finding = {entry['finding']!r} is no function of scripts/claims; there are {known}"
         for name, quantity in entry["quantities"].items():
             low, high = quantity["accepted"]
             if low is not None and high is not None and low > high:

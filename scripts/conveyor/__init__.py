@@ -1,6 +1,6 @@
 """Dynamics of a point mass on a vibratory conveyor: exact events, and the analysis of the motion."""
 
-from .model import Conveyor, Start
 from .simulation import Run, simulate
+from .solver.model import Conveyor, Start
 
 __all__ = ["Conveyor", "Run", "Start", "simulate"]

@@ -6,9 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
-from . import fixed_step, trajectory
-from .horizontal import EVENTS, SAMPLES, X
-from .model import Conveyor, Start, pack
+from .methods import fixed_step
+from .solver import trajectory
+from .solver.horizontal import EVENTS, SAMPLES, X
+from .solver.model import Conveyor, Start, pack
 
 METHODS = ("event", *fixed_step.METHODS)
 DEFAULT_TOLERANCE = 3e-10

@@ -198,9 +198,8 @@ def test_maps_are_computed_without_the_horizontal_motion(result):
 def test_half_the_time_and_the_rigid_part_are_seen(result):
     """Where velocities are drawn and known: neither is a model that would do."""
     table = result("scene_budget")
-    table = table[table["shows"] == "mean velocity, state"]
-    # Where the model itself makes a statement: chaos, all of it, has no value that could change.
-    table = table[table.known * table.points >= 10.0]
+    # Of both columns together more than half is known only where some velocities are: those of chaos never are.
+    table = table[(table["shows"] == "mean velocity, state") & (table.known > 0.5)]
     others = table[table.variant.isin(["half the time", "rigid part"])]
     assert others.table.nunique() >= 3
     assert others.visible.all()
@@ -213,7 +212,7 @@ def test_parts_stick_where_velocities_are_drawn(result):
     assert (velocities.sticks > 0.0).all()
 
 
-def test_rigid_part_doubles_near_the_contact_but_does_not_jump_by_itself(result):
+def test_rigid_part_doubles_near_the_contact_but_leaves_the_plate_at_lower_amplitudes(result):
     table = result("rigid_part")
     places = table[table.kind != "velocity"].pivot_table(
         index=["kind", "number"], columns="model", values="acceleration"
@@ -222,8 +221,7 @@ def test_rigid_part_doubles_near_the_contact_but_does_not_jump_by_itself(result)
     assert off.size >= 4
     assert (off.abs() < 0.1).all().all()
     assert (off.abs() > 1e-3).all().all()  # yet no reader of six digits would take one for the other
-    from_rest = table[(table.kind == "velocity") & (table.z0 == 0.0) & table.acceleration.between(50.0, 55.0)]
-    contact, rigid = (from_rest[from_rest.model == model].state for model in ("contact", "rigid part, e(u)"))
-    assert len(contact) == len(rigid) > 0
-    assert (contact != "first").all()
-    assert (rigid == "first").all()
+    from_rest = table[(table.kind == "velocity") & (table.z0 == 0.0)]
+    last_ride = from_rest[from_rest.state == "first"].groupby("model").acceleration.max()
+    assert set(last_ride.index) == {"contact", "rigid part, e(u)"}
+    assert last_ride["rigid part, e(u)"] < last_ride["contact"] - 1.0

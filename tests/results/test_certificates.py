@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from findings.proofs import stable_motions
+from claims.about_proofs import stable_motions
 
 BOUNDED = ("delta", "v", "impact_phase", "impact_speed", "duration", "contact_time", "trace", "determinant")
 

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from claims import NOT_REPRODUCED, PAPER_METHOD_ONLY, REPRODUCED
+from claims.verdicts import NOT_REPRODUCED, PAPER_METHOD_ONLY, REPRODUCED
 from made import RESULTS, ROOT
 
 PAGE = ROOT / "docs/claims.md"

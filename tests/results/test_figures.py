@@ -6,15 +6,16 @@ from functools import cache
 import matplotlib.text
 import pytest
 
+from figures import style
+from figures.plot_figure import draw
 from made import FIGURES, RESULTS, entries
-from plot_figure import draw
-from plots import style
 
 ENTRIES = entries()
 PAGE_HEIGHT = 234.0  # mm, of the journal's page
 MAPS = ("fig12", "fig13", "fig14", "fig18", "fig19")
 UNITS = {
     "m/s²",
+    "$g/\\omega^2$ and $g/\\omega$",
     "m/s",
     "m",
     "mm",

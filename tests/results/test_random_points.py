@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from conveyor.model import FREQUENCY, PARAMETERS
-from conveyor.sweep import COLUMNS, STATUS
+from conveyor.ensemble import COLUMNS, STATUS
+from conveyor.solver.model import FREQUENCY, PARAMETERS
 
 # Contact rates (1/s) times the cycle: beyond that a contact may be too stiff to be followed.
 STIFF = 1e4

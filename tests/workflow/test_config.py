@@ -5,7 +5,9 @@ import resource
 import pytest
 import yaml
 
-from conveyor import Conveyor, Start, fixed_step, model, simulation, sweep
+from conveyor import Conveyor, Start, ensemble, simulation
+from conveyor.methods import fixed_step
+from conveyor.solver import model
 from project import merged, read_config
 from workflow.configuration import SCHEMA, problems, resolve
 
@@ -98,7 +100,7 @@ def test_schema_has_the_ranges_and_words_of_the_library():
     assert set(DEFINITIONS["model"]["properties"]) == set(DEFINITIONS["axes"]["properties"]) == set(model.PARAMETERS)
     assert tuple(DEFINITIONS["tension"]["enum"]) == model.TENSION_MODES
     assert tuple(DEFINITIONS["method"]["enum"]) == simulation.METHODS == ("event", *fixed_step.METHODS)
-    assert tuple(DEFINITIONS["needs"]["enum"]) == sweep.NEEDS
+    assert tuple(DEFINITIONS["needs"]["enum"]) == ensemble.NEEDS
 
 
 def test_config_has_the_defaults_of_the_library():

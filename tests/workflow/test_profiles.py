@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-import check_results
+from claims import check_results
 from project import ROOT
 
 SBATCH = """#!/bin/sh

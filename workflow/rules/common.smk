@@ -1,9 +1,12 @@
-# What all rules share: where files are, what an entry of the config depends on, what a script runs.
+# What all rules share: where files are, what an entry of the config depends on, and the loop that makes the rules.
+#
+# The stages' files fill RULES: one entry for each rule that makes tables or pages, with what it needs to know. All of them
+# run scripts/make.py on a module of their stage.
 import json
 import math
 from pathlib import Path
 
-from workflow.configuration import TABLES, count_points, entry_of, resolve
+from workflow.configuration import TABLES, count_points, entry_of, kind_of, resolve
 from workflow.source_hash import source_hash
 
 # "" or "NAME/": a config with a prefix keeps its results apart.
@@ -11,6 +14,13 @@ PREFIX = config["prefix"] and f"{config['prefix']}/"
 
 # Jobs that take wall times run alone. Snakemake does not say how many cores a node of a cluster has: there a profile does.
 WHOLE_MACHINE = workflow.cores or 1
+
+# Rules by their names, each with
+#   stage     the module of scripts/ that does the work
+#   message   what it makes, in words
+#   output    one file, or files by their names
+# and, where they differ from those of `rule_of`, the others.
+RULES = {}
 
 
 wildcard_constraints:
@@ -24,17 +34,27 @@ def table(section, name="{name}"):
     return f"results/{PREFIX}{section}/{name}.parquet"
 
 
+def tables_of(section, *names):
+    """Tables of a section by their names, as outputs or inputs of a rule."""
+    return {name: table(section, name) for name in names}
+
+
 def result(name):
     """A result that is not an entry of a section of the config."""
     return f"results/{PREFIX}{name}"
 
 
-def log_file(section, name="{name}"):
-    return f"results/{PREFIX}logs/{section}/{name}.log"
+def page(name):
+    """A page of the documentation: kept beside the sources if it is made from the paper's config."""
+    return result(f"docs/{name}") if PREFIX else f"docs/{name}"
 
 
-def benchmark_file(section, name="{name}"):
-    return f"results/{PREFIX}benchmarks/{section}/{name}.tsv"
+def log_file(place):
+    return f"results/{PREFIX}logs/{place}.log"
+
+
+def benchmark_file(place):
+    return f"results/{PREFIX}benchmarks/{place}.tsv"
 
 
 def one_of(names):
@@ -49,3 +69,25 @@ def settings(section):
         return resolve(config, section, wildcards.name)
 
     return settings_of
+
+
+def read_tables(references):
+    """Input and params of a rule that reads tables by their references, SECTION/NAME."""
+    references = sorted(set(references))
+    return {
+        "input": {"read": [table(*reference.split("/")) for reference in references]},
+        "params": {"references": references, "kinds": {"read": [kind_of(reference) for reference in references]}},
+    }
+
+
+def entry_rule(section, stage, message, **rest):
+    """The rule of a section of the config with a table for each of its entries."""
+    RULES[section] = {
+        "stage": stage,
+        "message": f"{message}, {{wildcards.name}}",
+        "output": {section: table(section)},
+        "place": f"{section}/{{name}}",
+        "names": {"name": one_of(config[section])},
+        "params": {"settings": settings(section)},
+        **rest,
+    }

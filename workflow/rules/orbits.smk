@@ -1,4 +1,4 @@
-# Periodic orbits, attractors over the amplitude, their exponents, and whether they are chaotic.
+# Periodic orbits, attractors over the amplitude, their exponents, whether they are chaotic, and what is proved of them.
 
 
 def of_sections(*sections):
@@ -11,134 +11,54 @@ def of_sections(*sections):
     return {**merged, "model": {**config["model"], **merged.get("model", {})}}
 
 
-rule orbits:
-    output:
-        branches=table("orbits", "branches"),
-        folds_and_doublings=table("orbits", "folds_and_doublings"),
-        cascade=table("orbits", "cascade"),
-    log:
-        log_file("orbits", "orbits"),
-    benchmark:
-        benchmark_file("orbits", "orbits")
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=30,
-    params:
-        settings=of_sections("orbits"),
-        code=source_hash("orbits"),
-    message:
-        "Periodic orbits"
-    script:
-        "../../scripts/orbits.py"
+entry_rule("estimates", "orbits.estimates", "Lyapunov exponents by finite differences", threads=2, mem_mb=2000)
 
+RULES["orbits"] = {
+    "stage": "orbits.branches",
+    "message": "Periodic orbits",
+    "output": tables_of("orbits", "branches", "folds_and_doublings", "cascade"),
+    "place": "orbits/orbits",
+    "params": {"settings": of_sections("orbits")},
+}
 
 # Wall times differ from run to run and have a table of their own; the others have equal bytes every time.
-rule certificates:
-    input:
-        branches=table("orbits", "branches"),
-        folds_and_doublings=table("orbits", "folds_and_doublings"),
-        cascade=table("orbits", "cascade"),
-    output:
-        certificates=table("orbits", "certificates"),
-        certified_bifurcations=table("orbits", "certified_bifurcations"),
-        certified_chaos=table("orbits", "certified_chaos"),
-        times=table("orbits", "certificate_times"),
-    log:
-        log_file("orbits", "certificates"),
-    benchmark:
-        benchmark_file("orbits", "certificates")
-    threads: 2
-    resources:
-        mem_mb=1500,
-        runtime=60,
-    params:
-        settings={**config["certificates"], "model": of_sections("orbits")["model"]},
-        code=source_hash("certificates"),
-    message:
-        "Orbits, bifurcations and chaos, proved"
-    script:
-        "../../scripts/certificates.py"
+RULES["certificates"] = {
+    "stage": "orbits.certified",
+    "message": "Orbits, bifurcations and chaos, proved",
+    "input": tables_of("orbits", "branches", "folds_and_doublings", "cascade"),
+    "output": tables_of("orbits", "certificates", "certified_bifurcations", "certified_chaos", "certificate_times"),
+    "place": "orbits/certificates",
+    "threads": 2,
+    "mem_mb": 1500,
+    "runtime": 60,
+    "params": {"settings": {**config["certificates"], "model": of_sections("orbits")["model"]}},
+}
 
+RULES["attractors"] = {
+    "stage": "orbits.strobes",
+    "message": "Attractors over the amplitude",
+    "output": tables_of("attractors", "strobes"),
+    "place": "attractors/strobes",
+    "threads": 2,
+    "params": {"settings": of_sections("attractors")},
+}
 
-rule certificates_page:
-    input:
-        certificates=table("orbits", "certificates"),
-        certified_bifurcations=table("orbits", "certified_bifurcations"),
-        certified_chaos=table("orbits", "certified_chaos"),
-    output:
-        "docs/certificates.md" if not PREFIX else result("certificates.md"),
-    log:
-        log_file("docs", "certificates"),
-    localrule: True
-    params:
-        code=source_hash("certificates_page"),
-    message:
-        "What is proved, in words"
-    script:
-        "../../scripts/certificates_page.py"
+RULES["lyapunov"] = {
+    "stage": "orbits.exponents",
+    "message": "Lyapunov exponents over the amplitude",
+    "input": tables_of("attractors", "strobes"),
+    "output": tables_of("lyapunov", "spectrum"),
+    "place": "lyapunov/spectrum",
+    "threads": 2,
+    "params": {"settings": of_sections("attractors", "lyapunov")},
+}
 
-
-rule attractors:
-    output:
-        table("attractors", "strobes"),
-    log:
-        log_file("attractors", "strobes"),
-    benchmark:
-        benchmark_file("attractors", "strobes")
-    threads: 2
-    resources:
-        mem_mb=1000,
-        runtime=30,
-    params:
-        settings=of_sections("attractors"),
-        code=source_hash("attractors"),
-    message:
-        "Attractors over the amplitude"
-    script:
-        "../../scripts/attractors.py"
-
-
-rule lyapunov:
-    input:
-        table("attractors", "strobes"),
-    output:
-        table("lyapunov", "spectrum"),
-    log:
-        log_file("lyapunov", "spectrum"),
-    benchmark:
-        benchmark_file("lyapunov", "spectrum")
-    threads: 2
-    resources:
-        mem_mb=1000,
-        runtime=30,
-    params:
-        settings=of_sections("attractors", "lyapunov"),
-        code=source_hash("lyapunov"),
-    message:
-        "Lyapunov exponents over the amplitude"
-    script:
-        "../../scripts/lyapunov.py"
-
-
-rule witnesses:
-    input:
-        strobes=table("attractors", "strobes"),
-        spectrum=table("lyapunov", "spectrum"),
-    output:
-        table("lyapunov", "witnesses"),
-    log:
-        log_file("lyapunov", "witnesses"),
-    benchmark:
-        benchmark_file("lyapunov", "witnesses")
-    threads: 2
-    resources:
-        mem_mb=1000,
-        runtime=30,
-    params:
-        settings=of_sections("attractors", "witnesses"),
-        code=source_hash("witnesses"),
-    message:
-        "Chaotic or not, by three witnesses"
-    script:
-        "../../scripts/witnesses.py"
+RULES["witnesses"] = {
+    "stage": "orbits.witnesses",
+    "message": "Chaotic or not, by three witnesses",
+    "input": tables_of("attractors", "strobes") | tables_of("lyapunov", "spectrum"),
+    "output": tables_of("lyapunov", "witnesses"),
+    "place": "lyapunov/witnesses",
+    "threads": 2,
+    "params": {"settings": of_sections("attractors", "witnesses")},
+}

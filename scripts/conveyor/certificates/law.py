@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from flint import arb
 
-from ..model import TENSION_ALLOW, TENSION_MODES, Conveyor
+from ..solver.model import TENSION_ALLOW, TENSION_MODES, Conveyor
 from .balls import exactly
 
 # Angles whose value in degrees has at most this many digits behind the point are read as that decimal.

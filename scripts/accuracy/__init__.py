@@ -1,0 +1,1 @@
+"""Stage accuracy: how accurate, how fast, how robust the solver and the estimates are."""

@@ -1,0 +1,114 @@
+"""Rule estimators: error against work of the estimators of the largest exponent, of the dimension and of the fit."""
+
+import math
+
+import numpy as np
+import pandas as pd
+
+from conveyor.analysis import dimension, lyapunov, orbits, regression, stroboscope
+from conveyor.analysis.known_sets import DIMENSIONS
+from conveyor.solver.model import Z0
+from pipeline import fields, grid
+
+TABLES = {
+    "estimators": (
+        fields.text("quantity", "exponent, dimension or fit"),
+        fields.text("estimator", "how it is estimated"),
+        fields.number("work", "1", "simulated cycles, points or evaluations"),
+        fields.number(
+            "error", "1", "relative error of the exponent; error of the dimension; relative gap to the best fit"
+        ),
+    ),
+}
+
+TOLERANCE = 1e-12
+# A pair without renormalisation is compared at the end of the run only.
+AT_END = 1e-9
+
+
+def exponent_rows(settings: dict, model: dict) -> list[dict]:
+    """Three estimates of the exponent of a settled orbit, which its Floquet multiplier tells exactly."""
+    start = {name: [settings[name]] for name in ("acceleration", "z0")}
+    _, rows = grid.product(start, model)
+    state = stroboscope.initial_states(rows, TOLERANCE)[0]
+    orbit, _ = orbits.settled_orbit(rows[0], settings["acceleration"], state, (1, 2, 4), 1000)
+    cycle = 1.0 / model["frequency"]
+    truth = math.log(abs(orbit.multipliers[0])) / (orbit.period * cycle)
+    here = stroboscope.starts_of_states(rows, orbit.state[None], TOLERANCE)
+    there = here.copy()
+    unit = model["gravity"] / (2.0 * math.pi * model["frequency"]) ** 2
+    there[:, Z0] += settings["epsilon"] * unit
+    found = []
+    for duration in settings["durations"]:
+        cycles = round(duration / cycle)
+        blocks = 2
+        estimates = {
+            "pair of trajectories": lyapunov.finite_difference_estimate(
+                here,
+                there,
+                settings["epsilon"] * unit,
+                output="z",
+                duration=duration,
+                last=AT_END,
+                samples=1,
+                tolerance=TOLERANCE,
+            )[0],
+            "pair, set back each cycle": lyapunov.renormalised_pair(
+                here[0], orbit.state, distance=settings["epsilon"], transient=0, cycles=cycles, tolerance=TOLERANCE
+            ),
+            "variational equation": lyapunov.spectrum(
+                here, orbit.state[None], transient=0, cycles=cycles // blocks, blocks=blocks, tolerance=TOLERANCE
+            ).lambda_1[0],
+        }
+        found += [
+            {"quantity": "exponent", "estimator": name, "work": cycles, "error": abs(value / truth - 1.0)}
+            for name, value in estimates.items()
+        ]
+    return found
+
+
+def dimension_rows(settings: dict, seed: int) -> list[dict]:
+    """Median error of both dimensions over sets of known dimension."""
+    estimators = {
+        "boxes": dimension.box_dimension,
+        "boxes, as in the paper": dimension.box_dimension_of_paper,
+        "correlation sum": lambda points: dimension.correlation_dimension(points, 0),
+    }
+    found = []
+    for name, estimate in estimators.items():
+        for count in settings["points"]:
+            rng = np.random.default_rng(seed)
+            errors = [
+                abs(estimate(draw(rng, count)).value - truth)
+                for _ in range(settings["repeats"])
+                for draw, truth in DIMENSIONS.items()
+            ]
+            found.append({"quantity": "dimension", "estimator": name, "work": count, "error": np.nanmedian(errors)})
+    return found
+
+
+def fit_rows(settings: dict, data: pd.DataFrame, fit: dict, seed: int) -> list[dict]:
+    """Relative gap of the mean squared error to that of the best fit, over the triples tried."""
+    low, high = fit["acceleration"]
+    rows = data[data.is_critical & data.acceleration.between(low, high)]
+    values = rows.acceleration.to_numpy(), rows.z0.to_numpy()
+    bounds = {name: tuple(interval) for name, interval in fit["bounds"].items()}
+    found = {
+        "CMA-ES (pymoo)": regression.fit_pymoo(*values, bounds, seed, settings["evaluations"]),
+        "least squares": regression.fit_least_squares(*values, bounds["B"]),
+    }
+    best = min(one.error for one in found.values())
+    return [
+        {"quantity": "fit", "estimator": name, "work": evaluations, "error": max(error / best - 1.0, 1e-16)}
+        for name, one in found.items()
+        for evaluations, error in one.history
+    ]
+
+
+def make(settings: dict, model: dict, fit: dict | None = None, critical: pd.DataFrame | None = None) -> dict:
+    """The columns of the table of estimators; those of the fit need an entry `fit` and its table of critical heights."""
+    rows = exponent_rows(settings["exponent"], model)
+    rows += dimension_rows(settings["dimension"], settings["seed"])
+    if critical is not None:
+        rows += fit_rows(settings["fit"], critical, fit, settings["seed"])
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}

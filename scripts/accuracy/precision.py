@@ -1,0 +1,148 @@
+"""Rule precision: error and force evaluations of every method over its tolerances or steps, in one scene.
+
+The truth is the solver at its tightest tolerance. It is not its own judge: an independent integration, scipy's DOP853
+from event to event at its tightest tolerance, is among the rows, and its error is the difference of the two.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from tqdm import tqdm
+
+from conveyor.analysis import states
+from conveyor.methods import fixed_step, peers
+from conveyor.simulation import simulate
+from conveyor.solver.model import Conveyor, Start, conveyor_motion, pack
+from conveyor.solver.polynomial import ORDER
+from pipeline import fields
+
+RUN = (
+    fields.text("method", "event, a fixed-step method, or one of scipy's integrators"),
+    fields.text(
+        "treatment",
+        "of impacts and slip reversals: exact, with or without repeated steps, fixed step, sign, events or modes",
+    ),
+    fields.number("tolerance", "1", "relative tolerance; null for fixed steps"),
+    fields.number("step", "s", "step; null for tolerances"),
+)
+
+TABLES = {
+    "precision": (
+        *RUN,
+        fields.count("evaluations", "force evaluations that are computed; derivatives of the force for a Taylor step"),
+        fields.count("repeated_evaluations", "those of a settled motion that are used again instead"),
+        fields.number("mean_velocity", "m/s", "mean feeding velocity over the last quarter"),
+        fields.number("velocity_error", "1", "its relative error"),
+        fields.number("state_error", "1", "largest error of ẋ, z, ż at the end, in units of the plate's motion"),
+        fields.text("outcome", "ok, or what is wrong, whatever the run itself reports"),
+    ),
+}
+
+TRUTH = 1e-14  # tolerance
+# Treatments of the event-driven solver: as it is, and with every step of a settled motion computed.
+EXACT, ANEW = "exact", "exact, nothing repeated"
+# Where a run ends in another state of motion, and where its part is deeper in the plate than the plate moves.
+WRONG = "wrong state"
+THROUGH = "through the plate"
+
+
+class Method(NamedTuple):
+    """One run of the chart; the tolerance or the step is None."""
+
+    method: str
+    treatment: str  # of impacts and slip reversals: EXACT, ANEW, fixed step, or one of peers.TREATMENTS
+    tolerance: float | None
+    step: float | None
+
+
+class Result(NamedTuple):
+    """What a run comes to, in the terms that all methods share."""
+
+    mean_velocity: float  # m/s
+    end: np.ndarray  # ẋ, z, ż (m/s, m, m/s), shape (3,)
+    evaluations: int
+    repeated: int  # evaluations of a settled motion that were used again
+    status: str
+
+
+def methods(settings: dict) -> list[Method]:
+    """All runs of a scene in the order of the table."""
+    listed = [Method("event", one, tolerance, None) for one in (EXACT, ANEW) for tolerance in settings["tolerances"]]
+    listed += [Method(name, "fixed step", None, step) for name in fixed_step.METHODS for step in settings["steps"]]
+    for treatment, integrators in settings["peers"].items():
+        for name, tolerances in integrators.items():
+            listed += [Method(name, treatment, tolerance, None) for tolerance in tolerances]
+    return listed
+
+
+def scene(settings: dict) -> tuple[Conveyor, Start]:
+    """The conveyor and the start that the settings describe."""
+    model = dict(settings["model"])
+    start = Start(model.pop("z0"), model.pop("vz0"))
+    return Conveyor(**model), start
+
+
+def follow(method: Method, settings: dict) -> Result:
+    """One run. A Taylor step of order n counts as n force evaluations: it finds n derivatives of the force."""
+    conveyor, start = scene(settings)
+    if method.treatment in peers.TREATMENTS:
+        run = peers.run(
+            pack(conveyor, start),
+            settings["duration"],
+            method.method,
+            method.treatment,
+            method.tolerance,
+            settings["max_evaluations"],
+        )
+        return Result(run.mean_velocity, np.array([run.vx, run.z, run.vz]), run.evaluations, 0, run.status)
+    accuracy = {"tolerance": method.tolerance} if method.step is None else {"step": method.step}
+    reuse = method.treatment != ANEW
+    run = simulate(conveyor, start, duration=settings["duration"], method=method.method, reuse=reuse, **accuracy)
+    order = ORDER if method.method == "event" else 1
+    end = np.array([run.vx_end, run.z_end, run.vz_end])
+    return Result(run.mean_velocity(), end, order * run.work, order * run.repeats, run.status)
+
+
+def leads_to(settings: dict, end: np.ndarray) -> str:
+    """State of motion that a run with this end leads to."""
+    parameters = pack(*scene(settings))[None]
+    later = states.continued(parameters, end[1:2], end[2:3], settings["duration"])
+    return str(states.classify(later).state[0])
+
+
+def outcome(result: Result, error: float, settings: dict, state: str) -> str:
+    """ "ok", or what is wrong with a run, which its own status need not say; `state` is the right state of motion."""
+    if result.status != "ok":
+        return result.status
+    conveyor, _ = scene(settings)
+    plate = conveyor_motion(conveyor, np.array([settings["duration"], 0.5 / conveyor.frequency]))["z"]
+    stroke = np.abs(plate).max()
+    if result.end[1] < plate[0] - stroke:
+        return THROUGH
+    if not error < 1.0 or leads_to(settings, result.end) != state:
+        return WRONG
+    return "ok"
+
+
+def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
+    """The columns of a table of work and precision for the `settings` of one scene with its model."""
+    truth = follow(Method("event", ANEW, TRUTH, None), settings)
+    state = leads_to(settings, truth.end)
+    _, *scale = peers.scales(pack(*scene(settings)))
+    listed = methods(settings)
+    results = [follow(method, settings) for method in tqdm(listed, progress, unit="run", disable=progress is None)]
+    velocity = np.array([result.mean_velocity for result in results])
+    velocity_error = np.abs(velocity / truth.mean_velocity - 1.0)
+    outcomes = [outcome(result, error, settings, state) for result, error in zip(results, velocity_error, strict=True)]
+    return {
+        "method": np.array([method.method for method in listed]),
+        "treatment": np.array([method.treatment for method in listed]),
+        "tolerance": np.array([method.tolerance for method in listed], dtype=np.float64),
+        "step": np.array([method.step for method in listed], dtype=np.float64),
+        "evaluations": np.array([result.evaluations for result in results]),
+        "repeated_evaluations": np.array([result.repeated for result in results]),
+        "mean_velocity": velocity,
+        "velocity_error": velocity_error,
+        "state_error": np.array([np.abs((result.end - truth.end) / scale).max() for result in results]),
+        "outcome": np.array(outcomes),
+    }

@@ -1,0 +1,277 @@
+"""Rule stability: where methods stop working, over step and stiffness, damping, impact velocity or amplitude."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from scipy.optimize import brentq
+from scipy.special import beta
+from tqdm import tqdm
+
+from conveyor.methods import fixed_step
+from conveyor.simulation import simulate
+from conveyor.solver.model import Conveyor, Start, conveyor_motion, pack
+from pipeline import fields
+
+TABLES = {
+    "stability": (
+        fields.text(
+            "panel", "stiffness, damping, impact velocity, conveyor; edge of one of them; chatter; or hard and a case"
+        ),
+        fields.text("method", "euler, semi_implicit_euler, rk4 or event"),
+        fields.number("x", "see panel", "step in s; hard: number of events"),
+        fields.number(
+            "y",
+            "see panel",
+            "stiffness in N/m, damping in N s/m, velocity in m/s, conveyor: amplitude in m/s²; chatter: slip in m/s; "
+            "hard: relative error of the height at the end",
+        ),
+        fields.text("outcome", "right, wrong state, energy grows or blow-up"),
+        fields.number("theory", "s", "largest stable step in theory; null where there is none"),
+    ),
+}
+
+RIGHT, WRONG, GROWS, BLOWS_UP = "right", "wrong state", "energy grows", "blow-up"
+# What is varied beside the step, and how its values are spaced.
+PANELS = {"stiffness": np.geomspace, "damping": np.geomspace, "impact velocity": np.geomspace, "conveyor": np.linspace}
+FAR = 1.0  # m: a part that far away has blown up
+# The part rests in a Hooke contact and is pressed in by this share of its static penetration.
+PRESSED = 0.5
+# A contact that decays by this many e-foldings is at rest.
+FOLDINGS = 8.0
+RESTITUTION = 0.05  # error of a restitution coefficient that leaves a bounce what it is
+VELOCITY = 0.05  # relative error of a mean velocity that leaves a state of motion what it is
+FINE = 1e-6  # error of the solver in hard cases, and
+COARSE = 1e-2  # of Euler: beyond that its curve leaves the right one
+
+
+def characteristic(stiffness: float, damping: float, mass: float) -> tuple[complex, complex]:
+    """Both roots of λ² + (d/m) λ + k/m, 1/s."""
+    root = np.sqrt(complex(0.25 * (damping / mass) ** 2 - stiffness / mass))
+    return -0.5 * damping / mass + root, -0.5 * damping / mass - root
+
+
+def limit(method: str, stiffness: float, damping: float, mass: float) -> float:
+    """Largest stable step (s) of a method in a linear contact: k N/m, d N s/m, m kg.
+
+    Explicit Euler: |1 + hλ| = 1, which is h = d/k for an oscillation. Semi-implicit Euler: h² k/m + 2 h d/m = 4, near
+    2/ω. RK4: |R(hλ)| = 1 for its stability polynomial R, near 2.78/ω.
+    """
+    roots = characteristic(stiffness, damping, mass)
+    if method == "euler":
+        return min(-2.0 * root.real / abs(root) ** 2 for root in roots)
+    if method == "semi_implicit_euler":
+        rate, square = damping / mass, stiffness / mass
+        return (math.sqrt(rate * rate + 4.0 * square) - rate) / square
+
+    if method != "rk4":
+        raise ValueError(f"method = {method!r} is not one of {', '.join(fixed_step.METHODS)}")
+
+    def growth(step):
+        return max(abs(1 + (x := step * root) * (1 + x / 2 * (1 + x / 3 * (1 + x / 4)))) for root in roots) - 1.0
+
+    size = max(map(abs, roots))
+    return brentq(growth, 1.0 / size, 4.0 / size)
+
+
+def whole(duration: float, step: float) -> float:
+    """The least whole number of steps (s) that lasts for a duration (s)."""
+    return math.ceil(duration / step - 1e-9) * step
+
+
+def resting(stiffness: float, damping: float) -> tuple[Conveyor, float, float]:
+    """A plate at rest with a Hooke contact, the static penetration (m) and the time (s) in which a motion decays."""
+    conveyor = Conveyor(acceleration=0.0, exponent=1.0, stiffness=stiffness, damping=damping)
+    slowest = max(root.real for root in characteristic(stiffness, damping, conveyor.mass))
+    return conveyor, conveyor.mass * conveyor.gravity / stiffness, FOLDINGS / -slowest
+
+
+def outcome_at_rest(method: str, step: float, stiffness: float, damping: float) -> str:
+    """What becomes of a part that is pressed into a plate at rest and let go."""
+    conveyor, depth, duration = resting(stiffness, damping)
+    start = Start(-(1.0 + PRESSED) * depth)
+    if method == "event":
+        run = simulate(conveyor, start, duration=duration)
+        z, vz, highest = run.z_end, run.vz_end, run.max_gap
+    else:
+        found = fixed_step.run(pack(conveyor, start), whole(duration, step), step, method)
+        z, vz, highest = found.z, found.vz, found.max_gap
+    if not (math.isfinite(z) and math.isfinite(vz)) or max(abs(z), highest) > FAR:
+        return BLOWS_UP
+    square = stiffness / conveyor.mass
+    energy = 0.5 * vz * vz + 0.5 * square * (min(z, 0.0) + depth) ** 2 + conveyor.gravity * max(z, 0.0)
+    if energy > 0.5 * square * (PRESSED * depth) ** 2:
+        return GROWS
+    return RIGHT if abs(z + depth) < 0.1 * PRESSED * depth else WRONG
+
+
+def restitution(method: str, step: float, speed: float, conveyor: Conveyor) -> float:
+    """Speed after one impact on a plate at rest over that before; infinity for a part that blows up."""
+    height = 1e-6
+    duration = 4.0 * height / speed + 6.0 * impact_time(conveyor, speed)
+    start = Start(height, -speed)
+    if method == "event":
+        run = simulate(conveyor, start, duration=duration)
+        z, vz = run.z_end, run.vz_end
+    else:
+        found = fixed_step.run(pack(conveyor, start), whole(duration, step), step, method)
+        z, vz = found.z, found.vz
+    if not (math.isfinite(z) and abs(z) < FAR):
+        return math.inf
+    return math.sqrt(max(vz * vz + 2.0 * conveyor.gravity * (z - height), 0.0)) / speed if z > 0.0 else 0.0
+
+
+def deepest(conveyor: Conveyor, speed: float) -> float:
+    """Penetration (m) of an undamped Hertz impact."""
+    return (1.25 * conveyor.mass * speed * speed / conveyor.stiffness) ** 0.4
+
+
+def impact_time(conveyor: Conveyor, speed: float) -> float:
+    """Duration (s) of an undamped Hertz impact: 2.943 δ_max / v."""
+    return 2.9432750658 * deepest(conveyor, speed) / speed
+
+
+def impact_limit(method: str, conveyor: Conveyor, speed: float) -> float:
+    """Largest step (s) with which a method takes energy from a Hertz impact, or is stable at its deepest point.
+
+    Explicit Euler adds Δt ∫ k v² dt to the energy of an impact, from its modified equation, and damping takes
+    d_c ∫ v² dt: the limit is that of a linear contact with the stiffness's mean over the path, weighted by the speed.
+    """
+    stiffness = 1.5 * conveyor.stiffness * math.sqrt(deepest(conveyor, speed))
+    if method == "euler":
+        return conveyor.damping / stiffness * beta(0.4, 1.5) / beta(0.6, 1.5)
+    return limit(method, stiffness, conveyor.damping, conveyor.mass)
+
+
+def outcome_of_impact(method: str, step: float, speed: float, conveyor: Conveyor) -> str:
+    """What becomes of one Hertz impact, against the event-driven solver."""
+    found, truth = (restitution(name, step, speed, conveyor) for name in (method, "event"))
+    if not math.isfinite(found):
+        return BLOWS_UP
+    if found > 1.0:
+        return GROWS
+    return RIGHT if abs(found - truth) < RESTITUTION else WRONG
+
+
+def outcome_on_conveyor(method: str, step: float, conveyor: Conveyor, start: Start, duration: float) -> str:
+    """What becomes of a part on the vibrating plate, against the event-driven solver."""
+    duration = whole(duration, step)
+    truth = simulate(conveyor, start, duration=duration)
+    found = fixed_step.run(pack(conveyor, start), duration, step, method)
+    if found.status != "ok" or max(abs(found.z), found.max_gap) > FAR:
+        return BLOWS_UP
+    if found.max_gap > 2.0 * truth.max_gap:
+        return GROWS
+    velocity = truth.mean_velocity()
+    return RIGHT if abs(found.mean_velocity - velocity) < VELOCITY * abs(velocity) else WRONG
+
+
+def deepest_on_conveyor(conveyor: Conveyor, start: Start, duration: float) -> float:
+    """Largest penetration (m) in the last quarter of a run, by the largest contact force."""
+    run = simulate(conveyor, start, duration=duration)
+    force = run.sample(np.linspace(0.75, 1.0, 5001) * duration)["contact_force"].max()
+    return (force / conveyor.stiffness) ** (1.0 / conveyor.exponent)
+
+
+def experiment(panel: str, method: str, value: float, settings: dict) -> tuple[Callable[[float], str], float]:
+    """The outcome as a function of the step (s), and the largest stable step (s) in theory."""
+    contact, mass = settings["contact"], Conveyor().mass
+    if panel in ("stiffness", "damping"):
+        stiffness, damping = (contact | {panel: value}).values()
+        theory = limit(method, stiffness, damping, mass)
+        return lambda step: outcome_at_rest(method, step, stiffness, damping), theory
+    if panel == "impact velocity":
+        conveyor = Conveyor(acceleration=0.0, gravity=1e-3, damping=contact["damping"])
+        theory = impact_limit(method, conveyor, value)
+        return lambda step: outcome_of_impact(method, step, value, conveyor), theory
+    conveyor, start = Conveyor(acceleration=value), Start(settings["conveyor"]["z0"])
+    duration = settings["conveyor"]["duration"]
+    stiffness = 1.5 * conveyor.stiffness * math.sqrt(deepest_on_conveyor(conveyor, start, duration))
+    theory = limit(method, stiffness, conveyor.damping, mass)
+    return lambda step: outcome_on_conveyor(method, step, conveyor, start, duration), theory
+
+
+def has_edge(panel: str, method: str) -> bool:
+    """Whether theory gives the step at which energy begins to grow, and not only an estimate of it."""
+    return panel in ("stiffness", "damping") or (panel == "impact velocity" and method == "euler")
+
+
+def edge(outcome: Callable[[float], str], theory: float) -> float:
+    """Largest step (s) with which energy does not grow, by bisection to a hundredth."""
+    low, high = 0.3 * theory, 3.0 * theory
+    while high > 1.01 * low:
+        middle = math.sqrt(low * high)
+        low, high = (middle, high) if outcome(middle) in (RIGHT, WRONG) else (low, middle)
+    return low
+
+
+def region_rows(settings: dict, progress: str | None) -> list[dict]:
+    """Outcomes over the steps and one other quantity, and the measured edges where there is a theory."""
+    steps = np.geomspace(*(settings["step"][name] for name in ("start", "stop", "num")))
+    lines = [
+        (panel, method, value)
+        for panel, spaced in PANELS.items()
+        for method in settings["methods"]
+        for value in spaced(*(settings[panel.replace(" ", "_")][name] for name in ("start", "stop", "num")))
+    ]
+    rows = []
+    for panel, method, value in tqdm(lines, desc=progress, unit="lines", disable=progress is None):
+        outcome, theory = experiment(panel, method, value, settings)
+        rows += [row(panel, method, step, value, outcome(step), theory) for step in steps]
+        if has_edge(panel, method):
+            rows.append(row(f"edge: {panel}", method, edge(outcome, theory), value, RIGHT, theory))
+    return rows
+
+
+def row(panel: str, method: str, x: float, y: float, outcome: str, theory: float = math.nan) -> dict:
+    return {"panel": panel, "method": method, "x": x, "y": y, "outcome": outcome, "theory": theory}
+
+
+def chatter_rows(settings: dict) -> list[dict]:
+    """Root mean square slip velocity (m/s) of Euler while the part should stick, over the step (s)."""
+    conveyor = Conveyor(**settings["stick"])
+    rows = []
+    for step in settings["chatter_steps"]:
+        times = 0.1 + step * np.arange(2000)
+        for method in ("euler", "event"):
+            duration = whole(times[-1] + step, step)
+            run = simulate(conveyor, Start("conveyor"), duration=duration, method=method, step=step)
+            slips = run.sample(times)["vx"] - conveyor_motion(conveyor, times)["vx"]
+            slip = float(np.sqrt(np.mean(slips**2)))
+            rows.append(row("chatter", method, step, slip, RIGHT if slip < 1e-12 else WRONG))
+    return rows
+
+
+def hard_rows(settings: dict, step: float) -> list[dict]:
+    """The event-driven solver and Euler in hard cases: relative error of the height at the end.
+
+    The truth is the solver at a tolerance of 1e-13; in each case it has the same events at both tolerances.
+    """
+    rows = []
+    for case in settings.values():
+        model = dict(case["model"])
+        start = Start(model.pop("z0", 0.0), model.pop("vz0", 0.0))
+        conveyor = Conveyor(**model)
+        truth = simulate(conveyor, start, duration=case["duration"], tolerance=1e-13)
+        own = simulate(conveyor, start, duration=case["duration"])
+        scale = max(abs(truth.z_end), 1e-9)
+        error = abs(own.z_end - truth.z_end) / scale
+        fine = own.status == truth.status == "ok" and own.event_count == truth.event_count and error < FINE
+        rows.append(row(f"hard: {case['label']}", "event", own.event_count, error, RIGHT if fine else WRONG))
+        euler = fixed_step.run(pack(conveyor, start), whole(case["duration"], step), step)
+        error = abs(euler.z - truth.z_end) / scale
+        if euler.status != "ok" or max(abs(euler.z), euler.max_gap) > FAR:
+            outcome = BLOWS_UP
+        elif euler.max_gap > 1.1 * truth.max_gap:
+            outcome = GROWS
+        else:
+            outcome = RIGHT if error < COARSE else WRONG
+        rows.append(row(f"hard: {case['label']}", "euler", truth.event_count, error, outcome))
+    return rows
+
+
+def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
+    """The columns of the table of stability."""
+    rows = region_rows(settings, progress) + chatter_rows(settings)
+    rows += hard_rows(settings["hard"], settings["paper_step"])
+    return {name: np.array([one[name] for one in rows]) for name in rows[0]}

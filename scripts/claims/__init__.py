@@ -1,0 +1,1 @@
+"""Stage claims: the paper's statements, measured on the tables, with verdicts."""

@@ -1,0 +1,157 @@
+"""Rule claims: the paper's checkable statements, what both methods give, and verdicts that follow from the numbers."""
+
+import importlib
+import math
+
+import pandas as pd
+import pyarrow as pa
+
+from claims import about_chaos, about_states  # noqa: F401 - what `find` looks up belongs to what this rule runs
+from claims.finding import METHODS, Finding
+from pipeline import fields, tables
+
+TABLES = {
+    "claims": (
+        fields.text("id", "name of the statement"),
+        fields.text("where", "where the paper makes it"),
+        fields.text("statement", "what it says"),
+        fields.several("quantities", pa.string(), "", "what its numbers are, with units"),
+        fields.several("paper", pa.float64(), "see quantities", "the paper's numbers; null where it gives none"),
+        fields.several(
+            "paper_method",
+            pa.float64(),
+            "see quantities",
+            "by the paper's method, computed here; empty where it has no say",
+        ),
+        fields.several("converged", pa.float64(), "see quantities", "converged; empty where the statement is on Euler"),
+        fields.several("accepted_low", pa.float64(), "see quantities", "least numbers that bear it out; null for none"),
+        fields.several("accepted_high", pa.float64(), "see quantities", "largest ones; null for none"),
+        fields.several("because", pa.string(), "", "why the accepted numbers are these"),
+        fields.text("verdict", "reproduced, reproduced by the paper's method only, or not reproduced"),
+        fields.text("reason", "computed reason of any other verdict than reproduced; else a note, null for none"),
+    ),
+}
+
+REPRODUCED = "reproduced"
+PAPER_METHOD_ONLY = "reproduced by the paper's method only"
+NOT_REPRODUCED = "not reproduced"
+NAMES = {"euler": "paper's method", "converged": "converged solution"}
+
+
+def find(claim: dict, read: dict[str, pd.DataFrame]) -> Finding:
+    """The Finding of a claim of the config, from the tables by their references."""
+    module, function = claim["finding"].split(".")
+    found = getattr(importlib.import_module(f"findings.{module}"), function)
+    return found({role: read[reference] for role, reference in claim["tables"].items()}, **claim.get("settings", {}))
+
+
+def holds(value: float, accepted: list[float | None]) -> bool:
+    """Whether a value lies in its accepted interval; null is no bound."""
+    low, high = accepted
+    return not math.isnan(value) and (low is None or value >= low) and (high is None or value <= high)
+
+
+def all_hold(values: dict[str, float], quantities: dict[str, dict]) -> bool:
+    """Whether each quantity lies in its interval; KeyError for one that is missing."""
+    return all(holds(values[name], quantity["accepted"]) for name, quantity in quantities.items())
+
+
+def verdict(finding: Finding, quantities: dict[str, dict]) -> str:
+    """What the numbers say: the converged ones decide, those of the paper's method where there are no others."""
+    by_paper = bool(finding.euler) and all_hold(finding.euler, quantities)
+    if all_hold(finding.converged, quantities) if finding.converged else by_paper:
+        return REPRODUCED
+    return PAPER_METHOD_ONLY if by_paper else NOT_REPRODUCED
+
+
+def outside(finding: Finding, quantities: dict[str, dict]) -> str:
+    """Which quantities miss their accepted interval, in numbers."""
+    texts = []
+    for method in METHODS:
+        for name, value in getattr(finding, method).items():
+            quantity = quantities[name]
+            if not holds(value, quantity["accepted"]):
+                texts.append(
+                    f"{quantity['is']}: {value:.4g} by the {NAMES[method]} is not in {written(quantity['accepted'])}"
+                )
+    return "; ".join(texts)
+
+
+def written(interval: list[float | None]) -> str:
+    low, high = interval
+    return f"[{'-∞' if low is None else f'{low:.4g}'}, {'∞' if high is None else f'{high:.4g}'}]"
+
+
+def columns(claims: dict[str, dict], found: dict[str, Finding]) -> dict[str, list]:
+    """The columns of the table of claims."""
+    quantities = [claim["quantities"] for claim in claims.values()]
+    verdicts = [verdict(found[name], claim["quantities"]) for name, claim in claims.items()]
+    reasons = [
+        "; ".join(filter(None, ("" if result == REPRODUCED else outside(found[name], one), found[name].note))) or None
+        for result, name, one in zip(verdicts, claims, quantities, strict=True)
+    ]
+
+    def listed(of) -> list[list]:
+        return [[of(quantity) for quantity in one.values()] for one in quantities]
+
+    def numbers(method: str) -> list[list[float]]:
+        values = [getattr(found[name], method) for name in claims]
+        return [[of[name] for name in one] if of else [] for of, one in zip(values, quantities, strict=True)]
+
+    return {
+        "id": list(claims),
+        **{name: [claim[name] for claim in claims.values()] for name in ("where", "statement")},
+        "quantities": listed(lambda quantity: quantity["is"]),
+        "paper": listed(lambda quantity: quantity["paper"]),
+        "paper_method": numbers("euler"),
+        "converged": numbers("converged"),
+        "accepted_low": listed(lambda quantity: quantity["accepted"][0]),
+        "accepted_high": listed(lambda quantity: quantity["accepted"][1]),
+        "because": listed(lambda quantity: quantity["because"]),
+        "verdict": verdicts,
+        "reason": reasons,
+    }
+
+
+def report(rows: pd.DataFrame) -> str:
+    """The table in Markdown."""
+
+    def numbers(values) -> str:
+        return ", ".join("–" if value is None or math.isnan(value) else f"{value:.4g}" for value in values) or "–"
+
+    def bound(value: float | None) -> float | None:
+        return None if value is None or math.isnan(value) else value
+
+    lines = [
+        "# The paper's statements",
+        "",
+        "Each verdict follows from the numbers: `reproduced` if the converged ones lie in the accepted intervals "
+        "(those of the paper's method, where the statement is about it), else `reproduced by the paper's method "
+        "only` or `not reproduced`. The paper's method is explicit Euler with the paper's step, computed here; what it "
+        "leaves is followed on by the converged solution where a state of motion is asked for.",
+        "",
+        "| | Where | Statement | Quantities | Paper | Paper's method, computed here | Converged | Accepted | Verdict |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
+    for row in rows.itertuples():
+        accepted = "; ".join(
+            f"{written([bound(low), bound(high)])} ({because})"
+            for low, high, because in zip(row.accepted_low, row.accepted_high, row.because, strict=True)
+        )
+        lines.append(
+            f"| {row.id} | {row.where} | {row.statement} | {'; '.join(row.quantities)} | {numbers(row.paper)} "
+            f"| {numbers(row.paper_method)} | {numbers(row.converged)} | {accepted} | **{row.verdict}** |"
+        )
+    told = rows.dropna(subset="reason")
+    for title, part in (("Reasons", told[told.verdict != REPRODUCED]), ("Notes", told[told.verdict == REPRODUCED])):
+        lines += ["", f"## {title}", "", *(f"- **{row.id}** {row.reason}." for row in part.itertuples())]
+    return "\n".join(lines) + "\n"
+
+
+def make(settings: dict, references: list[str], read: list[pd.DataFrame]) -> dict:
+    """The columns of the table of claims and the report, from the tables that `references` name as SECTION/NAME."""
+    tables_by_name = dict(zip(references, read, strict=True))
+    found = {name: find(claim, tables_by_name) for name, claim in settings["claims"].items()}
+    made = columns(settings["claims"], found)
+    rows = tables.make("claims", TABLES["claims"], made, settings).to_pandas()
+    return {"claims": made, "report": report(rows)}

@@ -1,0 +1,1 @@
+"""What the motion is: stroboscopic map, states, orbits, exponents, dimensions, spectra, fits."""

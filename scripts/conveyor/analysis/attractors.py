@@ -1,0 +1,46 @@
+"""The motion that a slow change of the conveyor leads to: each amplitude begins where the last one ended."""
+
+import numpy as np
+
+from ..solver import contact, trajectory
+from ..solver.jit import kernel
+from . import stroboscope
+
+
+@kernel
+def follow_change(parameters, tolerance, state, transient, strobes, codes):
+    """Fill `strobes`, shape (n, m, 2), and the status `codes`, shape (n,); see `sweep`. `state` is advanced."""
+    series = contact.workspace()
+    no_tangent = np.empty((0, 2))
+    features = np.zeros(stroboscope.FEATURES)
+    strobes[:] = np.nan
+    for i in range(parameters.shape[0]):
+        c = contact.constants(parameters[i], tolerance)
+        for n in range(transient + strobes.shape[1]):
+            codes[i] = stroboscope.cycle(c, series, state, no_tangent, features)
+            if codes[i] != trajectory.OK:
+                return
+            if n >= transient:
+                strobes[i, n - transient, :] = state
+
+
+def sweep(parameters: np.ndarray, *, transient: int, strobes: int, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
+    """Stroboscopic states on the attractors of conveyors that change step by step.
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 13), rows as from model.pack, in the order of the change; the first start counts
+    transient : excitation cycles after each step that are not recorded
+    strobes : excitation cycles that are
+    tolerance : of the contact steps
+
+    Returns
+    -------
+    states, status : δ (m) and v (m/s) at the phase ψ0, shape (n, strobes, 2), and str, shape (n,); behind a failure NaN
+    """
+    parameters = np.ascontiguousarray(parameters, dtype=np.float64)
+    states = np.empty((len(parameters), strobes, 2))
+    codes = np.full(len(parameters), trajectory.NOT_FINITE)
+    state = stroboscope.initial_states(parameters[:1], tolerance)[0]
+    follow_change(parameters, tolerance, state, transient, states, codes)
+    return states, np.array(trajectory.STATUS)[codes]

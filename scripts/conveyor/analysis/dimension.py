@@ -1,0 +1,282 @@
+"""Fractal dimension of a point set in the plane, with its scaling region and an error bar.
+
+Two estimators: box counting (Minkowski-Bouligand, the paper's Sect. 4.2) and the correlation sum of Grassberger and
+Procaccia, Physica D 9 (1983) 189, with the window of Theiler, Phys. Rev. A 34 (1986) 2427. Both give a curve of
+log(measure) over log(scale) whose slope is the dimension in between only: boxes smaller than the distance of the
+samples count samples, boxes as large as the set feel its rim. `scaling_region` finds what lies in between.
+"""
+
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from ..solver.jit import kernel
+
+COARSEST_SCALE = 0.25  # of the set's extent
+FINEST_SCALE = 2.0**-20  # of the set's extent; samples closer than this count as one: a settled orbit repeats itself
+SCALES_PER_OCTAVE = 4
+SCALES = np.geomspace(COARSEST_SCALE, FINEST_SCALE, 18 * SCALES_PER_OCTAVE + 1)
+PLACES = 1 << 21  # boxes of a grid up to which each has a place in memory
+SHIFTS = 12  # positions of each grid over which box counts are averaged
+SAMPLES_PER_BOX = 5.0  # with fewer, too many boxes stay empty by chance (e^-5 of them in a uniform set)
+MINIMUM_PAIRS = 1000  # closer than the smallest radius: 3 % noise
+MAXIMUM_PAIRS = 6e7  # distances to compute; larger sets are seen from fewer reference points
+BLOCKS = 8  # stretches of a series whose correlation sums are compared
+SHORTEST_REGION = 8.0  # ratio of the largest to the smallest scale
+RIM_PENALTY = 1e-5  # (residual 0.01 / rim 3)²: keeps the rim's coefficient of order one
+STRAIGHT = 2.0  # standard errors within which the curvature of a straight stretch vanishes
+NEGLIGIBLE_DRIFT = 0.05  # of the slope from the middle to the ends: straight, whatever its standard error
+
+
+class Dimension(NamedTuple):
+    """Estimate of a dimension.
+
+    Attributes
+    ----------
+    value, error : dimension and the half-width of its 95 % interval, in which scatter, finite sample and choice of the
+        scaling region are included; NaN if the points resolve no three octaves
+    scale_low, scale_high : limits of the scaling region, in units of the set's extent
+    scales : box sizes or radii that the points resolve, descending, in units of the set's extent, shape (k,)
+    counts : mean number of occupied boxes, or share of pairs that are closer than the radius, shape (k,)
+    """
+
+    value: float
+    error: float
+    scale_low: float
+    scale_high: float
+    scales: np.ndarray
+    counts: np.ndarray
+
+
+def box_dimension(points: np.ndarray) -> Dimension:
+    """Minkowski-Bouligand dimension of `points`, shape (n, 2), scaled axis by axis to the unit square.
+
+    Counts are means over shifted grids, which makes N(ε)ε² the area of the set dilated by a box of size ε. Boxes that
+    stay empty because the sample is finite are extrapolated: counts of n, n/2 and n/4 points, drawn at random with a
+    fixed seed, are continued as a geometric series (Aitken), by no more than their last increment. The slope of this
+    correction enters the error.
+
+    Samples that repeat resolve nothing: sample a periodic orbit at times incommensurate with its period.
+    """
+    points = normalise(points)
+    order = np.random.default_rng(0).permutation(len(points))
+    shifts = np.modf(np.arange(1, SHIFTS + 1)[:, None] * np.array([0.7548776662466927, 0.5698402909980532]))[0]
+    counts, half, quarter = (
+        box_counts(points[np.sort(order[: len(points) // part])], SCALES, shifts, SAMPLES_PER_BOX / part)
+        for part in (1, 2, 4)
+    )
+    resolved = (counts > 0.0) & (half > 0.0) & (quarter > 0.0)
+    scales, counts, half, quarter = (column[resolved] for column in (SCALES, counts, half, quarter))
+    last, before = counts - half, half - quarter
+    missing = np.where(before > last, last**2 / np.where(before > last, before - last, 1.0), 0.0)
+    corrected = counts + np.minimum(missing, last)
+    value, error, low, high = scaling_region(scales, np.log(corrected), np.log(corrected / counts)[None])
+    return Dimension(-value, error, low, high, scales, counts)
+
+
+def box_dimension_of_paper(points: np.ndarray, sizes: Iterable[float] = tuple(0.5 ** np.arange(1, 9))) -> Dimension:
+    """Box counting without precautions: one grid, a straight line through the counts of all `sizes`.
+
+    The error is twice the standard error of the slope, as if the counts scattered independently.
+    """
+    scales = np.sort(np.asarray(sizes, dtype=np.float64))[::-1]
+    counts = box_counts(normalise(points), scales, np.zeros((1, 2)), 0.0)
+    (slope, _), covariance = np.polyfit(np.log(scales), np.log(counts), 1, cov=True)
+    return Dimension(-slope, 2.0 * np.sqrt(covariance[0, 0]), scales[-1], scales[0], scales, counts)
+
+
+def correlation_dimension(points: np.ndarray, theiler: int) -> Dimension:
+    """Correlation dimension of a series of `points`, shape (n, 2), scaled axis by axis to the unit square (Eq. 25).
+
+    Neighbours are counted for BLOCKS consecutive parts of the series; twice the standard error that their slopes give
+    enters the error.
+
+    Parameters
+    ----------
+    points : consecutive samples
+    theiler : pairs at most this number of samples apart are neighbours in time, not on the attractor, and left out
+    """
+    points = normalise(points)
+    n = len(points)
+    references = np.random.default_rng(0).permutation(n)[: int(min(n, max(MAXIMUM_PAIRS / n, 1.0)))]
+    blocks = [pair_counts(points, block, theiler, SCALES**2) for block in np.array_split(np.sort(references), BLOCKS)]
+    closer = np.cumsum([shells[::-1] for shells, _ in blocks], axis=1)[:, ::-1]
+    total = closer.sum(axis=0)
+    resolved = (total >= max(MINIMUM_PAIRS, SAMPLES_PER_BOX * total[-1])) & (closer > 0).all(axis=0)
+    counts = total[resolved] / max(sum(pairs for _, pairs in blocks), 1)
+    deviations = np.log(BLOCKS * closer[:, resolved] / total[resolved])
+    noise = 2.0 * deviations / np.sqrt(BLOCKS * (BLOCKS - 1))
+    return Dimension(*scaling_region(SCALES[resolved], np.log(counts), noise), SCALES[resolved], counts)
+
+
+def dimension_by_number(
+    points: np.ndarray, numbers: Iterable[int], estimate: Callable[[np.ndarray], Dimension] = box_dimension
+) -> list[Dimension]:
+    """`estimate` from random samples of `points` (fixed seed, order kept), one for each of `numbers`."""
+    order = np.random.default_rng(0).permutation(len(points))
+    return [estimate(points[np.sort(order[:number])]) for number in numbers]
+
+
+def normalise(points: np.ndarray) -> np.ndarray:
+    """The points, shape (n, 2), scaled axis by axis to the unit square; an axis without extent becomes zero."""
+    points = np.asarray(points, dtype=np.float64)
+    if points.ndim != 2 or points.shape[1] != 2 or not len(points) or not np.isfinite(points).all():
+        raise ValueError(f"points must be finite and of shape (n, 2) with n > 0, got shape {points.shape}")
+    low, extent = points.min(axis=0), np.ptp(points, axis=0)
+    return np.ascontiguousarray((points - low) / np.where(extent > 0.0, extent, 1.0))
+
+
+def scaling_region(scales: np.ndarray, values: np.ndarray, uncertain: np.ndarray) -> tuple[float, float, float, float]:
+    """Slope of `values` over log(scales), its error and the limits of the longest straight stretch.
+
+    Every stretch of at least SHORTEST_REGION is fitted by a + s log ε + b ε. The last term is the rim, exact for
+    smooth bodies (the Steiner formula gives (1 + ε)² boxes for a square); it is held to be of order one. A stretch is
+    straight if a further term in (log ε)² is not significant or negligible; if none is, the straightest is taken.
+    The longest straight stretch is chosen among those with at most twice the smallest standard error. Residuals
+    oscillate (lacunarity), so that each octave counts as one observation.
+
+    Parameters
+    ----------
+    scales : descending, shape (k,)
+    values : logarithm of the measure, shape (k,)
+    uncertain : independent changes of `values` within their 95 % interval, shape (u, k)
+
+    Returns
+    -------
+    slope, error, low, high
+        error: twice the standard error, twice the rms deviation of the straight stretches that are at least half as
+        long, the drift of the slope to the ends of the stretch and the slopes of the uncertain changes, in squares
+    """
+    x = np.log(scales)
+    first, last = np.triu_indices(len(x))
+    length = x[first] - x[last]
+    enough = length >= np.log(SHORTEST_REGION) - 1e-9
+    if not enough.any():
+        return np.nan, np.nan, np.nan, np.nan
+    first, last, length = first[enough], last[enough], length[enough]
+    index = np.arange(len(x))
+    inside = ((index >= first[:, None]) & (index <= last[:, None])).astype(np.float64)
+    position = (x - 0.5 * (x[first] + x[last])[:, None]) / length[:, None]
+    columns = [np.ones_like(position), position, np.broadcast_to(scales, position.shape), position**2]
+
+    fit, fit_error = fit_stretches(columns[:3], inside, values)
+    bent, bent_error = fit_stretches(columns, inside, values)
+    slope, slope_error = fit[:, 1] / length, fit_error[:, 1] / length
+    curvature = np.abs(bent[:, 3]) / bent_error[:, 3]
+    straight = (curvature <= max(STRAIGHT, curvature.min())) | (np.abs(bent[:, 3]) <= NEGLIGIBLE_DRIFT * length)
+
+    certain = straight & (slope_error <= 2.0 * slope_error[straight].min())
+    best = np.flatnonzero(certain)[np.lexsort((slope_error[certain], -np.round(length[certain], 9)))[0]]
+    rivals = certain & (length >= 0.5 * length[best])
+    choice = np.sqrt(np.mean((slope[rivals] - slope[best]) ** 2))
+    drift = bent[best, 3] / length[best]
+    stretch = [column[best : best + 1] for column in columns[:3]]
+    shifts = [fit_stretches(stretch, inside[best : best + 1], change)[0][0, 1] / length[best] for change in uncertain]
+    error = np.linalg.norm([2.0 * slope_error[best], 2.0 * choice, drift, *shifts])
+    return slope[best], error, scales[last[best]], scales[first[best]]
+
+
+def fit_stretches(columns: list[np.ndarray], inside: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Least squares on each row's stretch: coefficients and standard errors, shape (stretches, columns)."""
+    design = np.stack(columns, axis=-1) * inside[..., None]
+    normal = np.einsum("skp,skq->spq", design, design)
+    normal[:, 2, 2] += RIM_PENALTY
+    inverse = np.linalg.inv(normal)
+    coefficients = np.einsum("spq,skq,k->sp", inverse, design, values, optimize=True)
+    residuals = inside * values - np.einsum("skp,sp->sk", design, coefficients)
+    freedom = np.maximum(inside.sum(axis=1) - len(columns), 1.0)
+    variance = SCALES_PER_OCTAVE * np.sum(residuals**2, axis=1) / freedom
+    return coefficients, np.sqrt(variance[:, None] * np.diagonal(inverse, axis1=1, axis2=2))
+
+
+@kernel
+def occupied_by_place(points, size, shift, stamps, stamp):
+    """Number of boxes of a shifted grid that hold a point; `stamps` has a place for each of them."""
+    inverse = 1.0 / size
+    width = np.int64(inverse) + 2
+    count = 0
+    for i in range(len(points)):
+        place = np.int64(points[i, 0] * inverse + shift[0]) * width + np.int64(points[i, 1] * inverse + shift[1])
+        if stamps[place] != stamp:
+            stamps[place] = stamp
+            count += 1
+    return count
+
+
+@kernel
+def occupied_by_key(points, size, shift, keys, stamps, stamp):
+    """The same for boxes without number; `keys` and `stamps` are a hash table of length 2^k > n."""
+    mask = np.uint64(len(keys) - 1)
+    inverse = 1.0 / size
+    count = 0
+    previous = np.uint64(0xFFFFFFFFFFFFFFFF)
+    for i in range(len(points)):
+        key = (np.uint64(points[i, 0] * inverse + shift[0]) << np.uint64(32)) | np.uint64(
+            points[i, 1] * inverse + shift[1]
+        )
+        if key == previous:
+            continue
+        previous = key
+        mixed = key * np.uint64(0x9E3779B97F4A7C15)
+        slot = (mixed ^ (mixed >> np.uint64(32))) & mask
+        while stamps[slot] == stamp and keys[slot] != key:
+            slot = (slot + np.uint64(1)) & mask
+        if stamps[slot] != stamp:
+            stamps[slot] = stamp
+            keys[slot] = key
+            count += 1
+    return count
+
+
+@kernel
+def box_counts(points, scales, shifts, samples_per_box):
+    """Mean numbers of occupied boxes over shifted grids, shape of `scales` (descending).
+
+    Zero from the first scale on whose boxes hold fewer than `samples_per_box` samples that the finest scale tells
+    apart.
+    """
+    length = 1
+    while length < max(2 * len(points), PLACES):
+        length *= 2
+    keys = np.empty(length, np.uint64)
+    stamps = np.full(length, -1, np.int32)
+    distinct = occupied_by_key(points, scales[-1], shifts[0], keys, stamps, 0)
+    counts = np.zeros(len(scales))
+    stamp = 0
+    for k in range(len(scales)):
+        total = 0
+        by_place = (1.0 / scales[k] + 3.0) ** 2 <= PLACES
+        for s in range(len(shifts)):
+            stamp += 1
+            if by_place:
+                total += occupied_by_place(points, scales[k], shifts[s], stamps, stamp)
+            else:
+                total += occupied_by_key(points, scales[k], shifts[s], keys, stamps, stamp)
+        if total * samples_per_box > distinct * len(shifts):
+            break
+        counts[k] = total / len(shifts)
+    return counts
+
+
+@kernel
+def pair_counts(points, references, theiler, squares):
+    """Numbers of pairs by squared distance, and of all pairs; shell k lies between squares[k] and squares[k + 1].
+
+    Each reference (an index) is paired with all points that are more than `theiler` samples away.
+    """
+    shells = np.zeros(len(squares), np.int64)
+    pairs = 0
+    for i in references:
+        x = points[i, 0]
+        y = points[i, 1]
+        for begin, end in ((0, i - theiler), (i + theiler + 1, len(points))):
+            for j in range(begin, end):
+                square = (points[j, 0] - x) ** 2 + (points[j, 1] - y) ** 2
+                k = 0
+                while k < len(squares) and square < squares[k]:
+                    k += 1
+                if k > 0:
+                    shells[k - 1] += 1
+            pairs += max(end - begin, 0)
+    return shells, pairs

@@ -1,0 +1,139 @@
+"""States of motion: first (moves with the plate), second (jumps), chaos; each with its period, none by guess.
+
+A trajectory is followed from excitation cycle to excitation cycle until it repeats itself with a period of up to 64
+cycles; the longest flight of the repeated motion tells the first state from the second. What has not repeated itself
+after a given number of cycles is chaos if its own largest Lyapunov exponent is positive by then, beyond its standard
+error; else it is a regular motion of a longer period, or `undecided`. Every start is followed by itself: its label
+depends on nothing but its conveyor and itself. What starts of one conveyor may share is how its chaotic attractor looks
+(see chaotic_set): a start that has come there to stay need not be followed to the end.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ..solver import contact
+from ..solver.jit import kernel
+from ..solver.model import FREQUENCY, PSI0, VZ0, Z0
+from ..solver.parallel import for_each_chunk
+from . import lyapunov, stroboscope
+from .chaotic_set import ChaoticSets, chaotic_sets_of
+from .settling import FAILED, OPEN, SETTLED, STAYS, settle
+
+STATES = ("first", "second", "chaos", "undecided")
+FIRST, SECOND, CHAOS, UNDECIDED = range(len(STATES))
+
+# The second state spends most of a cycle in the air; micro-bounces of the first last a small part of it.
+LONG_FLIGHT = 0.5
+# Excitation cycles after which a start that has not settled is followed no further.
+CYCLES = 20_000
+# An exponent is positive if it exceeds zero by this many standard errors.
+SIGNIFICANT = 3.0
+
+
+class Motions(NamedTuple):
+    """The motions that n starts end in; every field has the shape (n,)."""
+
+    state: np.ndarray  # str, one of STATES
+    period: np.ndarray  # int64, excitation cycles; 0 for none, or none of up to settling.MAX_PERIOD
+    longest_flight: np.ndarray  # excitation cycles, of the settled motion; NaN for none
+    cycles: np.ndarray  # int64, excitation cycles that the start was followed for
+
+
+@kernel
+def settle_points(
+    parameters, points, tolerance, cycles, low, size, cells, first, behind, outcomes, periods, flights, followed
+):
+    """`settle` for rows of `parameters`, shape (n, 13), from `points`, shape (n, 2), which are advanced.
+
+    low, size, cells : chaotic sets; those of the point i are number `first[i]` to that before `behind[i]`
+    outcomes, periods, flights (in excitation cycles), followed : shape (n,), filled
+    """
+    series = contact.workspace()
+    no_strobes = np.empty((0, 2))
+    for i in range(parameters.shape[0]):
+        c = contact.constants(parameters[i], tolerance)
+        outcomes[i], periods[i], longest, followed[i] = settle(
+            c, series, points[i], cycles, low, size, cells, first[i], behind[i], no_strobes
+        )
+        flights[i] = longest / c.period
+
+
+def continued(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, duration: float) -> np.ndarray:
+    """Parameter vectors, shape (n, 13), whose starts are the ends of runs of `duration` (s) of `parameters`."""
+    later = np.array(parameters, dtype=np.float64)
+    cycles = parameters[:, FREQUENCY] * duration
+    later[:, PSI0] = (parameters[:, PSI0] + 2.0 * math.pi * (cycles - np.floor(cycles))) % (2.0 * math.pi)
+    later[:, Z0] = z_end
+    later[:, VZ0] = vz_end
+    return later
+
+
+def classify(
+    parameters: np.ndarray,
+    *,
+    cycles: int = CYCLES,
+    known: ChaoticSets | None = None,
+    tolerance: float = 1e-8,
+    threads: int = 1,
+    progress: str | None = None,
+) -> Motions:
+    """The motion that each start ends in.
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 13), rows as from model.pack; after a run, those of `continued`
+    cycles : excitation cycles after which a start that has not settled is followed no further
+    known : chaotic sets of conveyors; None where each start is followed to its own end
+    tolerance : of the contact steps
+    threads, progress : as in sweep.run
+    """
+    parameters = np.ascontiguousarray(parameters, dtype=np.float64)
+    n = len(parameters)
+    known = chaotic_sets_of([], []) if known is None else known
+    points = stroboscope.states_at_begin_of_cycle(parameters, tolerance)
+    outcomes, periods, followed = np.full(n, FAILED), np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
+    flights = np.full(n, math.nan)
+    finite = np.flatnonzero(np.isfinite(points).all(axis=1))
+    rows, states = parameters[finite], points[finite]
+    first, behind = known.of(rows)
+    found = tuple(np.empty(len(finite), dtype) for dtype in (np.int64, np.int64, np.float64, np.int64))
+
+    def work(begin, end):
+        part = slice(begin, end)
+        settle_points(
+            rows[part],
+            states[part],
+            tolerance,
+            cycles,
+            known.low,
+            known.size,
+            known.cells,
+            first[part],
+            behind[part],
+            *(column[part] for column in found),
+        )
+
+    for_each_chunk(work, len(finite), threads=threads, chunk=16, progress=progress)
+    for column, values in zip((outcomes, periods, flights, followed), found, strict=True):
+        column[finite] = values
+    codes = np.full(n, UNDECIDED)
+    regular = np.where(flights >= LONG_FLIGHT, SECOND, FIRST)
+    codes[outcomes == SETTLED] = regular[outcomes == SETTLED]
+    codes[outcomes == STAYS] = CHAOS
+    still = np.flatnonzero(outcomes == OPEN)
+    if len(still):
+        exponent = lyapunov.spectrum(
+            parameters[still],
+            states[np.searchsorted(finite, still)],
+            begin_of_cycle=True,
+            transient=0,
+            tolerance=tolerance,
+            threads=threads,
+        )
+        codes[still[exponent.lambda_1 > SIGNIFICANT * exponent.stderr]] = CHAOS
+        longer = still[exponent.lambda_1 < -SIGNIFICANT * exponent.stderr]
+        codes[longer] = regular[longer]
+    flights[(codes == CHAOS) | (codes == UNDECIDED)] = math.nan
+    return Motions(np.array(STATES)[codes], periods, flights, followed)

@@ -1,0 +1,271 @@
+"""The stroboscopic map: the vertical motion over exactly one excitation cycle, and its linearisation.
+
+A state is the pair (δ, v) at the phase ψ0: penetration δ = z_s - z_p (m, negative in flight) and its rate v (m/s). It
+says everything, since contact is δ > 0 and the sign of the contact force follows from δ and v.
+
+Perturbations are those of (δ, Y) with Y = v + (d_c/m) max(δ, 0), for which the equations of motion
+
+    δ̇ = Y - (d_c/m) max(δ, 0),   Ẏ = g + a_z cos θ - (k_c/m) max(δ, 0)^p
+
+are continuous across impact and separation, so that the linearised flow needs no jump there. Its determinant over a
+cycle is exp(-(d_c/m) T_contact), with T_contact the time with a contact force. `clip` switches the damping off while
+the force would pull; the force is continuous there, and v takes the place of Y.
+"""
+
+import math
+
+import numpy as np
+
+from ..solver import contact, polynomial
+from ..solver.contact import FIRST
+from ..solver.jit import borrowed, inlined, kernel
+from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
+from ..solver.polynomial import ORDER, SIZE
+from ..solver.trajectory import BEGIN_OF_CYCLE, IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, patience
+from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, begin, motion_at, next_piece, shortened
+
+# What a cycle is characterised by.
+IMPACTS, CONTACT_TIME, LONGEST_FLIGHT, AIRBORNE = range(4)
+FEATURES = 4
+
+
+@kernel
+def initial_state(parameters, tolerance, state):
+    """Fill `state`, shape (2,), with δ (m) and v (m/s) of the start in a packed parameter vector."""
+    c = contact.constants(parameters, tolerance)
+    q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)
+    state[0] = -q
+    state[1] = -rate
+
+
+@kernel
+def expand_tangent(c, series, tangent, free):
+    """Taylor coefficients of a perturbation along a contact step: rows η, ζ of `tangent`, from their values at s = 0.
+
+    With the derivative in s, η' = w (ζ - (d_c/m) η) and ζ' = -p (k_c/m) w^(2p-1) η. `free` leaves the force out.
+    """
+    w, square, stiff = series[FIRST + contact.W], series[FIRST + contact.SQUARE], series[contact.SCRATCH]
+    eta, zeta = tangent[0], tangent[1]
+    damping = 0.0 if free else c.damping
+    stiffness = 0.0 if free else c.exponent * c.stiffness
+    hertz = c.exponent == 1.5
+    hooke = c.exponent == 1.0
+    if not hertz and not hooke:
+        power = 2.0 * c.exponent - 1.0
+        general = w[0] > c.edge_w
+        stiff[:] = 0.0
+        if general:
+            stiff[0] = w[0] ** power
+            for n in range(1, ORDER):
+                stiff[n] = contact.power_term(series, FIRST + contact.W, contact.SCRATCH, power, n)
+    for n in range(ORDER):
+        drift = 0.0
+        pull = 0.0
+        if hertz:
+            for k in range(n + 1):
+                drift += w[k] * (zeta[n - k] - damping * eta[n - k])
+                pull += square[k] * eta[n - k]
+        elif hooke:
+            for k in range(n + 1):
+                drift += w[k] * (zeta[n - k] - damping * eta[n - k])
+                pull += w[k] * eta[n - k]
+        else:
+            for k in range(n + 1):
+                drift += w[k] * (zeta[n - k] - damping * eta[n - k])
+                pull += stiff[k] * eta[n - k]
+        eta[n + 1] = drift / (n + 1)
+        zeta[n + 1] = -stiffness * pull / (n + 1)
+
+
+@kernel
+def tangent_length(c, expansion):
+    """Length in s at which the last two terms of a perturbation's expansion are below the tolerance.
+
+    A perturbation rings at the frequency of the contact, also where the motion itself is slow or at rest.
+    """
+    scale = c.omega * abs(expansion[0, 0]) + abs(expansion[1, 0])
+    length = 1e300
+    for order in (ORDER - 1, ORDER):
+        last = max(c.omega * abs(expansion[0, order]), abs(expansion[1, order]))
+        if last > 0.0:
+            length = min(length, (c.tolerance * scale / last) ** (1.0 / order))
+    return length
+
+
+@inlined
+def advance_tangent(c, series, tangent, expansions, motion, piece):
+    """Advance perturbations of (δ, Y), rows of `tangent`, along a piece; return the piece up to where they could go.
+
+    A step in which a perturbation changes faster than the motion is cut there.
+    """
+    if piece.kind != CONTACT:
+        # Flights, and the moments of rest at the surface, in which the plate does not push.
+        for i in range(tangent.shape[0]):
+            tangent[i, 0] += tangent[i, 1] * piece.duration
+        return piece
+    longest = piece.length
+    free = motion.pulled and c.tension == TENSION_CLIP
+    for i in range(tangent.shape[0]):
+        expansions[i, 0, 0], expansions[i, 1, 0] = tangent[i, 0], tangent[i, 1]
+        expand_tangent(c, series, expansions[i], free)
+        longest = min(longest, tangent_length(c, expansions[i]))
+    if longest < piece.length:
+        duration = polynomial.value(series, FIRST + contact.T, longest)
+        piece = shortened(series, FIRST, longest, duration, contact.NOTHING)
+    for i in range(tangent.shape[0]):
+        tangent[i, 0] = polynomial.value(expansions[i], 0, piece.length)
+        tangent[i, 1] = polynomial.value(expansions[i], 1, piece.length)
+    if piece.end == contact.FORCE_SIGN:
+        switch_damping(c, tangent, not motion.pulled)
+    return piece
+
+
+@inlined
+def switch_damping(c, tangent, pulled):
+    """Take v in place of Y in perturbations where `clip` begins to switch the damping off, and back."""
+    if c.tension == TENSION_CLIP:
+        sign = -1.0 if pulled else 1.0
+        for i in range(tangent.shape[0]):
+            tangent[i, 1] += sign * c.damping * tangent[i, 0]
+
+
+@kernel
+def advance(c, series, state, phase, duration, tangent, features):
+    """Advance `state` from a phase of the excitation by a time of at most one cycle, exactly.
+
+    Parameters
+    ----------
+    c, series : contact.Constants and a contact.workspace to work in
+    state : float64, shape (2,), δ (m) and v (m/s) at `phase` (rad); replaced
+    duration : s
+    tangent : float64, shape (n, 2), n perturbations of (δ, Y); replaced; n = 0 where none are wanted
+    features : float64, shape (4,), replaced but for AIRBORNE, the time (s) since the last separation, which goes on:
+        number of impacts, time with contact force (s), longest flight that ended (s)
+
+    Returns
+    -------
+    status code of trajectory.STATUS
+    """
+    series, state, tangent, features = borrowed(series), borrowed(state), borrowed(tangent), borrowed(features)
+    expansions = np.zeros((tangent.shape[0], 2, SIZE))
+    features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = 0.0
+    motion = motion_at(c, -state[0], -state[1], 0.0, phase)
+    if motion.pulled:
+        switch_damping(c, tangent, True)
+    most = patience(c)
+    lone = 0
+    for _ in range(MAX_PIECES):
+        piece = next_piece(c, series, FIRST, motion, duration - motion.t)
+        piece = advance_tangent(c, series, tangent, expansions, motion, piece)
+        if piece.kind == FLIGHT:
+            if piece.end == LOST:
+                return IMPACT_LOST
+            features[AIRBORNE] += piece.duration
+            if piece.end == IMPACT:
+                features[IMPACTS] += 1.0
+                features[LONGEST_FLIGHT] = max(features[LONGEST_FLIGHT], features[AIRBORNE])
+                features[AIRBORNE] = 0.0
+        elif piece.kind == CONTACT and not (motion.pulled and c.tension == TENSION_CLIP):
+            features[CONTACT_TIME] += piece.duration
+        lone = lone + 1 if piece.end == contact.NOTHING else 0
+        if lone > most:
+            return TOO_STIFF
+        motion = arrive(c, motion, piece, phase)
+        if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)):
+            return NOT_FINITE
+        if piece.end == LIMIT:
+            if motion.pulled:
+                switch_damping(c, tangent, False)
+            # A flight that goes on has been proved to be above the plate, up to rounding.
+            state[0] = motion.w * motion.w if motion.touching else -max(motion.q, 0.0)
+            state[1] = motion.v if motion.touching else -motion.rate
+            return OK
+    return TOO_STIFF
+
+
+@kernel
+def cycle(c, series, state, tangent, features):
+    """Advance `state`, at the phase ψ0, by one excitation cycle: see `advance`."""
+    return advance(c, series, state, c.psi0, c.period, tangent, features)
+
+
+@kernel
+def to_begin_of_cycle(parameters, tolerance, states):
+    """Fill `states`, shape (n, 2), with those of the starts of `parameters` when the plate is next at its top."""
+    series = contact.workspace()
+    no_tangent = np.empty((0, 2))
+    features = np.zeros(FEATURES)
+    for i in range(parameters.shape[0]):
+        c = contact.constants(parameters[i], tolerance)
+        initial_state(parameters[i], tolerance, states[i])
+        remaining = ((BEGIN_OF_CYCLE - c.psi0) % (2.0 * math.pi)) / c.omega
+        if advance(c, series, states[i], c.psi0, remaining, no_tangent, features) != OK:
+            states[i, :] = np.nan
+
+
+def states_at_begin_of_cycle(parameters: np.ndarray, tolerance: float) -> np.ndarray:
+    """δ (m) and v (m/s) of starts, shape (n, 13), when the plate is next at its top, shape (n, 2); NaN if lost."""
+    states = np.empty((len(parameters), 2))
+    to_begin_of_cycle(np.ascontiguousarray(parameters, dtype=np.float64), tolerance, states)
+    return states
+
+
+@kernel
+def follow(parameters, tolerance, state, cycles, strobes, features):
+    """Advance `state` by a number of cycles.
+
+    strobes : float64, shape (cycles, 2), filled with δ and v after each cycle
+    features : float64, shape (cycles, 4), filled with the features of each cycle
+    Returns the status code; rows behind a failure are NaN.
+    """
+    c = contact.constants(parameters, tolerance)
+    series = contact.workspace()
+    no_tangent = np.empty((0, 2))
+    found = np.zeros(FEATURES)
+    strobes[:] = np.nan
+    features[:] = np.nan
+    for n in range(cycles):
+        status = cycle(c, series, state, no_tangent, found)
+        if status != OK:
+            return status
+        strobes[n, :] = state
+        features[n, :] = found
+    return OK
+
+
+@kernel
+def monodromy(parameters, tolerance, state, matrices, features):
+    """Advance `state` by n cycles and fill `matrices`, shape (n, 2, 2), with ∂(δ, Y)_end/∂(δ, Y)_start of each cycle.
+
+    The monodromy matrix is their product; its determinant is the product of theirs without loss of digits.
+    features : float64, shape (n, 4), filled with the features of each cycle. Returns the status code.
+    """
+    c = contact.constants(parameters, tolerance)
+    series = contact.workspace()
+    found = np.zeros(FEATURES)
+    for n in range(matrices.shape[0]):
+        tangent = np.eye(2)
+        status = cycle(c, series, state, tangent, found)
+        features[n, :] = found
+        matrices[n, :, :] = tangent.T
+        if status != OK:
+            return status
+    return OK
+
+
+def initial_states(parameters: np.ndarray, tolerance: float) -> np.ndarray:
+    """Stroboscopic states (δ in m, v in m/s), shape (n, 2), of the starts in `parameters`, shape (n, 13)."""
+    states = np.empty((len(parameters), 2))
+    for row, state in zip(parameters, states, strict=True):
+        initial_state(row, tolerance, state)
+    return states
+
+
+def starts_of_states(parameters: np.ndarray, states: np.ndarray, tolerance: float) -> np.ndarray:
+    """Parameter vectors, shape (n, 13), that start at stroboscopic states (δ in m, v in m/s), shape (n, 2)."""
+    starts = np.array(parameters, dtype=np.float64)
+    for row, (delta, v) in zip(starts, states, strict=True):
+        c = contact.constants(row, tolerance)
+        row[Z0] = -delta - c.a_z / c.omega**2 * np.cos(row[PSI0])
+        row[VZ0] = c.a_z / c.omega * np.sin(row[PSI0]) - v
+    return starts

@@ -1,0 +1,130 @@
+"""Many trajectories: one row per point, in the order of the points, whatever fails and however the work is shared."""
+
+import numpy as np
+
+from .methods import euler_lanes, fixed_step
+from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, METHODS
+from .solver import trajectory
+from .solver.jit import kernel
+from .solver.parallel import for_each_chunk
+
+STATUS = trajectory.STATUS
+NEEDS = ("feeding", "vertical")
+# Columns of the array that the kernels fill.
+MEAN_VELOCITY, Z_END, VZ_END, X_END, VX_END, MAX_GAP, IMPACTS, CONTACT_FRACTION, CODE = range(9)
+COLUMNS = ("mean_velocity", "z_end", "vz_end", "x_end", "vx_end", "max_gap", "impacts", "contact_fraction")
+
+
+@kernel
+def follow_by_events(parameters, durations, tolerance, feeding, out):
+    """Fill the rows of `out`, shape (n, 9), for `parameters`, shape (n, 13), and `durations` (s), by events."""
+    times = np.empty(2)
+    samples = np.empty((2, 6))
+    no_times = np.empty(0)
+    no_kinds = np.empty(0, np.int8)
+    for i in range(parameters.shape[0]):
+        duration = durations[i]
+        times[0], times[1] = (1.0 - LAST) * duration, duration
+        status, _, impacts, contact_time, max_gap, _, _ = trajectory.integrate(
+            parameters[i], tolerance, feeding, True, times, samples, no_times, no_kinds
+        )
+        out[i, MEAN_VELOCITY] = (samples[1, 0] - samples[0, 0]) / (LAST * duration)
+        out[i, X_END], out[i, VX_END], out[i, Z_END], out[i, VZ_END] = samples[1, :4]
+        out[i, MAX_GAP] = max_gap
+        out[i, IMPACTS] = impacts
+        out[i, CONTACT_FRACTION] = contact_time / duration
+        out[i, CODE] = status
+
+
+def follow_by_steps(parameters, duration, step, method, out):
+    """Fill the rows of `out`, shape (n, 9), for `parameters`, shape (n, 13), with a fixed-step method."""
+    count = fixed_step.step_count(duration, step)
+    first = min(round((1.0 - LAST) * count), count - 1)
+    n = parameters.shape[0]
+    samples = np.full((n, 1, 6), np.nan)
+    results = np.empty((n, euler_lanes.RESULTS))
+    fixed_step.integrate_all(parameters, step, count, method, np.array([first]), samples, np.empty((n, 0, 2)), results)
+    for i in range(n):
+        x, vx, z, vz, _, impacts, contact_time, max_gap, _, status = results[i]
+        out[i, MEAN_VELOCITY] = (x - samples[i, 0, 0]) / ((count - first) * step)
+        out[i, X_END], out[i, VX_END], out[i, Z_END], out[i, VZ_END] = x, vx, z, vz
+        out[i, MAX_GAP] = max_gap
+        out[i, IMPACTS] = impacts
+        out[i, CONTACT_FRACTION] = contact_time / (count * step)
+        out[i, CODE] = trajectory.OK if status == fixed_step.OK else trajectory.NOT_FINITE
+
+
+@kernel
+def samples_by_events(parameters, times, tolerance, column, feeding, out):
+    """Fill `out`, shape (n, len(times)), with one column of the samples of n event-driven runs."""
+    samples = np.empty((times.size, 6))
+    no_times = np.empty(0)
+    no_kinds = np.empty(0, np.int8)
+    for i in range(parameters.shape[0]):
+        trajectory.integrate(parameters[i], tolerance, feeding, True, times, samples, no_times, no_kinds)
+        out[i, :] = samples[:, column]
+
+
+def samples_by_steps(parameters, indices, step, method, column, out):
+    """Fill `out`, shape (n, len(indices)), with one column of the samples of n fixed-step runs."""
+    n = parameters.shape[0]
+    samples = np.full((n, indices.size, 6), np.nan)
+    results = np.empty((n, euler_lanes.RESULTS))
+    fixed_step.integrate_all(parameters, step, indices[-1], method, indices, samples, np.empty((n, 0, 2)), results)
+    out[:] = samples[:, :, column]
+
+
+def run(
+    parameters: np.ndarray,
+    *,
+    duration: float | np.ndarray = 1.0,
+    method: str = "event",
+    tolerance: float = DEFAULT_TOLERANCE,
+    step: float = DEFAULT_STEP,
+    needs: str = "feeding",
+    threads: int = 1,
+    chunk: int = 64,
+    progress: str | None = None,
+) -> dict[str, np.ndarray]:
+    """Follow every point for `duration` (s); the event-driven method takes one for each point, too, shape (n,).
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 13), rows as from model.pack
+    duration, method, tolerance, step : as in simulation.simulate
+    needs : "feeding", or "vertical" where nothing horizontal is wanted (event-driven method: its columns are NaN)
+    threads, chunk : how the work is shared; the result does not depend on them
+    progress : name of a progress bar on stderr, or None
+
+    Returns
+    -------
+    dict of arrays of shape (n,): mean_velocity (m/s, over the last quarter), z_end, vz_end, x_end, vx_end (m, m/s),
+    max_gap (m), impacts (int64), contact_fraction (1), and status (str; "ok", or why the point has no result: its
+    numbers are then NaN where they are not known)
+    """
+    if needs not in NEEDS:
+        raise ValueError(f"needs = {needs!r} is not one of {', '.join(NEEDS)}")
+    if method not in METHODS:
+        raise ValueError(f"method = {method!r} is not one of {', '.join(METHODS)}")
+    if method != "event" and np.ndim(duration) > 0:
+        raise ValueError("only the event-driven method takes a duration for each point")
+    parameters = np.ascontiguousarray(parameters, dtype=np.float64)
+    out = np.empty((len(parameters), CODE + 1))
+    feeding = needs == "feeding"
+    durations = np.broadcast_to(np.asarray(duration, dtype=np.float64), len(parameters)).copy()
+
+    def work(begin, end):
+        if method == "event":
+            rows = slice(begin, end)
+            follow_by_events(parameters[rows], durations[rows], tolerance, feeding, out[rows])
+        else:
+            follow_by_steps(parameters[begin:end], duration, step, fixed_step.METHODS.index(method), out[begin:end])
+
+    for_each_chunk(work, len(parameters), threads=threads, chunk=chunk, progress=progress)
+    columns = {name: np.ascontiguousarray(out[:, k]) for k, name in enumerate(COLUMNS)}
+    if not feeding:
+        for name in ("mean_velocity", "x_end", "vx_end"):
+            columns[name] = np.full(len(parameters), np.nan)
+    columns["impacts"] = columns["impacts"].astype(np.int64)
+    columns["status"] = np.array(STATUS)[out[:, CODE].astype(np.int64)]
+    return columns

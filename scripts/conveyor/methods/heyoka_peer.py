@@ -1,0 +1,90 @@
+"""heyoka's Taylor integrator on the same model: a compiled peer that need not be installed.
+
+Flight, slip forward, slip backward and stick are systems of their own, and terminal events end them, as in `peers`
+with the treatment "modes". See https://bluescarni.github.io/heyoka.py.
+"""
+
+from functools import lru_cache
+from importlib.util import find_spec
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..solver.model import EXPONENT, PARAMETERS, TENSION, TENSION_ALLOW
+
+# Names of the systems, and of the event functions that end them.
+FLIGHT, FORWARD, BACKWARD, STICK = "flight", "forward", "backward", "stick"
+GAP, SLIP, GRIP = "gap", "slip", "grip"
+ENDS = {FLIGHT: (GAP,), FORWARD: (GAP, SLIP), BACKWARD: (GAP, SLIP), STICK: (GAP, GRIP, GRIP)}
+
+
+class Leg(NamedTuple):
+    """Motion in one mode."""
+
+    t: float  # s, at its end
+    state: np.ndarray  # x, ẋ, z, ż at its end, shape (4,)
+    ended: str | None  # GAP, SLIP or GRIP, or None
+    evaluations: int  # a step of order n counts n: it finds n derivatives of the force
+
+
+def installed() -> bool:
+    return find_spec("heyoka") is not None
+
+
+@lru_cache(maxsize=64)
+def systems(exponent: float, tolerance: float) -> dict[str, Any]:
+    """Compiled integrators by mode; their parameters are set when they are used."""
+    import heyoka as hy
+
+    x, vx, z, vz = hy.make_vars("x", "vx", "z", "vz")
+    p = {name: hy.par[k] for k, name in enumerate(PARAMETERS)}
+    omega = 2.0 * np.pi * p["frequency"]
+    phase = omega * hy.time + p["psi0"]
+    a_x, a_z = p["acceleration"] * hy.cos(p["angle"]), p["acceleration"] * hy.sin(p["angle"])
+    gap = z + a_z / omega**2 * hy.cos(phase)
+    rate = vz - a_z / omega * hy.sin(phase)
+    slip = a_x / omega * hy.sin(phase) - vx
+    pull = a_x * hy.cos(phase)
+    push = (p["stiffness"] * (-gap) ** exponent - p["damping"] * rate) / p["mass"]
+    rub = p["friction"] * push
+    up, down = hy.event_direction.positive, hy.event_direction.negative
+
+    def system(ax, az, *ends):
+        return hy.taylor_adaptive(
+            [(x, vx), (vx, ax), (z, vz), (vz, az)],
+            [0.0, 0.0, 1.0, 0.0],
+            tol=tolerance,
+            t_events=[hy.t_event(function, direction=direction) for function, direction in ends],
+        )
+
+    pressed = push - p["gravity"]
+    return {
+        FLIGHT: system(0.0 * x, -p["gravity"], (gap, down)),
+        FORWARD: system(rub, pressed, (gap, up), (slip, down)),
+        BACKWARD: system(-rub, pressed, (gap, up), (slip, up)),
+        STICK: system(pull, pressed, (gap, up), (rub - pull, down), (rub + pull, down)),
+    }
+
+
+def follow(
+    parameters: np.ndarray, mode: str, t: float, end: float, state: np.ndarray, tolerance: float, limit: int
+) -> Leg | None:
+    """Follow `state`, (x, ẋ, z, ż), in one mode to an event or to the time `end` (s); None where the integrator fails.
+
+    A leg whose evaluations reach `limit` may end before either.
+    """
+    if parameters[TENSION] != TENSION_ALLOW:
+        raise ValueError("heyoka follows the contact with tension = allow only")
+    integrator = systems(float(parameters[EXPONENT]), tolerance)[mode]
+    integrator.pars[:] = parameters[: len(integrator.pars)]
+    integrator.time = t
+    integrator.state[:] = state
+    integrator.reset_cooldowns()
+    outcome, _, _, steps, *_ = integrator.propagate_until(end, max_steps=limit // integrator.order + 1)
+    state, evaluations = integrator.state.copy(), steps * integrator.order
+    # Outcomes from -1 downwards are the numbers of terminal events.
+    event = -1 - int(outcome)
+    ended = ENDS[mode][event] if event < len(ENDS[mode]) else None
+    if not np.isfinite(state).all() or (ended is None and integrator.time < end and evaluations < limit):
+        return None
+    return Leg(integrator.time, state, ended, evaluations)

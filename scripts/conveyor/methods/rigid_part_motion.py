@@ -1,0 +1,421 @@
+"""The next simpler physics: a rigid part that bounces off the plate with a coefficient of restitution.
+
+An impact takes no time. It reverses the speed of approach u to e u and changes the horizontal velocity by at most
+μ (1 + e) u, towards that of the plate. When bounces have shrunk to nothing the part rests on the plate, pressed on with
+N/m = g + a_z cos θ, and slips or sticks on it until the plate falls away faster than g. Everything between impacts is a
+closed form. The coefficient is a number, or a function of u as a table, for example that of the compliant contact
+(`restitution_coefficients`).
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ..solver import contact, model
+from ..solver.flight import gap, highest_gap, next_impact
+from ..solver.jit import kernel
+
+STATUSES = ("ok", "too many events", "impact not found")
+OK, TOO_MANY_EVENTS, IMPACT_NOT_FOUND = range(len(STATUSES))
+SAMPLE_COLUMNS = ("x", "vx", "z", "vz")
+IMPACT_DTYPE = np.dtype([("time", np.float64), ("speed", np.float64)])
+
+TURN = 2.0 * math.pi
+COLLAPSE = 1e-6  # rad: a bounce shorter than this is the last one
+MAX_EVENTS = 100_000  # within one excitation cycle
+CONTACT_TOLERANCE = 1e-14  # of the contact steps that follow an impact
+MAX_CONTACT_STEPS = 10_000  # of one impact; an undamped one takes about ten
+CREEPING = 1e-9  # share of the speed of approach: a contact that goes back more slowly does not separate
+
+
+class Plate(NamedTuple):
+    """Excitation and friction: ω (rad/s), a_x, a_z, g (m/s²), μ."""
+
+    omega: float
+    a_x: float
+    a_z: float
+    gravity: float
+    friction: float
+
+
+def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
+    """Speed of separation over `speed` of approach (m/s) in the compliant contact, without gravity and excitation.
+
+    The solver's contact steps follow the impact. The coefficient is 0 where damping lets the contact creep back without
+    ever separating.
+
+    Raises
+    ------
+    ArithmeticError
+        if the impact does not end within MAX_CONTACT_STEPS
+    """
+    alone = contact.constants(parameters, CONTACT_TOLERANCE)._replace(gravity=0.0, a_z=0.0, scale_v=speed)
+    series = contact.workspace()
+    w, v, pulled = 0.0, speed, False
+    for _ in range(MAX_CONTACT_STEPS):
+        _, w, v, _, end = contact.step(alone, series, contact.FIRST, w, v, 0.0, 1.0, pulled)
+        if end == contact.SEPARATION:
+            return -v / speed
+        if end == contact.FORCE_SIGN:
+            pulled = not pulled
+        if -CREEPING * speed < v <= 0.0:
+            return 0.0
+    raise ArithmeticError(f"an impact at {speed:g} m/s does not end within {MAX_CONTACT_STEPS} contact steps")
+
+
+@kernel
+def restitution_at(speed, speeds, coefficients):
+    """Linear interpolation in a table over ascending `speeds` (m/s), constant beyond its ends."""
+    k = np.searchsorted(speeds, speed)
+    if k == 0:
+        return coefficients[0]
+    if k == len(speeds):
+        return coefficients[-1]
+    share = (speed - speeds[k - 1]) / (speeds[k] - speeds[k - 1])
+    return coefficients[k - 1] + share * (coefficients[k] - coefficients[k - 1])
+
+
+@kernel
+def rest_end(plate, theta):
+    """Advance of the phase (rad) from `theta` until the plate falls away from a resting part, a_z cos θ < -g."""
+    if plate.a_z <= plate.gravity:
+        return math.inf
+    edge = math.acos(-plate.gravity / plate.a_z)
+    angle = theta % TURN
+    if angle <= edge:
+        return edge - angle
+    if angle < TURN - edge:
+        return 0.0
+    return TURN + edge - angle
+
+
+@kernel
+def safe_flight(theta, omega):
+    """Time (s) in which a part that the plate leaves behind at `theta` cannot be caught.
+
+    With q ≥ 0, q̇ ≥ 0 and q̈ ≥ 0 at θ the gap is at least a_z ω sin θ τ³/6 - a_z ω² τ⁴/24, positive for ωτ < 4 sin θ.
+    Half of that is used: a search from q = 0 would have to make its way out of rounding first.
+    """
+    return max(2.0 * math.sin(theta), 0.0) / omega
+
+
+@kernel
+def stick_end(plate, theta):
+    """Advance of the phase (rad) from `theta` until a resting part that sticks begins to slip, |ẍ_s| > μ N/m."""
+    grip = plate.friction * plate.gravity
+    lift = plate.friction * plate.a_z
+    backward = math.inf  # angle at which -ẍ_s outgrows μ N/m
+    if grip < plate.a_x + lift:
+        backward = math.acos(-grip / (plate.a_x + lift))
+    forward = math.inf  # angle at which ẍ_s outgrows μ N/m
+    if grip < plate.a_x - lift:
+        forward = TURN - math.acos(grip / (plate.a_x - lift))
+    angle = theta % TURN
+    nearest = min(backward, forward) if angle < math.pi else min(forward, TURN + backward)
+    return max(nearest - angle, 0.0)
+
+
+@kernel
+def slip_after(plate, theta, slip, sigma, advance):
+    """Slip velocity ẋ_s - ẋ_p (m/s) of a resting part after an advance of the phase (rad)."""
+    swing = (plate.a_x - sigma * plate.friction * plate.a_z) / plate.omega
+    fall = sigma * plate.friction * plate.gravity / plate.omega
+    return slip + swing * (math.sin(theta + advance) - math.sin(theta)) - fall * advance
+
+
+@kernel
+def slip_end(plate, theta, slip, sigma, limit):
+    """Advance of the phase (rad), up to `limit`, at which the slip velocity of a resting part is back at zero.
+
+    The slip velocity is monotonic between known angles, so that no zero is missed; infinity if there is none.
+    """
+    swing = plate.a_x - sigma * plate.friction * plate.a_z
+    fall = sigma * plate.friction * plate.gravity
+    edge = math.acos(fall / swing) if abs(fall) < abs(swing) else 0.5 * math.pi
+    low = 0.0
+    while low < limit:
+        to_first = (edge - theta - low) % TURN
+        to_second = (-edge - theta - low) % TURN
+        # A part that has just begun to slip starts at such an angle, up to rounding.
+        to_first += TURN if to_first < 1e-9 else 0.0
+        to_second += TURN if to_second < 1e-9 else 0.0
+        high = low + min(to_first, to_second)
+        if sigma * slip_after(plate, theta, slip, sigma, high) <= 0.0:
+            while high - low > 1e-15 * (1.0 + high):
+                middle = 0.5 * (low + high)
+                if sigma * slip_after(plate, theta, slip, sigma, middle) > 0.0:
+                    low = middle
+                else:
+                    high = middle
+            return high
+        low = high
+    return math.inf
+
+
+@kernel
+def rest_motion(plate, theta, x, vx, sigma, tau):
+    """x (m) and ẋ (m/s) of a resting part after the time `tau` (s); `sigma` is the sign of the slip, 0 for stick."""
+    phase = theta + plate.omega * tau
+    sine = (math.sin(phase) - math.sin(theta)) / plate.omega
+    cosine = (math.cos(theta) - math.cos(phase)) / plate.omega**2
+    if sigma == 0.0:
+        return x + plate.a_x * cosine, plate.a_x / plate.omega * math.sin(phase)
+    fall = 0.5 * plate.gravity * tau * tau
+    lift = plate.a_z * (cosine - math.sin(theta) / plate.omega * tau)
+    pull = sigma * plate.friction
+    return x + vx * tau + pull * (fall + lift), vx + pull * (plate.gravity * tau + plate.a_z * sine)
+
+
+@kernel
+def slip_direction(plate, theta, slip):
+    """Sign of the slip of a resting part, 0 for stick (Filippov's condition)."""
+    if slip != 0.0:
+        return math.copysign(1.0, slip)
+    if plate.a_x * abs(math.cos(theta)) <= plate.friction * (plate.gravity + plate.a_z * math.cos(theta)):
+        return 0.0
+    return math.copysign(1.0, math.cos(theta))
+
+
+@kernel
+def follow(parameters, speeds, coefficients, times, samples, impacts):
+    """Follow one part until the last of `times`.
+
+    Parameters
+    ----------
+    parameters : float64, shape (13,), packed as in `model.PARAMETERS`; a start below the plate is one on the plate
+    speeds, coefficients : float64, shape (k,), ascending speeds of approach (m/s), their coefficients of restitution
+    times : float64, shape (n,), s, ascending
+    samples : float64, shape (n, 4), filled in the order of SAMPLE_COLUMNS (m, m/s)
+    impacts : float64, shape (m, 2), filled with time (s) and speed of approach (m/s) of the first m impacts
+
+    Returns
+    -------
+    tuple
+        number of impacts; time at rest on the plate (s); largest gap (m); status
+    """
+    omega = TURN * parameters[model.FREQUENCY]
+    plate = Plate(
+        omega,
+        parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE]),
+        parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]),
+        parameters[model.GRAVITY],
+        parameters[model.FRICTION],
+    )
+    gravity, a_z = plate.gravity, plate.a_z
+    period = 1.0 / parameters[model.FREQUENCY]
+    end = times[-1]
+
+    # Time is the start of an excitation cycle plus the time in it, so that long runs keep the precision of the phase.
+    cycle, t = 0, 0.0
+    theta = parameters[model.PSI0]
+    z = -a_z / omega**2 * math.cos(theta)
+    q = max(parameters[model.Z0] - z, 0.0) if parameters[model.Z0] == parameters[model.Z0] else 0.0
+    z += q
+    vz = parameters[model.VZ0]
+    rate = vz - a_z / omega * math.sin(theta)
+    x, vx, sigma = 0.0, 0.0, 0.0
+    arriving = q == 0.0 and rate <= 0.0
+    speed = -rate
+    resting = False
+    skip = 0.0
+    n_sampled = n_impacts = n_events = 0
+    rest_time, max_gap = 0.0, q
+
+    while n_sampled < len(times):
+        while t >= period:
+            t -= period
+            cycle += 1
+            n_events = 0
+        base = cycle * period
+        theta = parameters[model.PSI0] + omega * t
+        n_events += 1
+        if n_events > MAX_EVENTS:
+            samples[n_sampled:] = math.nan
+            return n_impacts, rest_time, max_gap, TOO_MANY_EVENTS
+        if arriving:
+            if speed > 0.0:
+                if n_impacts < len(impacts):
+                    impacts[n_impacts, 0] = base + t
+                    impacts[n_impacts, 1] = speed
+                n_impacts += 1
+            coefficient = restitution_at(speed, speeds, coefficients)
+            q, rate = 0.0, coefficient * speed
+            z = -a_z / omega**2 * math.cos(theta)
+            vz = a_z / omega * math.sin(theta) + rate
+            bound = plate.friction * (1.0 + coefficient) * speed
+            slip = plate.a_x / omega * math.sin(theta) - vx
+            if abs(slip) <= bound:
+                vx += slip
+                slip = 0.0
+            else:
+                vx += math.copysign(bound, slip)
+            pressure = gravity + a_z * math.cos(theta)
+            resting = pressure > 0.0 and 2.0 * omega * rate <= COLLAPSE * pressure
+            sigma = slip_direction(plate, theta, slip)
+            skip = 0.0 if pressure > 0.0 else safe_flight(theta, omega)
+            arriving = False
+        elif resting:
+            slip = plate.a_x / omega * math.sin(theta) - vx if sigma != 0.0 else 0.0
+            leave = rest_end(plate, theta) / omega
+            limit = min(leave, end - base - t)
+            if sigma == 0.0:
+                change = stick_end(plate, theta) / omega
+            else:
+                change = slip_end(plate, theta, slip, sigma, omega * limit) / omega
+            tau = min(leave, change)
+            while n_sampled < len(times) and base + t + tau >= times[n_sampled]:
+                ahead = times[n_sampled] - base - t
+                phase = theta + omega * ahead
+                x_then, vx_then = rest_motion(plate, theta, x, vx, sigma, ahead)
+                z_then, vz_then = -a_z / omega**2 * math.cos(phase), a_z / omega * math.sin(phase)
+                samples[n_sampled] = (x_then, vx_then, z_then, vz_then)
+                n_sampled += 1
+            rest_time += min(tau, end - base - t)
+            if n_sampled == len(times):
+                break
+            x, vx = rest_motion(plate, theta, x, vx, sigma, tau)
+            t += tau
+            theta += omega * tau
+            if leave <= change:
+                resting = False
+                skip = safe_flight(theta, omega)
+                z, vz = -a_z / omega**2 * math.cos(theta), a_z / omega * math.sin(theta)
+            elif sigma == 0.0:
+                sigma = math.copysign(1.0, math.cos(theta))
+            else:
+                vx = plate.a_x / omega * math.sin(theta)
+                sigma = slip_direction(plate, theta, 0.0)
+        else:
+            if skip > 0.0:
+                q, rate = gap(z, vz, skip, theta, gravity, a_z, omega)
+                if q <= 0.0:
+                    # The plate is back before it has really left.
+                    x, vx = rest_motion(plate, theta, x, vx, sigma, skip)
+                    t += skip
+                    resting = True
+                    continue
+            tau, speed = next_impact(
+                z + (vz - 0.5 * gravity * skip) * skip,
+                vz - gravity * skip,
+                q,
+                rate,
+                theta + omega * skip,
+                gravity,
+                a_z,
+                omega,
+                end - base - t - skip,
+            )
+            tau += skip
+            if not tau <= math.inf:
+                samples[n_sampled:] = math.nan
+                return n_impacts, rest_time, max_gap, IMPACT_NOT_FOUND
+            flown = min(tau, end - base - t)
+            max_gap = max(max_gap, highest_gap(z, vz, theta, gravity, a_z, omega, flown))
+            while n_sampled < len(times) and base + t + tau >= times[n_sampled]:
+                ahead = times[n_sampled] - base - t
+                samples[n_sampled] = (
+                    x + vx * ahead,
+                    vx,
+                    z + (vz - 0.5 * gravity * ahead) * ahead,
+                    vz - gravity * ahead,
+                )
+                n_sampled += 1
+            if n_sampled == len(times):
+                break
+            x += vx * tau
+            t += tau
+            arriving = True
+    return n_impacts, rest_time, max_gap, OK
+
+
+class Summary(NamedTuple):
+    """What one run comes to: the last state and totals over the run."""
+
+    x: float  # m
+    vx: float  # m/s
+    z: float  # m
+    vz: float  # m/s
+    mean_velocity: float  # m/s, over the last part of the run
+    impacts: int
+    rest_fraction: float  # share of the run at rest on the plate
+    max_gap: float  # m
+    status: str  # one of STATUSES
+
+
+def restitution_coefficients(parameters: np.ndarray, speeds: np.ndarray) -> np.ndarray:
+    """Coefficients of restitution of the compliant contact, shape of `speeds` (speeds of approach, m/s, positive).
+
+    They belong to the contact alone, without gravity and excitation, to about 1e-6. ValueError for a speed that is not
+    positive.
+    """
+    speeds = np.asarray(speeds, dtype=np.float64)
+    if not (np.isfinite(speeds) & (speeds > 0.0)).all():
+        raise ValueError("speeds must be finite and positive")
+    found = [restitution_coefficient(parameters, speed) for speed in speeds.ravel()]
+    return np.array(found, dtype=np.float64).reshape(speeds.shape)
+
+
+def _follow(parameters, restitution, times, n_impacts=0):
+    """Call `follow` with new arrays: its result, the samples (NaN behind an early end) and the impacts."""
+    if np.isscalar(restitution):
+        speeds, coefficients = np.zeros(1), np.array([restitution], dtype=np.float64)
+    else:
+        speeds, coefficients = (np.asarray(column, dtype=np.float64) for column in restitution)
+    if speeds.shape != coefficients.shape or speeds.ndim != 1 or not (np.diff(speeds) > 0.0).all():
+        raise ValueError("restitution must be a number or two columns of equal length, the speeds ascending")
+    if not ((coefficients >= 0.0) & (coefficients <= 1.0)).all():
+        raise ValueError("coefficients of restitution must lie in [0, 1]")
+    samples = np.empty((len(times), len(SAMPLE_COLUMNS)))
+    impacts = np.empty((n_impacts, 2))
+    result = follow(parameters, speeds, coefficients, times, samples, impacts)
+    return result, samples, impacts
+
+
+def _check_duration(duration: float) -> None:
+    if not 0.0 < duration < math.inf:
+        raise ValueError(f"duration = {duration!r} s is not positive and finite")
+
+
+def run(parameters: np.ndarray, duration: float, restitution, last: float = 0.25) -> Summary:
+    """Follow one rigid part from t = 0, at rest in x.
+
+    Parameters
+    ----------
+    parameters : float64, shape (13,), from `model.pack`; stiffness, damping, mass, exponent and tension have no effect
+    duration : s
+    restitution : coefficient of restitution in [0, 1], or a pair of arrays (speeds of approach in m/s, coefficients)
+    last : share of the run, in (0, 1], over which the mean velocity is taken
+
+    Raises
+    ------
+    ValueError
+        names the argument that cannot be used
+    """
+    _check_duration(duration)
+    if not 0.0 < last <= 1.0:
+        raise ValueError(f"last = {last!r} is outside (0, 1]")
+    times = np.array([(1.0 - last) * duration, duration])
+    (n_impacts, rest_time, max_gap, status), samples, _ = _follow(parameters, restitution, times)
+    x, vx, z, vz = (float(value) for value in samples[1])
+    mean_velocity = (x - float(samples[0, 0])) / (last * duration)
+    return Summary(x, vx, z, vz, mean_velocity, n_impacts, rest_time / duration, max_gap, STATUSES[status])
+
+
+def sample(parameters: np.ndarray, times: np.ndarray, restitution) -> dict[str, np.ndarray]:
+    """States x, z (m), vx, vz (m/s) at `times` (s, not negative, any shape and order); else as `run`."""
+    times = np.asarray(times, dtype=np.float64)
+    if not (np.isfinite(times) & (times >= 0.0)).all():
+        raise ValueError("times must be finite and not negative")
+    moments, place = np.unique(times, return_inverse=True)
+    samples = _follow(parameters, restitution, moments)[1] if moments.size else np.empty((0, len(SAMPLE_COLUMNS)))
+    return {name: samples[place, k].reshape(times.shape) for k, name in enumerate(SAMPLE_COLUMNS)}
+
+
+def impacts(parameters: np.ndarray, duration: float, restitution) -> np.ndarray:
+    """Impacts in order of time, an array of IMPACT_DTYPE: time (s) and speed of approach (m/s); else as `run`."""
+    _check_duration(duration)
+    times = np.array([duration])
+    (n_impacts, *_), _, _ = _follow(parameters, restitution, times)
+    _, _, rows = _follow(parameters, restitution, times, n_impacts)
+    return rows.view(IMPACT_DTYPE)[:, 0]

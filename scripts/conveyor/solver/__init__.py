@@ -1,0 +1,1 @@
+"""The solver: model, flight, contact, friction, and the event loop that joins them."""

@@ -1,0 +1,1 @@
+"""Stage dimensions: fractal dimensions of phase portraits."""

@@ -1,0 +1,64 @@
+"""Rule dimensions: fractal dimension of the phase portrait ż_p over z_p, over the axes of an entry of the config."""
+
+import math
+
+import numpy as np
+
+from conveyor.analysis import dimension
+from conveyor.analysis.dimension import Dimension
+from conveyor.simulation import simulate
+from conveyor.solver.model import unpack
+from conveyor.solver.parallel import for_each_chunk
+from pipeline import fields, grid
+
+TABLES = {
+    "dimensions": (
+        fields.number(
+            "dimension",
+            "1",
+            "fractal dimension of the phase portrait ż_p over z_p (Eq. 25); null where nothing is known",
+        ),
+        fields.number("error", "1", "half-width of its 95 % interval; null where the points resolve too few scales"),
+        fields.number("scale_low", "1", "smallest scale of the scaling region, in units of the portrait's extent"),
+        fields.number("scale_high", "1", "largest scale of the scaling region, in units of the portrait's extent"),
+        fields.text("status", "ok, or why there is no dimension"),
+    ),
+}
+
+
+def portrait(parameters: np.ndarray, settings: dict) -> np.ndarray:
+    """Consecutive points (z_p in m, ż_p in m/s) of one trajectory, shape (samples, 2)."""
+    conveyor, start = unpack(parameters)
+    cycles = settings["interval"] * np.arange(settings["samples"])
+    times = settings["begin"] + cycles / conveyor.frequency
+    options = {name: settings[name] for name in ("method", "tolerance", "step") if name in settings}
+    motion = simulate(conveyor, start, duration=times[-1], **options).sample(times)
+    return np.stack([motion["z"], motion["vz"]], axis=1)
+
+
+def estimate(points: np.ndarray, settings: dict) -> Dimension:
+    """The dimension of a portrait by the estimator that the settings name."""
+    match settings["estimator"]:
+        case "paper":
+            return dimension.box_dimension_of_paper(points, 0.5 ** np.arange(1, settings["octaves"] + 1))
+        case "box":
+            return dimension.box_dimension(points)
+        case "correlation":
+            return dimension.correlation_dimension(points, settings["theiler"])
+
+
+def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
+    """The columns of a table of dimensions for the resolved `settings` of an entry of the config."""
+    axes, parameters = grid.product(settings["axes"], settings["model"])
+    results = np.empty((len(parameters), 4))
+
+    def work(begin, end):
+        for i in range(begin, end):
+            results[i] = estimate(portrait(parameters[i], settings), settings)[:4]
+
+    for_each_chunk(work, len(parameters), threads=threads, chunk=1, progress=progress)
+    value, error, *scales = results.T
+    wide = error > settings.get("largest_error", math.inf)
+    status = np.select([np.isnan(value), wide], ["too few scales", "interval too wide"], "ok")
+    columns = dict(zip(("scale_low", "scale_high"), scales, strict=True))
+    return axes | {"dimension": np.where(wide, np.nan, value), "error": error, **columns, "status": status}

@@ -1,0 +1,1 @@
+"""Stage docs: pages that are made from results."""

@@ -1,0 +1,1 @@
+"""Stage figures: plots and captions."""

@@ -1,0 +1,76 @@
+"""Bifurcation diagram: attractors swept up and down, branches of periodic orbits, and Lyapunov exponents below."""
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from figures import style
+
+DIRECTIONS = {"up": style.CONVERGED, "down": style.EULER}
+MARKERS = {"fold": ("s", "fold"), "period_doubling": ("o", "period doubling")}
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the tables strobes, branches, bifurcations, cascade and spectrum; settings: longest_period of the orbits
+    shown (excitation cycles), lowest_exponent (1/s).
+    """
+    figure = style.figure(style.PAGE, 130.0)
+    diagram, exponents = figure.subplots(2, 1, sharex=True, height_ratios=(3.0, 1.4))
+    for branch, rows in tables["strobes"].groupby("branch", sort=False):
+        diagram.plot(
+            rows.acceleration,
+            rows.v,
+            ".",
+            markersize=0.7,
+            markeredgewidth=0.0,
+            color=DIRECTIONS[branch],
+            rasterized=True,
+            zorder=1 if branch == "up" else 0,
+        )
+    orbits, found = (
+        tables[name][tables[name].period <= settings["longest_period"]] for name in ("branches", "bifurcations")
+    )
+    for _, rows in orbits.groupby(["branch", "cycle"]):
+        for stable, look in ((True, {"linewidth": 0.7}), (False, {"linewidth": 0.5, "linestyle": (0, (3, 2))})):
+            # A gap in a line where stability changes.
+            shown = rows.v.where(rows.stable == stable)
+            diagram.plot(rows.acceleration, shown, color="black", zorder=2, **look)
+    for kind, (marker, label) in MARKERS.items():
+        rows = found[found.kind == kind]
+        diagram.plot(
+            rows.acceleration,
+            rows.v,
+            marker,
+            markersize=3.5,
+            markerfacecolor="white",
+            markeredgecolor="black",
+            markeredgewidth=0.7,
+            zorder=3,
+            label=label,
+        )
+    cascade = tables["cascade"]
+    for axes in (diagram, exponents):
+        axes.axvline(cascade.accumulation.iloc[-1], color="0.5", linewidth=0.6, linestyle=":")
+    for branch, rows in tables["spectrum"].groupby("branch", sort=False):
+        exponents.plot(
+            rows.acceleration, rows.lambda_1, color=DIRECTIONS[branch], linewidth=0.6, label=f"swept {branch}"
+        )
+    exponents.axhline(0.0, color="black", linewidth=0.6)
+    exponents.set_ylim(settings["lowest_exponent"], 1.15 * tables["spectrum"].lambda_1.max())
+    exponents.annotate(
+        "doublings accumulate",
+        (cascade.accumulation.iloc[-1], 0.05),
+        xycoords=("data", "axes fraction"),
+        xytext=(3, 0),
+        textcoords="offset points",
+        size=7.0,
+    )
+    diagram.plot([], [], color="black", linewidth=0.7, label="stable orbit")
+    diagram.plot([], [], color="black", linewidth=0.5, linestyle=(0, (3, 2)), label="unstable orbit")
+    diagram.set_ylabel("speed of approach $v$ at $\\psi$ = $\\psi_0$ in m/s")
+    exponents.set_ylabel("$\\lambda_1$ in 1/s")
+    exponents.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    exponents.set_xlim(tables["strobes"].acceleration.min(), tables["strobes"].acceleration.max())
+    figure.align_ylabels()
+    handles = [*diagram.get_legend_handles_labels()[0], *exponents.get_legend_handles_labels()[0]]
+    figure.legend(handles=handles, loc="outside upper center", ncols=6)
+    return figure

@@ -1,0 +1,31 @@
+"""Fig. 5: contact force and friction force, below and above the critical amplitude."""
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from figures import style
+
+FORCES = {"contact_force": "contact force $F_c$ in mN", "friction_force": "friction force $F_r$ in mN"}
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the signals `converged` and `euler` at two amplitudes; settings: begin, s, of what is shown."""
+    figure = style.figure(style.PAGE, 88.0)
+    panels = figure.subplots(2, 2, sharex=True)
+    for role, look in style.CURVES.items():
+        table = tables[role][tables[role].time >= settings["begin"]]
+        for column, (acceleration, rows) in enumerate(table.groupby("acceleration")):
+            panels[0, column].set_title(f"{('below', 'above')[column]}, $\\hat{{a}}$ = {acceleration:g} m/s²")
+            for axes, force in zip(panels[:, column], FORCES, strict=True):
+                axes.plot(rows.time, 1e3 * rows[force], **look)
+    for line, label in zip(panels, FORCES.values(), strict=True):
+        for axes in line:
+            axes.set_ylabel(label)
+    for axes in panels[1]:
+        axes.set_xlim(settings["begin"], tables["converged"].time.max())
+        axes.locator_params(axis="x", nbins=5)
+        axes.set_xlabel("time in s")
+    figure.align_ylabels()
+    figure.get_layout_engine().set(wspace=0.06)
+    figure.legend(handles=panels[0, 0].lines, loc="outside upper center", ncols=2)
+    return figure

@@ -1,0 +1,41 @@
+"""Fig. 6: amplitude spectrum of the vertical velocity, below and above the critical amplitude."""
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from figures import style
+
+
+def plot_signal(tables: dict[str, pd.DataFrame], signal: str, symbol: str, highest: float) -> Figure:
+    """One signal of the spectra `converged` and `euler` at two amplitudes up to the frequency `highest` (Hz)."""
+    figure = style.figure(style.PAGE, 60.0)
+    panels = figure.subplots(1, 2, sharex=True)
+    looks = {
+        "euler": {
+            "marker": "o",
+            "markerfacecolor": "none",
+            "color": style.EULER,
+            "label": style.EULER_LABEL,
+        },
+        "converged": {"marker": ".", "color": style.CONVERGED, "label": style.CONVERGED_LABEL},
+    }
+    for role, look in looks.items():
+        table = tables[role]
+        shown = table[(table.signal == signal) & (table.frequency <= highest)]
+        for axes, place, (acceleration, rows) in zip(
+            panels, ("below", "above"), shown.groupby("acceleration"), strict=True
+        ):
+            axes.plot(rows.frequency, rows.amplitude, linestyle="", markersize=4.0, markeredgewidth=0.6, **look)
+            if role == "converged":
+                axes.vlines(rows.frequency, 0.0, rows.amplitude, color=look["color"], linewidth=0.8)
+            axes.set_title(f"{place}, $\\hat{{a}}$ = {acceleration:g} m/s²")
+            axes.set_xlabel("frequency in Hz")
+            axes.set_ylim(bottom=0.0)
+            axes.set_ylabel(f"amplitude of {symbol} in m/s")
+    panels[1].legend(loc="upper right")
+    return figure
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the spectra `converged` and `euler` at two amplitudes; settings: highest, Hz, of what is shown."""
+    return plot_signal(tables, "vz", "$\\dot{z}_p$", settings["highest"])

@@ -1,0 +1,47 @@
+"""Fig. 8: feeding velocities for several initial heights, paper's method and converged solution side by side."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from conveyor.solver.model import Conveyor, conveyor_motion
+from figures import style
+
+
+def plate_velocity(sweep: pd.DataFrame) -> tuple[list[float], list[float]]:
+    """Ends of the straight line of the plate's largest velocity (m/s) over the amplitude (m/s²)."""
+    model = {name: value for name, value in sweep.attrs["model"].items() if name not in ("z0", "vz0")}
+    ends = [sweep.acceleration.min(), sweep.acceleration.max()]
+    cycle = np.linspace(0.0, 1.0 / model["frequency"], 721)
+    motions = [conveyor_motion(Conveyor(acceleration=end, **model), cycle) for end in ends]
+    return ends, [motion["vx"].max() for motion in motions]
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the sweeps `converged` and `euler` over acceleration and z0; settings: two_states, m/s²."""
+    figure = style.figure(style.PAGE, 72.0)
+    panels = figure.subplots(1, 2, sharex=True, sharey=True)
+    titles = {"euler": style.EULER_LABEL, "converged": style.CONVERGED_LABEL}
+    for axes, (role, title) in zip(panels, titles.items(), strict=True):
+        sweep = tables[role]
+        axes.axvspan(*settings["two_states"], color="0.93", linewidth=0.0)
+        axes.plot(*plate_velocity(sweep), color=style.PLATE, linewidth=0.8, linestyle="--")
+        for state, colour in style.STATE_COLOURS.items():
+            rows = sweep[sweep.state == state]
+            axes.plot(rows.acceleration, rows.mean_velocity, ".", markersize=2.0, markeredgewidth=0.0, color=colour)
+        axes.set_title(title)
+        axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    panels[0].set_ylabel("mean feeding velocity in m/s")
+    panels[0].set_ylim(bottom=0.0)
+    present = {state for table in tables.values() for state in table.state}
+    handles = {
+        state: Line2D([], [], color=colour, marker="o", linestyle="")
+        for state, colour in style.STATE_COLOURS.items()
+        if state in present
+    }
+    handles["largest velocity of the conveyor"] = Line2D([], [], color=style.PLATE, linewidth=0.8, linestyle="--")
+    handles["two states (paper)"] = Patch(color="0.93")
+    figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=len(handles))
+    return figure

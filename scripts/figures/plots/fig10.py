@@ -1,0 +1,59 @@
+"""Fig. 10: critical initial height over the acceleration amplitude, with Eq. 13 fitted to it."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from conveyor.analysis.regression import Hyperbola, critical_height
+from figures import style
+
+
+def triple(fits: pd.DataFrame, fit: str) -> Hyperbola:
+    """A, B and C of one of the fits in a table of regressions."""
+    return Hyperbola(*fits.set_index("fit").loc[fit, ["A", "B", "C"]])
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the critical heights `converged` and `euler` and the regressions `fit` and `fit_euler`."""
+    figure = style.figure(style.COLUMN, 66.0)
+    axes = figure.subplots()
+    converged, euler = tables["converged"], tables["euler"]
+    euler = euler[euler.is_critical]
+    fitted = np.linspace(*tables["fit"].attrs["acceleration"], 200)
+    curves = (
+        (tables["fit"], "pymoo", style.CONVERGED, "-", "Eq. 13, fitted to converged"),
+        (tables["fit_euler"], "pymoo", style.EULER, "-", "Eq. 13, fitted to the paper's method"),
+        (tables["fit"], "paper", "black", ":", "Eq. 13 with the paper's A, B, C"),
+    )
+    for fits, fit, colour, line, label in curves:
+        axes.plot(
+            fitted, 1e3 * critical_height(fitted, triple(fits, fit)), line, color=colour, linewidth=0.8, label=label
+        )
+    hollow = {"markerfacecolor": "none", "markeredgewidth": 0.6, "linestyle": ""}
+    axes.plot(
+        euler.acceleration,
+        1e3 * euler.z0,
+        marker="o",
+        markersize=4.0,
+        color=style.EULER,
+        label=style.EULER_LABEL,
+        **hollow,
+    )
+    edge = converged[converged.is_critical]
+    axes.plot(edge.acceleration, 1e3 * edge.z0, ".", markersize=2.6, color=style.CONVERGED, label=style.CONVERGED_LABEL)
+    back = converged[~converged.is_critical]
+    if len(back):
+        axes.plot(
+            back.acceleration,
+            1e3 * back.z0,
+            marker="v",
+            markersize=3.0,
+            color=style.CONVERGED,
+            label="converged, back to the first state",
+            **hollow,
+        )
+    axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    axes.set_ylabel("critical initial height $z_0$ in mm")
+    axes.set_ylim(bottom=0.0)
+    axes.legend()
+    return figure

@@ -1,0 +1,33 @@
+"""Fig. 13: map of the state of motion over the initial height and the phase, for a part that starts at rest."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from conveyor.solver.model import Conveyor, conveyor_motion
+from figures import style
+
+
+def phase_map(table: pd.DataFrame, name: str, label: str, start: str) -> tuple[Figure, Axes]:
+    """A map over psi0 and another initial condition, by its column and label, with what all parts start with."""
+    figure = style.figure(style.COLUMN, 76.0)
+    axes = figure.subplots()
+    style.state_map(axes, table, name, "psi0")
+    axes.set_title(f"$\\hat{{a}}$ = {table.attrs['model']['acceleration']:g} m/s², {start}")
+    axes.set_xlabel(label)
+    axes.set_ylabel("initial phase $\\psi_0$ in rad")
+    style.phase_axis(axes.yaxis)
+    figure.legend(handles=style.state_handles(table), loc="outside upper center", ncols=4)
+    return figure, axes
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the sweep `map` over psi0 and z0; a line shows the height of the plate."""
+    table = tables["map"]
+    figure, axes = phase_map(table.assign(z0=1e3 * table.z0), "z0", "initial height $z_0$ in mm", "$\\dot{z}_0$ = 0")
+    model = {name: value for name, value in table.attrs["model"].items() if name != "vz0"}
+    phases = np.linspace(table.psi0.min(), table.psi0.max(), 200)
+    plate = conveyor_motion(Conveyor(**model), phases / (2.0 * np.pi * model["frequency"]))["z"]
+    axes.plot(1e3 * plate[plate >= 0.0], phases[plate >= 0.0], color="white", linewidth=1.0)
+    return figure

@@ -1,0 +1,34 @@
+"""Fig. 16: velocity, heights and forces of a part in chaotic motion."""
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from figures import style
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the signals `converged` and `euler`; settings: acceleration, m/s², and z0, m, of the run shown."""
+    figure = style.figure(style.PAGE, 100.0)
+    (velocity, contact), (height, friction) = figure.subplots(2, 2, sharex=True)
+    looks = (
+        ("euler", {"color": style.EULER, "label": style.EULER_LABEL}),
+        ("converged", {"color": style.CONVERGED, "label": style.CONVERGED_LABEL}),
+    )
+    for role, look in looks:
+        table = tables[role]
+        rows = table[(table.acceleration == settings["acceleration"]) & (table.z0 == settings["z0"])]
+        velocity.plot(rows.time, rows.vx, linewidth=0.7, **look)
+        height.plot(rows.time, 1e3 * rows.z, linewidth=0.7, **look)
+        contact.plot(rows.time, 1e3 * rows.contact_force, linewidth=0.7, **look)
+        friction.plot(rows.time, 1e3 * rows.friction_force, linewidth=0.7, **look)
+    height.plot(rows.time, 1e3 * rows.plate_z, color=style.PLATE, linewidth=0.7, label="conveyor")
+    velocity.set_ylabel("feeding velocity $\\dot{x}_p$ in m/s")
+    height.set_ylabel("heights $z_p$, $z_s$ in mm")
+    contact.set_ylabel("contact force $F_c$ in mN")
+    friction.set_ylabel("friction force $F_r$ in mN")
+    for axes in (height, friction):
+        axes.set_xlabel("time in s")
+        axes.set_xlim(rows.time.min(), rows.time.max())
+    figure.align_ylabels()
+    figure.legend(handles=height.lines, loc="outside upper center", ncols=3)
+    return figure

@@ -1,0 +1,24 @@
+"""Fig. 17: mean feeding velocity over the initial height in chaotic motion, paper's method and converged solution."""
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from figures import style
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the sweeps `converged` and `euler` over z0."""
+    figure = style.figure(style.PAGE, 60.0)
+    panels = figure.subplots(1, 2, sharex=True, sharey=True)
+    looks = (
+        ("euler", style.EULER, style.EULER_LABEL),
+        ("converged", style.CONVERGED, style.CONVERGED_LABEL),
+    )
+    for axes, (role, colour, title) in zip(panels, looks, strict=True):
+        rows = tables[role]
+        axes.plot(1e3 * rows.z0, rows.mean_velocity, ".-", color=colour, linewidth=0.4, markersize=2.5)
+        axes.set_title(title)
+        axes.set_xlabel("initial height $z_0$ in mm")
+    panels[0].set_ylabel("mean feeding velocity in m/s")
+    panels[0].set_ylim(bottom=0.0)
+    return figure

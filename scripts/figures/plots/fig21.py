@@ -1,0 +1,45 @@
+"""Fig. 21: position and feeding velocity of two parts whose phases differ by a small perturbation."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from figures import style
+
+LOOKS = {
+    "euler": (style.EULER, style.EULER_LABEL),
+    "converged": (style.CONVERGED, style.CONVERGED_LABEL),
+}
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the signals `converged` and `euler` at two phases."""
+    figure = style.figure(style.PAGE, 116.0)
+    panels = figure.subplots(3, 2, sharex=True, sharey="row")
+    for column, (role, (colour, title)) in zip(panels.T, LOOKS.items(), strict=True):
+        position, velocity, difference = column
+        (low, base), (high, perturbed) = tables[role].groupby("psi0")
+        mantissa, exponent = f"{high - low:.0e}".split("e")
+        for axes, name, scale in ((position, "x", 1e3), (velocity, "vx", 1.0)):
+            axes.plot(base.time, scale * base[name], color=colour, linewidth=1.4, label="base")
+            axes.plot(
+                perturbed.time,
+                scale * perturbed[name],
+                color="black",
+                linewidth=0.6,
+                label=f"$\\psi_0$ larger by ${mantissa}\\cdot 10^{{{int(exponent)}}}$ rad",
+            )
+        distance = np.abs(perturbed.vx.to_numpy() - base.vx.to_numpy())
+        difference.semilogy(base.time, distance, color=colour, linewidth=0.7)
+        position.set_title(title)
+        position.legend(loc="upper left")
+        difference.set_xlabel("time in s")
+        difference.set_xlim(base.time.min(), base.time.max())
+    for axes, label in zip(
+        panels[:, 0],
+        ("position $x_p$ in mm", "feeding velocity $\\dot{x}_p$ in m/s", "distance $|\\Delta\\dot{x}_p|$ in m/s"),
+        strict=True,
+    ):
+        axes.set_ylabel(label)
+    figure.align_ylabels(panels[:, 0])
+    return figure

@@ -1,0 +1,23 @@
+"""Fig. 22: Lyapunov exponent of the feeding velocity by finite differences, paper's method and converged solution."""
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from figures import style
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the estimates `converged` and `euler`; settings: critical_acceleration, m/s²."""
+    figure = style.figure(style.COLUMN, 62.0)
+    axes = figure.subplots()
+    axes.axhline(0.0, color="black", linewidth=0.6)
+    for role, colour, width, label in (
+        ("euler", style.EULER, 1.6, style.EULER_LABEL),
+        ("converged", style.CONVERGED, 0.8, style.CONVERGED_LABEL),
+    ):
+        axes.plot(tables[role].acceleration, tables[role]["lambda"], color=colour, linewidth=width, label=label)
+    style.mark(axes, settings["critical_acceleration"], f"{settings['critical_acceleration']:g} m/s²")
+    axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    axes.set_ylabel("Lyapunov exponent of $\\dot{x}_p$ in 1/s")
+    style.legend_above(figure, axes, ncols=2)
+    return figure

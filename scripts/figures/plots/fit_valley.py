@@ -1,0 +1,75 @@
+"""The valley of nearly equal fits of Eq. 13: error and parameters along it, and the curves of some of its points."""
+
+import numpy as np
+import pandas as pd
+from matplotlib import colormaps
+from matplotlib.figure import Figure
+
+from conveyor.analysis.regression import Hyperbola, critical_height
+from figures import style
+
+MARKERS = {
+    "pymoo": ("o", style.CONVERGED, "pymoo"),
+    "least_squares": ("+", "black", "least squares"),
+    "paper": ("D", style.EULER, "the paper's triple"),
+}
+CURVES = 5
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From critical heights `converged` and regressions `fit`, `fit_euler`; settings: paper_error, m²."""
+    figure = style.figure(style.PAGE, 62.0)
+    errors, triples, heights = figure.subplots(1, 3)
+    fit, data = tables["fit"], tables["converged"]
+    valley = fit[fit.fit == "valley"]
+    flat = valley[valley.error <= settings["paper_error"]]
+
+    errors.axhline(1e6 * settings["paper_error"] ** 0.5, color="black", linewidth=0.6, linestyle=":")
+    errors.annotate(
+        "the paper's error",
+        (-20.0, 1e6 * settings["paper_error"] ** 0.5),
+        xytext=(0, 2),
+        textcoords="offset points",
+        ha="center",
+        size=7.0,
+    )
+    labels = {"fit": (style.CONVERGED, "converged data"), "fit_euler": (style.EULER, "by the paper's method")}
+    for role, (colour, label) in labels.items():
+        curve = tables[role][tables[role].fit == "valley"]
+        errors.plot(curve.B, 1e6 * curve.error**0.5, color=colour, linewidth=0.8, label=label)
+    errors.set_yscale("log")
+    errors.set_yticks([4.0, 6.0, 10.0, 20.0], ["4", "6", "10", "20"])
+    errors.minorticks_off()
+    errors.set_ylabel("smallest rms deviation in µm")
+    errors.legend(loc="upper right")
+
+    triples.plot(1e3 * valley.A, 1e3 * valley.C, color="0.6", linewidth=0.8, label="valley")
+    triples.plot(1e3 * flat.A, 1e3 * flat.C, color="0.6", linewidth=4.0, alpha=0.5, label="no worse than the paper")
+    triples.set_xlabel("$A$ in 10$^{-3}$ m²/s²")
+    triples.set_ylabel("$C$ in mm")
+    for name, (marker, colour, label) in MARKERS.items():
+        row = fit[fit.fit == name].iloc[0]
+        style_of = {"marker": marker, "color": colour, "linestyle": "", "markersize": 4.0, "markerfacecolor": "none"}
+        errors.plot(row.B, 1e6 * row.error**0.5, **style_of)
+        triples.plot(1e3 * row.A, 1e3 * row.C, **style_of, label=label)
+    triples.legend(loc="lower left")
+    errors.set_xlabel("$B$ in m/s²")
+
+    range_of_fit = np.linspace(*fit.attrs["acceleration"], 200)
+    for index, shade in zip(
+        np.linspace(0, len(flat) - 1, CURVES).astype(int), np.linspace(0.0, 0.9, CURVES), strict=True
+    ):
+        row = flat.iloc[index]
+        curve = critical_height(range_of_fit, Hyperbola(row.A, row.B, row.C))
+        colour = colormaps["viridis"](shade)
+        heights.plot(range_of_fit, 1e3 * curve, color=colour, linewidth=0.6, label=f"$B$ = {row.B:.1f} m/s²")
+    edge = data[data.is_critical]
+    heights.plot(
+        edge.acceleration, 1e3 * edge.z0, ".", color="black", markersize=2.0, markeredgewidth=0.0, label="data"
+    )
+    heights.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    heights.set_ylabel("critical initial height $z_0$ in mm")
+    heights.legend()
+    for axes, letter in zip((errors, triples, heights), "abc", strict=True):
+        axes.set_title(letter, loc="left", fontweight="bold")
+    return figure

@@ -1,0 +1,82 @@
+"""What the data of each figure need: cost of each variant of each table, and what a reader would see of it."""
+
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import NullFormatter
+
+from figures import style
+
+TOLERANCES = {1e-4: "#D55E00", 1e-6: "#E69F00", 1e-8: "#009E73", 1e-10: "#56B4E9", 1e-12: "#0072B2"}
+VARIANTS = {"half the time": ("s", "#CC79A7"), "rigid part": ("^", "black")}
+NONE = 3e-4  # where no value changes, on a logarithmic axis
+RING = {"linestyle": "", "marker": "o", "markersize": 8.0, "markerfacecolor": "none", "color": "black"}
+FULL = {"linestyle": "", "marker": "|", "color": "black", "markersize": 9.0}
+
+
+def look(row) -> tuple[str, str]:
+    """Marker and colour of a variant; those of a tolerance are those of the nearest one of TOLERANCES."""
+    if row.variant in VARIANTS:
+        return VARIANTS[row.variant]
+    nearest = min(TOLERANCES, key=lambda tolerance: abs(tolerance / row.tolerance - row.tolerance / tolerance))
+    return "o", TOLERANCES[nearest]
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the table `budget` and its wall `times`."""
+    table = tables["budget"].merge(tables["times"], on=["table", "variant", "tolerance"], how="left")
+    table.attrs = tables["budget"].attrs
+    drawn = table[table.table != "none"]
+    names = list(dict.fromkeys(drawn.table))
+    figures = drawn.groupby("table").figure.unique().map(", ".join)
+    rows = drawn.drop_duplicates(["table", "variant", "tolerance"])
+    rows = rows.assign(place=rows.table.map(names.index), seen=rows.changed.clip(lower=NONE))
+
+    figure = style.figure(style.PAGE, 22.0 + 8.0 * len(names))
+    cost, seen = figure.subplots(1, 2, sharey=True)
+    full = rows[rows.variant == "full model"]
+    cost.plot(1e3 * full.seconds, full.place, **FULL)
+    for row in rows[
+        (rows.variant != "full model") & (rows.tolerance.notna() | rows.variant.isin(VARIANTS))
+    ].itertuples():
+        marker, colour = look(row)
+        face = "white" if row.visible else colour
+        for axes, x in ((cost, 1e3 * row.seconds), (seen, row.seen)):
+            axes.plot(
+                x,
+                row.place,
+                marker,
+                color=colour,
+                markerfacecolor=face,
+                markersize=3.5,
+                markeredgewidth=0.7,
+                linestyle="",
+            )
+    chosen = rows[rows.chosen]
+    cost.plot(1e3 * chosen.seconds, chosen.place, markeredgewidth=0.8, **RING)
+    seen.plot(chosen.seen, chosen.place, markeredgewidth=0.8, **RING)
+    seen.axvline(table.attrs["pixels"], color="black", linewidth=0.6, linestyle=":")
+    cost.set_yticks(range(len(names)), [f"{name}\n{figures[name]}" for name in names])
+    cost.set_ylim(len(names) - 0.5, -0.5)
+    for axes in (cost, seen):
+        axes.set_xscale("log")
+        axes.xaxis.set_minor_formatter(NullFormatter())
+        axes.grid(axis="y", linewidth=0.3)
+    cost.set_xlabel("wall time of a point in ms")
+    seen.set_xticks([NONE, 1e-3, 1e-2, 1e-1, 1.0], ["none", "0.001", "0.01", "0.1", "1"])
+    seen.set_xlabel("share of drawn values that change visibly")
+    handles = [
+        Line2D([], [], linestyle="", marker="o", color=colour, label=f"tolerance {tolerance:.0e}")
+        for tolerance, colour in TOLERANCES.items()
+    ]
+    handles += [
+        Line2D([], [], linestyle="", marker=marker, color=colour, label=name)
+        for name, (marker, colour) in VARIANTS.items()
+    ]
+    handles += [
+        Line2D([], [], linestyle="", marker="o", color="0.5", markerfacecolor="white", label="open: visible"),
+        Line2D([], [], label="chosen", **RING),
+        Line2D([], [], label=f"full model, tolerance {full.tolerance.iloc[0]:.0e}", **FULL),
+    ]
+    figure.legend(handles=handles, loc="outside upper center", ncols=5)
+    return figure

@@ -1,0 +1,104 @@
+"""How far the paper's estimates carry: exponents by finite differences, dimensions by box counting."""
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from figures import style
+
+CASES = {
+    "orbit_phase": "orbit, phase shifted:\nexponent of $\\dot{x}_p$ in 1/s",
+    "orbit_height": "orbit, height shifted:\nexponent of $z_p$ in 1/s",
+    "chaos_phase": "chaos, phase shifted:\nexponent of $\\dot{x}_p$ in 1/s",
+}
+VARIED = {
+    "perturbation": ("epsilon", "perturbation in rad"),
+    "time": ("duration", "time in s"),
+    "step": ("step", "step of Euler in s"),
+}
+METHODS = {"euler": ("Euler", style.EULER), "event": ("this solver", style.CONVERGED)}
+ESTIMATORS = {
+    "boxes, as in the paper": ("boxes as in the paper", style.EULER, "s"),
+    "boxes": ("boxes, averaged and extrapolated", style.CONVERGED, "o"),
+    "correlation sum": ("correlation sum", "#009E73", "^"),
+}
+NAMES = {"cantor": "Cantor", "sierpinski": "Sierpinski"}
+TRUTH = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 2))}
+BOUND = {"color": "0.6", "linewidth": 0.8, "linestyle": ":"}
+
+
+def draw_exponents(axes: Axes, rows: pd.DataFrame, panel: str) -> None:
+    """Estimates over one quantity, the truth and the largest possible estimate."""
+    column, label = VARIED[panel]
+    for method, (_, colour) in METHODS.items():
+        line = rows[rows.estimator == method]
+        axes.plot(line[column], line.value, ".-", color=colour)
+    low, high = rows.value.min(), rows.value.max()
+    line = rows[rows.estimator == "event"]
+    axes.plot(line[column], line.bound, **BOUND)
+    axes.axhline(rows.truth.iloc[0], **TRUTH)
+    room = 0.15 * (high - low)
+    axes.set_ylim(min(low, rows.truth.iloc[0]) - room, max(high, rows.truth.iloc[0]) + room)
+    axes.set_xscale("log")
+    axes.set_xlabel(label)
+
+
+def draw_dimensions(axes: Axes, rows: pd.DataFrame, column: str, label: str) -> None:
+    """Estimates with their 95 % intervals over one quantity, a line for each case and estimator."""
+    for (case, estimator), line in rows.groupby(["case", "estimator"], sort=False):
+        _, colour, marker = ESTIMATORS[estimator]
+        axes.errorbar(
+            line[column],
+            line.value,
+            line.error,
+            marker=marker,
+            color=colour,
+            markersize=2.5,
+            linewidth=0.7,
+            elinewidth=0.5,
+        )
+        if estimator == "boxes, as in the paper":
+            axes.annotate(
+                NAMES.get(case, case),
+                (line[column].iloc[-1], line.value.iloc[-1]),
+                xytext=(-2, 3 if case == "chaos" else -3),
+                textcoords="offset points",
+                va="bottom" if case == "chaos" else "top",
+                ha="right",
+                size=7.0,
+            )
+    for truth in rows.truth.dropna().unique():
+        axes.axhline(truth, **TRUTH)
+    axes.set_ylim(0.4, 2.4)
+    axes.set_xscale("log")
+    axes.set_xlabel(label)
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the table of estimates."""
+    table = tables["estimates"]
+    figure = style.figure(style.PAGE, 200.0)
+    above, below = figure.subfigures(2, 1, height_ratios=[2.7, 1.0])
+    panels = above.subplots(len(CASES), len(VARIED))
+    for row, (case, label) in zip(panels, CASES.items(), strict=True):
+        for axes, panel in zip(row, VARIED, strict=True):
+            draw_exponents(axes, table[(table.panel == panel) & (table.case == case)], panel)
+        row[0].set_ylabel(label)
+        for axes in row[1:]:
+            axes.set_ylabel("exponent in 1/s")
+    panels[1, 0].set_xlabel("perturbation in m")
+    handles = [Line2D([], [], marker=".", color=colour, label=name) for name, colour in METHODS.values()]
+    handles.append(Line2D([], [], **TRUTH, label="truth"))
+    handles.append(Line2D([], [], **BOUND, label="as far apart as the signal goes"))
+    above.legend(handles=handles, loc="outside upper center", ncols=4)
+
+    sets, samples, time = below.subplots(1, 3, sharey=True)
+    draw_dimensions(sets, table[table.panel == "known set"], "samples", "points of a known set")
+    draw_dimensions(samples, table[table.panel == "samples"], "samples", "points of a settled portrait")
+    draw_dimensions(time, table[table.panel == "run time"], "duration", "time of a run by Euler in s")
+    sets.set_ylabel("dimension")
+    handles = [Line2D([], [], marker=marker, color=colour, label=name) for name, colour, marker in ESTIMATORS.values()]
+    handles.append(Line2D([], [], **TRUTH, label="truth"))
+    below.legend(handles=handles, loc="outside upper center", ncols=4)
+    return figure

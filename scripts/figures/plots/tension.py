@@ -1,0 +1,68 @@
+"""What changes when the contact may not pull: velocity, critical heights, and states of motion over the amplitude."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+
+from figures import style
+
+MODES = {
+    "allow": ("pulls and rubs, as written", "black", "-", 1.4),
+    "frictionless": ("pulls, does not rub", "0.7", (0, (4, 2)), 1.0),
+    "clip": ("does not pull", "#D55E00", (0, (1, 1)), 1.4),
+}
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the sweep `sweep` over tension, z0 and acceleration and the critical heights `edge` over tension."""
+    figure = style.figure(style.PAGE, 104.0)
+    panels = figure.subplot_mosaic([["velocity", "edge"], ["states", "states"]], height_ratios=(2.0, 1.2))
+    sweep, edge = tables["sweep"], tables["edge"]
+    for mode, (label, colour, dashes, width) in MODES.items():
+        regular = sweep[(sweep.tension == mode) & (sweep.state != "chaos") & (sweep.period == 1)]
+        for state, rows in regular.groupby("state"):
+            curve = rows.groupby("acceleration").mean_velocity.median()
+            panels["velocity"].plot(
+                curve.index,
+                curve,
+                color=colour,
+                linestyle=dashes,
+                linewidth=width,
+                label=label if state == "first" else None,
+            )
+        rows = edge[(edge.tension == mode) & edge.is_critical]
+        panels["edge"].plot(rows.acceleration, 1e3 * rows.z0, color=colour, linestyle=dashes, linewidth=width)
+    panels["velocity"].set_ylabel("mean feeding velocity in m/s")
+    panels["velocity"].set_ylim(bottom=0.0)
+    panels["velocity"].set_title("motions with the period of the excitation")
+    panels["edge"].set_ylabel("critical initial height in mm")
+    panels["edge"].set_title("first state below, second above")
+    for name in ("velocity", "edge"):
+        panels[name].set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+
+    axes, names = panels["states"], list(style.STATE_COLOURS)
+    bars = [(mode, z0) for mode in MODES for z0 in sorted(sweep.z0.unique())]
+    amplitudes = np.sort(sweep.acceleration.unique())
+    codes = [
+        sweep[(sweep.tension == mode) & (sweep.z0 == z0)].sort_values("acceleration").state.map(names.index)
+        for mode, z0 in bars
+    ]
+    axes.pcolormesh(
+        amplitudes,
+        np.arange(len(bars)),
+        np.array(codes),
+        cmap=ListedColormap(list(style.STATE_COLOURS.values())),
+        vmin=-0.5,
+        vmax=len(names) - 0.5,
+        shading="nearest",
+        rasterized=True,
+    )
+    for line in np.arange(1.5, len(bars) - 1.0, 2.0):
+        axes.axhline(line, color="white", linewidth=2.0)
+    axes.set_yticks(np.arange(len(bars)), [f"{MODES[mode][0]}, $z_0$ = {1e3 * z0:g} mm" for mode, z0 in bars])
+    axes.invert_yaxis()
+    axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    handles = [*panels["velocity"].get_legend_handles_labels()[0], *style.state_handles(sweep)]
+    figure.legend(handles=handles, loc="outside upper center", ncols=3)
+    return figure

@@ -1,0 +1,163 @@
+"""Error against work: all methods in three scenes, with their failures, and estimators of exponent, dimension, fit."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from figures import style
+
+SCENES = {"jumping": "jumping", "riding": "always in contact", "bouncing": "micro-bounces"}
+# Colour and name of each method, marker and line of each treatment.
+METHODS = {
+    "event": (style.CONVERGED, "this solver"),
+    "euler": (style.EULER, "explicit Euler"),
+    "semi_implicit_euler": ("#E69F00", "semi-implicit Euler"),
+    "rk4": ("#000000", "RK4, fixed step"),
+    "RK45": ("#56B4E9", "RK45"),
+    "DOP853": ("#009E73", "DOP853"),
+    "Radau": ("#CC79A7", "Radau"),
+    "LSODA": ("#8C6D31", "LSODA"),
+    "heyoka": ("#7A4FBF", "heyoka"),
+}
+TREATMENTS = {
+    "exact": ("o", "-", None),
+    "exact, nothing repeated": ("o", "-.", "this solver, every step computed"),
+    "fixed step": (".", "-", None),
+    "sign": ("x", ":", "sign() friction"),
+    "events": ("^", "--", "events, naive restart"),
+    "modes": ("s", "-", "events and modes"),
+}
+FAILURES = {
+    "gave up": "T",
+    "step too small": "S",
+    "event lost": "E",
+    "not finite": "N",
+    "wrong state": "W",
+    "through the plate": "P",
+}
+MEANINGS = (
+    "T: gave up at the limit of evaluations · W: wrong state of motion · P: fell through the plate, reported success\n"
+    "S: step too small · E: event lost · N: not finite"
+)
+MISSING = "not installed"
+# Work, error, and their names.
+PANELS = (
+    ("milliseconds", "velocity_error", "wall time in ms", "mean velocity"),
+    ("evaluations", "velocity_error", "force evaluations", "mean velocity"),
+    ("milliseconds", "state_error", "wall time in ms", "state at the end"),
+    ("evaluations", "state_error", "force evaluations", "state at the end"),
+)
+# Above this error there is a band of failures, with a line for each treatment (share of the height of the axes).
+FAILED = 3.0
+LINES = {"sign": 0.97, "fixed step": 0.93, "events": 0.89, "modes": 0.85}
+
+QUANTITIES = {
+    "exponent": ("simulated cycles", "relative error of $\\lambda_1$"),
+    "dimension": ("points", "error of the dimension"),
+    "fit": ("evaluations", "relative gap to the best fit"),
+}
+
+
+def curve(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
+    """One method: its successes as a curve, its failures as letters in the band above."""
+    method, treatment = rows.method.iloc[0], rows.treatment.iloc[0]
+    colour, _ = METHODS[method]
+    marker, line, _ = TREATMENTS[treatment]
+    good = rows[rows.outcome == "ok"]
+    ours = method == "event"
+    axes.plot(
+        good[x],
+        good[y].clip(lower=1e-16),
+        marker=marker,
+        linestyle=line,
+        color=colour,
+        markersize=3.0 if ours else 2.2,
+        markeredgewidth=0.6,
+        linewidth=1.4 if treatment == "exact" else 0.6,
+        markerfacecolor=colour if treatment in ("exact", "fixed step") else "none",
+        zorder=3 if ours else 2,
+    )
+    for row in rows[rows.outcome.isin(FAILURES)].itertuples():
+        axes.annotate(
+            FAILURES[row.outcome],
+            (getattr(row, x), LINES[treatment]),
+            xycoords=("data", "axes fraction"),
+            color=colour,
+            size=7.0,
+            ha="center",
+            va="center",
+            annotation_clip=False,
+        )
+
+
+def panel(axes: Axes, table: pd.DataFrame, x: str, y: str, settings: dict) -> None:
+    """Error `y` over work `x` of all methods in one scene."""
+    for _, rows in table.groupby(["method", "treatment"], sort=False):
+        curve(axes, rows, x, y)
+    paper = table[(table.method == "euler") & np.isclose(table.step, settings["paper_step"])]
+    axes.plot(paper[x], paper[y], "o", markersize=7.0, markerfacecolor="none", color=style.EULER)
+    # Failures are annotations, which do not move the limits.
+    axes.plot(table[x], np.full(len(table), FAILED), linestyle="")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_ylim(1e-15, 1e4)
+    axes.set_yticks([1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1.0])
+    axes.axhspan(FAILED, 1e4, color="0.95", linewidth=0.0)
+    axes.minorticks_off()
+    axes.grid(linewidth=0.3, color="0.9")
+
+
+def handles(tables: dict[str, pd.DataFrame]) -> list[Line2D]:
+    """Of the legend: methods, with a word on those that are not installed, and treatments of events."""
+    everything = pd.concat([tables[scene] for scene in SCENES])
+    missing = set(everything[everything.outcome == MISSING].method)
+    known = [
+        Line2D([], [], color=colour, linewidth=1.4, label=f"{name}: {MISSING}" if method in missing else name)
+        for method, (colour, name) in METHODS.items()
+        if method in set(everything.method)
+    ]
+    treated = [
+        Line2D([], [], color="0.3", marker=marker, linestyle=line, linewidth=0.6, markerfacecolor="none", label=label)
+        for marker, line, label in TREATMENTS.values()
+        if label
+    ]
+    paper = Line2D([], [], color=style.EULER, marker="o", linestyle="", markersize=6.0, markerfacecolor="none")
+    paper.set_label("the paper's step")
+    return [*known, *treated, paper]
+
+
+def draw_estimators(axes: Axes, rows: pd.DataFrame, work: str, error: str) -> None:
+    """Error over work of the estimators of one quantity."""
+    colours = (style.EULER, "black", style.CONVERGED)
+    for colour, (name, curve) in zip(colours, rows.groupby("estimator", sort=False), strict=False):
+        axes.loglog(curve.work, curve.error.clip(lower=1e-16), ".-", color=colour, linewidth=0.8, label=name)
+    axes.set_xlabel(work)
+    axes.set_ylabel(error)
+    # Room for the legend above the curves.
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high * (high / low) ** 0.6)
+    axes.legend(loc="upper right", handlelength=1.2)
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the tables of work and times of SCENES and that of the estimators; settings: paper_step, s."""
+    figure = style.figure(style.PAGE, 215.0)
+    upper, lower = figure.subfigures(2, 1, height_ratios=(3.4, 1.0))
+    grid = upper.subplots(len(SCENES), len(PANELS), sharex="col", sharey=True)
+    for (scene, name), row in zip(SCENES.items(), grid, strict=True):
+        table = tables[scene].assign(milliseconds=1e3 * tables[f"{scene}_times"].seconds)
+        for axes, (x, y, label, title) in zip(row, PANELS, strict=True):
+            panel(axes, table, x, y, settings)
+            if scene == next(iter(SCENES)):
+                axes.set_title(title)
+            if axes in grid[-1]:
+                axes.set_xlabel(label)
+        row[0].set_ylabel(f"{name}\nrelative error")
+    upper.legend(handles=handles(tables), loc="outside upper center", ncols=5)
+    upper.supxlabel(MEANINGS, size=7.0)
+    estimators = tables["estimators"]
+    for axes, (quantity, labels) in zip(lower.subplots(1, len(QUANTITIES)), QUANTITIES.items(), strict=True):
+        draw_estimators(axes, estimators[estimators.quantity == quantity], *labels)
+    return figure

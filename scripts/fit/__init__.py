@@ -1,0 +1,1 @@
+"""Stage fit: Eq. 13 fitted to critical initial heights."""

@@ -1,0 +1,84 @@
+"""The script of every rule that makes tables or pages: read its inputs, call one pure function, write what it returns.
+
+A module of a stage has such a function, `make`, and TABLES, the schemas of the tables that it makes, by their kinds. Its
+arguments are the named inputs of the rule (tables, texts or pictures; lists of them where the rule has lists), the
+params beside STAGE, CODE and KINDS, and, where it takes them, `threads` and `progress`. It returns what the one output
+holds: the columns of a table, a text or a picture; of several outputs a mapping by their names, or a list without names.
+"""
+
+import importlib
+import inspect
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from pipeline import fields, tables
+from pipeline.rule_log import logged
+
+# Params that are not for the stage: its module, the hash of its sources, and the kinds of its input tables by name where
+# a table's kind is not its name.
+STAGE, CODE, KINDS = "stage", "code", "kinds"
+
+
+def read(path: str, kind: str) -> Any:
+    """An input: a table, or a text."""
+    if path.endswith(".parquet"):
+        return tables.read(path, kind)
+    return Path(path).read_text(encoding="utf-8")
+
+
+def read_inputs(paths: dict[str, Any], kinds: dict[str, Any]) -> dict[str, Any]:
+    """The contents of inputs by their names."""
+    found = {}
+    for name, path in paths.items():
+        kind = kinds.get(name, name)
+        if isinstance(path, str):
+            found[name] = read(path, kind)
+        else:
+            of_each = [kind] * len(path) if isinstance(kind, str) else kind
+            found[name] = [read(one, its_kind) for one, its_kind in zip(path, of_each, strict=True)]
+    return found
+
+
+def contents(outputs: Any, made: Any) -> Iterator[tuple[str, str, Any]]:
+    """Name, path and content of each output."""
+    names = dict(outputs.items())
+    if len(outputs) == 1:
+        yield next(iter(names), ""), outputs[0], made
+    elif names:
+        if set(names) != set(made):
+            raise ValueError(f"outputs {', '.join(names)} of the rule, but {', '.join(made)} of the stage")
+        yield from ((name, path, made[name]) for name, path in names.items())
+    else:
+        yield from (("", path, content) for path, content in zip(outputs, made, strict=True))
+
+
+def write(stage: ModuleType, name: str, path: str, content: Any, settings: dict) -> None:
+    """Write one output of a stage."""
+    if path.endswith(".parquet"):
+        kind = name if name in stage.TABLES else next(iter(stage.TABLES))
+        schema = [*(fields.AXES[axis] for axis in settings.get("axes", ())), *stage.TABLES[kind]]
+        tables.write(path, tables.make(kind, schema, content, settings))
+    elif isinstance(content, str):
+        Path(path).write_text(content, encoding="utf-8")
+    else:
+        content.save(path, optimize=True)
+
+
+def run(job: Any) -> None:
+    """What a job of Snakemake does."""
+    params = dict(job.params.items())
+    stage = importlib.import_module(params[STAGE])
+    arguments = read_inputs(dict(job.input.items()), params.get(KINDS, {}))
+    arguments |= {name: value for name, value in params.items() if name not in (STAGE, CODE, KINDS)}
+    offered = {"threads": job.threads, "progress": " ".join([job.rule, *job.wildcards])}
+    wanted = inspect.signature(stage.make).parameters
+    arguments |= {name: value for name, value in offered.items() if name in wanted}
+    for name, path, content in contents(job.output, stage.make(**arguments)):
+        write(stage, name, path, content, params.get("settings", {}))
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        run(snakemake)

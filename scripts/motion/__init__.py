@@ -1,0 +1,1 @@
+"""Stage motion: signals, their spectra, first impacts, critical initial heights."""

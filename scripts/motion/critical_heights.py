@@ -1,0 +1,55 @@
+"""Rule critical: the initial heights at which the state of motion changes, over the axes of an entry of the config."""
+
+import numpy as np
+
+from conveyor import ensemble
+from conveyor.analysis import critical
+from conveyor.analysis.chaotic_set import ChaoticSets
+from conveyor.analysis.states import classify, continued
+from pipeline import fields, grid
+from pipeline.motions import known_sets, tolerance_of
+
+TABLES = {
+    "critical": (
+        fields.number("z0", "m", "initial height at which the state of motion changes"),
+        fields.count("crossing", "number of the change at this conveyor, from below, 1 the first"),
+        fields.text("state_below", "state of motion that starts just below lead to"),
+        fields.text("state_above", "state of motion that starts just above lead to"),
+        fields.flag("is_critical", "the lowest change out of the first state"),
+    ),
+}
+
+
+def decide(parameters: np.ndarray, settings: dict, known: ChaoticSets, threads: int) -> np.ndarray:
+    """The state of motion that each start leads to.
+
+    A fixed-step method is followed for the duration, as the paper does; the converged solution goes on from its end.
+    """
+    options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
+    if settings["method"] != "event":
+        run = {name: settings[name] for name in ("duration", "method", "step")}
+        runs = ensemble.run(parameters, needs="vertical", chunk=8, threads=threads, **run)
+        parameters = continued(parameters, runs["z_end"], runs["vz_end"], settings["duration"])
+    return classify(parameters, known=known, **options).state
+
+
+def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
+    """The columns of a table of critical heights for the resolved `settings` of an entry of the config.
+
+    A conveyor with one state of motion over the whole scan has no row.
+    """
+    axes, parameters = grid.product(settings["axes"], settings["model"])
+    heights = grid.axis_values("z0", settings["scan"])
+    known = known_sets(parameters, settings, threads=threads)
+    found = critical.crossings(
+        parameters, heights, lambda rows: decide(rows, settings, known, threads), settings["resolution"]
+    )
+    first_row = np.searchsorted(found.point, found.point)
+    return {
+        **{name: values[found.point] for name, values in axes.items()},
+        "z0": found.height,
+        "crossing": np.arange(len(found.point)) - first_row + 1,
+        "state_below": found.below,
+        "state_above": found.above,
+        "is_critical": critical.critical(found),
+    }

@@ -1,0 +1,45 @@
+"""Rule signals: the motion of a few parts, and of their conveyors, over time."""
+
+import numpy as np
+
+from conveyor.simulation import Run, simulate
+from conveyor.solver.model import conveyor_motion, unpack
+from pipeline import fields, grid
+from pipeline.motions import motions_after
+
+TABLES = {
+    "signals": (
+        *fields.STATE,
+        fields.number("time", "s", "time since the start"),
+        fields.number("x", "m", "horizontal position of the part"),
+        fields.number("vx", "m/s", "horizontal velocity of the part"),
+        fields.number("z", "m", "height of the part"),
+        fields.number("vz", "m/s", "vertical velocity of the part"),
+        fields.number("contact_force", "N", "force of the plate on the part, vertical (Eq. 9)"),
+        fields.number("friction_force", "N", "force of the plate on the part, horizontal (Eq. 11)"),
+        fields.number("plate_x", "m", "horizontal position of the plate"),
+        fields.number("plate_vx", "m/s", "horizontal velocity of the plate (Eq. 10)"),
+        fields.number("plate_z", "m", "height of the plate (Eq. 4)"),
+        fields.number("plate_vz", "m/s", "vertical velocity of the plate (Eq. 3)"),
+    ),
+}
+
+
+def motion(run: Run, times: np.ndarray) -> dict[str, np.ndarray]:
+    """The motion of one part and of its plate at `times` (s)."""
+    plate = {f"plate_{name}": values for name, values in conveyor_motion(run.conveyor, times).items()}
+    return {"time": times, **run.sample(times), **plate}
+
+
+def make(settings: dict) -> dict[str, np.ndarray]:
+    """The columns of a table of signals for the resolved `settings` of an entry of the config."""
+    options = {name: settings[name] for name in ("duration", "method", "tolerance", "step") if name in settings}
+    times = np.linspace(settings["times"]["start"], settings["times"]["stop"], int(settings["times"]["num"]))
+    axes, parameters = grid.product(settings["axes"], settings["model"])
+    runs = [simulate(*unpack(row), **options) for row in parameters]
+    ends = np.array([(run.z_end, run.vz_end) for run in runs]).T
+    found = motions_after(parameters, *ends, settings)
+    labels = {**axes, "state": found.state, "period": found.period}
+    motions = [motion(run, times) for run in runs]
+    repeated = {name: np.repeat(values, len(times)) for name, values in labels.items()}
+    return repeated | {name: np.concatenate([one[name] for one in motions]) for name in motions[0]}

@@ -1,0 +1,152 @@
+"""Rule orbits: branches of periodic orbits over the amplitude, their bifurcations, and the doubling cascade."""
+
+import numpy as np
+
+from conveyor.analysis import orbits, stroboscope
+from conveyor.analysis.orbits import Bifurcation, Branch, Orbit, ReturnMap
+from pipeline import fields, grid
+
+TABLES = {
+    "branches": (
+        fields.count("branch", "number of the branch"),
+        fields.count("point", "number of the orbit along its branch"),
+        fields.count("cycle", "excitation cycle within the period; delta and v are those at its end"),
+        fields.flag("stable", "both multipliers inside the unit circle"),
+        *fields.ORBIT,
+    ),
+    "folds_and_doublings": (
+        fields.text("kind", "fold, period_doubling or grazing"),
+        *fields.ORBIT[:2],
+        fields.number("multiplier", "1", "the multiplier at +1 or -1; for a grazing the real part of the larger one"),
+        *fields.ORBIT[2:],
+        fields.count("branch", "number of the branch"),
+    ),
+    "cascade": (
+        fields.count("number", "number of the doubling"),
+        *fields.ORBIT,
+        fields.number("multiplier", "1", "the multiplier at -1"),
+        fields.number("ratio", "1", "distance to the doubling before over that to the one behind (Feigenbaum: 4.669…)"),
+        fields.number("accumulation", "m/s²", "where the doublings so far accumulate, by Aitken's process"),
+        fields.number("accumulation_error", "m/s²", "how far the last doubling moved it"),
+    ),
+}
+
+
+def parameters_of(settings: dict) -> np.ndarray:
+    """The packed conveyor of the settings; its amplitude does not count."""
+    return grid.product({"acceleration": [0.0]}, settings["model"])[1][0]
+
+
+def seeds(settings: dict) -> list[Orbit]:
+    """The stable orbits that the starts of the settings end in.
+
+    Raises
+    ------
+    ValueError
+        names the start that does not end in one
+    """
+    found = []
+    for start in settings["seeds"]:
+        row = grid.product({name: [value] for name, value in start.items()}, settings["model"])[1]
+        state = stroboscope.initial_states(row, orbits.TOLERANCE)[0]
+        orbit, _ = orbits.settled_orbit(
+            row[0], start["acceleration"], state, range(1, settings["max_period"] + 1), settings["cycles"]
+        )
+        if orbit is None:
+            raise ValueError(
+                f"orbits.seeds: {start} ends in no stable orbit of up to {settings['max_period']} cycles; "
+                "choose another amplitude or more cycles"
+            )
+        found.append(orbit)
+    return found
+
+
+def describe(orbit: Orbit) -> dict[str, float]:
+    """The columns that rows of orbits and of bifurcations share."""
+    first, second = orbit.multipliers
+    return {
+        "period": orbit.period,
+        "acceleration": orbit.acceleration,
+        "delta": orbit.state[0],
+        "v": orbit.state[1],
+        "multiplier_1_real": first.real,
+        "multiplier_1_imag": first.imag,
+        "multiplier_2_real": second.real,
+        "multiplier_2_imag": second.imag,
+        "determinant": orbit.determinant,
+        "contact_time": orbit.contact_time,
+        "impacts": orbit.impacts,
+        "longest_flight": orbit.longest_flight,
+    }
+
+
+def branch_rows(parameters: np.ndarray, branches: list[Branch]) -> list[dict]:
+    """One row for each cycle of each orbit."""
+    rows = []
+    for number, branch in enumerate(branches):
+        returns = ReturnMap(parameters, branch.orbits[0].period)
+        for point, orbit in enumerate(branch.orbits):
+            unknowns = returns.strobes(returns.scaled(orbit.acceleration, orbit.state))
+            for cycle, unknown in enumerate(unknowns, start=1):
+                delta, v = returns.state(unknown)
+                place = {"branch": number, "point": point, "cycle": cycle, "stable": orbit.stable}
+                rows.append({**describe(orbit), **place, "delta": delta, "v": v})
+    return rows
+
+
+def bifurcation_rows(branches: list[Branch]) -> list[dict]:
+    """One row for each bifurcation; a closed branch meets those around its first orbit twice."""
+    rows = []
+    for number, branch in enumerate(branches):
+        seen = set()
+        for bifurcation in branch.bifurcations:
+            key = bifurcation.kind, round(bifurcation.orbit.acceleration, 7)
+            if key not in seen:
+                seen.add(key)
+                about = {"kind": bifurcation.kind, "multiplier": bifurcation.multiplier, "branch": number}
+                rows.append({**describe(bifurcation.orbit), **about})
+    return rows
+
+
+def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orbit) -> list[Bifurcation]:
+    """The first two doublings of the orbit that `jumping` becomes when the amplitude grows."""
+    own = next(branch for branch in branches if orbits.on_branch(parameters, branch, jumping))
+    first = next(
+        b for b in own.bifurcations if b.kind == "period_doubling" and b.orbit.acceleration > jumping.acceleration
+    )
+    double = orbits.doubled(parameters, first)
+    following = orbits.follow_branch(
+        parameters, double, (first.orbit.acceleration - 1.0, first.orbit.acceleration + 20.0)
+    )
+    second = min((b for b in following.bifurcations if b.kind == "period_doubling"), key=lambda b: b.orbit.acceleration)
+    return [first, second]
+
+
+def cascade_rows(cascade: list[Bifurcation]) -> list[dict]:
+    """One row for each doubling, with Feigenbaum's ratio and the accumulation point that the doublings so far tell."""
+    amplitudes = np.array([b.orbit.acceleration for b in cascade])
+    ratios = [np.nan, *orbits.ratios(amplitudes), np.nan]
+    rows = []
+    for n, (bifurcation, ratio) in enumerate(zip(cascade, ratios, strict=True), start=1):
+        limit, error = orbits.accumulation(amplitudes[:n]) if n >= 4 else (np.nan, np.nan)
+        about = {"number": n, "multiplier": bifurcation.multiplier, "ratio": ratio}
+        rows.append({**describe(bifurcation.orbit), **about, "accumulation": limit, "accumulation_error": error})
+    return rows
+
+
+def columns(rows: list[dict], kind: str) -> dict[str, np.ndarray]:
+    """Rows as the columns of a kind of table."""
+    return {column.name: np.array([row[column.name] for row in rows]) for column in TABLES[kind]}
+
+
+def make(settings: dict) -> dict[str, dict[str, np.ndarray]]:
+    """The columns of the three tables, by their kinds, for the section `orbits` of the config."""
+    parameters = parameters_of(settings)
+    starts = seeds(settings)
+    branches = orbits.explore(parameters, starts, tuple(settings["limits"]), settings["max_period"])
+    cascade = orbits.doubling_cascade(parameters, *first_doublings(parameters, branches, starts[-1]))
+    return {
+        "branches": columns(branch_rows(parameters, branches), "branches"),
+        "folds_and_doublings": columns(bifurcation_rows(branches), "folds_and_doublings"),
+        "cascade": columns(cascade_rows(cascade), "cascade"),
+    }

@@ -1,0 +1,24 @@
+"""Rule estimate: Lyapunov exponents from pairs of trajectories, as the paper estimates them (Eq. 23)."""
+
+import numpy as np
+
+from conveyor.analysis import lyapunov
+from conveyor.solver.model import PARAMETERS
+from pipeline import fields, grid
+
+TABLES = {
+    "estimates": (fields.number("lambda", "1/s", "Lyapunov exponent by finite differences (Eq. 23)"),),
+}
+
+
+def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
+    """The columns of a table of estimates for the resolved `settings` of an entry of the config."""
+    options = {name: settings[name] for name in ("output", "duration", "last", "samples", "method")}
+    options |= {name: settings[name] for name in ("tolerance", "step") if name in settings}
+    axes, parameters = grid.product(settings["axes"], settings["model"])
+    perturbed = parameters.copy()
+    perturbed[:, PARAMETERS.index(settings["perturb"])] += settings["epsilon"]
+    exponents = lyapunov.finite_difference_estimate(
+        parameters, perturbed, settings["epsilon"], **options, threads=threads, progress=progress
+    )
+    return {**axes, "lambda": exponents}

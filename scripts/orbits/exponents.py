@@ -1,0 +1,33 @@
+"""Rule lyapunov: exponents on the attractors over the amplitude, from the variational equation."""
+
+import numpy as np
+import pandas as pd
+
+from conveyor.analysis import lyapunov
+from orbits.starts import starts_on_attractors
+from pipeline import fields
+
+TABLES = {
+    "spectrum": (
+        fields.ORBIT[1],
+        fields.text("branch", "up or down, see the strobes"),
+        fields.number("lambda_1", "1/s", "larger vertical Lyapunov exponent"),
+        fields.number("lambda_2", "1/s", "smaller vertical Lyapunov exponent"),
+        fields.number("stderr", "1/s", "standard error of lambda_1, from means over blocks"),
+        fields.number("contact_fraction", "1", "share of the time with contact force; λ1 + λ2 = -(d_c/m) times it"),
+        fields.text("status", "ok, or why there is no result"),
+    ),
+}
+
+
+def make(
+    strobes: pd.DataFrame, settings: dict, *, threads: int = 1, progress: str | None = None
+) -> dict[str, np.ndarray]:
+    """The columns of the table of spectra from the table of strobes."""
+    last, parameters = starts_on_attractors(strobes, settings)
+    options = {"tolerance": settings["tolerance"], "threads": threads}
+    vertical = lyapunov.spectrum(
+        parameters, transient=0, cycles=settings["cycles"], blocks=settings["blocks"], progress=progress, **options
+    )
+    found = {name: getattr(vertical, name) for name in vertical._fields}
+    return {"acceleration": last.acceleration, "branch": last.branch, **found}

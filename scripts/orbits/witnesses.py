@@ -1,0 +1,81 @@
+"""Rule witnesses: is the motion at each amplitude chaotic by exponent, 0-1 test and period, and where they differ."""
+
+import numpy as np
+import pandas as pd
+
+from conveyor.analysis import stroboscope
+from conveyor.analysis.settling import MAX_PERIOD
+from conveyor.analysis.zero_one import zero_one
+from conveyor.solver.parallel import for_each_chunk
+from orbits.starts import starts_on_attractors
+from pipeline import fields
+
+TABLES = {
+    "witnesses": (
+        fields.ORBIT[1],
+        fields.text("branch", "up or down, see the strobes"),
+        fields.number("lambda_1", "1/s", "larger vertical Lyapunov exponent"),
+        fields.number("stderr", "1/s", "its standard error"),
+        fields.number("zero_one", "1", "K of the 0-1 test: 0 for regular, 1 for chaotic motion"),
+        *fields.STATE,
+        fields.flag("by_exponent", "chaotic by the exponent"),
+        fields.flag("by_zero_one", "chaotic by the 0-1 test"),
+        fields.flag("by_period", "chaotic for want of a period"),
+        fields.flag("agree", "whether the three agree"),
+        fields.text("reason", "why not; null where they agree"),
+    ),
+}
+
+# Strobes that vary less than this, in m/s, are constant.
+RESOLUTION = 1e-9
+
+
+def zero_one_values(parameters: np.ndarray, settings: dict, *, threads: int, progress: str | None) -> np.ndarray:
+    """K of the 0-1 test on the speed of approach at the strobes, shape (n,)."""
+    found = np.empty(len(parameters))
+
+    def work(begin, end):
+        strobes = np.empty((settings["strobes"], 2))
+        features = np.empty((settings["strobes"], stroboscope.FEATURES))
+        for i in range(begin, end):
+            state = np.empty(2)
+            stroboscope.initial_state(parameters[i], settings["tolerance"], state)
+            stroboscope.follow(parameters[i], settings["tolerance"], state, settings["strobes"], strobes, features)
+            found[i] = zero_one(strobes[:, 1], settings["seed"], RESOLUTION).value
+
+    for_each_chunk(work, len(parameters), threads=threads, chunk=8, progress=progress)
+    return found
+
+
+def reason(row: pd.Series, significant: float) -> str | None:
+    """Why the witnesses of one amplitude differ, in numbers; None where they agree."""
+    if row.agree:
+        return None
+    reasons = []
+    if abs(row.lambda_1) <= significant * row.stderr:
+        reasons.append(f"λ1 = {row.lambda_1:.3g} ± {row.stderr:.2g} 1/s is not told from zero: next to a bifurcation")
+    if 0.1 < row.zero_one < 0.9:
+        reasons.append(f"the 0-1 test is undecided, K = {row.zero_one:.2f}")
+    if row.period == 0 and row.lambda_1 < 0.0:
+        reasons.append(f"λ1 = {row.lambda_1:.3g} 1/s, but no period up to {MAX_PERIOD}: longer, or still approached")
+    if row.period > 0 and row.lambda_1 > 0.0:
+        reasons.append(f"λ1 = {row.lambda_1:.3g} 1/s along a transient that ends in period {row.period}")
+    return (
+        "; ".join(reasons)
+        or f"λ1 = {row.lambda_1:.3g} ± {row.stderr:.2g} 1/s, K = {row.zero_one:.2f}, period {row.period}"
+    )
+
+
+def make(
+    strobes: pd.DataFrame, spectrum: pd.DataFrame, settings: dict, *, threads: int = 1, progress: str | None = None
+) -> dict[str, np.ndarray]:
+    """The columns of the table of witnesses from those of strobes and spectra."""
+    last, parameters = starts_on_attractors(strobes, settings)
+    rows = last[["acceleration", "branch", "period", "state"]].merge(spectrum, on=["branch", "acceleration"])
+    rows["zero_one"] = zero_one_values(parameters, settings, threads=threads, progress=progress)
+    rows["by_exponent"] = rows.lambda_1 > settings["significant"] * rows.stderr
+    rows["by_zero_one"] = rows.zero_one > 0.5
+    rows["by_period"] = rows.period == 0
+    rows["agree"] = (rows.by_exponent == rows.by_zero_one) & (rows.by_exponent == rows.by_period)
+    rows["reason"] = [reason(row, settings["significant"]) for _, row in rows.iterrows()]
+    return {column.name: rows[column.name].to_numpy() for column in TABLES["witnesses"]}

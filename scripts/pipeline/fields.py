@@ -1,0 +1,75 @@
+"""Columns of tables: how they are made, those of the axes, and groups that several stages have in common.
+
+The schema of a table stands beside the function that makes it, in the module of its stage.
+"""
+
+import pyarrow as pa
+
+from conveyor.solver.model import PARAMETERS, TENSION, UNITS
+
+
+def field(name: str, kind: pa.DataType, unit: str, description: str) -> pa.Field:
+    """One column; dimensionless ones have the unit "1", texts none."""
+    return pa.field(name, kind, metadata={"unit": unit, "description": description})
+
+
+def number(name: str, unit: str, description: str) -> pa.Field:
+    return field(name, pa.float64(), unit, description)
+
+
+def count(name: str, description: str) -> pa.Field:
+    return field(name, pa.int64(), "1", description)
+
+
+def text(name: str, description: str) -> pa.Field:
+    return field(name, pa.string(), "", description)
+
+
+def several(name: str, kind: pa.DataType, unit: str, description: str) -> pa.Field:
+    """A column of lists."""
+    return field(name, pa.list_(pa.field("element", kind)), unit, description)
+
+
+def flag(name: str, description: str) -> pa.Field:
+    return field(name, pa.bool_(), "", description)
+
+
+AXES = {name: number(name, UNITS[name], "axis of the sweep") for name in PARAMETERS}
+AXES["z0"] = number("z0", UNITS["z0"], "axis of the sweep; null for a start on the conveyor (Eq. 15)")
+AXES[PARAMETERS[TENSION]] = text(PARAMETERS[TENSION], "axis of the sweep")
+
+RESULTS = (
+    number("mean_velocity", "m/s", "mean feeding velocity over the last quarter; null for vertical needs"),
+    number("z_end", "m", "height of the part at the end"),
+    number("vz_end", "m/s", "vertical velocity of the part at the end"),
+    number("x_end", "m", "horizontal position of the part at the end; null for vertical needs"),
+    number("vx_end", "m/s", "horizontal velocity of the part at the end; null for vertical needs"),
+)
+STATE = (
+    text("state", "state of motion that the run leads to: first, second, chaos, undecided"),
+    count("period", "period of that motion in excitation cycles; 0 for none"),
+)
+FEATURES = (
+    number("max_gap", "m", "largest distance between part and plate"),
+    count("impacts", "number of impacts"),
+    number("contact_fraction", "1", "share of the duration with a contact force"),
+    text("status", "ok, or why there is no result"),
+)
+
+STROBE = (
+    number("delta", "m", "penetration at the phase ψ0; negative in the air"),
+    number("v", "m/s", "speed of approach at the phase ψ0"),
+)
+ORBIT = (
+    count("period", "excitation cycles"),
+    number("acceleration", "m/s²", "amplitude of the excitation"),
+    *STROBE,
+    number("multiplier_1_real", "1", "Floquet multiplier of larger modulus, real part"),
+    number("multiplier_1_imag", "1", "imaginary part"),
+    number("multiplier_2_real", "1", "the other one, real part"),
+    number("multiplier_2_imag", "1", "imaginary part"),
+    number("determinant", "1", "their product, from the monodromy matrix; exp(-(d_c/m) contact_time)"),
+    number("contact_time", "s", "time with contact force in a period"),
+    count("impacts", "impacts in a period"),
+    number("longest_flight", "1", "longest flight, in excitation cycles"),
+)

@@ -1,0 +1,67 @@
+"""The points of a sweep: the product of axes, the first axis slowest, as packed parameter vectors."""
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from conveyor.solver.model import PARAMETERS, TENSION, TENSION_MODES, Z0, Conveyor, Start, check_parameter, pack
+
+Axis = Sequence[float | str] | Mapping[str, float]
+
+
+def axis_values(name: str, axis: Axis) -> np.ndarray:
+    """Values of one axis in SI units, shape (n,): float64, or str for tension; z0 is NaN for a start on the conveyor.
+
+    Parameters
+    ----------
+    name : one of model.PARAMETERS
+    axis : the values themselves, or start, stop (included) and num
+
+    Raises
+    ------
+    ValueError
+        names the axis that is empty or has a value outside its range
+    """
+    if isinstance(axis, Mapping):
+        axis = np.linspace(axis["start"], axis["stop"], int(axis["num"]))
+    if len(axis) == 0:
+        raise ValueError(f"axis {name} is empty")
+    if name == PARAMETERS[TENSION]:
+        if unknown := set(axis) - set(TENSION_MODES):
+            raise ValueError(f"tension = {unknown.pop()!r} is not one of {', '.join(TENSION_MODES)}")
+        return np.array(axis, dtype=np.str_)
+    starts_on_conveyor = name == PARAMETERS[Z0]
+    return np.array(
+        [math.nan if starts_on_conveyor and value == "conveyor" else check_parameter(name, value) for value in axis]
+    )
+
+
+def product(
+    axes: Mapping[str, Axis], model: Mapping[str, float | str], rows: tuple[int, int] | None = None
+) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    """The product of axes.
+
+    Parameters
+    ----------
+    axes : the axes by name, the first one varies slowest
+    model : the other parameters, those of model.PARAMETERS that differ from the paper's defaults
+    rows : first row and row behind the last one, if not all are wanted
+
+    Returns
+    -------
+    columns : values of the axes, each of shape (n,)
+    parameters : float64, shape (n, 13), rows as from model.pack
+    """
+    values = {name: axis_values(name, axis) for name, axis in axes.items()}
+    shape = tuple(len(value) for value in values.values())
+    begin, end = rows or (0, math.prod(shape))
+    places = np.unravel_index(np.arange(begin, end), shape)
+    columns = {name: value[place] for (name, value), place in zip(values.items(), places, strict=True)}
+    start = Start(model.get("z0", 0.0), model.get("vz0", 0.0))
+    conveyor = Conveyor(**{name: value for name, value in model.items() if name not in ("z0", "vz0")})
+    parameters = np.tile(pack(conveyor, start), (end - begin, 1))
+    for name, column in columns.items():
+        codes = column if column.dtype.kind == "f" else [TENSION_MODES.index(mode) for mode in column]
+        parameters[:, PARAMETERS.index(name)] = codes
+    return columns, parameters

@@ -1,0 +1,97 @@
+"""Parquet tables: atomic writing of equal bytes for equal content, checked reading.
+
+Units stand in the metadata of the fields. What kind of table it is and what was computed (model, duration, method, …)
+stand in that of the table; pandas.read_parquet shows the latter as `attrs`. A column of settings, such as an axis,
+comes first.
+"""
+
+import json
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+# Rows of a row group: fixed, so that a table's bytes do not depend on how it was computed.
+ROW_GROUP = 1 << 20
+KIND = b"kind"
+# The key under which pandas keeps DataFrame.attrs.
+SETTINGS = b"PANDAS_ATTRS"
+
+
+class TableError(Exception):
+    """A file that is not the table that was expected; the message names it and what to do."""
+
+
+def make(kind: str, schema: Sequence[pa.Field], columns: Mapping[str, Sequence], settings: dict) -> pa.Table:
+    """A table of a kind with the columns of its schema, given by name in any order, all of shape (n,).
+
+    NaN becomes null, and negative zero zero. `settings`, as JSON can write them, are what was computed.
+
+    Raises
+    ------
+    ValueError
+        names the columns that lack, are too many or do not fit their type
+    """
+    wanted = pa.schema(schema)
+    if difference := set(wanted.names) ^ set(columns):
+        raise ValueError(f"columns of a table of {kind}: {', '.join(sorted(difference))} lacking or unknown")
+    arrays = []
+    for column in wanted:
+        try:
+            values = columns[column.name]
+            if pa.types.is_floating(column.type):
+                values = np.asarray(values, dtype=np.float64) + 0.0  # no negative zero
+            arrays.append(pa.array(values, type=column.type, from_pandas=True))
+        except (ValueError, TypeError) as error:
+            raise ValueError(f"column {column.name} of a table of {kind} is not {column.type}: {error}") from error
+    metadata = {KIND: kind, SETTINGS: json.dumps(settings)}
+    return pa.Table.from_arrays(arrays, schema=wanted.with_metadata(metadata))
+
+
+def write(path: str | Path, table: pa.Table) -> None:
+    """Write a table to `path` at once or not at all; its bytes depend on its content and on pyarrow's version only."""
+    path = Path(path)
+    # A name of its own, so that two writers of one table cannot hurt each other.
+    handle, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
+    os.close(handle)
+    try:
+        pq.write_table(table, part, compression="zstd", row_group_size=ROW_GROUP)
+        os.chmod(part, 0o666 & ~umask())
+        os.replace(part, path)
+    except BaseException:
+        os.unlink(part)
+        raise
+
+
+def umask() -> int:
+    """The permissions that new files of this process do not get; mkstemp's have fewer still."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def read(path: str | Path, kind: str, settings: dict | None = None) -> pd.DataFrame:
+    """The table at `path`, its settings in `attrs`.
+
+    Raises
+    ------
+    TableError
+        if there is no table of this kind, or one that was made from other `settings`
+    """
+    remedy = "delete it, and the next run makes it again"
+    try:
+        metadata = pq.read_schema(path).metadata or {}
+        if metadata.get(KIND) != kind.encode():
+            found = metadata.get(KIND, b"").decode() or "something else"
+            raise TableError(f"{path} is not a table of {kind} but of {found}; {remedy}")
+        table = pd.read_parquet(path)
+    except (pa.ArrowException, OSError) as error:
+        raise TableError(f"{path} cannot be read as a table of {kind} ({error}); {remedy}") from error
+    if settings is not None and table.attrs != json.loads(json.dumps(settings)):
+        raise TableError(f"{path} was made from other settings than those that are asked for; {remedy}")
+    return table

@@ -1,5 +1,0 @@
-"""Fig. 19: the map of Fig. 14 at an amplitude at which chaos exists beside the first and the second state."""
-
-from plots.fig14 import plot
-
-__all__ = ["plot"]

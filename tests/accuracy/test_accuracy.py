@@ -1,0 +1,94 @@
+"""Stages that compare the solver with other methods: what they find, on the cases of the config."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from accuracy import benchmark, precision, random_points, wall_times
+from conveyor.methods import heyoka_peer
+from project import merged, read_config
+
+CONFIG = read_config()
+
+
+@pytest.fixture(scope="module")
+def cases():
+    solver = {key: CONFIG["solver"][key] for key in ("duration", "step")}
+    return {
+        name: merged({"model": CONFIG["model"]}, solver, case) for name, case in CONFIG["benchmark"]["cases"].items()
+    }
+
+
+def test_benchmark_is_as_accurate_as_wanted(cases):
+    found = benchmark.columns(cases, CONFIG["solver"]["tolerance"], 1)
+    assert set(found["case"][found["chosen"] == "default"]) == set(cases)
+    wanted = np.array([cases[name]["wanted"]["error"] for name in found["case"]])
+    assert (found["error"] <= wanted).all()
+    assert (found["euler_error"] > 1e4 * found["error"]).all()
+    steps = [cases[name]["duration"] / cases[name]["step"] for name in found["case"]]
+    np.testing.assert_array_equal(found["euler_steps"], steps)
+    assert (found["steps"] < 1e-3 * found["euler_steps"]).all()
+    # Faster than the paper's method by far on any machine; how far is what results/benchmark.md is for.
+    assert (found["speed"] > 10.0).all()
+    # A riding part repeats its steps, a chaotic one cannot; what is repeated is not counted as computed.
+    repeated = dict(zip(found["case"], found["repeated_steps"], strict=True))
+    assert repeated["D"] == 0 < repeated["B"]
+    text = benchmark.report(found, cases, 1)
+    rows = [line.split(" | ")[0] for line in text.splitlines() if line.startswith("| ") and "Case" not in line]
+    assert rows == [f"| {name}" for name in found["case"]]
+    slow = {**found, "speed": np.full(len(rows), 1.0)}
+    assert "miss what is wanted: A (1 of" in benchmark.report(slow, cases, 1)
+
+
+@pytest.fixture(scope="module", params=["jumping", "riding", "bouncing"])
+def compared(request):
+    """Work and precision of the solver and of two peers, as a table with its settings."""
+    settings = {
+        "duration": 1.0,
+        "model": CONFIG["model"] | CONFIG["precision"]["scenes"][request.param],
+        "tolerances": [1e-4, 1e-8, 1e-12],
+        "steps": [5e-7],
+        "peers": {"modes": {"DOP853": [1e-4, 1e-13], "heyoka": [1e-10]}},
+        "max_evaluations": CONFIG["precision"]["max_evaluations"],
+    }
+    table = pd.DataFrame(precision.columns(settings))
+    table.attrs = settings
+    return table
+
+
+def test_solver_and_an_independent_integration_meet(compared):
+    best = compared[(compared.method == "DOP853") & (compared.tolerance == 1e-13)].iloc[0]
+    assert best.outcome == "ok"
+    assert best.velocity_error < 1e-11
+    assert best.state_error < 1e-11
+
+
+def test_heyoka_need_not_be_installed(compared):
+    heyoka = compared[compared.method == "heyoka"].iloc[0]
+    assert heyoka.outcome == ("ok" if heyoka_peer.installed() else "not installed")
+    assert heyoka.velocity_error < 1e-8 or not heyoka_peer.installed()
+
+
+def test_times_belong_to_the_same_runs(compared):
+    few = compared[compared.tolerance.isin([1e-4, 1e-8])]
+    few.attrs = compared.attrs
+    found = wall_times.columns(few, {"repeats": 2, "seconds": 0.05})
+    for name in precision.Method._fields:
+        np.testing.assert_array_equal(found[name], few[name])
+    assert (found["repeats"] >= 1).all()
+    solver = found["method"] == "event"
+    assert 0.0 < found["seconds"][solver].max() < found["seconds"][~solver].min()
+
+
+def test_random_points_know_how_deep_they_get():
+    found = random_points.columns(
+        {"count": {"around the paper": 300, "whole ranges": 50}, "seed": 3, "cycles": 3, "tolerance": 1e-8}
+    )
+    ok = found["status"] == "ok"
+    assert ok[:300].all()
+    assert np.isfinite(found["max_depth"][ok]).all()
+    assert (found["max_depth"][ok] <= found["allowed_depth"][ok] * (1.0 + 1e-9)).all()
+    # A part that starts on the plate and is pressed on gets into it.
+    on_plate = ok & np.isnan(found["z0"]) & (found["vz0"] < 0.0)
+    assert on_plate.any()
+    assert (found["max_depth"][on_plate] > 0.0).all()

@@ -1,0 +1,416 @@
+"""Findings from made-up tables whose answer is known, and verdicts that come out each way."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+from verdicts.finding import Finding, onset
+
+from claims import about_chaos, about_proofs, about_states, verdicts
+
+AMPLITUDES = np.arange(20.0, 91.0)
+
+
+def sweep(state, velocity=0.1, heights=(0.0, 1e-4)):
+    """A sweep in which `state` and `velocity` are functions of amplitude and height, or constant."""
+    rows = [(a, z) for a in AMPLITUDES for z in heights]
+    table = pd.DataFrame(rows, columns=["acceleration", "z0"])
+    table["state"] = [state(a, z) if callable(state) else state for a, z in rows]
+    table["mean_velocity"] = [velocity(a, z) if callable(velocity) else velocity for a, z in rows]
+    table["period"] = np.where(table.state == "chaos", 0, 1)
+    return table
+
+
+def both(table):
+    return {"converged": table, "euler": table}
+
+
+@pytest.mark.parametrize(
+    ("holds", "expected"),
+    [
+        ([0, 0, 1, 1], 3.0),
+        ([1, 1, 1, 1], 1.0),
+        ([0, 1, 0, 0, 1, 1, 1], 5.0),  # a single early one is no onset
+        ([0, 0, 1, 1, 0, 1, 1], 3.0),  # nor does a window end what has begun
+        ([0, 0, 0, 1], 4.0),
+    ],
+)
+def test_onset(holds, expected):
+    assert onset(np.arange(1.0, len(holds) + 1), holds) == expected
+
+
+@pytest.mark.parametrize("holds", [[0, 0, 0], [0, 1, 0, 0], [1, 0], [1, 1, 0, 0, 0]])
+def test_never_is_an_answer(holds):
+    """A few early ones are no onset at the last amplitude."""
+    assert math.isnan(onset(np.arange(float(len(holds))), holds))
+
+
+def test_one_amplitude_of_many_is_no_onset():
+    assert math.isnan(onset(AMPLITUDES, AMPLITUDES == 42.0))
+
+
+def numbers(quantities):
+    """The values of the quantities of a finding."""
+    return tuple(quantities.values())
+
+
+def quantities(**accepted):
+    """Quantities of a claim with these accepted intervals."""
+    return {name: {"is": name, "paper": None, "accepted": interval} for name, interval in accepted.items()}
+
+
+@pytest.mark.parametrize(
+    ("euler", "converged", "expected"),
+    [
+        ({"a": 1.0}, {"a": 1.0}, verdicts.REPRODUCED),
+        ({"a": 2.0}, {"a": 1.0}, verdicts.REPRODUCED),
+        ({"a": 1.0}, {"a": 2.0}, verdicts.PAPER_METHOD_ONLY),
+        ({"a": 2.0}, {"a": 2.0}, verdicts.NOT_REPRODUCED),
+        ({"a": 2.0}, {"a": math.nan}, verdicts.NOT_REPRODUCED),
+        ({}, {"a": 1.0}, verdicts.REPRODUCED),
+        ({}, {"a": 2.0}, verdicts.NOT_REPRODUCED),
+        ({"a": 1.0}, {}, verdicts.REPRODUCED),
+        ({"a": 2.0}, {}, verdicts.NOT_REPRODUCED),
+    ],
+)
+def test_verdicts(euler, converged, expected):
+    assert verdicts.verdict(Finding(euler, converged), quantities(a=[0.5, 1.5])) == expected
+
+
+def test_a_quantity_that_no_finding_gives_is_an_error():
+    with pytest.raises(KeyError, match="b"):
+        verdicts.verdict(Finding({}, {"a": 1.0}), quantities(a=[0.5, 1.5], b=[0.0, 1.0]))
+
+
+CLAIMS = yaml.safe_load((Path(__file__).parents[2] / "config/config.yaml").read_text())["claims"]
+
+
+def inside(low, high):
+    if low is None or high is None:
+        return (high if low is None else low) if (low, high) != (None, None) else 0.0
+    return 0.5 * (low + high)
+
+
+def beyond(low, high):
+    return high + 1.0 if low is None else low - 1.0
+
+
+@pytest.mark.parametrize("name", CLAIMS)
+def test_accepted_intervals_bring_each_verdict(name):
+    claimed = CLAIMS[name]["quantities"]
+    right = {key: inside(*quantity["accepted"]) for key, quantity in claimed.items()}
+    assert verdicts.verdict(Finding(right, right), claimed) == verdicts.REPRODUCED
+    for key, quantity in claimed.items():
+        wrong = right | {key: beyond(*quantity["accepted"])}
+        assert verdicts.verdict(Finding(right, wrong), claimed) == verdicts.PAPER_METHOD_ONLY
+        assert verdicts.verdict(Finding(wrong, wrong), claimed) == verdicts.NOT_REPRODUCED
+
+
+@pytest.mark.parametrize("name", CLAIMS)
+def test_the_papers_own_numbers_are_accepted(name):
+    for quantity in CLAIMS[name]["quantities"].values():
+        assert quantity["paper"] is None or verdicts.holds(quantity["paper"], quantity["accepted"])
+
+
+def test_notes_stand_beside_verdicts():
+    claim, held = CLAIMS["C01"], {"critical_amplitude": 50.0}
+    table = verdicts.columns({"a": claim, "b": claim}, {"a": Finding({}, held, "note 1"), "b": Finding({}, held)})
+    assert table["verdict"] == [verdicts.REPRODUCED] * 2
+    assert table["reason"] == ["note 1", None]
+
+
+def test_a_reason_begins_with_the_numbers_that_miss():
+    finding = Finding({"critical_amplitude": 50.0}, {"critical_amplitude": 60.0}, "because of 1")
+    table = verdicts.columns({"C01": CLAIMS["C01"]}, {"C01": finding})
+    assert table["verdict"] == [verdicts.PAPER_METHOD_ONLY]
+    number = "critical amplitude in m/s²: 60 by the converged solution is not in [49, 51]"
+    assert table["reason"] == [f"{number}; because of 1"]
+
+
+def test_null_is_no_bound():
+    assert verdicts.holds(1e300, [0.0, None])
+    assert verdicts.holds(-1e300, [None, 0.0])
+    assert not verdicts.holds(-1.0, [0.0, None])
+
+
+def test_reason_says_which_number_is_outside():
+    claimed = quantities(height=[0.0, 1.0], width=[0.0, 1.0])
+    text = verdicts.outside(Finding({"height": 0.5, "width": 0.5}, {"height": 0.5, "width": 3.25}), claimed)
+    assert text == "width: 3.25 by the converged solution is not in [0, 1]"
+
+
+def test_critical_acceleration_looks_at_the_start_at_rest():
+    table = sweep(lambda a, z: "second" if a >= 50.0 or z > 0.0 else "first")
+    assert numbers(about_states.critical_acceleration(both(table)).converged) == (50.0,)
+
+
+def test_interval_of_two_states():
+    table = sweep(lambda a, z: "second" if a > 47.0 or (a >= 29.0 and z > 0.0) else "first")
+    assert numbers(about_states.interval(both(table)).converged) == (29.0, 47.0)
+    assert all(math.isnan(end) for end in numbers(about_states.interval(both(sweep("first"))).converged))
+
+
+def test_interval_by_the_reading_of_the_contact_force():
+    table = sweep(lambda a, z: "second" if a > 47.0 or (a >= 29.0 and z > 0.0) else "first")
+    finding = about_states.interval({**both(table), "tension": table.assign(tension="clip")})
+    assert finding.note.endswith("29 to 47 m/s² (clip)")
+
+
+def test_onset_of_chaos_by_scatter_and_by_state():
+    table = sweep(lambda a, z: "chaos" if a >= 63.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
+    finding = about_states.onset_of_chaos(both(table))
+    assert (numbers(finding.euler), numbers(finding.converged)) == ((55.0,), (55.0,))
+    assert "settle to chaos from 63 m/s² on (63 m/s²" in finding.note
+    assert "in between 100 % of the starts settle to a period (period 1 for 100 %)" in finding.note
+    late = sweep(lambda a, z: "chaos" if a >= 50.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
+    assert "nan" not in about_states.onset_of_chaos(both(late)).note
+
+
+def certificates(*stable):
+    """Stable orbits at amplitudes, all different."""
+    contact = np.linspace(0.01, 0.02, len(stable))
+    return pd.DataFrame(
+        {
+            "acceleration": stable,
+            "stability": "stable",
+            "contact_time_low": contact - 1e-9,
+            "contact_time_high": contact + 1e-9,
+        }
+    )
+
+
+def test_what_is_proved_is_told():
+    """Two stable orbits at 30 and at 40 m/s², one at 56 m/s²; open ones do not count."""
+    proved = pd.concat(
+        [certificates(30.0, 30.0, 40.0, 40.0, 56.0), certificates(45.0, 45.0, 70.0).assign(stability="open")]
+    )
+    assert "two stable motions are proved at 2 amplitudes from 30 to 40 m/s²" in about_proofs.both_states(
+        {"certificates": proved}
+    )
+    assert "a stable periodic motion is proved at 1 amplitudes from 56 to 56 m/s²" in about_proofs.regular(
+        {"certificates": proved}, 55.0
+    )
+    horseshoes = pd.DataFrame({"acceleration": [65.0, 80.0], "proved": [False, True]})
+    assert "is proved at 80 m/s²" in about_proofs.chaotic({"horseshoes": horseshoes})
+    assert [about_proofs.both_states({}), about_proofs.regular({}, 0.0), about_proofs.chaotic({})] == ["", "", ""]
+    assert about_proofs.regular({"certificates": proved}, 60.0) == ""
+
+
+def test_one_orbit_twice_is_not_two_motions():
+    once = certificates(30.0)
+    assert about_proofs.both_states({"certificates": pd.concat([once, once])}) == ""
+
+
+def test_statements_name_what_is_proved():
+    table = sweep(lambda a, z: "second" if a > 47.0 or (a >= 29.0 and z > 0.0) else "first")
+    tables = {**both(table), "certificates": certificates(30.0, 30.0)}
+    assert about_states.interval(tables).note.endswith("(docs/certificates.md)")
+
+
+def test_critical_heights_are_read_between_amplitudes():
+    table = pd.DataFrame(
+        {
+            "acceleration": [29.0, 35.0, 35.0, 41.0],
+            "z0": [3e-4, 1e-4, 4e-4, 0.5e-4],
+            "crossing": [1, 1, 2, 1],
+            "is_critical": [True, True, False, True],
+        }
+    )
+    assert numbers(about_states.critical_height(both(table), 38.0).converged) == pytest.approx((0.075,))
+    assert math.isnan(*numbers(about_states.critical_height(both(table), 50.0).converged))
+
+
+def test_largest_critical_height_is_that_of_all_amplitudes():
+    heights = pd.DataFrame({"acceleration": [29.0, 32.0, 35.0, 50.0]})
+    rising = pd.DataFrame({"acceleration": [28.0, 29.0, 35.0], "z0": [4e-4, 1e-4, 3e-4], "is_critical": True})
+    rising["crossing"] = 1
+    finding = about_states.largest_critical_height({**both(rising), "heights": heights})
+    assert numbers(finding.converged) == pytest.approx((0.3,))  # not that at 28 m/s², nor that at the lowest one
+    assert finding.note.startswith("it is that at 35 m/s²")
+
+
+def test_velocities_of_both_states():
+    table = sweep(
+        lambda a, z: "first" if a < 29.0 or (z == 0.0 and a <= 47.0) else "second",
+        lambda a, z: 1e-3 * a if z == 0.0 and a <= 47.0 else 0.07 - 1e-4 * (a - 29.0),
+    )
+    tables = {**both(table), "tension": table[table.z0 == 0.0].assign(tension="clip")}
+    assert numbers(about_states.first_velocity(tables).converged) == pytest.approx((2.9, 4.7))
+    assert numbers(about_states.second_velocity(tables).converged) == pytest.approx((0.18,))
+    assert about_states.first_velocity(tables).note.endswith("4.70 cm/s (clip)")
+
+
+def test_fit_is_that_of_the_regression():
+    table = pd.DataFrame(
+        {
+            "fit": ["pymoo", "paper", "valley", "valley"],
+            "A": 0.004,
+            "B": [-20.0, -19.5, -21.0, -18.0],
+            "C": -1e-4,
+            "error": [1e-11, 2e-11, 3e-11, 1.5e-11],
+        }
+    )
+    finding = about_states.fit(both(table))
+    assert numbers(finding.converged) == (0.004, -20.0, -1e-4, 1e-11)
+    assert "every B from -21 to -21" not in finding.note  # 3e-11 is more than the paper's triple has
+    assert "every B from -18 to -18" in finding.note
+
+
+def test_spread_of_onsets():
+    straight = about_states.one_onset({"converged": sweep(lambda a, z: "chaos" if a >= 60.0 else "second")})
+    assert (numbers(straight.euler), numbers(straight.converged)) == ((), (0.0,))
+    slanted = sweep(lambda a, z: "chaos" if a >= 60.0 + 2e4 * z else "second")
+    assert numbers(about_states.one_onset({"converged": slanted}).converged) == (2.0,)
+
+
+def test_early_chaos_of_some_heights_is_told():
+    early = sweep(lambda a, z: "chaos" if a >= 63.0 or (a == 53.0 and z == 0.0) else "second")
+    finding = about_states.one_onset({"converged": early})
+    assert numbers(finding.converged) == (0.0,)
+    assert "beside regular motion, by the initial height, from 53.00 m/s²" in finding.note
+    assert finding.note.endswith("regular motion is left nowhere")
+    windows = sweep(lambda a, z: "chaos" if a >= 63.0 and a not in (71.0, 72.0) else "second")
+    assert about_states.one_onset({"converged": windows}).note.endswith("in windows only: 71.00 to 72.00 m/s²")
+
+
+def test_impact_line():
+    velocity = np.array([-0.1, -0.05, 0.0, np.nan])
+    table = pd.DataFrame({"impact_velocity": velocity, "impact_phase": -32.0 * velocity})
+    assert numbers(about_states.impact_line({"converged": table}).converged) == pytest.approx((-32.0, 0.0), abs=1e-12)
+
+
+def spectrum(acceleration, signal, amplitudes):
+    frequencies = 50.0 * np.arange(len(amplitudes))
+    return pd.DataFrame(
+        {"acceleration": acceleration, "signal": signal, "frequency": frequencies, "amplitude": amplitudes}
+    )
+
+
+def test_lines_of_spectra():
+    vertical = [spectrum(40.0, "vz", [0.0, 1.0, 0.01]), spectrum(50.0, "vz", [0.0, 1.0, 0.5, 0.3, 0.01])]
+    assert numbers(about_states.vertical_lines(both(pd.concat(vertical))).converged) == (2.0,)
+    horizontal = [spectrum(40.0, "vx", [1.0, 0.5, 0.2]), spectrum(50.0, "vx", [1.0, 0.01, 0.01])]
+    assert numbers(about_states.horizontal_lines(both(pd.concat(horizontal))).converged) == pytest.approx((2.0, 100.0))
+
+
+def test_overlap_of_maps():
+    low = pd.DataFrame({"state": ["first", "first", "second", "second"]})
+    high = pd.DataFrame({"state": ["first", "second", "first", "chaos"]})
+    maps = {
+        f"{place}_{level}": table for place in ("height", "velocity") for level, table in (("low", low), ("high", high))
+    }
+    finding = about_states.overlap(maps)
+    assert numbers(finding.converged) == (0.5, 0.25, 0.5, 0.25)
+    assert finding.note.startswith("0 points")  # the chaos of the higher amplitude is not counted
+
+
+def test_mapped_states():
+    table = pd.DataFrame({"state": ["first", "second", "first"], "mapped_state": ["first", "first", None]})
+    assert numbers(about_states.mapped({"converged": table}).converged) == (0.5,)
+
+
+def test_error_of_euler_in_regular_motion_only():
+    converged = sweep(lambda a, z: "chaos" if a > 60.0 else "second")
+    euler = converged.assign(mean_velocity=np.where(converged.state == "chaos", 1.0, 0.101))
+    estimates = {"converged_exponent": exponents(60.0), "euler_exponent": exponents(50.0)}
+    finding = about_states.euler_error({"converged": converged, "euler": euler, **estimates})
+    assert numbers(finding.euler) == pytest.approx((math.nan, 0.01, 61 / 71), nan_ok=True)
+    assert "wrong at 10 of 71 amplitudes" in finding.note
+
+
+def strobes(z0, values):
+    return pd.DataFrame({"z0": z0, "time": 0.02 * np.arange(len(values)), "z": values, "vz": values})
+
+
+def test_a_motion_comes_back_after_its_period():
+    period_3 = np.tile([1.0, -0.5, 0.2], 43)[:128]
+    assert about_chaos.least_return(strobes(0.0, period_3)) == (0.0, 3)
+    assert about_chaos.least_return(strobes(0.0, np.tile(np.arange(65.0), 2)[:128]))[0] > about_chaos.BACK
+
+
+def test_share_without_a_period():
+    noise = strobes(0.0, np.random.default_rng(1).normal(size=128))
+    regular = strobes(1e-4, np.tile([1.0, -1.0], 64))
+    assert numbers(about_chaos.no_period(both(pd.concat([noise, regular]))).converged) == (0.5,)
+
+
+def test_irregular_dependence():
+    z0 = np.linspace(0.0, 1e-3, 400)
+    noise = np.random.default_rng(1).normal(size=400)
+    step = np.where(z0 > 5e-4, 1.0, 0.0)
+    for velocity, low, high in ((noise, 0.8, 1.1), (step, 0.0, 0.01)):
+        table = pd.DataFrame({"z0": z0, "mean_velocity": velocity})
+        assert low <= numbers(about_chaos.irregular(both(table)).converged)[0] <= high
+
+
+def exponents(first_positive, crossing=None):
+    values = np.where(first_positive <= AMPLITUDES, 1.0, -1.0)
+    if crossing:
+        values[crossing <= AMPLITUDES] = -1.0
+    return pd.DataFrame({"acceleration": AMPLITUDES, "lambda": values})
+
+
+def test_height_estimate():
+    assert numbers(about_chaos.height_estimate(both(exponents(42.0, crossing=55.0))).converged) == (42.0, 1.0)
+
+
+def perturbations():
+    """The estimate of a settled motion over the perturbation, by both methods."""
+    table = pd.DataFrame(
+        {
+            "panel": "perturbation",
+            "case": "orbit_phase",
+            "estimator": ["euler", "euler", "event", "event"],
+            "epsilon": [1e-8, 1e-6] * 2,
+            "value": [0.5, 1.5, -9.0, -8.0],
+        }
+    )
+    table.attrs = {"exponent": {"cases": {"orbit_phase": {"acceleration": 55.0}}}}
+    return table
+
+
+def estimates(euler, converged):
+    """The tables of C19 with onsets as given."""
+    return {
+        "euler": exponents(euler),
+        "converged": exponents(converged),
+        "states": sweep("second"),
+        "estimates": perturbations(),
+    }
+
+
+def test_phase_estimate():
+    finding = about_chaos.phase_estimate(estimates(50.0, 59.0))
+    assert (numbers(finding.euler), numbers(finding.converged)) == ((50.0,), (59.0,))
+    assert "positive at 100 % of the amplitudes by the paper's method" in finding.note
+    assert "at 0 % of the amplitudes converged" in finding.note
+    assert "100 % settle to a period" in finding.note
+    assert "+0.50 to +1.50 1/s by the paper's method and -9.00 to -8.00 1/s converged" in finding.note
+
+
+def test_portraits_in_the_order_of_the_states():
+    table = pd.DataFrame(
+        {
+            "acceleration": [80.0, 40.0, 80.0, 40.0],
+            "z0": [0.0, 3e-4, 3e-4, 0.0],
+            "dimension": [1.9, 1.1, 1.8, 1.0],
+            "error": 0.1,
+        }
+    )
+    assert numbers(about_chaos.portraits(both(table)).converged) == (1.0, 1.1, 1.9)
+
+
+def test_onset_by_dimension():
+    table = pd.DataFrame({"acceleration": AMPLITUDES, "dimension": np.where(AMPLITUDES >= 62.0, 2.0, 1.0)})
+    tables = {
+        **both(table),
+        "converged_exponent": exponents(59.0),
+        "euler_exponent": exponents(62.0),
+        "states": sweep(lambda a, z: "chaos" if a >= 63.0 else "second"),
+    }
+    finding = about_chaos.predicted_onset(tables)
+    assert (numbers(finding.euler), numbers(finding.converged)) == ((0.0, 1.0), (3.0, 1.0))
+    assert "1.00 to 2.00 in that and 2.00 to 2.00 in chaos" in finding.note

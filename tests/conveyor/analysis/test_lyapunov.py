@@ -1,0 +1,63 @@
+"""Lyapunov exponents: the trace identity, an independent pair of trajectories, known limits, and what rides."""
+
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start
+from conveyor.analysis import lyapunov, stroboscope
+from conveyor.solver.model import pack
+
+DECAY = Conveyor().damping / Conveyor().mass
+
+
+def points(*pairs, **model):
+    return np.array([pack(Conveyor(acceleration=a, **model), Start(z0)) for a, z0 in pairs])
+
+
+PAIRS = ((25.0, 0.0), (40.0, 0.0), (40.0, 3e-4), (47.0, 0.0), (62.0, 0.0), (80.0, 0.0))
+
+
+@pytest.mark.parametrize("tension", ["allow", "frictionless", "clip"])
+def test_sum_of_exponents_is_that_of_the_time_in_contact(tension):
+    found = lyapunov.spectrum(points(*PAIRS, tension=tension), cycles=50, tolerance=1e-12)
+    assert found.lambda_1 + found.lambda_2 == pytest.approx(-DECAY * found.contact_fraction, abs=1e-8)
+    # Both moduli of a complex pair are equal, and any of them may come out as the larger one in a finite run.
+    assert (found.lambda_1 >= found.lambda_2 - 0.5).all()
+
+
+def test_chaos_regular_motion_and_a_pair_of_trajectories():
+    """Against two trajectories whose distance is set back each cycle: no variational equation."""
+    rows = points((62.0, 0.0), (80.0, 0.0))
+    found = lyapunov.spectrum(rows, transient=300, cycles=200)
+    states = stroboscope.initial_states(rows, 1e-12)
+    pair = [
+        lyapunov.renormalised_pair(row, state, transient=300, cycles=4000)
+        for row, state in zip(rows, states, strict=True)
+    ]
+    assert pair[0] == pytest.approx(found.lambda_1[0], abs=0.2)
+    assert abs(pair[1] - found.lambda_1[1]) < 5.0 * found.stderr[1]
+    assert found.lambda_1[0] < 0.0 < found.lambda_1[1]
+
+
+def test_rider_is_a_damped_oscillator():
+    """A part on a plate at rest: both exponents have the real part -d_c/(2m), whatever the stiffness."""
+    rows = points((0.0, 0.0), exponent=1.0, stiffness=1e4)
+    found = lyapunov.spectrum(rows, transient=20, cycles=100, tolerance=1e-13)
+    assert found.lambda_1 == pytest.approx(-0.5 * DECAY, abs=1.0)
+    assert found.lambda_1 + found.lambda_2 == pytest.approx(-DECAY, abs=1e-7)
+
+
+def test_standard_error_shrinks_with_the_run():
+    rows = points((80.0, 0.0))
+    errors = [lyapunov.spectrum(rows, cycles=cycles).stderr[0] for cycles in (20, 320)]
+    assert 2.0 < errors[0] / errors[1] < 8.0  # 4 for independent blocks
+
+
+def test_exponents_do_not_depend_on_threads():
+    one, two = (lyapunov.spectrum(points(*PAIRS), cycles=10, threads=threads) for threads in (1, 2))
+    assert all((a == b).all() for a, b in zip(one, two, strict=True))
+
+
+def test_settings_are_checked():
+    with pytest.raises(ValueError, match="blocks must be at least 2"):
+        lyapunov.spectrum(points((40.0, 0.0)), blocks=1)

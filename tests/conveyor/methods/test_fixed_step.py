@@ -1,0 +1,366 @@
+"""Fixed-step methods: closed forms, orders of convergence, limits of stability, the numbers of the paper's method."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.special import gamma
+
+from conveyor import Conveyor, Start, ensemble, simulate
+from conveyor.methods import fixed_step
+from conveyor.solver.model import pack
+from reference import reference_mean_velocity
+
+# A contact that stays closed (p = 1, a_z < g), smooth in time.
+LINEAR = Conveyor(acceleration=30.0, exponent=1.0, stiffness=3e3, psi0=0.4)
+
+
+def slow_integrate(parameters, step, n_steps, method):
+    """The methods written down plainly, from Eqs. 2-12: states and forces at all steps, shape (n_steps + 1, 6)."""
+    a, phi, f, psi0, k_c, d_c, mu, m, p, g, tension, z0, vz0 = (float(value) for value in parameters)
+    omega = 2.0 * math.pi * f
+    a_x, a_z = a * math.cos(phi), a * math.sin(phi)
+
+    def forces(t, y):
+        theta = omega * t + psi0
+        gap = y[2] + a_z / omega**2 * math.cos(theta)
+        if gap > 0.0:
+            return 0.0, 0.0
+        normal = k_c * (-gap) ** p - d_c * (y[3] - a_z / omega * math.sin(theta))
+        if tension == 2 and normal < 0.0:
+            normal = 0.0
+        rubs = 0.0 if tension == 1 and normal < 0.0 else mu * normal
+        return normal, rubs * float(np.sign(a_x / omega * math.sin(theta) - y[1]))
+
+    def rates(t, y):
+        normal, friction = forces(t, y)
+        return np.array([y[1], friction / m, y[3], normal / m - g])
+
+    y = np.array([0.0, 0.0, z0, vz0])
+    rows = []
+    for i in range(n_steps + 1):
+        t = i * step
+        rows.append([*y, *forces(t, y)])
+        k1 = rates(t, y)
+        if method == "euler":
+            y = y + step * k1
+        elif method == "semi_implicit_euler":
+            y[[1, 3]] += step * k1[[1, 3]]
+            y[[0, 2]] += step * y[[1, 3]]
+        else:
+            k2 = rates(t + step / 2, y + step / 2 * k1)
+            k3 = rates(t + step / 2, y + step / 2 * k2)
+            k4 = rates(t + step, y + step * k3)
+            y = y + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+    return np.array(rows)
+
+
+@pytest.mark.parametrize("method", fixed_step.METHODS)
+@pytest.mark.parametrize("tension", ["allow", "frictionless", "clip"])
+@pytest.mark.parametrize("exponent", [1.5, 1.0, 1.8])
+def test_compiled_loop_is_the_plain_loop(method, tension, exponent):
+    """Over two impacts the compiled loop differs from the plain one by rounding alone."""
+    stiffness = {1.0: 3e3, 1.5: 5e5, 1.8: 5e6}[exponent]
+    parameters = pack(Conveyor(tension=tension, exponent=exponent, stiffness=stiffness), Start(z=5e-5, vz=-0.05))
+    step, n_steps = 2e-5, 1500
+    slow = slow_integrate(parameters, step, n_steps, method)
+    fast = fixed_step.sample(parameters, step * np.arange(n_steps + 1), step, method)
+    for k, name in enumerate(fixed_step.SAMPLE_COLUMNS):
+        np.testing.assert_allclose(fast[name], slow[:, k], rtol=1e-10, atol=1e-11 * np.abs(slow[:, k]).max())
+
+    theta = 100.0 * math.pi * step * np.arange(n_steps)
+    gap = slow[:-1, 2] + 40.0 * math.sin(math.radians(12.0)) / (100.0 * math.pi) ** 2 * np.cos(theta)
+    changes = np.diff((gap <= 0.0).astype(int))
+    events = fixed_step.events(parameters, n_steps * step, step, method)
+    assert {"impact", "separation"} <= set(events["kind"])
+    np.testing.assert_array_equal(events["time"], step * (np.flatnonzero(changes) + 1))
+    np.testing.assert_array_equal(events["kind"] == "impact", changes[changes != 0] == 1)
+    run = fixed_step.run(parameters, n_steps * step, step, method)
+    assert run.impacts == np.count_nonzero(changes == 1)
+    assert run.contact_fraction == pytest.approx(np.count_nonzero(slow[:-1, 4]) / n_steps, rel=1e-14)
+    assert run.max_gap == pytest.approx(gap.max(), rel=1e-10)
+    assert run.mean_velocity == pytest.approx((slow[-1, 0] - slow[1125, 0]) / (375 * step), rel=1e-9)
+    assert run.evaluations == n_steps * (4 if method == "rk4" else 1)
+
+
+def test_the_paper_s_numbers():
+    """Mean feeding velocities of the paper's method at its step of 5e-7 s."""
+    for acceleration, z, expected in ((30.0, 0.0, 0.00709042), (40.0, 3e-4, 0.0646877)):
+        run = fixed_step.run(pack(Conveyor(acceleration=acceleration), Start(z=z)), 1.0, 5e-7)
+        assert run.mean_velocity == pytest.approx(expected, rel=2e-6)
+        assert run.status == "ok"
+
+
+@pytest.mark.parametrize(("method", "share"), [("euler", 0.5), ("semi_implicit_euler", -0.5), ("rk4", 0.0)])
+def test_free_fall(method, share):
+    """The height errs by exactly ±gTΔt/2 for the Euler methods and not at all for RK4."""
+    step, n_steps = 1e-4, 777
+    run = fixed_step.run(pack(Conveyor(), Start(z=0.1, vz=0.2)), n_steps * step, step, method)
+    time = n_steps * step
+    exact = 0.1 + 0.2 * time - 0.5 * 9.81 * time**2
+    assert run.z - exact == pytest.approx(share * 9.81 * time * step, abs=1e-15)
+    assert run.vz == pytest.approx(0.2 - 9.81 * time, rel=1e-13)
+    assert (run.x, run.vx, run.impacts, run.contact_fraction) == (0.0, 0.0, 0, 0.0)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5, 2.5])
+def test_undamped_impact(exponent):
+    """Penetration, duration and restitution of an impact on a plate at rest; Euler gains speed in proportion to Δt."""
+    speed = 0.5
+    conveyor = Conveyor(acceleration=0.0, damping=0.0, exponent=exponent, gravity=1e-3)
+    parameters = pack(conveyor, Start(z="conveyor", vz=-speed))
+    share = 1.0 / (exponent + 1.0)
+    depth = (conveyor.mass * speed**2 / (2.0 * share * conveyor.stiffness)) ** share
+    lasting = 2.0 * depth / speed * math.sqrt(math.pi) * gamma(1.0 + share) / gamma(0.5 + share)
+    step = lasting / 2000.0
+
+    samples = fixed_step.sample(parameters, step * np.arange(2100), step, "rk4")
+    assert samples["z"].min() == pytest.approx(-depth, rel=1e-5)
+    (separation,) = fixed_step.events(parameters, 1.05 * lasting, step, "rk4")
+    assert separation["kind"] == "separation"
+    assert abs(separation["time"] - lasting) <= 1.001 * step
+
+    gains = {
+        (method, n): fixed_step.run(parameters, 1.05 * lasting, lasting / n, method).vz / speed - 1.0
+        for method in fixed_step.METHODS
+        for n in (2000, 4000)
+    }
+    assert 1.9 < gains["euler", 2000] / gains["euler", 4000] < 2.1
+    assert gains["euler", 4000] > 1e-4
+    assert abs(gains["semi_implicit_euler", 4000]) < 0.02 * gains["euler", 4000]
+    assert abs(gains["rk4", 4000]) < 2e-6
+
+
+@pytest.mark.parametrize(("method", "order"), [("euler", 1), ("semi_implicit_euler", 1), ("rk4", 4)])
+def test_order_in_smooth_contact(method, order):
+    """Halving the step divides the error in a forced, damped, linear contact by 2^order."""
+    a_z, omega = LINEAR.acceleration * math.sin(LINEAR.angle), 2.0 * math.pi * LINEAR.frequency
+    kappa, decay, duration = LINEAR.stiffness / LINEAR.mass, LINEAR.damping / LINEAR.mass, 0.01
+    plate_z, plate_vz = -a_z / omega**2 * math.cos(LINEAR.psi0), a_z / omega * math.sin(LINEAR.psi0)
+    parameters = pack(LINEAR, Start(z=plate_z - LINEAR.gravity / kappa, vz=plate_vz))
+    # Closed form from q = -mg/k, q̇ = 0: forced response and free oscillation.
+    forced = -a_z / (kappa - omega**2 + 1j * omega * decay) * np.exp(1j * LINEAR.psi0)
+    root = complex(-0.5 * decay, math.sqrt(kappa - 0.25 * decay**2))
+    value, rate = -forced.real, (omega * forced).imag
+    free = complex(value, (root.real * value - rate) / root.imag)
+    q = -LINEAR.gravity / kappa + (forced * np.exp(1j * omega * duration) + free * np.exp(root * duration)).real
+    exact = q - a_z / omega**2 * math.cos(omega * duration + LINEAR.psi0)
+
+    errors = []
+    coarse = 400 if order == 4 else 6400
+    for n in (coarse, 2 * coarse):
+        run = fixed_step.run(parameters, duration, duration / n, method)
+        assert run.contact_fraction == 1.0
+        errors.append(abs(run.z - exact))
+    assert math.log2(errors[0] / errors[1]) == pytest.approx(order, abs=0.15)
+
+
+@pytest.mark.parametrize("method", fixed_step.METHODS)
+def test_friction_follows_the_vertical_motion(method):
+    """While the slip keeps its sign, ẋ = μ (ż - ż_0 + g t) holds at every step, not only in the limit."""
+    conveyor = Conveyor(acceleration=30.0, friction=0.01, psi0=0.5)
+    start = Start(z="conveyor", vz=30.0 * math.sin(math.radians(12.0)) / (100.0 * math.pi) * math.sin(0.5))
+    times = 1e-5 * np.arange(800)
+    samples = fixed_step.sample(pack(conveyor, start), times, 1e-5, method)
+    np.testing.assert_allclose(samples["vx"], 0.01 * (samples["vz"] - start.vz + 9.81 * times), rtol=0.0, atol=1e-14)
+    assert samples["vx"][-1] > 5e-4
+
+
+def test_sign_of_zero_slip():
+    """At the very start part and plate have no horizontal velocity: the contact presses but does not rub."""
+    samples = fixed_step.sample(pack(Conveyor(), Start(z=-1e-3)), np.array([0.0]), 1e-6)
+    assert samples["contact_force"][0] > 0.0
+    assert samples["friction_force"][0] == 0.0
+
+
+def test_a_gap_of_zero_is_contact():
+    """A part that starts on the conveyor with a downward speed is braked by the damper at once."""
+    samples = fixed_step.sample(pack(Conveyor(), Start(z="conveyor", vz=-0.2)), np.array([0.0]), 1e-6)
+    assert samples["contact_force"][0] == pytest.approx(0.3 * 0.2, rel=1e-14)
+
+
+def test_tension():
+    """Damping pulls before separation: with friction, without, or not at all."""
+    samples = {
+        tension: fixed_step.sample(pack(Conveyor(tension=tension), Start(z=3e-4)), np.arange(0.0, 0.2, 1e-5), 1e-6)
+        for tension in ("allow", "frictionless", "clip")
+    }
+    for tension, found in samples.items():
+        pulled = found["contact_force"] < 0.0
+        assert pulled.any() == (tension != "clip")
+        assert found["friction_force"][pulled].any() == (tension == "allow")
+        bound = Conveyor().friction * np.abs(found["contact_force"])
+        assert (np.abs(found["friction_force"]) <= bound * (1.0 + 1e-12)).all()
+
+
+def test_sampling_does_not_disturb_the_run():
+    parameters = pack(Conveyor(acceleration=80.0), Start())
+    n_steps, step = 20_000, 2e-6
+    indices = np.sort(np.append(np.arange(0, n_steps + 1, 100), [1, 1, 255, 256, 257]))
+    for method in fixed_step.METHODS:
+        watched, samples, events = fixed_step._integrate(parameters, step, n_steps, method, indices, 4)
+        alone, _, same_events = fixed_step._integrate(parameters, step, n_steps, method, [], 4)
+        assert watched == alone
+        assert events[1, 0] > 0.0
+        np.testing.assert_array_equal(events, same_events)
+        assert samples[-1, :4].tolist() == watched[:4]
+        np.testing.assert_array_equal(samples[1], samples[2])  # one step, asked for twice
+
+
+@pytest.mark.parametrize("method", fixed_step.METHODS)
+def test_many_are_followed_as_one_is(method):
+    """Sweeps and pairs of trajectories give what single runs give, to the last bit, however they are shared out."""
+    step, duration = 1e-5, 0.05
+    parameters = np.array(
+        [pack(Conveyor(acceleration=20.0 + 5.0 * k, exponent=(1.5, 1.8)[k % 2]), Start(z=1e-5 * k)) for k in range(11)]
+    )
+    runs = [fixed_step.run(row, duration, step, method) for row in parameters]
+    for sharing in ({"chunk": 11}, {"chunk": 1}, {"chunk": 3, "threads": 2}):
+        rows = ensemble.run(parameters, duration=duration, method=method, step=step, **sharing)
+        for name in ("mean_velocity", "max_gap", "impacts", "contact_fraction", "status"):
+            assert rows[name].tolist() == [getattr(run, name) for run in runs]
+        for name in ("x", "vx", "z", "vz"):
+            assert rows[f"{name}_end"].tolist() == [getattr(run, name) for run in runs]
+
+    indices = np.array([0, 17, 5000])
+    signals = np.empty((11, 3))
+    ensemble.samples_by_steps(parameters, indices, step, fixed_step.METHODS.index(method), 1, signals)
+    for row, signal in zip(parameters, signals, strict=True):
+        assert signal.tolist() == fixed_step.sample(row, indices * step, step, method)["vx"].tolist()
+
+
+@pytest.mark.parametrize("code", [-1, len(fixed_step.METHODS)])
+def test_an_unknown_method_is_never_run_as_another_one(code):
+    parameters = np.array([pack(Conveyor(), Start())])
+    indices, samples, events, results = np.empty(0, int), np.empty((1, 0, 6)), np.empty((1, 0, 2)), np.empty((1, 10))
+    with pytest.raises(ValueError, match="method"):
+        fixed_step.integrate_all(parameters, 1e-5, 10, code, indices, samples, events, results)
+    with pytest.raises(ValueError, match="method"):
+        fixed_step.integrate(parameters[0], 1e-5, 10, fixed_step.EULER, indices, samples[0], events[0])
+    with pytest.raises(ValueError):
+        ensemble.run(parameters, method="heun")
+
+
+def test_samples_keep_the_order_and_shape_of_the_times():
+    parameters = pack(Conveyor(), Start(z=3e-4))
+    times = np.array([[0.02, 0.0], [0.01, 0.02]])
+    samples = fixed_step.sample(parameters, times, 1e-5)
+    for i, j in np.ndindex(times.shape):
+        alone = fixed_step.sample(parameters, times[i, j], 1e-5)
+        for name in fixed_step.SAMPLE_COLUMNS:
+            assert samples[name][i, j] == alone[name]
+
+
+def contact_oscillation(method, step, omega, damping_ratio, steps):
+    """Growth of a small contact oscillation about static equilibrium on a plate at rest, over a number of steps."""
+    mass = 0.7e-3
+    conveyor = Conveyor(
+        acceleration=0.0, exponent=1.0, mass=mass, stiffness=mass * omega**2, damping=2.0 * damping_ratio * omega * mass
+    )
+    rest = -conveyor.gravity / omega**2
+    amplitude = 1e-3 * abs(rest)
+    run = fixed_step.run(pack(conveyor, Start(z=rest + amplitude)), steps * step, step, method)
+    return math.hypot(run.z - rest, run.vz / omega) / amplitude
+
+
+@pytest.mark.parametrize("damping_ratio", [0.01, 0.05, 0.13])
+def test_explicit_euler_amplifies_above_damping_over_stiffness(damping_ratio):
+    """Each step multiplies the oscillation by √(1 - Δt d/m + Δt² k/m): growth unless Δt < d_c/k."""
+    omega = 1600.0
+    limit = 2.0 * damping_ratio / omega
+    for share in (0.5, 0.95, 1.05, 2.0):
+        step = share * limit
+        excess = (omega * step) ** 2 - 2.0 * damping_ratio * omega * step
+        assert (excess > 0.0) == (share > 1.0)
+        steps = round(6.0 / abs(excess))
+        growth = contact_oscillation("euler", step, omega, damping_ratio, steps)
+        # The oscillation is an ellipse that is seen at one phase: hence the wide tolerance.
+        assert growth == pytest.approx((1.0 + excess) ** (0.5 * steps), rel=0.3)
+
+
+def test_explicit_euler_shakes_the_resting_part_off():
+    """On a Hertz contact the limit is d_c/k_eff with k_eff = 1.5 k_c √δ: 1.7e-4 s for the paper's part at rest."""
+    conveyor = Conveyor(acceleration=0.0)
+    depth = (conveyor.mass * conveyor.gravity / conveyor.stiffness) ** (2.0 / 3.0)
+    limit = conveyor.damping / (1.5 * conveyor.stiffness * math.sqrt(depth))
+    assert limit == pytest.approx(1.7e-4, rel=0.02)
+    disturbed = pack(conveyor, Start(z=-1.05 * depth))
+    calm = fixed_step.run(disturbed, 7000 * 0.9 * limit, 0.9 * limit)
+    shaken = fixed_step.run(disturbed, 6000 * 1.1 * limit, 1.1 * limit)
+    assert calm.impacts == 0
+    assert calm.z == pytest.approx(-depth, rel=1e-6)
+    assert shaken.impacts > 10
+
+
+@pytest.mark.parametrize(("method", "limit"), [("semi_implicit_euler", 2.0), ("rk4", 2.0 * math.sqrt(2.0))])
+def test_limit_of_stability_without_damping(method, limit):
+    """ωΔt < 2 for semi-implicit Euler and < 2√2 for RK4 (its stability interval on the imaginary axis)."""
+    omega = 1600.0
+    # Below its limit semi-implicit Euler moves on an ellipse whose axes differ by √((2 + ωΔt)/(2 - ωΔt)).
+    assert contact_oscillation(method, 0.98 * limit / omega, omega, 0.0, 1000) < math.sqrt(1.98 / 0.02)
+    assert contact_oscillation(method, 1.02 * limit / omega, omega, 0.0, 1000) > 100.0
+
+
+@pytest.mark.parametrize("method", fixed_step.METHODS)
+def test_converges_to_the_reference(method):
+    """Fast against slow: over impacts and friction reversals every method is of first order, and gets there."""
+    conveyor, start, duration = Conveyor(), Start(z=3e-4), 0.1
+    exact = reference_mean_velocity(conveyor, start, duration)
+    errors = [
+        abs(fixed_step.run(pack(conveyor, start), duration, step, method).mean_velocity / exact - 1.0)
+        for step in (1.6e-6, 1e-7, 1e-8)
+    ]
+    assert errors[2] < errors[1] < errors[0] < 0.1
+    assert errors[2] < 5e-4
+
+
+def test_status_not_finite():
+    """A fall of 1e162 s overflows: the status says so, and samples behind that point are NaN."""
+    parameters = pack(Conveyor(), Start(z=3e-4, vz=1.0))
+    run = fixed_step.run(parameters, 1e162, 1e160)
+    assert run.status == "not finite"
+    samples = fixed_step.sample(parameters, np.array([0.0, 1e163]), 1e160)
+    assert samples["z"][0] == 3e-4
+    assert np.isnan(samples["z"][1])
+
+
+@pytest.mark.parametrize(
+    ("call", "word"),
+    [
+        (lambda p: fixed_step.run(p, 0.0, 1e-6), "duration"),
+        (lambda p: fixed_step.run(p, 1.0, -1e-6), "step"),
+        (lambda p: fixed_step.run(p, 1.0, math.nan), "step"),
+        (lambda p: fixed_step.run(p, 1.0, 1e-6, "heun"), "method"),
+        (lambda p: fixed_step.run(p, 1.0, 1e-6, last=0.0), "last"),
+        (lambda p: fixed_step.sample(p, np.array([-1.0]), 1e-6), "times"),
+        (lambda p: fixed_step.sample(p, np.array([1.0]), 0.0), "step"),
+    ],
+)
+def test_errors_name_the_argument(call, word):
+    with pytest.raises(ValueError, match=word):
+        call(pack(Conveyor(), Start()))
+
+
+def test_a_run_ends_where_it_is_said_to_end():
+    """Steps that do not divide the duration would end early."""
+    with pytest.raises(ValueError, match=r"no whole number of steps of 3e-07 s; take step = 3.00000030"):
+        simulate(Conveyor(), duration=1.0, method="euler", step=3e-7)
+    with pytest.raises(ValueError, match="whole number"):
+        ensemble.run(pack(Conveyor(), Start())[None], duration=1e-3, method="euler", step=5e-3)
+    assert simulate(Conveyor(), duration=0.3, method="euler", step=1e-5).status == "ok"  # 0.3 / 1e-5 rounds
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: fixed_step.run(pack(Conveyor(), Start()), 0.01, 1e-5, "heun"),
+        lambda: ensemble.run(pack(Conveyor(), Start())[None], duration=0.01, method="heun"),
+        lambda: simulate(Conveyor(), duration=0.01, method="heun"),
+        lambda: fixed_step.integrate(
+            pack(Conveyor(), Start()), 1e-5, 10, 7, np.empty(0, int), np.empty((0, 6)), np.empty((0, 2))
+        ),
+    ],
+)
+def test_an_unknown_method_never_runs_as_another(call):
+    with pytest.raises(ValueError, match="method"):
+        call()

@@ -1,0 +1,251 @@
+"""The event-driven solver against analytic truths, an independent slow solution, energy, and its own tolerance."""
+
+import itertools
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import quad, simpson
+from scipy.linalg import expm
+
+from conveyor import Conveyor, Start, simulate
+from conveyor.solver import trajectory as trajectory_module
+from conveyor.solver.model import conveyor_motion
+from reference import reference_mean_velocity
+
+AT_REST = Conveyor(acceleration=0.0)
+REFERENCE = {
+    (30.0, 0.0): 0.00709944242728,
+    (40.0, 3e-4): 0.0650828019770,
+    (47.0, 0.0): 0.0120966358597,
+    (52.5, 0.0): 0.0660410919632,
+}
+
+
+@pytest.mark.parametrize(("acceleration", "z"), REFERENCE)
+def test_reference_values(acceleration, z):
+    run = simulate(Conveyor(acceleration=acceleration), Start(z), tolerance=1e-11)
+    assert run.status == "ok"
+    assert run.mean_velocity() == pytest.approx(REFERENCE[acceleration, z], rel=1e-9)
+
+
+def test_reference_values_without_friction_under_tension():
+    for acceleration, z, expected in ((40.0, 3e-4, 0.06458466344), (30.0, 0.0, 0.00709947805)):
+        run = simulate(Conveyor(acceleration=acceleration, tension="frictionless"), Start(z), tolerance=1e-11)
+        assert run.mean_velocity() == pytest.approx(expected, rel=1e-9)
+
+
+def test_free_fall():
+    """A parabola and a uniform motion, up to the first impact at its exact time."""
+    start = Start(z=0.02, vz=0.1)
+    run = simulate(AT_REST, start, duration=0.1)
+    impact = (0.1 + math.sqrt(0.1**2 + 2 * 9.81 * 0.02)) / 9.81
+    assert run.events[0]["kind"] == "impact"
+    assert run.events[0]["time"] == pytest.approx(impact, rel=1e-15)
+    times = np.linspace(0.0, impact, 50)[:-1]
+    sample = run.sample(times)
+    np.testing.assert_allclose(sample["z"], 0.02 + 0.1 * times - 0.5 * 9.81 * times**2, rtol=0, atol=1e-17)
+    np.testing.assert_array_equal(sample["contact_force"], 0.0)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.25, 1.5, 2.0, 3.0])
+def test_undamped_impact(exponent):
+    """Without damping, and with gravity too weak to matter, penetration and restitution have closed forms."""
+    conveyor = replace(AT_REST, damping=0.0, exponent=exponent, gravity=1e-3, stiffness=5e5 if exponent < 2 else 5e9)
+    speed = 0.35
+    run = simulate(conveyor, Start("conveyor", -speed), duration=0.05, tolerance=1e-13)
+    leave = run.events[run.events["kind"] == "separation"]["time"][0]
+    deepest = (0.5 * (exponent + 1) * conveyor.mass * speed**2 / conveyor.stiffness) ** (1 / (exponent + 1))
+    duration = 2 * deepest / speed * quad(lambda x: 2 * x / math.sqrt(1 - (1 - x * x) ** (exponent + 1)), 0, 1)[0]
+    assert leave == pytest.approx(duration, rel=5e-6)
+    sample = run.sample(np.array([0.5 * leave, leave]))
+    assert -sample["z"][0] == pytest.approx(deepest, rel=5e-6)
+    assert sample["vz"][1] == pytest.approx(speed, rel=1e-10)
+    if exponent == 1.5:
+        assert duration == pytest.approx(2.9432 * deepest / speed, rel=5e-5)
+
+
+def test_hooke_contact_in_closed_form():
+    """For p = 1 contact is a damped linear oscillator under harmonic forcing; the jumps between are parabolas."""
+    conveyor = Conveyor(exponent=1.0, stiffness=2.4e3, acceleration=60.0)
+    run = simulate(conveyor, Start(2e-4), duration=0.3, tolerance=1e-12)
+    omega, mass, a_z = 100 * math.pi, conveyor.mass, 60.0 * math.sin(conveyor.angle)
+    # (gap, its rate, cos θ, sin θ, 1)' = generator (…)
+    generator = np.zeros((5, 5))
+    generator[0, 1] = 1.0
+    generator[1] = [-conveyor.stiffness / mass, -conveyor.damping / mass, -a_z, 0.0, -9.81]
+    generator[2, 3], generator[3, 2] = -omega, omega
+    vertical = run.events[np.isin(run.events["kind"], ["impact", "separation"])]
+    assert len(vertical) > 20
+    for begin, end in itertools.pairwise(vertical):
+        if begin["kind"] != "impact":
+            continue
+        state, after = (run.sample(np.array([t]))["vz"][0] for t in (begin["time"], end["time"]))
+        plate = conveyor_motion(conveyor, np.array([begin["time"], end["time"]]))
+        phase = omega * begin["time"]
+        vector = np.array([0.0, state - plate["vz"][0], math.cos(phase), math.sin(phase), 1.0])
+        gap, rate = (expm(generator * (end["time"] - begin["time"])) @ vector)[:2]
+        assert gap == pytest.approx(0.0, abs=1e-13)
+        assert rate == pytest.approx(after - plate["vz"][1], rel=1e-8)
+
+
+@pytest.mark.parametrize("tension", ["allow", "frictionless", "clip"])
+@pytest.mark.parametrize("exponent", [1.0, 1.3, 1.5, 2.5])
+def test_fast_against_slow(tension, exponent):
+    stiffness = {1.0: 3e3, 1.3: 5e4, 1.5: 5e5, 2.5: 2e10}[exponent]
+    conveyor = Conveyor(tension=tension, exponent=exponent, stiffness=stiffness, acceleration=44.0, psi0=1.0)
+    fast = simulate(conveyor, Start(1e-4, 0.05), duration=0.1, tolerance=1e-12).mean_velocity()
+    assert fast == pytest.approx(reference_mean_velocity(conveyor, Start(1e-4, 0.05), 0.1), rel=1e-8)
+
+
+@pytest.mark.parametrize("acceleration", [30.0, 40.0, 47.0, 80.0])
+def test_energy_balance(acceleration):
+    """Kinetic, potential and spring energy change by the work of the plate minus the losses in damper and friction."""
+    conveyor = Conveyor(acceleration=acceleration)
+    run = simulate(conveyor, Start(3e-4), duration=0.05, tolerance=1e-12)
+    edges = np.unique(np.concatenate([[0.0], run.events["time"], [0.05]]))
+    work = 0.0
+    for low, high in itertools.pairwise(edges):
+        # Half-power ends of an impact are smooth in the angle of a cosine.
+        angle = np.linspace(0.0, math.pi, 801)
+        times = np.clip(low + 0.5 * (high - low) * (1 - np.cos(angle)), low, high)
+        inside = run.sample(np.clip(times, low + 1e-15, high - 1e-15))
+        plate = conveyor_motion(conveyor, times)
+        depth = np.maximum(plate["z"] - inside["z"], 0.0)
+        touching = inside["contact_force"] != 0.0
+        damper = conveyor.damping * (inside["vz"] - plate["vz"]) ** 2 * touching
+        power = inside["contact_force"] * plate["vz"] - damper + inside["friction_force"] * inside["vx"]
+        work += simpson(power * 0.5 * (high - low) * np.sin(angle), x=angle)
+    ends = run.sample(np.array([0.0, 0.05]))
+    depth = np.maximum(conveyor_motion(conveyor, np.array([0.0, 0.05]))["z"] - ends["z"], 0.0)
+    energy = conveyor.mass * (0.5 * (ends["vx"] ** 2 + ends["vz"] ** 2) + 9.81 * ends["z"])
+    energy += conveyor.stiffness * depth**2.5 / 2.5
+    assert energy[1] - energy[0] == pytest.approx(work, abs=1e-7 * conveyor.mass)
+
+
+def test_horizontal_motion_is_the_integral_of_the_friction_force():
+    run = simulate(Conveyor(acceleration=35.0), Start(), duration=0.06, tolerance=1e-12)
+    edges = np.unique(np.concatenate([[0.0], run.events["time"], [0.06]]))
+    velocity = 0.0
+    for low, high in itertools.pairwise(edges):
+        angle = np.linspace(0.0, math.pi, 401)
+        times = np.clip(low + 0.5 * (high - low) * (1 - np.cos(angle)), low + 1e-15, high - 1e-15)
+        force = run.sample(times)["friction_force"]
+        velocity += simpson(force * 0.5 * (high - low) * np.sin(angle), x=angle) / run.conveyor.mass
+        assert run.sample(np.array([high]))["vx"][0] == pytest.approx(velocity, abs=1e-8)
+
+
+def test_stick_obeys_filippov():
+    """While the part sticks it moves with the plate and friction stays within its cone; it leaves where that ends."""
+    conveyor = Conveyor(acceleration=8.0, friction=0.6)
+    run = simulate(conveyor, Start("conveyor"), duration=0.2, tolerance=1e-12)
+    stick = run.events[run.events["kind"] == "stick"]["time"]
+    slip = run.events[run.events["kind"] == "slip"]["time"]
+    assert len(stick) > 5
+    for begin in stick[:-1]:
+        end = slip[slip > begin][0]
+        times = np.linspace(begin, end, 40)[1:-1]
+        sample, plate = run.sample(times), conveyor_motion(conveyor, times)
+        np.testing.assert_allclose(sample["vx"], plate["vx"], rtol=0, atol=1e-14)
+        assert (np.abs(sample["friction_force"]) <= conveyor.friction * sample["contact_force"] + 1e-15).all()
+        last = run.sample(np.array([end]))
+        a_x = 8.0 * math.cos(conveyor.angle) * math.cos(100 * math.pi * end)
+        assert abs(a_x) * conveyor.mass == pytest.approx(conveyor.friction * last["contact_force"][0], rel=1e-8)
+
+
+@pytest.mark.parametrize(("acceleration", "z"), [(30.0, 0.0), (40.0, 3e-4), (47.0, 0.0)])
+def test_tolerance_means_what_it_says(acceleration, z):
+    answers = [
+        simulate(Conveyor(acceleration=acceleration), Start(z), tolerance=10.0**-k).mean_velocity()
+        for k in range(6, 13)
+    ]
+    for k, (loose, tight) in enumerate(itertools.pairwise(answers), start=6):
+        assert abs(tight - loose) <= 100 * 10.0**-k * abs(tight)
+
+
+def test_start_on_the_plate_at_relative_rest():
+    """The part neither falls through nor hangs, whether the plate presses on or leaves it behind."""
+    for psi0 in np.linspace(0.0, 2 * math.pi, 33):
+        conveyor = Conveyor(acceleration=60.0, psi0=psi0)
+        plate = conveyor_motion(conveyor, np.array([0.0]))
+        run = simulate(conveyor, Start("conveyor", float(plate["vz"][0])), duration=0.1)
+        assert run.status == "ok"
+        times = np.linspace(0.0, 0.1, 500)
+        assert (run.sample(times)["z"] - conveyor_motion(conveyor, times)["z"] > -3e-4).all()
+
+
+def test_start_inside_the_plate():
+    run = simulate(Conveyor(), Start(z=-2e-3), duration=0.1)
+    assert run.status == "ok"
+    assert "separation" in run.events["kind"]
+
+
+def test_samples_do_not_disturb_a_run():
+    """Any set of sample times gives bit for bit the same motion, in the order that was asked for."""
+    run = simulate(Conveyor(acceleration=80.0), Start(), duration=0.5)
+    times = np.array([[0.4, 0.1], [0.25, 0.5]])
+    sample = run.sample(times)
+    assert sample["z"].shape == (2, 2)
+    for place in np.ndindex(2, 2):
+        alone = run.sample(np.array([times[place]]))
+        assert all(alone[name][0] == sample[name][place] for name in sample)
+    assert run.sample(np.array([0.5]))["x"][0] == run.x_end
+
+
+def test_long_runs_keep_their_phase():
+    """After 1000 s the settled motion repeats that after 1 s."""
+    run = simulate(Conveyor(acceleration=30.0), Start(), duration=1000.0)
+    assert run.status == "ok"
+    late = run.sample(np.linspace(999.9, 999.98, 5))["vz"]
+    early = run.sample(np.linspace(4.9, 4.98, 5))["vz"]
+    np.testing.assert_allclose(late, early, rtol=0, atol=1e-10)
+
+
+def test_a_contact_that_is_too_stiff_is_a_status():
+    """Its time constant m/d_c is 1e-9 s: no run of 0.1 s can follow it, and none takes long to say so."""
+    run = simulate(Conveyor(damping=1e6, mass=1e-3), Start("conveyor"), duration=0.1)
+    assert run.status == "contact too stiff"
+    assert math.isnan(run.z_end)
+    assert run.work <= trajectory_module.PATIENCE + 1
+
+
+@pytest.mark.parametrize(
+    ("call", "name"),
+    [
+        (lambda: Conveyor(mass=-1.0), "mass"),
+        (lambda: Conveyor(angle=12.0), "angle"),
+        (lambda: Conveyor(tension="pull"), "tension"),
+        (lambda: Start(z="plate"), "z0"),
+        (lambda: simulate(Conveyor(), duration=0.0), "duration"),
+        (lambda: simulate(Conveyor(), tolerance=0.0), "tolerance"),
+        (lambda: simulate(Conveyor(), method="magic"), "method"),
+        (lambda: simulate(Conveyor(), duration=0.1).sample(np.array([0.2])), "times"),
+    ],
+)
+def test_errors_name_what_is_wrong(call, name):
+    with pytest.raises(ValueError, match=name):
+        call()
+
+
+@pytest.mark.parametrize("acceleration", [0.0, 1e-300, 2.220446049250313e-16, 1e-9])
+def test_a_nearly_still_plate_is_not_passed(acceleration):
+    """Without damping a part that falls on a plate at rest comes back to its height; a root that cancels misses it."""
+    conveyor = Conveyor(acceleration=acceleration, damping=0.0)
+    times = np.linspace(0.0, 0.3, 3001)
+    gap = simulate(conveyor, Start("conveyor", vz=-0.07), duration=0.3).sample(times)["z"]
+    deepest = (5.0 * 0.7e-3 * 0.07**2 / (4.0 * 5e5)) ** 0.4
+    assert -1.1 * deepest < gap.min() < -deepest  # a little more, since the weight presses too
+    assert gap.max() == pytest.approx(0.07**2 / (2.0 * 9.81), rel=1e-3)
+
+
+@pytest.mark.parametrize("acceleration", [30.0, 47.0])
+def test_steps_of_a_settled_motion_are_used_again(acceleration):
+    """The vertical motion settles within the first second; from then on no step is computed, and nothing changes."""
+    short, long = (simulate(Conveyor(acceleration=acceleration), duration=duration) for duration in (1.0, 20.0))
+    assert long.work < 1.2 * short.work
+    tight = simulate(Conveyor(acceleration=acceleration), duration=20.0, tolerance=1e-13)
+    assert long.mean_velocity() == pytest.approx(tight.mean_velocity(), rel=1e-8)
+    assert (long.z_end, long.vz_end) == pytest.approx((tight.z_end, tight.vz_end), rel=1e-7)
+    assert long.impacts == tight.impacts
+    assert len(long.events) == len(tight.events)

@@ -1,0 +1,118 @@
+"""A copy of the project on a small config, and Snakemake run in it."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import yaml
+from snakemake.utils import update_config
+
+ROOT = Path(__file__).resolve().parents[1]
+PARTS = ("Snakefile", "workflow", "profiles", "config", "scripts")
+
+FIGURES = ("fig03", "fig08", "fig22")
+TARGETS = tuple(f"figures/{figure}.pdf" for figure in FIGURES)
+CAPTIONS = tuple(f"results/captions/{figure}.rst" for figure in FIGURES)
+# Sections that are no entries with a table each.
+SINGLE = (
+    "orbits",
+    "certificates",
+    "attractors",
+    "lyapunov",
+    "witnesses",
+    "benchmark",
+    "precision",
+    "estimators",
+    "stability",
+    "stability_estimates",
+    "scene_budget",
+    "settling_times",
+    "rigid_part",
+    "random_points",
+)
+COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}
+COARSE_PAIRS = {"axes": {"acceleration": {"num": 3}}, "duration": 0.1}
+TINY = {
+    "attractors": {"acceleration": {"num": 3}, "transient": 20, "strobes": 8},
+    "lyapunov": {"cycles": 20, "blocks": 5},
+    "sweeps": {"amplitudes": COARSE, "amplitudes_euler": COARSE},
+    "estimates": {"phase": COARSE_PAIRS, "phase_euler": COARSE_PAIRS},
+}
+
+
+def read_config(file: str = "config/config.yaml") -> dict:
+    return yaml.safe_load((ROOT / file).read_text())
+
+
+def merged(*configs: dict) -> dict:
+    """Configs merged as Snakemake merges overlays, the last one first in rank."""
+    result = {}
+    for config in configs:
+        update_config(result, config)
+    return result
+
+
+def small_config() -> dict:
+    """The project's config with FIGURES and their tables only, on coarse axes."""
+    config = merged(read_config(), TINY)
+    config["figures"] = {figure: config["figures"][figure] for figure in FIGURES}
+    used = {table for entry in config["figures"].values() for table in entry["tables"].values()}
+    for section in set(config) - {"prefix", "model", "solver", "figures", *SINGLE}:
+        config[section] = {name: entry for name, entry in config[section].items() if f"{section}/{name}" in used}
+    return config
+
+
+@dataclass(frozen=True)
+class Project:
+    """A copy of the project in `folder`, with an overlay of its config."""
+
+    folder: Path
+    overlay: dict = field(default_factory=dict)
+
+    def snakemake(self, *arguments: str) -> subprocess.CompletedProcess:
+        """Run Snakemake on the overlay; stdout holds what it and its jobs say."""
+        (self.folder / "overlay.yaml").write_text(yaml.safe_dump(self.overlay, sort_keys=False))
+        return subprocess.run(
+            [sys.executable, "-m", "snakemake", *arguments, "--configfile", "overlay.yaml"],
+            cwd=self.folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            check=False,
+            env={name: value for name, value in os.environ.items() if not name.startswith("SNAKEMAKE")},
+        )
+
+    def make(self, *targets: str) -> None:
+        run = self.snakemake(*targets)
+        assert run.returncode == 0, run.stdout
+
+    def planned(self, *targets: str) -> dict[str, int]:
+        """Number of jobs by rule that a dry run announces."""
+        run = self.snakemake("--dry-run", *targets)
+        assert run.returncode == 0, run.stdout
+        if "Nothing to be done" in run.stdout:
+            return {}
+        stats = run.stdout.split("Job stats:")[1].split("\n\n")[0]
+        jobs = {rule: int(count) for rule, count in re.findall(r"^(\w+)\s+(\d+)$", stats, re.MULTILINE)}
+        jobs.pop("total")
+        return jobs
+
+    def under(self, overlay: dict) -> "Project":
+        """The same folder under another overlay."""
+        return Project(self.folder, overlay)
+
+
+def copy_project(folder: Path) -> Path:
+    """Copy the project to `folder`, on its small config."""
+    for part in PARTS:
+        source = ROOT / part
+        if source.is_dir() and not source.is_symlink():
+            shutil.copytree(source, folder / part, ignore=shutil.ignore_patterns("__pycache__"))
+        else:
+            shutil.copy2(source, folder / part, follow_symlinks=False)
+    (folder / "config/config.yaml").write_text(yaml.safe_dump(small_config(), sort_keys=False))
+    return folder

@@ -1,0 +1,90 @@
+"""Sweeps from the config: columns and rows of an own one, and independence of how it is cut and shared."""
+
+import numpy as np
+import pandas as pd
+import pyarrow.parquet as pq
+import pytest
+
+from conveyor import Conveyor, Start, simulate
+from conveyor.solver.model import UNITS
+
+# As the README shows it.
+MINE = {
+    "axes": {"acceleration": {"start": 30, "stop": 40, "num": 11}, "z0": [0.0, 1.0e-4]},
+    "model": {"damping": 0.2},
+    "duration": 1.0,
+    "method": "event",
+    "tolerance": 1.0e-10,
+    "needs": "feeding",
+}
+COLUMNS = [
+    "mean_velocity",
+    "z_end",
+    "vz_end",
+    "x_end",
+    "vx_end",
+    "state",
+    "period",
+    "max_gap",
+    "impacts",
+    "contact_fraction",
+    "status",
+]
+MIXED = {
+    "axes": {
+        "tension": ["allow", "clip"],
+        "acceleration": {"start": 25, "stop": 85, "num": 4},
+        "z0": ["conveyor", 0.0, 2.0e-4],
+    },
+    "duration": 0.2,
+    "needs": "vertical",
+}
+
+
+@pytest.fixture(scope="module")
+def swept(built):
+    """Own sweeps, the same one under different cuts and cores; a function gives the path of a table."""
+
+    sweeps = {"mine": MINE, "mixed": MIXED}
+    whole = {"prefix": "whole", "sweeps": sweeps}
+    built.under(whole).make("--cores", "2", *(f"results/whole/sweeps/{name}.parquet" for name in sweeps))
+    cut = {"prefix": "cut", "solver": {"points_per_job": 10}, "sweeps": sweeps}
+    built.under(cut).make("--cores", "1", "results/cut/sweeps/mixed.parquet")
+    return lambda prefix, name: built.folder / f"results/{prefix}/sweeps/{name}.parquet"
+
+
+def test_columns_rows_and_units(swept):
+    table = pd.read_parquet(swept("whole", "mine"))
+    assert list(table) == ["acceleration", "z0", *COLUMNS]
+    expected = [(a, z) for a in np.linspace(30, 40, 11) for z in (0.0, 1.0e-4)]
+    assert list(zip(table.acceleration, table.z0, strict=True)) == expected
+    assert (table.status == "ok").all()
+    assert set(table.state) == {"first", "second"}
+    schema = pq.read_schema(swept("whole", "mine"))
+    units = {field.name: field.metadata[b"unit"].decode() for field in schema}
+    assert units["mean_velocity"] == units["vx_end"] == "m/s"
+    assert units["acceleration"] == UNITS["acceleration"]
+    assert table.attrs["model"]["damping"] == 0.2
+
+
+def test_a_row_is_a_run(swept):
+    row = pd.read_parquet(swept("whole", "mine")).iloc[7]
+    run = simulate(Conveyor(acceleration=row.acceleration, damping=0.2), Start(z=row.z0), tolerance=MINE["tolerance"])
+    assert row.mean_velocity == pytest.approx(run.mean_velocity(), rel=1e-12)
+    assert (row.z_end, row.x_end, row.impacts) == (run.z_end, run.x_end, run.impacts)
+
+
+def test_words_on_axes_and_vertical_needs(swept):
+    table = pd.read_parquet(swept("whole", "mixed"))
+    assert list(table)[:3] == ["tension", "acceleration", "z0"]
+    assert list(table.tension) == ["allow"] * 12 + ["clip"] * 12
+    assert table.z0[:3].isna().tolist() == [True, False, False]
+    assert table[["mean_velocity", "x_end", "vx_end"]].isna().all(axis=None)
+    on_plate = simulate(Conveyor(acceleration=25.0), Start(z="conveyor"), duration=0.2)
+    assert table.z_end[0] == pytest.approx(on_plate.z_end, rel=1e-9)
+
+
+def test_equal_bytes_for_any_cut_and_cores(swept):
+    shards = swept("cut", "mixed").parents[1] / "runs/mixed"
+    assert sorted(path.name for path in shards.iterdir()) == ["0.parquet", "1.parquet", "2.parquet"]
+    assert swept("whole", "mixed").read_bytes() == swept("cut", "mixed").read_bytes()

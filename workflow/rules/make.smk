@@ -1,0 +1,30 @@
+# The rules that make tables and pages, from what the stages' files say of them.
+for name, one in RULES.items():
+
+    rule:
+        name:
+            name
+        input:
+            *one.get("depends", []),
+            **one.get("input", {}),
+        output:
+            *one.get("outputs", []),
+            **one.get("output", {}),
+        log:
+            log_file(one["place"]),
+        benchmark:
+            benchmark_file(one["place"])
+        wildcard_constraints:
+            **one.get("names", {}),
+        threads: one.get("threads", 1)
+        resources:
+            mem_mb=one.get("mem_mb", 1000),
+            runtime=one.get("runtime", 30),
+        params:
+            **one.get("params", {}),
+            stage=one["stage"],
+            code=source_hash("make", one["stage"].replace(".", "/")),
+        message:
+            one["message"]
+        script:
+            "../../scripts/make.py"
