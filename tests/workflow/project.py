@@ -63,6 +63,8 @@ def small_config() -> dict:
     used = {table for entry in config["figures"].values() for table in entry["tables"].values()}
     for section in set(config) - {"prefix", "model", "solver", "figures", *SINGLE}:
         config[section] = {name: entry for name, entry in config[section].items() if f"{section}/{name}" in used}
+    reasons = config["scene_budget"]["reasons"]
+    config["scene_budget"]["reasons"] = {table: reason for table, reason in reasons.items() if table in used}
     return config
 
 
