@@ -34,7 +34,9 @@ from workflow.config_types import (
     wrong,
 )
 
-Acceleration = PARAMETERS["acceleration"]
+Acceleration, Stiffness, Damping = (PARAMETERS[name] for name in ("acceleration", "stiffness", "damping"))
+HeightNumber, Velocity = NUMBERS["z0"], NUMBERS["vz0"]
+Accelerations = AXES["acceleration"]
 Duration = positive(1e6, "s")
 Method = word("event", *LIBRARY["METHODS"])
 Tolerance = number(1e-14, 1e-2, "relative error")
@@ -44,7 +46,8 @@ Seed = whole(0, 2**32 - 1)
 Count = whole(1, 10**9)
 Samples = whole(100, 10**8)
 Share = number(0, 1)
-Paper = {"A": number(-1e6, 1e6, "m²/s²"), "B": number(-1e6, 1e6, "m/s²"), "C": number(-1e6, 1e6, "m")}
+FitParameter = number(-1e6, 1e6, "m/s²")
+Paper = {"A": number(-1e6, 1e6, "m²/s²"), "B": FitParameter, "C": number(-1e6, 1e6, "m")}
 # Numbers without a type of their own keep their spelling, which is that of the first file (see config_files).
 Kept = number(-1e300, 1e300, form=lambda value: value)
 LEAST_EPSILON = 1e-15
@@ -110,7 +113,7 @@ class Regression(TypedDict):
     bounds: TypedDict("Bounds", {name: interval(of) for name, of in Paper.items()})
     seed: Seed
     evaluations: Count
-    valley: span(Paper["B"], AtLeastTwo)
+    valley: span(FitParameter, AtLeastTwo)
     paper: TypedDict("Paper", Paper)
 
 
@@ -141,7 +144,7 @@ class Impacts(TypedDict):
 class Seeded(TypedDict):
     acceleration: Acceleration
     z0: Height
-    vz0: NotRequired[PARAMETERS["vz0"]]
+    vz0: NotRequired[Velocity]
 
 
 class Orbits(TypedDict):
@@ -152,17 +155,17 @@ class Orbits(TypedDict):
     model: NotRequired[Model]
 
 
-Arithmetic = {"bits": whole(53, 4096), "order": whole(4, 200), "tolerance": positive(1e-3)}
+Bits, Order, LastTerms = whole(53, 4096), whole(4, 200), positive(1e-3)
 
 
 class Certificates(TypedDict):
-    acceleration: AXES["acceleration"]
+    acceleration: Accelerations
     also: list[Acceleration]
     longest_period: whole(1, 64)
     doubled_limit: Acceleration
-    bits: Arithmetic["bits"]
-    order: Arithmetic["order"]
-    tolerance: Arithmetic["tolerance"]
+    bits: Bits
+    order: Order
+    tolerance: LastTerms
     closeness: positive(1)
     doublings: whole(0, 8)
     half_width: positive(1e-2, "m/s²")
@@ -174,13 +177,15 @@ class Certificates(TypedDict):
             "size": positive(1),
             "ratio": positive(100),
             "longest": whole(2, 64),
-            **Arithmetic,
+            "bits": Bits,
+            "order": Order,
+            "tolerance": LastTerms,
         },
     )
 
 
 class Attractors(TypedDict):
-    acceleration: AXES["acceleration"]
+    acceleration: Accelerations
     transient: whole(0, 10**9)
     strobes: Count
     model: NotRequired[Model]
@@ -291,8 +296,8 @@ class Stability(TypedDict):
     paper_step: Step
     step: span(Step, AtLeastTwo)
     contact: TypedDict("Contact", {name: PARAMETERS[name] for name in ("stiffness", "damping")})
-    stiffness: span(NUMBERS["stiffness"], AtLeastTwo)
-    damping: span(NUMBERS["damping"], AtLeastTwo)
+    stiffness: span(Stiffness, AtLeastTwo)
+    damping: span(Damping, AtLeastTwo)
     impact_velocity: span(positive(100, "m/s"), AtLeastTwo)
     conveyor: Ride
     stick: TypedDict("Plate", {name: PARAMETERS[name] for name in PARAMETERS if name not in ("z0", "vz0")}, total=False)
@@ -372,7 +377,7 @@ class RigidPart(TypedDict):
 class SettlingTimes(TypedDict):
     acceleration: many(Acceleration)
     starts: whole(1, 10**6)
-    z0: interval(NUMBERS["z0"])
+    z0: interval(HeightNumber)
     cycles: Cycles
     seed: Seed
 
@@ -386,9 +391,9 @@ class RandomPoints(TypedDict):
 
 class FigureSettings(TypedDict, total=False):
     acceleration: Acceleration
-    z0: NUMBERS["z0"]
+    z0: HeightNumber
     critical_acceleration: Acceleration
-    critical_height: NUMBERS["z0"]
+    critical_height: HeightNumber
     two_states: interval(Acceleration)
     first_positive: Acceleration
     begin: number(0, 1e6, "s")
