@@ -1,16 +1,28 @@
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
-from workflow.configuration import problems
+from workflow.config_files import as_first_written, read
+from workflow.configuration import canonical, problems, refusal
 
 min_version("9.27")
 
+STAGES = ("sweeps", "motion", "orbits", "dimensions", "fit", "accuracy", "claims", "figures")
+CONFIG_FILES = [f"config/{name}.yaml" for name in ("config", *STAGES)]
+config_files = [read(file) for file in (*CONFIG_FILES, *workflow.overwrite_configfiles)]
+if errors := [fault for faults, _ in config_files for fault in faults]:
+    raise WorkflowError(refusal(errors))
 
-configfile: "config/config.yaml"
+
+for file in CONFIG_FILES:
+
+    configfile: file
 
 
 if errors := problems(config):
-    raise WorkflowError("The config cannot be used:\n" + "\n".join(errors))
+    raise WorkflowError(refusal(errors))
+
+# Nothing that follows from the config may depend on the order of keys or the spelling of numbers in overlays.
+config = canonical(as_first_written(config, [content for _, content in config_files]))
 
 
 report: "workflow/report/workflow.rst"

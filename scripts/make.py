@@ -1,9 +1,9 @@
-"""The script of every rule that makes tables or pages: read its inputs, call one pure function, write what it returns.
+"""The script of every rule that makes tables or pages: read its inputs, call one function, write what that returns.
 
-A module of a stage has such a function, `make`, and TABLES, the schemas of the tables that it makes, by their kinds. Its
-arguments are the named inputs of the rule (tables, texts or pictures; lists of them where the rule has lists), the
-params beside STAGE, CODE and KINDS, and, where it takes them, `threads` and `progress`. It returns what the one output
-holds: the columns of a table, a text or a picture; of several outputs a mapping by their names, or a list without names.
+A module of a stage has such a function, `make`, and TABLES, the schemas of the tables that it makes, by their kinds.
+Its arguments are the named inputs of the rule (tables or texts, lists of them where the rule has lists), the params
+beside STAGE, CODE and KINDS, and, where it takes them, `threads` and `progress`. It returns what the one output holds:
+the columns of a table, a text or a picture; of several outputs a mapping by their names, or a list without names.
 """
 
 import importlib
@@ -16,8 +16,8 @@ from typing import Any
 from pipeline import fields, tables
 from pipeline.rule_log import logged
 
-# Params that are not for the stage: its module, the hash of its sources, and the kinds of its input tables by name where
-# a table's kind is not its name.
+# Params that are not for the stage: its module, the hash of its sources, and the kinds of its input tables by their
+# names where a table's kind is not its name.
 STAGE, CODE, KINDS = "stage", "code", "kinds"
 
 

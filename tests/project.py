@@ -39,13 +39,17 @@ COARSE_PAIRS = {"axes": {"acceleration": {"num": 3}}, "duration": 0.1}
 TINY = {
     "attractors": {"acceleration": {"num": 3}, "transient": 20, "strobes": 8},
     "lyapunov": {"cycles": 20, "blocks": 5},
-    "sweeps": {"amplitudes": COARSE, "amplitudes_euler": COARSE},
-    "estimates": {"phase": COARSE_PAIRS, "phase_euler": COARSE_PAIRS},
+    "sweeps": {"amplitudes": COARSE},
+    "estimates": {"phase": COARSE_PAIRS},
 }
 
 
-def read_config(file: str = "config/config.yaml") -> dict:
-    return yaml.safe_load((ROOT / file).read_text())
+CONFIG_FILES = ("config", "sweeps", "motion", "orbits", "dimensions", "fit", "accuracy", "claims", "figures")
+
+
+def read_config(*files: str) -> dict:
+    """The merged config, or that of some files."""
+    return merged(*(yaml.safe_load((ROOT / f"config/{file}.yaml").read_text()) for file in files or CONFIG_FILES))
 
 
 def merged(*configs: dict) -> dict:
@@ -63,6 +67,8 @@ def small_config() -> dict:
     used = {table for entry in config["figures"].values() for table in entry["tables"].values()}
     for section in set(config) - {"prefix", "model", "solver", "figures", *SINGLE}:
         config[section] = {name: entry for name, entry in config[section].items() if f"{section}/{name}" in used}
+    reasons = config["scene_budget"]["reasons"]
+    config["scene_budget"]["reasons"] = {table: reason for table, reason in reasons.items() if table in used}
     return config
 
 
@@ -114,5 +120,7 @@ def copy_project(folder: Path) -> Path:
             shutil.copytree(source, folder / part, ignore=shutil.ignore_patterns("__pycache__"))
         else:
             shutil.copy2(source, folder / part, follow_symlinks=False)
+    for file in CONFIG_FILES[1:]:
+        (folder / f"config/{file}.yaml").write_text("{}")
     (folder / "config/config.yaml").write_text(yaml.safe_dump(small_config(), sort_keys=False))
     return folder

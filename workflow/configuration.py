@@ -1,240 +1,111 @@
-"""The config: checked with errors that name the key and the remedy, and resolved to what one table depends on."""
+"""The config: checked with errors that name the key and the remedy, brought to one form, resolved to tables.
 
-import ast
-import difflib
-import math
-from collections.abc import Iterator
-from functools import cache
-from pathlib import Path
+What it may hold stands in config_model, what its parts must agree on in config_checks.
+"""
 
-import yaml
-from jsonschema import Draft202012Validator
-from jsonschema.exceptions import ValidationError
+from typing import Annotated, NotRequired, get_args, get_origin, get_type_hints
 
-ROOT = Path(__file__).resolve().parent.parent
-SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
-# Sections that make tables of their own, instead of one for each of their entries.
-TABLES = {
-    "orbits": (
-        "branches",
-        "folds_and_doublings",
-        "cascade",
-        "certificates",
-        "certified_bifurcations",
-        "certified_chaos",
-        "certificate_times",
-    ),
-    "attractors": ("strobes",),
-    "lyapunov": ("spectrum", "witnesses"),
-    "results": (
-        "claims",
-        "benchmark",
-        "random_points",
-        "estimators",
-        "stability",
-        "stability_estimates",
-        "scene_budget",
-        "budget_times",
-        "rigid_part",
-        "settling_times",
-    ),
-}
-# Tables of the folder of results that another section than that of their name makes.
-SECTION_OF = {"budget_times": "scene_budget"}
-# Sections whose tables say what motion a start ends in.
-SETTLING = ("sweeps", "critical", "impacts", "signals", "spectra")
-# Sections whose entries may be followed by a fixed-step method for their duration.
-METHODS = ("sweeps", "estimates", "critical", "signals", "spectra")
-# What YAML calls the types of JSON schema.
+from pydantic import Tag, ValidationError
+from pydantic_core import ErrorDetails
+from typing_extensions import is_typeddict
+
+from workflow.config_checks import contradictions
+from workflow.config_model import MODEL, Config
+from workflow.config_types import did_you_mean, shown
+from workflow.tables_of_config import TABLES, by_methods, count_points, entry_of, kind_of, resolve
+
+__all__ = ["TABLES", "canonical", "count_points", "entry_of", "kind_of", "problems", "refusal", "resolve"]
+
+# Lines of a refusal, so that it is ten with the four that Snakemake says around it.
+LINES = 6
+# What YAML calls the types of Python.
 KINDS = {
-    "null": "null",
-    "array": "a list",
-    "integer": "a whole number",
-    "number": "a number",
-    "object": "a mapping of keys to values",
-    "string": "text",
+    "dict_type": "a mapping of keys to values",
+    "list_type": "a list",
+    "string_type": "text",
+    "none_required": "null",
 }
 
 
 def key_of(path) -> str:
-    """ "sweeps.mine.axes.z0[1]" of the path of a schema error."""
-    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path).lstrip(".") or "config"
+    """ "sweeps.mine.axes.z0[1]" of the path of an error; the marks of an axis's kinds are left out."""
+    parts = (f"[{part}]" if isinstance(part, int) else f".{shown_key(part)}" for part in path if str(part)[:1] != "‹")
+    return "".join(parts).lstrip(".") or "config"
 
 
-def reads_as_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+def shown_key(part: str) -> str:
+    """A key as it is written, or cut and brought to one line."""
+    return part if len(part) <= 64 and part.isprintable() else shown(part)
 
 
-def explain_range(value, schema: dict) -> str:
-    """How a number misses the range of its schema, with the unit and the usual mix-up of units."""
-    low = schema.get("minimum", schema.get("exclusiveMinimum"))
-    high = schema.get("maximum", schema.get("exclusiveMaximum", math.inf))
-    left = "(" if "exclusiveMinimum" in schema else "["
-    right = ")" if "exclusiveMaximum" in schema else "]"
-    unit = schema.get("unit", "")
-    text = f"= {value!r} is outside {left}{low:g}, {high:g}{right} {unit}".rstrip()
-    if unit == "rad" and abs(value) > high:
-        text += f"; angles are in radians, {value:g}° are {math.radians(value):.4f} rad"
-    return text
+def type_at(path) -> type:
+    """The type of the model at the path of an error."""
+    kind = Config
+    for part in path:
+        options = [option for option in get_args(kind) if Tag(part) in getattr(option, "__metadata__", ())]
+        if options:
+            kind = options[0]
+        elif is_typeddict(kind):
+            kind = get_type_hints(kind, include_extras=True)[part]
+        else:
+            kind = get_args(kind)[-1]
+        while get_origin(kind) in (Annotated, NotRequired):
+            kind = get_args(kind)[0]
+    return kind
 
 
-def explain(error: ValidationError) -> str:
-    """One line for one schema error: the key, what is wrong with it, and what would be right."""
-    key, value, schema = key_of(error.absolute_path), error.instance, error.schema
-    match error.validator:
-        case "additionalProperties":
-            known = sorted(schema.get("properties", {}))
-            lines = []
-            for name in sorted(set(value) - set(known)):
-                close = difflib.get_close_matches(str(name), known, n=1)
-                remedy = f"did you mean {close[0]}?" if close else f"known keys: {', '.join(known)}"
-                lines.append(f"{key_of([*error.absolute_path, name])} is an unknown key; {remedy}")
-            return "\n".join(lines)
-        case "required":
-            missing = [name for name in schema["required"] if name not in value]
-            return f"{key} lacks {', '.join(missing)}"
-        case "minimum" | "maximum" | "exclusiveMinimum" | "exclusiveMaximum":
-            if key.endswith(".num"):
-                return f"{key} = {value!r} makes an empty axis; give at least 1"
-            return f"{key} {explain_range(value, schema)}"
-        case "minItems":
-            return f"{key} is empty; give a list of at least one value, or {{start: …, stop: …, num: …}}"
-        case "minProperties":
-            return f"{key} is empty; give at least one axis: {', '.join(schema['properties'])}"
-        case "enum":
-            return f"{key} = {value!r} is not one of {', '.join(map(str, schema['enum']))}"
-        case "pattern" if not reads_as_number(value):
-            return f"{key} = {value!r} is not {schema['expected']}"
-        case "type" | "pattern":
-            if isinstance(value, str) and reads_as_number(value):
-                return (
-                    f"{key} = {value!r} is text to YAML; write it with a decimal point and a signed exponent (1.0e-4)"
-                )
-            wanted = schema["type"]
-            kinds = " or ".join(KINDS[kind] for kind in ([wanted] if isinstance(wanted, str) else wanted))
-            unit = f" ({schema['unit']})" if "unit" in schema else ""
-            return f"{key} = {value!r} is not {kinds}{unit}"
-    return f"{key}: {error.message}"
+def explain(error: ErrorDetails) -> str:
+    """One line for one error of the types: the key, what is wrong with it, and what would be right."""
+    *above, name = error["loc"]
+    value = error["input"]
+    match error["type"]:
+        case "extra_forbidden":
+            return f"{key_of(error['loc'])} is an unknown key; {did_you_mean(name, type_at(above).__annotations__)}"
+        case "invalid_key":
+            return f"{key_of(above)} has a key that YAML reads as {name!r}, not as text; use another name, in quotes"
+        case "too_short" if error["ctx"]["actual_length"] == 0:
+            return f"{key_of(error['loc'])} is empty; give at least {error['ctx']['min_length']} value(s)"
+        case "too_short" | "too_long":
+            wanted = error["ctx"].get("min_length", error["ctx"].get("max_length"))
+            return f"{key_of(error['loc'])} = {shown(value)} has {len(value)} values; give {wanted}"
+        case kind if kind in KINDS:
+            return f"{key_of(error['loc'])} = {shown(value)} is not {KINDS[kind]}"
+    path = above[:-1] if name == "[key]" else error["loc"]
+    return f"{key_of(path)} {error['msg']}"
 
 
-def numbers(value, path=()) -> Iterator[tuple[tuple, float]]:
-    """All (path, number) pairs below a config value."""
-    if isinstance(value, dict):
-        for name, item in value.items():
-            yield from numbers(item, (*path, name))
-    elif isinstance(value, list):
-        for index, item in enumerate(value):
-            yield from numbers(item, (*path, index))
-    elif isinstance(value, float):
-        yield path, value
-
-
-def entry_of(config: dict, reference: str) -> dict | None:
-    """What the config says about the table SECTION/NAME, or None if there is no such table."""
-    section, name = reference.split("/")
-    if name in TABLES.get(section, ()):
-        return config[SECTION_OF.get(name, name) if section == "results" else section]
-    if section in ("precision", "wall_times"):
-        return config["precision"] if name in config["precision"]["scenes"] else None
-    entries = config.get(section)
-    return entries.get(name) if isinstance(entries, dict) else None
-
-
-def kind_of(reference: str) -> str:
-    """The kind of the table SECTION/NAME: sections that make tables of their own have one for each."""
-    section, name = reference.split("/")
-    return name if section in TABLES else section
-
-
-@cache
-def finding_names() -> frozenset[str]:
-    """MODULE.FUNCTION of all functions of scripts/claims that give a Finding."""
-    return frozenset(
-        f"{path.stem}.{node.name}"
-        for path in (ROOT / "scripts/claims").glob("about_*.py")
-        for node in ast.parse(path.read_bytes()).body
-        if isinstance(node, ast.FunctionDef)
-        and getattr(node.returns, "id", None) == "Finding"
-    )
-
-
-def contradictions(config: dict) -> Iterator[str]:
-    """What a schema cannot say: one line per contradiction between parts of a config that follows the schema."""
-    for section, entries in config.items():
-        if not isinstance(entries, dict):
-            continue
-        for name, entry in entries.items():
-            if isinstance(entry, dict):
-                for axis in sorted(set(entry.get("axes", ())) & set(entry.get("model", ()))):
-                    yield f"{section}.{name}.model.{axis} is an axis of this entry too; keep one of them"
-    for section in METHODS:
-        for name in config[section]:
-            entry = resolve(config, section, name)
-            if "step" in entry and not whole_steps(entry["duration"], entry["step"]):
-                count = max(1, round(entry["duration"] / entry["step"]))
-                reason = f"does not divide its duration of {entry['duration']!r} s; take {entry['duration'] / count!r}"
-                yield f"{section}.{name}.step = {entry['step']!r} s {reason}"
-    for figure, entry in config["figures"].items():
-        for file in (f"scripts/figures/plots/{figure}.py", f"workflow/report/{figure}.rst"):
-            if not (ROOT / file).is_file():
-                yield f"figures.{figure} has no {file}; a figure needs a plot script and a caption of its name"
-        for reference in entry["tables"].values():
-            table = entry_of(config, reference)
-            if table and entry["needs"] == "feeding" and table.get("needs") == "vertical":
-                yield f"figures.{figure} needs feeding, but {reference} is computed for vertical needs only"
-    for user in ("figures", "claims"):
-        for name, entry in config[user].items():
-            for key in ("tables", "caption_tables"):
-                for role, reference in entry.get(key, {}).items():
-                    if entry_of(config, reference) is None:
-                        yield f"{user}.{name}.{key}.{role} = {reference!r} is no entry of the config"
-    for claim, entry in config["claims"].items():
-        if entry["finding"] not in finding_names():
-            known = ", ".join(sorted(finding_names()))
-            yield f"claims.{claim}.finding = {entry['finding']!r} is no function of scripts/claims; there are {known}"
-        for name, quantity in entry["quantities"].items():
-            low, high = quantity["accepted"]
-            if low is not None and high is not None and low > high:
-                key = f"claims.{claim}.quantities.{name}.accepted"
-                yield f"{key} = {quantity['accepted']!r} is reversed; give [least, largest]"
+def lacking(errors: list[ErrorDetails]) -> list[str]:
+    """One line for each mapping that lacks keys."""
+    missing = {}
+    for error in errors:
+        if error["type"] == "missing":
+            *above, name = error["loc"]
+            missing.setdefault(key_of(above), []).append(name)
+    return [f"{key} lacks {', '.join(names)}" for key, names in missing.items()]
 
 
 def problems(config: dict) -> list[str]:
     """All errors of a config, one line each; empty if there are none."""
-    validator = Draft202012Validator(yaml.safe_load(SCHEMA.read_text()))
-    lines = [explain(error) for error in sorted(validator.iter_errors(config), key=lambda error: str(error.json_path))]
-    lines += [
-        f"{key_of(path)} = {value!r} is not a finite number" for path, value in numbers(config) if value - value != 0
-    ]
-    # An error below two branches of the schema is reported once.
-    return list(dict.fromkeys(lines)) or list(contradictions(config))
+    try:
+        typed = MODEL.validate_python(config)
+    except ValidationError as invalid:
+        errors = invalid.errors(include_url=False)
+        return lacking(errors) + [explain(error) for error in errors if error["type"] != "missing"]
+    return contradictions(by_methods(typed))
 
 
-def resolve(config: dict, section: str, name: str) -> dict:
-    """Everything that the table `section`/`name` depends on, defaults filled in, and nothing else."""
-    entry = {
-        **{key: config["solver"][key] for key in ("duration", "method", "tolerance", "step")},
-        **config[section][name],
-    }
-    if section in SETTLING:
-        entry["settling"] = config["solver"]["settling"]
-    entry["model"] = {**config["model"], **entry.get("model", {})}
-    for axis in entry.get("axes", ()):
-        del entry["model"][axis]
-    del entry["step" if entry["method"] == "event" else "tolerance"]
-    return entry
+def canonical(config: dict) -> dict:
+    """A config without problems in its one form: keys in the order of the model, numbers in its types.
+
+    The entries of a section and the axes of an entry keep their order, which means something. Each entry has one method
+    (see by_methods).
+    """
+    return by_methods(MODEL.validate_python(config))
 
 
-def whole_steps(duration: float, step: float) -> bool:
-    """Whether a duration (s) is a whole number of steps (s), up to the rounding of both."""
-    count = round(duration / step)
-    return count > 0 and abs(duration / step - count) <= 1e-9 * count
-
-
-def count_points(axes: dict) -> int:
-    """Number of points in the product of axes."""
-    return math.prod(len(axis) if isinstance(axis, list) else int(axis["num"]) for axis in axes.values())
+def refusal(lines: list[str]) -> str:
+    """The errors of a config in few lines."""
+    if len(lines) < LINES:
+        return "\n".join(["The config cannot be used:", *lines])
+    told = LINES - 1
+    return "\n".join([f"The config cannot be used; the first {told} errors, {len(lines) - told} more:", *lines[:told]])

@@ -106,7 +106,7 @@ def fit_rows(settings: dict, data: pd.DataFrame, fit: dict, seed: int) -> list[d
 
 
 def make(settings: dict, model: dict, fit: dict | None = None, critical: pd.DataFrame | None = None) -> dict:
-    """The columns of the table of estimators; those of the fit need an entry `fit` and its table of critical heights."""
+    """The columns of the table of estimators; those of the fit need an entry and its critical heights."""
     rows = exponent_rows(settings["exponent"], model)
     rows += dimension_rows(settings["dimension"], settings["seed"])
     if critical is not None:

@@ -3,10 +3,10 @@
 import numpy as np
 import pandas as pd
 import pytest
+from project import merged, read_config
 
 from accuracy import benchmark, precision, random_points, wall_times
 from conveyor.methods import heyoka_peer
-from project import merged, read_config
 
 CONFIG = read_config()
 
@@ -51,7 +51,7 @@ def compared(request):
         "peers": {"modes": {"DOP853": [1e-4, 1e-13], "heyoka": [1e-10]}},
         "max_evaluations": CONFIG["precision"]["max_evaluations"],
     }
-    table = pd.DataFrame(precision.columns(settings))
+    table = pd.DataFrame(precision.make(settings))
     table.attrs = settings
     return table
 
@@ -72,7 +72,7 @@ def test_heyoka_need_not_be_installed(compared):
 def test_times_belong_to_the_same_runs(compared):
     few = compared[compared.tolerance.isin([1e-4, 1e-8])]
     few.attrs = compared.attrs
-    found = wall_times.columns(few, {"repeats": 2, "seconds": 0.05})
+    found = wall_times.make(few, {"repeats": 2, "seconds": 0.05})
     for name in precision.Method._fields:
         np.testing.assert_array_equal(found[name], few[name])
     assert (found["repeats"] >= 1).all()
@@ -81,7 +81,7 @@ def test_times_belong_to_the_same_runs(compared):
 
 
 def test_random_points_know_how_deep_they_get():
-    found = random_points.columns(
+    found = random_points.make(
         {"count": {"around the paper": 300, "whole ranges": 50}, "seed": 3, "cycles": 3, "tolerance": 1e-8}
     )
     ok = found["status"] == "ok"

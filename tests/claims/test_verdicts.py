@@ -7,9 +7,9 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
-from verdicts.finding import Finding, onset
 
 from claims import about_chaos, about_proofs, about_states, verdicts
+from claims.finding import Finding, onset
 
 AMPLITUDES = np.arange(20.0, 91.0)
 
@@ -85,7 +85,7 @@ def test_a_quantity_that_no_finding_gives_is_an_error():
         verdicts.verdict(Finding({}, {"a": 1.0}), quantities(a=[0.5, 1.5], b=[0.0, 1.0]))
 
 
-CLAIMS = yaml.safe_load((Path(__file__).parents[2] / "config/config.yaml").read_text())["claims"]
+CLAIMS = yaml.safe_load((Path(__file__).parents[2] / "config/claims.yaml").read_text())["claims"]
 
 
 def inside(low, high):

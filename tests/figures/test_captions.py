@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 import pytest
 from jinja2 import UndefinedError
+from project import ROOT, read_config
 
 from docs import figure_costs
 from figures import captions
-from project import ROOT, read_config
 
 FIGURES = read_config()["figures"]
 # What may stand in a template: references, names, units, mathematics.

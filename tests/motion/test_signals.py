@@ -6,7 +6,7 @@ import pytest
 from conveyor import Conveyor
 from conveyor.solver.model import conveyor_motion
 from motion import impacts, signals, spectra
-from pipeline import tables
+from pipeline import fields, tables
 
 MODEL = {"z0": 0.0, "vz0": 0.0}
 
@@ -15,14 +15,16 @@ def settings(**others):
     return {"model": MODEL, "method": "event", "tolerance": 1e-10, "duration": 0.1, **others}
 
 
-def frame(kind, columns, axes, tmp_path):
-    tables.write(tmp_path / "table.parquet", kind, columns, axes=axes, settings={})
-    return tables.read(tmp_path / "table.parquet", kind)
+def frame(stage, entry):
+    """The table that a stage makes of an entry, as it is written and read."""
+    (kind, columns), *_ = stage.TABLES.items()
+    schema = [*(fields.AXES[axis] for axis in entry["axes"]), *columns]
+    return tables.make(kind, schema, stage.make(entry), entry).to_pandas()
 
 
-def test_part_of_a_still_conveyor_rests_on_it(tmp_path):
+def test_part_of_a_still_conveyor_rests_on_it():
     entry = settings(axes={"acceleration": [0.0]}, times={"start": 0.09, "stop": 0.1, "num": 3})
-    table = frame("signals", signals.columns(entry), ["acceleration"], tmp_path)
+    table = frame(signals, entry)
     assert table.time.tolist() == pytest.approx([0.09, 0.095, 0.1])
     assert table.contact_force.tolist() == pytest.approx([0.7e-3 * 9.81] * 3, rel=1e-6)
     still = ["x", "vx", "vz", "friction_force", "plate_x", "plate_vx", "plate_z", "plate_vz"]
@@ -30,11 +32,11 @@ def test_part_of_a_still_conveyor_rests_on_it(tmp_path):
 
 
 @pytest.mark.parametrize("method", ["event", "euler"])
-def test_plate_columns_are_its_motion_for_each_point(tmp_path, method):
+def test_plate_columns_are_its_motion_for_each_point(method):
     accelerations = [30.0, 60.0]
     entry = settings(axes={"acceleration": accelerations}, times={"start": 0.0, "stop": 0.02, "num": 9}, method=method)
     entry |= {"step": 1e-5, "duration": 0.02}
-    table = frame("signals", signals.columns(entry), ["acceleration"], tmp_path)
+    table = frame(signals, entry)
     for acceleration in accelerations:
         rows = table.query("acceleration == @acceleration")
         motion = conveyor_motion(Conveyor(acceleration=acceleration), np.linspace(0.0, 0.02, 9))
@@ -43,10 +45,10 @@ def test_plate_columns_are_its_motion_for_each_point(tmp_path, method):
         assert rows.contact_force.notna().all()
 
 
-def test_spectrum_of_a_period_has_the_mean_velocity_and_only_harmonics(tmp_path):
+def test_spectrum_of_a_period_has_the_mean_velocity_and_only_harmonics():
     entry = settings(axes={"z0": [3e-4]}, duration=2.0, last=0.25, samples_per_cycle=256)
     entry["model"] = {"vz0": 0.0}
-    table = frame("spectra", spectra.columns(entry), ["z0"], tmp_path)
+    table = frame(spectra, entry)
     feeding = table.query("signal == 'vx'")
     assert feeding.amplitude.iloc[0] == pytest.approx(0.0650828, rel=1e-3)
     assert np.allclose(feeding.frequency % 25.0, 0.0)
@@ -55,17 +57,17 @@ def test_spectrum_of_a_period_has_the_mean_velocity_and_only_harmonics(tmp_path)
     assert rise.iloc[0] < 1e-4 * rise.max()
 
 
-def test_spectrum_of_chaos_is_windowed(tmp_path):
+def test_spectrum_of_chaos_is_windowed():
     entry = settings(axes={"acceleration": [80.0]}, duration=1.0, last=0.25, samples_per_cycle=64)
-    table = frame("spectra", spectra.columns(entry), ["acceleration"], tmp_path)
+    table = frame(spectra, entry)
     assert (table.main_lobe == 2).all()
     assert sorted(table.frequency.unique())[1] == pytest.approx(4.0)
 
 
-def test_starts_and_their_images_lead_to_the_same_state(tmp_path):
+def test_starts_and_their_images_lead_to_the_same_state():
     entry = settings(axes={"psi0": [0.0, 3.0], "z0": [0.0, 4e-4]})
     entry["model"] = {"vz0": 0.0}
-    table = frame("impacts", impacts.columns(entry), ["psi0", "z0"], tmp_path)
+    table = frame(impacts, entry)
     below = table.query("psi0 == 3.0 and z0 == 0.0")
     assert below.impact_time.isna().all() and below.mapped_state.isna().all()
     above = table.drop(below.index)

@@ -1,99 +1,123 @@
-"""Tables: schema, units, equal bytes, all or nothing, errors that name the column."""
+"""Tables: kinds, units, equal bytes, all or nothing, errors that name the column or the file."""
 
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from conveyor.solver.model import UNITS
-from pipeline import tables
+from pipeline import fields, tables
 
 SETTINGS = {"model": {"mass": 0.7e-3}, "duration": 1.0}
+SCHEMA = [fields.AXES["acceleration"], fields.number("lambda", "1/s", "an exponent")]
 
 
 def estimates(n=3):
     return {"acceleration": np.linspace(20.0, 90.0, n), "lambda": np.array([-1.0, np.nan, 2.0])[:n]}
 
 
-def test_what_is_written_is_read(tmp_path):
-    path = tmp_path / "a.parquet"
-    tables.write(path, "estimates", estimates(), axes=["acceleration"], settings=SETTINGS)
-    table = tables.read(path, "estimates")
+def made(columns=None, schema=SCHEMA, settings=SETTINGS, kind="estimates"):
+    return tables.make(kind, schema, columns or estimates(), settings)
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "a.parquet"
+
+
+def test_what_is_written_is_read(path):
+    tables.write(path, made())
+    table = tables.read(path, "estimates", SETTINGS)
     assert list(table) == ["acceleration", "lambda"]
     assert table.acceleration.tolist() == [20.0, 55.0, 90.0]
     assert table["lambda"].isna().tolist() == [False, True, False]
     assert table.attrs == SETTINGS
+    assert [file.name for file in path.parent.iterdir()] == ["a.parquet"]
 
 
-def test_fields_carry_units_and_nan_becomes_null(tmp_path):
-    path = tmp_path / "a.parquet"
-    tables.write(path, "estimates", estimates(), axes=["acceleration"], settings=SETTINGS)
+def test_fields_carry_units_and_nan_becomes_null(path):
+    tables.write(path, made())
     written = pq.read_table(path)
     units = {field.name: field.metadata[b"unit"].decode() for field in written.schema}
     assert units == {"acceleration": "m/s²", "lambda": "1/s"}
     assert written["lambda"].null_count == 1
 
 
-def test_every_column_has_unit_and_description():
-    for kind in tables.COLUMNS:
-        for field in tables.schema(kind, UNITS):
-            assert field.metadata[b"description"]
-            kind_of_value = getattr(field.type, "value_type", field.type)
-            assert bool(field.metadata[b"unit"]) == (kind_of_value in ("double", "int64"))
+def test_no_negative_zero(path):
+    tables.write(path, made({"acceleration": [0.0], "lambda": [-0.0]}))
+    assert not np.signbit(tables.read(path, "estimates")["lambda"][0])
 
 
 def test_equal_content_gives_equal_bytes(tmp_path):
     for name, columns in (("a", estimates()), ("b", dict(reversed(estimates().items())))):
-        tables.write(tmp_path / name, "estimates", columns, axes=["acceleration"], settings=SETTINGS)
+        tables.write(tmp_path / name, made(columns))
     assert (tmp_path / "a").read_bytes() == (tmp_path / "b").read_bytes()
 
 
 @pytest.mark.parametrize(
-    ("columns", "axes", "message"),
+    ("columns", "schema", "message"),
     [
-        ({"lambda": [1.0]}, ["acceleration"], "acceleration lacking"),
-        ({"lambda": [1.0], "mu": [1.0]}, [], "mu lacking or unknown"),
-        ({"lambda": ["fast"]}, [], "column lambda of a table of estimates is not double"),
+        ({"lambda": [1.0]}, SCHEMA, "acceleration lacking"),
+        ({"lambda": [1.0], "mu": [1.0]}, SCHEMA[1:], "mu lacking or unknown"),
+        ({"lambda": ["fast"]}, SCHEMA[1:], "column lambda of a table of estimates is not double"),
     ],
 )
-def test_wrong_columns_are_named(tmp_path, columns, axes, message):
+def test_wrong_columns_are_named(columns, schema, message):
     with pytest.raises(ValueError, match=message):
-        tables.write(tmp_path / "a.parquet", "estimates", columns, axes=axes, settings=SETTINGS)
-    assert list(tmp_path.iterdir()) == []
+        made(columns, schema)
 
 
-def test_columns_of_unequal_length_are_refused(tmp_path):
+def test_columns_of_unequal_length_are_refused():
     with pytest.raises(ValueError, match="length"):
-        tables.write(
-            tmp_path / "a.parquet",
-            "estimates",
-            estimates() | {"lambda": [1.0]},
-            axes=["acceleration"],
-            settings=SETTINGS,
-        )
+        made(estimates() | {"lambda": [1.0]})
 
 
-def test_a_table_is_replaced_at_once(tmp_path, monkeypatch):
-    path = tmp_path / "a.parquet"
-    tables.write(path, "estimates", estimates(2), axes=["acceleration"], settings=SETTINGS)
+def test_a_table_is_replaced_at_once(path, monkeypatch):
+    tables.write(path, made(estimates(2)))
     before = path.read_bytes()
 
     def interrupted(table, place, **options):
-        place.write_bytes(b"half a tab")
+        with open(place, "wb") as file:
+            file.write(b"half a tab")
         raise KeyboardInterrupt
 
     monkeypatch.setattr(pq, "write_table", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        tables.write(path, "estimates", estimates(3), axes=["acceleration"], settings=SETTINGS)
+        tables.write(path, made())
     assert path.read_bytes() == before
+    assert [file.name for file in path.parent.iterdir()] == ["a.parquet"]
 
 
-def test_another_kind_of_table_is_refused(tmp_path):
-    path = tmp_path / "a.parquet"
-    tables.write(path, "estimates", estimates(), axes=["acceleration"], settings=SETTINGS)
-    with pytest.raises(ValueError, match="is not a table of sweeps"):
-        tables.read(path, "sweeps")
-    changed = pq.read_table(path)
-    field = changed.schema.field("lambda").with_metadata({"unit": "1/min"})
-    pq.write_table(changed.cast(changed.schema.set(1, field)), path)
-    with pytest.raises(ValueError, match="is not a table of estimates"):
+def test_two_writers_of_a_table_have_files_of_their_own(path, monkeypatch):
+    places = []
+    monkeypatch.setattr(pq, "write_table", lambda table, place, **options: places.append(place))
+    for _ in range(2):
+        tables.write(path, made())
+    assert len(set(places)) == 2
+
+
+def damaged(path):
+    path.write_bytes(path.read_bytes()[:-20])
+
+
+def foreign(path):
+    pq.write_table(pq.read_table(path).replace_schema_metadata(None), path)
+
+
+def a_folder(path):
+    path.unlink()
+    path.mkdir()
+
+
+@pytest.mark.parametrize("harm", [damaged, foreign, a_folder])
+def test_what_is_no_table_is_named_with_the_remedy(path, harm):
+    tables.write(path, made())
+    harm(path)
+    with pytest.raises(tables.TableError, match=r"a\.parquet .*table of estimates.*; delete it"):
         tables.read(path, "estimates")
+
+
+def test_another_kind_or_other_settings_are_refused(path):
+    tables.write(path, made())
+    with pytest.raises(tables.TableError, match="is not a table of sweeps but of estimates; delete it"):
+        tables.read(path, "sweeps")
+    with pytest.raises(tables.TableError, match="other settings"):
+        tables.read(path, "estimates", SETTINGS | {"duration": 2.0})

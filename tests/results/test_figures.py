@@ -6,9 +6,10 @@ from functools import cache
 import matplotlib.text
 import pytest
 
+from draw import draw
 from figures import style
-from figures.plot_figure import draw
 from made import FIGURES, RESULTS, entries
+from workflow.tables_of_config import kind_of
 
 ENTRIES = entries()
 PAGE_HEIGHT = 234.0  # mm, of the journal's page
@@ -38,11 +39,12 @@ NO_UNIT = ("dimension", "error", "evaluations", "cycles", "points", "share", "re
 def drawn_afresh(name):
     """A figure, once more from its tables."""
     entry = ENTRIES[name]
-    paths = {}
+    paths, kinds = {}, {}
     for role, reference in entry["tables"].items():
         section, table = reference.split("/")
         paths[role] = RESULTS / (f"{table}.parquet" if section == "results" else f"{reference}.parquet")
-    return draw(name, paths, entry.get("settings", {}))
+        kinds[role] = kind_of(reference)
+    return draw(name, paths, kinds, entry.get("settings", {}))
 
 
 @cache

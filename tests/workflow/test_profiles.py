@@ -6,9 +6,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from project import ROOT
 
 from claims import check_results
-from project import ROOT
 
 SBATCH = """#!/bin/sh
 echo "$@" >> "{calls}"

@@ -3,7 +3,6 @@
 import os
 
 import pytest
-
 from project import FIGURES, TARGETS
 
 PLOTS = {f"plot_{figure}": 1 for figure in FIGURES}
@@ -17,41 +16,41 @@ def test_nothing_after_nothing(built):
 
 
 def test_nothing_after_a_touch(built):
-    for file in ("scripts/sweep.py", "scripts/conveyor/contact.py", "scripts/plots/fig22.py"):
+    for file in ("scripts/sweeps/runs.py", "scripts/conveyor/solver/contact.py", "scripts/figures/plots/fig22.py"):
         os.utime(built.folder / file)
     assert built.planned(*TARGETS) == {}
 
 
 def test_one_plot_after_a_colour(edited):
-    project = edited("scripts/plots/fig22.py", "style.CONVERGED,", '"#123456",')
+    project = edited("scripts/figures/plots/fig22.py", "style.CONVERGED,", '"#123456",')
     assert project.planned(*TARGETS) == {"plot_fig22": 1}
 
 
 def test_all_plots_after_the_style(edited):
-    project = edited("scripts/plots/style.py", '"#0072B2"', '"#123456"')
+    project = edited("scripts/figures/style.py", '"#0072B2"', '"#123456"')
     assert project.planned(*TARGETS) == PLOTS
 
 
 def test_simulations_after_the_contact(edited):
-    project = edited("scripts/conveyor/contact.py", *REMARK)
-    assert project.planned(*TARGETS) == {"sweep": 2, "classify": 2, "estimate": 2, **PLOTS}
-    assert project.planned("figures/fig22.pdf") == {"estimate": 2, "plot_fig22": 1}
+    project = edited("scripts/conveyor/solver/contact.py", *REMARK)
+    assert project.planned(*TARGETS) == {"runs": 2, "sweeps": 2, "estimates": 2, **PLOTS}
+    assert project.planned("figures/fig22.pdf") == {"estimates": 2, "plot_fig22": 1}
 
 
 def test_no_sweep_after_the_exponents(edited):
-    project = edited("scripts/conveyor/lyapunov.py", *REMARK)
-    assert project.planned(*TARGETS) == {"classify": 2, "estimate": 2, **PLOTS}
+    project = edited("scripts/conveyor/analysis/lyapunov.py", *REMARK)
+    assert project.planned(*TARGETS) == {"sweeps": 2, "estimates": 2, **PLOTS}
 
 
 def test_no_simulation_after_the_states(edited):
-    project = edited("scripts/conveyor/states.py", *REMARK)
-    assert project.planned("figures/fig08.pdf") == {"classify": 2, "plot_fig08": 1}
+    project = edited("scripts/conveyor/analysis/states.py", *REMARK)
+    assert project.planned("figures/fig08.pdf") == {"sweeps": 2, "plot_fig08": 1}
 
 
 @pytest.mark.parametrize(
     ("change", "expected"),
     [
-        ({"estimates": {"phase": {"samples": 17}}}, {"estimate": 1, "plot_fig22": 1}),
+        ({"estimates": {"phase": {"samples": 17}}}, {"estimates": 1, "plot_fig22": 1}),
         ({"figures": {"fig22": {"settings": {"critical_acceleration": 51.0}}}}, {"plot_fig22": 1}),
         # The amplitude is an axis everywhere here: its default reaches no table.
         ({"model": {"acceleration": 41.0}}, {}),

@@ -3,7 +3,6 @@
 import importlib
 
 import pytest
-
 from project import ROOT
 
 SCRIPTS = ROOT / "scripts"

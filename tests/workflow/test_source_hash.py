@@ -1,8 +1,27 @@
 """Which sources a script depends on."""
 
 import pytest
+from project import ROOT
 
 from workflow import source_hash
+
+# Stages that call the functions of others: the budget makes what figures draw once more, in other ways.
+CALLS = {
+    "accuracy/scene_budget": {
+        "accuracy/rigid_part",
+        "dimensions/portraits",
+        "motion/critical_heights",
+        "motion/impacts",
+        "motion/signals",
+        "motion/spectra",
+        "orbits/estimates",
+        "orbits/exponents",
+        "orbits/strobes",
+        "sweeps/labels",
+        "sweeps/runs",
+    },
+    "accuracy/wall_times": {"accuracy/precision"},
+}
 
 
 @pytest.fixture
@@ -65,7 +84,7 @@ def test_hash_changes_with_the_version_of_what_runs(scripts, monkeypatch, packag
 
 def test_every_package_behind_a_number_or_a_picture_counts():
     """Found by what is imported, not listed: pandas, and llvmlite and pillow behind others."""
-    _, packages = source_hash.closure("plot_figure", "plots/fig22", "regressions", "sweep")
+    _, packages = source_hash.closure("draw", "figures/plots/fig22", "fit/regressions", "sweeps/runs")
     names = {one.split("==")[0] for one in source_hash.versions(packages)}
     assert {
         "python",
@@ -84,15 +103,30 @@ def test_every_package_behind_a_number_or_a_picture_counts():
 
 def test_plots_depend_on_no_solver():
     for figure in ("fig03", "fig22"):
-        assert modules("plot_figure", f"plots/{figure}") == {
-            "plot_figure.py",
-            "rule_log.py",
-            f"plots/{figure}.py",
-            "plots/style.py",
+        assert modules("draw", f"figures/plots/{figure}") == {
+            "draw.py",
+            "pipeline/rule_log.py",
+            "pipeline/tables.py",
+            f"figures/plots/{figure}.py",
+            "figures/style.py",
         }
 
 
+STAGES = sorted(
+    f"{path.parent.name}/{path.stem}"
+    for path in (ROOT / "scripts").glob("*/*.py")
+    if "\nTABLES = {" in path.read_text(encoding="utf-8")
+)
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_only_a_stage_itself_holds_the_columns_of_its_tables(stage):
+    """A new text of a column runs the stage again, and those that call its functions, but no other one."""
+    users = {other for other in STAGES if ROOT / f"scripts/{stage}.py" in source_hash.closure(other)[0]}
+    assert users == {stage} | {user for user, used in CALLS.items() if stage in used}
+
+
 def test_the_library_knows_nothing_of_snakemake():
-    for module in (source_hash.SCRIPTS / "conveyor").glob("*.py"):
+    for module in (source_hash.SCRIPTS / "conveyor").rglob("*.py"):
         imported = {name.split(".")[0] for name, _ in source_hash.imported_names(module)}
-        assert not imported & {"snakemake", "workflow"}, module
+        assert not imported & {"snakemake", "workflow", "pipeline", "pandas", "pyarrow"}, module

@@ -49,7 +49,7 @@ def is_budgeted(reference):
     return (
         reference.split("/")[0] in config["scene_budget"]["points"]
         and kind_of(reference) != "witnesses"
-        and "method" not in entry_of(config, reference)
+        and entry_of(config, reference).get("method", "event") == "event"
     )
 
 

@@ -15,6 +15,16 @@ def caption_files():
     return [result(f"captions/{figure}.rst") for figure in config["figures"]]
 
 
+def in_message(text):
+    """A text for a message, which Snakemake formats: braces, as in LaTeX, stay braces."""
+    return text.replace("{", "{{").replace("}", "}}")
+
+
+def in_label(text):
+    """A text for a label of the report, where {name} is a wildcard that nothing escapes: an invisible character does."""
+    return text.replace("{", "{\u2060")
+
+
 for figure, entry in config["figures"].items():
 
     rule:
@@ -28,7 +38,11 @@ for figure, entry in config["figures"].items():
                 figure_file(figure, "png"),
                 caption=f"../../{result(f'captions/{figure}.rst')}",
                 category="Figures",
-                labels={"figure": figure, "title": entry["title"], "section": entry["section"]},
+                labels={
+                    "figure": figure,
+                    "title": in_label(entry["title"]),
+                    "section": in_label(entry["section"]),
+                },
             ),
         log:
             log_file(f"figures/{figure}"),
@@ -44,7 +58,7 @@ for figure, entry in config["figures"].items():
             settings=entry.get("settings", {}),
             code=source_hash("draw", f"figures/plots/{figure}"),
         message:
-            f"Draw {figure}: {entry['title']}"
+            f"Draw {figure}: {in_message(entry['title'])}"
         script:
             "../../scripts/draw.py"
 

@@ -4,12 +4,12 @@ import math
 
 import numpy as np
 import pytest
+from reference import reference_mean_velocity
 from scipy.special import gamma
 
 from conveyor import Conveyor, Start, ensemble, simulate
 from conveyor.methods import fixed_step
 from conveyor.solver.model import pack
-from reference import reference_mean_velocity
 
 # A contact that stays closed (p = 1, a_z < g), smooth in time.
 LINEAR = Conveyor(acceleration=30.0, exponent=1.0, stiffness=3e3, psi0=0.4)

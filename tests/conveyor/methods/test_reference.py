@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from reference import Plate, reference_mean_velocity, reference_segments, reference_states, states_at
 from scipy.special import gamma
 
 from conveyor import Conveyor, Start
-from reference import Plate, reference_mean_velocity, reference_segments, reference_states, states_at
 
 
 def test_known_mean_velocities():

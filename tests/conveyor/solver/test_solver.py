@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference import reference_mean_velocity
 from scipy.integrate import quad, simpson
 from scipy.linalg import expm
 
 from conveyor import Conveyor, Start, simulate
 from conveyor.solver import trajectory as trajectory_module
 from conveyor.solver.model import conveyor_motion
-from reference import reference_mean_velocity
 
 AT_REST = Conveyor(acceleration=0.0)
 REFERENCE = {

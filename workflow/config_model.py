@@ -1,0 +1,453 @@
+"""The config, typed: its keys in their canonical order, with units and ranges (see config_types)."""
+
+from typing import Annotated, NotRequired
+
+from pydantic import AfterValidator, ConfigDict, Field, TypeAdapter, with_config
+from typing_extensions import TypedDict
+
+from workflow.config_types import (
+    AXES,
+    LIBRARY,
+    LONGEST_NAME,
+    NAME,
+    NUMBERS,
+    PARAMETERS,
+    AtLeastTwo,
+    Axes,
+    Height,
+    Line,
+    Model,
+    Name,
+    Points,
+    Reference,
+    Scan,
+    WholeModel,
+    did_you_mean,
+    interval,
+    many,
+    number,
+    positive,
+    span,
+    text,
+    whole,
+    word,
+    wrong,
+)
+
+Acceleration, Stiffness, Damping = (PARAMETERS[name] for name in ("acceleration", "stiffness", "damping"))
+HeightNumber, Velocity = NUMBERS["z0"], NUMBERS["vz0"]
+Accelerations = AXES["acceleration"]
+Duration = positive(1e6, "s")
+Method = word("event", *LIBRARY["METHODS"])
+Tolerance = number(1e-14, 1e-2, "relative error")
+Step = number(1e-12, 1e-1, "s")
+Cycles = whole(256, 10**9, "excitation cycles")
+Seed = whole(0, 2**32 - 1)
+Count = whole(1, 10**9)
+Samples = whole(100, 10**8)
+Share = number(0, 1)
+FitParameter = number(-1e6, 1e6, "m/s²")
+Paper = {"A": number(-1e6, 1e6, "m²/s²"), "B": FitParameter, "C": number(-1e6, 1e6, "m")}
+# Numbers without a type of their own keep their spelling, which is that of the first file (see config_files).
+Kept = number(-1e300, 1e300, form=lambda value: value)
+LEAST_EPSILON = 1e-15
+CLAIMS = tuple(f"C{place:02d}" for place in range(1, 24))
+
+
+def seen(epsilon: float) -> float:
+    if epsilon < LEAST_EPSILON:
+        raise wrong(f"= {epsilon!r} is lost in the rounding of what it perturbs; give at least {LEAST_EPSILON:g}")
+    return epsilon
+
+
+Epsilon = Annotated[positive(1, "of the perturbed parameter"), AfterValidator(seen)]
+
+
+def known_claim(name: str) -> str:
+    if name not in CLAIMS:
+        raise wrong(f"= {name!r} is no statement of the paper; {did_you_mean(name, CLAIMS)}")
+    return name
+
+
+class Solver(TypedDict):
+    duration: Duration
+    method: Method
+    tolerance: Tolerance
+    step: Step
+    settling: Cycles
+    points_per_job: whole(1, 10**8)
+
+
+class Followed(TypedDict):
+    axes: Axes
+    model: NotRequired[Model]
+    method: NotRequired[Method]
+    methods: NotRequired[many(Method)]
+    tolerance: NotRequired[Tolerance]
+    step: NotRequired[Step]
+
+
+class Timed(Followed):
+    duration: NotRequired[Duration]
+
+
+class Sweep(Timed):
+    needs: NotRequired[word("feeding", "vertical")]
+
+
+class Estimate(Timed):
+    perturb: word("psi0", "z0", "vz0")
+    epsilon: Epsilon
+    output: word("x", "vx", "z", "vz")
+    last: number(0, 1, "of the duration", "()")
+    samples: whole(2, 10**8)
+
+
+class Critical(Timed):
+    scan: Scan
+    resolution: number(1e-15, 1, "m")
+
+
+class Regression(TypedDict):
+    critical: Name
+    acceleration: interval(Acceleration)
+    bounds: TypedDict("Bounds", {name: interval(of) for name, of in Paper.items()})
+    seed: Seed
+    evaluations: Count
+    valley: span(FitParameter, AtLeastTwo)
+    paper: TypedDict("Paper", Paper)
+
+
+class Dimension(Followed):
+    begin: number(0, 1e6, "s")
+    interval: positive(1e3, "excitation cycles")
+    samples: whole(8, 10**8)
+    estimator: word("paper", "box", "correlation")
+    octaves: NotRequired[whole(3, 30)]
+    theiler: NotRequired[whole(0, 10**8)]
+    largest_error: NotRequired[positive(2)]
+
+
+class Signal(Timed):
+    times: span(number(0, 1e6, "s"), AtLeastTwo)
+
+
+class Spectrum(Timed):
+    last: positive(1, "of the duration")
+    samples_per_cycle: whole(8, 10**6)
+
+
+class Impacts(TypedDict):
+    axes: Axes
+    model: NotRequired[Model]
+
+
+class Seeded(TypedDict):
+    acceleration: Acceleration
+    z0: Height
+    vz0: NotRequired[Velocity]
+
+
+class Orbits(TypedDict):
+    seeds: Annotated[list[Seeded], Field(min_length=1)]
+    limits: interval(Acceleration)
+    max_period: whole(1, 64)
+    cycles: whole(64, 10**9)
+    model: NotRequired[Model]
+
+
+Bits, Order, LastTerms = whole(53, 4096), whole(4, 200), positive(1e-3)
+
+
+class Certificates(TypedDict):
+    acceleration: Accelerations
+    also: list[Acceleration]
+    longest_period: whole(1, 64)
+    doubled_limit: Acceleration
+    bits: Bits
+    order: Order
+    tolerance: LastTerms
+    closeness: positive(1)
+    doublings: whole(0, 8)
+    half_width: positive(1e-2, "m/s²")
+    half_arc: positive(1e-2)
+    chaos: TypedDict(
+        "Chaos",
+        {
+            "acceleration": list[Acceleration],
+            "size": positive(1),
+            "ratio": positive(100),
+            "longest": whole(2, 64),
+            "bits": Bits,
+            "order": Order,
+            "tolerance": LastTerms,
+        },
+    )
+
+
+class Attractors(TypedDict):
+    acceleration: Accelerations
+    transient: whole(0, 10**9)
+    strobes: Count
+    model: NotRequired[Model]
+    tolerance: NotRequired[Tolerance]
+
+
+class Lyapunov(TypedDict):
+    cycles: Count
+    blocks: whole(2, 10**6)
+    tolerance: NotRequired[Tolerance]
+
+
+class Witnesses(TypedDict):
+    strobes: Samples
+    seed: Seed
+    significant: number(0, 1e6)
+    tolerance: NotRequired[Tolerance]
+
+
+# "is" is no name of a Python class's field.
+Quantity = TypedDict(
+    "Quantity",
+    {
+        "is": Line,
+        "paper": Kept | None,
+        "accepted": interval(Kept | None, point=True),
+        "because": text(r"(?s).{3,}", "a reason of at least three letters"),
+    },
+)
+
+
+class Claim(TypedDict):
+    where: Line
+    statement: Line
+    finding: Line
+    settings: NotRequired[dict[str, number(-1e300, 1e300)]]
+    quantities: Annotated[dict[Name, Quantity], Field(min_length=1)]
+    tables: dict[str, Reference]
+
+
+class Wanted(TypedDict):
+    error: positive(1e300)
+    speed: number(0, 1e300, "", "(]", form=lambda value: value)
+    aim: number(0, 1e300, "", "(]", form=lambda value: value)
+
+
+class Case(TypedDict):
+    motion: Line
+    model: Model
+    duration: NotRequired[Duration]
+    loosest: NotRequired[Tolerance]
+    step: NotRequired[Step]
+    compared: Duration
+    wanted: Wanted
+
+
+class Benchmark(TypedDict):
+    repeats: Count
+    cases: dict[Name, Case]
+
+
+Integrators = TypedDict(
+    "Integrators", dict.fromkeys(("RK45", "DOP853", "Radau", "LSODA", "heyoka"), list[Tolerance]), total=False
+)
+
+
+class Precision(TypedDict):
+    duration: Duration
+    scenes: dict[Name, Model]
+    tolerances: many(Tolerance)
+    steps: many(Step)
+    peers: TypedDict("Peers", dict.fromkeys(("sign", "events", "modes"), Integrators), total=False)
+    max_evaluations: Count
+    repeats: Count
+    seconds: positive(3600, "s")
+
+
+class PairOfExponent(TypedDict):
+    acceleration: Acceleration
+    z0: Height
+    durations: many(Duration)
+    epsilon: Epsilon
+
+
+class Estimators(TypedDict):
+    exponent: PairOfExponent
+    dimension: TypedDict("Sizes", {"points": many(Samples), "repeats": Count})
+    fit: TypedDict("Fit", {"evaluations": whole(4, 10**9)})
+    seed: Seed
+
+
+class Ride(TypedDict):
+    start: Acceleration
+    stop: Acceleration
+    num: Points
+    z0: Height
+    duration: Duration
+
+
+class Hard(TypedDict):
+    label: Line
+    model: Model
+    duration: Duration
+
+
+class Stability(TypedDict):
+    methods: many(word(*LIBRARY["METHODS"]))
+    paper_step: Step
+    step: span(Step, AtLeastTwo)
+    contact: TypedDict("Contact", {name: PARAMETERS[name] for name in ("stiffness", "damping")})
+    stiffness: span(Stiffness, AtLeastTwo)
+    damping: span(Damping, AtLeastTwo)
+    impact_velocity: span(positive(100, "m/s"), AtLeastTwo)
+    conveyor: Ride
+    stick: TypedDict("Plate", {name: PARAMETERS[name] for name in PARAMETERS if name not in ("z0", "vz0")}, total=False)
+    chatter_steps: many(Step)
+    hard: dict[Name, Hard]
+
+
+class Pair(TypedDict):
+    acceleration: Acceleration
+    z0: Height
+    perturb: word("psi0", "z0")
+    output: word("vx", "z")
+
+
+class PaperExponent(TypedDict):
+    step: Step
+    epsilon: Epsilon
+    duration: Duration
+    cases: TypedDict("Cases", dict.fromkeys(("orbit_phase", "orbit_height", "chaos_phase"), Pair))
+    epsilons: many(Epsilon)
+    durations: many(Duration)
+    steps: many(Step)
+
+
+class PaperDimension(TypedDict):
+    samples: many(Samples)
+    correlated: Samples
+    theiler: whole(0, 10**8)
+    portraits: TypedDict("Portraits", {"second": Model, "chaos": Model})
+    begin: Duration
+    interval: positive(1e3, "excitation cycles")
+    paper_interval: positive(1e3, "excitation cycles")
+    durations: many(Duration)
+    octaves: whole(2, 30)
+
+
+class StabilityEstimates(TypedDict):
+    exponent: PaperExponent
+    dimension: PaperDimension
+    seed: Seed
+
+
+class Shortened(TypedDict, total=False):
+    settling: Cycles
+    duration: Duration
+    begin: number(0, 1e6, "s")
+    samples: whole(8, 10**8)
+    transient: whole(0, 10**9)
+    strobes: Count
+    cycles: Count
+    blocks: whole(2, 10**6)
+
+
+SECTIONS = ("sweeps", "signals", "spectra", "estimates", "critical", "impacts", "dimensions", "attractors", "lyapunov")
+SHORTENED = ("sweeps", "signals", "spectra", "critical", "impacts", "attractors", "lyapunov", "dimensions", "estimates")
+
+
+class SceneBudget(TypedDict):
+    shortened: TypedDict("ShortenedSections", dict.fromkeys(SHORTENED, Shortened), total=False)
+    points: TypedDict("PointsOfSections", dict.fromkeys(SECTIONS, Points))
+    shifts: many(number(-1, 1, "m"))
+    tolerances: many(Tolerance)
+    pixels: Share
+    line: Share
+    reasons: dict[Reference, Line]
+
+
+class RigidPart(TypedDict):
+    doublings: whole(1, 16)
+    z0: Height
+    duration: Duration
+    close: positive(1)
+    margin: positive(1e4, "m/s²")
+    resolution: positive(1e4, "m/s²")
+
+
+class SettlingTimes(TypedDict):
+    acceleration: many(Acceleration)
+    starts: whole(1, 10**6)
+    z0: interval(HeightNumber)
+    cycles: Cycles
+    seed: Seed
+
+
+class RandomPoints(TypedDict):
+    count: TypedDict("RandomCount", dict.fromkeys(("around the paper", "whole ranges"), whole(1, 10**7)))
+    seed: Seed
+    cycles: number(0, 1e6, "excitation cycles", "(]", form=lambda value: value)
+    tolerance: Tolerance
+
+
+class FigureSettings(TypedDict, total=False):
+    acceleration: Acceleration
+    z0: HeightNumber
+    critical_acceleration: Acceleration
+    critical_height: HeightNumber
+    two_states: interval(Acceleration)
+    first_positive: Acceleration
+    begin: number(0, 1e6, "s")
+    highest: positive(1e6, "Hz")
+    portraits: Annotated[
+        list[Annotated[list[Kept], Field(min_length=2, max_length=2)]], Field(min_length=3, max_length=3)
+    ]
+    transient: number(0, 1e6, "s")
+    longest_period: whole(1, 64)
+    lowest_exponent: number(-1e6, 1e6, "1/s")
+    paper_step: Step
+    paper_error: positive(1, "m²")
+
+
+class Figure(TypedDict):
+    title: Line
+    section: Line
+    needs: word("feeding", "vertical", "nothing")
+    tables: dict[str, Reference]
+    settings: NotRequired[FigureSettings]
+    caption_tables: NotRequired[dict[str, Reference]]
+
+
+# Strict, and without other keys than these; so are the sections below.
+@with_config(ConfigDict(extra="forbid", strict=True))
+class Config(TypedDict):
+    prefix: text(rf"|{NAME}", f"a folder name of at most {LONGEST_NAME} letters, digits, - and _, or nothing")
+    model: WholeModel
+    solver: Solver
+    sweeps: dict[Name, Sweep]
+    estimates: dict[Name, Estimate]
+    critical: dict[Name, Critical]
+    regressions: dict[Name, Regression]
+    dimensions: dict[Name, Dimension]
+    signals: dict[Name, Signal]
+    spectra: dict[Name, Spectrum]
+    impacts: dict[Name, Impacts]
+    orbits: Orbits
+    certificates: Certificates
+    attractors: Attractors
+    lyapunov: Lyapunov
+    witnesses: Witnesses
+    claims: dict[Annotated[Name, AfterValidator(known_claim)], Claim]
+    benchmark: Benchmark
+    precision: Precision
+    estimators: Estimators
+    stability: Stability
+    stability_estimates: StabilityEstimates
+    scene_budget: SceneBudget
+    rigid_part: RigidPart
+    settling_times: SettlingTimes
+    random_points: RandomPoints
+    figures: dict[Name, Figure]
+
+
+MODEL = TypeAdapter(Config)

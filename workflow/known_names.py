@@ -1,0 +1,132 @@
+"""What plot scripts, captions and findings ask for by name: read from their sources, without importing them."""
+
+import ast
+import re
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
+
+
+class Names(NamedTuple):
+    """What a function and all that it calls ask of a mapping: what it must hold, and what it may hold."""
+
+    needed: frozenset[str]
+    texts: frozenset[str]
+    patterns: frozenset[str]
+
+    def knows(self, name: str) -> bool:
+        """Whether a name is one of the texts, or of the form of a text that is put together."""
+        return name in self.texts or any(re.fullmatch(pattern, name) for pattern in self.patterns)
+
+
+class Module(NamedTuple):
+    """Top-level definitions of a file, and where its imported names come from: (module, name or None)."""
+
+    definitions: dict[str, ast.stmt]
+    imported: dict[str, tuple[str, str | None]]
+
+
+def file_of(module: str) -> Path:
+    return SCRIPTS.joinpath(*module.split(".")).with_suffix(".py")
+
+
+@cache
+def read(module: str) -> Module:
+    definitions, imported = {}, {}
+    for node in ast.parse(file_of(module).read_bytes()).body:
+        if isinstance(node, ast.FunctionDef):
+            definitions[node.name] = node
+        elif isinstance(node, ast.Assign | ast.AnnAssign):
+            for target in node.targets if isinstance(node, ast.Assign) else [node.target]:
+                definitions.update({name.id: node for name in ast.walk(target) if isinstance(name, ast.Name)})
+        elif isinstance(node, ast.ImportFrom) and node.level == 0:
+            for alias in node.names:
+                inner = f"{node.module}.{alias.name}"
+                source = (inner, None) if file_of(inner).is_file() else (node.module, alias.name)
+                imported[alias.asname or alias.name] = source
+    return Module(definitions, imported)
+
+
+def used(module: str, node: ast.AST) -> Iterator[tuple[str, str]]:
+    """(module, name) of the definitions below scripts/ that a node names."""
+    definitions, imported = read(module)
+    if isinstance(node, ast.Name):
+        source, name = imported.get(node.id, (module, node.id))
+        if name and (source != module or name in definitions):
+            yield source, name
+    elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+        source, name = imported.get(node.value.id, ("", ""))
+        if name is None:
+            yield source, node.attr
+
+
+@cache
+def names_asked(module: str, function: str, mapping: str) -> Names:
+    """What `function` of a module below scripts/ and all that it uses ask of the mapping that they call `mapping`."""
+    needed, optional, texts, patterns = set(), set(), set(), set()
+    seen, todo = set(), [read(module).imported.get(function, (module, function))]
+    while todo:
+        place = todo.pop()
+        if place in seen or not file_of(place[0]).is_file() or place[1] not in read(place[0]).definitions:
+            continue
+        seen.add(place)
+        for node in ast.walk(read(place[0]).definitions[place[1]]):
+            todo += used(place[0], node)
+            match node:
+                case ast.Subscript(ast.Name(id=name), ast.Constant(value=str(key))) if name == mapping:
+                    needed.add(key)
+                case ast.Compare(ast.Constant(value=str(key)), [ast.In() | ast.NotIn()], [ast.Name(id=name)]) if (
+                    name == mapping
+                ):
+                    optional.add(key)
+                case ast.Constant(value=str(value)):
+                    texts.add(value)
+                case ast.JoinedStr(values=parts):
+                    written = [re.escape(part.value) if isinstance(part, ast.Constant) else r"\w+" for part in parts]
+                    if any(isinstance(part, ast.Constant) for part in parts):
+                        patterns.add("".join(written))
+    return Names(frozenset(needed - optional), frozenset(texts), frozenset(patterns))
+
+
+@cache
+def caption_functions() -> dict[str, str]:
+    """The function of figures/captions.py that gives the numbers of a caption, by the name of the figure."""
+    numbers = read("figures.captions").definitions["NUMBERS"].value
+    return {key.value: value.id for key, value in zip(numbers.keys, numbers.values, strict=True)}
+
+
+def names_of_figure(figure: str, mapping: str) -> list[Names]:
+    """What the plot script and the caption of a figure ask for."""
+    names = [names_asked(f"figures.plots.{figure}", "plot", mapping)]
+    if figure in caption_functions():
+        names.append(names_asked("figures.captions", caption_functions()[figure], mapping))
+    return names
+
+
+@cache
+def findings() -> dict[str, ast.FunctionDef]:
+    """All functions of scripts/claims that give a Finding, by MODULE.FUNCTION."""
+    return {
+        f"{path.stem}.{name}": node
+        for path in sorted((SCRIPTS / "claims").glob("about_*.py"))
+        for name, node in read(f"claims.{path.stem}").definitions.items()
+        if isinstance(node, ast.FunctionDef) and getattr(node.returns, "id", None) == "Finding"
+    }
+
+
+def names_of_finding(finding: str, mapping: str = "tables") -> Names:
+    module, function = finding.split(".")
+    return names_asked(f"claims.{module}", function, mapping)
+
+
+def settings_of_finding(finding: str) -> tuple[list[str], list[str]]:
+    """The settings that a finding takes besides its tables, and those of them without a default."""
+    arguments = findings()[finding].args
+    plain = [argument.arg for argument in arguments.args][1:]
+    needed = plain[: len(plain) - len(arguments.defaults)] if arguments.defaults else plain
+    words = [argument.arg for argument in arguments.kwonlyargs]
+    needed = needed + [name for name, default in zip(words, arguments.kw_defaults, strict=True) if default is None]
+    return plain + words, needed

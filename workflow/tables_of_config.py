@@ -1,0 +1,102 @@
+"""Which tables a config makes, and what each of them depends on."""
+
+import math
+
+# Sections that make one table for each of their entries.
+ENTRIES = ("sweeps", "estimates", "critical", "regressions", "dimensions", "signals", "spectra", "impacts")
+# Sections that make tables of their own, instead of one for each of their entries.
+TABLES = {
+    "orbits": (
+        "branches",
+        "folds_and_doublings",
+        "cascade",
+        "certificates",
+        "certified_bifurcations",
+        "certified_chaos",
+        "certificate_times",
+    ),
+    "attractors": ("strobes",),
+    "lyapunov": ("spectrum", "witnesses"),
+    "results": (
+        "claims",
+        "benchmark",
+        "random_points",
+        "estimators",
+        "stability",
+        "stability_estimates",
+        "scene_budget",
+        "budget_times",
+        "rigid_part",
+        "settling_times",
+    ),
+}
+# Tables of the folder of results that another section than that of their name makes.
+SECTION_OF = {"budget_times": "scene_budget"}
+# Sections whose tables say what motion a start ends in.
+SETTLING = ("sweeps", "critical", "impacts", "signals", "spectra")
+# Sections whose entries may be followed by a fixed-step method for their duration.
+METHODS = ("sweeps", "estimates", "critical", "signals", "spectra")
+
+
+def entry_of(config: dict, reference: str) -> dict | None:
+    """What the config says about the table SECTION/NAME, or None if there is no such table."""
+    section, name = reference.split("/")
+    if name in TABLES.get(section, ()):
+        return config[SECTION_OF.get(name, name) if section == "results" else section]
+    if section in ("precision", "wall_times"):
+        return config["precision"] if name in config["precision"]["scenes"] else None
+    return config[section].get(name) if section in ENTRIES else None
+
+
+def kind_of(reference: str) -> str:
+    """The kind of the table SECTION/NAME: sections that make tables of their own have one for each."""
+    section, name = reference.split("/")
+    return name if section in TABLES else section
+
+
+def by_methods(config: dict) -> dict:
+    """A config whose entries have one method each: NAME the first of its `methods`, NAME_METHOD each of the others."""
+    found = dict(config)
+    for section in METHODS:
+        found[section] = {}
+        for name, entry in config[section].items():
+            if "methods" not in entry:
+                found[section][name] = entry
+                continue
+            alone = {key: value for key, value in entry.items() if key != "methods"}
+            first, *others = entry["methods"]
+            found[section][name] = alone | {"method": first}
+            found[section] |= {f"{name}_{method}": alone | {"method": method} for method in others}
+    return found
+
+
+def references(config: dict) -> list[str]:
+    """All tables, as SECTION/NAME."""
+    names = {section: config[section] for section in ENTRIES} | TABLES
+    names |= dict.fromkeys(("precision", "wall_times"), config["precision"]["scenes"])
+    return [f"{section}/{name}" for section, of_section in names.items() for name in of_section]
+
+
+def resolve(config: dict, section: str, name: str) -> dict:
+    """Everything that the table `section`/`name` depends on, defaults filled in, and nothing else."""
+    entry = {
+        **{key: config["solver"][key] for key in ("duration", "method", "tolerance", "step")},
+        **config[section][name],
+    }
+    if section in SETTLING:
+        entry["settling"] = config["solver"]["settling"]
+    entry["model"] = {**config["model"], **entry.get("model", {})}
+    for axis in entry.get("axes", ()):
+        del entry["model"][axis]
+    del entry["step" if entry["method"] == "event" else "tolerance"]
+    return entry
+
+
+def count_values(axis: list | dict) -> int:
+    """Number of values of an axis."""
+    return len(axis) if isinstance(axis, list) else int(axis["num"])
+
+
+def count_points(axes: dict) -> int:
+    """Number of points in the product of axes."""
+    return math.prod(map(count_values, axes.values()))
