@@ -12,7 +12,7 @@ MODEL = {"z0": 0.0, "vz0": 0.0}
 
 
 def settings(**others):
-    return {"model": MODEL, "method": "event", "tolerance": 1e-10, "duration": 0.1, **others}
+    return {"model": MODEL, "method": "event", "tolerance": 1e-10, "duration": 0.1, "settling": 2000, **others}
 
 
 def frame(stage, entry):

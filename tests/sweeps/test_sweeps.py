@@ -29,6 +29,7 @@ COLUMNS = [
     "impacts",
     "contact_fraction",
     "status",
+    "longest_flight",
 ]
 MIXED = {
     "axes": {

@@ -72,7 +72,7 @@ def test_an_error_names_key_and_remedy(overlay, message):
 
 def test_configs_are_right():
     assert problems(CONFIG) == []
-    assert problems(merged(CONFIG, read_config("config/reduced.yaml"))) == []
+    assert problems(merged(CONFIG, read_config("reduced"))) == []
     assert problems(merged(CONFIG, {"sweeps": {"mine": MINE}})) == []
 
 

@@ -31,7 +31,7 @@ def run(project, *arguments, path):
 
 def test_slurm_is_given_its_jobs(edited, tmp_path):
     """A dry run would hide a profile that cannot be parsed: a scheduler that refuses everything gets the first jobs."""
-    project = edited("scripts/estimate.py", "import numpy as np\n", "import numpy as np  # changed\n")
+    project = edited("scripts/orbits/estimates.py", "import numpy as np\n", "import numpy as np  # changed\n")
     calls, commands = tmp_path / "calls", tmp_path / "commands"
     commands.mkdir()
     for command in ("sbatch", "squeue", "sinfo", "sacct"):
@@ -51,7 +51,7 @@ def test_results_are_checked_by_the_interpreter_that_runs_snakemake(tmp_path, mo
     test.write_text("def test_one():\n    pass\n")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PATH", "/nowhere")
-    assert check_results.passed("results", {}) == "1 passed"
+    assert check_results.make("results", {}) == "1 passed\n"
     test.write_text("def test_one():\n    assert 1 == 2\n")
     with pytest.raises(RuntimeError, match="assert 1 == 2"):
         check_results.passed("results", {})

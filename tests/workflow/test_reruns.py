@@ -50,7 +50,9 @@ def test_no_simulation_after_the_states(edited):
 @pytest.mark.parametrize(
     ("change", "expected"),
     [
-        ({"estimates": {"phase": {"samples": 17}}}, {"estimates": 1, "plot_fig22": 1}),
+        ({"estimates": {"phase": {"samples": 17}}}, {"estimates": 2, "plot_fig22": 1}),
+        # Fixed steps have no tolerance.
+        ({"estimates": {"phase": {"tolerance": 1.0e-9}}}, {"estimates": 1, "plot_fig22": 1}),
         ({"figures": {"fig22": {"settings": {"critical_acceleration": 51.0}}}}, {"plot_fig22": 1}),
         # The amplitude is an axis everywhere here: its default reaches no table.
         ({"model": {"acceleration": 41.0}}, {}),
