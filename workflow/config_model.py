@@ -23,6 +23,8 @@ from workflow.config_types import (
     Scan,
     WholeModel,
     did_you_mean,
+    distinct,
+    forwards,
     interval,
     many,
     number,
@@ -221,7 +223,7 @@ class Claim(TypedDict):
     where: Line
     statement: Line
     finding: Line
-    settings: NotRequired[dict[str, number(-1e300, 1e300)]]
+    settings: NotRequired[TypedDict("ClaimSettings", {"acceleration": Acceleration}, total=False)]
     quantities: Annotated[dict[Name, Quantity], Field(min_length=1)]
     tables: dict[str, Reference]
 
@@ -247,8 +249,9 @@ class Benchmark(TypedDict):
     cases: dict[Name, Case]
 
 
+Tolerances = Annotated[list[Tolerance], AfterValidator(distinct)]
 Integrators = TypedDict(
-    "Integrators", dict.fromkeys(("RK45", "DOP853", "Radau", "LSODA", "heyoka"), list[Tolerance]), total=False
+    "Integrators", dict.fromkeys(("RK45", "DOP853", "Radau", "LSODA", "heyoka"), Tolerances), total=False
 )
 
 
@@ -299,7 +302,7 @@ class Stability(TypedDict):
     stiffness: span(Stiffness, AtLeastTwo)
     damping: span(Damping, AtLeastTwo)
     impact_velocity: span(positive(100, "m/s"), AtLeastTwo)
-    conveyor: Ride
+    conveyor: Annotated[Ride, AfterValidator(forwards)]
     stick: TypedDict("Plate", {name: PARAMETERS[name] for name in PARAMETERS if name not in ("z0", "vz0")}, total=False)
     chatter_steps: many(Step)
     hard: dict[Name, Hard]

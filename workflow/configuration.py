@@ -62,7 +62,9 @@ def explain(error: ErrorDetails) -> str:
         case "extra_forbidden":
             return f"{key_of(error['loc'])} is an unknown key; {did_you_mean(name, type_at(above).__annotations__)}"
         case "invalid_key":
-            return f"{key_of(above)} has a key that YAML reads as {name!r}, not as text; use another name, in quotes"
+            return (
+                f"{key_of(above)} has a key that YAML reads as {shown(value)}, not as text; use another name, in quotes"
+            )
         case "too_short" if error["ctx"]["actual_length"] == 0:
             return f"{key_of(error['loc'])} is empty; give at least {error['ctx']['min_length']} value(s)"
         case "too_short" | "too_long":

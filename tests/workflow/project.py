@@ -68,6 +68,20 @@ def small_config() -> dict:
     return config
 
 
+def permuted(value):
+    """The same config with all keys in reverse order and numbers in another spelling: 20 for 20.0, 11.0 for 11."""
+    match value:
+        case dict():
+            return {key: permuted(value[key]) for key in reversed(value)}
+        case list():
+            return [permuted(item) for item in value]
+        case float() if value.is_integer():
+            return int(value)
+        case int():
+            return float(value)
+    return value
+
+
 @dataclass(frozen=True)
 class Project:
     """A copy of the project in `folder`, with an overlay of its config."""
