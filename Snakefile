@@ -1,8 +1,8 @@
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
-from workflow.config_files import as_first_written, read
-from workflow.configuration import canonical, problems, refusal
+from workflow.config_files import as_first_written, read, refusal
+from workflow.configuration import canonical, problems
 
 min_version("9.27")
 

@@ -402,7 +402,8 @@ class FigureSettings(TypedDict, total=False):
     begin: number(0, 1e6, "s")
     highest: positive(1e6, "Hz")
     portraits: Annotated[
-        list[Annotated[list[Kept], Field(min_length=2, max_length=2)]], Field(min_length=3, max_length=3)
+        list[Annotated[list[number(-1, 1e4, "m/s² or m")], Field(min_length=2, max_length=2)]],
+        Field(min_length=3, max_length=3),
     ]
     transient: number(0, 1e6, "s")
     longest_period: whole(1, 64)

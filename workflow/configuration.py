@@ -14,10 +14,8 @@ from workflow.config_model import MODEL, Config
 from workflow.config_types import did_you_mean, shown
 from workflow.tables_of_config import TABLES, count_points, entry_of, resolve
 
-__all__ = ["TABLES", "canonical", "count_points", "entry_of", "problems", "refusal", "resolve"]
+__all__ = ["TABLES", "canonical", "count_points", "entry_of", "problems", "resolve"]
 
-# Lines of a refusal, so that it is ten with the four that Snakemake says around it.
-LINES = 6
 # What YAML calls the types of Python.
 KINDS = {
     "dict_type": "a mapping of keys to values",
@@ -102,11 +100,3 @@ def canonical(config: dict) -> dict:
     The entries of a section and the axes of an entry keep their order, which means something.
     """
     return MODEL.validate_python(config)
-
-
-def refusal(lines: list[str]) -> str:
-    """The errors of a config in few lines."""
-    if len(lines) < LINES:
-        return "\n".join(["The config cannot be used:", *lines])
-    told = LINES - 1
-    return "\n".join([f"The config cannot be used; the first {told} errors, {len(lines) - told} more:", *lines[:told]])

@@ -92,8 +92,12 @@ class Project:
     def snakemake(self, *arguments: str) -> subprocess.CompletedProcess:
         """Run Snakemake on the overlay; stdout holds what it and its jobs say."""
         (self.folder / "overlay.yaml").write_text(yaml.safe_dump(self.overlay, sort_keys=False))
+        return self.called(*arguments, "--configfile", "overlay.yaml")
+
+    def called(self, *arguments: str) -> subprocess.CompletedProcess:
+        """Run Snakemake with these arguments."""
         return subprocess.run(
-            [sys.executable, "-m", "snakemake", *arguments, "--configfile", "overlay.yaml"],
+            [sys.executable, "-m", "snakemake", *arguments],
             cwd=self.folder,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,

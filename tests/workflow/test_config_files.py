@@ -15,6 +15,7 @@ FAULTS = [
     ("model:\n  stiffness: 050\n", ":2: model.stiffness = 050 is read as 40, an octal number"),
     ("model: {stiffness: 1:30}\n", ":1: model.stiffness = 1:30 is read as 90, with base 60"),
     ("sweeps:\n  mine:\n    axes: {z0: [0.0, -1:30.5]}\n", ":3: sweeps.mine.axes.z0[1] = -1:30.5 is read as"),
+    ("model: &m {mass: *m}\n", ":1: model.mass holds itself by its anchor"),
     ("model: {mass: 0.1\n", ":2: is not YAML: "),
     ("model:\n\tmass: 0.1\n", ":2: is not YAML: "),
     ("- 1\n", ": holds no mapping"),
@@ -110,22 +111,26 @@ def test_snakemake_refuses_in_ten_lines_and_three_seconds(project, overlay, mess
     begin = seconds_of_children()
     run = project.under(overlay).snakemake("--dry-run", "figures/fig22.pdf")
     assert seconds_of_children() - begin < 3.0
-    assert run.returncode != 0
-    assert message in run.stdout
-    assert len(run.stdout.splitlines()) <= 10
+    assert_refused(run, message)
     assert "Building DAG" not in run.stdout
 
 
-@pytest.mark.parametrize(
-    ("content", "message"),
-    [
-        (b"model: {mass: 0.1}\nmodel: {mass: 0.2}\n", "config/config.yaml:2: model stands in line 1 already"),
-        (b"model: [\n", "config/config.yaml:2: is not YAML"),
-        (b"prefix: \xff\n", "config/config.yaml:1: is not UTF-8 text"),
-        (None, "config/config.yaml: No such file or directory"),
-    ],
-)
-def test_snakemake_names_file_and_line(project, content, message):
+UNREADABLE = [
+    (b"model: {mass: 0.1}\nmodel: {mass: 0.2}\n", ":2: model stands in line 1 already"),
+    (b"model: [\n", ":2: is not YAML"),
+    (b"prefix: \xff\n", ":1: is not UTF-8 text"),
+    (None, ": No such file or directory"),
+]
+
+
+def assert_refused(run, message: str) -> None:
+    assert run.returncode != 0
+    assert message in run.stdout
+    assert len(run.stdout.splitlines()) <= 10
+
+
+@pytest.mark.parametrize(("content", "message"), UNREADABLE, ids=[message for _, message in UNREADABLE])
+def test_snakemake_names_file_and_line_of_the_config(project, content, message):
     file = project.folder / "config/config.yaml"
     kept = file.read_bytes()
     file.unlink()
@@ -133,6 +138,14 @@ def test_snakemake_names_file_and_line(project, content, message):
         file.write_bytes(content)
     run = project.snakemake("--dry-run", "figures/fig22.pdf")
     file.write_bytes(kept)
-    assert run.returncode != 0
-    assert message in run.stdout
-    assert len(run.stdout.splitlines()) <= 10
+    assert_refused(run, f"config/config.yaml{message}")
+
+
+@pytest.mark.parametrize("option", [["--configfile", "{}"], ["--configfiles={}"]], ids=["apart", "together"])
+@pytest.mark.parametrize(("content", "message"), UNREADABLE, ids=[message for _, message in UNREADABLE])
+def test_snakemake_names_file_and_line_of_an_overlay(project, tmp_path, content, message, option):
+    file = tmp_path / "mine.yaml"
+    if content is not None:
+        file.write_bytes(content)
+    run = project.called("--dry-run", "figures/fig22.pdf", *(part.format(file) for part in option))
+    assert_refused(run, f"{file}{message}")
