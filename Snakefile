@@ -1,28 +1,25 @@
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
-from workflow.config_files import as_first_written, read
-from workflow.configuration import canonical, problems, refusal
+from workflow.config_files import as_first_written, merged, read, refusal
+from workflow.configuration import by_methods, canonical, problems
 
 min_version("9.27")
 
+# The config of the paper, one file for each stage; overlays of the command line are merged over it.
 STAGES = ("sweeps", "motion", "orbits", "dimensions", "fit", "accuracy", "claims", "figures")
-CONFIG_FILES = [f"config/{name}.yaml" for name in ("config", *STAGES)]
-config_files = [read(file) for file in (*CONFIG_FILES, *workflow.overwrite_configfiles)]
-if errors := [fault for faults, _ in config_files for fault in faults]:
+files = [f"config/{name}.yaml" for name in ("config", *STAGES)] + [*workflow.overwrite_configfiles]
+read_files = [read(file) for file in files]
+if errors := [fault for faults, _ in read_files for fault in faults]:
     raise WorkflowError(refusal(errors))
 
-
-for file in CONFIG_FILES:
-
-    configfile: file
-
-
+contents = [content for _, content in read_files]
+config = as_first_written(merged([*contents, config]), contents)
 if errors := problems(config):
     raise WorkflowError(refusal(errors))
 
 # Nothing that follows from the config may depend on the order of keys or the spelling of numbers in overlays.
-config = canonical(as_first_written(config, [content for _, content in config_files]))
+config = by_methods(canonical(config))
 
 
 report: "workflow/report/workflow.rst"

@@ -72,6 +72,20 @@ def small_config() -> dict:
     return config
 
 
+def permuted(value):
+    """The same config with all keys in reverse order and numbers in another spelling: 20 for 20.0, 11.0 for 11."""
+    match value:
+        case dict():
+            return {key: permuted(value[key]) for key in reversed(value)}
+        case list():
+            return [permuted(item) for item in value]
+        case float() if value.is_integer():
+            return int(value)
+        case int():
+            return float(value)
+    return value
+
+
 @dataclass(frozen=True)
 class Project:
     """A copy of the project in `folder`, with an overlay of its config."""
@@ -82,8 +96,12 @@ class Project:
     def snakemake(self, *arguments: str) -> subprocess.CompletedProcess:
         """Run Snakemake on the overlay; stdout holds what it and its jobs say."""
         (self.folder / "overlay.yaml").write_text(yaml.safe_dump(self.overlay, sort_keys=False))
+        return self.called(*arguments, "--configfile", "overlay.yaml")
+
+    def called(self, *arguments: str) -> subprocess.CompletedProcess:
+        """Run Snakemake with these arguments."""
         return subprocess.run(
-            [sys.executable, "-m", "snakemake", *arguments, "--configfile", "overlay.yaml"],
+            [sys.executable, "-m", "snakemake", *arguments],
             cwd=self.folder,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,

@@ -98,7 +98,7 @@ def perturbations(config: dict) -> Iterator[str]:
         if "conveyor" in values:
             remedy = "give z0 a height in m, or perturb another parameter"
             yield f"{key}.perturb = {perturb!r} perturbs nothing where z0 is the word conveyor; {remedy}"
-        elif any(value + epsilon == value for value in values):
+        elif any(abs(value + epsilon - value - epsilon) > 0.5 * epsilon for value in values):
             yield f"{key}.epsilon = {epsilon!r} is lost in the rounding of {perturb}; give a larger one"
 
 

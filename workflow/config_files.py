@@ -10,36 +10,47 @@ from pathlib import Path
 from typing import Any
 
 import yaml
+from snakemake.utils import update_config
 
+# Lines of a refusal, so that it is ten with the four that Snakemake says around it.
+LINES = 6
 OCTAL = re.compile(r"[-+]?0[0-7_]+")
 
 
-def key_of(above: str, key: str) -> str:
-    return f"{above}.{key}" if above else key
+def misread(node: yaml.Node, key: str, above: tuple[yaml.Node, ...], seen: set[yaml.Node]) -> Iterator[tuple[int, str]]:
+    """Line and fault of all that YAML reads below a node otherwise than it is written.
 
-
-def misread(node: yaml.Node, key: str = "") -> Iterator[tuple[tuple[int, int], str]]:
-    """Place (line, column) and fault of all that YAML reads below a node otherwise than it is written."""
-    place = node.start_mark.line + 1, node.start_mark.column + 1
+    Parameters
+    ----------
+    key : the key of the node, as it is told
+    above : the nodes that hold this one
+    seen : the nodes that have been looked at, which anchors may show again
+    """
+    line = node.start_mark.line + 1
+    if node in above:
+        yield line, f"{key} holds itself by its anchor; write out what is meant"
+    if node in seen:
+        return
+    seen.add(node)
     if isinstance(node, yaml.MappingNode):
         lines = {}
         for name, value in node.value:
-            inner = key_of(key, str(name.value))
+            inner = f"{key}.{name.value}".lstrip(".")
             if isinstance(name, yaml.ScalarNode):
-                line, column = name.start_mark.line + 1, name.start_mark.column + 1
+                here = name.start_mark.line + 1
                 if name.value in lines:
-                    yield (line, column), f"{inner} stands in line {lines[name.value]} already; merge both"
-                lines[name.value] = line
-            yield from misread(value, inner)
+                    yield here, f"{inner} stands in line {lines[name.value]} already; merge both"
+                lines[name.value] = here
+            yield from misread(value, inner, (*above, node), seen)
     elif isinstance(node, yaml.SequenceNode):
-        for number, value in enumerate(node.value):
-            yield from misread(value, f"{key}[{number}]")
+        for place, value in enumerate(node.value):
+            yield from misread(value, f"{key}[{place}]", (*above, node), seen)
     elif node.tag in ("tag:yaml.org,2002:int", "tag:yaml.org,2002:float"):
         text = node.value
         if ":" in text or OCTAL.fullmatch(text):
             kind = "with base 60" if ":" in text else "an octal number"
             read = f"{text} is read as {yaml.safe_load(text)}, {kind}"
-            yield place, f"{key} = {read}; write it without {'colons' if ':' in text else 'the 0'}"
+            yield line, f"{key} = {read}; write it without {'colons' if ':' in text else 'the 0'}"
 
 
 def read(file: str | Path) -> tuple[list[str], Any]:
@@ -60,11 +71,15 @@ def read(file: str | Path) -> tuple[list[str], Any]:
         return [f"{file}: is not YAML: {' '.join(str(error).split())}; compare it with config/config.yaml"], None
     if not isinstance(content, dict):
         return [f"{file}: holds no mapping of keys to values; begin with a section of config/config.yaml"], None
-    # Anchors show one fault below several keys, the first of which is told.
-    faults = {}
-    for place, fault in misread(node):
-        faults.setdefault(place, fault)
-    return [f"{file}:{line}: {faults[line, column]}" for line, column in sorted(faults)], content
+    return [f"{file}:{line}: {fault}" for line, fault in misread(node, "", (), set())], content
+
+
+def merged(contents: list[dict]) -> dict:
+    """Configs merged as Snakemake merges overlays, each over those before it."""
+    found = {}
+    for content in contents:
+        update_config(found, content)
+    return found
 
 
 def as_first_written(value: Any, contents: list) -> Any:
@@ -80,3 +95,33 @@ def as_first_written(value: Any, contents: list) -> Any:
         keys = dict.fromkeys(key for mapping in mappings for key in mapping if key in value) | dict.fromkeys(value)
         return {key: as_first_written(value[key], [one[key] for one in mappings if key in one]) for key in keys}
     return next((content for content in contents if content == value), value)
+
+
+def refusal(lines: list[str]) -> str:
+    """The errors of a config in few lines."""
+    if len(lines) < LINES:
+        return "\n".join(["The config cannot be used:", *lines])
+    told = LINES - 1
+    return "\n".join([f"The config cannot be used; the first {told} errors, {len(lines) - told} more:", *lines[:told]])
+
+
+def files_named(arguments: list[str]) -> list[str]:
+    """The overlays that a command line of Snakemake names."""
+    files, named = [], False
+    for argument in arguments:
+        if argument.startswith("-"):
+            option, _, value = argument.partition("=")
+            named = option in ("--configfile", "--configfiles")
+            files += [value] if named and value else []
+        elif named:
+            files.append(argument)
+    return files
+
+
+def refuse_unreadable(arguments: list[str]) -> None:
+    """End Snakemake if one of the overlays of its command line has faults, which are told.
+
+    Snakemake reads overlays before the Snakefile, and ends with a traceback, or without file and line, if it cannot.
+    """
+    if faults := [fault for file in files_named(arguments) for fault in read(file)[0]]:
+        raise SystemExit(refusal(faults))

@@ -23,6 +23,8 @@ from workflow.config_types import (
     Scan,
     WholeModel,
     did_you_mean,
+    distinct,
+    forwards,
     interval,
     many,
     number,
@@ -222,7 +224,7 @@ class Claim(TypedDict):
     where: Line
     statement: Line
     finding: Line
-    settings: NotRequired[dict[str, number(-1e300, 1e300)]]
+    settings: NotRequired[TypedDict("ClaimSettings", {"acceleration": Acceleration}, total=False)]
     quantities: Annotated[dict[Name, Quantity], Field(min_length=1)]
     tables: dict[str, Reference]
 
@@ -248,8 +250,9 @@ class Benchmark(TypedDict):
     cases: dict[Name, Case]
 
 
+Tolerances = Annotated[list[Tolerance], AfterValidator(distinct)]
 Integrators = TypedDict(
-    "Integrators", dict.fromkeys(("RK45", "DOP853", "Radau", "LSODA", "heyoka"), list[Tolerance]), total=False
+    "Integrators", dict.fromkeys(("RK45", "DOP853", "Radau", "LSODA", "heyoka"), Tolerances), total=False
 )
 
 
@@ -300,7 +303,7 @@ class Stability(TypedDict):
     stiffness: span(Stiffness, AtLeastTwo)
     damping: span(Damping, AtLeastTwo)
     impact_velocity: span(positive(100, "m/s"), AtLeastTwo)
-    conveyor: Ride
+    conveyor: Annotated[Ride, AfterValidator(forwards)]
     stick: TypedDict("Plate", {name: PARAMETERS[name] for name in PARAMETERS if name not in ("z0", "vz0")}, total=False)
     chatter_steps: many(Step)
     hard: dict[Name, Hard]
@@ -400,7 +403,8 @@ class FigureSettings(TypedDict, total=False):
     begin: number(0, 1e6, "s")
     highest: positive(1e6, "Hz")
     portraits: Annotated[
-        list[Annotated[list[Kept], Field(min_length=2, max_length=2)]], Field(min_length=3, max_length=3)
+        list[Annotated[list[number(-1, 1e4, "m/s² or m")], Field(min_length=2, max_length=2)]],
+        Field(min_length=3, max_length=3),
     ]
     transient: number(0, 1e6, "s")
     longest_period: whole(1, 64)

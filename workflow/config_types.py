@@ -11,6 +11,7 @@ import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from reprlib import Repr
+from textwrap import shorten
 from typing import Annotated, Any, Literal, Union
 
 from pydantic import AfterValidator, Discriminator, Field, PlainValidator, Tag, WrapValidator
@@ -34,7 +35,7 @@ def wrong(text: str) -> PydanticCustomError:
 def did_you_mean(name, known: Iterable[str]) -> str:
     """The remedy for a name that is not known."""
     close = difflib.get_close_matches(str(name), known, n=1)
-    return f"did you mean {close[0]}?" if close else f"there are {', '.join(known) or 'none'}"
+    return f"did you mean {close[0]}?" if close else f"there are {shorten(', '.join(known) or 'none', 300)}"
 
 
 def constants(file: str, *names: str) -> dict[str, Any]:
@@ -157,6 +158,8 @@ def interval(end, point: bool = False):
 
     def check(values):
         low, high = values
+        if low is high is None:
+            raise wrong("= [null, null] has no bound; give at least one")
         if low is not None and high is not None and (low > high or (low == high and not point)):
             raise wrong(f"= {shown(values)} is {'reversed' if low > high else 'empty'}; give [least, largest]")
         return values
@@ -169,18 +172,19 @@ def many(item):
     return Annotated[list[item], Field(min_length=1), AfterValidator(distinct)]
 
 
+def forwards(values: dict) -> dict:
+    """{start, stop, num} whose start is the smaller one."""
+    start, stop, num = values["start"], values["stop"], values["num"]
+    if start > stop:
+        raise wrong(f"is reversed: start = {start!r} is above stop = {stop!r}; exchange them")
+    if start == stop and num > 1:
+        raise wrong(f"has start = stop = {start!r} for {num} equal values; give one, or another stop")
+    return values
+
+
 def span(end, points):
     """{start, stop, num}: num values from start to stop, both included."""
-
-    def check(values):
-        start, stop, num = values["start"], values["stop"], values["num"]
-        if start > stop:
-            raise wrong(f"is reversed: start = {start!r} is above stop = {stop!r}; exchange them")
-        if start == stop and num > 1:
-            raise wrong(f"has start = stop = {start!r} for {num} equal values; give one, or another stop")
-        return values
-
-    return Annotated[TypedDict("Span", {"start": end, "stop": end, "num": points}), AfterValidator(check)]
+    return Annotated[TypedDict("Span", {"start": end, "stop": end, "num": points}), AfterValidator(forwards)]
 
 
 Points = whole(1, LARGEST_AXIS, "", f"makes an empty axis or too large a one; give at least 1, at most {LARGEST_AXIS}")

@@ -3,6 +3,7 @@
 What it may hold stands in config_model, what its parts must agree on in config_checks.
 """
 
+import re
 from typing import Annotated, NotRequired, get_args, get_origin, get_type_hints
 
 from pydantic import Tag, ValidationError
@@ -12,12 +13,19 @@ from typing_extensions import is_typeddict
 from workflow.config_checks import contradictions
 from workflow.config_model import MODEL, Config
 from workflow.config_types import did_you_mean, shown
-from workflow.tables_of_config import TABLES, by_methods, count_points, entry_of, kind_of, resolve
+from workflow.tables_of_config import METHODS, TABLES, by_methods, count_points, entry_of, kind_of, resolve
 
-__all__ = ["TABLES", "canonical", "count_points", "entry_of", "kind_of", "problems", "refusal", "resolve"]
+__all__ = [
+    "TABLES",
+    "by_methods",
+    "canonical",
+    "count_points",
+    "entry_of",
+    "kind_of",
+    "problems",
+    "resolve",
+]
 
-# Lines of a refusal, so that it is ten with the four that Snakemake says around it.
-LINES = 6
 # What YAML calls the types of Python.
 KINDS = {
     "dict_type": "a mapping of keys to values",
@@ -62,7 +70,9 @@ def explain(error: ErrorDetails) -> str:
         case "extra_forbidden":
             return f"{key_of(error['loc'])} is an unknown key; {did_you_mean(name, type_at(above).__annotations__)}"
         case "invalid_key":
-            return f"{key_of(above)} has a key that YAML reads as {name!r}, not as text; use another name, in quotes"
+            return (
+                f"{key_of(above)} has a key that YAML reads as {shown(value)}, not as text; use another name, in quotes"
+            )
         case "too_short" if error["ctx"]["actual_length"] == 0:
             return f"{key_of(error['loc'])} is empty; give at least {error['ctx']['min_length']} value(s)"
         case "too_short" | "too_long":
@@ -91,21 +101,22 @@ def problems(config: dict) -> list[str]:
     except ValidationError as invalid:
         errors = invalid.errors(include_url=False)
         return lacking(errors) + [explain(error) for error in errors if error["type"] != "missing"]
-    return contradictions(by_methods(typed))
+    written = {
+        f"{section}.{name}_{method}": f"{section}.{name}"
+        for section in METHODS
+        for name, entry in typed[section].items()
+        for method in entry.get("methods", [])[1:]
+    }
+    lines = contradictions(by_methods(typed))
+    # Of entries that list their methods the key is told that stands in the file.
+    for made, key in written.items():
+        lines = [re.sub(rf"(?<![\w.]){re.escape(made)}(?=\.)", key, line) for line in lines]
+    return list(dict.fromkeys(lines))
 
 
 def canonical(config: dict) -> dict:
     """A config without problems in its one form: keys in the order of the model, numbers in its types.
 
-    The entries of a section and the axes of an entry keep their order, which means something. Each entry has one method
-    (see by_methods).
+    The entries of a section and the axes of an entry keep their order, which means something.
     """
-    return by_methods(MODEL.validate_python(config))
-
-
-def refusal(lines: list[str]) -> str:
-    """The errors of a config in few lines."""
-    if len(lines) < LINES:
-        return "\n".join(["The config cannot be used:", *lines])
-    told = LINES - 1
-    return "\n".join([f"The config cannot be used; the first {told} errors, {len(lines) - told} more:", *lines[:told]])
+    return MODEL.validate_python(config)

@@ -18,8 +18,9 @@ class Names(NamedTuple):
     patterns: frozenset[str]
 
     def knows(self, name: str) -> bool:
-        """Whether a name is one of the texts, or of the form of a text that is put together."""
-        return name in self.texts or any(re.fullmatch(pattern, name) for pattern in self.patterns)
+        """Whether a name is one of the texts, or put together of them."""
+        found = (re.fullmatch(pattern, name) for pattern in self.patterns)
+        return name in self.texts or any(self.texts.issuperset(match.groups()) for match in found if match)
 
 
 class Module(NamedTuple):
@@ -85,7 +86,7 @@ def names_asked(module: str, function: str, mapping: str) -> Names:
                 case ast.Constant(value=str(value)):
                     texts.add(value)
                 case ast.JoinedStr(values=parts):
-                    written = [re.escape(part.value) if isinstance(part, ast.Constant) else r"\w+" for part in parts]
+                    written = [re.escape(part.value) if isinstance(part, ast.Constant) else r"(\w+)" for part in parts]
                     if any(isinstance(part, ast.Constant) for part in parts):
                         patterns.add("".join(written))
     return Names(frozenset(needed - optional), frozenset(texts), frozenset(patterns))

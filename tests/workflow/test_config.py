@@ -61,6 +61,110 @@ WRONG = [
     ({"sweeps": {"amplitudes": {"needs": "vertical"}}}, "figures.fig03 needs feeding, but sweeps/amplitudes"),
     ({"figures": {"fig99": {**CONFIG["figures"]["fig03"]}}}, "figures.fig99 has no scripts/figures/plots/fig99.py"),
     ({"prefix": "a/b"}, "prefix = 'a/b' is not a folder name"),
+    ({"prefix": "a\n"}, "prefix = 'a\\n' is not a folder name of at most 64"),
+    ({"prefix": "a" * 300}, "is not a folder name of at most 64"),
+    # accepted once, and silently wrong
+    ({"estimates": {"height": {"model": {"z0": "conveyor"}}}}, "estimates.height.perturb = 'z0' perturbs nothing"),
+    (
+        {"estimates": {"height": {"axes": {"z0": [0.0, "conveyor"]}}}},
+        "estimates.height.perturb = 'z0' perturbs nothing where z0 is the word conveyor",
+    ),
+    ({"estimates": {"phase": {"epsilon": 1.0e-300}}}, "estimates.phase.epsilon = 1e-300 is lost in the rounding"),
+    (
+        {"estimates": {"height": {"epsilon": 1.0e-15, "axes": {"z0": [9.0]}}}},
+        "estimates.height.epsilon = 1e-15 is lost in the rounding of z0",
+    ),
+    (
+        {"sweeps": {"heights": {"step": 0.1, "duration": 0.02}}},
+        "sweeps.heights.step = 0.1 s is longer",
+    ),
+    ({"sweeps": {"heights": {"step": 0.1}}}, "sweeps.heights.step = 0.1 s is too long for 50 Hz"),
+    ({"sweeps": {"heights": {"step": 1.0e-12}}}, "sweeps.heights.step = 1e-12 s makes 1e+12 steps"),
+    ({"solver": {"step": 0.1}}, "solver.step (of sweeps.amplitudes_euler) = 0.1 s is too long"),
+    ({"dimensions": {"portrait_euler": {"samples": 200000, "step": 3.0e-6}}}, "dimensions.portrait_euler.step = 3e-06"),
+    ({"critical": {"edge": {"axes": {"z0": [0.0]}}}}, "critical.edge.axes.z0 is what is scanned"),
+    ({"critical": {"edge": {"model": {"z0": 0.0}}}}, "critical.edge.model.z0 is what is scanned"),
+    (
+        {"figures": {"fig06": {"settings": {"higest": 1.0}}}},
+        "figures.fig06.settings.higest is an unknown key; did you mean highest?",
+    ),
+    (
+        {"figures": {"fig06": {"settings": {"begin": 1.0}}}},
+        "figures.fig06.settings.begin is an unknown key: scripts/figures/plots/fig06.py does not use it",
+    ),
+    (
+        {"scene_budget": {"reasons": {"critical/egde": "none"}}},
+        "scene_budget.reasons.critical/egde is no table of the config; did you mean critical/edge?",
+    ),
+    (
+        {"figures": {"fig12": {"tables": {"euler": "sweeps/amplitudes"}}}},
+        "figures.fig12.tables.euler is an unknown key: scripts/figures/plots/fig12.py does not use it",
+    ),
+    (
+        {"figures": {"fig22": {"caption_tables": {"spectra": "lyapunov/spectrum"}}}},
+        "fig22.caption_tables.spectra is",
+    ),
+    (
+        {"claims": {"C01": {"tables": {"eulr": "sweeps/amplitudes"}}}},
+        "claims.C01.tables.eulr is an unknown key: about_states.critical_acceleration does not use it",
+    ),
+    ({"claims": {"C01": {"settings": {"acceleration": 40.0}}}}, "claims.C01.settings.acceleration is an unknown key"),
+    (
+        {"claims": {"C01": {"quantities": {"critical_amplitude": {"accepted": [51, 49]}}}}},
+        "[51, 49] is reversed",
+    ),
+    (
+        {"claims": {"C01": {"quantities": {"critical_amplitude": {"accepted": [[51, 49]]}}}}},
+        "accepted[0] = [51, 49] is not",
+    ),
+    # accepted once, and failing in a job
+    ({"orbits": {"limits": [20, 40]}}, "orbits.limits = [20.0, 40.0] m/s² must hold the amplitude of orbits.seeds[1]"),
+    ({"dimensions": {"portrait": {"estimator": "paper"}}}, "dimensions.portrait lacks octaves"),
+    ({"dimensions": {"portrait": {"estimator": "correlation"}}}, "dimensions.portrait lacks theiler"),
+    ({"critical": {"edge": {"scan": {"start": 1.0e-3}}}}, "critical.edge.scan is reversed"),
+    (
+        {"critical": {"edge": {"scan": [0.0, 2.0e-4, 1.0e-4]}}},
+        "critical.edge.scan = [0.0, 0.0002, 0.0001] is not",
+    ),
+    ({"critical": {"edge": {"scan": [0.0]}}}, "critical.edge.scan = [0.0] has 1 values; give 2"),
+    ({"critical": {"edge": {"scan": {"num": 1}}}}, "critical.edge.scan.num = 1 is no number of points from 2"),
+    ({"critical": {"edge": {"scan": [0.0, "conveyor"]}}}, "critical.edge.scan[1] = 'conveyor' is not a number"),
+    (
+        {"critical": {"edge": {"resolution": 1.0e-15, "scan": [0.0, 9.0]}}},
+        "critical.edge.resolution = 1e-15 m is",
+    ),
+    (
+        {"signals": {"states": {"times": {"stop": 2.0}}}},
+        "signals.states.times.stop = 2.0 s is beyond",
+    ),
+    ({"benchmark": {"cases": {"A": {"compared": 2.0}}}}, "benchmark.cases.A.compared = 2.0 s is beyond the duration"),
+    (
+        {"regressions": {"height": {"bounds": {"A": [0.03, 0.0]}}}},
+        "regressions.height.bounds.A = [0.03, 0.0] is",
+    ),
+    (
+        {"regressions": {"height": {"critical": "edgee"}}},
+        "regressions.height.critical = 'edgee' is no entry",
+    ),
+    ({"claims": {"C99": {**CONFIG["claims"]["C01"]}}}, "claims = 'C99' is no statement of the paper; did you mean"),
+    (
+        {"sweeps": {"heights": {"axes": {"acceleration": [29.0, 29]}}}},
+        "acceleration = [29.0, 29.0] has 29.0 twice",
+    ),
+    # what crashed the check, or took it for ever
+    ({"figures": {"fig03": {"tables": {"euler": "model/acceleration"}}}}, "euler = 'model/acceleration' is no entry"),
+    ({"figures": {"fig03": {"tables": {"euler": "prefix/x"}}}}, "figures.fig03.tables.euler = 'prefix/x' is no entry"),
+    ({1: {}}, "config has a key that YAML reads as 1, not as text"),
+    ({"solver": {True: 1}}, "solver has a key that YAML reads as True, not as text"),
+    ({"sweeps": {"heights": {"axes": {"z0": {"num": 1.0e12}}}}}, "sweeps.heights.axes.z0.num = 1000000000000 makes"),
+    (
+        {"sweeps": {"map_height": {"axes": {"z0": {"num": 1.0e6}}}}},
+        "sweeps.map_height.axes makes 400,000,000 points or rows; at most 10,000,000",
+    ),
+    (
+        {"solver": {"points_per_job": 1}},
+        "solver.points_per_job = 1 cuts sweeps.map_amplitude with its 160,000 points into 160,000 jobs",
+    ),
 ]
 
 
@@ -68,6 +172,7 @@ WRONG = [
 def test_an_error_names_key_and_remedy(overlay, message):
     lines = problems(merged(CONFIG, overlay))
     assert any(message in line for line in lines), lines
+    assert all(line.isprintable() for line in lines)
 
 
 def test_configs_are_right():

@@ -3,7 +3,7 @@
 import os
 
 import pytest
-from project import FIGURES, TARGETS
+from project import CAPTIONS, FIGURES, TARGETS, permuted, small_config
 
 PLOTS = {f"plot_{figure}": 1 for figure in FIGURES}
 # A change in content that every module of the library can bear.
@@ -60,3 +60,21 @@ def test_no_simulation_after_the_states(edited):
 )
 def test_only_users_after_a_config_value(built, change, expected):
     assert built.under(change).planned(*TARGETS) == expected
+
+
+@pytest.mark.parametrize(
+    "overlay",
+    [
+        permuted(small_config()),
+        {"sweeps": {"amplitudes": {"axes": {"z0": {"num": 2}}}}},
+        {"model": {"stiffness": 5.0e5}},
+    ],
+    ids=["everything", "one axis", "a default"],
+)
+def test_nothing_after_another_order_or_spelling(built, overlay):
+    targets = (*TARGETS, *CAPTIONS, "results/claims.md")
+    assert built.under(overlay).planned(*targets) == {}
+
+
+def test_nothing_is_computed_or_drawn_after_a_title(built):
+    assert built.under({"figures": {"fig22": {"title": "$\\dot{x}_p$ {z}"}}}).planned(*TARGETS) == {}

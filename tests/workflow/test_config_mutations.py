@@ -1,0 +1,163 @@
+"""Mutations of the paper's config: whatever is wrong with one value is told with its key, and nothing else is."""
+
+import copy
+import math
+from collections.abc import Iterator
+
+import pytest
+from project import merged, permuted, read_config
+
+from workflow.configuration import canonical, problems
+
+CONFIG = read_config()
+# Values that are wrong wherever another value of the same type is right.
+WRONG = {
+    float: ["abc", "5e5", math.nan, math.inf, -math.inf, [], {}, True, 10**400],
+    int: ["abc", "5e5", math.nan, math.inf, 2.5, [], {}, True, -(10**30), 10**400],
+    str: [5, None, [], {}, True, math.nan],
+    list: [None, "abc", {}, 3, [None], [[1, 2], [3]], {"a": 1}],
+    dict: [None, "abc", [], 3, True],
+}
+
+
+def below(value, path: tuple = ()) -> Iterator[tuple[tuple, object]]:
+    """All (path, value) pairs below a value."""
+    pairs = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for part, item in pairs:
+        yield (*path, part), item
+        yield from below(item, (*path, part))
+
+
+PLACES = list(below(CONFIG))
+SECTIONS = list(CONFIG)
+
+
+def key_of(path: tuple) -> str:
+    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path).lstrip(".")
+
+
+def changed(path: tuple, change) -> dict:
+    """A copy of the config in which `change` was called with the mapping or list above `path` and its last part."""
+    config = here = dict(CONFIG)
+    for part in path[:-1]:
+        here[part] = copy.copy(here[part])
+        here = here[part]
+    change(here, path[-1])
+    return config
+
+
+def put(path: tuple, value) -> dict:
+    def change(here, part):
+        here[part] = value
+
+    return changed(path, change)
+
+
+def assert_told(config: dict, path: tuple, name: str = "") -> None:
+    """Some line names the key of `path`, or it lacks `name`; every line is one line of readable length."""
+    lines = problems(config)
+    assert any(key_of(path) in line and name in line for line in lines), (key_of(path), lines)
+    assert all(len(line) < 600 and line.isprintable() for line in lines), lines
+
+
+def places(section: str, *kinds: type) -> list[tuple[tuple, object]]:
+    return [(path, value) for path, value in PLACES if path[0] == section and type(value) in kinds]
+
+
+def may_be(path: tuple, value) -> bool:
+    """Whether a value of another type than the paper's is right there: a number that happens to be whole, a height."""
+    if path[-1] == "z0":
+        return value == 5
+    if "accepted" in path:
+        return value in (2.5, -(10**30))
+    return value == 2.5 and path[-1] in ("speed", "aim", "cycles") and path[0] in ("benchmark", "random_points")
+
+
+@pytest.mark.parametrize("section", SECTIONS)
+def test_a_value_of_another_type_is_told(section):
+    for path, value in [((section,), CONFIG[section]), *places(section, *WRONG)]:
+        for wrong in WRONG[type(value)]:
+            if not may_be(path, wrong):
+                assert_told(put(path, wrong), path)
+
+
+@pytest.mark.parametrize("section", SECTIONS)
+def test_null_is_told_where_it_does_not_mean_no_number(section):
+    for path, _ in places(section, float, int):
+        if not {"accepted", "paper"} & set(path[3:]) or section == "regressions":
+            assert_told(put(path, None), path)
+
+
+def is_of_names(path: tuple) -> bool:
+    """Whether any name may stand in a mapping."""
+    places = {("figures",), ("claims",), ("benchmark", "cases"), ("precision", "scenes"), ("stability", "hard")}
+    entries = {"sweeps", "estimates", "critical", "regressions", "dimensions", "signals", "spectra", "impacts"}
+    return path in places or (len(path) == 1 and path[0] in entries)
+
+
+@pytest.mark.parametrize("section", SECTIONS)
+def test_a_misspelt_key_and_a_key_that_is_no_text_are_told(section):
+    for path, value in [((section,), CONFIG[section]), *places(section, dict)]:
+        if not isinstance(value, dict):
+            continue
+        for name in value:
+            misspelt = {key + "x" if key == name else key: item for key, item in value.items()}
+            # Another name of an entry is right in itself; what refers to it, if anything does, is not.
+            if not is_of_names(path):
+                assert_told(put(path, misspelt), path, f"{name}x")
+        for key in (1, True, None):
+            assert_told(put(path, {**value, key: 1}), path, repr(key))
+        assert_told(put(path, {**value, "extra key": 1}), path, "extra key")
+
+
+@pytest.mark.parametrize("section", SECTIONS)
+def test_reversed_bounds_are_told(section):
+    for path, value in places(section, dict):
+        if value.keys() >= {"start", "stop"}:
+            backwards = {**value, "start": value["stop"], "stop": value["start"]}
+            assert_told(put(path, backwards), path)
+    for path, value in places(section, list):
+        if path[-1] in ("accepted", "limits", "A", "B", "C", "two_states", "scan") and None not in value:
+            assert_told(put(path, value[::-1]), path) if value[0] != value[1] else None
+
+
+@pytest.mark.parametrize(
+    "path", [(section,) for section in SECTIONS] + [("model", key) for key in CONFIG["model"]], ids=key_of
+)
+def test_a_missing_key_is_told(path):
+    def delete(here, part):
+        del here[part]
+
+    assert_told(changed(path, delete), path[:-1] or ("config",), f"lacks {path[-1]}")
+
+
+def test_another_order_or_spelling_is_right_and_means_the_same():
+    other = permuted(CONFIG)
+    assert problems(other) == []
+    found, expected = canonical(merged(CONFIG, other)), canonical(CONFIG)
+    assert repr(without_kept(found)) == repr(without_kept(expected))
+
+
+def without_kept(config: dict) -> dict:
+    """The config without numbers that keep their spelling, which as_first_written takes from the first file."""
+    return {key: value for key, value in config.items() if key not in ("claims", "benchmark", "random_points")}
+
+
+@pytest.mark.parametrize(
+    "overlay",
+    [
+        {"figures": {"fig03": {"title": r"$\dot{x}_p$ über $\hat{a}$ {braces} {}"}}},
+        {"claims": {"C01": {"statement": "Ä ö ü ß {x}", "where": "{}"}}},
+        {"solver": {"points_per_job": 5.0e4, "settling": 2.0e4}},
+        {"sweeps": {"amplitudes": {"axes": {"acceleration": {"start": 20, "num": 20.0}}}}},
+        {"prefix": "a-b_C1"},
+        {"sweeps": {"one": {"axes": {"z0": ["conveyor"]}}}},
+    ],
+    ids=str,
+)
+def test_a_right_config_is_right(overlay):
+    assert problems(merged(CONFIG, overlay)) == []
+
+
+def test_there_are_enough_mutations():
+    assert sum(len(WRONG[type(value)]) for _, value in PLACES if type(value) in WRONG) > 10_000
