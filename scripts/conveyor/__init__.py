@@ -4,3 +4,4 @@ from .simulation import Run, simulate
 from .solver.model import Conveyor, Start
 
 __all__ = ["Conveyor", "Run", "Start", "simulate"]
+__version__ = "0.1.0"

@@ -13,9 +13,6 @@ TABLES = {
         fields.text("signal", "velocity of the part: vx or vz"),
         fields.number("frequency", "Hz", "frequency"),
         fields.number("amplitude", "m/s", "one-sided amplitude; at frequency 0 the modulus of the mean value"),
-        fields.count(
-            "main_lobe", "bins on either side over which a line spreads; 0 for harmonics of a periodic motion"
-        ),
     ),
 }
 
@@ -56,5 +53,4 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
         "signal": np.repeat([name for _, name, _ in lines], lengths),
         "frequency": np.concatenate([one.frequency for _, _, one in lines]),
         "amplitude": np.concatenate([one.amplitude for _, _, one in lines]),
-        "main_lobe": np.repeat([one.main_lobe for _, _, one in lines], lengths),
     }

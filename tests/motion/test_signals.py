@@ -52,7 +52,6 @@ def test_spectrum_of_a_period_has_the_mean_velocity_and_only_harmonics():
     feeding = table.query("signal == 'vx'")
     assert feeding.amplitude.iloc[0] == pytest.approx(0.0650828, rel=1e-3)
     assert np.allclose(feeding.frequency % 25.0, 0.0)
-    assert (table.main_lobe == 0).all()
     rise = table.query("signal == 'vz'").amplitude
     assert rise.iloc[0] < 1e-4 * rise.max()
 
@@ -60,7 +59,6 @@ def test_spectrum_of_a_period_has_the_mean_velocity_and_only_harmonics():
 def test_spectrum_of_chaos_is_windowed():
     entry = settings(axes={"acceleration": [80.0]}, duration=1.0, last=0.25, samples_per_cycle=64)
     table = frame(spectra, entry)
-    assert (table.main_lobe == 2).all()
     assert sorted(table.frequency.unique())[1] == pytest.approx(4.0)
 
 

@@ -6,7 +6,7 @@ log(measure) over log(scale) whose slope is the dimension in between only: boxes
 samples count samples, boxes as large as the set feel its rim. `scaling_region` finds what lies in between.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -108,14 +108,6 @@ def correlation_dimension(points: np.ndarray, theiler: int) -> Dimension:
     deviations = np.log(BLOCKS * closer[:, resolved] / total[resolved])
     noise = 2.0 * deviations / np.sqrt(BLOCKS * (BLOCKS - 1))
     return Dimension(*scaling_region(SCALES[resolved], np.log(counts), noise), SCALES[resolved], counts)
-
-
-def dimension_by_number(
-    points: np.ndarray, numbers: Iterable[int], estimate: Callable[[np.ndarray], Dimension] = box_dimension
-) -> list[Dimension]:
-    """`estimate` from random samples of `points` (fixed seed, order kept), one for each of `numbers`."""
-    order = np.random.default_rng(0).permutation(len(points))
-    return [estimate(points[np.sort(order[:number])]) for number in numbers]
 
 
 def normalise(points: np.ndarray) -> np.ndarray:

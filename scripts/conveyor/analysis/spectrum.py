@@ -3,10 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d
 from scipy.signal.windows import hann
-
-HANN_MAIN_LOBE = 2  # half-width, bins
 
 
 class Spectrum(NamedTuple):
@@ -16,12 +13,10 @@ class Spectrum(NamedTuple):
     ----------
     frequency : Hz, k / duration, float64, shape (n // 2 + 1,)
     amplitude : unit of the signal, same shape; entry 0 is the modulus of the mean value
-    main_lobe : number of bins on either side over which a line spreads
     """
 
     frequency: np.ndarray
     amplitude: np.ndarray
-    main_lobe: int
 
 
 def harmonics(samples: np.ndarray, duration: float) -> Spectrum:
@@ -30,7 +25,7 @@ def harmonics(samples: np.ndarray, duration: float) -> Spectrum:
     No window and no leakage: every harmonic and subharmonic below n / (2T) falls on a bin.
     """
     samples = check(samples)
-    return one_sided(samples, duration, len(samples), 0)
+    return one_sided(samples, duration, len(samples))
 
 
 def windowed(samples: np.ndarray, duration: float) -> Spectrum:
@@ -42,19 +37,9 @@ def windowed(samples: np.ndarray, duration: float) -> Spectrum:
     samples = check(samples)
     window = hann(len(samples), sym=False)
     mean = window @ samples / window.sum()
-    spectrum = one_sided((samples - mean) * window, duration, window.sum(), HANN_MAIN_LOBE)
+    spectrum = one_sided((samples - mean) * window, duration, window.sum())
     spectrum.amplitude[0] = abs(mean)
     return spectrum
-
-
-def count_lines(spectrum: Spectrum, threshold: float) -> int:
-    """Number of lines with an amplitude above `threshold` (unit of the signal), the constant part apart.
-
-    Behind a window a line is a bin that no other within the main lobe exceeds; side lobes reach 3 % of their line.
-    """
-    amplitude = spectrum.amplitude[1:]
-    peak = amplitude == maximum_filter1d(amplitude, 2 * spectrum.main_lobe + 1, mode="constant")
-    return int(np.count_nonzero(peak & (amplitude > threshold)))
 
 
 def check(samples: np.ndarray) -> np.ndarray:
@@ -65,9 +50,9 @@ def check(samples: np.ndarray) -> np.ndarray:
     return samples
 
 
-def one_sided(samples: np.ndarray, duration: float, gain: float, main_lobe: int) -> Spectrum:
+def one_sided(samples: np.ndarray, duration: float, gain: float) -> Spectrum:
     """Amplitudes |Σ samples e^(-iωt)| / gain, doubled where a line shares its height with a negative frequency."""
     n = len(samples)
     amplitude = np.abs(np.fft.rfft(samples)) / gain
     amplitude[1 : (n + 1) // 2] *= 2.0
-    return Spectrum(np.arange(len(amplitude)) / duration, amplitude, main_lobe)
+    return Spectrum(np.arange(len(amplitude)) / duration, amplitude)

@@ -220,7 +220,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
     resting = False
     skip = 0.0
     n_sampled = n_impacts = n_events = 0
-    rest_time, max_gap = 0.0, q
+    max_gap = q
 
     while n_sampled < len(times):
         while t >= period:
@@ -232,7 +232,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
         n_events += 1
         if n_events > MAX_EVENTS:
             samples[n_sampled:] = math.nan
-            return n_impacts, rest_time, max_gap, TOO_MANY_EVENTS
+            return n_impacts, max_gap, TOO_MANY_EVENTS
         if arriving:
             if speed > 0.0:
                 if n_impacts < len(impacts):
@@ -271,7 +271,6 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
                 z_then, vz_then = -a_z / omega**2 * math.cos(phase), a_z / omega * math.sin(phase)
                 samples[n_sampled] = (x_then, vx_then, z_then, vz_then)
                 n_sampled += 1
-            rest_time += min(tau, end - base - t)
             if n_sampled == len(times):
                 break
             x, vx = rest_motion(plate, theta, x, vx, sigma, tau)
@@ -309,7 +308,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
             tau += skip
             if not tau <= math.inf:
                 samples[n_sampled:] = math.nan
-                return n_impacts, rest_time, max_gap, IMPACT_NOT_FOUND
+                return n_impacts, max_gap, IMPACT_NOT_FOUND
             flown = min(tau, end - base - t)
             max_gap = max(max_gap, highest_gap(z, vz, theta, gravity, a_z, omega, flown))
             while n_sampled < len(times) and base + t + tau >= times[n_sampled]:
@@ -326,7 +325,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
             x += vx * tau
             t += tau
             arriving = True
-    return n_impacts, rest_time, max_gap, OK
+    return n_impacts, max_gap, OK
 
 
 class Summary(NamedTuple):
@@ -338,7 +337,6 @@ class Summary(NamedTuple):
     vz: float  # m/s
     mean_velocity: float  # m/s, over the last part of the run
     impacts: int
-    rest_fraction: float  # share of the run at rest on the plate
     max_gap: float  # m
     status: str  # one of STATUSES
 
@@ -396,10 +394,10 @@ def run(parameters: np.ndarray, duration: float, restitution, last: float = 0.25
     if not 0.0 < last <= 1.0:
         raise ValueError(f"last = {last!r} is outside (0, 1]")
     times = np.array([(1.0 - last) * duration, duration])
-    (n_impacts, rest_time, max_gap, status), samples, _ = _follow(parameters, restitution, times)
+    (n_impacts, max_gap, status), samples, _ = _follow(parameters, restitution, times)
     x, vx, z, vz = (float(value) for value in samples[1])
     mean_velocity = (x - float(samples[0, 0])) / (last * duration)
-    return Summary(x, vx, z, vz, mean_velocity, n_impacts, rest_time / duration, max_gap, STATUSES[status])
+    return Summary(x, vx, z, vz, mean_velocity, n_impacts, max_gap, STATUSES[status])
 
 
 def sample(parameters: np.ndarray, times: np.ndarray, restitution) -> dict[str, np.ndarray]:

@@ -1,43 +1,10 @@
-"""The one decorator of compiled functions, and where their machine code is kept.
-
-Numba decides by one file's age whether cached machine code is current, and so misses a change in a function that was
-inlined from another file. The cache therefore lives in a folder named by the content of the whole library: a change
-anywhere starts a new folder, equal sources share one between clones, and a read-only checkout needs no write access.
-"""
-
-import hashlib
-import os
-import tempfile
-from pathlib import Path
+"""The one decorator of compiled functions, and what the compiler is told."""
 
 import numba
 from numba.core import types
 from numba.extending import intrinsic
 
-
-def library_hash() -> str:
-    """First 16 hexadecimal digits of the SHA-256 of all modules of this package, in alphabetical order."""
-    digest = hashlib.sha256(numba.__version__.encode())
-    for module in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(module.name.encode() + b"\0" + module.read_bytes())
-    return digest.hexdigest()[:16]
-
-
-def cache_folder() -> Path:
-    """A writable folder for machine code: below $XDG_CACHE_HOME or ~/.cache, else below the temporary folder."""
-    for root in (os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", tempfile.gettempdir()):
-        folder = Path(root) / "conveyor" / library_hash()
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError:
-            continue
-        if os.access(folder, os.W_OK):
-            return folder
-    raise OSError("no writable folder for compiled code: set XDG_CACHE_HOME to one")
-
-
-if "NUMBA_CACHE_DIR" not in os.environ:
-    numba.config.CACHE_DIR = str(cache_folder())
+from . import machine_code  # noqa: F401 - says where compiled code is kept
 
 # Neighbouring operations share an instruction. Their order stays, and with it every digit.
 numba.config.SLP_VECTORIZE = 1
