@@ -159,5 +159,10 @@ def test_a_right_config_is_right(overlay):
     assert problems(merged(CONFIG, overlay)) == []
 
 
+@pytest.mark.parametrize("config", [None, [], "model", 3], ids=repr)
+def test_what_is_no_mapping_is_told(config):
+    assert problems(config) == [f"config = {config!r} is not a mapping of keys to values"]
+
+
 def test_there_are_enough_mutations():
     assert sum(len(WRONG[type(value)]) for _, value in PLACES if type(value) in WRONG) > 10_000
