@@ -45,6 +45,12 @@ def test_an_anchor_is_told_once(tmp_path):
     assert read(file)[0] == [f"{file}:1: a.b = 010 is read as 8, an octal number; write it without the 0"]
 
 
+def test_json_is_a_config(tmp_path):
+    file = tmp_path / "mine.json"
+    file.write_text('{\n\t"model": {"mass": 0.001, "z0": 0},\n\t"sweeps": {}\n}\n')
+    assert read(file) == ([], {"model": {"mass": 0.001, "z0": 0}, "sweeps": {}})
+
+
 @pytest.mark.parametrize("file", ["config/config.yaml", "config/reduced.yaml"])
 def test_files_of_the_project_are_right(file):
     assert read(ROOT / file) == ([], read_config(file))
