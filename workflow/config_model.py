@@ -226,7 +226,7 @@ class Claim(TypedDict):
     finding: Line
     settings: NotRequired[TypedDict("ClaimSettings", {"acceleration": Acceleration}, total=False)]
     quantities: Annotated[dict[Name, Quantity], Field(min_length=1)]
-    tables: dict[str, Reference]
+    tables: dict[Name, Reference]
 
 
 class Wanted(TypedDict):
@@ -417,9 +417,9 @@ class Figure(TypedDict):
     title: Line
     section: Line
     needs: word("feeding", "vertical", "nothing")
-    tables: dict[str, Reference]
+    tables: dict[Name, Reference]
     settings: NotRequired[FigureSettings]
-    caption_tables: NotRequired[dict[str, Reference]]
+    caption_tables: NotRequired[dict[Name, Reference]]
 
 
 # Strict, and without other keys than these; so are the sections below.

@@ -100,15 +100,16 @@ def positive(high: float, unit: str = ""):
     return number(0, high, unit, "(]")
 
 
-def whole(low: int, high: int, unit: str = "", otherwise: str = ""):
-    """A whole number between `low` and `high`, in any spelling (5.0e+4); `otherwise` is said of one outside."""
+def whole(low: int, high: int, unit: str = "", few: str = "", many: str = ""):
+    """A whole number between `low` and `high`, in any spelling (5.0e+4); `few` and `many` are said of one outside."""
 
     def check(value):
         value = checked(value, "a whole number", unit)
         if value != int(value):
             raise wrong(f"= {value!r} is not a whole number")
         if not low <= value <= high:
-            raise wrong(f"= {shown(int(value))} {otherwise}" if otherwise else outside(value, low, high, unit, "[]"))
+            reason = few if value < low else many
+            raise wrong(f"= {shown(int(value))} {reason}" if reason else outside(value, low, high, unit, "[]"))
         return int(value)
 
     return Annotated[int, PlainValidator(check)]
@@ -187,17 +188,21 @@ def span(end, points):
     return Annotated[TypedDict("Span", {"start": end, "stop": end, "num": points}), AfterValidator(forwards)]
 
 
-Points = whole(1, LARGEST_AXIS, "", f"makes an empty axis or too large a one; give at least 1, at most {LARGEST_AXIS}")
-AtLeastTwo = whole(2, LARGEST_AXIS, "", f"is no number of points from 2 to {LARGEST_AXIS}; give at least 2")
+TOO_MANY = f"makes too many points; give at most {LARGEST_AXIS}"
+Points = whole(1, LARGEST_AXIS, few="makes an empty axis; give at least 1", many=TOO_MANY)
+AtLeastTwo = whole(2, LARGEST_AXIS, few="makes no two points; give at least 2", many=TOO_MANY)
 
 
 def axis(item, end=None, values=many, points=Points):
     """A list of values, or {start, stop, num}; `end` is the type of start and stop if it is not that of a value."""
-    kinds = {list: "‹list›", dict: "‹span›"}
+
+    def kind(value) -> str | None:
+        return "‹list›" if isinstance(value, list) else "‹span›" if isinstance(value, dict) else None
+
     return Annotated[
         Union[Annotated[values(item), Tag("‹list›")], Annotated[span(end or item, points), Tag("‹span›")]],  # noqa: UP007
         Discriminator(
-            lambda value: kinds.get(type(value)),
+            kind,
             custom_error_type="axis",
             custom_error_message="is no axis; give a list of values, or {start: …, stop: …, num: …}",
         ),

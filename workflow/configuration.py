@@ -64,7 +64,8 @@ def type_at(path) -> type:
 
 def explain(error: ErrorDetails) -> str:
     """One line for one error of the types: the key, what is wrong with it, and what would be right."""
-    *above, name = error["loc"]
+    # The config itself has no key.
+    *above, name = error["loc"] or [""]
     value = error["input"]
     match error["type"]:
         case "extra_forbidden":
@@ -74,7 +75,7 @@ def explain(error: ErrorDetails) -> str:
                 f"{key_of(above)} has a key that YAML reads as {shown(value)}, not as text; use another name, in quotes"
             )
         case "too_short" if error["ctx"]["actual_length"] == 0:
-            return f"{key_of(error['loc'])} is empty; give at least {error['ctx']['min_length']} value(s)"
+            return f"{key_of(error['loc'])} is empty; give at least one value"
         case "too_short" | "too_long":
             wanted = error["ctx"].get("min_length", error["ctx"].get("max_length"))
             return f"{key_of(error['loc'])} = {shown(value)} has {len(value)} values; give {wanted}"

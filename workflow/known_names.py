@@ -64,6 +64,48 @@ def used(module: str, node: ast.AST) -> Iterator[tuple[str, str]]:
             yield source, node.attr
 
 
+def first_texts(module: str, function: ast.stmt, values: ast.expr) -> list[str]:
+    """What a loop over `values` begins each of its rounds with, as far as it is written out in texts."""
+    match values:
+        case ast.Constant(value=str(text)):
+            return [text]
+        case ast.Tuple(elts=items) | ast.List(elts=items) | ast.Dict(keys=items):
+            return [text for item in items for text in first_texts(module, function, item)[:1]]
+        case ast.Call(func=ast.Attribute(value=mapping, attr="items")):
+            return first_texts(module, function, mapping)
+        case ast.Name() | ast.Attribute():
+            assigned = [(module, node) for node in ast.walk(function) if isinstance(node, ast.Assign)]
+            assigned = [(of, node) for of, node in assigned if ast.dump(node.targets[0]) == stored(values)]
+            assigned += [(of, read(of).definitions.get(name)) for of, name in used(module, values)]
+            return next(
+                (first_texts(of, node, node.value) for of, node in assigned if isinstance(node, ast.Assign)), []
+            )
+    return []
+
+
+def stored(name: ast.expr) -> str:
+    """How the target of an assignment to this name is dumped."""
+    return ast.dump(ast.Name(name.id, ast.Store())) if isinstance(name, ast.Name) else ""
+
+
+def keys_of_loops(module: str, function: ast.stmt, mapping: str) -> Iterator[str]:
+    """The keys that loops `for key in …: mapping[key]` of a function need."""
+    for node in ast.walk(function):
+        heads = [node] if isinstance(node, ast.For) else getattr(node, "generators", [])
+        asked = [
+            part.slice.id
+            for part in ast.walk(node)
+            if heads
+            and isinstance(part, ast.Subscript)
+            and isinstance(part.slice, ast.Name)
+            and getattr(part.value, "id", None) == mapping
+        ]
+        for head in heads:
+            key = head.target.elts[0] if isinstance(head.target, ast.Tuple) else head.target
+            if getattr(key, "id", None) in asked:
+                yield from first_texts(module, function, head.iter)
+
+
 @cache
 def names_asked(module: str, function: str, mapping: str) -> Names:
     """What `function` of a module below scripts/ and all that it uses ask of the mapping that they call `mapping`."""
@@ -74,6 +116,7 @@ def names_asked(module: str, function: str, mapping: str) -> Names:
         if place in seen or not file_of(place[0]).is_file() or place[1] not in read(place[0]).definitions:
             continue
         seen.add(place)
+        needed.update(keys_of_loops(place[0], read(place[0]).definitions[place[1]], mapping))
         for node in ast.walk(read(place[0]).definitions[place[1]]):
             todo += used(place[0], node)
             match node:

@@ -127,7 +127,7 @@ WRONG = [
         "critical.edge.scan = [0.0, 0.0002, 0.0001] is not",
     ),
     ({"critical": {"edge": {"scan": [0.0]}}}, "critical.edge.scan = [0.0] has 1 values; give 2"),
-    ({"critical": {"edge": {"scan": {"num": 1}}}}, "critical.edge.scan.num = 1 is no number of points from 2"),
+    ({"critical": {"edge": {"scan": {"num": 1}}}}, "critical.edge.scan.num = 1 makes no two points"),
     ({"critical": {"edge": {"scan": [0.0, "conveyor"]}}}, "critical.edge.scan[1] = 'conveyor' is not a number"),
     (
         {"critical": {"edge": {"resolution": 1.0e-15, "scan": [0.0, 9.0]}}},
@@ -156,7 +156,10 @@ WRONG = [
     ({"figures": {"fig03": {"tables": {"euler": "prefix/x"}}}}, "figures.fig03.tables.euler = 'prefix/x' is no entry"),
     ({1: {}}, "config has a key that YAML reads as 1, not as text"),
     ({"solver": {True: 1}}, "solver has a key that YAML reads as True, not as text"),
-    ({"sweeps": {"heights": {"axes": {"z0": {"num": 1.0e12}}}}}, "sweeps.heights.axes.z0.num = 1000000000000 makes"),
+    (
+        {"sweeps": {"heights": {"axes": {"z0": {"num": 1.0e12}}}}},
+        "sweeps.heights.axes.z0.num = 1000000000000 makes too many points",
+    ),
     (
         {"sweeps": {"map_height": {"axes": {"z0": {"num": 1.0e6}}}}},
         "sweeps.map_height.axes makes 400,000,000 points or rows; at most 10,000,000",

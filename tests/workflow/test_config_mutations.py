@@ -159,5 +159,28 @@ def test_a_right_config_is_right(overlay):
     assert problems(merged(CONFIG, overlay)) == []
 
 
+@pytest.mark.parametrize(
+    "path",
+    [
+        ("figures", "fig03", "tables", "converged"),
+        ("figures", "fig04", "tables", "euler"),
+        ("figures", "fig06", "settings", "highest"),
+        ("claims", "C13", "tables", "euler"),
+        ("claims", "C07", "settings", "acceleration"),
+    ],
+    ids=key_of,
+)
+def test_what_a_script_needs_is_told(path):
+    def delete(here, part):
+        del here[part]
+
+    assert_told(changed(path, delete), path[:-1], f"lacks {path[-1]}")
+
+
+@pytest.mark.parametrize("config", [None, [], "model", 3], ids=repr)
+def test_what_is_no_mapping_is_told(config):
+    assert problems(config) == [f"config = {config!r} is not a mapping of keys to values"]
+
+
 def test_there_are_enough_mutations():
     assert sum(len(WRONG[type(value)]) for _, value in PLACES if type(value) in WRONG) > 10_000

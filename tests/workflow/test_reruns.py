@@ -76,5 +76,11 @@ def test_nothing_after_another_order_or_spelling(built, overlay):
     assert built.under(overlay).planned(*targets) == {}
 
 
-def test_nothing_is_computed_or_drawn_after_a_title(built):
-    assert built.under({"figures": {"fig22": {"title": "$\\dot{x}_p$ {z}"}}}).planned(*TARGETS) == {}
+def test_a_title_may_have_braces_and_computes_nothing(built):
+    """Braces, as in LaTeX: Snakemake formats the message in which the title stands."""
+    title = "$\\dot{x}_p$ {z}"
+    project = built.under({"figures": {"fig22": {"title": title}}})
+    assert project.planned(*TARGETS) == {}
+    run = project.snakemake("--dry-run", *TARGETS, "--forcerun", "plot_fig22")
+    assert run.returncode == 0, run.stdout
+    assert f"Draw fig22: {title}" in run.stdout

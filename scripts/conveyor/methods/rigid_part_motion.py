@@ -26,7 +26,8 @@ COLLAPSE = 1e-6  # rad: a bounce shorter than this is the last one
 MAX_EVENTS = 100_000  # within one excitation cycle
 CONTACT_TOLERANCE = 1e-14  # of the contact steps that follow an impact
 MAX_CONTACT_STEPS = 10_000  # of one impact; an undamped one takes about ten
-CREEPING = 1e-9  # share of the speed of approach: a contact that goes back more slowly does not separate
+OVERDAMPED = 40.0  # d_c/m times the duration of an undamped impact: over six times critical for a linear contact
+CREEPING = 20.0  # durations of an undamped impact: a contact that takes longer goes back without ever separating
 
 
 class Plate(NamedTuple):
@@ -51,15 +52,20 @@ def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
         if the impact does not end within MAX_CONTACT_STEPS
     """
     alone = contact.constants(parameters, CONTACT_TOLERANCE)._replace(gravity=0.0, a_z=0.0, scale_v=speed)
+    share = 1.0 / (alone.exponent + 1.0)
+    duration = 3.0 * (speed * speed / (2.0 * share * alone.stiffness)) ** share / speed
+    if alone.damping * duration > OVERDAMPED:
+        return 0.0
     series = contact.workspace()
-    w, v, pulled = 0.0, speed, False
+    w, v, time, pulled = 0.0, speed, 0.0, False
     for _ in range(MAX_CONTACT_STEPS):
-        _, w, v, _, end = contact.step(alone, series, contact.FIRST, w, v, 0.0, 1.0, pulled)
+        _, w, v, lapse, end = contact.step(alone, series, contact.FIRST, w, v, 0.0, 1.0, pulled)
         if end == contact.SEPARATION:
             return -v / speed
         if end == contact.FORCE_SIGN:
             pulled = not pulled
-        if -CREEPING * speed < v <= 0.0:
+        time += lapse
+        if time > CREEPING * duration:
             return 0.0
     raise ArithmeticError(f"an impact at {speed:g} m/s does not end within {MAX_CONTACT_STEPS} contact steps")
 

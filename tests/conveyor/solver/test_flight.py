@@ -13,7 +13,7 @@ from conveyor import Conveyor, Start, simulate
 from conveyor.solver import flight
 from conveyor.solver.model import RANGES, conveyor_motion
 
-LIBRARY = Path(flight.__file__).parent
+LIBRARY = Path(flight.__file__).parents[1]
 TURN = 2.0 * math.pi
 
 
@@ -100,21 +100,23 @@ def test_a_search_that_gets_lost_says_so(monkeypatch):
 
 LOST = """
 import numpy as np
-from conveyor import Conveyor, Start, attractors, rigid_ball, simulate
-from conveyor.model import pack
+from conveyor import Conveyor, Start, simulate
+from conveyor.analysis import attractors
+from conveyor.methods import rigid_part_motion
+from conveyor.solver.model import pack
 
 conveyor, start = Conveyor(acceleration=20.0), Start(z=3e-4)
 run = simulate(conveyor, start, duration=0.1)
 print(run.status, np.isnan(run.z_end), np.isnan(run.mean_velocity()), sep=", ")
 print(attractors.sweep(pack(conveyor, start)[None], transient=0, strobes=1, tolerance=1e-8)[1][0])
-print(rigid_ball.run(pack(conveyor, start), 0.1, 0.5).status)
+print(rigid_part_motion.run(pack(conveyor, start), 0.1, 0.5).status)
 """
 
 
 def test_every_user_of_a_lost_search_says_so(tmp_path):
     """The library with a search of two steps only."""
     shutil.copytree(LIBRARY, tmp_path / "conveyor", ignore=shutil.ignore_patterns("__pycache__"))
-    source = tmp_path / "conveyor" / "flight.py"
+    source = tmp_path / "conveyor/solver/flight.py"
     text = source.read_text()
     assert "MAX_STEPS = 1_000_000" in text
     source.write_text(text.replace("MAX_STEPS = 1_000_000", "MAX_STEPS = 1"))
