@@ -23,6 +23,7 @@ include: "workflow/rules/orbits.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/claims.smk"
+include: "workflow/rules/companion.smk"
 
 
 rule all:

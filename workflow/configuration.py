@@ -137,6 +137,12 @@ def contradictions(config: dict) -> Iterator[str]:
             for role, reference in entry["tables"].items():
                 if entry_of(config, reference) is None:
                     yield f"{user}.{name}.tables.{role} = {reference!r} is no entry of the config"
+    companion = config["companion"]
+    for index, name in enumerate(companion["maps"]):
+        if name not in config["sweeps"]:
+            yield f"companion.maps[{index}] = {name!r} is no entry of sweeps"
+    if companion["opening"] not in companion["presets"]:
+        yield f"companion.opening = {companion['opening']!r} is not one of {', '.join(companion['presets'])}"
     for claim, entry in config["claims"].items():
         for key in ("paper", "accepted"):
             if len(entry[key]) != len(entry["quantities"]):

@@ -30,6 +30,7 @@ SINGLE = (
     "scene_budget",
     "rigid_part",
     "random_points",
+    "companion",
 )
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}
 COARSE_PAIRS = {"axes": {"acceleration": {"num": 3}}, "duration": 0.1}
@@ -58,6 +59,7 @@ def small_config() -> dict:
     used = {table for entry in config["figures"].values() for table in entry["tables"].values()}
     for section in set(config) - {"prefix", "model", "solver", "figures", *SINGLE}:
         config[section] = {name: entry for name, entry in config[section].items() if f"{section}/{name}" in used}
+    config["companion"]["maps"] = ["amplitudes"]
     return config
 
 

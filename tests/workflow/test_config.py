@@ -49,6 +49,9 @@ WRONG = [
     ),
     ({"sweeps": {"amplitudes": {"needs": "vertical"}}}, "figures.fig03 needs feeding, but sweeps/amplitudes"),
     ({"figures": {"fig99": {**CONFIG["figures"]["fig03"]}}}, "figures.fig99 has no scripts/plots/fig99.py"),
+    ({"companion": {"maps": ["none"]}}, "companion.maps[0] = 'none' is no entry of sweeps"),
+    ({"companion": {"opening": "third"}}, "companion.opening = 'third' is not one of first, second, chaos"),
+    ({"companion": {"presets": {"mine": {"mas": 1.0}}}}, "companion.presets.mine.mas is an unknown key"),
     ({"prefix": "a/b"}, "prefix = 'a/b' is not a folder name"),
 ]
 

@@ -15,9 +15,8 @@ const solver = (() => {
   const ORDER = 16;
   const SIZE = ORDER + 2; // the tail is zero: the third derivative at the highest order needs no case of its own
 
-  // Pieces of a run, and within one excitation cycle, after which it is given up: a page must answer.
-  const MAX_PIECES = 400000;
-  const MAX_PIECES_OF_CYCLE = 40000;
+  // Pieces of a run after which it is given up: a page must answer.
+  const MAX_PIECES = 100000;
   // Cycles begin at the plate's top, where a part that leaves the plate at all is in the air.
   const BEGIN_OF_CYCLE = -Math.PI;
 
@@ -538,7 +537,6 @@ const solver = (() => {
     let v = 0;
     let sigma = 0;
     let pulled = false;
-    let piecesOfCycle = 0;
     let leftPlate = 0; // when the flight began
 
     function record(event) {
@@ -546,9 +544,8 @@ const solver = (() => {
     }
 
     function keep(piece) {
+      if (pieces.length === MAX_PIECES) throw new GaveUp(`more than ${MAX_PIECES} pieces of motion`);
       pieces.push(piece);
-      piecesOfCycle += 1;
-      if (pieces.length > MAX_PIECES || piecesOfCycle > MAX_PIECES_OF_CYCLE) throw new GaveUp("too many events");
     }
 
     let touching = q !== 0 ? q < 0 : rate !== 0 ? rate < 0 : c.gravity + c.aZ * cosine > 0;
@@ -675,7 +672,6 @@ const solver = (() => {
         t -= c.period;
         cycle += 1;
         base = cycle * c.period - offset;
-        piecesOfCycle = 0;
         theta = BEGIN_OF_CYCLE + c.omega * t;
       }
     }
@@ -692,7 +688,13 @@ const solver = (() => {
   /* The state of motion that a start settles in within a number of excitation cycles: looked at once a cycle, it must
      repeat itself with a period of up to 64 cycles. {state: "first" or "second", period, after}, or {state: null} if it
      has not: which is not chaos, only time that did not suffice. */
-  function settle(parameters, cycles, { tolerance }) {
+  function settle(parameters, cycles, options) {
+    // Most motions settle soon.
+    const soon = settleWithin(parameters, Math.min(cycles, 2 * MAX_PERIOD), options);
+    return soon.state ? soon : settleWithin(parameters, cycles, options);
+  }
+
+  function settleWithin(parameters, cycles, { tolerance }) {
     const run = follow(parameters, cycles / parameters.frequency, { tolerance, feeding: false });
     if (run.status !== "ok") return { state: null, status: run.status };
     const { c } = run;
