@@ -6,8 +6,8 @@
 
        w' = v/2,   t' = w,   v' = w (g + a_z cos θ - (d_c/m) v) - (k_c/m) w^(2p+1),   θ' = ω w,
 
-   and every step is one Taylor polynomial in s, on which impact, separation, slip and stick are roots. A run is the list
-   of these pieces: it can be looked at anywhere, to all its digits.
+   and every step is one Taylor polynomial in s, on which impact, separation, slip and stick are roots. A run is the
+   list of these pieces: it can be looked at anywhere, to all its digits.
 
    SI units throughout. A parameter is known by its name in scripts/conveyor/model.py; z0 may be "conveyor" (Eq. 15). */
 const solver = (() => {
@@ -199,9 +199,9 @@ const solver = (() => {
     ];
   }
 
-  /* Duration of a flight from the gap q ≥ 0 with its rate, and the speed of approach at its end; infinite if there is no
-     impact before `limit`. The parabola of the bound q̈ ≥ -(g + a_z) reaches the plate before the part does: steps to
-     its root cannot jump over an impact. */
+  /* Duration of a flight from the gap q ≥ 0 with its rate, and the speed of approach at its end; infinite if there is
+     no impact before `limit`. The parabola of the bound q̈ ≥ -(g + a_z) reaches the plate before the part does: steps
+     to its root cannot jump over an impact. */
   function nextImpact(c, z, vz, q, rate, theta, limit) {
     const bound = c.gravity + c.aZ;
     const resolution = 4 * EPSILON * (Math.abs(z) + c.height);
@@ -380,7 +380,7 @@ const solver = (() => {
 
   // ------------------------------------------------------------------------------------------------------ friction
 
-  /* Where, in (start, length] of a contact step, the slip velocity reaches zero: a polynomial, since F_c/m = z̈_p + g. */
+  /* Where, in (start, length] of a step, the slip velocity reaches zero: a polynomial, since F_c/m = z̈_p + g. */
   function slipEnd(c, step, start, length, slip, sigma, mu) {
     const plateAmplitude = sigma * c.speedX - mu * c.speedZ;
     for (let n = 0; n <= ORDER; n++) {
@@ -391,8 +391,8 @@ const solver = (() => {
     return firstRoot(scratch, start, length);
   }
 
-  /* Where, in (start, length], |ẍ_s| outgrows μ F_c/m, and whether it stays so until the end; |ẍ_s| = a_x |cos θ| has
-     one branch where cos θ agrees in sign at both ends. */
+  /* Where, in (start, length], |ẍ_s| outgrows μ F_c/m, and whether it stays so until the end; |ẍ_s| = a_x |cos θ|
+     has one branch where cos θ agrees in sign at both ends. */
   function stickEnd(c, step, start, length, cosine, cosineEnd) {
     let end = Infinity;
     let lasting = false;
@@ -680,7 +680,7 @@ const solver = (() => {
   // ----------------------------------------------------------------------------------------------- state of motion
 
   const MAX_PERIOD = 64;
-  // A state repeats itself if it comes back to this distance, in units of the part at rest. It must do so twice running.
+  // A state repeats itself if it comes back to this distance, in units of the part at rest, and does so twice running.
   const REPEATED = 1e-6;
   // The second state spends most of a cycle in the air; micro-bounces of the first last a small part of it.
   const LONG_FLIGHT = 0.5;
@@ -731,8 +731,8 @@ const solver = (() => {
 
   // ---------------------------------------------------------------------------------------------- the paper's Euler
 
-  /* What explicit Euler with a fixed step finds (Sect. 3 of the paper): it steps over impacts, and its friction chatters
-     where the part should stick. Every `stride`th step is kept. */
+  /* What explicit Euler with a fixed step finds (Sect. 3 of the paper): it steps over impacts, and its friction
+     chatters where the part should stick. Every `stride`th step is kept. */
   class EulerRun {
     constructor(duration, step, stride, states) {
       this.duration = duration;
