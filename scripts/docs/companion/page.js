@@ -271,8 +271,9 @@ const cell = (axis) => (axis.stop - axis.start) / (axis.num - 1);
 /* A choice on an axis of a map; phases are told apart within one turn only. */
 const onAxis = (axis) =>
   axis.name === "psi0" ? ((chosen.psi0 % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI) : Number(chosen[axis.name]);
-const within = (axis) =>
-  onAxis(axis) >= axis.start - 0.5 * cell(axis) && onAxis(axis) <= axis.stop + 0.5 * cell(axis);
+/* What the cells of an axis cover: grid points are the middles of their cells. */
+const reach = (axis) => [axis.start - 0.5 * cell(axis), axis.stop + 0.5 * cell(axis)];
+const within = (axis) => onAxis(axis) >= reach(axis)[0] && onAxis(axis) <= reach(axis)[1];
 
 /* Parameters in which the choice is not that of a map. Friction does not act on the vertical motion, nor on states. */
 function differences(one) {
@@ -301,7 +302,7 @@ function moveTo(x, y) {
 function showMap() {
   const other = differences(map);
   const [xControl, yControl] = [CONTROLS[map.x.name], CONTROLS[map.y.name]];
-  mapFrame = frame(mapCanvas, [map.x.start, map.x.stop], [map.y.start, map.y.stop]);
+  mapFrame = frame(mapCanvas, reach(map.x), reach(map.y));
   const { context, left, top, width, height } = mapFrame;
   context.imageSmoothingEnabled = false;
   context.globalAlpha = other.length ? 0.3 : 1;
@@ -356,7 +357,7 @@ function showMapLegend() {
 function clickMap(event) {
   const { left, top, width, height } = mapFrame;
   const box = mapCanvas.getBoundingClientRect();
-  const along = (axis, share) => axis.start + Math.round(Math.min(Math.max(share, 0), 1) * (axis.num - 1)) * cell(axis);
+  const along = (axis, share) => axis.start + Math.round(share * axis.num - 0.5) * cell(axis);
   const x = along(map.x, (event.clientX - box.left - left) / width);
   moveTo(x, along(map.y, 1 - (event.clientY - box.top - top) / height));
 }
@@ -401,7 +402,7 @@ const eulerDrawn = () => eulerRun && eulerRun.status === "ok";
 
 function eulerText() {
   if (!eulerRun) return "computing …";
-  if (!eulerDrawn()) return "blows up";
+  if (!eulerDrawn()) return eulerRun.status;
   const [found, exact] = [eulerRun, run].map((one) => one.meanVelocity(data.last));
   const deviation = Math.abs(exact) > 1e-9 ? ` (${signed(digits((100 * (found - exact)) / exact, 2))} %)` : "";
   return `${signed(digits(found, 7))} m/s${deviation}`;

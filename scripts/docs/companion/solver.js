@@ -753,6 +753,9 @@ const solver = (() => {
     }
   }
 
+  // m: a part that far from where it started has blown up.
+  const FAR = 1;
+
   function euler(parameters, duration, step, stride) {
     const c = constants(parameters, 0);
     const steps = Math.max(1, Math.round(duration / step));
@@ -762,6 +765,7 @@ const solver = (() => {
     let vx = 0;
     let z = parameters.z0 === "conveyor" ? -c.height * Math.cos(c.psi0) : parameters.z0;
     let vz = parameters.vz0;
+    const start = z;
     for (let i = 0; i <= steps; i++) {
       const phase = c.omega * (i * step) + c.psi0;
       const sine = Math.sin(phase);
@@ -772,8 +776,8 @@ const solver = (() => {
       const mu = push < 0 && c.tension === "frictionless" ? 0 : c.friction;
       const rub = mu * push * Math.sign(c.speedX * sine - vx);
       if (i % stride === 0) {
-        if (!Number.isFinite(x + vx + z + vz)) {
-          run.status = "not finite";
+        if (!(Math.abs(z - start) < FAR)) {
+          run.status = "blows up";
           return run;
         }
         states.set([x, vx, z, vz, c.mass * push, c.mass * rub], 6 * (i / stride));
