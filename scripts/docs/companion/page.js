@@ -79,7 +79,7 @@ function fault(name, value) {
 function addControl([name, control]) {
   const { label, unit, factor, low, high, step, log, main } = control;
   const id = `parameter-${name}`;
-  const number = element("input", { type: "number", id, step: "any", inputMode: "decimal" });
+  const number = element("input", { type: "number", id, step: "any" });
   const slider = element("input", { type: "range", min: low, max: high, step });
   const message = element("p", { className: "wrong", id: `${id}-wrong`, hidden: true });
   slider.setAttribute("aria-label", label);
@@ -544,19 +544,12 @@ function looks() {
 
 function showLegend(look) {
   const shown = [look.part, look.plate, ...(twin ? [look.twin] : []), ...(eulerDrawn() ? [look.euler] : [])];
-  byId("legend").replaceChildren(
-    ...shown.map(({ colour, width, dash, label }) => {
-      const line = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-      line.setAttribute("width", 28);
-      line.setAttribute("height", 6);
-      line.setAttribute("aria-hidden", "true");
-      line.innerHTML = '<path d="M0 3h28" fill="none"/>';
-      line.style.stroke = colour;
-      line.style.strokeWidth = width;
-      line.style.strokeDasharray = dash || "";
-      return element("span", {}, line, label);
-    }),
-  );
+  const entries = shown.map(({ colour, width, dash, label }) => {
+    const line = element("span", { className: "line" });
+    line.style.borderTop = `${width}px ${dash ? "dashed" : "solid"} ${colour}`;
+    return element("span", {}, line, label);
+  });
+  byId("legend").replaceChildren(...entries);
 }
 
 /* How many samples a curve of a duration takes at so many to a cycle. */
@@ -608,22 +601,22 @@ function timeWindow() {
 }
 
 /* A plot of a quantity over the time in view. */
-function drawSignal(id, name, label, scale, times, curves, window) {
+function drawSignal(id, name, label, scale, times, curves, view) {
   const canvas = byId(`plot-${id}`);
   const ranges = extent[id].map((one) => one * scale);
-  const shape = frame(canvas, window.map((one) => 1e3 * one), ranges);
+  const shape = frame(canvas, view.map((one) => 1e3 * one), ranges);
   axes(shape, "time t in ms", label);
   const xs = times.map((one) => 1e3 * one);
   draw(shape, curves.map(([values, look]) => ({ xs, ys: values.map((one) => scale * one[name]), look })));
   const [low, high] = bounds(times.map((one) => scale * run.at(one)[name])).map((one) => digits(one, 3));
-  const [from, to] = window.map((one) => (1e3 * one).toFixed(1));
+  const [from, to] = view.map((one) => (1e3 * one).toFixed(1));
   canvas.setAttribute("aria-label", `${label}: from ${from} to ${to} ms between ${low} and ${high}`);
 }
 
 function drawSignals() {
-  const window = timeWindow();
-  drawnWindow = String(window);
-  const times = moments(...window, samples(window[1] - window[0], 200));
+  const view = timeWindow();
+  drawnWindow = String(view);
+  const times = moments(...view, samples(view[1] - view[0], 200));
   const look = looks();
   const of = (one) => times.map((moment) => one.at(moment));
   const plates = times.map((moment) => solver.plate(run.c, moment));
@@ -631,10 +624,10 @@ function drawSignals() {
   // The second part lies beneath the first one, and comes into sight where they part.
   const parts = [...(twin ? [[of(twin), look.twin]] : []), part, ...(eulerDrawn() ? [[of(eulerRun), look.euler]] : [])];
   const ground = [plates, look.plate];
-  drawSignal("velocity", "vx", "velocity ẋ in m/s", 1, times, [ground, ...parts], window);
-  drawSignal("height", "z", "height z in mm", 1e3, times, [ground, ...parts], window);
-  drawSignal("contact", "contactForce", "contact force in N", 1, times, parts, window);
-  drawSignal("friction", "frictionForce", "friction force in N", 1, times, parts, window);
+  drawSignal("velocity", "vx", "velocity ẋ in m/s", 1, times, [ground, ...parts], view);
+  drawSignal("height", "z", "height z in mm", 1e3, times, [ground, ...parts], view);
+  drawSignal("contact", "contactForce", "contact force in N", 1, times, parts, view);
+  drawSignal("friction", "frictionForce", "friction force in N", 1, times, parts, view);
 }
 
 let phaseFrame;
