@@ -30,6 +30,7 @@ rule all:
     default_target: True
     input:
         figure_files(),
+        caption_files(),
         result("claims.md"),
         result("checked.txt"),
     localrule: True

@@ -18,7 +18,13 @@ def columns(settings: dict, *, threads: int = 1, progress: str | None = None) ->
             parameters, transient=settings["transient"], strobes=settings["strobes"], tolerance=settings["tolerance"]
         )
         starts = attractors.as_starts(parameters, points[:, -1], settings["tolerance"])
-        state, period = states.classify(starts, threads=threads, progress=progress and f"{progress}, {branch}")
+        found = states.classify(
+            starts,
+            cycles=settings["settling"],
+            tolerance=settings["tolerance"],
+            threads=threads,
+            progress=progress and f"{progress}, {branch}",
+        )
         count = settings["strobes"]
         parts.append(
             {
@@ -27,8 +33,8 @@ def columns(settings: dict, *, threads: int = 1, progress: str | None = None) ->
                 "cycle": np.tile(np.arange(count), len(amplitudes)),
                 "delta": points[order, :, 0].ravel(),
                 "v": points[order, :, 1].ravel(),
-                "state": np.repeat(state[order], count),
-                "period": np.repeat(period[order], count),
+                "state": np.repeat(found.state[order], count),
+                "period": np.repeat(found.period[order], count),
                 "status": np.repeat(status[order], count),
             }
         )

@@ -1,68 +1,57 @@
 """Rule claims: the paper's checkable statements, what both methods give, and verdicts that follow from the numbers."""
 
+import importlib
 import math
 
-import numpy as np
 import pandas as pd
 
 from conveyor import tables
-from findings import chaos, states
-from findings.finding import Finding
+from findings import chaos, states  # noqa: F401 - what `find` looks up belongs to what this rule runs
+from findings.finding import METHODS, Finding
 from rule_log import logged
 
-FINDINGS = {
-    "C01": states.critical_acceleration,
-    "C02": states.interval,
-    "C03": states.onset_of_chaos,
-    "C04": states.largest_critical_height,
-    "C05": states.first_velocity,
-    "C06": states.second_velocity,
-    "C07": states.critical_height(40.0),
-    "C08": states.critical_height(35.0),
-    "C09": states.fit,
-    "C10": states.interval,
-    "C11": states.one_onset,
-    "C12": states.impact_line,
-    "C13": states.vertical_lines,
-    "C14": states.horizontal_lines,
-    "C15": chaos.no_period,
-    "C16": chaos.irregular,
-    "C17": states.overlap,
-    "C18": chaos.height_estimate,
-    "C19": chaos.phase_estimate,
-    "C20": chaos.portraits,
-    "C21": chaos.predicted_onset,
-    "C22": states.euler_error,
-    "C23": states.mapped,
-}
 REPRODUCED = "reproduced"
-PUBLISHED_ONLY = "reproduced by the published method only"
+PAPER_METHOD_ONLY = "reproduced by the paper's method only"
 NOT_REPRODUCED = "not reproduced"
+NAMES = {"euler": "paper's method", "converged": "converged solution"}
 
 
-def holds(values: tuple[float, ...], accepted: list[list[float | None]]) -> bool:
-    """Whether every value lies in its accepted interval; null is no bound."""
-    return all(
-        (low is None or value >= low) and (high is None or value <= high) and not math.isnan(value)
-        for value, (low, high) in zip(values, accepted, strict=True)
-    )
+def find(claim: dict, read: dict[str, pd.DataFrame]) -> Finding:
+    """The Finding of a claim of the config, from the tables by their references."""
+    module, function = claim["finding"].split(".")
+    found = getattr(importlib.import_module(f"findings.{module}"), function)
+    return found({role: read[reference] for role, reference in claim["tables"].items()}, **claim.get("settings", {}))
 
 
-def verdict(finding: Finding, accepted: list[list[float | None]]) -> str:
-    """What the numbers say: the converged ones decide, those of the published method where there are no others."""
-    published = bool(finding.published) and holds(finding.published, accepted)
-    if holds(finding.converged, accepted) if finding.converged else published:
+def holds(value: float, accepted: list[float | None]) -> bool:
+    """Whether a value lies in its accepted interval; null is no bound."""
+    low, high = accepted
+    return not math.isnan(value) and (low is None or value >= low) and (high is None or value <= high)
+
+
+def all_hold(values: dict[str, float], quantities: dict[str, dict]) -> bool:
+    """Whether each quantity lies in its interval; KeyError for one that is missing."""
+    return all(holds(values[name], quantity["accepted"]) for name, quantity in quantities.items())
+
+
+def verdict(finding: Finding, quantities: dict[str, dict]) -> str:
+    """What the numbers say: the converged ones decide, those of the paper's method where there are no others."""
+    by_paper = bool(finding.euler) and all_hold(finding.euler, quantities)
+    if all_hold(finding.converged, quantities) if finding.converged else by_paper:
         return REPRODUCED
-    return PUBLISHED_ONLY if published else NOT_REPRODUCED
+    return PAPER_METHOD_ONLY if by_paper else NOT_REPRODUCED
 
 
-def outside(finding: Finding, claim: dict) -> str:
+def outside(finding: Finding, quantities: dict[str, dict]) -> str:
     """Which quantities miss their accepted interval, in numbers."""
     texts = []
-    for method, values in (("published method", finding.published), ("converged solution", finding.converged)):
-        for value, interval, quantity in zip(values, claim["accepted"], claim["quantities"], strict=bool(values)):
-            if not holds((value,), [interval]):
-                texts.append(f"{quantity}: {value:.4g} by the {method} is not in {written(interval)}")
+    for method in METHODS:
+        for name, value in getattr(finding, method).items():
+            quantity = quantities[name]
+            if not holds(value, quantity["accepted"]):
+                texts.append(
+                    f"{quantity['is']}: {value:.4g} by the {NAMES[method]} is not in {written(quantity['accepted'])}"
+                )
     return "; ".join(texts)
 
 
@@ -73,55 +62,69 @@ def written(interval: list[float | None]) -> str:
 
 def columns(claims: dict[str, dict], found: dict[str, Finding]) -> dict[str, list]:
     """The columns of the table of claims."""
-    verdicts = [verdict(found[name], claim["accepted"]) for name, claim in claims.items()]
+    quantities = [claim["quantities"] for claim in claims.values()]
+    verdicts = [verdict(found[name], claim["quantities"]) for name, claim in claims.items()]
     reasons = [
-        "; ".join(filter(None, ("" if result == REPRODUCED else outside(found[name], claim), found[name].reason)))
-        or None
-        for result, (name, claim) in zip(verdicts, claims.items(), strict=True)
+        "; ".join(filter(None, ("" if result == REPRODUCED else outside(found[name], one), found[name].note))) or None
+        for result, name, one in zip(verdicts, claims, quantities, strict=True)
     ]
+
+    def listed(of) -> list[list]:
+        return [[of(quantity) for quantity in one.values()] for one in quantities]
+
+    def numbers(method: str) -> list[list[float]]:
+        values = [getattr(found[name], method) for name in claims]
+        return [[of[name] for name in one] if of else [] for of, one in zip(values, quantities, strict=True)]
+
     return {
         "id": list(claims),
-        **{name: [claim[name] for claim in claims.values()] for name in ("where", "statement", "quantities", "paper")},
-        "published": [list(found[name].published) for name in claims],
-        "converged": [list(found[name].converged) for name in claims],
-        "accepted_low": [[low for low, _ in claim["accepted"]] for claim in claims.values()],
-        "accepted_high": [[high for _, high in claim["accepted"]] for claim in claims.values()],
+        **{name: [claim[name] for claim in claims.values()] for name in ("where", "statement")},
+        "quantities": listed(lambda quantity: quantity["is"]),
+        "paper": listed(lambda quantity: quantity["paper"]),
+        "paper_method": numbers("euler"),
+        "converged": numbers("converged"),
+        "accepted_low": listed(lambda quantity: quantity["accepted"][0]),
+        "accepted_high": listed(lambda quantity: quantity["accepted"][1]),
+        "because": listed(lambda quantity: quantity["because"]),
         "verdict": verdicts,
         "reason": reasons,
     }
 
 
 def schema(reference: str) -> str:
-    """The schema of the table SECTION/NAME; those of the section `results` have one of their own."""
+    """The schema of the table SECTION/NAME; those of the sections `results` and `orbits` have one of their own each."""
     section, name = reference.split("/")
-    return name if section == "results" else section
+    return name if section in ("results", "orbits") else section
 
 
 def report(rows: pd.DataFrame) -> str:
     """The table in Markdown."""
 
     def numbers(values) -> str:
-        return ", ".join("–" if value is None or np.isnan(value) else f"{value:.4g}" for value in values) or "–"
+        return ", ".join("–" if value is None or math.isnan(value) else f"{value:.4g}" for value in values) or "–"
+
+    def bound(value: float | None) -> float | None:
+        return None if value is None or math.isnan(value) else value
 
     lines = [
         "# The paper's statements",
         "",
-        "Each verdict follows from the numbers: `reproduced` if the converged ones lie in the accepted intervals (the "
-        "published method's, where the statement is about the method), else `reproduced by the published method only` "
-        "or `not reproduced`. What each number is, and why its interval is as wide as it is, says the section `claims` "
-        "of the config.",
+        "Each verdict follows from the numbers: `reproduced` if the converged ones lie in the accepted intervals "
+        "(those of the paper's method, where the statement is about it), else `reproduced by the paper's method "
+        "only` or `not reproduced`. The paper's method is explicit Euler with the paper's step, computed here; what it "
+        "leaves is followed on by the converged solution where a state of motion is asked for.",
         "",
-        "| | Where | Statement | Quantities | Paper | Published method | Converged | Accepted | Verdict |",
+        "| | Where | Statement | Quantities | Paper | Paper's method, computed here | Converged | Accepted | Verdict |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
     for row in rows.itertuples():
         accepted = "; ".join(
-            written([None if low is None or np.isnan(low) else low, None if high is None or np.isnan(high) else high])
-            for low, high in zip(row.accepted_low, row.accepted_high, strict=True)
+            f"{written([bound(low), bound(high)])} ({because})"
+            for low, high, because in zip(row.accepted_low, row.accepted_high, row.because, strict=True)
         )
         lines.append(
             f"| {row.id} | {row.where} | {row.statement} | {'; '.join(row.quantities)} | {numbers(row.paper)} "
-            f"| {numbers(row.published)} | {numbers(row.converged)} | {accepted} | **{row.verdict}** |"
+            f"| {numbers(row.paper_method)} | {numbers(row.converged)} | {accepted} | **{row.verdict}** |"
         )
     told = rows.dropna(subset="reason")
     for title, part in (("Reasons", told[told.verdict != REPRODUCED]), ("Notes", told[told.verdict == REPRODUCED])):
@@ -134,10 +137,7 @@ if __name__ == "__main__":
         claims = snakemake.params.claims
         paths = dict(zip(snakemake.params.references, snakemake.input, strict=True))
         read = {reference: tables.read(path, schema(reference)) for reference, path in paths.items()}
-        found = {
-            name: FINDINGS[name]({role: read[reference] for role, reference in claim["tables"].items()})
-            for name, claim in claims.items()
-        }
+        found = {name: find(claim, read) for name, claim in claims.items()}
         tables.write(snakemake.output.table, "claims", columns(claims, found), settings={"claims": claims})
         with open(snakemake.output.report, "w", encoding="utf-8") as file:
             file.write(report(tables.read(snakemake.output.table, "claims")))

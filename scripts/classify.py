@@ -3,7 +3,8 @@
 import numpy as np
 import pandas as pd
 
-from conveyor import grid, states, tables
+from conveyor import grid, tables
+from motions import motions_after
 from rule_log import logged
 
 
@@ -14,11 +15,12 @@ def columns(
     _, parameters = grid.product(settings["axes"], settings["model"])
     ok = (runs.status == "ok").to_numpy()
     state = np.full(len(runs), "undecided")
-    period = np.zeros(len(runs), dtype=np.int64)
+    period, flight = np.zeros(len(runs), dtype=np.int64), np.full(len(runs), np.nan)
     ends = runs.z_end.to_numpy()[ok], runs.vz_end.to_numpy()[ok]
-    later = states.continued(parameters[ok], *ends, settings["duration"])
-    state[ok], period[ok] = states.classify(later, threads=threads, progress=progress)
-    return {**{name: runs[name].to_numpy() for name in runs}, "state": state, "period": period}
+    found = motions_after(parameters[ok], *ends, settings, threads=threads, progress=progress)
+    state[ok], period[ok], flight[ok] = found.state, found.period, found.longest_flight
+    columns = {name: runs[name].to_numpy() for name in runs}
+    return columns | {"state": state, "period": period, "longest_flight": flight}
 
 
 if __name__ == "__main__":

@@ -2,21 +2,24 @@
 
 import numpy as np
 
-from conveyor import critical, grid, states, sweep, tables
+from conveyor import critical, grid, sweep, tables
+from conveyor.chaotic_set import ChaoticSets
+from conveyor.states import classify, continued
+from motions import known_sets, tolerance_of
 from rule_log import logged
 
 
-def decide(parameters: np.ndarray, settings: dict, threads: int) -> np.ndarray:
+def decide(parameters: np.ndarray, settings: dict, known: ChaoticSets, threads: int) -> np.ndarray:
     """The state of motion that each start leads to.
 
-    A fixed-step method is followed for the duration, as the paper does; the state that it has reached by then decides.
+    A fixed-step method is followed for the duration, as the paper does; the converged solution goes on from its end.
     """
-    if settings["method"] == "event":
-        return states.classify(parameters, tolerance=settings["tolerance"], threads=threads)[0]
-    options = {name: settings[name] for name in ("duration", "method", "step")}
-    runs = sweep.run(parameters, needs="vertical", chunk=1, threads=threads, **options)
-    ends = states.continued(parameters, runs["z_end"], runs["vz_end"], settings["duration"])
-    return states.classify(ends, threads=threads)[0]
+    options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
+    if settings["method"] != "event":
+        run = {name: settings[name] for name in ("duration", "method", "step")}
+        runs = sweep.run(parameters, needs="vertical", chunk=8, threads=threads, **run)
+        parameters = continued(parameters, runs["z_end"], runs["vz_end"], settings["duration"])
+    return classify(parameters, known=known, **options).state
 
 
 def columns(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
@@ -26,8 +29,9 @@ def columns(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     """
     axes, parameters = grid.product(settings["axes"], settings["model"])
     heights = grid.axis_values("z0", settings["scan"])
+    known = known_sets(parameters, settings, threads=threads)
     found = critical.crossings(
-        parameters, heights, lambda rows: decide(rows, settings, threads), settings["resolution"]
+        parameters, heights, lambda rows: decide(rows, settings, known, threads), settings["resolution"]
     )
     first_row = np.searchsorted(found.point, found.point)
     return {

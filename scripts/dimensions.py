@@ -1,5 +1,7 @@
 """Rule dimensions: fractal dimension of the phase portrait ż_p over z_p, over the axes of an entry of the config."""
 
+import math
+
 import numpy as np
 
 from conveyor import dimension, grid, tables
@@ -23,8 +25,8 @@ def portrait(parameters: np.ndarray, settings: dict) -> np.ndarray:
 def estimate(points: np.ndarray, settings: dict) -> Dimension:
     """The dimension of a portrait by the estimator that the settings name."""
     match settings["estimator"]:
-        case "published":
-            return dimension.box_dimension_published(points, 0.5 ** np.arange(1, settings["octaves"] + 1))
+        case "paper":
+            return dimension.box_dimension_of_paper(points, 0.5 ** np.arange(1, settings["octaves"] + 1))
         case "box":
             return dimension.box_dimension(points)
         case "correlation":
@@ -41,7 +43,11 @@ def columns(settings: dict, *, threads: int = 1, progress: str | None = None) ->
             results[i] = estimate(portrait(parameters[i], settings), settings)[:4]
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=1, progress=progress)
-    return axes | dict(zip(("dimension", "error", "scale_low", "scale_high"), results.T, strict=True))
+    value, error, *scales = results.T
+    wide = error > settings.get("largest_error", math.inf)
+    status = np.select([np.isnan(value), wide], ["too few scales", "interval too wide"], "ok")
+    columns = dict(zip(("scale_low", "scale_high"), scales, strict=True))
+    return axes | {"dimension": np.where(wide, np.nan, value), "error": error, **columns, "status": status}
 
 
 if __name__ == "__main__":

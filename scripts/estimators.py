@@ -60,7 +60,7 @@ def dimension_rows(settings: dict, seed: int) -> list[dict]:
     """Median error of both dimensions over sets of known dimension."""
     estimators = {
         "boxes": dimension.box_dimension,
-        "boxes, published": dimension.box_dimension_published,
+        "boxes, as in the paper": dimension.box_dimension_of_paper,
         "correlation sum": lambda points: dimension.correlation_dimension(points, 0),
     }
     found = []

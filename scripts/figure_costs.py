@@ -1,30 +1,59 @@
-"""Rule figure_costs: what each figure took, from the benchmark files of the jobs that it needs."""
+"""Rule figure_costs: what each figure took, from the benchmark files of the jobs that the workflow says it needs."""
 
+import io
+import subprocess
+import sys
 from pathlib import Path
 
 import pandas as pd
 
 from rule_log import logged
 
-HEAD = "| Command | Wall time, s | Largest memory, MiB | Tables |\n|---|---|---|---|\n"
+HEAD = "| Command | Wall time, s | Largest memory, MiB | Jobs |\n|---|---|---|---|\n"
 
 
-def cost(files: list[str]) -> tuple[float, float]:
+def summary(targets: list[str], configfiles: list[str]) -> pd.DataFrame:
+    """Snakemake's own account of all files behind some targets: output_file, rule, log-file(s), input-file(s), …"""
+    options = ["--configfile", *configfiles] if configfiles else []
+    run = subprocess.run(
+        [sys.executable, "-m", "snakemake", "--nolock", "--detailed-summary", *targets, *options],
+        stdout=subprocess.PIPE,
+        text=True,
+        check=True,
+    )
+    return pd.read_csv(io.StringIO(run.stdout), sep="\t", dtype=str, keep_default_na=False)
+
+
+def jobs_of(target: str, table: pd.DataFrame) -> set[str]:
+    """The benchmark files of all jobs that a target needs, its own included."""
+    rows = table.set_index("output_file")
+    waiting, seen, jobs = [target], set(), set()
+    while waiting:
+        file = waiting.pop()
+        if file in seen or file not in rows.index:
+            continue
+        seen.add(file)
+        row = rows.loc[file]
+        jobs.add(row["log-file(s)"].replace("/logs/", "/benchmarks/").removesuffix(".log") + ".tsv")
+        waiting += filter(None, row["input-file(s)"].split(","))
+    return jobs
+
+
+def cost(files: set[str]) -> tuple[float, float]:
     """Sum of the wall times (s) and largest resident memory (MiB) of the jobs with these benchmark files."""
-    rows = pd.concat([pd.read_csv(file, sep="\t", na_values="-") for file in files])
+    rows = pd.concat([pd.read_csv(file, sep="\t", na_values="-") for file in sorted(files)])
     return float(rows["s"].sum()), float(rows["max_rss"].max())
 
 
-def report(figures: dict[str, dict]) -> str:
-    """The table in Markdown, for figures with their benchmark `files` and `tables`."""
+def report(jobs: dict[str, set[str]]) -> str:
+    """The table in Markdown, for figures with the benchmark files of their jobs."""
     lines = []
-    for name, entry in figures.items():
-        seconds, memory = cost(entry["files"])
-        tables = ", ".join(f"`{table}`" for table in entry["tables"]) or "none"
-        lines.append(f"| `snakemake figures/{name}.pdf` | {seconds:.0f} | {memory:.0f} | {tables} |\n")
-    everything = sorted({file for entry in figures.values() for file in entry["files"]})
+    for name, files in jobs.items():
+        seconds, memory = cost(files)
+        lines.append(f"| `snakemake figures/{name}.pdf` | {seconds:.0f} | {memory:.0f} | {len(files)} |\n")
+    everything = set().union(*jobs.values())
     seconds, memory = cost(everything)
-    lines.append(f"| all of them | {seconds:.0f} | {memory:.0f} | |\n")
+    lines.append(f"| all of them | {seconds:.0f} | {memory:.0f} | {len(everything)} |\n")
     return (
         "# What each figure costs\n\n"
         "Sum of the wall times of all jobs that a figure needs, one by one, on the machine where this was made "
@@ -35,4 +64,7 @@ def report(figures: dict[str, dict]) -> str:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        Path(snakemake.output[0]).write_text(report(snakemake.params.figures), encoding="utf-8")
+        files = dict(zip(snakemake.params.figures, snakemake.input, strict=True))
+        table = summary(list(files.values()), snakemake.params.configfiles)
+        jobs = {name: jobs_of(file, table) for name, file in files.items()}
+        Path(snakemake.output[0]).write_text(report(jobs), encoding="utf-8")

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from conveyor import grid, states, tables
+from conveyor import grid, tables
 from conveyor.first_impact import first_impacts, on_conveyor
+from motions import motions
 from rule_log import logged
 
 
@@ -12,10 +13,10 @@ def columns(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     axes, parameters = grid.product(settings["axes"], settings["model"])
     impacts = first_impacts(parameters)
     mapped = np.isfinite(impacts.time)
-    state, _ = states.classify(parameters, threads=threads)
+    state = motions(parameters, settings, threads=threads).state
     mapped_state = np.full(len(parameters), None, dtype=object)
     images = on_conveyor(parameters, impacts)[mapped]
-    mapped_state[mapped], _ = states.classify(images, threads=threads)
+    mapped_state[mapped] = motions(images, settings, threads=threads).state
     return {
         **axes,
         "impact_time": impacts.time,

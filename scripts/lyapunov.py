@@ -4,7 +4,6 @@ import numpy as np
 import pandas as pd
 
 from conveyor import attractors, grid, lyapunov, tables
-from conveyor.parallel import for_each_chunk
 from rule_log import logged
 
 
@@ -26,18 +25,8 @@ def columns(
     vertical = lyapunov.spectrum(
         parameters, transient=0, cycles=settings["cycles"], blocks=settings["blocks"], progress=progress, **options
     )
-    horizontal = np.empty(len(parameters))
-
-    def work(begin, end):
-        for i in range(begin, end):
-            horizontal[i] = lyapunov.horizontal_exponent(
-                parameters[i], duration=settings["horizontal_duration"], last=0.5, tolerance=settings["tolerance"]
-            )
-
-    label = progress and f"{progress}, horizontal"
-    for_each_chunk(work, len(parameters), threads=threads, chunk=8, progress=label)
     found = {name: getattr(vertical, name) for name in vertical._fields}
-    return {"acceleration": last.acceleration, "branch": last.branch, **found, "lambda_x": horizontal}
+    return {"acceleration": last.acceleration, "branch": last.branch, **found}
 
 
 if __name__ == "__main__":

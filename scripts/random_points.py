@@ -3,24 +3,30 @@
 import numpy as np
 
 from conveyor import sweep, tables
-from conveyor.model import PARAMETERS, TENSION, TENSION_MODES
-from conveyor.random_points import deepest, deepest_allowed, random_points
+from conveyor.model import FREQUENCY, PARAMETERS, TENSION, TENSION_MODES
+from conveyor.random_points import around_the_paper, deepest, deepest_allowed, whole_ranges
 from rule_log import logged
 
-# Moments of a run at which the penetration is looked at.
-MOMENTS = 401
+DRAWS = {"around the paper": around_the_paper, "whole ranges": whole_ranges}
 
 
 def columns(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table of random points for the settings of the config."""
-    parameters = random_points(settings["count"], settings["seed"])
+    counts = settings["count"]
+    parameters = np.concatenate([draw(counts[name], settings["seed"]) for name, draw in DRAWS.items()])
+    durations = settings["cycles"] / parameters[:, FREQUENCY]
     options = {"tolerance": settings["tolerance"], "threads": threads, "progress": progress}
-    runs = sweep.run(parameters, duration=settings["duration"], **options)
+    runs = sweep.run(parameters, duration=durations, **options)
     axes = dict(zip(PARAMETERS, parameters.T, strict=True))
     axes[PARAMETERS[TENSION]] = np.array(TENSION_MODES)[parameters[:, TENSION].astype(int)]
-    times = np.linspace(0.0, settings["duration"], MOMENTS)
-    depths = {"max_depth": deepest(parameters, times, **options), "allowed_depth": deepest_allowed(parameters)}
-    return axes | runs | depths
+    return {
+        **axes,
+        "drawn": np.repeat(list(DRAWS), [counts[name] for name in DRAWS]),
+        "duration": durations,
+        **runs,
+        "max_depth": deepest(parameters, durations, **options),
+        "allowed_depth": deepest_allowed(parameters, runs["max_gap"]),
+    }
 
 
 if __name__ == "__main__":

@@ -13,17 +13,17 @@ def columns(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
     low, high = settings["acceleration"]
     data = critical[critical.is_critical & critical.acceleration.between(low, high)]
     data = data.acceleration.to_numpy(), data.z0.to_numpy()
-    published = Hyperbola(**settings["published"])
+    paper = Hyperbola(**settings["paper"])
     bounds = {name: tuple(limits) for name, limits in settings["bounds"].items()}
     pymoo = regression.fit_pymoo(*data, bounds, settings["seed"], settings["evaluations"])
     least_squares = regression.fit_least_squares(*data, bounds["B"])
     valley = settings["valley"]
     valley, errors = regression.profile(*data, np.linspace(valley["start"], valley["stop"], int(valley["num"])))
-    triples = np.vstack([pymoo.parameters, least_squares.parameters, published, valley])
+    triples = np.vstack([pymoo.parameters, least_squares.parameters, paper, valley])
     return {
-        "fit": np.array(["pymoo", "least_squares", "published"] + ["valley"] * len(valley)),
+        "fit": np.array(["pymoo", "least_squares", "paper"] + ["valley"] * len(valley)),
         **dict(zip(Hyperbola._fields, triples.T, strict=True)),
-        "error": np.array([pymoo.error, least_squares.error, regression.mean_squared_error(*data, published), *errors]),
+        "error": np.array([pymoo.error, least_squares.error, regression.mean_squared_error(*data, paper), *errors]),
         "evaluations": np.array([pymoo.evaluations, least_squares.evaluations, 0] + [1] * len(valley)),
     }
 

@@ -6,19 +6,33 @@ approach as it does in the contact.
 """
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
 from tqdm import tqdm
 
 from conveyor import grid, rigid_ball, states, tables
-from conveyor.model import ACCELERATION, Conveyor, Start, pack, unpack
+from conveyor.model import (
+    ACCELERATION,
+    DAMPING,
+    EXPONENT,
+    MASS,
+    STIFFNESS,
+    TENSION,
+    Conveyor,
+    Start,
+    pack,
+    unpack,
+)
 from conveyor.rigid_orbit import RigidOrbit, rigid_orbit
 from rule_log import logged
 
 SPEEDS = np.geomspace(1e-3, 1.0, 64)  # m/s, of approach, at which the contact's restitution is tabulated
-SETTLED = 4.0  # s, after which a rigid part has found its motion
+MAX_PERIOD = 64  # excitation cycles, of the motions that count as settled, as for the contact
 CLOSE = 1e-2  # of the height of a jump: nearer than that, a motion has come back
+CYCLES = 2000  # after which a rigid part has found its motion, or is called undecided
+CONTACT_PARAMETERS = [STIFFNESS, DAMPING, MASS, EXPONENT, TENSION]  # on which restitution depends
 CONTACT, RIGID, ONE_NUMBER = "contact", "rigid part, e(u)", "rigid part, one e"
 
 
@@ -27,19 +41,21 @@ def table_of_restitution(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray
     return SPEEDS, rigid_ball.restitution_coefficients(parameters, SPEEDS)
 
 
-def state_of(row: np.ndarray, restitution: tuple[np.ndarray, np.ndarray]) -> str:
-    """State of motion of a rigid part: by its last flights, and by whether it repeats itself."""
+def state_of(row: np.ndarray, restitution: tuple[np.ndarray, np.ndarray], cycles: int) -> str:
+    """State of motion of a rigid part after some cycles: by its last flights, and by whether it repeats itself.
+
+    What does not is `undecided`: chaos is a matter of exponents, which a rigid part has not been asked for.
+    """
     conveyor, _ = unpack(row)
-    cycle = 1.0 / conveyor.frequency
-    hits = rigid_ball.impacts(row, SETTLED, restitution)
-    late = hits[hits["time"] > 0.75 * SETTLED]
-    flights = np.diff(late["time"])
+    duration, cycle = cycles / conveyor.frequency, 1.0 / conveyor.frequency
+    hits = rigid_ball.impacts(row, duration, restitution)
+    flights = np.diff(hits[hits["time"] > duration - 2.0 * MAX_PERIOD * cycle]["time"])
     if len(flights) == 0 or flights.max() < states.LONG_FLIGHT * cycle:
         return "first"
-    return "chaos" if period_of(row, SETTLED, restitution, (1, 2, 4)) == 0 else "second"
+    return "second" if period_of(row, duration, restitution, range(1, MAX_PERIOD + 1)) else "undecided"
 
 
-def period_of(row: np.ndarray, duration: float, restitution, periods: tuple[int, ...], close: float = CLOSE) -> int:
+def period_of(row: np.ndarray, duration: float, restitution, periods: Sequence[int], close: float = CLOSE) -> int:
     """First of some periods (cycles) with which a rigid part repeats itself at the end of a run; 0 for none."""
     conveyor, _ = unpack(row)
     strobes = duration - np.arange(2 * max(periods)) / conveyor.frequency
@@ -52,16 +68,20 @@ def period_of(row: np.ndarray, duration: float, restitution, periods: tuple[int,
     return 0
 
 
-def swept(settings: dict) -> pd.DataFrame:
-    """Mean velocities (m/s) and states of rigid parts in place of those of a sweep."""
+def swept(settings: dict, cycles: int = CYCLES) -> pd.DataFrame:
+    """Mean velocities (m/s) and states of rigid parts, after some cycles, in place of those of a sweep."""
     axes, parameters = grid.product(settings["axes"], settings["model"])
-    restitution = table_of_restitution(parameters[0])
+    # Rows of one contact share its table of restitution.
+    contacts, contact = np.unique(parameters[:, CONTACT_PARAMETERS], axis=0, return_inverse=True)
+    tables_of_contacts = [table_of_restitution(parameters[np.argmax(contact == k)]) for k in range(len(contacts))]
+    restitution = [tables_of_contacts[k] for k in contact]
     duration = settings["duration"]
+    both = list(zip(parameters, restitution, strict=True))
     return pd.DataFrame(
         {
             **axes,
-            "mean_velocity": [rigid_ball.run(row, duration, restitution).mean_velocity for row in parameters],
-            "state": [state_of(row, restitution) for row in parameters],
+            "mean_velocity": [rigid_ball.run(row, duration, e).mean_velocity for row, e in both],
+            "state": [state_of(row, e, cycles) for row, e in both],
         }
     )
 

@@ -34,9 +34,6 @@ NOTHING = {
     "tolerance": np.nan,
     "duration": np.nan,
     "points": 0,
-    "seconds": 0.0,
-    "full_seconds": 0.0,
-    "ratio": np.nan,
     "steps": 0.0,
     "sticks": np.nan,
     "known": np.nan,
@@ -45,6 +42,9 @@ NOTHING = {
     "chosen": True,
     "reason": None,
 }
+
+# Columns of the table of wall times, which differ from run to run.
+TIMES = ("table", "variant", "tolerance", "seconds", "full_seconds", "ratio")
 
 
 def least_time(work: Callable[[], Any]) -> tuple[float, Any]:
@@ -90,7 +90,8 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     needs = "vertical" if shown.vertical else settings.get("needs", "feeding")
     if section == "sweeps" and needs == "vertical":
         shown = shown._replace(drawn=("state",), what="state", settled=True)
-    settings = settings | {"axes": observables.thinned(settings["axes"], budget["points"][section])}
+    thinned = observables.thinned(settings["axes"], budget["points"][section])
+    settings = settings | {"axes": thinned} | budget["shortened"].get(section, {})
     _, parameters = grid.product(settings["axes"], settings["model"])
     full_settings = settings | {"needs": "feeding", "tolerance": TIGHT}
     shown.observe(settings)  # loads compiled code
@@ -135,8 +136,8 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
 
 def columns(
     entries: dict[str, dict], drawn: dict[str, list[str]], budget: dict, *, progress: str | None = None
-) -> dict[str, np.ndarray]:
-    """The columns of the table of budgets: rows by figure, table and variant.
+) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """The columns of the table of budgets, rows by figure, table and variant, and of that of their wall times.
 
     Parameters
     ----------
@@ -154,11 +155,16 @@ def columns(
         for figure, references in drawn.items()
         for row in ([one for reference in references for one in found[reference]] if references else [NOTHING])
     ]
-    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
+    times = [row for of_table in found.values() for row in of_table]
+    return (
+        {column: np.array([row[column] for row in rows]) for column in ("figure", *NOTHING)},
+        {column: np.array([row[column] for row in times]) for column in TIMES},
+    )
 
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         parameters = snakemake.params
-        found = columns(parameters.entries, parameters.drawn, parameters.budget, progress="scene budget")
-        tables.write(snakemake.output[0], "scene_budget", found, settings=parameters.budget)
+        verdicts, times = columns(parameters.entries, parameters.drawn, parameters.budget, progress="scene budget")
+        tables.write(snakemake.output.table, "scene_budget", verdicts, settings=parameters.budget)
+        tables.write(snakemake.output.times, "budget_times", times, settings=parameters.budget)

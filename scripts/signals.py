@@ -4,16 +4,15 @@ import numpy as np
 
 from conveyor import grid, tables
 from conveyor.model import conveyor_motion, unpack
-from conveyor.simulation import simulate
+from conveyor.simulation import Run, simulate
+from motions import motions_after
 from rule_log import logged
 
 
-def motion(parameters: np.ndarray, times: np.ndarray, options: dict) -> dict[str, np.ndarray]:
-    """The motion of one part and of its plate at `times` (s), from its parameter vector, shape (13,)."""
-    conveyor, start = unpack(parameters)
-    part = simulate(conveyor, start, **options).sample(times)
-    plate = {f"plate_{name}": values for name, values in conveyor_motion(conveyor, times).items()}
-    return {"time": times, **part, **plate}
+def motion(run: Run, times: np.ndarray) -> dict[str, np.ndarray]:
+    """The motion of one part and of its plate at `times` (s)."""
+    plate = {f"plate_{name}": values for name, values in conveyor_motion(run.conveyor, times).items()}
+    return {"time": times, **run.sample(times), **plate}
 
 
 def columns(settings: dict) -> dict[str, np.ndarray]:
@@ -21,8 +20,12 @@ def columns(settings: dict) -> dict[str, np.ndarray]:
     options = {name: settings[name] for name in ("duration", "method", "tolerance", "step") if name in settings}
     times = np.linspace(settings["times"]["start"], settings["times"]["stop"], int(settings["times"]["num"]))
     axes, parameters = grid.product(settings["axes"], settings["model"])
-    motions = [motion(row, times, options) for row in parameters]
-    repeated = {name: np.repeat(values, len(times)) for name, values in axes.items()}
+    runs = [simulate(*unpack(row), **options) for row in parameters]
+    ends = np.array([(run.z_end, run.vz_end) for run in runs]).T
+    found = motions_after(parameters, *ends, settings)
+    labels = {**axes, "state": found.state, "period": found.period}
+    motions = [motion(run, times) for run in runs]
+    repeated = {name: np.repeat(values, len(times)) for name, values in labels.items()}
     return repeated | {name: np.concatenate([one[name] for one in motions]) for name in motions[0]}
 
 

@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from conveyor import grid, states, tables
+from conveyor import grid, tables
 from conveyor.model import unpack
 from conveyor.simulation import Run, simulate
 from conveyor.spectrum import Spectrum, harmonics, windowed
+from motions import motions_after
 from rule_log import logged
 
 SIGNALS = ("vx", "vz")
@@ -33,7 +34,7 @@ def columns(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     axes, parameters = grid.product(settings["axes"], settings["model"])
     runs = [simulate(*unpack(row), **options) for row in parameters]
     ends = np.array([(run.z_end, run.vz_end) for run in runs]).T
-    _, periods = states.classify(states.continued(parameters, *ends, settings["duration"]), threads=threads)
+    periods = motions_after(parameters, *ends, settings, threads=threads).period
     spectra = [
         spectra_of_end(run, period, settings["last"], settings["samples_per_cycle"])
         for run, period in zip(runs, periods, strict=True)

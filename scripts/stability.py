@@ -46,11 +46,19 @@ def limit(method: str, stiffness: float, damping: float, mass: float) -> float:
         rate, square = damping / mass, stiffness / mass
         return (math.sqrt(rate * rate + 4.0 * square) - rate) / square
 
+    if method != "rk4":
+        raise ValueError(f"method = {method!r} is not one of {', '.join(fixed_step.METHODS)}")
+
     def growth(step):
         return max(abs(1 + (x := step * root) * (1 + x / 2 * (1 + x / 3 * (1 + x / 4)))) for root in roots) - 1.0
 
     size = max(map(abs, roots))
     return brentq(growth, 1.0 / size, 4.0 / size)
+
+
+def whole(duration: float, step: float) -> float:
+    """The least whole number of steps (s) that lasts for a duration (s)."""
+    return math.ceil(duration / step - 1e-9) * step
 
 
 def resting(stiffness: float, damping: float) -> tuple[Conveyor, float, float]:
@@ -68,7 +76,7 @@ def outcome_at_rest(method: str, step: float, stiffness: float, damping: float) 
         run = simulate(conveyor, start, duration=duration)
         z, vz, highest = run.z_end, run.vz_end, run.max_gap
     else:
-        found = fixed_step.run(pack(conveyor, start), duration, step, method)
+        found = fixed_step.run(pack(conveyor, start), whole(duration, step), step, method)
         z, vz, highest = found.z, found.vz, found.max_gap
     if not (math.isfinite(z) and math.isfinite(vz)) or max(abs(z), highest) > FAR:
         return BLOWS_UP
@@ -88,7 +96,7 @@ def restitution(method: str, step: float, speed: float, conveyor: Conveyor) -> f
         run = simulate(conveyor, start, duration=duration)
         z, vz = run.z_end, run.vz_end
     else:
-        found = fixed_step.run(pack(conveyor, start), duration, step, method)
+        found = fixed_step.run(pack(conveyor, start), whole(duration, step), step, method)
         z, vz = found.z, found.vz
     if not (math.isfinite(z) and abs(z) < FAR):
         return math.inf
@@ -129,6 +137,7 @@ def outcome_of_impact(method: str, step: float, speed: float, conveyor: Conveyor
 
 def outcome_on_conveyor(method: str, step: float, conveyor: Conveyor, start: Start, duration: float) -> str:
     """What becomes of a part on the vibrating plate, against the event-driven solver."""
+    duration = whole(duration, step)
     truth = simulate(conveyor, start, duration=duration)
     found = fixed_step.run(pack(conveyor, start), duration, step, method)
     if found.status != "ok" or max(abs(found.z), found.max_gap) > FAR:
@@ -207,7 +216,8 @@ def chatter_rows(settings: dict) -> list[dict]:
     for step in settings["chatter_steps"]:
         times = 0.1 + step * np.arange(2000)
         for method in ("euler", "event"):
-            run = simulate(conveyor, Start("conveyor"), duration=times[-1], method=method, step=step)
+            duration = whole(times[-1] + step, step)
+            run = simulate(conveyor, Start("conveyor"), duration=duration, method=method, step=step)
             slips = run.sample(times)["vx"] - conveyor_motion(conveyor, times)["vx"]
             slip = float(np.sqrt(np.mean(slips**2)))
             rows.append(row("chatter", method, step, slip, RIGHT if slip < 1e-12 else WRONG))
@@ -230,7 +240,7 @@ def hard_rows(settings: dict, step: float) -> list[dict]:
         error = abs(own.z_end - truth.z_end) / scale
         fine = own.status == truth.status == "ok" and own.event_count == truth.event_count and error < FINE
         rows.append(row(f"hard: {case['label']}", "event", own.event_count, error, RIGHT if fine else WRONG))
-        euler = fixed_step.run(pack(conveyor, start), case["duration"], step)
+        euler = fixed_step.run(pack(conveyor, start), whole(case["duration"], step), step)
         error = abs(euler.z - truth.z_end) / scale
         if euler.status != "ok" or max(abs(euler.z), euler.max_gap) > FAR:
             outcome = BLOWS_UP
@@ -245,7 +255,7 @@ def hard_rows(settings: dict, step: float) -> list[dict]:
 def columns(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table of stability."""
     rows = region_rows(settings, progress) + chatter_rows(settings)
-    rows += hard_rows(settings["hard"], settings["published_step"])
+    rows += hard_rows(settings["hard"], settings["paper_step"])
     return {name: np.array([one[name] for one in rows]) for name in rows[0]}
 
 

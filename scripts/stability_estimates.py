@@ -1,4 +1,4 @@
-"""Rule stability_estimates: how far the published estimates carry.
+"""Rule stability_estimates: how far the paper's estimates carry.
 
 The exponent by finite differences (Eq. 23) over perturbation, time and step, in motions whose exponent is known; the
 dimension over the number of points of known sets and of phase portraits, and over the time of the run.
@@ -52,7 +52,7 @@ def largest_estimate(parameters: np.ndarray, output: str, epsilon: float, durati
 
 
 def exponent_rows(settings: dict, model: dict, progress: str | None) -> list[dict]:
-    """The published estimate with its perturbation, its time and its step varied one by one."""
+    """The paper's estimate with its perturbation, its time and its step varied one by one."""
     usual = {name: settings[name] for name in ("epsilon", "duration", "step")}
     varied = {
         "perturbation": [usual | {"epsilon": value} for value in settings["epsilons"]],
@@ -84,21 +84,21 @@ def portrait(parameters: np.ndarray, times: np.ndarray, method: str) -> np.ndarr
     return np.stack([motion["z"], motion["vz"]], axis=1)
 
 
-def published(points: np.ndarray, settings: dict) -> Dimension:
+def as_in_the_paper(points: np.ndarray, settings: dict) -> Dimension:
     """The dimension as the paper counts boxes."""
-    return dimension.box_dimension_published(points, 0.5 ** np.arange(1, settings["octaves"] + 1))
+    return dimension.box_dimension_of_paper(points, 0.5 ** np.arange(1, settings["octaves"] + 1))
 
 
 def estimates(points: np.ndarray, theiler: int, settings: dict) -> dict[str, Dimension]:
     """The dimension of points by all estimators that can bear their number."""
-    found = {"boxes": dimension.box_dimension(points), "boxes, published": published(points, settings)}
+    found = {"boxes": dimension.box_dimension(points), "boxes, as in the paper": as_in_the_paper(points, settings)}
     if len(points) <= settings["correlated"]:
         found["correlation sum"] = dimension.correlation_dimension(points, theiler)
     return found
 
 
 def dimension_rows(settings: dict, model: dict, seed: int, progress: str | None) -> list[dict]:
-    """Dimensions of known sets and of settled portraits over the number of points, of published ones over the time."""
+    """Dimensions of known sets and of settled portraits over the number of points, the paper's over the time."""
     rows = []
 
     def add(panel, case, found, truth, **run):
@@ -118,10 +118,10 @@ def dimension_rows(settings: dict, model: dict, seed: int, progress: str | None)
             add("samples", name, estimates(points, settings["theiler"], settings), CURVE[name], samples=count)
     for name, case in settings["portraits"].items():
         for duration in settings["durations"]:
-            count = round(duration * model["frequency"] / settings["published_interval"]) + 1
+            count = round(duration * model["frequency"] / settings["paper_interval"]) + 1
             times = np.linspace(0.0, duration, count)
             points = portrait(parameters_of(case, model)[0], times, "euler")
-            found = {"boxes, published": published(points, settings)}
+            found = {"boxes, as in the paper": as_in_the_paper(points, settings)}
             add("run time", name, found, CURVE[name], samples=count, duration=duration)
     return rows
 

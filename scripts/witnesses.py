@@ -5,7 +5,7 @@ import pandas as pd
 
 from conveyor import stroboscope, tables
 from conveyor.parallel import for_each_chunk
-from conveyor.states import MAX_PERIOD
+from conveyor.settling import MAX_PERIOD
 from conveyor.zero_one import zero_one
 from lyapunov import starts_on_attractors
 from rule_log import logged

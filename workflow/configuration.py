@@ -1,8 +1,10 @@
 """The config: checked with errors that name the key and the remedy, and resolved to what one table depends on."""
 
+import ast
 import difflib
 import math
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import yaml
@@ -13,11 +15,33 @@ ROOT = Path(__file__).resolve().parent.parent
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 # Sections that make tables of their own, instead of one for each of their entries.
 TABLES = {
-    "orbits": ("branches", "folds_and_doublings", "cascade"),
+    "orbits": (
+        "branches",
+        "folds_and_doublings",
+        "cascade",
+        "certificates",
+        "certified_bifurcations",
+        "certified_chaos",
+        "certificate_times",
+    ),
     "attractors": ("strobes",),
     "lyapunov": ("spectrum", "witnesses"),
-    "results": ("estimators", "stability", "stability_estimates", "scene_budget", "rigid_part"),
+    "results": (
+        "estimators",
+        "stability",
+        "stability_estimates",
+        "scene_budget",
+        "budget_times",
+        "rigid_part",
+        "settling_times",
+    ),
 }
+# Tables of the folder of results that another section than that of their name makes.
+SECTION_OF = {"budget_times": "scene_budget"}
+# Sections whose tables say what motion a start ends in.
+SETTLING = ("sweeps", "critical", "impacts", "signals", "spectra")
+# Sections whose entries may be followed by a fixed-step method for their duration.
+METHODS = ("sweeps", "estimates", "critical", "signals", "spectra")
 # What YAML calls the types of JSON schema.
 KINDS = {
     "null": "null",
@@ -44,10 +68,12 @@ def reads_as_number(text: str) -> bool:
 
 def explain_range(value, schema: dict) -> str:
     """How a number misses the range of its schema, with the unit and the usual mix-up of units."""
-    low, high = schema.get("minimum", schema.get("exclusiveMinimum")), schema.get("maximum", math.inf)
+    low = schema.get("minimum", schema.get("exclusiveMinimum"))
+    high = schema.get("maximum", schema.get("exclusiveMaximum", math.inf))
     left = "(" if "exclusiveMinimum" in schema else "["
+    right = ")" if "exclusiveMaximum" in schema else "]"
     unit = schema.get("unit", "")
-    text = f"= {value!r} is outside {left}{low:g}, {high:g}] {unit}".rstrip()
+    text = f"= {value!r} is outside {left}{low:g}, {high:g}{right} {unit}".rstrip()
     if unit == "rad" and abs(value) > high:
         text += f"; angles are in radians, {value:g}° are {math.radians(value):.4f} rad"
     return text
@@ -68,7 +94,7 @@ def explain(error: ValidationError) -> str:
         case "required":
             missing = [name for name in schema["required"] if name not in value]
             return f"{key} lacks {', '.join(missing)}"
-        case "minimum" | "maximum" | "exclusiveMinimum":
+        case "minimum" | "maximum" | "exclusiveMinimum" | "exclusiveMaximum":
             if key.endswith(".num"):
                 return f"{key} = {value!r} makes an empty axis; give at least 1"
             return f"{key} {explain_range(value, schema)}"
@@ -108,11 +134,24 @@ def entry_of(config: dict, reference: str) -> dict | None:
     """What the config says about the table SECTION/NAME, or None if there is no such table."""
     section, name = reference.split("/")
     if name in TABLES.get(section, ()):
-        return config[name if section == "results" else section]
+        return config[SECTION_OF.get(name, name) if section == "results" else section]
     if section in ("precision", "wall_times"):
         return config["precision"] if name in config["precision"]["scenes"] else None
     entries = config.get(section)
     return entries.get(name) if isinstance(entries, dict) else None
+
+
+@cache
+def finding_names() -> frozenset[str]:
+    """MODULE.FUNCTION of all functions of scripts/findings that give a Finding."""
+    return frozenset(
+        f"{path.stem}.{node.name}"
+        for path in (ROOT / "scripts/findings").glob("*.py")
+        for node in ast.parse(path.read_bytes()).body
+        if isinstance(node, ast.FunctionDef)
+        and getattr(node.returns, "id", None) == "Finding"
+        and path.stem != "finding"
+    )
 
 
 def contradictions(config: dict) -> Iterator[str]:
@@ -124,6 +163,13 @@ def contradictions(config: dict) -> Iterator[str]:
             if isinstance(entry, dict):
                 for axis in sorted(set(entry.get("axes", ())) & set(entry.get("model", ()))):
                     yield f"{section}.{name}.model.{axis} is an axis of this entry too; keep one of them"
+    for section in METHODS:
+        for name in config[section]:
+            entry = resolve(config, section, name)
+            if "step" in entry and not whole_steps(entry["duration"], entry["step"]):
+                count = max(1, round(entry["duration"] / entry["step"]))
+                reason = f"does not divide its duration of {entry['duration']!r} s; take {entry['duration'] / count!r}"
+                yield f"{section}.{name}.step = {entry['step']!r} s {reason}"
     for figure, entry in config["figures"].items():
         for file in (f"scripts/plots/{figure}.py", f"workflow/report/{figure}.rst"):
             if not (ROOT / file).is_file():
@@ -134,9 +180,10 @@ def contradictions(config: dict) -> Iterator[str]:
                 yield f"figures.{figure} needs feeding, but {reference} is computed for vertical needs only"
     for user in ("figures", "claims"):
         for name, entry in config[user].items():
-            for role, reference in entry["tables"].items():
-                if entry_of(config, reference) is None:
-                    yield f"{user}.{name}.tables.{role} = {reference!r} is no entry of the config"
+            for key in ("tables", "caption_tables"):
+                for role, reference in entry.get(key, {}).items():
+                    if entry_of(config, reference) is None:
+                        yield f"{user}.{name}.{key}.{role} = {reference!r} is no entry of the config"
     companion = config["companion"]
     for index, name in enumerate(companion["maps"]):
         if name not in config["sweeps"]:
@@ -144,10 +191,14 @@ def contradictions(config: dict) -> Iterator[str]:
     if companion["opening"] not in companion["presets"]:
         yield f"companion.opening = {companion['opening']!r} is not one of {', '.join(companion['presets'])}"
     for claim, entry in config["claims"].items():
-        for key in ("paper", "accepted"):
-            if len(entry[key]) != len(entry["quantities"]):
-                counts = f"{len(entry[key])} items for {len(entry['quantities'])} quantities"
-                yield f"claims.{claim}.{key} has {counts}; give one for each"
+        if entry["finding"] not in finding_names():
+            known = ", ".join(sorted(finding_names()))
+            yield f"claims.{claim}.finding = {entry['finding']!r} is no function of scripts/findings; there are {known}"
+        for name, quantity in entry["quantities"].items():
+            low, high = quantity["accepted"]
+            if low is not None and high is not None and low > high:
+                key = f"claims.{claim}.quantities.{name}.accepted"
+                yield f"{key} = {quantity['accepted']!r} is reversed; give [least, largest]"
 
 
 def problems(config: dict) -> list[str]:
@@ -167,11 +218,19 @@ def resolve(config: dict, section: str, name: str) -> dict:
         **{key: config["solver"][key] for key in ("duration", "method", "tolerance", "step")},
         **config[section][name],
     }
+    if section in SETTLING:
+        entry["settling"] = config["solver"]["settling"]
     entry["model"] = {**config["model"], **entry.get("model", {})}
     for axis in entry.get("axes", ()):
         del entry["model"][axis]
     del entry["step" if entry["method"] == "event" else "tolerance"]
     return entry
+
+
+def whole_steps(duration: float, step: float) -> bool:
+    """Whether a duration (s) is a whole number of steps (s), up to the rounding of both."""
+    count = round(duration / step)
+    return count > 0 and abs(duration / step - count) <= 1e-9 * count
 
 
 def count_points(axes: dict) -> int:

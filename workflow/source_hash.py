@@ -6,14 +6,16 @@ again exactly if something that it executes has changed in content.
 
 import ast
 import hashlib
-from collections.abc import Iterator
+import platform
+import sys
+from collections.abc import Iterable, Iterator
 from functools import cache
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import packages_distributions, version
 from pathlib import Path
 
 SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
-# Third-party packages whose version may change a number or a picture.
-PACKAGES = {"heyoka", "matplotlib", "numba", "numpy", "pyarrow", "pymoo", "scipy"}
+# Distributions that others work through.
+BEHIND = {"numba": ("llvmlite",), "matplotlib": ("pillow",)}
 
 
 def imported_names(path: Path) -> Iterator[tuple[str, str | None]]:
@@ -71,12 +73,28 @@ def closure(*scripts: str) -> tuple[list[Path], list[str]]:
     return sorted(files), sorted(packages)
 
 
-def version_of(package: str) -> str:
-    """Installed version of a package, or "none": heyoka need not be there."""
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return "none"
+@cache
+def distributions() -> dict[str, list[str]]:
+    """Names of the distributions that provide each importable top-level name."""
+    return packages_distributions()
+
+
+def versions(packages: Iterable[str]) -> list[str]:
+    """ "NAME==VERSION" of Python and of all installed distributions behind imported names; "NAME: none" for the others.
+
+    All of them may change a number or a picture; what belongs to Python itself has its version. numba compiles with
+    llvmlite, and matplotlib draws with pillow: what these import is not ours to see.
+    """
+    found = {f"python=={platform.python_version()}"}
+    for package in packages:
+        if package in sys.stdlib_module_names:
+            continue
+        names = distributions().get(package, [])
+        for name in [*names, *(behind for one in names for behind in BEHIND.get(one, ()))]:
+            found.add(f"{name}=={version(name)}")
+        if not names:
+            found.add(f"{package}: none")
+    return sorted(found)
 
 
 def source_hash(*scripts: str) -> str:
@@ -85,7 +103,6 @@ def source_hash(*scripts: str) -> str:
     digest = hashlib.sha256()
     for file in files:
         digest.update(f"{file.relative_to(SCRIPTS)}\0".encode() + file.read_bytes() + b"\0")
-    for package in packages:
-        if package in PACKAGES:
-            digest.update(f"{package}=={version_of(package)}\0".encode())
+    for package in versions(packages):
+        digest.update(f"{package}\0".encode())
     return digest.hexdigest()[:16]

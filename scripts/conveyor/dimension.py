@@ -17,7 +17,8 @@ COARSEST_SCALE = 0.25  # of the set's extent
 FINEST_SCALE = 2.0**-20  # of the set's extent; samples closer than this count as one: a settled orbit repeats itself
 SCALES_PER_OCTAVE = 4
 SCALES = np.geomspace(COARSEST_SCALE, FINEST_SCALE, 18 * SCALES_PER_OCTAVE + 1)
-SHIFTS = 16  # positions of each grid over which box counts are averaged
+PLACES = 1 << 21  # boxes of a grid up to which each has a place in memory
+SHIFTS = 8  # positions of each grid over which box counts are averaged
 SAMPLES_PER_BOX = 5.0  # with fewer, too many boxes stay empty by chance (e^-5 of them in a uniform set)
 MINIMUM_PAIRS = 1000  # closer than the smallest radius: 3 % noise
 MAXIMUM_PAIRS = 6e7  # distances to compute; larger sets are seen from fewer reference points
@@ -74,7 +75,7 @@ def box_dimension(points: np.ndarray) -> Dimension:
     return Dimension(-value, error, low, high, scales, counts)
 
 
-def box_dimension_published(points: np.ndarray, sizes: Iterable[float] = tuple(0.5 ** np.arange(1, 9))) -> Dimension:
+def box_dimension_of_paper(points: np.ndarray, sizes: Iterable[float] = tuple(0.5 ** np.arange(1, 9))) -> Dimension:
     """Box counting without precautions: one grid, a straight line through the counts of all `sizes`.
 
     The error is twice the standard error of the slope, as if the counts scattered independently.
@@ -167,7 +168,7 @@ def scaling_region(scales: np.ndarray, values: np.ndarray, uncertain: np.ndarray
 
     certain = straight & (slope_error <= 2.0 * slope_error[straight].min())
     best = np.flatnonzero(certain)[np.lexsort((slope_error[certain], -np.round(length[certain], 9)))[0]]
-    rivals = straight & (length >= 0.5 * length[best])
+    rivals = certain & (length >= 0.5 * length[best])
     choice = np.sqrt(np.mean((slope[rivals] - slope[best]) ** 2))
     drift = bent[best, 3] / length[best]
     stretch = [column[best : best + 1] for column in columns[:3]]
@@ -190,8 +191,22 @@ def fit_stretches(columns: list[np.ndarray], inside: np.ndarray, values: np.ndar
 
 
 @kernel
-def occupied(points, size, shift, keys, stamps, stamp):
-    """Number of boxes of a shifted grid that hold a point; `keys` and `stamps` are a hash table of length 2^k > n."""
+def occupied_by_place(points, size, shift, stamps, stamp):
+    """Number of boxes of a shifted grid that hold a point; `stamps` has a place for each of them."""
+    inverse = 1.0 / size
+    width = np.int64(inverse) + 2
+    count = 0
+    for i in range(len(points)):
+        place = np.int64(points[i, 0] * inverse + shift[0]) * width + np.int64(points[i, 1] * inverse + shift[1])
+        if stamps[place] != stamp:
+            stamps[place] = stamp
+            count += 1
+    return count
+
+
+@kernel
+def occupied_by_key(points, size, shift, keys, stamps, stamp):
+    """The same for boxes without number; `keys` and `stamps` are a hash table of length 2^k > n."""
     mask = np.uint64(len(keys) - 1)
     inverse = 1.0 / size
     count = 0
@@ -222,18 +237,22 @@ def box_counts(points, scales, shifts, samples_per_box):
     apart.
     """
     length = 1
-    while length < 2 * len(points):
+    while length < max(2 * len(points), PLACES):
         length *= 2
     keys = np.empty(length, np.uint64)
-    stamps = np.full(length, -1, np.int64)
-    distinct = occupied(points, scales[-1], shifts[0], keys, stamps, 0)
+    stamps = np.full(length, -1, np.int32)
+    distinct = occupied_by_key(points, scales[-1], shifts[0], keys, stamps, 0)
     counts = np.zeros(len(scales))
     stamp = 0
     for k in range(len(scales)):
         total = 0
+        by_place = (1.0 / scales[k] + 3.0) ** 2 <= PLACES
         for s in range(len(shifts)):
             stamp += 1
-            total += occupied(points, scales[k], shifts[s], keys, stamps, stamp)
+            if by_place:
+                total += occupied_by_place(points, scales[k], shifts[s], stamps, stamp)
+            else:
+                total += occupied_by_key(points, scales[k], shifts[s], keys, stamps, stamp)
         if total * samples_per_box > distinct * len(shifts):
             break
         counts[k] = total / len(shifts)

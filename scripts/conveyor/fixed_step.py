@@ -5,7 +5,7 @@ friction is sign(ẋ_s - ẋ_p) with sign(0) = 0, so that they chatter where the
 force may be negative, as in Eqs. 7 and 11, unless the model's `tension` says otherwise.
 
 Each evaluation of the forces takes the plate's sine and cosine directly, as the equations are written. Time is the step
-number times the step and does not drift.
+number times the step and does not drift. Explicit Euler is stepped in euler_lanes, the other two here.
 """
 
 import math
@@ -13,19 +13,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import model
+from . import euler_lanes, model
+from .euler_lanes import CHECK, EVENT_KINDS, IMPACT, NOT_FINITE, OK, SEPARATION, STATUSES
 from .jit import kernel
 
 METHODS = ("euler", "semi_implicit_euler", "rk4")
 EULER, SEMI_IMPLICIT_EULER, RK4 = range(len(METHODS))
-STATUSES = ("ok", "not finite")
-OK, NOT_FINITE = range(len(STATUSES))
-EVENT_KINDS = ("impact", "separation")
-IMPACT, SEPARATION = range(len(EVENT_KINDS))
 SAMPLE_COLUMNS = ("x", "vx", "z", "vz", "contact_force", "friction_force")
 EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U10")])
-
-CHECK = 256  # steps between checks that the state is finite
+WHOLE = 1e-9  # relative: a duration this close to a whole number of steps is one, up to the rounding of both
 
 
 @kernel
@@ -99,14 +95,14 @@ def rk4_step(state, rub1, push1, step, phase, turn, plate, contact, friction, gr
 
 @kernel
 def integrate(parameters, step, n_steps, method, sample_indices, samples, events):
-    """Integrate from t = 0 over `n_steps` steps.
+    """Integrate one trajectory from t = 0 over `n_steps` steps; explicit Euler: see `integrate_all`.
 
     Parameters
     ----------
     parameters : float64, shape (13,), packed as in `model.PARAMETERS`
     step : Δt, s
     n_steps : number of steps
-    method : EULER, SEMI_IMPLICIT_EULER or RK4
+    method : SEMI_IMPLICIT_EULER or RK4
     sample_indices : int64, shape (n,), ascending step numbers in [0, n_steps] to be sampled
     samples : float64, shape (n, 6), filled in the order of SAMPLE_COLUMNS (m, m/s, m, m/s, N, N); rows after a state
         that is not finite keep what they held
@@ -119,6 +115,8 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
         x (m), vx (m/s), z (m), vz (m/s) at the last step; number of events; impacts; time with contact force (s);
         largest gap (m) at the steps; number of force evaluations; status
     """
+    if method not in (SEMI_IMPLICIT_EULER, RK4):
+        raise ValueError("method is neither SEMI_IMPLICIT_EULER nor RK4")
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
     psi0 = parameters[model.PSI0]
     a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
@@ -164,12 +162,7 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
                 events[n_events, 0] = i * step
                 events[n_events, 1] = IMPACT if touching else SEPARATION
             n_events += 1
-        if method == EULER:
-            x += step * vx
-            vx += step * rub
-            z += step * vz
-            vz += step * (push - gravity)
-        elif method == SEMI_IMPLICIT_EULER:
+        if method == SEMI_IMPLICIT_EULER:
             vx += step * rub
             x += step * vx
             vz += step * (push - gravity)
@@ -182,6 +175,15 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
     evaluations = i * (4 if method == RK4 else 1)
     status = OK if math.isfinite(x + vx + z + vz) else NOT_FINITE
     return x, vx, z, vz, n_events, n_impacts, contact_steps * step, max_gap, evaluations, status
+
+
+def integrate_all(parameters, step, n_steps, method, sample_indices, samples, events, results):
+    """Integrate n trajectories with one of METHODS, given as its number; the rest as in `euler_lanes.integrate`."""
+    if method == EULER:
+        euler_lanes.integrate(parameters, step, n_steps, sample_indices, samples, events, results)
+    else:
+        for i in range(len(parameters)):
+            results[i] = integrate(parameters[i], step, n_steps, method, sample_indices, samples[i], events[i])
 
 
 class Summary(NamedTuple):
@@ -199,23 +201,44 @@ class Summary(NamedTuple):
     status: str  # one of STATUSES
 
 
+def check_positive(name: str, value: float) -> None:
+    """ValueError that names a time (s) which is not positive and finite."""
+    if not 0.0 < value < math.inf:
+        raise ValueError(f"{name} = {value!r} s is not positive and finite")
+
+
 def step_count(duration: float, step: float) -> int:
-    """The number of steps nearest to `duration` (s), at least one; ValueError if either is not positive and finite."""
-    for name, value in (("duration", duration), ("step", step)):
-        if not 0.0 < value < math.inf:
-            raise ValueError(f"{name} = {value!r} s is not positive and finite")
-    return max(1, round(duration / step))
+    """The number of steps (s) in `duration` (s).
+
+    Raises
+    ------
+    ValueError
+        if either is not positive and finite, or if the duration is no whole number of steps: a run would end elsewhere
+    """
+    check_positive("duration", duration)
+    check_positive("step", step)
+    count = round(duration / step)
+    if abs(duration / step - count) > WHOLE * max(count, 1) or count == 0:
+        nearest = max(count, 1)
+        raise ValueError(
+            f"duration = {duration!r} s is no whole number of steps of {step!r} s; "
+            f"take step = {duration / nearest!r} or duration = {nearest * step!r}"
+        )
+    return count
 
 
 def _integrate(parameters, step, n_steps, method, indices=(), n_events=0):
-    """Call `integrate` with new arrays: its result, the samples (NaN where none was reached) and the events."""
+    """Follow one trajectory: its results as a list, the samples (NaN where none was reached) and the events."""
     if method not in METHODS:
         raise ValueError(f"method = {method!r} is not one of {', '.join(METHODS)}")
     indices = np.asarray(indices, dtype=np.int64)
-    samples = np.full((len(indices), len(SAMPLE_COLUMNS)), math.nan)
-    events = np.empty((n_events, 2))
-    result = integrate(parameters, float(step), n_steps, METHODS.index(method), indices, samples, events)
-    return result, samples, events
+    samples = np.full((1, len(indices), len(SAMPLE_COLUMNS)), math.nan)
+    events = np.empty((1, n_events, 2))
+    results = np.empty((1, euler_lanes.RESULTS))
+    integrate_all(
+        parameters[np.newaxis], float(step), n_steps, METHODS.index(method), indices, samples, events, results
+    )
+    return results[0].tolist(), samples[0], events[0]
 
 
 def run(parameters: np.ndarray, duration: float, step: float, method: str = "euler", last: float = 0.25) -> Summary:
@@ -224,7 +247,7 @@ def run(parameters: np.ndarray, duration: float, step: float, method: str = "eul
     Parameters
     ----------
     parameters : float64, shape (13,), from `model.pack`
-    duration : s, rounded to whole steps
+    duration : s, a whole number of steps
     step : Δt, s
     method : one of METHODS
     last : share of the run, in (0, 1], over which the mean velocity (x(T) - x((1 - last) T)) / (last T) is taken
@@ -242,7 +265,9 @@ def run(parameters: np.ndarray, duration: float, step: float, method: str = "eul
     x, vx, z, vz, _, impacts, contact_time, max_gap, evaluations, status = result
     mean_velocity = (x - float(samples[0, 0])) / ((n_steps - first) * step)
     contact_fraction = contact_time / (n_steps * step)
-    return Summary(x, vx, z, vz, mean_velocity, impacts, contact_fraction, max_gap, evaluations, STATUSES[status])
+    return Summary(
+        x, vx, z, vz, mean_velocity, int(impacts), contact_fraction, max_gap, int(evaluations), STATUSES[int(status)]
+    )
 
 
 def sample(parameters: np.ndarray, times: np.ndarray, step: float, method: str = "euler") -> dict[str, np.ndarray]:
@@ -269,8 +294,9 @@ def sample(parameters: np.ndarray, times: np.ndarray, step: float, method: str =
     times = np.asarray(times, dtype=np.float64)
     if not (np.isfinite(times) & (times >= 0.0)).all():
         raise ValueError("times must be finite and not negative")
-    n_steps = step_count(max(times.max(initial=0.0), step), step)
+    check_positive("step", step)
     indices = np.rint(times.ravel() / step).astype(np.int64)
+    n_steps = int(indices.max(initial=1))
     order = np.argsort(indices, kind="stable")
     _, samples, _ = _integrate(parameters, step, n_steps, method, indices[order])
     values = np.empty_like(samples)
@@ -285,7 +311,8 @@ def events(parameters: np.ndarray, duration: float, step: float, method: str = "
     "separation"), in order of time.
     """
     n_steps = step_count(duration, step)
-    (_, _, _, _, n_events, *_), _, _ = _integrate(parameters, step, n_steps, method)
+    results, _, _ = _integrate(parameters, step, n_steps, method)
+    n_events = int(results[euler_lanes.EVENTS])
     _, _, rows = _integrate(parameters, step, n_steps, method, n_events=n_events)
     found = np.empty(n_events, dtype=EVENT_DTYPE)
     found["time"] = rows[:, 0]

@@ -1,15 +1,21 @@
 """Flight: the part follows a parabola, and no impact is ever jumped over.
 
-While the part is in the air its acceleration relative to the plate, q̈ = -g - a_z cos θ, lies between -(g + a_z) and
-a_z - g. The parabola of the lower bound reaches the plate before the part does, so a step to its root is safe.
+Above the plate's highest point nothing can be hit, so that a flight is followed there in one closed form. Below it the
+part's acceleration relative to the plate, q̈ = -g - a_z cos θ, lies between -(g + a_z) and a_z - g: the parabola of
+the lower bound reaches the plate before the part does, and a step to its root is safe.
 """
 
 import math
 
-from .jit import inlined
+from .jit import inlined, kernel
 
-MAX_STEPS = 400
+# A part stays below the plate's highest point for sqrt(a_z / g) / π cycles at most, a thousand within the ranges of
+# model.RANGES, and takes some ten steps in each: a search of this many steps is lost.
+MAX_STEPS = 1_000_000
 EPSILON = 2.220446049250313e-16
+TURN = 2.0 * math.pi
+# A gap below zero by more than this many roundings is no rounding.
+LOST = 1e6
 
 
 @inlined
@@ -22,8 +28,15 @@ def gap(z, vz, tau, theta, gravity, a_z, omega):
 
 
 @inlined
+def time_of_fall(velocity, height, gravity):
+    """Time (s) in which a part with an upward velocity (m/s) falls by a height ≥ 0 (m), without cancellation."""
+    root = math.sqrt(velocity * velocity + 2.0 * gravity * height)
+    return (velocity + root) / gravity if velocity > 0.0 else 2.0 * height / (root - velocity)
+
+
+@inlined
 def next_impact(z, vz, q, rate, theta, gravity, a_z, omega, limit):
-    """Duration (s) of the flight from gap q ≥ 0 (m) with its rate (m/s), approach speed at its end, and largest gap.
+    """Duration (s) of the flight from gap q ≥ 0 (m) with its rate (m/s), and approach speed at its end.
 
     Parameters
     ----------
@@ -35,13 +48,13 @@ def next_impact(z, vz, q, rate, theta, gravity, a_z, omega, limit):
 
     Returns
     -------
-    tau, speed, highest : s, m/s (≥ 0), m; tau is infinite if there is no impact before `limit`
+    tau, speed : s, m/s (≥ 0); tau is infinite if there is no impact before `limit`, NaN if the search got lost
     """
     bound = gravity + a_z
-    resolution = 4.0 * EPSILON * (abs(z) + a_z / (omega * omega))
-    highest = q
+    top = a_z / (omega * omega)
+    rounding = 4.0 * EPSILON * (abs(z) + top)
     tau = 0.0
-    if q <= resolution:
+    if q <= rounding:
         # From the plate the parabola has no room; the bound |d³q/dt³| ≤ a_z ω and the actual q̈ do.
         tau = 2.0 * max(rate, 0.0) / bound
         jerk = a_z * omega
@@ -53,24 +66,57 @@ def next_impact(z, vz, q, rate, theta, gravity, a_z, omega, limit):
         elif jerk > 0.0:
             tau = max(tau, 3.0 * (half + root) / jerk)
         tau = max(tau, 1e-9 / omega)
+        if tau >= limit:
+            return math.inf, 0.0
         q, rate = gap(z, vz, tau, theta, gravity, a_z, omega)
     for _ in range(MAX_STEPS):
-        if q <= resolution and rate <= 0.0:
-            return tau, -rate, highest
+        velocity = vz - gravity * tau
+        height = z + 0.5 * (vz + velocity) * tau
+        # What the longest way so far, up or down, has lost of its digits.
+        rounding = 4.0 * EPSILON * (abs(z) + abs(vz * tau) + 0.5 * gravity * tau * tau + top)
+        if q <= rounding and rate <= 0.0:
+            return tau, -rate
         if q < 0.0:
-            return tau, 0.0, highest
-        advance = (rate + math.sqrt(rate * rate + 2.0 * bound * q)) / bound
+            return (tau if q > -LOST * rounding else math.nan), 0.0
+        advance = 0.0
+        if height > top + rounding:
+            advance = time_of_fall(velocity, height - top, gravity)
         if advance <= 2.0 * EPSILON * tau:
-            return tau, max(-rate, 0.0), highest
-        previous = tau
-        previous_rate = rate
-        tau = min(tau + advance, limit)
+            advance = time_of_fall(rate, q, bound)
+            if advance <= 2.0 * EPSILON * tau:
+                return tau, max(-rate, 0.0)
+        tau += advance
+        if tau >= limit:
+            return math.inf, 0.0
         q, rate = gap(z, vz, tau, theta, gravity, a_z, omega)
-        if previous_rate > 0.0 and rate <= 0.0:
-            highest = max(highest, summit(z, vz, previous, tau, theta, gravity, a_z, omega))
-        if tau == limit:
-            return math.inf, 0.0, max(highest, q)
-    return math.inf, 0.0, highest
+    return math.nan, 0.0
+
+
+@kernel
+def highest_gap(z, vz, theta, gravity, a_z, omega, duration):
+    """Largest gap (m) of a flight from z (m), vz (m/s) at the phase `theta` (rad) that takes `duration` (s).
+
+    Within an excitation cycle of the top of the parabola the plate is at its lowest point once, and a gap further away
+    is smaller than the one there. The gap's rate falls monotonically where g + a_z cos θ > 0, around each such point:
+    there a largest gap, if there is one, is bracketed.
+    """
+    top = min(max(vz / gravity, 0.0), duration)
+    begin, end = max(top - TURN / omega, 0.0), min(top + TURN / omega, duration)
+    highest = max(
+        gap(z, vz, begin, theta, gravity, a_z, omega)[0],
+        gap(z, vz, end, theta, gravity, a_z, omega)[0],
+    )
+    falling = math.pi if a_z <= gravity else math.acos(-gravity / a_z)  # half-width of such a stretch, rad
+    lowest = math.ceil((theta + omega * begin - falling) / TURN)
+    while TURN * lowest - falling < theta + omega * end:
+        low = max((TURN * lowest - falling - theta) / omega, begin)
+        high = min((TURN * lowest + falling - theta) / omega, end)
+        lowest += 1
+        if not low < high:
+            continue
+        if gap(z, vz, low, theta, gravity, a_z, omega)[1] > 0.0 > gap(z, vz, high, theta, gravity, a_z, omega)[1]:
+            highest = max(highest, summit(z, vz, low, high, theta, gravity, a_z, omega))
+    return highest
 
 
 @inlined

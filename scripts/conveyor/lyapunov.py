@@ -1,4 +1,4 @@
-"""Lyapunov exponents: from the variational equation, from pairs of trajectories, and as published.
+"""Lyapunov exponents: from the variational equation, from pairs of trajectories, and as in the paper.
 
 The variational exponents multiply the exact linearisation of the stroboscopic map. They satisfy
 λ1 + λ2 = -(d_c/m) × (share of time with contact force) identically.
@@ -9,11 +9,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import contact, fixed_step, stretching, stroboscope, trajectory
+from . import contact, euler_lanes, fixed_step, stretching, stroboscope, trajectory
+from .horizontal import SAMPLES
 from .jit import kernel
-from .model import FREQUENCY, FRICTION, unpack
+from .model import FREQUENCY
 from .parallel import for_each_chunk
-from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, simulate
+from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE
 
 
 class Spectrum(NamedTuple):
@@ -27,9 +28,10 @@ class Spectrum(NamedTuple):
 
 
 @kernel
-def stretches_of_points(parameters, states, tolerance, transient, stretches, contact_times, codes):
+def stretches_of_points(parameters, states, tolerance, begin_of_cycle, transient, stretches, contact_times, codes):
     """Follow trajectories from `states`, shape (n, 2), and fill rows of arrays with what happens in their cycles.
 
+    begin_of_cycle : whether the states are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
     stretches : float64, shape (n, cycles, 2), see stretching; NaN from a failure on
     contact_times : float64, shape (n, cycles), s
     codes : int64, shape (n,), status codes of trajectory.STATUS
@@ -40,11 +42,12 @@ def stretches_of_points(parameters, states, tolerance, transient, stretches, con
     stretches[:] = np.nan
     for i in range(parameters.shape[0]):
         c = contact.constants(parameters[i], tolerance)
+        phase = trajectory.BEGIN_OF_CYCLE if begin_of_cycle else c.psi0
         # Velocities count in units of ω × length, which makes both directions comparable.
         tangent = np.eye(2)
         for n in range(-transient, stretches.shape[1]):
             tangent[:, 1] *= c.omega
-            codes[i] = stroboscope.cycle(c, series, states[i], tangent, features)
+            codes[i] = stroboscope.advance(c, series, states[i], phase, c.period, tangent, features)
             if codes[i] != trajectory.OK:
                 break
             tangent[:, 1] /= c.omega
@@ -65,6 +68,7 @@ def spectrum(
     parameters: np.ndarray,
     states: np.ndarray | None = None,
     *,
+    begin_of_cycle: bool = False,
     transient: int = 200,
     cycles: int = 100,
     blocks: int = 20,
@@ -78,6 +82,7 @@ def spectrum(
     ----------
     parameters : float64, shape (n, 13), rows as from model.pack
     states : float64, shape (n, 2), stroboscopic states to begin with (default: the starts in `parameters`)
+    begin_of_cycle : whether `states` are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
     transient : excitation cycles that are followed and not counted
     cycles, blocks : `blocks` ≥ 2 blocks of `cycles` excitation cycles are counted
     tolerance, threads, progress : as in sweep.run
@@ -93,7 +98,14 @@ def spectrum(
     def work(begin, end):
         rows = slice(begin, end)
         stretches_of_points(
-            parameters[rows], states[rows], tolerance, transient, stretches[rows], contact_times[rows], codes[rows]
+            parameters[rows],
+            states[rows],
+            tolerance,
+            begin_of_cycle,
+            transient,
+            stretches[rows],
+            contact_times[rows],
+            codes[rows],
         )
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4, progress=progress)
@@ -102,24 +114,6 @@ def spectrum(
     lambda_1, lambda_2 = (values / period[:, None]).T
     contact_fraction = contact_times.mean(axis=1) / period
     return Spectrum(lambda_1, lambda_2, errors[:, 0] / period, contact_fraction, np.array(trajectory.STATUS)[codes])
-
-
-def horizontal_exponent(parameters: np.ndarray, *, duration: float, last: float, tolerance: float) -> float:
-    """Exponent (1/s) of a perturbation of ẋ_p alone, over the last part of a run.
-
-    While the part slips one way such a perturbation stays as it is. A slip reversal multiplies it by
-    u̇⁺/u̇⁻ = (|ẍ_s| - μF_c/m) / (|ẍ_s| + μF_c/m); a stick erases it, and the exponent is -infinity.
-    """
-    conveyor, start = unpack(parameters)
-    run = simulate(conveyor, start, duration=duration, tolerance=tolerance)
-    events = run.events[run.events["time"] >= (1.0 - last) * duration]
-    if (events["kind"] == "stick").any():
-        return -math.inf
-    times = events["time"][events["kind"] == "slip reversal"]
-    omega = 2.0 * math.pi * conveyor.frequency
-    plate = np.abs(conveyor.acceleration * math.cos(conveyor.angle) * np.cos(omega * times + conveyor.psi0))
-    rub = parameters[FRICTION] * run.sample(times)["contact_force"] / conveyor.mass
-    return float(np.sum(np.log(np.abs((plate - rub) / (plate + rub)))) / (last * duration))
 
 
 def renormalised_pair(
@@ -160,19 +154,17 @@ def sample_points(parameters, times, tolerance, column, feeding, out):
     no_times = np.empty(0)
     no_kinds = np.empty(0, np.int8)
     for i in range(parameters.shape[0]):
-        trajectory.integrate(parameters[i], tolerance, feeding, times, samples, no_times, no_kinds)
+        trajectory.integrate(parameters[i], tolerance, feeding, True, times, samples, no_times, no_kinds)
         out[i, :] = samples[:, column]
 
 
-@kernel
 def sample_points_by_steps(parameters, indices, step, method, column, out):
     """Fill `out`, shape (n, len(indices)), with one column of the samples of n fixed-step runs."""
-    samples = np.empty((indices.size, 6))
-    no_events = np.empty((0, 2))
-    for i in range(parameters.shape[0]):
-        samples[:] = np.nan
-        fixed_step.integrate(parameters[i], step, indices[-1], method, indices, samples, no_events)
-        out[i, :] = samples[:, column]
+    n = parameters.shape[0]
+    samples = np.full((n, indices.size, 6), np.nan)
+    results = np.empty((n, euler_lanes.RESULTS))
+    fixed_step.integrate_all(parameters, step, indices[-1], method, indices, samples, np.empty((n, 0, 2)), results)
+    out[:] = samples[:, :, column]
 
 
 def finite_difference_estimate(
@@ -196,7 +188,7 @@ def finite_difference_estimate(
     ----------
     parameters, perturbed : float64, shape (n, 13): the trajectories and their neighbours
     epsilon : size of the perturbation, in the unit of the perturbed parameter
-    output : the signal that is compared, one of trajectory.SAMPLES
+    output : the signal that is compared, one of horizontal.SAMPLES
     last, samples : the mean is taken over `samples` equidistant times in the last part of the run
     duration, method, tolerance, step, threads, progress : as in sweep.run
 
@@ -204,7 +196,9 @@ def finite_difference_estimate(
     -------
     float64, shape (n,), 1/s. A difference below the resolution of the signal counts as that resolution.
     """
-    column = trajectory.SAMPLES.index(output)
+    if not 0.0 < last < 1.0:
+        raise ValueError(f"last = {last!r} must be a share of the run in (0, 1): at its beginning Eq. 23 has no value")
+    column = SAMPLES.index(output)
     feeding = output not in ("z", "vz", "contact_force")
     times = np.linspace((1.0 - last) * duration, duration, samples)
     if method != "event":
@@ -221,7 +215,8 @@ def finite_difference_estimate(
             code = fixed_step.METHODS.index(method)
             sample_points_by_steps(both[rows], indices, step, code, column, signals[rows])
 
-    for_each_chunk(work, len(both), threads=threads, chunk=2, progress=progress)
+    # Fixed steps fill the lanes of a register.
+    for_each_chunk(work, len(both), threads=threads, chunk=2 if method == "event" else 8, progress=progress)
     here, there = signals[0::2], signals[1::2]
     resolution = np.finfo(np.float64).eps * np.maximum(np.abs(here), np.abs(there)).max(axis=1, keepdims=True)
     difference = np.maximum(np.abs(there - here), resolution)

@@ -11,6 +11,7 @@ import numpy as np
 from .contact import FIRST, ROWS
 from .jit import inlined, kernel
 from .polynomial import SIZE
+from .vertical import CONTACT, Piece
 
 # Steps kept; more in a cycle share the last place.
 PLACES = 40
@@ -18,7 +19,7 @@ PLACES = 40
 CLOSE = 0.1
 
 # Columns of a kept step: its beginning, then what was found.
-BEGIN_T, BEGIN_W, BEGIN_V, PULLED, LENGTH, END_W, END_V, LAPSE, EVENT, END_SINE, END_COSINE = range(11)
+BEGIN_T, BEGIN_W, BEGIN_V, PULLED, DURATION, LENGTH, END, END_W, END_V, END_SINE, END_COSINE = range(11)
 
 
 @kernel
@@ -26,16 +27,16 @@ def unused():
     """Room for the series of PLACES steps (see contact), and for what else is kept of them, shape (PLACES, 11)."""
     series = np.empty((FIRST + PLACES * ROWS, SIZE))
     series[:FIRST] = 0.0
-    steps = np.empty((PLACES, END_COSINE + 1))
-    steps[:, BEGIN_T] = np.inf
-    return series, steps
+    kept = np.empty((PLACES, END_COSINE + 1))
+    kept[:, BEGIN_T] = np.inf
+    return series, kept
 
 
 @inlined
-def first_row(series, steps, place):
+def first_row(series, kept, place):
     """The first row of a step's series. Most places are never used, so a place is cleared when it first is."""
     row = FIRST + place * ROWS
-    if steps[place, BEGIN_T] == np.inf:
+    if kept[place, BEGIN_T] == np.inf:
         for k in range(row, row + ROWS):
             for n in range(SIZE):
                 series[k, n] = 0.0
@@ -43,35 +44,37 @@ def first_row(series, steps, place):
 
 
 @inlined
-def repeats(c, steps, place, t, w, v, pulled):
-    """Whether a step at the time `t` in its cycle (s) from w (√m), v (m/s) begins where the kept one began."""
+def repeats(c, kept, place, motion):
+    """Whether the contact step that begins with a Motion begins where the kept one began."""
     close = CLOSE * c.tolerance
     return (
-        abs(steps[place, BEGIN_T] - t) <= close / c.omega
-        and abs(steps[place, BEGIN_W] - w) <= close * c.scale_w
-        and abs(steps[place, BEGIN_V] - v) <= close * c.scale_v
-        and steps[place, PULLED] == pulled
+        abs(kept[place, BEGIN_T] - motion.t) <= close / c.omega
+        and abs(kept[place, BEGIN_W] - motion.w) <= close * c.scale_w
+        and abs(kept[place, BEGIN_V] - motion.v) <= close * c.scale_v
+        and kept[place, PULLED] == motion.pulled
     )
 
 
 @inlined
-def keep(steps, place, t, w, v, pulled, length, w_end, v_end, lapse, event, sine_end, cosine_end):
-    """Keep a step."""
-    steps[place, BEGIN_T], steps[place, BEGIN_W], steps[place, BEGIN_V], steps[place, PULLED] = t, w, v, pulled
-    steps[place, LENGTH], steps[place, END_W], steps[place, END_V] = length, w_end, v_end
-    steps[place, LAPSE], steps[place, EVENT] = lapse, event
-    steps[place, END_SINE], steps[place, END_COSINE] = sine_end, cosine_end
+def keep(kept, place, motion, piece):
+    """Keep the contact step `piece` that begins with `motion`."""
+    kept[place, BEGIN_T], kept[place, BEGIN_W] = motion.t, motion.w
+    kept[place, BEGIN_V], kept[place, PULLED] = motion.v, motion.pulled
+    kept[place, DURATION], kept[place, LENGTH], kept[place, END] = piece.duration, piece.length, piece.end
+    kept[place, END_W], kept[place, END_V] = piece.w, piece.v
+    kept[place, END_SINE], kept[place, END_COSINE] = piece.sine, piece.cosine
 
 
 @inlined
-def recall(steps, place):
-    """What was found of a kept step, in the order in which `keep` takes it."""
-    return (
-        steps[place, LENGTH],
-        steps[place, END_W],
-        steps[place, END_V],
-        steps[place, LAPSE],
-        int(steps[place, EVENT]),
-        steps[place, END_SINE],
-        steps[place, END_COSINE],
+def recall(kept, place):
+    """The Piece that is kept."""
+    return Piece(
+        CONTACT,
+        kept[place, DURATION],
+        kept[place, LENGTH],
+        int(kept[place, END]),
+        kept[place, END_W],
+        kept[place, END_V],
+        kept[place, END_SINE],
+        kept[place, END_COSINE],
     )

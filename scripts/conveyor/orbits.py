@@ -44,7 +44,6 @@ class Orbit(NamedTuple):
     impacts: int  # per period
     contact_time: float  # s per period
     longest_flight: float  # excitation cycles
-    slowest_impact: float  # m/s, infinity without impacts
 
     @property
     def stable(self) -> bool:
@@ -182,7 +181,6 @@ class ReturnMap:
             impacts=int(features[:, stroboscope.IMPACTS].sum()),
             contact_time=float(features[:, stroboscope.CONTACT_TIME].sum()),
             longest_flight=float(flights.max() / self.cycle),
-            slowest_impact=float(features[:, stroboscope.SLOWEST_IMPACT].min()),
         )
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from . import model
 from .fixed_step import contact_acceleration
-from .flight import gap, next_impact
+from .flight import gap, highest_gap, next_impact
 from .jit import kernel
 
 STATUSES = ("ok", "too many events", "impact not found")
@@ -306,7 +306,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
                     t += skip
                     resting = True
                     continue
-            tau, speed, highest = next_impact(
+            tau, speed = next_impact(
                 z + (vz - 0.5 * gravity * skip) * skip,
                 vz - gravity * skip,
                 q,
@@ -318,12 +318,11 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
                 end - base - t - skip,
             )
             tau += skip
-            if not tau < math.inf:
-                final, _ = gap(z, vz, end - base - t, theta, gravity, a_z, omega)
-                if final < 0.0:
-                    samples[n_sampled:] = math.nan
-                    return n_impacts, rest_time, max_gap, IMPACT_NOT_FOUND
-            max_gap = max(max_gap, highest)
+            if not tau <= math.inf:
+                samples[n_sampled:] = math.nan
+                return n_impacts, rest_time, max_gap, IMPACT_NOT_FOUND
+            flown = min(tau, end - base - t)
+            max_gap = max(max_gap, highest_gap(z, vz, theta, gravity, a_z, omega, flown))
             while n_sampled < len(times) and base + t + tau >= times[n_sampled]:
                 ahead = times[n_sampled] - base - t
                 samples[n_sampled] = (

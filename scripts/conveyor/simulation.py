@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from . import fixed_step, trajectory
+from .horizontal import EVENTS, SAMPLES, X
 from .model import Conveyor, Start, pack
 
 METHODS = ("event", *fixed_step.METHODS)
@@ -25,13 +26,14 @@ class Run:
 
     Attributes
     ----------
-    conveyor, start, duration, method, tolerance, step : as they were given
+    conveyor, start, duration, method, tolerance, step, reuse : as they were given
     status : "ok", or why the run ended early
     z_end, vz_end, x_end, vx_end : state at the end, m and m/s
     impacts : number of impacts
     max_gap : largest distance between part and plate, m
     contact_fraction : share of the duration with a contact force
-    work : force evaluations (fixed step) or Taylor steps (event)
+    work : force evaluations (fixed step) or Taylor steps that were computed (event)
+    repeats : Taylor steps of a settled motion that were used again (event)
     """
 
     conveyor: Conveyor
@@ -40,6 +42,7 @@ class Run:
     method: str
     tolerance: float
     step: float
+    reuse: bool
     status: str
     x_last: float
     z_end: float
@@ -50,6 +53,7 @@ class Run:
     max_gap: float
     contact_fraction: float
     work: int
+    repeats: int
     event_count: int
 
     def mean_velocity(self, last: float = LAST) -> float:
@@ -75,24 +79,25 @@ class Run:
         if self.method != "event":
             return fixed_step.sample(pack(self.conveyor, self.start), times, self.step, self.method)
         moments, place = np.unique(times, return_inverse=True)
-        samples = np.empty((moments.size, len(trajectory.SAMPLES)))
+        samples = np.empty((moments.size, len(SAMPLES)))
         if moments.size:
             parameters = pack(self.conveyor, self.start)
-            trajectory.integrate(parameters, self.tolerance, True, moments, samples, NO_TIMES, NO_KINDS)
-        return {name: samples[place, k].reshape(times.shape) for k, name in enumerate(trajectory.SAMPLES)}
+            trajectory.integrate(parameters, self.tolerance, True, self.reuse, moments, samples, NO_TIMES, NO_KINDS)
+        return {name: samples[place, k].reshape(times.shape) for k, name in enumerate(SAMPLES)}
 
     @cached_property
     def events(self) -> np.ndarray:
-        """Events in order of time: a structured array with the fields `time` (s) and `kind` (see trajectory.EVENTS)."""
+        """Events in order of time: a structured array with the fields `time` (s) and `kind` (see horizontal.EVENTS)."""
         parameters = pack(self.conveyor, self.start)
         if self.method != "event":
             return fixed_step.events(parameters, self.duration, self.step, self.method).astype(EVENT_DTYPE)
         times, kinds = np.empty(self.event_count), np.empty(self.event_count, np.int8)
-        samples = np.empty((1, len(trajectory.SAMPLES)))
-        trajectory.integrate(parameters, self.tolerance, True, np.array([self.duration]), samples, times, kinds)
+        samples = np.empty((1, len(SAMPLES)))
+        ends = np.array([self.duration])
+        trajectory.integrate(parameters, self.tolerance, True, self.reuse, ends, samples, times, kinds)
         events = np.empty(self.event_count, dtype=EVENT_DTYPE)
         events["time"] = times
-        events["kind"] = np.array(trajectory.EVENTS)[kinds]
+        events["kind"] = np.array(EVENTS)[kinds]
         return events
 
 
@@ -104,6 +109,7 @@ def simulate(
     method: str = "event",
     tolerance: float = DEFAULT_TOLERANCE,
     step: float = DEFAULT_STEP,
+    reuse: bool = True,
 ) -> Run:
     """Follow one part on one conveyor from rest in x.
 
@@ -113,7 +119,8 @@ def simulate(
     duration : s, > 0
     method : "event" for the exact event loop, or one of fixed_step: "euler" (the paper's), "semi_implicit_euler", "rk4"
     tolerance : relative error per Taylor step, 1e-14 to 1e-2; used by "event"
-    step : step size in s; used by the fixed-step methods
+    step : step size in s, of which the duration is a whole number; used by the fixed-step methods
+    reuse : whether Taylor steps of a settled motion are used again (see memory); used by "event"
 
     Returns
     -------
@@ -133,11 +140,11 @@ def simulate(
         if not 1e-14 <= tolerance <= 1e-2:
             raise ValueError(f"tolerance = {tolerance!r} must lie in [1e-14, 1e-2]")
         times = np.array([(1.0 - LAST) * duration, duration])
-        samples = np.empty((2, len(trajectory.SAMPLES)))
-        code, event_count, impacts, contact_time, max_gap, work = trajectory.integrate(
-            parameters, tolerance, True, times, samples, NO_TIMES, NO_KINDS
+        samples = np.empty((2, len(SAMPLES)))
+        code, event_count, impacts, contact_time, max_gap, work, repeats = trajectory.integrate(
+            parameters, tolerance, True, reuse, times, samples, NO_TIMES, NO_KINDS
         )
-        x_last = samples[0, trajectory.X]
+        x_last = samples[0, X]
         x_end, vx_end, z_end, vz_end = samples[1, :4]
         status = trajectory.STATUS[code]
         contact_fraction = contact_time / duration
@@ -146,7 +153,7 @@ def simulate(
         x_end, vx_end, z_end, vz_end = found.x, found.vx, found.z, found.vz
         x_last = x_end - found.mean_velocity * LAST * duration
         status, impacts, max_gap = found.status, found.impacts, found.max_gap
-        contact_fraction, work, event_count = found.contact_fraction, found.evaluations, 0
+        contact_fraction, work, repeats, event_count = found.contact_fraction, found.evaluations, 0, 0
     return Run(
         conveyor,
         start,
@@ -154,6 +161,7 @@ def simulate(
         method,
         tolerance,
         step,
+        reuse,
         status,
         float(x_last),
         float(z_end),
@@ -164,5 +172,6 @@ def simulate(
         float(max_gap),
         float(contact_fraction),
         int(work),
+        int(repeats),
         int(event_count),
     )

@@ -18,15 +18,26 @@ import numpy as np
 
 from . import contact, polynomial
 from .contact import FIRST
-from .flight import gap, next_impact
-from .jit import kernel
-from .model import TENSION_ALLOW, TENSION_CLIP, VZ0, Z0
+from .jit import borrowed, inlined, kernel
+from .model import TENSION_CLIP, VZ0, Z0
 from .polynomial import ORDER, SIZE
-from .trajectory import MAX_PIECES, NOT_FINITE, OK, TOO_MANY_EVENTS, begin, in_contact, invert_time, press_on
+from .trajectory import BEGIN_OF_CYCLE, IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, patience
+from .vertical import (
+    CONTACT,
+    FLIGHT,
+    IMPACT,
+    LIMIT,
+    LOST,
+    arrive,
+    begin,
+    motion_at,
+    next_piece,
+    shortened,
+)
 
 # What a cycle is characterised by.
-IMPACTS, CONTACT_TIME, LONGEST_FLIGHT, MAX_GAP, SLOWEST_IMPACT, AIRBORNE = range(6)
-FEATURES = 6
+IMPACTS, CONTACT_TIME, LONGEST_FLIGHT, AIRBORNE = range(4)
+FEATURES = 4
 
 
 @kernel
@@ -92,121 +103,122 @@ def tangent_length(c, expansion):
     return length
 
 
+@inlined
+def advance_tangent(c, series, tangent, expansions, motion, piece):
+    """Advance perturbations of (δ, Y), rows of `tangent`, along a piece; return the piece up to where they could go.
+
+    A step in which a perturbation changes faster than the motion is cut there.
+    """
+    if piece.kind != CONTACT:
+        # Flights, and the moments of rest at the surface, in which the plate does not push.
+        for i in range(tangent.shape[0]):
+            tangent[i, 0] += tangent[i, 1] * piece.duration
+        return piece
+    longest = piece.length
+    free = motion.pulled and c.tension == TENSION_CLIP
+    for i in range(tangent.shape[0]):
+        expansions[i, 0, 0], expansions[i, 1, 0] = tangent[i, 0], tangent[i, 1]
+        expand_tangent(c, series, expansions[i], free)
+        longest = min(longest, tangent_length(c, expansions[i]))
+    if longest < piece.length:
+        duration = polynomial.value(series, FIRST + contact.T, longest)
+        piece = shortened(series, FIRST, longest, duration, contact.NOTHING)
+    for i in range(tangent.shape[0]):
+        tangent[i, 0] = polynomial.value(expansions[i], 0, piece.length)
+        tangent[i, 1] = polynomial.value(expansions[i], 1, piece.length)
+    if piece.end == contact.FORCE_SIGN:
+        switch_damping(c, tangent, not motion.pulled)
+    return piece
+
+
+@inlined
+def switch_damping(c, tangent, pulled):
+    """Take v in place of Y in perturbations where `clip` begins to switch the damping off, and back."""
+    if c.tension == TENSION_CLIP:
+        sign = -1.0 if pulled else 1.0
+        for i in range(tangent.shape[0]):
+            tangent[i, 1] += sign * c.damping * tangent[i, 0]
+
+
 @kernel
-def cycle(c, series, state, tangent, features):
-    """Advance `state` by one excitation cycle, exactly.
+def advance(c, series, state, phase, duration, tangent, features):
+    """Advance `state` from a phase of the excitation by a time of at most one cycle, exactly.
 
     Parameters
     ----------
     c, series : contact.Constants and a contact.workspace to work in
-    state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced
+    state : float64, shape (2,), δ (m) and v (m/s) at `phase` (rad); replaced
+    duration : s
     tangent : float64, shape (n, 2), n perturbations of (δ, Y); replaced; n = 0 where none are wanted
-    features : float64, shape (6,), replaced but for AIRBORNE, the time (s) since the last separation, which goes on:
-        number of impacts, time with contact force (s), longest flight that ended (s), largest gap (m),
-        slowest impact (m/s; infinity without one)
+    features : float64, shape (4,), replaced but for AIRBORNE, the time (s) since the last separation, which goes on:
+        number of impacts, time with contact force (s), longest flight that ended (s)
 
     Returns
     -------
     status code of trajectory.STATUS
     """
-    speed_z = c.a_z / c.omega
-    height = speed_z / c.omega
+    series, state, tangent, features = borrowed(series), borrowed(state), borrowed(tangent), borrowed(features)
     expansions = np.zeros((tangent.shape[0], 2, SIZE))
-    features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = features[MAX_GAP] = 0.0
-    features[SLOWEST_IMPACT] = math.inf
-    t = 0.0
-    theta = c.psi0
-    sine, cosine = math.sin(theta), math.cos(theta)
-    penetration, v = state[0], state[1]
-    touching = in_contact(c, -penetration, -v, theta)
-    w = math.sqrt(max(penetration, 0.0))
-    pulled = touching and c.tension != TENSION_ALLOW and contact.force(c, w, v) < 0.0
-    if pulled and c.tension == TENSION_CLIP:
-        for i in range(tangent.shape[0]):
-            tangent[i, 1] -= c.damping * tangent[i, 0]
-    q, rate = -penetration, -v
-    z, vz = q - height * cosine, rate + speed_z * sine
+    features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = 0.0
+    motion = motion_at(c, -state[0], -state[1], 0.0, phase)
+    if motion.pulled:
+        switch_damping(c, tangent, True)
+    most = patience(c)
+    lone = 0
     for _ in range(MAX_PIECES):
-        remaining = c.period - t
-        if not touching:
-            tau, speed, highest = next_impact(z, vz, q, rate, theta, c.gravity, c.a_z, c.omega, remaining)
-            features[MAX_GAP] = max(features[MAX_GAP], highest)
-            flown = min(tau, remaining)
-            for i in range(tangent.shape[0]):
-                tangent[i, 0] += tangent[i, 1] * flown
-            features[AIRBORNE] += flown
-            if not tau < math.inf:
-                q, rate = gap(z, vz, remaining, theta, c.gravity, c.a_z, c.omega)
-                state[0], state[1] = -max(q, 0.0), -rate
-                return OK if math.isfinite(q) else NOT_FINITE
-            features[IMPACTS] += 1.0
-            features[LONGEST_FLIGHT] = max(features[LONGEST_FLIGHT], features[AIRBORNE])
-            features[SLOWEST_IMPACT] = min(features[SLOWEST_IMPACT], speed)
-            features[AIRBORNE] = 0.0
-            touching = True
-            pulled = False
-            t += tau
-            w, v = 0.0, speed
-            theta = c.psi0 + c.omega * t
-            sine, cosine = math.sin(theta), math.cos(theta)
-            continue
-        if w == 0.0 and v <= c.rest_speed:
-            if c.gravity + c.a_z * cosine > 0.0:
-                w, v, lapse = press_on(c, theta)
-                t += lapse
-            elif v <= 0.0:
-                touching = False
-                q, rate = 0.0, 0.0
-                z, vz = -height * cosine, speed_z * sine
-                continue
-        length, w_end, v_end, lapse, event = contact.step(c, series, FIRST, w, v, sine, cosine, pulled)
-        free = pulled and c.tension == TENSION_CLIP
-        shorter = length
-        for i in range(tangent.shape[0]):
-            expansions[i, 0, 0], expansions[i, 1, 0] = tangent[i, 0], tangent[i, 1]
-            expand_tangent(c, series, expansions[i], free)
-            shorter = min(shorter, tangent_length(c, expansions[i]))
-        cut = shorter < length
-        if cut:
-            length, event = shorter, contact.NOTHING
-            lapse = polynomial.value(series, FIRST + contact.T, length)
-        complete = not lapse < remaining
-        if complete:
-            length = invert_time(series, FIRST, length, remaining)
-            lapse = remaining
-        if complete or cut:
-            w_end = polynomial.value(series, FIRST + contact.W, length)
-            v_end = polynomial.value(series, FIRST + contact.V, length)
-        for i in range(tangent.shape[0]):
-            tangent[i, 0] = polynomial.value(expansions[i], 0, length)
-            tangent[i, 1] = polynomial.value(expansions[i], 1, length)
-        w, v = w_end, v_end
-        if not free:
-            features[CONTACT_TIME] += lapse
-        if not (math.isfinite(w) and math.isfinite(v)):
+        piece = next_piece(c, series, FIRST, motion, duration - motion.t)
+        piece = advance_tangent(c, series, tangent, expansions, motion, piece)
+        if piece.kind == FLIGHT:
+            if piece.end == LOST:
+                return IMPACT_LOST
+            features[AIRBORNE] += piece.duration
+            if piece.end == IMPACT:
+                features[IMPACTS] += 1.0
+                features[LONGEST_FLIGHT] = max(features[LONGEST_FLIGHT], features[AIRBORNE])
+                features[AIRBORNE] = 0.0
+        elif piece.kind == CONTACT and not (motion.pulled and c.tension == TENSION_CLIP):
+            features[CONTACT_TIME] += piece.duration
+        lone = lone + 1 if piece.end == contact.NOTHING else 0
+        if lone > most:
+            return TOO_STIFF
+        motion = arrive(c, motion, piece, phase)
+        if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)):
             return NOT_FINITE
-        if complete:
-            if free:
-                for i in range(tangent.shape[0]):
-                    tangent[i, 1] += c.damping * tangent[i, 0]
-            state[0], state[1] = w * w, v
+        if piece.end == LIMIT:
+            if motion.pulled:
+                switch_damping(c, tangent, False)
+            # A flight that goes on has been proved to be above the plate, up to rounding.
+            state[0] = motion.w * motion.w if motion.touching else -max(motion.q, 0.0)
+            state[1] = motion.v if motion.touching else -motion.rate
             return OK
-        t += lapse
-        theta = c.psi0 + c.omega * t
-        sine, cosine = math.sin(theta), math.cos(theta)
-        if event == contact.SEPARATION and v >= -c.rest_speed and c.gravity + c.a_z * cosine > 0.0:
-            v = 0.0
-        elif event == contact.SEPARATION:
-            touching = False
-            q, rate = 0.0, -v
-            z, vz = -height * cosine, speed_z * sine - v
-        elif event == contact.FORCE_SIGN:
-            pulled = not pulled
-            if c.tension == TENSION_CLIP:
-                sign = -1.0 if pulled else 1.0
-                for i in range(tangent.shape[0]):
-                    tangent[i, 1] += sign * c.damping * tangent[i, 0]
-    return TOO_MANY_EVENTS
+    return TOO_STIFF
+
+
+@kernel
+def cycle(c, series, state, tangent, features):
+    """Advance `state`, at the phase ψ0, by one excitation cycle: see `advance`."""
+    return advance(c, series, state, c.psi0, c.period, tangent, features)
+
+
+@kernel
+def to_begin_of_cycle(parameters, tolerance, states):
+    """Fill `states`, shape (n, 2), with those of the starts of `parameters` when the plate is next at its top."""
+    series = contact.workspace()
+    no_tangent = np.empty((0, 2))
+    features = np.zeros(FEATURES)
+    for i in range(parameters.shape[0]):
+        c = contact.constants(parameters[i], tolerance)
+        initial_state(parameters[i], tolerance, states[i])
+        remaining = ((BEGIN_OF_CYCLE - c.psi0) % (2.0 * math.pi)) / c.omega
+        if advance(c, series, states[i], c.psi0, remaining, no_tangent, features) != OK:
+            states[i, :] = np.nan
+
+
+def states_at_begin_of_cycle(parameters: np.ndarray, tolerance: float) -> np.ndarray:
+    """δ (m) and v (m/s) of starts, shape (n, 13), when the plate is next at its top, shape (n, 2); NaN if lost."""
+    states = np.empty((len(parameters), 2))
+    to_begin_of_cycle(np.ascontiguousarray(parameters, dtype=np.float64), tolerance, states)
+    return states
 
 
 @kernel
@@ -214,7 +226,7 @@ def follow(parameters, tolerance, state, cycles, strobes, features):
     """Advance `state` by a number of cycles.
 
     strobes : float64, shape (cycles, 2), filled with δ and v after each cycle
-    features : float64, shape (cycles, 6), filled with the features of each cycle
+    features : float64, shape (cycles, 4), filled with the features of each cycle
     Returns the status code; rows behind a failure are NaN.
     """
     c = contact.constants(parameters, tolerance)
@@ -237,7 +249,7 @@ def monodromy(parameters, tolerance, state, matrices, features):
     """Advance `state` by n cycles and fill `matrices`, shape (n, 2, 2), with ∂(δ, Y)_end/∂(δ, Y)_start of each cycle.
 
     The monodromy matrix is their product; its determinant is the product of theirs without loss of digits.
-    features : float64, shape (n, 6), filled with the features of each cycle. Returns the status code.
+    features : float64, shape (n, 4), filled with the features of each cycle. Returns the status code.
     """
     c = contact.constants(parameters, tolerance)
     series = contact.workspace()

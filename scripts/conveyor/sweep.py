@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from . import fixed_step, trajectory
+from . import euler_lanes, fixed_step, trajectory
 from .jit import kernel
 from .parallel import for_each_chunk
-from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST
+from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, METHODS
 
 STATUS = trajectory.STATUS
 NEEDS = ("feeding", "vertical")
@@ -15,15 +15,17 @@ COLUMNS = ("mean_velocity", "z_end", "vz_end", "x_end", "vx_end", "max_gap", "im
 
 
 @kernel
-def follow_by_events(parameters, duration, tolerance, feeding, out):
-    """Fill the rows of `out`, shape (n, 9), for `parameters`, shape (n, 13), with the event-driven method."""
-    times = np.array([(1.0 - LAST) * duration, duration])
+def follow_by_events(parameters, durations, tolerance, feeding, out):
+    """Fill the rows of `out`, shape (n, 9), for `parameters`, shape (n, 13), and `durations` (s), by events."""
+    times = np.empty(2)
     samples = np.empty((2, 6))
     no_times = np.empty(0)
     no_kinds = np.empty(0, np.int8)
     for i in range(parameters.shape[0]):
-        status, _, impacts, contact_time, max_gap, _ = trajectory.integrate(
-            parameters[i], tolerance, feeding, times, samples, no_times, no_kinds
+        duration = durations[i]
+        times[0], times[1] = (1.0 - LAST) * duration, duration
+        status, _, impacts, contact_time, max_gap, _, _ = trajectory.integrate(
+            parameters[i], tolerance, feeding, True, times, samples, no_times, no_kinds
         )
         out[i, MEAN_VELOCITY] = (samples[1, 0] - samples[0, 0]) / (LAST * duration)
         out[i, X_END], out[i, VX_END], out[i, Z_END], out[i, VZ_END] = samples[1, :4]
@@ -33,20 +35,17 @@ def follow_by_events(parameters, duration, tolerance, feeding, out):
         out[i, CODE] = status
 
 
-@kernel
 def follow_by_steps(parameters, duration, step, method, out):
     """Fill the rows of `out`, shape (n, 9), for `parameters`, shape (n, 13), with a fixed-step method."""
-    count = max(1, round(duration / step))
+    count = fixed_step.step_count(duration, step)
     first = min(round((1.0 - LAST) * count), count - 1)
-    indices = np.array([first])
-    samples = np.empty((1, 6))
-    no_events = np.empty((0, 2))
-    for i in range(parameters.shape[0]):
-        samples[:] = np.nan
-        x, vx, z, vz, _, impacts, contact_time, max_gap, _, status = fixed_step.integrate(
-            parameters[i], step, count, method, indices, samples, no_events
-        )
-        out[i, MEAN_VELOCITY] = (x - samples[0, 0]) / ((count - first) * step)
+    n = parameters.shape[0]
+    samples = np.full((n, 1, 6), np.nan)
+    results = np.empty((n, euler_lanes.RESULTS))
+    fixed_step.integrate_all(parameters, step, count, method, np.array([first]), samples, np.empty((n, 0, 2)), results)
+    for i in range(n):
+        x, vx, z, vz, _, impacts, contact_time, max_gap, _, status = results[i]
+        out[i, MEAN_VELOCITY] = (x - samples[i, 0, 0]) / ((count - first) * step)
         out[i, X_END], out[i, VX_END], out[i, Z_END], out[i, VZ_END] = x, vx, z, vz
         out[i, MAX_GAP] = max_gap
         out[i, IMPACTS] = impacts
@@ -57,7 +56,7 @@ def follow_by_steps(parameters, duration, step, method, out):
 def run(
     parameters: np.ndarray,
     *,
-    duration: float = 1.0,
+    duration: float | np.ndarray = 1.0,
     method: str = "event",
     tolerance: float = DEFAULT_TOLERANCE,
     step: float = DEFAULT_STEP,
@@ -66,7 +65,7 @@ def run(
     chunk: int = 64,
     progress: str | None = None,
 ) -> dict[str, np.ndarray]:
-    """Follow every point for `duration`.
+    """Follow every point for `duration` (s); the event-driven method takes one for each point, too, shape (n,).
 
     Parameters
     ----------
@@ -84,13 +83,19 @@ def run(
     """
     if needs not in NEEDS:
         raise ValueError(f"needs = {needs!r} is not one of {', '.join(NEEDS)}")
+    if method not in METHODS:
+        raise ValueError(f"method = {method!r} is not one of {', '.join(METHODS)}")
+    if method != "event" and np.ndim(duration) > 0:
+        raise ValueError("only the event-driven method takes a duration for each point")
     parameters = np.ascontiguousarray(parameters, dtype=np.float64)
     out = np.empty((len(parameters), CODE + 1))
     feeding = needs == "feeding"
+    durations = np.broadcast_to(np.asarray(duration, dtype=np.float64), len(parameters)).copy()
 
     def work(begin, end):
         if method == "event":
-            follow_by_events(parameters[begin:end], duration, tolerance, feeding, out[begin:end])
+            rows = slice(begin, end)
+            follow_by_events(parameters[rows], durations[rows], tolerance, feeding, out[rows])
         else:
             follow_by_steps(parameters[begin:end], duration, step, fixed_step.METHODS.index(method), out[begin:end])
 

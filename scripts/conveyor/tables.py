@@ -88,9 +88,26 @@ ORBIT = (
     number("longest_flight", "1", "longest flight, in excitation cycles"),
 )
 
+
+def ends(name: str, unit: str, description: str) -> tuple[pa.Field, pa.Field]:
+    """Two columns: the ends of an interval that holds a number by proof, rounded outwards."""
+    return (
+        number(f"{name}_low", unit, f"{description}: no larger than it, by proof; null where nothing is proved"),
+        number(f"{name}_high", unit, f"{description}: no smaller than it, by proof"),
+    )
+
+
+ARITHMETIC = (
+    count("bits", "bits of the arithmetic"),
+    count("order", "order of the Taylor series"),
+)
+
 RUN = (
     text("method", "event, a fixed-step method, or one of scipy's integrators"),
-    text("treatment", "of impacts and slip reversals: exact, fixed step, sign, events or modes"),
+    text(
+        "treatment",
+        "of impacts and slip reversals: exact, with or without repeated steps, fixed step, sign, events or modes",
+    ),
     number("tolerance", "1", "relative tolerance; null for fixed steps"),
     number("step", "s", "step; null for tolerances"),
 )
@@ -119,6 +136,69 @@ COLUMNS = {
         number("accumulation", "m/s²", "where the doublings so far accumulate, by Aitken's process"),
         number("accumulation_error", "m/s²", "how far the last doubling moved it"),
     ),
+    "certificates": (
+        count("branch", "number of the branch; those above the stored ones are longer orbits of the cascade"),
+        count("period", "excitation cycles; the least period, if the orbit is proved"),
+        number("acceleration", "m/s²", "amplitude of the excitation, the decimal that is written"),
+        flag("contained", "whether exactly one orbit is proved in a box around the stored one"),
+        text("reason", "why not; null where it is"),
+        text("stability", "proved: stable or unstable; else open"),
+        count("impacts", "impacts in a period, proved if the orbit is"),
+        number(
+            "stored_delta",
+            "m",
+            "penetration at the phase ψ0 of the orbit in floating point, found from the stored ones",
+        ),
+        number("stored_v", "m/s", "its speed of approach there"),
+        *ends("delta", "m", "penetration at the phase ψ0"),
+        *ends("v", "m/s", "speed of approach at the phase ψ0"),
+        *ends("impact_phase", "rad", "phase of the first impact after it"),
+        *ends("impact_speed", "m/s", "speed of approach at the first impact"),
+        *ends("duration", "s", "the period"),
+        *ends("contact_time", "s", "time with contact force in a period"),
+        *ends("trace", "1", "sum of the Floquet multipliers"),
+        *ends("determinant", "1", "their product, exp(-(d_c/m) contact_time)"),
+        *ends("multiplier_1_real", "1", "multiplier of larger modulus, real part; null where it is open which that is"),
+        *ends("multiplier_1_imag", "1", "imaginary part"),
+        *ends("multiplier_2_real", "1", "the other one, real part"),
+        *ends("multiplier_2_imag", "1", "imaginary part"),
+        number("half_width", "1", "largest half-width of an enclosure of a state, in g/ω² and g/ω"),
+        number("distance", "1", "of the stored orbit from the enclosed one, in g/ω² and g/ω"),
+        *ARITHMETIC,
+    ),
+    "certified_bifurcations": (
+        text("kind", "fold or period_doubling"),
+        count("number", "number of its kind"),
+        count("period", "excitation cycles of the orbit that folds or doubles"),
+        flag("proved", "whether it is"),
+        text("reason", "why not; null where it is"),
+        number("stored_acceleration", "m/s²", "amplitude that was computed in floating point"),
+        *ends("acceleration", "m/s²", "amplitude of the bifurcation"),
+        *ends(
+            "test_begin",
+            "1",
+            "(1 ∓ μ1)(1 ∓ μ2) of a fold (-) or doubling (+) at the lower amplitude or first end of the arc",
+        ),
+        *ends("test_end", "1", "the same at the higher amplitude or the other end"),
+        *ARITHMETIC,
+    ),
+    "certified_chaos": (
+        number("acceleration", "m/s²", "amplitude of the excitation, the decimal that is written"),
+        flag("proved", "whether covering relations that make chaos are proved"),
+        text("reason", "why not; null where they are"),
+        count("sets", "parallelograms; an excursion from the first one and back takes as many excitation cycles"),
+        number("entropy", "1", "topological entropy per excitation cycle: no larger than it, by proof"),
+        number("delta", "m", "penetration at the phase ψ0 of the orbit of one cycle in the first parallelogram"),
+        number("v", "m/s", "its speed of approach there"),
+        *ARITHMETIC,
+    ),
+    "certificate_times": (
+        text("kind", "table of what was proved"),
+        number("acceleration", "m/s²", "amplitude of the excitation"),
+        count("period", "excitation cycles"),
+        count("impacts", "impacts in a period"),
+        number("seconds", "s", "wall time; it differs from run to run"),
+    ),
     "strobes": (
         text("branch", "up: the amplitude grew step by step; down: it fell"),
         ORBIT[1],
@@ -134,7 +214,6 @@ COLUMNS = {
         number("lambda_2", "1/s", "smaller vertical Lyapunov exponent"),
         number("stderr", "1/s", "standard error of lambda_1, from means over blocks"),
         number("contact_fraction", "1", "share of the time with contact force; λ1 + λ2 = -(d_c/m) times it"),
-        number("lambda_x", "1/s", "exponent of a perturbation of ẋ_p; -infinity where a stick erases it"),
         text("status", "ok, or why there is no result"),
     ),
     "witnesses": (
@@ -151,9 +230,17 @@ COLUMNS = {
         text("reason", "why not; null where they agree"),
     ),
     "runs": RESULTS + FEATURES,
-    "sweeps": RESULTS + STATE + FEATURES,
+    "sweeps": (
+        *RESULTS,
+        *STATE,
+        *FEATURES,
+        number(
+            "longest_flight", "1", "of that motion, in excitation cycles; tells motions of one state apart; else null"
+        ),
+    ),
     "estimates": (number("lambda", "1/s", "Lyapunov exponent by finite differences (Eq. 23)"),),
     "signals": (
+        *STATE,
         number("time", "s", "time since the start"),
         number("x", "m", "horizontal position of the part"),
         number("vx", "m/s", "horizontal velocity of the part"),
@@ -189,7 +276,7 @@ COLUMNS = {
         flag("is_critical", "the lowest change out of the first state"),
     ),
     "regressions": (
-        text("fit", "pymoo, least_squares, published (the paper's triple) or valley (the best A and C for a given B)"),
+        text("fit", "pymoo, least_squares, paper (the paper's own triple) or valley (the best A and C for a given B)"),
         number("A", "m²/s²", "parameter of Eq. 13"),
         number("B", "m/s²", "parameter of Eq. 13"),
         number("C", "m", "parameter of Eq. 13"),
@@ -197,12 +284,28 @@ COLUMNS = {
         count("evaluations", "number of triples, or of values of B, whose error was computed; 0 for given triples"),
     ),
     "dimensions": (
-        number("dimension", "1", "fractal dimension of the phase portrait ż_p over z_p (Eq. 25)"),
+        number(
+            "dimension",
+            "1",
+            "fractal dimension of the phase portrait ż_p over z_p (Eq. 25); null where nothing is known",
+        ),
         number("error", "1", "half-width of its 95 % interval; null where the points resolve too few scales"),
         number("scale_low", "1", "smallest scale of the scaling region, in units of the portrait's extent"),
         number("scale_high", "1", "largest scale of the scaling region, in units of the portrait's extent"),
+        text("status", "ok, or why there is no dimension"),
+    ),
+    "settling_times": (
+        number("acceleration", "m/s²", "amplitude of the excitation"),
+        number("z0", "m", "initial height"),
+        number("psi0", "rad", "phase of the excitation at the start"),
+        *STATE,
+        count(
+            "cycles", "excitation cycles for which the start was followed: until it settled, or as long as asked for"
+        ),
     ),
     "random_points": (
+        text("drawn", "around the paper or over the whole ranges"),
+        number("duration", "s", "length of the run"),
         *RESULTS,
         *FEATURES,
         number("max_depth", "m", "largest penetration at the moments that were looked at"),
@@ -214,16 +317,23 @@ COLUMNS = {
         text("statement", "what it says"),
         several("quantities", pa.string(), "", "what its numbers are, with units"),
         several("paper", pa.float64(), "see quantities", "the paper's numbers; null where it gives none"),
-        several("published", pa.float64(), "see quantities", "by the paper's method; empty where it has no say"),
+        several(
+            "paper_method",
+            pa.float64(),
+            "see quantities",
+            "by the paper's method, computed here; empty where it has no say",
+        ),
         several("converged", pa.float64(), "see quantities", "converged; empty where the statement is on Euler"),
         several("accepted_low", pa.float64(), "see quantities", "least numbers that bear it out; null for none"),
         several("accepted_high", pa.float64(), "see quantities", "largest ones; null for none"),
-        text("verdict", "reproduced, reproduced by the published method only, or not reproduced"),
+        several("because", pa.string(), "", "why the accepted numbers are these"),
+        text("verdict", "reproduced, reproduced by the paper's method only, or not reproduced"),
         text("reason", "computed reason of any other verdict than reproduced; else a note, null for none"),
     ),
     "precision": (
         *RUN,
-        count("evaluations", "force evaluations; derivatives of the force for a Taylor step"),
+        count("evaluations", "force evaluations that are computed; derivatives of the force for a Taylor step"),
+        count("repeated_evaluations", "those of a settled motion that are used again instead"),
         number("mean_velocity", "m/s", "mean feeding velocity over the last quarter"),
         number("velocity_error", "1", "its relative error"),
         number("state_error", "1", "largest error of ẋ, z, ż at the end, in units of the plate's motion"),
@@ -258,7 +368,7 @@ COLUMNS = {
     "stability_estimates": (
         text("panel", "what is varied: perturbation, time or step; known set, samples or run time"),
         text("case", "motion or set"),
-        text("estimator", "event or euler for exponents; boxes, boxes as published, or correlation sum"),
+        text("estimator", "event or euler for exponents; boxes, boxes as in the paper, or correlation sum"),
         number("epsilon", "rad or m", "perturbation of the phase or of the initial height; null for dimensions"),
         number("duration", "s", "time of the run; null for points of known sets and settled portraits"),
         number("step", "s", "step of Euler; null for dimensions"),
@@ -278,9 +388,6 @@ COLUMNS = {
         number("tolerance", "1", "relative error of a step; null where there is none"),
         number("duration", "s", "length of the runs; null where they last until they settle"),
         count("points", "points of the table that were computed"),
-        number("seconds", "s", "wall time of a point on one core"),
-        number("full_seconds", "s", "wall time of a point of the full model at tight tolerance"),
-        number("ratio", "1", "the latter over the former"),
         number("steps", "1/s", "Taylor steps in a second of the motion; null for the rigid part"),
         number("sticks", "1", "share of the points whose part sticks at some time"),
         number("known", "1", "share of the drawn values that a tiny shift of the start does not change visibly"),
@@ -288,6 +395,14 @@ COLUMNS = {
         flag("visible", "whether a reader would see the difference"),
         flag("chosen", "whether this is what the config chooses"),
         text("reason", "why the choice is tighter than the picture needs; null where it is not"),
+    ),
+    "budget_times": (
+        text("table", "table that a figure draws, SECTION/NAME"),
+        text("variant", "as in the table of budgets"),
+        number("tolerance", "1", "relative error of a step; null where there is none"),
+        number("seconds", "s", "wall time of a point on one core"),
+        number("full_seconds", "s", "wall time of a point of the full model at tight tolerance"),
+        number("ratio", "1", "the latter over the former"),
     ),
     "rigid_part": (
         text("model", "contact, or a rigid part whose restitution depends on the speed of approach or is one number"),
@@ -301,6 +416,10 @@ COLUMNS = {
     "benchmark": (
         text("case", "name of the case"),
         text("motion", "what the part does"),
+        text(
+            "chosen", "which tolerance this is: default, or the loosest that keeps the error, chosen against the truth"
+        ),
+        number("tolerance", "1", "relative error of a step"),
         number("acceleration", "m/s²", "amplitude of the excitation"),
         number("z0", "m", "initial height"),
         number("duration", "s", "length of the timed runs"),
@@ -308,13 +427,16 @@ COLUMNS = {
         number("mean_velocity", "m/s", "mean feeding velocity, from an independent integration"),
         number("error", "1", "relative error of the solver's mean velocity"),
         number("euler_error", "1", "relative error of Euler's mean velocity"),
-        count("steps", "Taylor steps of a timed run"),
+        count("steps", "Taylor steps that a timed run computes"),
+        count("repeated_steps", "Taylor steps of a settled motion that it repeats"),
         count("evaluations", "derivatives of the contact force in a timed run"),
         count("events", "events of a timed run"),
         count("euler_steps", "steps of Euler in a timed run"),
         number("seconds", "s", "median wall time of the solver"),
+        number("seconds_without", "s", "the same if every step is computed"),
         number("euler_seconds", "s", "median wall time of Euler"),
-        number("speed", "1", "ratio of the two"),
+        number("speed", "1", "wall time of Euler over that of the solver"),
+        number("speed_without", "1", "the same if every step is computed"),
         count("repeats", "rounds of timed runs"),
     ),
 }
@@ -333,7 +455,10 @@ def make(kind: str, columns: Mapping[str, np.ndarray], axes: Sequence[str], sett
     arrays = []
     for column in wanted:
         try:
-            arrays.append(pa.array(columns[column.name], type=column.type, from_pandas=True))
+            values = columns[column.name]
+            if pa.types.is_floating(column.type):
+                values = np.asarray(values, dtype=np.float64) + 0.0  # no negative zero
+            arrays.append(pa.array(values, type=column.type, from_pandas=True))
         except (pa.ArrowInvalid, pa.ArrowTypeError) as error:
             raise ValueError(f"column {column.name} of a table of {kind} is not {column.type}: {error}") from error
     metadata = {SETTINGS: json.dumps(settings)}

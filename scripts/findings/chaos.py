@@ -3,10 +3,12 @@
 import numpy as np
 import pandas as pd
 
-from findings.finding import Finding, lowest, onset
+from findings import proofs
+from findings.finding import METHODS, NONE, Finding, by_both, lowest, onset, told
 
 LONGEST_PERIOD = 64  # excitation cycles
 BACK = 0.05  # of the largest position or velocity: nearer than that, a motion has come back
+NAMES = {"euler": "by the paper's method", "converged": "converged"}
 
 
 def least_return(run: pd.DataFrame) -> tuple[float, int]:
@@ -23,36 +25,35 @@ def least_return(run: pd.DataFrame) -> tuple[float, int]:
 
 
 def no_period(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C15: share of the starts whose motion has no period of up to 64 cycles at the end of a long run."""
-    returns = {
-        role: [least_return(run) for _, run in tables[role].groupby("z0")] for role in ("published", "converged")
-    }
-    shares = [(float(np.mean([distance > BACK for distance, _ in found])),) for found in returns.values()]
-    nearest = {role: min(found) for role, found in returns.items()}
-    reason = "the motions come back no nearer than " + " and ".join(
-        f"{100 * distance:.2g} % of their extent, after {period} cycles ({method})"
-        for method, (distance, period) in (("Euler", nearest["published"]), ("converged", nearest["converged"]))
+    """Share of the starts whose motion has no period of up to 64 cycles at the end of a long run."""
+    returns = {method: [least_return(run) for _, run in tables[method].groupby("z0")] for method in METHODS}
+    nearest = {method: min(found) for method, found in returns.items()}
+    note = "the motions come back no nearer than " + " and ".join(
+        f"{100 * distance:.2g} % of their extent, after {period} cycles ({NAMES[method]})"
+        for method, (distance, period) in nearest.items()
     )
-    return Finding(*shares, reason)
+    shares = ({"share": float(np.mean([distance > BACK for distance, _ in found]))} for found in returns.values())
+    return Finding(*shares, note + proofs.chaotic(tables))
 
 
 def irregular(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C16: median step of the velocity from one initial height to the next over its standard deviation."""
-    shares = []
-    for role in ("published", "converged"):
-        velocity = tables[role].sort_values("z0").mean_velocity.to_numpy()
-        shares.append((float(np.median(np.abs(np.diff(velocity))) / np.std(velocity)),))
-    return Finding(*shares)
+    """Median step of the velocity from one initial height to the next over its standard deviation."""
+
+    def step(table):
+        velocity = table.sort_values("z0").mean_velocity.to_numpy()
+        return np.median(np.abs(np.diff(velocity))) / np.std(velocity)
+
+    return by_both("step", step, tables)
 
 
 def height_estimate(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C18: lowest amplitude (m/s²) with a positive estimate, and changes of its sign between 50 and 60 m/s²."""
+    """Lowest amplitude (m/s²) with a positive estimate, and changes of its sign between 50 and 60 m/s²."""
     found = []
-    for role in ("published", "converged"):
-        table = tables[role]
+    for method in METHODS:
+        table = tables[method]
         between = table[(table.acceleration >= 50.0) & (table.acceleration <= 60.0)]
         changes = float((np.diff(np.sign(between["lambda"])) != 0.0).sum())
-        found.append((lowest(table[table["lambda"] > 0.0].acceleration), changes))
+        found.append({"lowest_positive": lowest(table[table["lambda"] > 0.0].acceleration), "changes": changes})
     return Finding(*found)
 
 
@@ -61,24 +62,24 @@ def positive_onset(table: pd.DataFrame) -> float:
 
 
 def phase_estimate(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C19: amplitude (m/s²) above which the estimate is positive."""
-    found = {role: positive_onset(tables[role]) for role in ("published", "converged")}
+    found = {method: positive_onset(tables[method]) for method in METHODS}
     states = tables["states"]
-    settled = states[(states.acceleration >= found["published"]) & (states.acceleration < found["converged"])]
+    settled = states[(states.acceleration >= found["euler"]) & (states.acceleration < found["converged"])]
     settled = settled[settled.z0 == settled.z0.min()]
     between = {
-        role: table[(table.acceleration >= found["published"]) & (table.acceleration < found["converged"])]["lambda"]
-        for role, table in ((role, tables[role]) for role in found)
+        method: table[(table.acceleration >= found["euler"]) & (table.acceleration < found["converged"])]["lambda"]
+        for method, table in ((method, tables[method]) for method in METHODS)
     }
     texts = [
-        f"{100 * (values > 0.0).mean():.0f} % of the amplitudes {method} (median {values.median():+.2f} 1/s)"
-        for method, values in (("by Euler", between["published"]), ("converged", between["converged"]))
+        f"{100 * (values > 0.0).mean():.0f} % of the amplitudes {NAMES[method]} (median {values.median():+.2f} 1/s)"
+        for method, values in between.items()
     ]
-    reason = (
-        f"between {found['published']:g} and {found['converged']:g} m/s² the estimate is positive at {texts[0]} and at "
+    note = (
+        f"between {told(found['euler'])} and {told(found['converged'])} the estimate is positive at {texts[0]} and at "
         f"{texts[1]}, and {100 * (settled.period > 0).mean():.0f} % settle to a period; {of_perturbations(tables)}"
     )
-    return Finding((found["published"],), (found["converged"],), reason)
+    proved = proofs.regular(tables, found["euler"])
+    return Finding(*({"amplitude": found[method]} for method in METHODS), note + proved)
 
 
 def of_perturbations(tables: dict[str, pd.DataFrame]) -> str:
@@ -89,59 +90,68 @@ def of_perturbations(tables: dict[str, pd.DataFrame]) -> str:
     acceleration = table.attrs["exponent"]["cases"]["orbit_phase"]["acceleration"]
     return (
         f"at {acceleration:g} m/s², a settled motion, perturbations from {rows.epsilon.min():g} to "
-        f"{rows.epsilon.max():g} rad give {by_euler.min():+.2f} to {by_euler.max():+.2f} 1/s by Euler and "
+        f"{rows.epsilon.max():g} rad give {by_euler.min():+.2f} to {by_euler.max():+.2f} 1/s by the paper's method and "
         f"{converged.min():+.2f} to {converged.max():+.2f} 1/s converged"
     )
 
 
 def portraits(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C20: dimensions of the portraits in the first state, the second state and chaos."""
-    found = []
-    for role in ("published", "converged"):
-        table = tables[role].sort_values(["acceleration", "z0"])
+    """Dimensions of the portraits in the first state, the second state and chaos."""
+    found = {}
+    for method in METHODS:
+        table = tables[method].sort_values(["acceleration", "z0"])
         low, high = (table[table.acceleration == end] for end in (table.acceleration.min(), table.acceleration.max()))
-        found.append((*map(float, low.dimension), float(high.dimension.iloc[0])))
+        values = (*map(float, low.dimension), float(high.dimension.iloc[0]))
+        found[method] = dict(zip(("first", "second", "chaos"), values, strict=True))
     errors = tables["converged"].sort_values(["acceleration", "z0"]).error
-    reason = (
-        f"converged {found[1][0]:.3f}, {found[1][1]:.3f}, {found[1][2]:.3f} with 95 % intervals of at most "
-        f"±{errors.max():.2f}; boxes of the published kind count the transient and too few scales: "
-        f"{found[0][0]:.2f}, {found[0][1]:.2f}, {found[0][2]:.2f}"
+    texts = {method: ", ".join(f"{value:.3f}" for value in values.values()) for method, values in found.items()}
+    note = (
+        f"converged {texts['converged']} with 95 % intervals of at most ±{errors.max():.2f}; boxes counted as in the "
+        f"paper take the transient and too few scales: {texts['euler']}"
     )
-    return Finding(found[0], found[1], reason)
+    return Finding(found["euler"], found["converged"], note)
+
+
+def known_dimensions(table: pd.DataFrame) -> pd.DataFrame:
+    """The rows in which a dimension could be told, by amplitude."""
+    return table.dropna(subset="dimension").sort_values("acceleration")
 
 
 def dimension_onset(table: pd.DataFrame) -> float:
     """Amplitude (m/s²) from which on the dimension is nearer to its values at the upper end than at the lower one."""
-    tenth = max(1, len(table) // 10)
-    rows = table.sort_values("acceleration")
+    rows = known_dimensions(table)
+    tenth = max(1, len(rows) // 10)
     middle = 0.5 * (rows.dimension.head(tenth).median() + rows.dimension.tail(tenth).median())
     return onset(rows.acceleration.to_numpy(), (rows.dimension > middle).to_numpy())
 
 
 def predicted_onset(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C21: distance (m/s²) between the onset by dimension and the onset by the exponent of Fig. 22, and fluctuation:
-    largest step of the dimension between neighbouring amplitudes.
+    """Distance (m/s²) between the onset by dimension and the onset by the exponent of Fig. 22, and fluctuation: largest
+    step of the dimension between neighbouring amplitudes at which it is known.
     """
     found = []
-    for role in ("published", "converged"):
-        by_dimension, by_exponent = dimension_onset(tables[role]), positive_onset(tables[f"{role}_exponent"])
-        step = float(np.abs(np.diff(tables[role].sort_values("acceleration").dimension)).max())
-        found.append((abs(by_dimension - by_exponent), step))
-    reason = (
-        f"by dimension chaos begins at {dimension_onset(tables['converged']):g} m/s², by the estimate of Fig. 22 at "
-        f"{positive_onset(tables['converged_exponent']):g} m/s²; by Euler at {dimension_onset(tables['published']):g} "
-        f"and {positive_onset(tables['published_exponent']):g} m/s², where the second state begins: its boxes give "
-        f"{dimension_range(tables, 'second')} in that and {dimension_range(tables, 'chaos')} in chaos"
+    for method in METHODS:
+        by_dimension, by_exponent = dimension_onset(tables[method]), positive_onset(tables[f"{method}_exponent"])
+        steps = np.abs(np.diff(known_dimensions(tables[method]).dimension))
+        found.append(
+            {"distance": abs(by_dimension - by_exponent), "largest_step": float(steps.max()) if len(steps) else NONE}
+        )
+    unknown = tables["converged"][tables["converged"].dimension.isna()].acceleration
+    note = (
+        f"by dimension chaos begins at {told(dimension_onset(tables['converged']))}, by the estimate of Fig. 22 at "
+        f"{told(positive_onset(tables['converged_exponent']))}; by the paper's method at "
+        f"{told(dimension_onset(tables['euler']))} and {told(positive_onset(tables['euler_exponent']))}, where the "
+        f"second state begins: its boxes give {dimension_range(tables, 'second')} in that and "
+        f"{dimension_range(tables, 'chaos')} in chaos; converged portraits have no scaling region at {len(unknown)} of "
+        f"{len(tables['converged'])} amplitudes"
     )
-    return Finding(found[0], found[1], reason)
+    return Finding(*found, note)
 
 
 def dimension_range(tables: dict[str, pd.DataFrame], state: str) -> str:
-    """Least and largest published dimension of the motions that settle to a state, from the same start."""
+    """Least and largest dimension by the paper's boxes of the motions that settle to a state, from the same start."""
     states = tables["states"]
     states = states[states.z0 == states.z0.min()].sort_values("acceleration")[["acceleration", "state"]]
-    rows = pd.merge_asof(
-        tables["published"].sort_values("acceleration"), states, on="acceleration", direction="nearest"
-    )
+    rows = pd.merge_asof(tables["euler"].sort_values("acceleration"), states, on="acceleration", direction="nearest")
     found = rows[rows.state == state].dimension
     return f"{found.min():.2f} to {found.max():.2f}"

@@ -6,18 +6,23 @@ import numpy as np
 import pandas as pd
 
 NONE = float("nan")
+METHODS = ("euler", "converged")
 
 
 class Finding(NamedTuple):
-    """The quantities of one statement by both methods, and what stands behind them: the reason if they are not the
-    paper's, else a note.
+    """The quantities of one statement by both methods, by their names, and what stands behind them.
 
-    A method that has no say in a statement has no quantities.
+    The note is the reason if the numbers are not the paper's. A method that has no say in it has no quantities.
     """
 
-    published: tuple[float, ...]
-    converged: tuple[float, ...]
-    reason: str = ""
+    euler: dict[str, float]
+    converged: dict[str, float]
+    note: str = ""
+
+
+def by_both(name: str, value, tables: dict[str, pd.DataFrame], note: str = "") -> Finding:
+    """The Finding with one quantity, a function of a method's table."""
+    return Finding(*({name: float(value(tables[method]))} for method in METHODS), note)
 
 
 def lowest(values: pd.Series | pd.Index) -> float:
@@ -29,7 +34,7 @@ def highest(values: pd.Series) -> float:
 
 
 def onset(x: np.ndarray, holds: np.ndarray) -> float:
-    """The x that separates best: few hold below it, few do not from it on; NaN if none holds.
+    """The x that separates best: few hold below it, few do not from it on; NaN if "never" separates as well.
 
     Parameters
     ----------
@@ -37,7 +42,11 @@ def onset(x: np.ndarray, holds: np.ndarray) -> float:
     holds : bool, shape (n,)
     """
     x, holds = np.asarray(x, dtype=float), np.asarray(holds, dtype=bool)
-    if not holds.any():
-        return NONE
-    wrong = np.cumsum(holds) - holds + np.cumsum(~holds[::-1])[::-1]
-    return float(x[np.argmin(wrong)])
+    wrong = np.append(np.cumsum(holds) - holds + np.cumsum(~holds[::-1])[::-1], holds.sum())
+    best = wrong.min()
+    return NONE if wrong[-1] == best else float(x[np.argmin(wrong)])
+
+
+def told(value: float, unit: str = "m/s²") -> str:
+    """An amplitude in words: "nowhere" for NaN."""
+    return "nowhere" if np.isnan(value) else f"{value:g} {unit}"

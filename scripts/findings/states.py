@@ -1,11 +1,12 @@
 """Sect. 3 of the paper: states of motion, their velocities, critical heights, spectra and maps."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 import pandas as pd
 
-from findings.finding import NONE, Finding, highest, lowest, onset
+from findings import proofs
+from findings.finding import METHODS, NONE, Finding, by_both, highest, lowest, onset, told
 
 MM = 1e3
 LINE = 0.02  # of the largest amplitude: what a reader sees as a line in a spectrum
@@ -17,8 +18,7 @@ def second_from_rest(table: pd.DataFrame) -> float:
 
 
 def critical_acceleration(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C01."""
-    return Finding(*((second_from_rest(tables[role]),) for role in ("published", "converged")))
+    return by_both("critical_amplitude", second_from_rest, tables)
 
 
 def two_states(table: pd.DataFrame) -> tuple[float, float]:
@@ -34,19 +34,20 @@ def readings(table: pd.DataFrame, text: Callable[[pd.DataFrame], str]) -> str:
 
 
 def interval(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C02 and C10."""
-    published, converged = two_states(tables["published"]), two_states(tables["converged"])
-    table = tables["converged"]
-    at_end = table[(table.acceleration == converged[1]) & (table.state == "first")]
-    reason = (
-        f"with the starts of the config both states exist from {converged[0]:g} to {converged[1]:g} m/s²; at the "
-        f"upper end {len(at_end)} of {(table.acceleration == converged[1]).sum()} starts still end in the first state, "
-        f"up to z0 = {MM * highest(at_end.z0):.3g} mm"
+    ends = {
+        method: dict(zip(("lower_end", "upper_end"), two_states(tables[method]), strict=True)) for method in METHODS
+    }
+    table, (low, high) = tables["converged"], ends["converged"].values()
+    at_end = table[(table.acceleration == high) & (table.state == "first")]
+    note = (
+        f"with the starts of the config both states exist from {told(low)} to {told(high)}; at the upper end "
+        f"{len(at_end)} of {(table.acceleration == high).sum()} starts still end in the first state, up to "
+        f"z0 = {MM * highest(at_end.z0):.3g} mm"
     )
     if "tension" in tables:
         found = readings(tables["tension"], lambda rows: "{:g} to {:g} m/s²".format(*two_states(rows)))
-        reason += f"; by the reading of a contact force that pulls, with two starts only: {found}"
-    return Finding(published, converged, reason)
+        note += f"; by the reading of a contact force that pulls, with two starts only: {found}"
+    return Finding(ends["euler"], ends["converged"], note + proofs.both_states(tables))
 
 
 def scatter_onset(table: pd.DataFrame, spread: float = 0.05) -> float:
@@ -58,31 +59,31 @@ def scatter_onset(table: pd.DataFrame, spread: float = 0.05) -> float:
 
 
 def chaos_onset(table: pd.DataFrame) -> float:
-    """Amplitude (m/s²) from which on most starts settle to chaos."""
+    """Amplitude (m/s²) from which on most starts have not settled and have a positive exponent."""
     share = (table.state == "chaos").groupby(table.acceleration).mean()
     return onset(share.index.to_numpy(), (share > 0.5).to_numpy())
 
 
 def onset_of_chaos(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C03: the published protocol looks for velocities that scatter; the converged solution for settled motion that is
-    chaotic.
-    """
-    converged = tables["converged"]
-    scatter, chaos = scatter_onset(tables["published"]), chaos_onset(converged)
-    reason = (
-        f"the velocities of a run scatter from {scatter:g} m/s² on by Euler and from {scatter_onset(converged):g} m/s² "
-        f"on in the converged solution; most settled motions are chaotic from {chaos:g} m/s² on"
+    """Read as the paper reads it, off velocities that scatter, by either method."""
+    scatter = {method: scatter_onset(tables[method]) for method in METHODS}
+    chaos = {method: chaos_onset(tables[method]) for method in METHODS}
+    table = tables["converged"]
+    note = (
+        f"what a reader sees is scatter; most starts settle to chaos from {told(chaos['converged'])} on "
+        f"({told(chaos['euler'])} where the paper's method leaves them)"
     )
-    between = converged[(converged.acceleration >= scatter) & (converged.acceleration < chaos)]
+    between = table[(table.acceleration >= scatter["converged"]) & (table.acceleration < chaos["converged"])]
     if len(between):
         periods = ", ".join(
             f"period {period} for {100 * share:.0f} %"
             for period, share in between[between.period > 0].period.value_counts(normalize=True).head(3).items()
         )
-        reason += (
+        note += (
             f", while in between {100 * (between.period > 0).mean():.0f} % of the starts settle to a period ({periods})"
         )
-    return Finding((scatter,), (chaos,), reason)
+    proved = proofs.regular(tables, scatter["converged"])
+    return Finding(*({"onset": scatter[method]} for method in METHODS), note + proved)
 
 
 def critical_at(table: pd.DataFrame, acceleration: float) -> float:
@@ -92,27 +93,29 @@ def critical_at(table: pd.DataFrame, acceleration: float) -> float:
 
 
 def largest_critical_height(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C04, at the lower end of the paper's interval."""
-    found = [MM * critical_at(tables[role], 29.0) for role in ("published", "converged")]
+    """Over the amplitudes of Fig. 9."""
+    amplitudes = np.sort(tables["heights"].acceleration.unique())
+    found = {
+        method: pd.Series([MM * critical_at(tables[method], one) for one in amplitudes], amplitudes)
+        for method in METHODS
+    }
     table = tables["converged"]
-    top = table.loc[table[table.is_critical].z0.idxmax()] if table.is_critical.any() else None
-    reason = f"the critical height is steep in â there: converged {found[1]:.4g} mm at 29 m/s²" + (
-        f" and {MM * top.z0:.4g} mm at {top.acceleration:g} m/s², the lowest amplitude with a second state; the state "
-        f"changes more than once over z0 at {table[table.crossing > 1].acceleration.nunique()} of "
+    critical = table[table.is_critical]
+    top = critical.loc[critical.z0.idxmax()] if len(critical) else None
+    where = found["converged"].idxmax() if found["converged"].notna().any() else NONE
+    note = f"it is that at {told(where)}, where the height is steep in the amplitude" + (
+        f": converged {MM * top.z0:.4g} mm at {top.acceleration:g} m/s², the lowest amplitude with a second state; the "
+        f"state changes more than once over z0 at {table[table.crossing > 1].acceleration.nunique()} of "
         f"{table.acceleration.nunique()} amplitudes"
         if top is not None
         else ""
     )
-    return Finding((found[0],), (found[1],), reason)
+    return Finding(*({"largest_height": highest(found[method])} for method in METHODS), note)
 
 
-def critical_height(acceleration: float):
-    """C07 and C08: the critical height (mm) at one amplitude."""
-
-    def finding(tables: dict[str, pd.DataFrame]) -> Finding:
-        return Finding(*((MM * critical_at(tables[role], acceleration),) for role in ("published", "converged")))
-
-    return finding
+def critical_height(tables: dict[str, pd.DataFrame], acceleration: float) -> Finding:
+    """The critical height (mm) at one amplitude (m/s²)."""
+    return by_both("height", lambda table: MM * critical_at(table, acceleration), tables)
 
 
 def velocities(table: pd.DataFrame, state: str) -> tuple[float, float]:
@@ -128,74 +131,92 @@ def relative(value: float, reference: float) -> float:
 
 
 def first_velocity(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C05."""
-    published, converged = (velocities(tables[role], "first") for role in ("published", "converged"))
+    ends = {method: velocities(tables[method], "first") for method in METHODS}
     found = readings(
         tables["tension"], lambda rows: f"{100.0 * highest(rows[rows.state == 'first'].mean_velocity):.2f} cm/s"
     )
-    reason = (
-        f"it rises by {converged[1] - converged[0]:.2f} cm/s; Euler is {relative(published[1], converged[1]):+.1f} % "
-        f"off at the upper end; at any amplitude its largest is, by the reading of a contact force that pulls: {found}"
+    low, high = ends["converged"]
+    note = (
+        f"it rises by {high - low:.2f} cm/s; the paper's method is {relative(ends['euler'][1], high):+.1f} % off at "
+        f"the upper end; at any amplitude its largest is, by the reading of a contact force that pulls: {found}"
     )
-    return Finding(published, converged, reason)
+    return Finding(
+        *(
+            dict(zip(("velocity_at_lower_end", "velocity_at_upper_end"), ends[method], strict=True))
+            for method in METHODS
+        ),
+        note,
+    )
 
 
 def second_velocity(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C06."""
-    ends = {role: velocities(tables[role], "second") for role in ("published", "converged")}
-    falls = {role: first - last for role, (first, last) in ends.items()}
+    ends = {method: velocities(tables[method], "second") for method in METHODS}
     table = tables["converged"]
     medians = 100.0 * table[table.state == "second"].groupby("acceleration").mean_velocity.median()
     found = readings(tables["tension"], lambda rows: "{:.2f} to {:.2f} cm/s".format(*velocities(rows, "second")))
     least = f"its least value, {medians.min():.2f} cm/s, is at {medians.idxmin():g} m/s²; " if len(medians) else ""
-    reason = (
+    note = (
         f"it falls from {ends['converged'][0]:.2f} to {ends['converged'][1]:.2f} cm/s; {least}"
         f"by the reading of a contact force that pulls, each over its own interval: {found}"
     )
-    return Finding((falls["published"],), (falls["converged"],), reason)
+    return Finding(*({"fall": ends[method][0] - ends[method][1]} for method in METHODS), note)
 
 
 def fit(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C09."""
-    rows = {role: tables[role].set_index("fit").loc["pymoo"] for role in ("published", "converged")}
-    found = [tuple(float(row[name]) for name in ("A", "B", "C", "error")) for row in rows.values()]
+    rows = {method: tables[method].set_index("fit").loc["pymoo"] for method in METHODS}
+    found = {method: {name: float(row[name]) for name in ("A", "B", "C", "error")} for method, row in rows.items()}
     table = tables["converged"]
-    triple = float(table.set_index("fit").loc["published"].error)
+    triple = float(table.set_index("fit").loc["paper"].error)
     valley = table[(table.fit == "valley") & (table.error <= triple)]
-    reason = (
+    note = (
         f"A, B and C lie in a valley: on the converged heights the paper's triple has the error {triple:.3g} m², "
-        f"the best one {found[1][3]:.3g} m², and every B from {valley.B.min():.3g} to {valley.B.max():.3g} m/s² "
-        f"with its best A and C fits no worse than the paper's"
+        f"the best one {found['converged']['error']:.3g} m², and every B from {valley.B.min():.3g} to "
+        f"{valley.B.max():.3g} m/s² with its best A and C fits no worse than the paper's"
     )
-    return Finding(found[0], found[1], reason)
+    return Finding(found["euler"], found["converged"], note)
+
+
+def runs_of(x: Iterable[float], chosen: Iterable[bool]) -> list[tuple[float, float]]:
+    """First and last x of each run of neighbours that are chosen; x is ascending."""
+    x, flags = np.asarray(list(x)), np.concatenate([[False], np.asarray(list(chosen), dtype=bool), [False]])
+    edges = np.flatnonzero(flags[1:] != flags[:-1])
+    return [(float(x[begin]), float(x[end - 1])) for begin, end in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def written_runs(runs: list[tuple[float, float]], most: int = 4) -> str:
+    """Runs of amplitudes in words, the longest ones first in rank and in ascending order."""
+    longest = sorted(sorted(runs, key=lambda run: run[0] - run[1])[:most])
+    text = ", ".join(f"{low:.2f}" if low == high else f"{low:.2f} to {high:.2f}" for low, high in longest) + " m/s²"
+    return text if len(runs) <= most else f"{text} and {len(runs) - most} shorter ones"
 
 
 def one_onset(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C11: how far apart (m/s²) the onsets of chaos of the single initial heights lie.
+    """How far apart (m/s²) the onsets of chaos of the single initial heights lie.
 
-    Euler has no say: runs of both methods are followed by the converged solution until their state is clear.
+    The paper's method has no say: runs of both methods are followed by the converged solution until they are clear.
     """
     table = tables["converged"]
     onsets = np.array([onset(rows.acceleration.to_numpy(), rows.state == "chaos") for _, rows in table.groupby("z0")])
-    reason = f"the onsets lie between {onsets.min():.2f} and {onsets.max():.2f} m/s²"
-    below = table[table.acceleration < onsets.min()]
-    early = below[below.state == "chaos"]
-    if len(early):
-        low, high = early.acceleration.min(), early.acceleration.max()
-        share = (table[table.acceleration.between(low, high)].state == "chaos").mean()
-        reason += (
-            f"; chaos that does depend on z0 occurs from {low:.2f} to {high:.2f} m/s² already, "
-            f"for {100 * share:.0f} % of the starts there"
+    share = (table.state == "chaos").groupby(table.acceleration).mean()
+    beside = runs_of(share.index, (share > 0.0) & (share < 1.0))
+    regular = share.index[share < 1.0]
+    note = f"the onsets lie between {told(onsets.min())} and {told(onsets.max())}"
+    if beside:
+        note += f"; chaos beside regular motion, by the initial height, from {written_runs(beside)}"
+    if len(regular):
+        windows = runs_of(share.index, (share < 1.0) & (share.index > onsets.max()))
+        note += "; above the onset regular motion is left " + (
+            f"in windows only: {written_runs(windows)}" if windows else "nowhere"
         )
-    return Finding((), (float(np.ptp(onsets)),), reason)
+    return Finding({}, {"spread": float(np.ptp(onsets))}, note)
 
 
 def impact_line(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C12: slope (s/m) of the impact phase over the impact velocity, and the largest distance from the line (rad)."""
+    """Slope (s/m) of the impact phase over the impact velocity, and the largest distance from the line (rad)."""
     rows = tables["converged"].dropna(subset="impact_velocity")
     slope, base = np.polyfit(rows.impact_velocity, rows.impact_phase, 1)
     distance = np.abs(slope * rows.impact_velocity + base - rows.impact_phase).max()
-    return Finding((), (float(slope), float(distance)))
+    return Finding({}, {"slope": float(slope), "distance": float(distance)})
 
 
 def lines(table: pd.DataFrame, signal: str) -> tuple[int, int, float]:
@@ -211,49 +232,53 @@ def lines(table: pd.DataFrame, signal: str) -> tuple[int, int, float]:
 
 
 def vertical_lines(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C13: how many more lines ż_p has in the second state than in the first."""
-    found = [lines(tables[role], "vz") for role in ("published", "converged")]
-    return Finding(*((float(second - first),) for first, second, _ in found))
+    def more(table):
+        first, second, _ = lines(table, "vz")
+        return second - first
+
+    return by_both("more_lines", more, tables)
 
 
 def horizontal_lines(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C14: how many more lines ẋ_p has in the first state than in the second, and the second's mean over its lines."""
-    found = [lines(tables[role], "vx") for role in ("published", "converged")]
-    return Finding(*((float(first - second), ratio) for first, second, ratio in found))
+    found = {method: lines(tables[method], "vx") for method in METHODS}
+    return Finding(
+        *({"more_lines": float(first - second), "mean_over_line": ratio} for first, second, ratio in found.values())
+    )
 
 
 def overlap(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C17: share of the higher map's first state that is first state in the lower one, and the higher map's chaos."""
-    shares = []
+    """Share of the higher map's first state that is first state in the lower one, and the higher map's chaos."""
+    shares = {}
     for place in ("height", "velocity"):
         low, high = tables[f"{place}_low"].state.to_numpy(), tables[f"{place}_high"].state.to_numpy()
         first = high == "first"
-        shares += [float((low[first] == "first").mean()) if first.any() else NONE, float((high == "chaos").mean())]
+        shares[f"shared_{place}"] = float((low[first] == "first").mean()) if first.any() else NONE
+        shares[f"chaos_{place}"] = float((high == "chaos").mean())
     chaotic = sum(int((tables[f"{place}_low"].state == "chaos").sum()) for place in ("height", "velocity"))
-    reason = f"{chaotic} points of both maps at the lower amplitude are chaotic"
-    return Finding((), tuple(shares), reason)
+    return Finding({}, shares, f"{chaotic} points of both maps at the lower amplitude are chaotic")
 
 
 def mapped(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C23: share of the starts in the air whose images on the plate lead to the same state."""
+    """Share of the starts in the air whose images on the plate lead to the same state."""
     rows = tables["converged"].dropna(subset="mapped_state")
-    return Finding((), (float((rows.state == rows.mapped_state).mean()),))
+    return Finding({}, {"equal": float((rows.state == rows.mapped_state).mean()) if len(rows) else NONE})
 
 
 def euler_error(tables: dict[str, pd.DataFrame]) -> Finding:
-    """C22: median relative errors of Euler's mean velocity in the first and in the second state, where both methods
-    lead to the same motion with the period of the excitation, and share of the amplitudes of Fig. 22 at which its
-    estimate has the right sign.
+    """Median relative errors of Euler's mean velocity in the first and in the second state, where both methods lead to
+    the same motion with the period of the excitation, and share of the amplitudes of Fig. 22 at which its estimate has
+    the right sign.
     """
-    published, converged = tables["published"], tables["converged"]
-    regular = ((converged.period == 1) & (published.period == 1) & (converged.state == published.state)).to_numpy()
-    signed = (published.mean_velocity / converged.mean_velocity - 1.0)[regular]
+    euler, converged = tables["euler"], tables["converged"]
+    regular = ((converged.period == 1) & (euler.period == 1) & (converged.state == euler.state)).to_numpy()
+    signed = (euler.mean_velocity / converged.mean_velocity - 1.0)[regular]
     errors = signed.abs().groupby(converged.state[regular]).median().reindex(["first", "second"])
     exponent = tables["converged_exponent"]
-    right = np.sign(tables["published_exponent"]["lambda"]) == np.sign(exponent["lambda"])
+    right = np.sign(tables["euler_exponent"]["lambda"]) == np.sign(exponent["lambda"])
     wrong = exponent[~right].acceleration
-    reason = (
+    note = (
         f"{len(signed)} runs of period 1 are compared, of which Euler feeds {100 * (signed < 0.0).mean():.0f} % too "
         f"slowly; the sign of the estimate is wrong at {len(wrong)} of {len(right)} amplitudes"
     ) + (f", half of them between {wrong.quantile(0.25):.1f} and {wrong.quantile(0.75):.1f} m/s²" if len(wrong) else "")
-    return Finding((*map(float, errors), float(right.mean())), (), reason)
+    found = {"first_error": float(errors["first"]), "second_error": float(errors["second"])}
+    return Finding(found | {"right_signs": float(right.mean())}, {}, note)

@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from plots import style
 
-DIRECTIONS = {"up": style.CONVERGED, "down": style.PUBLISHED}
+DIRECTIONS = {"up": style.CONVERGED, "down": style.EULER}
 MARKERS = {"fold": ("s", "fold"), "period_doubling": ("o", "period doubling")}
 
 

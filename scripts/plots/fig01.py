@@ -73,8 +73,8 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     pin(axes, 4.5, 1.5, (0.45, 1.0), 0.32, PART)
     box(axes, (0.0, 9.0), (0.0, 0.2), (0.0, 0.35), STEEL)
 
-    arrow(axes, project(5.7, 1.5, 0.75), project(8.0, 1.5, 0.75), colour=style.PUBLISHED)
-    axes.text(*project(5.8, 1.5, 0.95), "feeding", color=style.PUBLISHED)
+    arrow(axes, project(5.7, 1.5, 0.75), project(8.0, 1.5, 0.75), colour=style.EULER)
+    axes.text(*project(5.8, 1.5, 0.95), "feeding", color=style.EULER)
     axes.text(*project(3.2, 2.9, 1.25), "part $O$")
     axes.text(2.05, -0.75, "vibrating channel $N$", va="top")
     arrow(axes, (9.3, -1.55), (10.9, -1.05), "<|-|>", style.CONVERGED)

@@ -41,11 +41,11 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
 
     centre, reach = (8.6, plate - 0.175), 1.1
     tip = centre[0] + reach * math.cos(THROW), centre[1] + reach * math.sin(THROW)
-    arrow(axes, (2 * centre[0] - tip[0], 2 * centre[1] - tip[1]), tip, "<|-|>", style.PUBLISHED)
+    arrow(axes, (2 * centre[0] - tip[0], 2 * centre[1] - tip[1]), tip, "<|-|>", style.EULER)
     axes.plot([centre[0], centre[0] + reach], [centre[1]] * 2, color="0.4", linewidth=0.6)
     axes.add_patch(Arc(centre, 1.5, 1.5, theta2=math.degrees(THROW), linewidth=0.8))
     axes.text(centre[0] + 0.85, centre[1] + 0.13, "$\\varphi$")
-    axes.text(centre[0] + 0.1, centre[1] + 0.35, "$\\hat{a}$", color=style.PUBLISHED)
+    axes.text(centre[0] + 0.1, centre[1] + 0.35, "$\\hat{a}$", color=style.EULER)
     axes.set_xlim(-0.6, 10.0)
     axes.set_ylim(-0.4, 3.4)
     return figure

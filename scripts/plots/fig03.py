@@ -1,4 +1,4 @@
-"""Fig. 3: mean feeding velocity over the acceleration amplitude, published method and converged solution."""
+"""Fig. 3: mean feeding velocity over the acceleration amplitude, paper's method and converged solution."""
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -7,19 +7,19 @@ from plots import style
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the sweeps `converged` and `published`; settings: critical_acceleration, m/s²."""
+    """From the sweeps `converged` and `euler`; settings: critical_acceleration, m/s²."""
     figure = style.figure(style.COLUMN, 62.0)
     axes = figure.subplots()
-    converged, published = (tables[role].query("z0 == 0") for role in ("converged", "published"))
+    converged, euler = (tables[role].query("z0 == 0") for role in ("converged", "euler"))
     axes.plot(
-        published.acceleration,
-        published.mean_velocity,
+        euler.acceleration,
+        euler.mean_velocity,
         "o",
         markersize=3.2,
         markerfacecolor="none",
         markeredgewidth=0.6,
-        color=style.PUBLISHED,
-        label=style.PUBLISHED_LABEL,
+        color=style.EULER,
+        label=style.EULER_LABEL,
     )
     axes.plot(
         converged.acceleration,

@@ -7,7 +7,7 @@ from plots import style
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the signals `converged` and `published` at two amplitudes."""
+    """From the signals `converged` and `euler` at two amplitudes."""
     figure = style.figure(style.PAGE, 88.0)
     panels = figure.subplots(2, 2, sharex=True, sharey="row")
     for axes, (_, rows) in zip(panels[1], tables["converged"].groupby("acceleration"), strict=True):

@@ -9,7 +9,7 @@ FORCES = {"contact_force": "contact force $F_c$ in mN", "friction_force": "frict
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the signals `converged` and `published` at two amplitudes; settings: begin, s, of what is shown."""
+    """From the signals `converged` and `euler` at two amplitudes; settings: begin, s, of what is shown."""
     figure = style.figure(style.PAGE, 88.0)
     panels = figure.subplots(2, 2, sharex=True)
     for role, look in style.CURVES.items():

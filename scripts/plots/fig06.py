@@ -7,15 +7,15 @@ from plots import style
 
 
 def plot_signal(tables: dict[str, pd.DataFrame], signal: str, symbol: str, highest: float) -> Figure:
-    """One signal of the spectra `converged` and `published` at two amplitudes up to the frequency `highest` (Hz)."""
+    """One signal of the spectra `converged` and `euler` at two amplitudes up to the frequency `highest` (Hz)."""
     figure = style.figure(style.PAGE, 60.0)
     panels = figure.subplots(1, 2, sharex=True)
     looks = {
-        "published": {
+        "euler": {
             "marker": "o",
             "markerfacecolor": "none",
-            "color": style.PUBLISHED,
-            "label": style.PUBLISHED_LABEL,
+            "color": style.EULER,
+            "label": style.EULER_LABEL,
         },
         "converged": {"marker": ".", "color": style.CONVERGED, "label": style.CONVERGED_LABEL},
     }
@@ -37,5 +37,5 @@ def plot_signal(tables: dict[str, pd.DataFrame], signal: str, symbol: str, highe
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the spectra `converged` and `published` at two amplitudes; settings: highest, Hz, of what is shown."""
+    """From the spectra `converged` and `euler` at two amplitudes; settings: highest, Hz, of what is shown."""
     return plot_signal(tables, "vz", "$\\dot{z}_p$", settings["highest"])

@@ -1,4 +1,4 @@
-"""Fig. 8: feeding velocities for several initial heights, published method and converged solution side by side."""
+"""Fig. 8: feeding velocities for several initial heights, paper's method and converged solution side by side."""
 
 import numpy as np
 import pandas as pd
@@ -20,10 +20,10 @@ def plate_velocity(sweep: pd.DataFrame) -> tuple[list[float], list[float]]:
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the sweeps `converged` and `published` over acceleration and z0; settings: two_states, m/s²."""
+    """From the sweeps `converged` and `euler` over acceleration and z0; settings: two_states, m/s²."""
     figure = style.figure(style.PAGE, 72.0)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    titles = {"published": style.PUBLISHED_LABEL, "converged": style.CONVERGED_LABEL}
+    titles = {"euler": style.EULER_LABEL, "converged": style.CONVERGED_LABEL}
     for axes, (role, title) in zip(panels, titles.items(), strict=True):
         sweep = tables[role]
         axes.axvspan(*settings["two_states"], color="0.93", linewidth=0.0)

@@ -9,10 +9,10 @@ from plots import style
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the sweeps `converged` and `published` over acceleration and z0; settings: critical_height, m."""
+    """From the sweeps `converged` and `euler` over acceleration and z0; settings: critical_height, m."""
     figure = style.figure(style.PAGE, 72.0)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    titles = {"published": style.PUBLISHED_LABEL, "converged": style.CONVERGED_LABEL}
+    titles = {"euler": style.EULER_LABEL, "converged": style.CONVERGED_LABEL}
     for axes, (role, title) in zip(panels, titles.items(), strict=True):
         curves = tables[role].groupby("acceleration")
         # Without the palest end of the map, which would be lost on white.

@@ -14,15 +14,16 @@ def triple(fits: pd.DataFrame, fit: str) -> Hyperbola:
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the critical heights `converged` and `published` and the regressions `fit` and `fit_published`."""
+    """From the critical heights `converged` and `euler` and the regressions `fit` and `fit_euler`."""
     figure = style.figure(style.COLUMN, 66.0)
     axes = figure.subplots()
-    converged, published = tables["converged"], tables["published"]
+    converged, euler = tables["converged"], tables["euler"]
+    euler = euler[euler.is_critical]
     fitted = np.linspace(*tables["fit"].attrs["acceleration"], 200)
     curves = (
         (tables["fit"], "pymoo", style.CONVERGED, "-", "Eq. 13, fitted to converged"),
-        (tables["fit_published"], "pymoo", style.PUBLISHED, "-", "Eq. 13, fitted to published"),
-        (tables["fit"], "published", "black", ":", "Eq. 13 with the paper's A, B, C"),
+        (tables["fit_euler"], "pymoo", style.EULER, "-", "Eq. 13, fitted to the paper's method"),
+        (tables["fit"], "paper", "black", ":", "Eq. 13 with the paper's A, B, C"),
     )
     for fits, fit, colour, line, label in curves:
         axes.plot(
@@ -30,12 +31,12 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         )
     hollow = {"markerfacecolor": "none", "markeredgewidth": 0.6, "linestyle": ""}
     axes.plot(
-        published.acceleration,
-        1e3 * published.z0,
+        euler.acceleration,
+        1e3 * euler.z0,
         marker="o",
         markersize=4.0,
-        color=style.PUBLISHED,
-        label=style.PUBLISHED_LABEL,
+        color=style.EULER,
+        label=style.EULER_LABEL,
         **hollow,
     )
     edge = converged[converged.is_critical]

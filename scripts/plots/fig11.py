@@ -7,10 +7,10 @@ from plots import style
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the sweeps `converged` and `published` over acceleration and z0; settings: two_states, m/s²."""
+    """From the sweeps `converged` and `euler` over acceleration and z0; settings: two_states, m/s²."""
     figure = style.figure(style.PAGE, 66.0)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    titles = {"published": style.PUBLISHED_LABEL, "converged": style.CONVERGED_LABEL}
+    titles = {"euler": style.EULER_LABEL, "converged": style.CONVERGED_LABEL}
     for axes, (role, title) in zip(panels, titles.items(), strict=True):
         axes.axvspan(*settings["two_states"], color="0.93", linewidth=0.0)
         for state, rows in tables[role].groupby("state"):

@@ -7,11 +7,11 @@ from plots import style
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the signals `converged` and `published`; settings: acceleration, m/s², and z0, m, of the run shown."""
+    """From the signals `converged` and `euler`; settings: acceleration, m/s², and z0, m, of the run shown."""
     figure = style.figure(style.PAGE, 100.0)
     (velocity, contact), (height, friction) = figure.subplots(2, 2, sharex=True)
     looks = (
-        ("published", {"color": style.PUBLISHED, "label": style.PUBLISHED_LABEL}),
+        ("euler", {"color": style.EULER, "label": style.EULER_LABEL}),
         ("converged", {"color": style.CONVERGED, "label": style.CONVERGED_LABEL}),
     )
     for role, look in looks:

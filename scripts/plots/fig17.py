@@ -1,4 +1,4 @@
-"""Fig. 17: mean feeding velocity over the initial height in chaotic motion, published method and converged solution."""
+"""Fig. 17: mean feeding velocity over the initial height in chaotic motion, paper's method and converged solution."""
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -7,11 +7,11 @@ from plots import style
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the sweeps `converged` and `published` over z0."""
+    """From the sweeps `converged` and `euler` over z0."""
     figure = style.figure(style.PAGE, 60.0)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
     looks = (
-        ("published", style.PUBLISHED, style.PUBLISHED_LABEL),
+        ("euler", style.EULER, style.EULER_LABEL),
         ("converged", style.CONVERGED, style.CONVERGED_LABEL),
     )
     for axes, (role, colour, title) in zip(panels, looks, strict=True):

@@ -1,4 +1,4 @@
-"""Fig. 20: Lyapunov exponent of z_p by finite differences in z0, published method and converged solution."""
+"""Fig. 20: Lyapunov exponent of z_p by finite differences in z0, paper's method and converged solution."""
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -7,12 +7,12 @@ from plots import style
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the estimates `converged`, `published` and the critical heights `edge`; settings: first_positive, m/s²."""
+    """From the estimates `converged`, `euler` and the critical heights `edge`; settings: first_positive, m/s²."""
     figure = style.figure(style.COLUMN, 84.0)
     panels = figure.subplots(2, 1, sharex=True, sharey=True)
     edge = tables["edge"]
     curves = {
-        "published": (style.PUBLISHED, style.PUBLISHED_LABEL),
+        "euler": (style.EULER, style.EULER_LABEL),
         "converged": (style.CONVERGED, style.CONVERGED_LABEL),
     }
     for axes, (role, (colour, label)) in zip(panels, curves.items(), strict=True):

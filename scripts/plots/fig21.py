@@ -7,13 +7,13 @@ from matplotlib.figure import Figure
 from plots import style
 
 LOOKS = {
-    "published": (style.PUBLISHED, style.PUBLISHED_LABEL),
+    "euler": (style.EULER, style.EULER_LABEL),
     "converged": (style.CONVERGED, style.CONVERGED_LABEL),
 }
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the signals `converged` and `published` at two phases."""
+    """From the signals `converged` and `euler` at two phases."""
     figure = style.figure(style.PAGE, 116.0)
     panels = figure.subplots(3, 2, sharex=True, sharey="row")
     for column, (role, (colour, title)) in zip(panels.T, LOOKS.items(), strict=True):

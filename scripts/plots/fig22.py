@@ -1,4 +1,4 @@
-"""Fig. 22: Lyapunov exponent of the feeding velocity by finite differences, published method and converged solution."""
+"""Fig. 22: Lyapunov exponent of the feeding velocity by finite differences, paper's method and converged solution."""
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -7,12 +7,12 @@ from plots import style
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the estimates `converged` and `published`; settings: critical_acceleration, m/s²."""
+    """From the estimates `converged` and `euler`; settings: critical_acceleration, m/s²."""
     figure = style.figure(style.COLUMN, 62.0)
     axes = figure.subplots()
     axes.axhline(0.0, color="black", linewidth=0.6)
     for role, colour, width, label in (
-        ("published", style.PUBLISHED, 1.6, style.PUBLISHED_LABEL),
+        ("euler", style.EULER, 1.6, style.EULER_LABEL),
         ("converged", style.CONVERGED, 0.8, style.CONVERGED_LABEL),
     ):
         axes.plot(tables[role].acceleration, tables[role]["lambda"], color=colour, linewidth=width, label=label)

@@ -5,23 +5,24 @@ from matplotlib.figure import Figure
 
 from plots import style
 
-ROWS = {"published": style.PUBLISHED_LABEL, "converged": style.CONVERGED_LABEL}
+ROWS = {"euler": style.EULER_LABEL, "converged": style.CONVERGED_LABEL}
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the signals `converged` and `published`; settings: portraits, pairs of acceleration (m/s²) and z0 (m) in the
-    order of the states, and transient, s.
+    """From the signals `converged` and `euler`; settings: portraits, three pairs of acceleration (m/s²) and z0 (m),
+    and transient, s.
     """
     figure = style.figure(style.PAGE, 112.0)
     panels = figure.subplots(2, 3, sharex="col", sharey="col")
     for line, (role, label) in zip(panels, ROWS.items(), strict=True):
         table = tables[role]
-        for axes, state, (acceleration, z0) in zip(line, style.STATE_COLOURS, settings["portraits"], strict=False):
+        for axes, (acceleration, z0) in zip(line, settings["portraits"], strict=True):
             run = table[(table.acceleration == acceleration) & (table.z0 == z0)]
+            (state,) = run.state.unique()
             settled = run[run.time >= settings["transient"]]
             axes.plot(1e3 * run.z, run.vz, color="0.75", linewidth=0.4)
             axes.plot(1e3 * settled.z, settled.vz, color=style.STATE_COLOURS[state], linewidth=0.8)
-            if role == "published":
+            if role == "euler":
                 axes.set_title(f"{state}, $\\hat{{a}}$ = {acceleration:g} m/s²")
             else:
                 axes.set_xlabel("height $z_p$ in mm")

@@ -1,28 +1,31 @@
-"""Fig. 24: dimension of phase portraits over the acceleration amplitude, published method and converged solution."""
+"""Fig. 24: dimension of phase portraits over the acceleration amplitude, paper's method and converged solution."""
 
 import pandas as pd
 from matplotlib.figure import Figure
 
 from plots import style
 
+UNKNOWN = {"converged": 0.05, "correlation": 0.02}  # share of the axis where amplitudes without an estimate are marked
+
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the dimensions `published`, `converged` and `correlation`; settings: critical_acceleration, m/s²."""
-    figure = style.figure(style.COLUMN, 70.0)
+    """From the dimensions `euler`, `converged` and `correlation`; settings: critical_acceleration, m/s²."""
+    figure = style.figure(style.COLUMN, 78.0)
     axes = figure.subplots()
     for dimension in (1.0, 2.0):
         axes.axhline(dimension, color="0.8", linewidth=0.6)
     curves = (
-        ("published", "o-", style.PUBLISHED, "published: boxes, Euler, 1 s"),
+        ("euler", "o-", style.EULER, "paper's method: boxes, first second"),
         ("converged", "s", style.CONVERGED, "converged: boxes, settled motion"),
-        ("correlation", "x", "#009E73", "converged: correlation sum"),
+        ("correlation", "x", style.SECOND_ESTIMATE, "converged: correlation sum"),
     )
     for role, marker, colour, label in curves:
         table = tables[role]
+        known = table[table.dimension.notna()]
         axes.errorbar(
-            table.acceleration,
-            table.dimension,
-            yerr=table.error,
+            known.acceleration,
+            known.dimension,
+            yerr=known.error,
             fmt=marker,
             color=colour,
             markersize=2.0,
@@ -31,17 +34,24 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
             elinewidth=0.4,
             label=label,
         )
-    axes.axvline(settings["critical_acceleration"], ymax=0.78, color="black", linewidth=0.6, linestyle=":")
-    axes.annotate(
-        f"{settings['critical_acceleration']:g} m/s²",
-        (settings["critical_acceleration"], 2.2),
-        xytext=(-3, 0),
-        textcoords="offset points",
-        ha="right",
-        size=7.0,
-    )
-    axes.set_ylim(0.75, 2.75)
+        if role in UNKNOWN:
+            nothing = table[table.dimension.isna()].acceleration
+            axes.plot(
+                nothing,
+                [UNKNOWN[role]] * len(nothing),
+                "|",
+                transform=axes.get_xaxis_transform(),
+                color=colour,
+                markersize=3.5,
+                markeredgewidth=0.8,
+            )
+    axes.plot([], [], "|", color="black", markersize=3.5, label="no estimate: its interval is too wide")
+    style.mark(axes, settings["critical_acceleration"], f"{settings['critical_acceleration']:g} m/s²")
+    # Every bar is seen from end to end, with room for the marks below.
+    ends = [table.dimension + sign * table.error for table in tables.values() for sign in (-1.0, 1.0)]
+    low, high = pd.concat(ends).min(), pd.concat(ends).max()
+    axes.set_ylim(low - 0.12 * (high - low), high + 0.04 * (high - low))
     axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     axes.set_ylabel("dimension of the phase portrait")
-    axes.legend(loc="upper left")
+    style.legend_above(figure, axes, ncols=2)
     return figure

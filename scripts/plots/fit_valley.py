@@ -11,29 +11,29 @@ from plots import style
 MARKERS = {
     "pymoo": ("o", style.CONVERGED, "pymoo"),
     "least_squares": ("+", "black", "least squares"),
-    "published": ("D", style.PUBLISHED, "the paper's triple"),
+    "paper": ("D", style.EULER, "the paper's triple"),
 }
 CURVES = 5
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From critical heights `converged` and regressions `fit`, `fit_published`; settings: published_error, m²."""
+    """From critical heights `converged` and regressions `fit`, `fit_euler`; settings: paper_error, m²."""
     figure = style.figure(style.PAGE, 62.0)
     errors, triples, heights = figure.subplots(1, 3)
     fit, data = tables["fit"], tables["converged"]
     valley = fit[fit.fit == "valley"]
-    flat = valley[valley.error <= settings["published_error"]]
+    flat = valley[valley.error <= settings["paper_error"]]
 
-    errors.axhline(1e6 * settings["published_error"] ** 0.5, color="black", linewidth=0.6, linestyle=":")
+    errors.axhline(1e6 * settings["paper_error"] ** 0.5, color="black", linewidth=0.6, linestyle=":")
     errors.annotate(
         "the paper's error",
-        (-20.0, 1e6 * settings["published_error"] ** 0.5),
+        (-20.0, 1e6 * settings["paper_error"] ** 0.5),
         xytext=(0, 2),
         textcoords="offset points",
         ha="center",
         size=7.0,
     )
-    labels = {"fit": (style.CONVERGED, "converged data"), "fit_published": (style.PUBLISHED, "published data")}
+    labels = {"fit": (style.CONVERGED, "converged data"), "fit_euler": (style.EULER, "by the paper's method")}
     for role, (colour, label) in labels.items():
         curve = tables[role][tables[role].fit == "valley"]
         errors.plot(curve.B, 1e6 * curve.error**0.5, color=colour, linewidth=0.8, label=label)

@@ -8,7 +8,7 @@ from plots import style
 
 MODELS = {
     "contact": ("o", style.CONVERGED),
-    "rigid part, e(u)": ("s", style.PUBLISHED),
+    "rigid part, e(u)": ("s", style.EULER),
     "rigid part, one e": ("D", "#CC79A7"),
 }
 

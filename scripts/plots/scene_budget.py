@@ -23,8 +23,9 @@ def look(row) -> tuple[str, str]:
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the table of budgets."""
-    table = tables["budget"]
+    """From the table `budget` and its wall `times`."""
+    table = tables["budget"].merge(tables["times"], on=["table", "variant", "tolerance"], how="left")
+    table.attrs = tables["budget"].attrs
     drawn = table[table.table != "none"]
     names = list(dict.fromkeys(drawn.table))
     figures = drawn.groupby("table").figure.unique().map(", ".join)
@@ -75,7 +76,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     handles += [
         Line2D([], [], linestyle="", marker="o", color="0.5", markerfacecolor="white", label="open: visible"),
         Line2D([], [], label="chosen", **RING),
-        Line2D([], [], label="full model, tolerance 1e-13", **FULL),
+        Line2D([], [], label=f"full model, tolerance {full.tolerance.iloc[0]:.0e}", **FULL),
     ]
     figure.legend(handles=handles, loc="outside upper center", ncols=5)
     return figure

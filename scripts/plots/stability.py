@@ -18,10 +18,10 @@ AXES = {
     "conveyor": "amplitude $\\hat{a}$ in m/s²",
 }
 LIMIT = {"color": "black", "linewidth": 1.2, "linestyle": (0, (4, 2))}
-PUBLISHED = {"marker": "*", "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.6, "markersize": 8.0}
+PAPER = {"marker": "*", "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.6, "markersize": 8.0}
 EDGES = {"stiffness": "o", "damping": "s", "impact velocity": "^"}
 METHOD_COLOURS = {
-    "euler": style.PUBLISHED,
+    "euler": style.EULER,
     "semi_implicit_euler": "#009E73",
     "rk4": "#CC79A7",
     "event": style.CONVERGED,
@@ -56,7 +56,7 @@ def draw_maps(figure: SubFigure, table: pd.DataFrame, acceleration: float) -> No
         for axes, method in zip(row, METHODS, strict=True):
             draw_map(axes, table[(table.panel == panel) & (table.method == method)], panel)
         row[0].set_ylabel(AXES[panel])
-    panels[-1, 0].plot(table.attrs["published_step"], acceleration, **PUBLISHED)
+    panels[-1, 0].plot(table.attrs["paper_step"], acceleration, **PAPER)
     for axes, label in zip(panels[0], METHODS.values(), strict=True):
         axes.set_title(label)
     for axes in panels[-1]:
@@ -131,7 +131,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     draw_hard(hard, table)
     handles = [Patch(color=colour, label=outcome) for outcome, colour in OUTCOMES.items()]
     handles.append(Line2D([], [], **LIMIT, label="limit in theory"))
-    handles.append(Line2D([], [], linestyle="", **PUBLISHED, label="the paper"))
+    handles.append(Line2D([], [], linestyle="", **PAPER, label="the paper"))
     above.legend(handles=handles, loc="outside upper center", ncols=6)
     names = METHODS | {"event": "this solver"}
     handles = [

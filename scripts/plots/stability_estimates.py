@@ -1,4 +1,4 @@
-"""How far the published estimates carry: exponents by finite differences, dimensions by box counting."""
+"""How far the paper's estimates carry: exponents by finite differences, dimensions by box counting."""
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -17,9 +17,9 @@ VARIED = {
     "time": ("duration", "time in s"),
     "step": ("step", "step of Euler in s"),
 }
-METHODS = {"euler": ("Euler", style.PUBLISHED), "event": ("this solver", style.CONVERGED)}
+METHODS = {"euler": ("Euler", style.EULER), "event": ("this solver", style.CONVERGED)}
 ESTIMATORS = {
-    "boxes, published": ("boxes as published", style.PUBLISHED, "s"),
+    "boxes, as in the paper": ("boxes as in the paper", style.EULER, "s"),
     "boxes": ("boxes, averaged and extrapolated", style.CONVERGED, "o"),
     "correlation sum": ("correlation sum", "#009E73", "^"),
 }
@@ -58,7 +58,7 @@ def draw_dimensions(axes: Axes, rows: pd.DataFrame, column: str, label: str) -> 
             linewidth=0.7,
             elinewidth=0.5,
         )
-        if estimator == "boxes, published":
+        if estimator == "boxes, as in the paper":
             axes.annotate(
                 NAMES.get(case, case),
                 (line[column].iloc[-1], line.value.iloc[-1]),

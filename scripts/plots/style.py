@@ -1,6 +1,7 @@
 """The one look of all figures: sizes, fonts, colours, and the one place that saves them."""
 
 import os
+import re
 from collections.abc import Iterable
 from contextlib import AbstractContextManager
 
@@ -10,6 +11,7 @@ import pandas as pd
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
+from matplotlib.backends.backend_pdf import PdfFile, PdfPages
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
@@ -23,18 +25,20 @@ PAGE = 174.0  # mm, width of its page
 # Okabe and Ito's colours, which the colour-blind tell apart.
 STATE_COLOURS = {"first": "#0072B2", "second": "#E69F00", "chaos": "#009E73", "undecided": "#CC79A7"}
 CONVERGED = "#0072B2"
-PUBLISHED = "#D55E00"
+EULER = "#D55E00"
+SECOND_ESTIMATE = "#CC79A7"  # beside CONVERGED; green means chaos elsewhere
 CONVERGED_LABEL = "converged (exact events)"
-PUBLISHED_LABEL = "published (Euler, 0.5 µs)"
+EULER_LABEL = "paper's method (Euler)"
 PLATE = "#555555"
 # Curves of both methods in one panel: where they coincide, the dashes lie on the line.
 CURVES = {
     "converged": {"color": CONVERGED, "linewidth": 1.4, "label": CONVERGED_LABEL},
-    "published": {"color": PUBLISHED, "linewidth": 0.8, "linestyle": (0, (3, 3)), "label": PUBLISHED_LABEL},
+    "euler": {"color": EULER, "linewidth": 0.8, "linestyle": (0, (3, 3)), "label": EULER_LABEL},
 }
 # The plate's own curves, behind those of the part.
 PLATE_CURVE = {"color": "0.8", "linewidth": 2.5, "label": "conveyor"}
 
+NEGATIVE_ZERO = re.compile(rb"(?<![\w.+-])-0(?:\.0*)?(?![\w.])")
 RESOLUTION = 600  # dpi of rasterised parts and of PNG files
 PARAMETERS = {
     "font.family": "DejaVu Sans",
@@ -116,11 +120,30 @@ def legend_above(figure: Figure, axes: Axes, **options) -> None:
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", **options)
 
 
+class Page(PdfFile):
+    """A PDF without negative zeros: the sign of a rounded coordinate is that of an error in its last digit."""
+
+    def write(self, data: bytes) -> None:
+        super().write(NEGATIVE_ZERO.sub(b"0", data))
+
+
+class Pages(PdfPages):
+    """Where savefig puts a PDF: a Page without a date."""
+
+    def _ensure_file(self) -> PdfFile:
+        if self._file is None:
+            self._file = Page(self._filename, metadata={"CreationDate": None})
+        return self._file
+
+
 def save(figure: Figure, paths: Iterable[str]) -> None:
-    """Write a figure to files of any of matplotlib's formats; equal figures give equal bytes."""
+    """Write a figure to PDF or PNG files; equal figures give equal bytes."""
     with applied():
         for path in paths:
             part = f"{path}.part"
-            ending = path.rsplit(".", 1)[1]
-            figure.savefig(part, format=ending, metadata={"CreationDate": None} if ending == "pdf" else None)
+            if path.endswith(".pdf"):
+                with Pages(part) as pages:
+                    figure.savefig(pages, format="pdf")
+            else:
+                figure.savefig(part, format="png")
             os.replace(part, path)

@@ -12,7 +12,7 @@ SCENES = {"jumping": "jumping", "riding": "always in contact", "bouncing": "micr
 # Colour and name of each method, marker and line of each treatment.
 METHODS = {
     "event": (style.CONVERGED, "this solver"),
-    "euler": (style.PUBLISHED, "explicit Euler"),
+    "euler": (style.EULER, "explicit Euler"),
     "semi_implicit_euler": ("#E69F00", "semi-implicit Euler"),
     "rk4": ("#000000", "RK4, fixed step"),
     "RK45": ("#56B4E9", "RK45"),
@@ -23,6 +23,7 @@ METHODS = {
 }
 TREATMENTS = {
     "exact": ("o", "-", None),
+    "exact, nothing repeated": ("o", "-.", "this solver, every step computed"),
     "fixed step": (".", "-", None),
     "sign": ("x", ":", "sign() friction"),
     "events": ("^", "--", "events, naive restart"),
@@ -74,7 +75,7 @@ def curve(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
         color=colour,
         markersize=3.0 if ours else 2.2,
         markeredgewidth=0.6,
-        linewidth=1.4 if ours else 0.6,
+        linewidth=1.4 if treatment == "exact" else 0.6,
         markerfacecolor=colour if treatment in ("exact", "fixed step") else "none",
         zorder=3 if ours else 2,
     )
@@ -95,8 +96,8 @@ def panel(axes: Axes, table: pd.DataFrame, x: str, y: str, settings: dict) -> No
     """Error `y` over work `x` of all methods in one scene."""
     for _, rows in table.groupby(["method", "treatment"], sort=False):
         curve(axes, rows, x, y)
-    published = table[(table.method == "euler") & np.isclose(table.step, settings["published_step"])]
-    axes.plot(published[x], published[y], "o", markersize=7.0, markerfacecolor="none", color=style.PUBLISHED)
+    paper = table[(table.method == "euler") & np.isclose(table.step, settings["paper_step"])]
+    axes.plot(paper[x], paper[y], "o", markersize=7.0, markerfacecolor="none", color=style.EULER)
     # Failures are annotations, which do not move the limits.
     axes.plot(table[x], np.full(len(table), FAILED), linestyle="")
     axes.set_xscale("log")
@@ -122,14 +123,14 @@ def handles(tables: dict[str, pd.DataFrame]) -> list[Line2D]:
         for marker, line, label in TREATMENTS.values()
         if label
     ]
-    paper = Line2D([], [], color=style.PUBLISHED, marker="o", linestyle="", markersize=6.0, markerfacecolor="none")
+    paper = Line2D([], [], color=style.EULER, marker="o", linestyle="", markersize=6.0, markerfacecolor="none")
     paper.set_label("the paper's step")
     return [*known, *treated, paper]
 
 
 def draw_estimators(axes: Axes, rows: pd.DataFrame, work: str, error: str) -> None:
     """Error over work of the estimators of one quantity."""
-    colours = (style.PUBLISHED, "black", style.CONVERGED)
+    colours = (style.EULER, "black", style.CONVERGED)
     for colour, (name, curve) in zip(colours, rows.groupby("estimator", sort=False), strict=False):
         axes.loglog(curve.work, curve.error.clip(lower=1e-16), ".-", color=colour, linewidth=0.8, label=name)
     axes.set_xlabel(work)
@@ -141,7 +142,7 @@ def draw_estimators(axes: Axes, rows: pd.DataFrame, work: str, error: str) -> No
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the tables of work and times of SCENES and that of the estimators; settings: published_step, s."""
+    """From the tables of work and times of SCENES and that of the estimators; settings: paper_step, s."""
     figure = style.figure(style.PAGE, 215.0)
     upper, lower = figure.subfigures(2, 1, height_ratios=(3.4, 1.0))
     grid = upper.subplots(len(SCENES), len(PANELS), sharex="col", sharey=True)

@@ -71,10 +71,10 @@ def test_unusable_arguments_are_named(heights, resolution):
 def test_the_paper_s_critical_heights():
     """0.13 mm at 35 m/s² and 0.07 mm at 40 m/s² (Sect. 3.2); starts on either side end in different states."""
     parameters = conveyors(35.0, 40.0)
-    found = critical.crossings(parameters, HEIGHTS, lambda rows: states.classify(rows, tolerance=1e-10)[0], 1e-9)
+    found = critical.crossings(parameters, HEIGHTS, lambda rows: states.classify(rows, tolerance=1e-10).state, 1e-9)
     np.testing.assert_array_equal(found.point, [0, 1])
     np.testing.assert_allclose(found.height, [0.13e-3, 0.07e-3], atol=0.01e-3)
     for offset, state in ((-1e-9, "first"), (2e-9, "second")):
         rows = parameters.copy()
         rows[:, Z0] = found.height + offset
-        assert (states.classify(rows, tolerance=1e-10)[0] == state).all()
+        assert (states.classify(rows, tolerance=1e-10).state == state).all()

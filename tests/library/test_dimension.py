@@ -90,9 +90,9 @@ def test_theiler_window_removes_neighbours_in_time():
     assert without.value + without.error < 1.7
 
 
-def test_published_way_misses_the_dimension_of_a_square_by_more_than_its_error():
+def test_the_paper_s_way_misses_the_dimension_of_a_square_by_more_than_its_error():
     """Its smallest boxes have run out of points, and it does not know."""
-    found = dimension.box_dimension_published(square(np.random.default_rng(1), 10_000))
+    found = dimension.box_dimension_of_paper(square(np.random.default_rng(1), 10_000))
     assert found.value + found.error < 1.9
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import gamma
 
-from conveyor import Conveyor, Start, fixed_step
+from conveyor import Conveyor, Start, fixed_step, lyapunov, simulate, sweep
 from conveyor.model import pack
 from reference import reference_mean_velocity
 
@@ -82,7 +82,7 @@ def test_compiled_loop_is_the_plain_loop(method, tension, exponent):
     assert run.evaluations == n_steps * (4 if method == "rk4" else 1)
 
 
-def test_published_numbers():
+def test_the_paper_s_numbers():
     """Mean feeding velocities of the paper's method at its step of 5e-7 s."""
     for acceleration, z, expected in ((30.0, 0.0, 0.00709042), (40.0, 3e-4, 0.0646877)):
         run = fixed_step.run(pack(Conveyor(acceleration=acceleration), Start(z=z)), 1.0, 5e-7)
@@ -196,16 +196,48 @@ def test_sampling_does_not_disturb_the_run():
     parameters = pack(Conveyor(acceleration=80.0), Start())
     n_steps, step = 20_000, 2e-6
     indices = np.sort(np.append(np.arange(0, n_steps + 1, 100), [1, 1, 255, 256, 257]))
-    samples, none = np.empty((len(indices), 6)), np.empty((0, 6))
-    for code in range(len(fixed_step.METHODS)):
-        events, same_events = np.zeros((8, 2)), np.zeros((8, 2))
-        watched = fixed_step.integrate(parameters, step, n_steps, code, indices, samples, events)
-        alone = fixed_step.integrate(parameters, step, n_steps, code, indices[:0], none, same_events)
+    for method in fixed_step.METHODS:
+        watched, samples, events = fixed_step._integrate(parameters, step, n_steps, method, indices, 4)
+        alone, _, same_events = fixed_step._integrate(parameters, step, n_steps, method, [], 4)
         assert watched == alone
         assert events[1, 0] > 0.0
         np.testing.assert_array_equal(events, same_events)
-        assert tuple(samples[-1, :4]) == watched[:4]
+        assert samples[-1, :4].tolist() == watched[:4]
         np.testing.assert_array_equal(samples[1], samples[2])  # one step, asked for twice
+
+
+@pytest.mark.parametrize("method", fixed_step.METHODS)
+def test_many_are_followed_as_one_is(method):
+    """Sweeps and pairs of trajectories give what single runs give, to the last bit, however they are shared out."""
+    step, duration = 1e-5, 0.05
+    parameters = np.array(
+        [pack(Conveyor(acceleration=20.0 + 5.0 * k, exponent=(1.5, 1.8)[k % 2]), Start(z=1e-5 * k)) for k in range(11)]
+    )
+    runs = [fixed_step.run(row, duration, step, method) for row in parameters]
+    for sharing in ({"chunk": 11}, {"chunk": 1}, {"chunk": 3, "threads": 2}):
+        rows = sweep.run(parameters, duration=duration, method=method, step=step, **sharing)
+        for name in ("mean_velocity", "max_gap", "impacts", "contact_fraction", "status"):
+            assert rows[name].tolist() == [getattr(run, name) for run in runs]
+        for name in ("x", "vx", "z", "vz"):
+            assert rows[f"{name}_end"].tolist() == [getattr(run, name) for run in runs]
+
+    indices = np.array([0, 17, 5000])
+    signals = np.empty((11, 3))
+    lyapunov.sample_points_by_steps(parameters, indices, step, fixed_step.METHODS.index(method), 1, signals)
+    for row, signal in zip(parameters, signals, strict=True):
+        assert signal.tolist() == fixed_step.sample(row, indices * step, step, method)["vx"].tolist()
+
+
+@pytest.mark.parametrize("code", [-1, len(fixed_step.METHODS)])
+def test_an_unknown_method_is_never_run_as_another_one(code):
+    parameters = np.array([pack(Conveyor(), Start())])
+    indices, samples, events, results = np.empty(0, int), np.empty((1, 0, 6)), np.empty((1, 0, 2)), np.empty((1, 10))
+    with pytest.raises(ValueError, match="method"):
+        fixed_step.integrate_all(parameters, 1e-5, 10, code, indices, samples, events, results)
+    with pytest.raises(ValueError, match="method"):
+        fixed_step.integrate(parameters[0], 1e-5, 10, fixed_step.EULER, indices, samples[0], events[0])
+    with pytest.raises(ValueError):
+        sweep.run(parameters, method="heun")
 
 
 def test_samples_keep_the_order_and_shape_of_the_times():
@@ -252,8 +284,8 @@ def test_explicit_euler_shakes_the_resting_part_off():
     limit = conveyor.damping / (1.5 * conveyor.stiffness * math.sqrt(depth))
     assert limit == pytest.approx(1.7e-4, rel=0.02)
     disturbed = pack(conveyor, Start(z=-1.05 * depth))
-    calm = fixed_step.run(disturbed, 1.0, 0.9 * limit)
-    shaken = fixed_step.run(disturbed, 1.0, 1.1 * limit)
+    calm = fixed_step.run(disturbed, 7000 * 0.9 * limit, 0.9 * limit)
+    shaken = fixed_step.run(disturbed, 6000 * 1.1 * limit, 1.1 * limit)
     assert calm.impacts == 0
     assert calm.z == pytest.approx(-depth, rel=1e-6)
     assert shaken.impacts > 10
@@ -306,3 +338,28 @@ def test_status_not_finite():
 def test_errors_name_the_argument(call, word):
     with pytest.raises(ValueError, match=word):
         call(pack(Conveyor(), Start()))
+
+
+def test_a_run_ends_where_it_is_said_to_end():
+    """Steps that do not divide the duration would end early."""
+    with pytest.raises(ValueError, match=r"no whole number of steps of 3e-07 s; take step = 3.00000030"):
+        simulate(Conveyor(), duration=1.0, method="euler", step=3e-7)
+    with pytest.raises(ValueError, match="whole number"):
+        sweep.run(pack(Conveyor(), Start())[None], duration=1e-3, method="euler", step=5e-3)
+    assert simulate(Conveyor(), duration=0.3, method="euler", step=1e-5).status == "ok"  # 0.3 / 1e-5 rounds
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: fixed_step.run(pack(Conveyor(), Start()), 0.01, 1e-5, "heun"),
+        lambda: sweep.run(pack(Conveyor(), Start())[None], duration=0.01, method="heun"),
+        lambda: simulate(Conveyor(), duration=0.01, method="heun"),
+        lambda: fixed_step.integrate(
+            pack(Conveyor(), Start()), 1e-5, 10, 7, np.empty(0, int), np.empty((0, 6)), np.empty((0, 2))
+        ),
+    ],
+)
+def test_an_unknown_method_never_runs_as_another(call):
+    with pytest.raises(ValueError, match="method"):
+        call()

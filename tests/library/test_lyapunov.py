@@ -1,11 +1,9 @@
 """Lyapunov exponents: the trace identity, an independent pair of trajectories, known limits, and what rides."""
 
-import math
-
 import numpy as np
 import pytest
 
-from conveyor import Conveyor, Start, lyapunov, simulate
+from conveyor import Conveyor, Start, lyapunov
 from conveyor.model import pack
 
 DECAY = Conveyor().damping / Conveyor().mass
@@ -57,25 +55,6 @@ def test_standard_error_shrinks_with_the_run():
 def test_exponents_do_not_depend_on_threads():
     one, two = (lyapunov.spectrum(points(*PAIRS), cycles=10, threads=threads) for threads in (1, 2))
     assert all((a == b).all() for a, b in zip(one, two, strict=True))
-
-
-def test_horizontal_exponent():
-    """A stick erases a perturbation of ẋ_p, reversals of the slip shrink it."""
-    options = {"duration": 4.0, "last": 0.5, "tolerance": 1e-10}
-    (riding,), (jumping,) = points((30.0, 0.0)), points((40.0, 3e-4))
-    assert lyapunov.horizontal_exponent(jumping, **options) == -math.inf
-    assert -100.0 < lyapunov.horizontal_exponent(riding, **options) < 0.0
-
-
-def test_horizontal_exponent_against_two_parts():
-    """Two riding parts that differ in ẋ_p only approach each other at that rate: read off their settling."""
-    (row,) = points((30.0, 0.0))
-    run = simulate(Conveyor(acceleration=30.0), duration=3.0, tolerance=1e-12)
-    strobes = run.sample(0.02 * np.arange(20, 100))["vx"]
-    distance = np.abs(np.diff(strobes))
-    rate = np.polyfit(0.02 * np.arange(len(distance)), np.log(distance), 1)[0]
-    found = lyapunov.horizontal_exponent(row, duration=4.0, last=0.5, tolerance=1e-12)
-    assert found == pytest.approx(rate, rel=0.02)
 
 
 def test_settings_are_checked():

@@ -13,20 +13,20 @@ from conveyor.regression import (
 )
 
 ACCELERATION = np.linspace(29.0, 47.0, 25)
-PUBLISHED = Hyperbola(0.004116, -19.54145, -0.0001354)
-TRIPLES = [PUBLISHED, Hyperbola(0.02, 5.0, -4e-4), Hyperbola(-0.01, 30.0, 3e-4), Hyperbola(0.001, -26.0, 0.0)]
+PAPER = Hyperbola(0.004116, -19.54145, -0.0001354)
+TRIPLES = [PAPER, Hyperbola(0.02, 5.0, -4e-4), Hyperbola(-0.01, 30.0, 3e-4), Hyperbola(0.001, -26.0, 0.0)]
 BOUNDS = {"A": (-0.05, 0.1), "B": (-28.5, 60.0), "C": (-2e-3, 1e-3)}
 SCATTER = 1e-6 * np.random.default_rng(0).standard_normal(25)
 
 
 def test_formula():
-    assert critical_height(np.array([40.0]), PUBLISHED) == pytest.approx([0.004116 / (40.0 - 19.54145) - 0.0001354])
+    assert critical_height(np.array([40.0]), PAPER) == pytest.approx([0.004116 / (40.0 - 19.54145) - 0.0001354])
     assert critical_height(ACCELERATION, np.array(TRIPLES).reshape(2, 2, 3)).shape == (2, 2, 25)
 
 
 def test_mean_squared_error_is_that_of_each_triple():
-    height = critical_height(ACCELERATION, PUBLISHED)
-    shifted = np.array([PUBLISHED, PUBLISHED._replace(C=PUBLISHED.C + 2e-6)])
+    height = critical_height(ACCELERATION, PAPER)
+    shifted = np.array([PAPER, PAPER._replace(C=PAPER.C + 2e-6)])
     assert mean_squared_error(ACCELERATION, height, shifted) == pytest.approx([0.0, 4e-12])
 
 
@@ -39,7 +39,7 @@ def test_least_squares_recovers_the_triple(triple):
 
 def test_least_squares_has_no_gradient_left():
     """An independent look: no change of a parameter, alone or along the valley, lowers the error."""
-    height = critical_height(ACCELERATION, PUBLISHED) + SCATTER
+    height = critical_height(ACCELERATION, PAPER) + SCATTER
     fit = fit_least_squares(ACCELERATION, height, BOUNDS["B"])
     steps = np.vstack([np.diag(np.abs(fit.parameters)), -np.diag(np.abs(fit.parameters))]) * 1e-4
     assert (mean_squared_error(ACCELERATION, height, fit.parameters + steps) > fit.error).all()
@@ -49,7 +49,7 @@ def test_least_squares_has_no_gradient_left():
 
 
 def test_profile_is_the_best_for_each_b():
-    height = critical_height(ACCELERATION, PUBLISHED) + SCATTER
+    height = critical_height(ACCELERATION, PAPER) + SCATTER
     b = np.array([-25.0, -19.0, 0.0, 40.0])
     parameters, error = profile(ACCELERATION, height, b)
     for i in range(len(b)):
@@ -60,9 +60,9 @@ def test_profile_is_the_best_for_each_b():
 
 
 def test_valley_is_flat():
-    """Triples that differ by a fifth in A fit 25 points with 6.4 µm scatter (the published error) equally well."""
+    """Triples that differ by a fifth in A fit 25 points with 6.4 µm scatter (the paper's error) equally well."""
     scatter = 6.4e-6 / SCATTER.std() * SCATTER
-    height = critical_height(ACCELERATION, PUBLISHED) + scatter
+    height = critical_height(ACCELERATION, PAPER) + scatter
     parameters, error = profile(ACCELERATION, height, np.linspace(*BOUNDS["B"], 2001))
     equal = parameters[error < 1.05 * error.min()]
     assert equal[:, 0].max() > 1.2 * equal[:, 0].min()
@@ -80,7 +80,7 @@ def test_pymoo_reaches_the_least_squares_error(triple, seed):
 
 
 def test_history_counts_evaluations_and_only_improves():
-    height = critical_height(ACCELERATION, PUBLISHED) + SCATTER
+    height = critical_height(ACCELERATION, PAPER) + SCATTER
     fit = fit_pymoo(ACCELERATION, height, BOUNDS, 1, 500)
     evaluations, error = fit.history.T
     assert (np.diff(evaluations) > 0).all()
@@ -91,7 +91,7 @@ def test_history_counts_evaluations_and_only_improves():
 
 @pytest.mark.parametrize("seed", [0, 7])
 def test_same_seed_same_result(seed):
-    height = critical_height(ACCELERATION, PUBLISHED) + SCATTER
+    height = critical_height(ACCELERATION, PAPER) + SCATTER
     first, second = (fit_pymoo(ACCELERATION, height, BOUNDS, seed, 600) for _ in range(2))
     assert first.parameters == second.parameters
     assert (first.history == second.history).all()

@@ -11,7 +11,7 @@ from scipy.linalg import expm
 
 from conveyor import Conveyor, Start, simulate
 from conveyor import trajectory as trajectory_module
-from conveyor.model import conveyor_motion, pack
+from conveyor.model import conveyor_motion
 from reference import reference_mean_velocity
 
 AT_REST = Conveyor(acceleration=0.0)
@@ -202,14 +202,12 @@ def test_long_runs_keep_their_phase():
     np.testing.assert_allclose(late, early, rtol=0, atol=1e-10)
 
 
-def test_too_many_events_is_a_status(monkeypatch):
-    parameters = pack(Conveyor(), Start(3e-4))
-    samples = np.empty((1, 6))
-    monkeypatch.setattr(trajectory_module, "MAX_PIECES", 5)
-    follow = trajectory_module.integrate.py_func
-    code, *_ = follow(parameters, 1e-10, True, np.array([1.0]), samples, np.empty(0), np.empty(0, np.int8))
-    assert trajectory_module.STATUS[code] == "too many events"
-    assert np.isnan(samples).all()
+def test_a_contact_that_is_too_stiff_is_a_status():
+    """Its time constant m/d_c is 1e-9 s: no run of 0.1 s can follow it, and none takes long to say so."""
+    run = simulate(Conveyor(damping=1e6, mass=1e-3), Start("conveyor"), duration=0.1)
+    assert run.status == "contact too stiff"
+    assert math.isnan(run.z_end)
+    assert run.work <= trajectory_module.PATIENCE + 1
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,10 @@
 """The charts of accuracy: the solver is right where it is chosen, others fail where theory says."""
 
 import numpy as np
+import pandas as pd
+import pytest
+
+from conveyor import Conveyor
 
 SCENES = ("jumping", "riding", "bouncing")
 
@@ -9,7 +13,9 @@ def test_solver_is_right_at_every_tolerance(result):
     for scene in SCENES:
         table = result(f"precision/{scene}")
         own = table[table.method == "event"]
+        assert own.treatment.nunique() == 2
         assert (own.outcome == "ok").all()
+        assert len(own[own.tolerance <= 1e-9])
         assert (own[own.tolerance <= 1e-9].velocity_error < 1e-7).all()
 
 
@@ -18,6 +24,7 @@ def test_an_independent_integration_agrees(result):
     for scene in SCENES:
         table = result(f"precision/{scene}")
         peers = table[(table.treatment == "modes") & (table.outcome == "ok")]
+        assert len(peers)
         assert peers.velocity_error.min() < 1e-8
 
 
@@ -28,36 +35,26 @@ def test_solver_needs_fewest_evaluations(result):
         table = result(f"precision/{scene}").assign(
             error=lambda rows: rows[["velocity_error", "state_error"]].max(axis=1)
         )
-        own = table[table.method == "event"]
+        own = table[table.treatment == "exact, nothing repeated"]
         others = table[(table.method != "event") & (table.outcome == "ok") & (table.error < 1e-4)]
+        assert len(others)
         for other in others.itertuples():
             assert ((own.evaluations < other.evaluations) & (own.error <= max(other.error, 1e-12))).any(), other
 
 
-def test_solver_is_the_lower_left_edge_in_time(result):
-    """For every run of another method that is right to a hundredth the solver has a better one in less time."""
-    run = ["method", "treatment", "tolerance", "step"]
-    for scene in SCENES:
-        table = result(f"precision/{scene}").merge(result(f"wall_times/{scene}"), on=run)
-        own = table[table.method == "event"]
-        for error in ("velocity_error", "state_error"):
-            for other in table[
-                (table.method != "event") & (table.outcome == "ok") & (table[error] < 1e-2)
-            ].itertuples():
-                better = (own.seconds < other.seconds) & (own[error] <= max(getattr(other, error), 1e-12))
-                assert better.any(), other
-
-
 def test_failures_are_told_whatever_the_methods_report(result):
     """Euler's largest step leaves the right state; a part that falls through the plate has a finite velocity."""
+    through = []
     for scene in SCENES:
         table = result(f"precision/{scene}")
         largest = table[(table.method == "euler") & (table.step == table.step.max())]
+        assert len(largest)
         assert (largest.outcome != "ok").all()
-        through = table[table.outcome == "through the plate"]
-        assert through.mean_velocity.notna().all()
-        assert (through.state_error > 1.0).all()
+        through.append(table[table.outcome == "through the plate"])
+    through = pd.concat(through)
     assert len(through)
+    assert through.mean_velocity.notna().all()
+    assert (through.state_error > 1.0).all()
 
 
 def test_edges_of_stability_are_those_of_theory(result):
@@ -74,6 +71,8 @@ def test_fixed_steps_fail_beyond_the_limit_and_hold_within(result):
     for panel in ("stiffness", "damping", "impact velocity", "conveyor"):
         rows = table[table.panel == panel]
         beyond, within = rows[rows.x > 1.25 * rows.theory], rows[rows.x < 0.75 * rows.theory]
+        assert len(beyond)
+        assert len(within)
         assert not (beyond.outcome == "right").any(), panel
         if panel != "conveyor":  # its theory is that of the deepest point alone
             assert not within.outcome.isin(["energy grows", "blow-up"]).any(), panel
@@ -91,56 +90,75 @@ def test_solver_holds_in_hard_cases_and_euler_does_not(result):
     table = result("stability")
     hard = table[table.panel.str.startswith("hard")]
     own, euler = (hard[hard.method == method] for method in ("event", "euler"))
+    assert len(own) == len(euler) == len(table.attrs["hard"])
     assert (own.outcome == "right").all()
     assert (euler.y.to_numpy() > 1e3 * own.y.to_numpy()).all()
     assert (euler.outcome == "energy grows").any()
 
 
-def test_published_exponent_of_an_orbit_has_the_wrong_sign(result):
+def test_the_paper_s_exponent_of_an_orbit_has_the_wrong_sign(result):
     """A shift of the phase dies on a settled orbit; Euler keeps it alive, however small it is."""
     table = result("stability_estimates")
     rows = table[(table.panel == "perturbation") & (table.case == "orbit_phase") & (table.epsilon < 1e-6)]
-    assert (rows[rows.estimator == "euler"].value > 0.0).all()
-    assert (rows[rows.estimator == "event"].value < 0.0).all()
+    by_euler, converged = (rows[rows.estimator == method].value for method in ("euler", "event"))
+    assert len(by_euler) == len(converged) > 0
+    assert (by_euler > 0.0).all()
+    assert (converged < 0.0).all()
 
 
-def test_published_exponent_of_chaos_is_no_more_than_the_signal_allows(result):
-    """After 1 s the pair is as far apart as the signal goes: the estimate tells the perturbation, not the motion."""
+def test_the_paper_s_exponent_of_chaos_tells_the_perturbation(result):
+    """After a while the pair is as far apart as the signal goes: log(size/ε) over the time, whatever the motion is.
+
+    The mean of 1/t over the last quarter of the run is the slope over -log ε.
+    """
     table = result("stability_estimates")
     rows = table[(table.case == "chaos_phase") & (table.estimator == "event")]
     late = rows[(rows.panel == "time") & (rows.duration >= 1.0)]
-    assert (late.value < 0.6 * late.truth).all()
+    assert len(late)
+    assert (late.value < late.truth).all()
     assert (late.value < late.bound).all()
-    assert (late.value > 0.7 * late.bound).all()
+    saturated = rows[(rows.panel == "perturbation") & rows.epsilon.between(1e-12, 1e-4)]
+    assert len(saturated) >= 3
+    slope = np.polyfit(-np.log(saturated.epsilon), saturated.value, 1)[0]
+    duration = saturated.duration.iloc[0]
+    assert slope == pytest.approx(np.log(1.0 / 0.75) / (0.25 * duration), rel=0.05)
 
 
 def test_dimensions_of_known_sets(result):
-    """Our intervals hold the truth; boxes as published miss it, the more the fewer the points."""
+    """Our intervals hold the truth; boxes as in the paper miss it, the more the fewer the points."""
     table = result("stability_estimates").query("panel == 'known set'")
-    own = table[(table.estimator != "boxes, published") & table.value.notna()]
+    own = table[(table.estimator != "boxes, as in the paper") & table.value.notna()]
     off = (own.value - own.truth).abs()
+    assert len(off) >= 8
     assert (off < own.error).mean() >= 0.9  # intervals of 95 %
     assert (off < 2.0 * own.error).all()
-    published = table[table.estimator == "boxes, published"]
-    few, many = (published[published.samples == count] for count in (published.samples.min(), published.samples.max()))
+    paper = table[table.estimator == "boxes, as in the paper"]
+    few, many = (paper[paper.samples == count] for count in (paper.samples.min(), paper.samples.max()))
     assert (few.value - few.truth).abs().sum() > 2.0 * (many.value - many.truth).abs().sum()
-    assert not ((published.value - published.truth).abs() < published.error).all()
+    assert not ((paper.value - paper.truth).abs() < paper.error).all()
 
 
-def test_published_boxes_take_a_transient_for_the_orbit(result):
+def test_the_paper_s_boxes_take_a_transient_for_the_orbit(result):
     table = result("stability_estimates")
     boxes = table[(table.panel == "run time") & (table.case == "second")]
-    assert (boxes.value > 1.2).all()
+    assert len(boxes)
+    assert (boxes.value > 1.0 + boxes.error).all()
     settled = table[(table.panel == "samples") & (table.case == "second") & (table.estimator == "boxes")]
     last = settled.iloc[-1]
     assert abs(last.value - 1.0) < last.error
 
 
 def test_euler_chatters_where_the_solver_sticks(result):
-    rows = result("stability").query("panel == 'chatter'")
-    slip = rows[rows.method == "euler"]
-    assert (slip.y > 0.3 * slip.x).all()
-    assert (rows[rows.method == "event"].y < 1e-12).all()
+    table = result("stability")
+    rows = table[table.panel == "chatter"]
+    slip, own = (rows[rows.method == method] for method in ("euler", "event"))
+    assert len(slip) == len(own) > 0
+    # A step that overshoots zero slip does so by friction and the plate, at most μ g + a_x in a step.
+    conveyor = Conveyor(**table.attrs["stick"])
+    most = (conveyor.friction * conveyor.gravity + conveyor.acceleration) * slip.x
+    assert ((slip.y > 0.0) & (slip.y < most)).all()
+    assert np.polyfit(np.log(slip.x), np.log(slip.y), 1)[0] == pytest.approx(1.0, abs=0.1)  # proportional to the step
+    assert (own.y < 1e-12).all()
 
 
 def test_choices_cannot_be_told_from_the_full_model(result):
@@ -152,32 +170,47 @@ def test_choices_cannot_be_told_from_the_full_model(result):
     assert {f"fig{number:02}" for number in range(1, 25)} <= set(table.figure)
 
 
-def test_no_invisible_variant_needs_far_fewer_steps(result):
-    """The choice is one of the two loosest tolerances that a reader cannot see."""
+def test_no_choice_is_more_than_a_notch_tighter_than_it_must_be(result):
+    """Of the tolerances that were tried, the choice is not beyond the second loosest that a reader cannot see.
+
+    Where fewer points were looked at than it takes to show the share that may change, one point is that share.
+    """
     table = result("scene_budget")
-    # Fewer points cannot show the share that is allowed to change.
-    table = table[(table.points >= 2.0 / table.attrs["pixels"]) & (table.variant == table.needs)]
+    table = table[(table.variant == table.needs) & table.tolerance.notna()]
+    assert table.table.nunique() > 10
     for name, rows in table.groupby("table"):
+        rows = rows.drop_duplicates("tolerance")
         chosen = rows[rows.chosen].iloc[0]
-        least = rows[~rows.visible].steps.min()
-        assert chosen.steps <= 1.7 * least or isinstance(chosen.reason, str), name
+        if isinstance(chosen.reason, str):
+            continue
+        limit = max(table.attrs["pixels"], 1.0 / chosen.points)
+        loosest = np.sort(rows[rows.changed <= limit].tolerance)[::-1]
+        assert chosen.tolerance >= loosest[min(1, len(loosest) - 1)], name
 
 
 def test_maps_are_computed_without_the_horizontal_motion(result):
     table = result("scene_budget")
-    assert (table[table.chosen & (table["shows"] == "state")].needs == "vertical").all()
+    maps = table[table.chosen & (table["shows"] == "state")]
+    assert len(maps)
+    assert (maps.needs == "vertical").all()
 
 
 def test_half_the_time_and_the_rigid_part_are_seen(result):
     """Where velocities are drawn and known: neither is a model that would do."""
     table = result("scene_budget")
-    table = table[(table["shows"] == "mean velocity, state") & (table.known > 0.6)]
-    assert table[table.variant.isin(["half the time", "rigid part"])].visible.all()
+    table = table[table["shows"] == "mean velocity, state"]
+    # Where the model itself makes a statement: chaos, all of it, has no value that could change.
+    table = table[table.known * table.points >= 10.0]
+    others = table[table.variant.isin(["half the time", "rigid part"])]
+    assert others.table.nunique() >= 3
+    assert others.visible.all()
 
 
 def test_parts_stick_where_velocities_are_drawn(result):
     table = result("scene_budget")
-    assert (table[table.chosen & (table["shows"] == "mean velocity, state")].sticks > 0.1).all()
+    velocities = table[table.chosen & (table["shows"] == "mean velocity, state")]
+    assert len(velocities)
+    assert (velocities.sticks > 0.0).all()
 
 
 def test_rigid_part_doubles_near_the_contact_but_does_not_jump_by_itself(result):
@@ -186,8 +219,11 @@ def test_rigid_part_doubles_near_the_contact_but_does_not_jump_by_itself(result)
         index=["kind", "number"], columns="model", values="acceleration"
     )
     off = places.drop(columns="contact").div(places["contact"], axis=0) - 1.0
+    assert off.size >= 4
     assert (off.abs() < 0.1).all().all()
     assert (off.abs() > 1e-3).all().all()  # yet no reader of six digits would take one for the other
-    velocity = table[(table.kind == "velocity") & (table.z0 == 0.0) & table.acceleration.between(50.0, 55.0)]
-    mean = velocity.groupby("model").mean_velocity.mean()
-    assert mean["rigid part, e(u)"] < 0.5 * mean["contact"]
+    from_rest = table[(table.kind == "velocity") & (table.z0 == 0.0) & table.acceleration.between(50.0, 55.0)]
+    contact, rigid = (from_rest[from_rest.model == model].state for model in ("contact", "rigid part, e(u)"))
+    assert len(contact) == len(rigid) > 0
+    assert (contact != "first").all()
+    assert (rigid == "first").all()

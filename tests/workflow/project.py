@@ -16,9 +16,11 @@ PARTS = ("Snakefile", "workflow", "profiles", "config", "scripts")
 
 FIGURES = ("fig03", "fig08", "fig22")
 TARGETS = tuple(f"figures/{figure}.pdf" for figure in FIGURES)
+CAPTIONS = tuple(f"results/captions/{figure}.rst" for figure in FIGURES)
 # Sections that are no entries with a table each.
 SINGLE = (
     "orbits",
+    "certificates",
     "attractors",
     "lyapunov",
     "witnesses",
@@ -28,6 +30,7 @@ SINGLE = (
     "stability",
     "stability_estimates",
     "scene_budget",
+    "settling_times",
     "rigid_part",
     "random_points",
     "companion",
@@ -35,8 +38,10 @@ SINGLE = (
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}
 COARSE_PAIRS = {"axes": {"acceleration": {"num": 3}}, "duration": 0.1}
 TINY = {
-    "sweeps": {"amplitudes": COARSE, "amplitudes_published": COARSE},
-    "estimates": {"phase": COARSE_PAIRS, "phase_published": COARSE_PAIRS},
+    "attractors": {"acceleration": {"num": 3}, "transient": 20, "strobes": 8},
+    "lyapunov": {"cycles": 20, "blocks": 5},
+    "sweeps": {"amplitudes": COARSE, "amplitudes_euler": COARSE},
+    "estimates": {"phase": COARSE_PAIRS, "phase_euler": COARSE_PAIRS},
 }
 
 

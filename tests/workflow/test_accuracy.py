@@ -16,25 +16,31 @@ CONFIG = read_config()
 
 @pytest.fixture(scope="module")
 def cases():
-    solver = {key: CONFIG["solver"][key] for key in ("duration", "tolerance", "step")}
+    solver = {key: CONFIG["solver"][key] for key in ("duration", "step")}
     return {
         name: merged({"model": CONFIG["model"]}, solver, case) for name, case in CONFIG["benchmark"]["cases"].items()
     }
 
 
 def test_benchmark_is_as_accurate_as_wanted(cases):
-    found = benchmark.columns(cases, 1)
-    wanted = np.array([case["wanted"]["error"] for case in cases.values()])
+    found = benchmark.columns(cases, CONFIG["solver"]["tolerance"], 1)
+    assert set(found["case"][found["chosen"] == "default"]) == set(cases)
+    wanted = np.array([cases[name]["wanted"]["error"] for name in found["case"]])
     assert (found["error"] <= wanted).all()
     assert (found["euler_error"] > 1e4 * found["error"]).all()
-    np.testing.assert_array_equal(found["euler_steps"], [case["duration"] / case["step"] for case in cases.values()])
+    steps = [cases[name]["duration"] / cases[name]["step"] for name in found["case"]]
+    np.testing.assert_array_equal(found["euler_steps"], steps)
     assert (found["steps"] < 1e-3 * found["euler_steps"]).all()
     # Faster than the paper's method by far on any machine; how far is what results/benchmark.md is for.
     assert (found["speed"] > 10.0).all()
-    lines = benchmark.report(found, cases, 1).splitlines()
-    assert [line.split(" | ")[0] for line in lines if line.startswith("| ") and "Case" not in line] == [
-        f"| {name}" for name in cases
-    ]
+    # A riding part repeats its steps, a chaotic one cannot; what is repeated is not counted as computed.
+    repeated = dict(zip(found["case"], found["repeated_steps"], strict=True))
+    assert repeated["D"] == 0 < repeated["B"]
+    text = benchmark.report(found, cases, 1)
+    rows = [line.split(" | ")[0] for line in text.splitlines() if line.startswith("| ") and "Case" not in line]
+    assert rows == [f"| {name}" for name in found["case"]]
+    slow = {**found, "speed": np.full(len(rows), 1.0)}
+    assert "miss what is wanted: A (1 of" in benchmark.report(slow, cases, 1)
 
 
 @pytest.fixture(scope="module", params=["jumping", "riding", "bouncing"])
@@ -78,12 +84,14 @@ def test_times_belong_to_the_same_runs(compared):
 
 
 def test_random_points_know_how_deep_they_get():
-    found = random_points.columns({"count": 300, "seed": 3, "duration": 0.05, "tolerance": 1e-8})
+    found = random_points.columns(
+        {"count": {"around the paper": 300, "whole ranges": 50}, "seed": 3, "cycles": 3, "tolerance": 1e-8}
+    )
     ok = found["status"] == "ok"
-    assert ok.all()
-    assert np.isfinite(found["max_depth"]).all()
-    assert (found["max_depth"] <= found["allowed_depth"]).all()
+    assert ok[:300].all()
+    assert np.isfinite(found["max_depth"][ok]).all()
+    assert (found["max_depth"][ok] <= found["allowed_depth"][ok] * (1.0 + 1e-9)).all()
     # A part that starts on the plate and is pressed on gets into it.
-    on_plate = np.isnan(found["z0"]) & (found["vz0"] < 0.0)
+    on_plate = ok & np.isnan(found["z0"]) & (found["vz0"] < 0.0)
     assert on_plate.any()
     assert (found["max_depth"][on_plate] > 0.0).all()

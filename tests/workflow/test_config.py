@@ -42,10 +42,19 @@ WRONG = [
     ({"sweeps": {"mine": {**MINE, "duration": float("nan")}}}, "sweeps.mine.duration = nan is not a finite number"),
     ({"sweeps": {"mine": {**MINE, "needs": "speed"}}}, "sweeps.mine.needs = 'speed' is not one of feeding, vertical"),
     ({"sweeps": {"my sweep": MINE}}, "sweeps = 'my sweep' is not a name of letters"),
+    (
+        {"sweeps": {"mine": {**MINE, "method": "euler", "step": 3.0e-7}}},
+        "sweeps.mine.step = 3e-07 s does not divide its duration of 1.0 s; take 3.0000003",
+    ),
+    (
+        {"sweeps": {"mine": {**MINE, "method": "euler", "step": 5.0e-3, "duration": 1.0e-3}}},
+        "sweeps.mine.step = 0.005 s",
+    ),
+    ({"estimates": {"phase": {"last": 1}}}, "estimates.phase.last = 1 is outside (0, 1) of the duration"),
     ({"estimates": {"phase": {"epsilon": 0.0}}}, "estimates.phase.epsilon = 0.0 is outside (0, 1]"),
     (
-        {"figures": {"fig03": {"tables": {"published": "sweeps/none"}}}},
-        "figures.fig03.tables.published = 'sweeps/none'",
+        {"figures": {"fig03": {"tables": {"euler": "sweeps/none"}}}},
+        "figures.fig03.tables.euler = 'sweeps/none'",
     ),
     ({"sweeps": {"amplitudes": {"needs": "vertical"}}}, "figures.fig03 needs feeding, but sweeps/amplitudes"),
     ({"figures": {"fig99": {**CONFIG["figures"]["fig03"]}}}, "figures.fig99 has no scripts/plots/fig99.py"),

@@ -35,5 +35,5 @@ def test_report_shows_every_figure_with_its_caption(built):
     for figure in FIGURES:
         assert f"figures/{figure}.png" in report
         assert json.dumps(ENTRIES[figure]["title"]) in report
-        caption = (ROOT / f"workflow/report/{figure}.rst").read_text()
+        caption = (built.folder / f"results/captions/{figure}.rst").read_text()
         assert json.dumps("<p>" + caption[:40]).strip('"') in report

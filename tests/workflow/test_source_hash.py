@@ -53,10 +53,33 @@ def test_hash_changes_with_what_is_imported_only(scripts):
     assert source_hash.source_hash("read") != before
 
 
-def test_hash_changes_with_the_version_of_a_numerical_package(scripts, monkeypatch):
+@pytest.mark.parametrize("package", ["numpy", "python"])
+def test_hash_changes_with_the_version_of_what_runs(scripts, monkeypatch, package):
     before = source_hash.source_hash("use")
-    monkeypatch.setattr(source_hash, "version", lambda package: "0.0")
+    true = source_hash.version
+    monkeypatch.setattr(source_hash, "version", lambda name: "0.0" if name == package else true(name))
+    if package == "python":
+        monkeypatch.setattr(source_hash.platform, "python_version", lambda: "0.0")
     assert source_hash.source_hash("use") != before
+
+
+def test_every_package_behind_a_number_or_a_picture_counts():
+    """Found by what is imported, not listed: pandas, and llvmlite and pillow behind others."""
+    _, packages = source_hash.closure("plot_figure", "plots/fig22", "regressions", "sweep")
+    names = {one.split("==")[0] for one in source_hash.versions(packages)}
+    assert {
+        "python",
+        "pandas",
+        "numpy",
+        "numba",
+        "llvmlite",
+        "matplotlib",
+        "pillow",
+        "pyarrow",
+        "pymoo",
+        "scipy",
+    } <= names
+    assert not names & {"math", "dataclasses"}
 
 
 def test_plots_depend_on_no_solver():

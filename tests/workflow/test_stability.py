@@ -20,6 +20,11 @@ def test_limits_of_a_hardly_damped_contact():
     assert stability.limit("rk4", stiffness, damping, MASS) * omega == pytest.approx(math.sqrt(8.0), rel=1e-3)
 
 
+def test_an_unknown_method_has_no_limit():
+    with pytest.raises(ValueError, match="heun"):
+        stability.limit("heun", 1e5, 0.3, MASS)
+
+
 def test_limit_of_an_impact_by_euler_weights_the_stiffness_with_the_speed():
     conveyor, speed = Conveyor(acceleration=0.0), 0.1
     share = (np.arange(200_000) + 0.5) / 200_000

@@ -5,7 +5,7 @@
 def benchmark_cases():
     """The cases of the benchmark with all defaults, by name."""
     cases = config["benchmark"]["cases"]
-    solver = {key: config["solver"][key] for key in ("duration", "tolerance", "step")}
+    solver = {key: config["solver"][key] for key in ("duration", "step")}
     return {name: {**solver, **case, "model": {**config["model"], **case["model"]}} for name, case in cases.items()}
 
 
@@ -17,12 +17,13 @@ rule benchmark:
         log_file("accuracy", "benchmark"),
     benchmark:
         benchmark_file("accuracy", "benchmark")
-    threads: workflow.cores
+    threads: WHOLE_MACHINE
     resources:
         mem_mb=1000,
         runtime=10,
     params:
         cases=benchmark_cases(),
+        tolerance=config["solver"]["tolerance"],
         repeats=config["benchmark"]["repeats"],
         code=source_hash("benchmark"),
     message:
@@ -92,7 +93,7 @@ rule wall_times:
         benchmark_file("wall_times")
     wildcard_constraints:
         name=one_of(config["precision"]["scenes"]),
-    threads: workflow.cores
+    threads: WHOLE_MACHINE
     resources:
         mem_mb=1000,
         runtime=30,
@@ -165,9 +166,31 @@ rule stability_estimates:
         model=config["model"],
         code=source_hash("stability_estimates"),
     message:
-        "How far the published estimates carry"
+        "How far the paper's estimates carry"
     script:
         "../../scripts/stability_estimates.py"
+
+
+rule settling_times:
+    output:
+        result("settling_times.parquet"),
+    log:
+        log_file("accuracy", "settling_times"),
+    benchmark:
+        benchmark_file("accuracy", "settling_times")
+    threads: 2
+    resources:
+        mem_mb=1000,
+        runtime=30,
+    params:
+        settings={**config["settling_times"], "settling": config["solver"]["settling"]},
+        model=config["model"],
+        tolerance=config["solver"]["tolerance"],
+        code=source_hash("settling_times"),
+    message:
+        "After how many cycles starts have settled"
+    script:
+        "../../scripts/settling_times.py"
 
 
 def entry_settings(reference):
@@ -195,12 +218,13 @@ def drawn_tables():
 
 rule scene_budget:
     output:
-        result("scene_budget.parquet"),
+        table=result("scene_budget.parquet"),
+        times=result("budget_times.parquet"),
     log:
         log_file("accuracy", "scene_budget"),
     benchmark:
         benchmark_file("accuracy", "scene_budget")
-    threads: workflow.cores
+    threads: WHOLE_MACHINE
     resources:
         mem_mb=1000,
         runtime=30,

@@ -34,7 +34,7 @@ rule check_results:
     input:
         claims=result("claims.parquet"),
         random_points=result("random_points.parquet"),
-        orbits=[table("orbits", name) for name in ("branches", "folds_and_doublings", "cascade")],
+        orbits=[table("orbits", name) for name in TABLES["orbits"]],
         exponents=[table("lyapunov", name) for name in ("spectrum", "witnesses")],
         accuracy=[
             *(table("precision", scene) for scene in config["precision"]["scenes"]),
@@ -57,9 +57,9 @@ rule check_results:
         runtime=10,
     params:
         results=f"results/{PREFIX}",
-        figures=json.dumps(config["figures"]),
+        figures=config["figures"],
+        code=source_hash("check_results"),
     message:
         "Tests of the results"
-    shell:
-        "CONVEYOR_RESULTS={params.results} CONVEYOR_FIGURES={params.figures:q} python -m pytest tests/results > {log} 2>&1"
-        " || (cat {log} >&2; exit 1); grep --only-matching '^[0-9]* passed' {log} > {output}"
+    script:
+        "../../scripts/check_results.py"

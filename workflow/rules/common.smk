@@ -3,11 +3,14 @@ import json
 import math
 from pathlib import Path
 
-from workflow.configuration import count_points, entry_of, resolve
+from workflow.configuration import TABLES, count_points, entry_of, resolve
 from workflow.source_hash import source_hash
 
 # "" or "NAME/": a config with a prefix keeps its results apart.
 PREFIX = config["prefix"] and f"{config['prefix']}/"
+
+# Jobs that take wall times run alone. Snakemake does not say how many cores a node of a cluster has: there a profile does.
+WHOLE_MACHINE = workflow.cores or 1
 
 
 wildcard_constraints:

@@ -15,6 +15,15 @@ def figure_tables(entry):
     return {role: table(*reference.split("/")) for role, reference in entry["tables"].items()}
 
 
+def caption_file(figure):
+    """The caption of a figure, its numbers filled in."""
+    return result(f"captions/{figure}.rst")
+
+
+def caption_files():
+    return [caption_file(figure) for figure in config["figures"]]
+
+
 for figure, entry in config["figures"].items():
 
     rule:
@@ -26,7 +35,7 @@ for figure, entry in config["figures"].items():
             pdf=figure_file(figure, "pdf"),
             png=report(
                 figure_file(figure, "png"),
-                caption=f"../report/{figure}.rst",
+                caption=f"../../{caption_file(figure)}",
                 category="Figures",
                 labels={"figure": figure, "title": entry["title"], "section": entry["section"]},
             ),
@@ -48,31 +57,32 @@ for figure, entry in config["figures"].items():
             "../../scripts/plot_figure.py"
 
 
-def jobs_of(reference):
-    """The benchmark files of the jobs that a table SECTION/NAME needs."""
-    section, name = reference.split("/")
-    if section == "sweeps":
-        shards = math.ceil(count_points(config["sweeps"][name]["axes"]) / POINTS_PER_JOB)
-        return [benchmark_file("runs", f"{name}/{k}") for k in range(shards)] + [benchmark_file(section, name)]
-    if section == "regressions":
-        return jobs_of(f"critical/{config['regressions'][name]['critical']}") + [benchmark_file(section, name)]
-    if section == "orbits":
-        return [benchmark_file("orbits", "orbits")]
-    if section == "lyapunov":
-        return jobs_of("attractors/strobes") + [benchmark_file(section, name)]
-    if section == "wall_times":
-        return jobs_of(f"precision/{name}") + [benchmark_file(section, name)]
-    return [benchmark_file("accuracy" if section == "results" else section, name)]
+def caption_references():
+    """The tables that captions need, as SECTION/NAME, sorted."""
+    figures = config["figures"].values()
+    tables = (entry[key] for entry in figures for key in ("tables", "caption_tables") if key in entry)
+    return sorted({reference for one in tables for reference in one.values()})
 
 
-def costs():
-    """A param: the tables of each figure and the benchmark files of all jobs that it needs."""
-    found = {}
-    for figure, entry in config["figures"].items():
-        references = list(entry["tables"].values())
-        files = {file for reference in references for file in jobs_of(reference)}
-        found[figure] = {"tables": references, "files": sorted(files | {benchmark_file("figures", figure)})}
-    return found
+rule captions:
+    input:
+        tables=[table(*reference.split("/")) for reference in caption_references()],
+        templates=[f"workflow/report/{figure}.rst" for figure in config["figures"]],
+    output:
+        caption_files(),
+    log:
+        log_file("figures", "captions"),
+    benchmark:
+        benchmark_file("figures", "captions")
+    localrule: True
+    params:
+        figures=config["figures"],
+        references=caption_references(),
+        code=source_hash("captions"),
+    message:
+        "Captions of all figures"
+    script:
+        "../../scripts/captions.py"
 
 
 # Pages of the documentation, made on the paper's config only.
@@ -85,12 +95,52 @@ rule figure_costs:
         log_file("docs", "figures"),
     localrule: True
     params:
-        figures=costs(),
+        figures=list(config["figures"]),
+        configfiles=[str(file) for file in workflow.overwrite_configfiles],
         code=source_hash("figure_costs"),
     message:
         "What each figure costs"
     script:
         "../../scripts/figure_costs.py"
+
+
+rule readme:
+    input:
+        template="workflow/templates/README.md",
+        claims=result("claims.parquet"),
+        benchmark=result("benchmark.parquet"),
+        edge=table("critical", "edge"),
+        edge_euler=table("critical", "edge_euler"),
+        spectrum=table("lyapunov", "spectrum"),
+        cascade=table("orbits", "cascade"),
+    output:
+        "README.md" if not PREFIX else result("README.md"),
+    log:
+        log_file("docs", "readme"),
+    localrule: True
+    params:
+        figures={name: {key: entry[key] for key in ("title", "section")} for name, entry in config["figures"].items()},
+        code=source_hash("readme"),
+    message:
+        "The README"
+    script:
+        "../../scripts/readme.py"
+
+
+rule claims_page:
+    input:
+        result("claims.md"),
+    output:
+        "docs/claims.md" if not PREFIX else result("claims_page.md"),
+    log:
+        log_file("docs", "claims"),
+    localrule: True
+    params:
+        code=source_hash("copy_page"),
+    message:
+        "The page of claims that later builds are compared with"
+    script:
+        "../../scripts/copy_page.py"
 
 
 rule gallery:

@@ -4,6 +4,8 @@
 def of_sections(*sections):
     """A param: these sections of the config with the model and the tolerance, overrides included, later ones first."""
     merged = {"tolerance": config["solver"]["tolerance"]}
+    if "attractors" in sections:
+        merged["settling"] = config["solver"]["settling"]
     for section in sections:
         merged.update(config[section])
     return {**merged, "model": {**config["model"], **merged.get("model", {})}}
@@ -29,6 +31,52 @@ rule orbits:
         "Periodic orbits"
     script:
         "../../scripts/orbits.py"
+
+
+# Wall times differ from run to run and have a table of their own; the others have equal bytes every time.
+rule certificates:
+    input:
+        branches=table("orbits", "branches"),
+        folds_and_doublings=table("orbits", "folds_and_doublings"),
+        cascade=table("orbits", "cascade"),
+    output:
+        certificates=table("orbits", "certificates"),
+        certified_bifurcations=table("orbits", "certified_bifurcations"),
+        certified_chaos=table("orbits", "certified_chaos"),
+        times=table("orbits", "certificate_times"),
+    log:
+        log_file("orbits", "certificates"),
+    benchmark:
+        benchmark_file("orbits", "certificates")
+    threads: 2
+    resources:
+        mem_mb=1500,
+        runtime=60,
+    params:
+        settings={**config["certificates"], "model": of_sections("orbits")["model"]},
+        code=source_hash("certificates"),
+    message:
+        "Orbits, bifurcations and chaos, proved"
+    script:
+        "../../scripts/certificates.py"
+
+
+rule certificates_page:
+    input:
+        certificates=table("orbits", "certificates"),
+        certified_bifurcations=table("orbits", "certified_bifurcations"),
+        certified_chaos=table("orbits", "certified_chaos"),
+    output:
+        "docs/certificates.md" if not PREFIX else result("certificates.md"),
+    log:
+        log_file("docs", "certificates"),
+    localrule: True
+    params:
+        code=source_hash("certificates_page"),
+    message:
+        "What is proved, in words"
+    script:
+        "../../scripts/certificates_page.py"
 
 
 rule attractors:

@@ -1,0 +1,179 @@
+"""Rule captions: the captions of all figures, their numbers filled in from the tables that the figures draw."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from jinja2 import Environment, StrictUndefined
+
+import stability
+from findings.chaos import positive_onset
+from findings.states import runs_of, second_from_rest, written_runs
+from rule_log import logged
+
+MM = 1e3
+SIGNIFICANT = 3.0  # standard errors by which an exponent is positive
+
+Tables = dict[str, pd.DataFrame]
+
+
+def heights(table: pd.DataFrame) -> dict[str, str]:
+    """Number and range of the initial heights of a sweep."""
+    z0 = np.sort(table.z0.unique())
+    return {"heights": str(len(z0)), "lowest_mm": f"{MM * z0[0]:g}", "highest_mm": f"{MM * z0[-1]:g}"}
+
+
+def of_runs(table: pd.DataFrame) -> dict[str, str]:
+    """How long the runs of a table are, and the step of those by Euler."""
+    told = {"duration": f"{table.attrs['duration']:g}"}
+    return told | ({"step_us": f"{1e6 * table.attrs['step']:g}"} if "step" in table.attrs else {})
+
+
+def chaotic(spectrum: pd.DataFrame) -> pd.Series:
+    """Where the exponent of a motion is positive beyond its error."""
+    return spectrum.lambda_1 > SIGNIFICANT * spectrum.stderr
+
+
+def fig03(tables: Tables, settings: dict) -> dict[str, str]:
+    return of_runs(tables["euler"])
+
+
+def fig08(tables: Tables, settings: dict) -> dict[str, str]:
+    return heights(tables["converged"])
+
+
+def fig10(tables: Tables, settings: dict) -> dict[str, str]:
+    both = [
+        tables[method][tables[method].is_critical].set_index("acceleration").z0 for method in ("euler", "converged")
+    ]
+    change = 100.0 * (both[0] / both[1] - 1.0).dropna()
+    return {
+        "resolution": f"{tables['converged'].attrs['resolution']:g}",
+        "least": f"{change.max():+.1f}",
+        "most": f"{change.min():+.1f}",
+        "most_at": f"{change.idxmin():g}",
+    }
+
+
+def fig20(tables: Tables, settings: dict) -> dict[str, str]:
+    attributes = tables["converged"].attrs
+    first = attributes["model"]["z0"]
+    return {"first_mm": f"{MM * first:g}", "second_mm": f"{MM * (first + attributes['epsilon']):g}"}
+
+
+def fig22(tables: Tables, settings: dict) -> dict[str, str]:
+    spectrum = tables["spectrum"]
+    up = spectrum[(spectrum.branch == "up")].sort_values("acceleration")
+    joined = pd.merge_asof(
+        tables["converged"].sort_values("acceleration"),
+        up[["acceleration", "lambda_1"]].assign(chaotic=chaotic(up)),
+        on="acceleration",
+        direction="nearest",
+    )
+    joined = joined[joined.chaotic]
+    return {
+        "epsilon": f"{tables['converged'].attrs['epsilon']:.0e}".replace("e-0", "e-"),
+        "euler_positive": f"{positive_onset(tables['euler']):g}",
+        "converged_positive": f"{positive_onset(tables['converged']):g}",
+        "plateau": f"{joined['lambda'].median():.0f}",
+        "truth": f"{joined.lambda_1.median():.0f}",
+    }
+
+
+def fig23(tables: Tables, settings: dict) -> dict[str, str]:
+    return {"end": f"{tables['converged'].time.max():g}"}
+
+
+def fig24(tables: Tables, settings: dict) -> dict[str, str]:
+    table = tables["converged"]
+    return {
+        "unknown": str(int(table.dimension.isna().sum())),
+        "amplitudes": str(len(table)),
+        "largest_error": f"{table.attrs['largest_error']:g}",
+    }
+
+
+def bifurcation(tables: Tables, settings: dict) -> dict[str, str]:
+    spectrum, accumulation = tables["spectrum"], tables["cascade"].accumulation.dropna().iloc[-1]
+    runs = {}
+    for branch, rows in spectrum.sort_values("acceleration").groupby("branch"):
+        early = rows[rows.acceleration < accumulation]
+        runs[branch] = runs_of(early.acceleration, chaotic(early))
+    late = spectrum[spectrum.acceleration > accumulation].sort_values("acceleration")
+    regular = (late.lambda_1 < -SIGNIFICANT * late.stderr).groupby(late.acceleration).all()
+    return {
+        "longest_period": str(settings["longest_period"]),
+        "accumulation": f"{accumulation:.2f}",
+        "early_up": written_runs(runs["up"], 2) if runs.get("up") else "nowhere",
+        "early_down": written_runs(runs["down"], 2) if runs.get("down") else "nowhere",
+        "regular_share": f"{100.0 * regular.mean():.0f}",
+    }
+
+
+def longest_period(tables: Tables, settings: dict) -> dict[str, str]:
+    return {"longest_period": str(settings["longest_period"])}
+
+
+def rigid_part(tables: Tables, settings: dict) -> dict[str, str]:
+    table = tables["rigid"]
+    contact = table[(table.model == "contact") & (table.kind == "velocity")]
+    return {"leaves": f"{second_from_rest(contact):g}"}
+
+
+def settling(tables: Tables, settings: dict) -> dict[str, str]:
+    table = tables["times"]
+    settled = table[table.period > 0].cycles
+    return {
+        "starts": str(table.attrs["starts"]),
+        "late": f"{100.0 * (settled > table.attrs['settling']).mean():.1f}",
+    }
+
+
+def stability_maps(tables: Tables, settings: dict) -> dict[str, str]:
+    return {
+        "start_mm": f"{MM * tables['stability'].attrs['conveyor']['z0']:g}",
+        "right": f"{100.0 * stability.VELOCITY:g}",
+    }
+
+
+NUMBERS: dict[str, Callable[[Tables, dict], dict[str, str]]] = {
+    "fig03": fig03,
+    "fig08": fig08,
+    "fig10": fig10,
+    "fig11": fig08,
+    "fig20": fig20,
+    "fig22": fig22,
+    "fig23": fig23,
+    "fig24": fig24,
+    "bifurcation": bifurcation,
+    "certificates": longest_period,
+    "rigid_part": rigid_part,
+    "settling": settling,
+    "stability": stability_maps,
+}
+
+
+def caption(template: str, name: str, tables: Tables, settings: dict) -> str:
+    """The caption of a figure from its template.
+
+    Raises
+    ------
+    jinja2.UndefinedError
+        if the template asks for a number that NUMBERS does not give
+    """
+    numbers = NUMBERS[name](tables, settings) if name in NUMBERS else {}
+    return Environment(undefined=StrictUndefined, keep_trailing_newline=True).from_string(template).render(numbers)
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        figures, references = snakemake.params.figures, snakemake.params.references
+        read = dict(zip(references, map(pd.read_parquet, snakemake.input.tables), strict=True))
+        for (name, entry), template, path in zip(
+            figures.items(), snakemake.input.templates, snakemake.output, strict=True
+        ):
+            of_figure = {**entry["tables"], **entry.get("caption_tables", {})}
+            tables = {role: read[reference] for role, reference in of_figure.items()}
+            text = caption(Path(template).read_text(encoding="utf-8"), name, tables, entry.get("settings", {}))
+            Path(path).write_text(text, encoding="utf-8")

@@ -1,0 +1,44 @@
+"""Rule check_results: the tests of what has been made, tests/results, in a process of their own."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from rule_log import logged
+
+
+def passed(results: str, figures: dict) -> str:
+    """How many tests passed, in pytest's words.
+
+    Parameters
+    ----------
+    results : folder of the results
+    figures : the section `figures` of the config
+
+    Raises
+    ------
+    RuntimeError
+        with all that pytest says, if a test fails
+    """
+    environment = {"CONVEYOR_RESULTS": results, "CONVEYOR_FIGURES": json.dumps(figures)}
+    run = subprocess.run(
+        # The interpreter that runs this: another one on PATH, or none, is no concern of ours.
+        [sys.executable, "-m", "pytest", "tests/results"],
+        env={**os.environ, **environment},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    if run.returncode != 0:
+        raise RuntimeError(f"tests of the results fail:\n{run.stdout}")
+    return re.search(r"\d+ passed", run.stdout).group()
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        text = passed(snakemake.params.results, snakemake.params.figures)
+        Path(snakemake.output[0]).write_text(f"{text}\n", encoding="utf-8")

@@ -1,0 +1,73 @@
+"""The law of motion: the conveyor without units, its numbers read as decimals.
+
+With lengths in g/ω², velocities in g/ω and the phase φ of the excitation as time, penetration δ = w² and the quantity
+Y = δ' + β δ of the stroboscopic map obey, in contact with dφ = w ds,
+
+    dw/ds = (Y - β w²)/2,   dY/ds = w (1 + γ cos φ) - κ w^(2p+1),   dφ/ds = w,
+
+and in flight δ'' = 1 + γ cos φ, with γ = â sin(angle)/g, β = d_c/(m ω) and κ = (k_c/(m g)) (g/ω²)^p.
+"""
+
+import math
+from typing import NamedTuple
+
+from flint import arb
+
+from ..model import TENSION_ALLOW, TENSION_MODES, Conveyor
+from .balls import exactly
+
+# Angles whose value in degrees has at most this many digits behind the point are read as that decimal.
+DIGITS_OF_DEGREES = 9
+
+
+class Law(NamedTuple):
+    """A conveyor but for its amplitude: enclosures of exact numbers."""
+
+    slope: arb  # γ per m/s² of the amplitude
+    beta: arb
+    kappa: arb
+    twice_exponent: int  # 2p
+    phase: arb  # ψ0, rad
+    omega: arb  # 1/s
+    length: arb  # g/ω², m
+    speed: arb  # g/ω, m/s
+
+    def gamma(self, acceleration: arb) -> arb:
+        """The amplitude of the plate's acceleration over gravity."""
+        return self.slope * acceleration
+
+
+def read_angle(angle: float) -> arb:
+    """An angle in rad: a decimal of degrees times π/180 where that is what the float means, else its own decimal."""
+    degrees = round(math.degrees(angle), DIGITS_OF_DEGREES)
+    if abs(math.radians(degrees) - angle) <= 2.0 * math.ulp(angle):
+        return exactly(degrees) * arb.pi() / 180
+    return exactly(angle)
+
+
+def law_of(conveyor: Conveyor) -> Law:
+    """The law of a conveyor whose numbers are the decimals that are written for them.
+
+    Raises
+    ------
+    ValueError
+        for a reading of the contact force or an exponent whose equations are not polynomial in w
+    """
+    if TENSION_MODES.index(conveyor.tension) != TENSION_ALLOW:
+        raise ValueError(f"certificates are for tension = allow, not {conveyor.tension}")
+    twice = round(2.0 * conveyor.exponent)
+    if twice != 2.0 * conveyor.exponent:
+        raise ValueError(f"certificates need an exponent that is half a whole number, not {conveyor.exponent}")
+    omega = 2 * arb.pi() * exactly(conveyor.frequency)
+    gravity, mass = exactly(conveyor.gravity), exactly(conveyor.mass)
+    length = gravity / omega**2
+    return Law(
+        slope=read_angle(conveyor.angle).sin() / gravity,
+        beta=exactly(conveyor.damping) / (mass * omega),
+        kappa=exactly(conveyor.stiffness) / (mass * gravity) * length ** (arb(twice) / 2),
+        twice_exponent=twice,
+        phase=read_angle(conveyor.psi0),
+        omega=omega,
+        length=length,
+        speed=gravity / omega,
+    )

@@ -1,0 +1,170 @@
+"""A periodic orbit: existence and uniqueness, least period, multipliers and stability."""
+
+from functools import reduce
+from typing import NamedTuple
+
+import numpy as np
+from flint import arb, arb_mat
+
+from .balls import Refused, bounds, middle
+from .motion import Arrival, Impact
+from .newton import Zero, corrected, exact, floats, prove
+from .shooting import AtAmplitude, Shooting
+
+
+class ProvedOrbit(NamedTuple):
+    """For each amplitude of a ball exactly one orbit in a box around it."""
+
+    shooting: Shooting
+    gamma: arb
+    zero: Zero
+    trace: arb  # of the derivative of (δ, Y) over a period
+    determinant: arb  # the product of the multipliers, from the phase in contact
+    contact: arb  # phase in contact in a period
+
+    def strobe(self, cycle: int) -> tuple[arb, arb]:
+        """(δ, Y) at the beginning of a cycle of the period, in units of the law."""
+        row = 2 * self.shooting.nodes * cycle
+        return self.zero.enclosure[row, 0], self.zero.enclosure[row + 1, 0]
+
+    @property
+    def duration(self) -> arb:
+        """The period as a phase, rad."""
+        return 2 * arb.pi() * self.shooting.period
+
+    @property
+    def half_width(self) -> float:
+        """The largest half-width of the enclosure of a state at any node, in units of the law."""
+        return max(bounds(value.rad())[1] for value in self.zero.enclosure.entries())
+
+    @property
+    def impacts(self) -> list[Impact]:
+        """All impacts in the order of time from the first strobe on."""
+        return [impact for arrival in self.zero.evidence for impact in arrival.impacts]
+
+    @property
+    def fold_test(self) -> arb:
+        """(1 - μ1)(1 - μ2)."""
+        return 1 - self.trace + self.determinant
+
+    @property
+    def doubling_test(self) -> arb:
+        """(1 + μ1)(1 + μ2)."""
+        return 1 + self.trace + self.determinant
+
+    @property
+    def stability(self) -> str:
+        """Proved from Jury's conditions: "stable" if both multipliers are inside the unit circle, "unstable" if one is
+        outside, else "open".
+
+        The characteristic polynomial p(μ) = μ² - trace μ + det is positive at ±1 and det < 1 if and only if both are
+        inside; p(1) < 0 or p(-1) < 0 leaves a real one beyond +1 or -1. det < 1 holds for every orbit with contact.
+        """
+        if self.fold_test > 0 and self.doubling_test > 0 and self.determinant < 1:
+            return "stable"
+        if self.fold_test < 0 or self.doubling_test < 0:
+            return "unstable"
+        return "open"
+
+    def multipliers(self) -> list[tuple[arb, arb]]:
+        """Real and imaginary parts of both multipliers, the larger modulus first.
+
+        Raises
+        ------
+        Refused
+            if it is open whether they are real, or which one is larger
+        """
+        half = self.trace / 2
+        square = half * half - self.determinant
+        if square < 0:
+            root = (-square).sqrt()
+            return [(half, root), (half, -root)]
+        if not square > 0 or half.contains(0):
+            raise Refused("open whether the multipliers are real, or which one is larger")
+        # The root that does not cancel; the other one follows from the product.
+        first = half + square.sqrt() if half > 0 else half - square.sqrt()
+        return [(first, arb(0)), (self.determinant / first, arb(0))]
+
+
+def linearised(shooting: Shooting, arrivals: list[Arrival]) -> tuple[arb, arb, arb]:
+    """Trace and determinant of the derivative over a period, and the phase in contact.
+
+    The trace is that of Q⁻¹ P Q for any Q: with the Q of a QR decomposition at each node the factors of the product P
+    are nearly triangular, and its width stays that of its diagonal. The determinant is that of a flow with the
+    divergence -β in contact (Liouville), which is narrower than that of the product and must agree with it.
+    """
+    matrices = [arb_mat([[arrival.matrix[i, j] for j in range(2)] for i in range(2)]) for arrival in arrivals]
+    whole = reduce(lambda product, matrix: floats(matrix) @ product, matrices, np.eye(2))
+    values, vectors = np.linalg.eig(whole)
+    x, y = vectors[:, np.argmax(np.abs(values))].real
+    base = frame = exact(np.array([[x, -y], [y, x]]))
+    product = arb_mat([[1, 0], [0, 1]])
+    for matrix in matrices:
+        following = base if matrix is matrices[-1] else exact(np.linalg.qr(floats(matrix * frame))[0])
+        product = following.inv() * matrix * frame * product
+        frame = following
+    contact = sum((arrival.contact for arrival in arrivals), arb(0))
+    determinant = (-shooting.law.beta * contact).exp()
+    if not determinant.overlaps(product.det()):
+        raise Refused("the determinant contradicts the time in contact")
+    return product.trace(), determinant, contact
+
+
+def proved(shooting: Shooting, gamma: arb, zero: Zero) -> ProvedOrbit:
+    """What follows from exactly one zero of the equations."""
+    orbit = ProvedOrbit(shooting, gamma, zero, *linearised(shooting, zero.evidence))
+    check_period(orbit)
+    return orbit
+
+
+def prove_orbit(shooting: Shooting, gamma: arb, strobes: np.ndarray) -> ProvedOrbit:
+    """The orbit near approximate states at the beginnings of its cycles.
+
+    Parameters
+    ----------
+    shooting : period and accuracy
+    gamma : amplitude; for each of its ball there is an orbit
+    strobes : (δ, Y) in units of the law, shape (period, 2)
+
+    Raises
+    ------
+    Refused
+        with the reason
+    """
+    point = middle(gamma)
+    centre, inverse = corrected(AtAmplitude(shooting, point), shooting.launch(point, strobes), shooting.least)
+    return proved(shooting, gamma, prove(AtAmplitude(shooting, gamma), centre, inverse, shooting.least, "orbit"))
+
+
+def check_period(orbit: ProvedOrbit) -> None:
+    """Prove that no part of the period is a period.
+
+    The least period divides every period; if the orbit had the period n/p for a prime p, its states n/p cycles apart
+    would be equal.
+
+    Raises
+    ------
+    Refused
+        if the orbit may repeat itself earlier
+    """
+    period = orbit.shooting.period
+    for prime in range(2, period + 1):
+        if period % prime == 0 and all(prime % factor for factor in range(2, prime)):
+            first, later = orbit.strobe(0), orbit.strobe(period // prime)
+            if all(a.overlaps(b) for a, b in zip(first, later, strict=True)):
+                raise Refused(f"its period may be {period // prime} instead of {period} cycles")
+
+
+def check_near(orbit: ProvedOrbit, strobes: np.ndarray, closeness: float) -> float:
+    """The distance between the orbit and approximate states at the beginnings of its cycles, in units of the law.
+
+    Raises
+    ------
+    Refused
+        if it is larger than `closeness`: what was proved is another orbit than the one that was meant
+    """
+    enclosed = np.array([[float(value) for value in orbit.strobe(cycle)] for cycle in range(orbit.shooting.period)])
+    distance = float(np.abs(enclosed - strobes).max())
+    if not distance <= closeness:
+        raise Refused(f"the orbit that is proved lies {distance:.1e} away, in g/ω² and g/ω: it is another one")
+    return distance

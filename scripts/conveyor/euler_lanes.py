@@ -1,0 +1,403 @@
+"""Explicit Euler as the paper publishes it, one trajectory in each lane of the processor's vector registers.
+
+A register of 512 bits holds eight numbers, and one instruction works on all of them: eight trajectories cost little
+more than one if they take the same instructions. So nothing here branches on a trajectory's state, both outcomes are
+computed and one is selected, and sine and cosine are computed here as well: a library takes one phase at a time.
+
+Every operation is rounded as IEEE 754 defines it; none is merged with another or moved, and fused products are asked
+for by name. What a trajectory gives depends neither on its neighbours nor on the lane nor on the number of lanes, and a
+single run is the same code in one lane. For the exponents 1 and 1.5 no library function is called, so that the digits
+are those of every machine; any other exponent takes the power of the C library, lane after lane.
+"""
+
+import functools
+import math
+
+import numpy as np
+from llvmlite import ir
+from llvmlite.binding import get_host_cpu_features
+from numba.core import cgutils, types
+from numba.extending import intrinsic
+
+from . import model
+from .jit import kernel
+
+CHECK = 256  # steps between checks that the state is finite
+STATUSES = ("ok", "not finite")
+OK, NOT_FINITE = range(len(STATUSES))
+EVENT_KINDS = ("impact", "separation")
+IMPACT, SEPARATION = range(len(EVENT_KINDS))
+
+# What is known of one trajectory: a row of the results, and the first rows of the kernel's memory, which has a column
+# for each lane. There CONTACT_TIME counts steps, and EVALUATIONS is the number of the present step.
+X, VX, Z, VZ, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, EVALUATIONS, STATUS = range(10)
+RESULTS = 10
+# Forces per mass (m/s²) and gap (m) at the present step; 1 if the gap was last seen closed, else 0.
+GAP, PUSH, RUB, IN_CONTACT = range(10, 14)
+# Constants: Δt (s); ω (rad/s), ψ0 (rad), the amplitudes of z_s, ż_s, ẋ_s; k_c/m, d_c/m, p, μ, g (m/s²); the least
+# contact force per mass that acts, and the least that rubs.
+STEP, OMEGA, PSI0, PLATE_Z, PLATE_VZ, PLATE_VX = range(14, 20)
+STIFFNESS, DAMPING, EXPONENT, FRICTION, GRAVITY, LEAST_PUSH, LEAST_RUB = range(20, 27)
+ROWS = 27
+
+TWO_OVER_PI = 0.6366197723675814
+HALF_PI = (1.5707963267948966, 6.123233995736766e-17, -1.4973849048591833e-33)  # their sum is π/2 to 161 bits
+# A number of this size has no digits behind the point: to add it rounds, and its last bits are the whole number.
+ROUNDER = 1.5 * 2.0**52
+# Coefficients of r³, r⁵, ..., r¹³ and r⁴, r⁶, ..., r¹⁴ on |r| ≤ π/4, the last one first: k_sin.c and k_cos.c of fdlibm
+# (Sun Microsystems 1993).
+SINE = (
+    1.58969099521155010221e-10,
+    -2.50507602534068634195e-08,
+    2.75573137070700676789e-06,
+    -1.98412698298579493134e-04,
+    8.33333333332248946124e-03,
+    -1.66666666666666324348e-01,
+)
+COSINE = (
+    -1.13596475577881948265e-11,
+    2.08757232129817482790e-09,
+    -2.75573143513906633035e-07,
+    2.48015872894767294178e-05,
+    -1.38888888888741095749e-03,
+    4.16666666666666019037e-02,
+)
+
+BIT, INTEGER, FLOAT = ir.IntType(1), ir.IntType(64), ir.DoubleType()
+
+
+class Vector:
+    """The numbers in one register while a kernel is being written: operators append an LLVM instruction to it.
+
+    A plain number stands for itself in every lane. Comparisons give a Vector of bits.
+    """
+
+    def __init__(self, builder: ir.IRBuilder, value: ir.Value):
+        self.builder, self.value, self.lanes = builder, value, value.type.count
+
+    def like(self, number):
+        """`number` as a Vector of the same kind."""
+        if isinstance(number, Vector):
+            return number
+        return Vector(self.builder, ir.Constant(self.value.type, [number] * self.lanes))
+
+    def cast(self, instruction, element):
+        """The lanes converted to another type of element by an instruction of the builder."""
+        return Vector(self.builder, instruction(self.value, ir.VectorType(element, self.lanes)))
+
+    def apply(self, instruction, other):
+        return Vector(self.builder, instruction(self.value, self.like(other).value))
+
+    def compare(self, sign, other):
+        """False where a number is NaN."""
+        return Vector(self.builder, self.builder.fcmp_ordered(sign, self.value, self.like(other).value))
+
+    def __neg__(self):
+        return Vector(self.builder, self.builder.fneg(self.value))
+
+    def __add__(self, other):
+        return self.apply(self.builder.fadd, other)
+
+    def __sub__(self, other):
+        return self.apply(self.builder.fsub, other)
+
+    def __mul__(self, other):
+        return self.apply(self.builder.fmul, other)
+
+    def __lt__(self, other):
+        return self.compare("<", other)
+
+    def __le__(self, other):
+        return self.compare("<=", other)
+
+    def __gt__(self, other):
+        return self.compare(">", other)
+
+    def __eq__(self, other):
+        return self.compare("==", other)
+
+    def __and__(self, other):
+        return self.apply(self.builder.and_, other)
+
+    def __or__(self, other):
+        return self.apply(self.builder.or_, other)
+
+    def __xor__(self, other):
+        return self.apply(self.builder.xor, other)
+
+    def __invert__(self):
+        return Vector(self.builder, self.builder.not_(self.value))
+
+    def __lshift__(self, count):
+        return self.apply(self.builder.shl, count)
+
+
+def where(condition: Vector, yes: Vector, no: Vector | float) -> Vector:
+    """In each lane `yes` if its bit is set, else `no`."""
+    return Vector(yes.builder, yes.builder.select(condition.value, yes.value, yes.like(no).value))
+
+
+def anywhere(condition: Vector) -> ir.Value:
+    """One bit: whether a lane's bit is set."""
+    every = ir.IntType(condition.lanes)
+    return condition.builder.icmp_unsigned("!=", condition.builder.bitcast(condition.value, every), every(0))
+
+
+def call(name: str, first: Vector, *others: Vector | float) -> Vector:
+    """An LLVM function that works on whole registers."""
+    type_, builder = first.value.type, first.builder
+    values = [first.like(operand).value for operand in (first, *others)]
+    signature = ir.FunctionType(type_, [type_] * len(values))
+    function = cgutils.get_or_insert_function(builder.module, signature, f"llvm.{name}.v{first.lanes}f64")
+    return Vector(builder, builder.call(function, values))
+
+
+def fused(a: Vector, b: Vector | float, c: Vector | float) -> Vector:
+    """The product and sum a b + c, rounded once."""
+    return call("fma", a, b, c)
+
+
+def polynomial(coefficients: tuple[float, ...], x: Vector) -> Vector:
+    value = x.like(coefficients[0])
+    for coefficient in coefficients[1:]:
+        value = fused(value, x, coefficient)
+    return value
+
+
+def sine_and_cosine(phase: Vector) -> tuple[Vector, Vector]:
+    """Sine and cosine of phases in rad, at most 1.5 units in the last place off for |phase| ≤ 1e12 (measured).
+
+    The whole number of quarter turns n is subtracted as in Cody and Waite's reduction, here without rounding in the
+    first term: phase - n HALF_PI[0] is a multiple of 2⁻⁵² below 1. The last two bits of n select polynomial and sign.
+    Beyond 2⁵¹ quarter turns, where neighbouring numbers are half a radian apart, the values mean nothing.
+    """
+    builder = phase.builder
+    rounded = fused(phase, TWO_OVER_PI, ROUNDER)
+    turns = rounded - ROUNDER
+    r = phase
+    for part in HALF_PI:
+        r = fused(turns, -part, r)
+    square = r * r
+    sine = fused(r * square, polynomial(SINE, square), r)
+    cosine = fused(square, fused(square, polynomial(COSINE, square), -0.5), 1.0)
+    bits = rounded.cast(builder.bitcast, INTEGER)
+    odd = bits.cast(builder.trunc, BIT)
+
+    def signed(value, sign):
+        flipped = value.cast(builder.bitcast, INTEGER) ^ (sign & -(2**63))
+        return flipped.cast(builder.bitcast, FLOAT)
+
+    # The sine is negative in the quarters 2 and 3, the cosine in 1 and 2.
+    return signed(where(odd, cosine, sine), bits << 62), signed(where(odd, sine, cosine), (bits << 62) ^ (bits << 63))
+
+
+class Memory:
+    """The rows of an array of shape (ROWS, lanes), each a Vector."""
+
+    def __init__(self, context, builder, signature, arguments):
+        lanes, array = signature.args
+        data = context.make_array(array)(context, builder, arguments[1]).data
+        self.builder = builder
+        self.start = builder.bitcast(data, ir.VectorType(FLOAT, lanes.literal_value).as_pointer())
+
+    def at(self, row):
+        return self.builder.gep(self.start, [INTEGER(row)], inbounds=True)
+
+    def __getitem__(self, row):
+        return Vector(self.builder, self.builder.load(self.at(row), align=8))
+
+    def __setitem__(self, row, vector):
+        self.builder.store(vector.value, self.at(row), align=8)
+
+
+def spring_length(depth: Vector, exponent: Vector, flying: Vector) -> Vector:
+    """δ^p in m^p from δ (m); anything in the lanes that fly. The power is slow and called only where it is needed."""
+    builder = depth.builder
+    hertz, hooke = exponent == 1.5, exponent == 1.0
+    length = cgutils.alloca_once_value(builder, (depth * where(hertz, call("sqrt", depth), 1.0)).value)
+    general = ~(flying | hertz | hooke)
+    power = cgutils.get_or_insert_function(builder.module, ir.FunctionType(FLOAT, [FLOAT, FLOAT]), "pow")
+    with builder.if_then(anywhere(general), likely=False):
+        for lane in map(ir.IntType(32), range(depth.lanes)):
+            base, p, wanted = (builder.extract_element(one.value, lane) for one in (depth, exponent, general))
+            with builder.if_then(wanted):
+                found = builder.call(power, [base, p])
+                builder.store(builder.insert_element(builder.load(length), found, lane), length)
+    return Vector(builder, builder.load(length))
+
+
+@intrinsic(prefer_literal=True)
+def forces(typing_context, lanes, memory):
+    """Evaluate GAP, PUSH and RUB at the present step (Eqs. 7, 11 and 12); True if a gap has opened or closed."""
+
+    def code(context, builder, signature, arguments):
+        at = Memory(context, builder, signature, arguments)
+        sine, cosine = sine_and_cosine(at[OMEGA] * (at[EVALUATIONS] * at[STEP]) + at[PSI0])
+        gap = at[Z] + at[PLATE_Z] * cosine
+        flying = gap > 0.0
+        length = spring_length(-gap, at[EXPONENT], flying)
+        force = at[STIFFNESS] * length - at[DAMPING] * (at[VZ] - at[PLATE_VZ] * sine)
+        push = where(~flying, where(at[LEAST_PUSH] > force, at[LEAST_PUSH], force), 0.0)
+        bound = at[FRICTION] * where(at[LEAST_RUB] > push, at[LEAST_RUB], push)
+        slip = at[PLATE_VX] * sine - at[VX]
+        at[GAP], at[PUSH] = gap, push
+        at[RUB] = where(slip > 0.0, bound, where(slip < 0.0, -bound, 0.0))
+        return anywhere((gap <= 0.0) ^ (at[IN_CONTACT] > 0.0))
+
+    return types.boolean(lanes, memory), code
+
+
+@intrinsic(prefer_literal=True)
+def euler_step(typing_context, lanes, memory):
+    """Advance by one step with the forces in memory, and count what the step leaves behind."""
+
+    def code(context, builder, signature, arguments):
+        at = Memory(context, builder, signature, arguments)
+        step, x, vx, z, vz = (at[row] for row in (STEP, X, VX, Z, VZ))
+        at[MAX_GAP] = where(at[GAP] > at[MAX_GAP], at[GAP], at[MAX_GAP])
+        at[CONTACT_TIME] = where(at[PUSH] == 0.0, at[CONTACT_TIME], at[CONTACT_TIME] + 1.0)
+        at[X] = x + step * vx
+        at[VX] = vx + step * at[RUB]
+        at[Z] = z + step * vz
+        at[VZ] = vz + step * (at[PUSH] - at[GRAVITY])
+        at[EVALUATIONS] = at[EVALUATIONS] + 1.0
+        return context.get_dummy_value()
+
+    return types.none(lanes, memory), code
+
+
+@intrinsic
+def sincos(typing_context, phase):
+    """The sine and the cosine of one phase (rad), as in the lanes."""
+
+    def code(context, builder, signature, arguments):
+        pair = sine_and_cosine(Vector(builder, builder.bitcast(arguments[0], ir.VectorType(FLOAT, 1))))
+        return context.make_tuple(builder, signature.return_type, [builder.bitcast(v.value, FLOAT) for v in pair])
+
+    return types.UniTuple(types.float64, 2)(types.float64), code
+
+
+@kernel
+def prepare(parameters, step, lane):
+    """Set a lane's memory, shape (ROWS,), zero before, to the start of a packed parameter vector."""
+    omega = 2.0 * math.pi * parameters[model.FREQUENCY]
+    mass = parameters[model.MASS]
+    tension = parameters[model.TENSION]
+    sine_angle, cosine_angle = sincos(parameters[model.ANGLE])
+    a_z = parameters[model.ACCELERATION] * sine_angle
+    a_x = parameters[model.ACCELERATION] * cosine_angle
+    lane[STEP] = step
+    lane[OMEGA] = omega
+    lane[PSI0] = parameters[model.PSI0]
+    lane[PLATE_Z] = a_z / (omega * omega)
+    lane[PLATE_VZ] = a_z / omega
+    lane[PLATE_VX] = a_x / omega
+    lane[STIFFNESS] = parameters[model.STIFFNESS] / mass
+    lane[DAMPING] = parameters[model.DAMPING] / mass
+    lane[EXPONENT] = parameters[model.EXPONENT]
+    lane[FRICTION] = parameters[model.FRICTION]
+    lane[GRAVITY] = parameters[model.GRAVITY]
+    lane[LEAST_PUSH] = 0.0 if tension == model.TENSION_CLIP else -math.inf
+    lane[LEAST_RUB] = 0.0 if tension == model.TENSION_FRICTIONLESS else -math.inf
+
+    plate = -lane[PLATE_Z] * sincos(parameters[model.PSI0])[1]
+    lane[Z] = plate if math.isnan(parameters[model.Z0]) else parameters[model.Z0]
+    lane[VZ] = parameters[model.VZ0]
+    lane[MAX_GAP] = lane[Z] - plate
+    lane[IN_CONTACT] = lane[MAX_GAP] <= 0.0
+
+
+@functools.cache
+def in_lanes(lanes: int):
+    """`integrate` with a given number of lanes, a power of two. Every one gives the same bits."""
+
+    @kernel
+    def integrate(parameters, step, n_steps, sample_indices, samples, events, results):
+        memory = np.empty((ROWS, lanes))
+        running = np.empty(lanes, np.bool_)
+        for first in range(0, len(parameters), lanes):
+            # A lane to spare rests in the air for ever, without gravity.
+            memory[:] = 0.0
+            memory[Z] = 1.0
+            for lane in range(lanes):
+                running[lane] = first + lane < len(parameters)
+                if running[lane]:
+                    prepare(parameters[first + lane], step, memory[:, lane])
+            i = 0
+            stop = 0
+            n_sampled = 0
+            while True:
+                while not (forces(lanes, memory) or i == stop):
+                    euler_step(lanes, memory)
+                    i += 1
+
+                while n_sampled < len(sample_indices) and sample_indices[n_sampled] <= i:
+                    for lane in range(lanes):
+                        if running[lane]:
+                            mass = parameters[first + lane, model.MASS]
+                            row = samples[first + lane, n_sampled]
+                            for column in range(4):
+                                row[column] = memory[column, lane]
+                            row[4] = mass * memory[PUSH, lane]
+                            row[5] = mass * memory[RUB, lane] + 0.0  # no negative zero
+                    n_sampled += 1
+
+                if i % CHECK == 0 or i == n_steps:
+                    for lane in range(lanes):
+                        finite = math.isfinite(np.sum(memory[:4, lane]))
+                        if running[lane] and (i == n_steps or not finite):
+                            running[lane] = False
+                            row = results[first + lane]
+                            row[:] = memory[:RESULTS, lane]
+                            row[CONTACT_TIME] *= step
+                            row[STATUS] = OK if finite else NOT_FINITE
+                    if not running.any():
+                        break
+
+                for lane in range(lanes):
+                    touching = memory[GAP, lane] <= 0.0
+                    if touching != memory[IN_CONTACT, lane]:
+                        n_events = int(memory[EVENTS, lane])
+                        if running[lane] and n_events < events.shape[1]:
+                            events[first + lane, n_events, 0] = i * step
+                            events[first + lane, n_events, 1] = IMPACT if touching else SEPARATION
+                        memory[EVENTS, lane] += 1.0
+                        memory[IMPACTS, lane] += touching
+                        memory[IN_CONTACT, lane] = touching
+
+                stop = min(n_steps, i - i % CHECK + CHECK)
+                if n_sampled < len(sample_indices):
+                    stop = min(stop, sample_indices[n_sampled])
+
+    return integrate
+
+
+def lanes_of_processor() -> int:
+    """How many float64 the widest vector register of this machine holds; 1 if it is not known."""
+    present = get_host_cpu_features()
+    widths = {"avx512f": 8, "avx": 4, "sse2": 2, "neon": 2}
+    return max((lanes for name, lanes in widths.items() if present.get(name)), default=1)
+
+
+alone = in_lanes(1)
+side_by_side = in_lanes(lanes_of_processor())
+
+
+def integrate(parameters, step, n_steps, sample_indices, samples, events, results):
+    """Follow n trajectories from t = 0 over `n_steps` steps.
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 13), rows packed as in `model.PARAMETERS`
+    step : Δt, s
+    n_steps : number of steps
+    sample_indices : int64, shape (k,), ascending step numbers in [0, n_steps] to be sampled
+    samples : float64, shape (n, k, 6), filled with x, vx, z, vz (m, m/s), contact and friction force (N); rows behind
+        the check that finds a state not finite keep what they held
+    events : float64, shape (n, m, 2), filled with time (s) and kind of the first m events of each trajectory; an event
+        has the time of the first step at which the other side of q = 0 is seen
+    results : float64, shape (n, RESULTS), filled with x (m), vx (m/s), z (m), vz (m/s) at the last step; number of
+        events; impacts; time with contact force (s); largest gap (m) at the steps; number of force evaluations; status
+    """
+    follow = alone if len(parameters) == 1 else side_by_side
+    follow(parameters, step, n_steps, sample_indices, samples, events, results)

@@ -1,0 +1,94 @@
+"""When does a motion settle? A trajectory is followed until it repeats itself, or stays within known chaotic sets."""
+
+import math
+
+import numpy as np
+
+from . import stroboscope
+from .jit import inlined, kernel
+from .trajectory import BEGIN_OF_CYCLE, OK
+
+MAX_PERIOD = 64
+# A state repeats itself if it comes back to this distance, in units of the part at rest, for a whole period.
+CLOSE = 1e-6
+# A motion that doubles its period slowly is near twice its period first: parts of a period this close are one.
+SAME = 1e-4
+# Cycles in a row within chaotic sets after which a start has come there to stay.
+STAY = 64
+
+# What a search for a period ends with.
+SETTLED, STAYS, OPEN, FAILED = range(4)
+
+
+@inlined
+def inside(state, low, size, cells, first, behind):
+    """Whether a state lies in one of the boxes of the chaotic sets from number `first` to that before `behind`."""
+    for k in range(first, behind):
+        i, j = (state[0] - low[k, 0]) / size[k, 0], (state[1] - low[k, 1]) / size[k, 1]
+        if 0.0 <= i < cells.shape[1] and 0.0 <= j < cells.shape[2] and cells[k, int(i), int(j)]:
+            return True
+    return False
+
+
+@kernel
+def near(state, history, lag, n, scale_0, scale_1):
+    """Distance of `state`, number n, from the one `lag` cycles before, in units of the part at rest."""
+    past = (n - lag) % len(history)
+    return max(abs(state[0] - history[past, 0]) / scale_0, abs(state[1] - history[past, 1]) / scale_1)
+
+
+@kernel
+def settle(c, series, state, max_cycles, low, size, cells, first, behind, strobes):
+    """Follow `state`, at the phase BEGIN_OF_CYCLE, until it is periodic or stays within chaotic sets.
+
+    Parameters
+    ----------
+    c, series, state : as in stroboscope.advance
+    max_cycles : after which the search ends
+    low, size, cells, first, behind : chaotic sets (see chaotic_set.ChaoticSets) from `first` to that before `behind`
+    strobes : float64, shape (max_cycles, 2), filled with the states after each cycle; of length 0 where not wanted
+
+    Returns
+    -------
+    outcome, period, longest_flight, cycles : SETTLED, STAYS, OPEN or FAILED; excitation cycles (0 for none); s, of one
+        period or of the last MAX_PERIOD cycles; excitation cycles followed
+    """
+    no_tangent = np.empty((0, 2))
+    features = np.zeros(stroboscope.FEATURES)
+    history = np.full((2 * MAX_PERIOD, 2), np.inf)
+    flights = np.zeros(2 * MAX_PERIOD)
+    scale_0, scale_1 = c.scale_w * c.scale_w, c.scale_v
+    candidate = repeats = stays = 0
+    for n in range(max_cycles):
+        if stroboscope.advance(c, series, state, BEGIN_OF_CYCLE, c.period, no_tangent, features) != OK:
+            return FAILED, 0, math.nan, n
+        flights[n % (2 * MAX_PERIOD)] = max(features[stroboscope.LONGEST_FLIGHT], features[stroboscope.AIRBORNE])
+        found = 0
+        for period in range(1, min(n, MAX_PERIOD) + 1):
+            if near(state, history, period, n, scale_0, scale_1) <= CLOSE:
+                found = period
+                break
+        history[n % (2 * MAX_PERIOD), :] = state
+        if n < strobes.shape[0]:
+            strobes[n, :] = state
+        if found > 0 and found == candidate:
+            repeats += 1
+        else:
+            candidate = found
+            repeats = 0
+        if candidate > 0 and repeats >= candidate:
+            for period in range(1, candidate + 1):
+                if candidate % period == 0 and near(state, history, period, n, scale_0, scale_1) <= SAME:
+                    candidate = period
+                    break
+            longest = 0.0
+            for k in range(candidate):
+                longest = max(longest, flights[(n - k) % (2 * MAX_PERIOD)])
+            return SETTLED, candidate, longest, n + 1
+        stays = stays + 1 if inside(state, low, size, cells, first, behind) else 0
+        if stays >= STAY:
+            return STAYS, 0, math.nan, n + 1
+    longest = 0.0
+    for k in range(min(MAX_PERIOD, max_cycles)):
+        longest = max(longest, flights[(max_cycles - 1 - k) % (2 * MAX_PERIOD)])
+    return OPEN, 0, longest, max_cycles

@@ -1,0 +1,167 @@
+"""The vertical motion, piece by piece: a flight, a moment of rest at the plate's surface, or one step of the contact.
+
+`next_piece` finds the piece that begins now and `arrive` the motion at its end. What a consumer adds (slip, stick and
+samples in `trajectory`, perturbations in `stroboscope`) happens in between. Time counts from the beginning of an
+excitation cycle, at which the excitation has the phase `origin` of the consumer.
+"""
+
+import math
+from collections import namedtuple
+
+from . import contact, polynomial
+from .contact import FORCE_SIGN, NOTHING, SEPARATION
+from .flight import gap, next_impact
+from .jit import inlined, kernel
+from .model import TENSION_ALLOW
+
+# What a piece is.
+FLIGHT, GRAZE, CONTACT = range(3)
+# What ends it besides contact.NOTHING, SEPARATION and FORCE_SIGN; a flight may also end with LOST, the impact unknown.
+IMPACT, LIMIT, LOST = range(3, 6)
+
+# The motion at a time t (s) of its cycle, at the phase theta (rad) with the given sine and cosine. On the plate: the
+# square root w of the penetration (√m), the speed of approach v (m/s), and whether the contact force is negative
+# (looked at for `frictionless` and `clip` only). In the air: height z, velocity vz, gap q and its rate (m, m/s).
+Motion = namedtuple("Motion", "t theta sine cosine touching w v pulled z vz q rate")
+# A piece: what it is, its duration (s), its length in s if it is a step, what ends it, and w, v, sine, cosine then.
+Piece = namedtuple("Piece", "kind duration length end w v sine cosine")
+
+
+@kernel
+def begin(c, z0, vz0, theta):
+    """Gap (m) and its rate (m/s) at the start; exactly 0 for a start on the conveyor (z0 is NaN, Eq. 15)."""
+    q = 0.0 if math.isnan(z0) else z0 + c.a_z / (c.omega * c.omega) * math.cos(theta)
+    return q, vz0 - c.a_z / c.omega * math.sin(theta)
+
+
+@kernel
+def in_contact(c, q, rate, theta):
+    """Whether a part with this gap and rate of the gap is in contact, or comes into it at once."""
+    if q != 0.0:
+        return q < 0.0
+    if rate != 0.0:
+        return rate < 0.0
+    return c.gravity + c.a_z * math.cos(theta) > 0.0
+
+
+@kernel
+def motion_at(c, q, rate, t, theta):
+    """The Motion with a gap q (m) and its rate (m/s) at the time t (s) of a cycle and the phase theta (rad)."""
+    sine, cosine = math.sin(theta), math.cos(theta)
+    z, vz = q - c.a_z / (c.omega * c.omega) * cosine, rate + c.a_z / c.omega * sine
+    touching = in_contact(c, q, rate, theta)
+    w, v = math.sqrt(max(-q, 0.0)), -rate
+    pulled = touching and c.tension != TENSION_ALLOW and contact.force(c, w, v) < 0.0
+    return Motion(t, theta, sine, cosine, touching, w, v, pulled, z, vz, q, rate)
+
+
+@kernel
+def press_on(c, cosine):
+    """√penetration, speed of approach and elapsed time just after a part at relative rest begins to sink in.
+
+    At w = v = 0 the equations in s stand still. The motion leaves that point as δ = a τ²/2 with a = g + a_z cos θ.
+    """
+    acceleration = c.gravity + c.a_z * cosine
+    w = 1e-9 * c.scale_w
+    v = math.sqrt(2.0 * acceleration) * w
+    return w, v, v / acceleration
+
+
+@kernel
+def invert_time(series, at, length, tau):
+    """The s in [0, length] of a contact step at which the time since its start is `tau` (s)."""
+    low, high = 0.0, length
+    total = polynomial.value(series, at + contact.T, length)
+    if tau >= total:  # also a step that is too short to take time
+        return length
+    s = length * max(tau / total, 0.0)
+    for _ in range(100):
+        error = polynomial.value(series, at + contact.T, s) - tau
+        w = polynomial.value(series, at + contact.W, s)
+        if error > 0.0:
+            high = s
+        else:
+            low = s
+        newton = s - error / w if w > 0.0 else low
+        s_next = newton if low < newton < high else 0.5 * (low + high)
+        if abs(s_next - s) <= 4e-16 * length:
+            return s_next
+        s = s_next
+    return s
+
+
+@inlined
+def shortened(series, at, length, duration, end):
+    """The piece that is the part of a contact step up to `length` in s, after `duration` (s)."""
+    return Piece(
+        CONTACT,
+        duration,
+        length,
+        end,
+        polynomial.value(series, at + contact.W, length),
+        polynomial.value(series, at + contact.V, length),
+        polynomial.value(series, at + contact.SINE, length),
+        polynomial.value(series, at + contact.COSINE, length),
+    )
+
+
+@inlined
+def next_piece(c, series, at, motion, limit):
+    """The Piece that begins with a Motion and takes at most `limit` (s).
+
+    c, series, at : contact.Constants, a contact.workspace, and the row in it at which a contact step begins
+    """
+    if not motion.touching:
+        tau, speed = next_impact(
+            motion.z, motion.vz, motion.q, motion.rate, motion.theta, c.gravity, c.a_z, c.omega, limit
+        )
+        end = IMPACT
+        if not tau < math.inf:
+            end, tau = (LIMIT, limit) if tau == math.inf else (LOST, tau)
+        phase = motion.theta + c.omega * tau
+        return Piece(FLIGHT, tau, 0.0, end, 0.0, speed, math.sin(phase), math.cos(phase))
+    if motion.w == 0.0 and motion.v <= c.rest_speed:
+        # Grazing: the part touches with no speed and is either pressed on or left behind by the plate.
+        if c.gravity + c.a_z * motion.cosine > 0.0:
+            w, v, lapse = press_on(c, motion.cosine)
+            return Piece(GRAZE, lapse, 0.0, NOTHING, w, v, motion.sine, motion.cosine)
+        if motion.v <= 0.0:
+            return Piece(GRAZE, 0.0, 0.0, SEPARATION, 0.0, 0.0, motion.sine, motion.cosine)
+    length, w, v, lapse, end = contact.step(
+        c, series, at, motion.w, motion.v, motion.sine, motion.cosine, motion.pulled
+    )
+    if lapse > limit:
+        return shortened(series, at, invert_time(series, at, length, limit), limit, LIMIT)
+    sine = polynomial.value(series, at + contact.SINE, length)
+    cosine = polynomial.value(series, at + contact.COSINE, length)
+    return Piece(CONTACT, lapse, length, end, w, v, sine, cosine)
+
+
+@inlined
+def arrive(c, motion, piece, origin):
+    """The Motion at the end of a Piece that began with `motion`; `origin` is the phase (rad) at the time 0."""
+    t = motion.t + piece.duration
+    theta = origin + c.omega * t
+    sine, cosine, v = piece.sine, piece.cosine, piece.v
+    if piece.kind == FLIGHT:
+        if piece.end == IMPACT:
+            return Motion(t, theta, sine, cosine, True, 0.0, v, False, 0.0, 0.0, 0.0, 0.0)
+        q, rate = gap(motion.z, motion.vz, piece.duration, motion.theta, c.gravity, c.a_z, c.omega)
+        z = q - c.a_z / (c.omega * c.omega) * cosine
+        return Motion(t, theta, sine, cosine, False, 0.0, 0.0, False, z, rate + c.a_z / c.omega * sine, q, rate)
+    touching = True
+    if piece.end == SEPARATION:
+        # A separation too slow to be told from rest, while the plate presses on, is none.
+        touching = piece.kind == CONTACT and v >= -c.rest_speed and c.gravity + c.a_z * cosine > 0.0
+        v = 0.0 if touching else v
+    pulled = motion.pulled != (piece.end == FORCE_SIGN)
+    z = -c.a_z / (c.omega * c.omega) * cosine
+    return Motion(t, theta, sine, cosine, touching, piece.w, v, pulled, z, c.a_z / c.omega * sine - v, 0.0, -v)
+
+
+@inlined
+def in_cycle(c, motion, t, origin):
+    """The same Motion at the time t (s) of another cycle, which begins at the phase `origin` (rad)."""
+    theta = origin + c.omega * t
+    _, _, _, _, touching, w, v, pulled, z, vz, q, rate = motion
+    return Motion(t, theta, math.sin(theta), math.cos(theta), touching, w, v, pulled, z, vz, q, rate)

@@ -1,0 +1,36 @@
+"""How long starts must be followed: share of them that has not settled over the excitation cycles."""
+
+import numpy as np
+import pandas as pd
+from matplotlib import colormaps
+from matplotlib.figure import Figure
+
+from plots import style
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the table of settling times; its settings say how long the config follows a start."""
+    table = tables["times"]
+    figure = style.figure(style.COLUMN, 80.0)
+    axes = figure.subplots()
+    most = table.cycles.max()
+    amplitudes = np.sort(table.acceleration.unique())
+    colours = colormaps["viridis"](np.linspace(0.0, 0.9, len(amplitudes)))
+    lines = ("-", "--", "-.", ":")
+    for k, (colour, acceleration) in enumerate(zip(colours, amplitudes, strict=True)):
+        rows = table[table.acceleration == acceleration]
+        settled = np.sort(rows[rows.period > 0].cycles)
+        # A start that has settled at the last cycle of its search is gone behind it.
+        cycles = np.concatenate([[1.0], settled, [most]])
+        share = 1.0 - np.concatenate([[0.0], np.arange(1, len(settled) + 1), [len(settled)]]) / len(rows)
+        axes.step(
+            cycles, share, where="post", color=colour, linestyle=lines[k % len(lines)], label=f"{acceleration:g} m/s²"
+        )
+    style.mark(axes, table.attrs["settling"], "as long as a\nstart is followed")
+    axes.set_xscale("log")
+    axes.set_xlim(8.0, most)
+    axes.set_ylim(-0.02, 1.05)
+    axes.set_xlabel("excitation cycles")
+    axes.set_ylabel("share of the starts that has not settled")
+    style.legend_above(figure, axes, ncols=4, handlelength=2.6)
+    return figure

@@ -1,0 +1,45 @@
+"""Rule settling_times: after how many excitation cycles starts have settled, to choose how long to follow one."""
+
+import math
+
+import numpy as np
+
+from conveyor import grid, states, tables
+from conveyor.model import PSI0, Z0
+from rule_log import logged
+
+
+def starts(acceleration: float, settings: dict, model: dict) -> np.ndarray:
+    """Parameter vectors with random heights and phases, shape (starts, 13); the same for every amplitude (m/s²)."""
+    _, parameters = grid.product({"acceleration": [acceleration]}, model)
+    rows = np.repeat(parameters, settings["starts"], axis=0)
+    generator = np.random.default_rng(settings["seed"])
+    rows[:, Z0] = generator.uniform(*settings["z0"], len(rows))
+    rows[:, PSI0] = generator.uniform(0.0, 2.0 * math.pi, len(rows))
+    return rows
+
+
+def columns(
+    settings: dict, model: dict, tolerance: float, *, threads: int = 1, progress: str | None = None
+) -> dict[str, np.ndarray]:
+    """The columns of the table of settling times for the section of the config of that name."""
+    amplitudes = settings["acceleration"]
+    parameters = np.concatenate([starts(acceleration, settings, model) for acceleration in amplitudes])
+    found = states.classify(
+        parameters, cycles=settings["cycles"], tolerance=tolerance, threads=threads, progress=progress
+    )
+    return {
+        "acceleration": np.repeat(amplitudes, settings["starts"]),
+        "z0": parameters[:, Z0],
+        "psi0": parameters[:, PSI0],
+        "state": found.state,
+        "period": found.period,
+        "cycles": found.cycles,
+    }
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        settings, model, tolerance = (snakemake.params[name] for name in ("settings", "model", "tolerance"))
+        found = columns(settings, model, tolerance, threads=snakemake.threads, progress="settling times")
+        tables.write(snakemake.output[0], "settling_times", found, settings={**settings, "model": model})

@@ -1,0 +1,236 @@
+"""Explicit Euler in lanes: sine and cosine, equal bits however the work is shared out, a plain loop, closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start, euler_lanes
+from conveyor.euler_lanes import CHECK, CONTACT_TIME, EVALUATIONS, EVENTS, IMPACTS, MAX_GAP, STATUS, VX, VZ, X, Z
+from conveyor.jit import kernel
+from conveyor.model import GRAVITY, TENSION_MODES, VZ0, Z0, pack
+
+STEP = 1e-3 / 64
+INDICES = np.array([0, 1, 1, 255, 256, 257, 1000, 3700, 5000])
+# A conveyor on which the part soon jumps, for each kind of exponent.
+STIFFNESS = {1.0: 3e3, 1.5: 5e5, 1.8: 5e6}
+
+
+def follow(parameters, step=STEP, n_steps=5000, indices=INDICES, n_events=20, integrate=euler_lanes.integrate):
+    """Samples, events and results of trajectories; NaN where nothing was written."""
+    n = len(parameters)
+    samples, events = np.full((n, len(indices), 6), math.nan), np.full((n, n_events, 2), math.nan)
+    results = np.full((n, euler_lanes.RESULTS), math.nan)
+    integrate(parameters, step, n_steps, np.asarray(indices, dtype=np.int64), samples, events, results)
+    return samples, events, results
+
+
+def bits(found):
+    """The bits of the arrays that `follow` returns, a row for each trajectory. Every NaN counts as the same."""
+    row = np.concatenate([array.reshape(len(array), -1) for array in found], axis=1)
+    return np.where(np.isnan(row), math.nan, row).view(np.int64)
+
+
+def random_parameters(n, seed):
+    """Conveyors of all kinds, starts in the plate, on it and above; every fifth part leaves the range of numbers."""
+    rng = np.random.default_rng(seed)
+    rows = []
+    for k in range(n):
+        exponent = [1.0, 1.5, 2.0, rng.uniform(1.0, 3.0), 1.5][rng.integers(5)]
+        conveyor = Conveyor(
+            acceleration=rng.uniform(0.0, 90.0),
+            angle=rng.uniform(0.0, 0.5),
+            frequency=rng.uniform(20.0, 100.0),
+            psi0=rng.uniform(-12.0, 12.0),
+            stiffness=10.0 ** rng.uniform(3.5, 6.0),
+            damping=rng.uniform(0.0, 1.0),
+            friction=rng.uniform(0.0, 0.5),
+            exponent=exponent,
+            tension=TENSION_MODES[rng.integers(3)],
+        )
+        height = [rng.uniform(-1e-4, 0.0), rng.uniform(0.0, 1e-3), "conveyor"][rng.integers(3)]
+        rows.append(pack(conveyor, Start(height, rng.uniform(-0.2, 0.2))))
+        if k % 10 == 3:  # far too deep, at once
+            rows[k][GRAVITY] = 1e308
+        if k % 10 == 8:  # far too fast, upwards, in the course of the run
+            rows[k][[GRAVITY, Z0, VZ0]] = -1e308, 1e-3, rng.uniform(1.6e308, 1.79e308)
+    return np.array(rows)
+
+
+@kernel
+def fill(phases, values):
+    for i in range(len(phases)):
+        values[i] = euler_lanes.sincos(phases[i])
+
+
+def slow_euler(parameters, step, n_steps, sincos):
+    """Euler's method written down plainly from Eqs. 2-12: samples at all steps, events, and a row of results."""
+    a, phi, f, psi0, k_c, d_c, mu, m, p, g, tension, z0, vz0 = (float(value) for value in parameters)
+    sine, cosine = sincos(phi)
+    omega = 2.0 * math.pi * f
+    plate_z, plate_vz, plate_vx = a * sine / (omega * omega), a * sine / omega, a * cosine / omega
+    x, vx, z, vz = 0.0, 0.0, z0, vz0
+    if math.isnan(z0):
+        z = -plate_z * sincos(psi0)[1]
+    samples, events, gaps, pushed = [], [], [], 0
+    for i in range(n_steps + 1):
+        sine, cosine = sincos(omega * (i * step) + psi0)
+        gap = z + plate_z * cosine
+        push = rub = 0.0
+        if gap <= 0.0:
+            length = -gap * math.sqrt(-gap) if p == 1.5 else (-gap) ** p
+            push = k_c / m * length - d_c / m * (vz - plate_vz * sine)
+            if push < 0.0 and tension == 2.0:
+                push = 0.0
+            if push > 0.0 or tension == 0.0:
+                rub = mu * push * float(np.sign(plate_vx * sine - vx))
+        samples.append((x, vx, z, vz, m * push, m * rub + 0.0))
+        if i < n_steps:
+            if gaps and (gap <= 0.0) != (gaps[-1] <= 0.0):
+                events.append((i * step, 0.0 if gap <= 0.0 else 1.0))
+            gaps.append(gap)
+            pushed += push != 0.0
+            x, vx, z, vz = x + step * vx, vx + step * rub, z + step * vz, vz + step * (push - g)
+    impacts = sum(kind == 0.0 for _, kind in events)
+    results = [x, vx, z, vz, len(events), impacts, pushed * step, max(gaps), n_steps, 0.0]
+    return np.array(samples), np.array(events), np.array(results)
+
+
+@pytest.mark.parametrize("size", [1.0, 1e3, 1e6, 1e9])
+def test_sine_and_cosine(size):
+    """Within two units in the last place of the C library, which itself errs by half a unit."""
+    rng = np.random.default_rng(1)
+    quarters = np.round(rng.uniform(-size, size, 3000)) * (0.5 * math.pi)
+    phases = np.concatenate([rng.uniform(-size, size, 20_000), quarters, np.nextafter(quarters, 0.0)])
+    values = np.empty((len(phases), 2))
+    fill(phases, values)
+    exact = np.array([(math.sin(phase), math.cos(phase)) for phase in phases])
+    assert (np.abs(values - exact) <= 2.0 * np.spacing(np.abs(exact))).all()
+    assert (values == exact).mean() > 0.75
+
+
+def test_sine_and_cosine_of_zero_are_exact():
+    values = np.empty((1, 2))
+    fill(np.zeros(1), values)
+    assert values.tolist() == [[0.0, 1.0]]
+
+
+@pytest.mark.parametrize("n", range(1, 18))
+def test_a_group_gives_what_single_runs_give(n):
+    parameters = random_parameters(n, seed=n)
+    single = [bits(follow(parameters[[k]])) for k in range(n)]
+    np.testing.assert_array_equal(bits(follow(parameters)), np.concatenate(single))
+
+
+@pytest.mark.parametrize("lanes", [1, 2, 4, 8])
+def test_the_number_of_lanes_changes_no_bit(lanes):
+    parameters = random_parameters(19, seed=100)
+    found = follow(parameters, integrate=euler_lanes.in_lanes(lanes))
+    np.testing.assert_array_equal(bits(found), bits(follow(parameters)))
+    # What is compared is worth it.
+    evaluations, status = found[2][:, EVALUATIONS], found[2][:, STATUS]
+    assert (found[2][:, IMPACTS] > 1).sum() > 5
+    assert set(status) == {euler_lanes.OK, euler_lanes.NOT_FINITE}
+    assert len(set(evaluations)) > 2
+
+
+def test_neither_order_nor_neighbours_nor_chunks_matter():
+    parameters = random_parameters(17, seed=200)
+    expected = bits(follow(parameters))
+    order = np.random.default_rng(2).permutation(17)
+    np.testing.assert_array_equal(bits(follow(parameters[order])), expected[order])
+    np.testing.assert_array_equal(bits(follow(np.repeat(parameters, 3, axis=0))), np.repeat(expected, 3, axis=0))
+    for begin, end in ((0, 3), (3, 5), (5, 17)):
+        np.testing.assert_array_equal(bits(follow(parameters[begin:end])), expected[begin:end])
+
+
+def test_samples_and_room_for_events_do_not_disturb_the_run():
+    parameters = random_parameters(9, seed=300)
+    _, events, results = follow(parameters)
+    _, fewer_events, same_results = follow(parameters, indices=[], n_events=3)
+    np.testing.assert_array_equal(same_results, results)
+    np.testing.assert_array_equal(fewer_events, events[:, :3])
+    samples, _, _ = follow(parameters, indices=np.arange(5001))
+    np.testing.assert_array_equal(samples[:, INDICES], follow(parameters)[0])
+
+
+@pytest.mark.parametrize("exponent", STIFFNESS)
+@pytest.mark.parametrize("tension", TENSION_MODES)
+@pytest.mark.parametrize("start", [Start(5e-5, -0.05), Start("conveyor", -0.1), Start(-2e-5)])
+def test_the_plain_loop(exponent, tension, start):
+    """With the same sine and cosine a plain loop gives the same bits, with the library's the same but for rounding."""
+    parameters = pack(Conveyor(exponent=exponent, tension=tension, stiffness=STIFFNESS[exponent], psi0=0.3), start)
+    n_steps = 3000
+    found = follow(np.array([parameters]), n_steps=n_steps, indices=np.arange(n_steps + 1))
+    samples, events, results = (array[0] for array in found)
+    n_events = int(results[EVENTS])
+    assert results[IMPACTS] >= 1
+
+    values = np.empty((1, 2))
+
+    def own(phase):
+        fill(np.array([phase]), values)
+        return values[0].tolist()
+
+    same_samples, same_events, same_results = slow_euler(parameters, STEP, n_steps, own)
+    np.testing.assert_array_equal(samples.view(np.int64), same_samples.view(np.int64))
+    np.testing.assert_array_equal(events[:n_events], same_events)
+    np.testing.assert_array_equal(results, same_results)
+    assert np.isnan(events[n_events:]).all()
+
+    slow_samples, slow_events, slow_results = slow_euler(
+        parameters, STEP, n_steps, lambda t: (math.sin(t), math.cos(t))
+    )
+    scale = np.abs(slow_samples).max(axis=0)
+    np.testing.assert_allclose(samples / scale, slow_samples / scale, rtol=0.0, atol=1e-12)
+    np.testing.assert_array_equal(events[:n_events], slow_events)
+    counted = [EVENTS, IMPACTS, CONTACT_TIME, EVALUATIONS, STATUS]
+    np.testing.assert_array_equal(results[counted], slow_results[counted])
+    assert results[MAX_GAP] == pytest.approx(slow_results[MAX_GAP], rel=1e-12)
+
+
+def test_free_fall():
+    """Euler's height errs by gTΔt/2, whatever the height: all trajectories of a group at once."""
+    starts = [Start(0.05 * k, 0.1 * k) for k in range(1, 12)]
+    n_steps, step = 777, 1e-4
+    _, _, results = follow(np.array([pack(Conveyor(), start) for start in starts]), step, n_steps, [])
+    time = n_steps * step
+    for start, row in zip(starts, results, strict=True):
+        assert row[VZ] == pytest.approx(start.vz - 9.81 * time, rel=1e-12)
+        exact = start.z + start.vz * time - 0.5 * 9.81 * time**2
+        assert row[Z] - exact == pytest.approx(0.5 * 9.81 * time * step, abs=2e-15)
+        assert row[[X, VX, EVENTS, IMPACTS, CONTACT_TIME, STATUS]].tolist() == [0.0] * 6
+
+
+def test_first_order():
+    """Halving the step halves the error of a damped oscillation in the contact, p = 1, about its equilibrium."""
+    conveyor = Conveyor(acceleration=0.0, exponent=1.0, stiffness=2e3)
+    root = complex(-0.5 * conveyor.damping, math.sqrt(conveyor.stiffness * conveyor.mass - 0.25 * conveyor.damping**2))
+    root /= conveyor.mass
+    rest, duration = -conveyor.gravity * conveyor.mass / conveyor.stiffness, 0.01
+    amplitude = 0.4 * rest
+    # A deflection without speed: the real part of (1 + i ratio) exp(root t).
+    exact = rest + amplitude * (complex(1.0, root.real / root.imag) * np.exp(root * duration)).real
+    parameters = np.array([pack(conveyor, Start(rest + amplitude))])
+    counts = 20_000 * 2 ** np.arange(4)
+    found = [follow(parameters, duration / n, n, [])[2][0] for n in counts]
+    errors = np.array([row[Z] for row in found]) - exact
+    assert all(row[CONTACT_TIME] == pytest.approx(duration, rel=1e-14) for row in found)
+    np.testing.assert_allclose(errors[:-1] / errors[1:], 2.0, rtol=0.02)
+
+
+def test_a_state_that_is_not_finite():
+    """Only the row that leaves the range of numbers ends, at the next check, and says so."""
+    calm, lost = random_parameters(1, seed=5)[0], pack(Conveyor(), Start(1e-3))
+    lost[[GRAVITY, VZ0]] = -1e308, 1.77e308
+    samples, _, results = follow(np.array([calm, lost, calm]))
+    np.testing.assert_array_equal(results[0], results[2])
+    assert results[:, STATUS].tolist() == [euler_lanes.OK, euler_lanes.NOT_FINITE, euler_lanes.OK]
+    assert results[:, EVALUATIONS].tolist() == [5000, 3 * CHECK, 5000]
+    assert np.isfinite(samples[1, :6]).all()
+    assert np.isnan(samples[1, 6:]).all()
+    assert np.isfinite(samples[[0, 2]]).all()
+
+
+def test_lanes_of_this_processor():
+    assert euler_lanes.lanes_of_processor() in (1, 2, 4, 8)

@@ -1,0 +1,123 @@
+"""Flights: no impact is jumped over, whatever the conveyor; a search that gets lost says so."""
+
+import math
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start, flight, simulate
+from conveyor.model import RANGES, conveyor_motion
+
+LIBRARY = Path(flight.__file__).parent
+TURN = 2.0 * math.pi
+
+
+def random_flights(count, seed):
+    """Heights above the plate (m), velocities (m/s) and excitations over the whole ranges, evenly in the logarithm."""
+    generator = np.random.default_rng(seed)
+
+    def between(low, high):
+        return float(np.exp(generator.uniform(np.log(low), np.log(high))))
+
+    for _ in range(count):
+        gravity, omega = between(*RANGES["gravity"]), TURN * between(*RANGES["frequency"])
+        a_z = between(1e-6, RANGES["acceleration"][1])
+        theta = generator.uniform(0.0, TURN)
+        # Starts that the plate may come near: some way above it, thrown a little.
+        q = between(1e-6, 1e2) * a_z / omega**2
+        vz = generator.uniform(-3.0, 3.0) * a_z / omega
+        yield (
+            q - a_z / omega**2 * math.cos(theta),
+            vz,
+            q,
+            vz - a_z / omega * math.sin(theta),
+            theta,
+            gravity,
+            a_z,
+            omega,
+        )
+
+
+def scanned(z, vz, theta, gravity, a_z, omega, times):
+    """Gaps (m) of a flight at `times` (s)."""
+    return z + vz * times - 0.5 * gravity * times**2 + a_z / omega**2 * np.cos(theta + omega * times)
+
+
+def test_no_impact_is_passed():
+    """Where a scan of forty samples a cycle sees the first gap below zero, or before it."""
+    met = 0
+    for z, vz, q, rate, theta, gravity, a_z, omega in random_flights(400, seed=1):
+        tau, speed = flight.next_impact(z, vz, q, rate, theta, gravity, a_z, omega, math.inf)
+        size = abs(z) + abs(vz) * tau + gravity * tau**2 + a_z / omega**2
+        gap, approach = flight.gap(z, vz, tau, theta, gravity, a_z, omega)
+        assert abs(gap) < 1e-14 * size
+        assert speed == pytest.approx(max(-approach, 0.0), abs=1e-6 * speed)
+        cycles = omega * tau / TURN
+        if cycles < 2e4:
+            times = np.linspace(0.0, tau, max(100, int(40 * cycles)))[1:-1]
+            assert scanned(z, vz, theta, gravity, a_z, omega, times).min() > -1e-13 * size
+            met += 1
+    assert met > 300
+
+
+def test_largest_gap_is_that_of_a_scan():
+    for z, vz, q, rate, theta, gravity, a_z, omega in random_flights(300, seed=2):
+        tau, _ = flight.next_impact(z, vz, q, rate, theta, gravity, a_z, omega, math.inf)
+        highest = flight.highest_gap(z, vz, theta, gravity, a_z, omega, tau)
+        top = min(max(vz / gravity, 0.0), tau)
+        near = np.clip(top + np.linspace(-1.5, 1.5, 20_001) * TURN / omega, 0.0, tau)
+        far = np.linspace(0.0, tau, 20_001)
+        largest = scanned(z, vz, theta, gravity, a_z, omega, np.concatenate([near, far])).max()
+        assert largest <= highest * (1.0 + 1e-12) + 1e-15 * abs(z)
+        assert highest == pytest.approx(largest, rel=1e-6)
+
+
+def test_a_long_fall_ends_on_the_plate():
+    """The plate shakes hard and gravity is weak: the search used to run out of steps and the part fell through."""
+    conveyor = Conveyor(acceleration=1e3, gravity=1e-3)
+    run = simulate(conveyor, Start(z=1.0), duration=60.0)
+    assert run.status == "ok"
+    stroke = conveyor.acceleration * math.sin(conveyor.angle) / (TURN * conveyor.frequency) ** 2
+    first = run.events[0]
+    assert first["kind"] == "impact"
+    assert math.sqrt(2.0 * (1.0 - stroke) / 1e-3) <= first["time"] <= math.sqrt(2.0 * (1.0 + stroke) / 1e-3)
+    times = np.linspace(0.0, 60.0, 600_001)
+    gaps = run.sample(times)["z"] - conveyor_motion(conveyor, times)["z"]
+    assert gaps.min() > -1e-3
+    assert run.max_gap == pytest.approx(gaps.max(), rel=1e-6)
+
+
+def test_a_search_that_gets_lost_says_so(monkeypatch):
+    monkeypatch.setattr(flight, "MAX_STEPS", 2)
+    tau, _ = flight.next_impact.py_func(1.0, 0.0, 1.0, 0.0, 0.0, 9.81, 8.0, 314.0, math.inf)
+    assert math.isnan(tau)
+
+
+LOST = """
+import numpy as np
+from conveyor import Conveyor, Start, attractors, rigid_ball, simulate
+from conveyor.model import pack
+
+conveyor, start = Conveyor(acceleration=20.0), Start(z=3e-4)
+run = simulate(conveyor, start, duration=0.1)
+print(run.status, np.isnan(run.z_end), np.isnan(run.mean_velocity()), sep=", ")
+print(attractors.sweep(pack(conveyor, start)[None], transient=0, strobes=1, tolerance=1e-8)[1][0])
+print(rigid_ball.run(pack(conveyor, start), 0.1, 0.5).status)
+"""
+
+
+def test_every_user_of_a_lost_search_says_so(tmp_path):
+    """The library with a search of two steps only."""
+    shutil.copytree(LIBRARY, tmp_path / "conveyor", ignore=shutil.ignore_patterns("__pycache__"))
+    source = tmp_path / "conveyor" / "flight.py"
+    text = source.read_text()
+    assert "MAX_STEPS = 1_000_000" in text
+    source.write_text(text.replace("MAX_STEPS = 1_000_000", "MAX_STEPS = 1"))
+    found = subprocess.run(
+        [sys.executable, "-c", LOST], cwd=tmp_path, capture_output=True, text=True, check=True, env={}
+    ).stdout.splitlines()
+    assert found == ["impact not found, True, True", "impact not found", "impact not found"]

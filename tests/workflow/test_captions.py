@@ -1,0 +1,127 @@
+"""Captions and pages: every number in them comes from a table."""
+
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+from jinja2 import UndefinedError
+
+import captions
+import figure_costs
+from project import ROOT, read_config
+
+FIGURES = read_config()["figures"]
+# What may stand in a template: references, names, units, mathematics.
+ALLOWED = (
+    r"\{\{.*?\}\}|\{%.*?%\}",
+    r"\b(Figs?|Eqs?|Sects?)\. \d+(\.\d+)?( (and|to) \d+)?",
+    r":sub:`\d`",
+    r"1/s\b",
+    r"DOP853|RK4\d?",
+)
+WORDS = r"\b(eleven|twelve|thirteen|fifteen|twenty|thirty|fifty|hundred)\b"
+
+
+def typed(template):
+    """Digits and number words of a template that no table has given."""
+    for pattern in ALLOWED:
+        template = re.sub(pattern, "", template)
+    return re.findall(rf"\S*\d\S*|{WORDS}", template)
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_no_number_of_a_caption_is_typed(name):
+    assert typed((ROOT / f"workflow/report/{name}.rst").read_text()) == []
+
+
+@pytest.mark.parametrize("text", ["from 63 m/s² on", "for eleven heights", "to 1e-9 m", "half of 1 s"])
+def test_a_typed_number_is_found(text):
+    assert typed(f"The exponent of Fig. 22 in 1/s, {{{{ plateau }}}} {text}.")
+
+
+def test_a_number_that_nobody_gives_is_an_error():
+    with pytest.raises(UndefinedError, match="speed"):
+        captions.caption("at {{ speed }} m/s", "fig01", {}, {})
+    assert captions.caption("no number\n", "fig01", {}, {}) == "no number\n"
+
+
+def test_titles_hold_no_typed_number():
+    for name, entry in FIGURES.items():
+        assert typed(entry["title"]) == [], name
+
+
+def test_plateau_and_exponent_of_fig_22():
+    """The estimate where motion is chaotic, and the exponent there."""
+    acceleration = np.arange(20.0, 91.0)
+    chaotic = acceleration >= 63.0
+    estimate = pd.DataFrame({"acceleration": acceleration, "lambda": np.where(acceleration >= 59.0, 17.0, -9.0)})
+    estimate.attrs = {"epsilon": 1e-8}
+    spectrum = pd.DataFrame(
+        {"acceleration": acceleration, "branch": "up", "lambda_1": np.where(chaotic, 36.0, -20.0), "stderr": 1.0}
+    )
+    found = captions.fig22({"converged": estimate, "euler": estimate, "spectrum": spectrum}, {})
+    assert found == {
+        "epsilon": "1e-8",
+        "euler_positive": "59",
+        "converged_positive": "59",
+        "plateau": "17",
+        "truth": "36",
+    }
+
+
+def test_chaos_before_the_accumulation_is_told():
+    acceleration = np.arange(55.0, 70.0, 0.5)
+    spectrum = pd.concat(
+        pd.DataFrame(
+            {
+                "acceleration": acceleration,
+                "branch": branch,
+                "lambda_1": np.where((acceleration > 63.0) & (acceleration != 66.0) | early, 20.0, -20.0),
+                "stderr": 1.0,
+            }
+        )
+        for branch, early in (("up", (acceleration >= 59.5) & (acceleration <= 61.0)), ("down", False))
+    )
+    tables = {"spectrum": spectrum, "cascade": pd.DataFrame({"accumulation": [np.nan, 62.77]})}
+    found = captions.bifurcation(tables, {"longest_period": 2})
+    assert found["accumulation"] == "62.77"
+    assert found["early_up"] == "59.50 to 61.00 m/s²"
+    assert found["early_down"] == "nowhere"
+    assert found["regular_share"] == f"{100 * 2 / 14:.0f}"  # 63.0 and the window at 66.0
+
+
+def test_costs_are_those_of_all_jobs_behind_a_figure():
+    """A table that several jobs make one after the other, and one that two of them share."""
+    table = pd.DataFrame(
+        [
+            ("figures/a.pdf", "results/logs/figures/a.log", "results/x/late.parquet"),
+            ("results/x/late.parquet", "results/logs/x/late.log", "results/x/early.parquet,results/y/other.parquet"),
+            ("results/x/early.parquet", "results/logs/x/early.log", ""),
+            ("results/y/other.parquet", "results/logs/y/both.log", ""),
+            ("results/y/another.parquet", "results/logs/y/both.log", ""),
+            ("figures/b.pdf", "results/logs/figures/b.log", "results/y/another.parquet"),
+        ],
+        columns=["output_file", "log-file(s)", "input-file(s)"],
+    )
+    folder = "results/benchmarks"
+    assert figure_costs.jobs_of("figures/a.pdf", table) == {
+        f"{folder}/figures/a.tsv",
+        f"{folder}/x/late.tsv",
+        f"{folder}/x/early.tsv",
+        f"{folder}/y/both.tsv",
+    }
+    assert figure_costs.jobs_of("figures/b.pdf", table) == {f"{folder}/figures/b.tsv", f"{folder}/y/both.tsv"}
+
+
+def test_the_workflow_tells_its_own_jobs(built, monkeypatch):
+    """A sweep has its shards and their states behind it."""
+    monkeypatch.chdir(built.folder)
+    jobs = figure_costs.jobs_of("figures/fig08.pdf", figure_costs.summary(["figures/fig08.pdf"], []))
+    names = {job.removeprefix("results/benchmarks/") for job in jobs}
+    methods = ("amplitudes", "amplitudes_euler")
+    assert names == {
+        "figures/fig08.tsv",
+        *(f"runs/{name}/0.tsv" for name in methods),
+        *(f"sweeps/{name}.tsv" for name in methods),
+    }

@@ -1,0 +1,65 @@
+"""Profiles and interpreters: what must not depend on where or how Snakemake is called."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import check_results
+from project import ROOT
+
+SBATCH = """#!/bin/sh
+echo "$@" >> "{calls}"
+exit 1
+"""
+
+
+def run(project, *arguments, path):
+    """Snakemake by its full path, as in a fresh shell, with the PATH given."""
+    return subprocess.run(
+        [Path(sys.executable).with_name("snakemake"), *arguments],
+        cwd=project.folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+        env={"PATH": path, "HOME": os.environ["HOME"]},
+    )
+
+
+def test_slurm_is_given_its_jobs(edited, tmp_path):
+    """A dry run would hide a profile that cannot be parsed: a scheduler that refuses everything gets the first jobs."""
+    project = edited("scripts/estimate.py", "import numpy as np\n", "import numpy as np  # changed\n")
+    calls, commands = tmp_path / "calls", tmp_path / "commands"
+    commands.mkdir()
+    for command in ("sbatch", "squeue", "sinfo", "sacct"):
+        (commands / command).write_text(SBATCH.format(calls=calls) if command == "sbatch" else "#!/bin/sh\n")
+        (commands / command).chmod(0o755)
+    profile = ("--workflow-profile", "workflow/profiles/slurm", "--retries", "0", "--latency-wait", "0")
+    found = run(project, "figures/fig22.pdf", *profile, path=f"{commands}:/usr/bin:/bin")
+    assert found.returncode != 0
+    assert calls.is_file(), found.stdout
+    assert "--cpus-per-task=2" in calls.read_text()
+
+
+def test_results_are_checked_by_the_interpreter_that_runs_snakemake(tmp_path, monkeypatch):
+    """No python on PATH."""
+    (tmp_path / "tests/results").mkdir(parents=True)
+    test = tmp_path / "tests/results/test_one.py"
+    test.write_text("def test_one():\n    pass\n")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("PATH", "/nowhere")
+    assert check_results.passed("results", {}) == "1 passed"
+    test.write_text("def test_one():\n    assert 1 == 2\n")
+    with pytest.raises(RuntimeError, match="assert 1 == 2"):
+        check_results.passed("results", {})
+
+
+def test_no_rule_leaves_its_command_to_the_path():
+    """Commands of `shell:` would be looked up there; scripts run with Snakemake's own interpreter."""
+    rules = list((ROOT / "workflow/rules").glob("*.smk"))
+    assert rules
+    for file in rules:
+        assert "shell:" not in file.read_text(), file

@@ -1,0 +1,19 @@
+"""Every script can be imported without Snakemake."""
+
+import importlib
+
+import pytest
+
+from project import ROOT
+
+SCRIPTS = ROOT / "scripts"
+MODULES = sorted(
+    ".".join(path.relative_to(SCRIPTS).with_suffix("").parts)
+    for path in SCRIPTS.rglob("*.py")
+    if path.name != "__init__.py" and "conveyor" not in path.parts
+)
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_a_script_is_a_module(name):
+    assert importlib.import_module(name)
