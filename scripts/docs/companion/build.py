@@ -76,7 +76,7 @@ def page(maps: list[pd.DataFrame], settings: dict) -> str:
         "last": LAST,
         "states": STATES,
         "colours": style.STATE_COLOURS,
-        "published": style.PUBLISHED,
+        "euler": style.EULER,
         "maps": [encode(table) for table in maps],
     }
     text = (HERE / "page.html").read_text(encoding="utf-8")

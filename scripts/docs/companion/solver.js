@@ -199,14 +199,23 @@ const solver = (() => {
     ];
   }
 
+  /* Time in which a part with an upward velocity falls by a height ≥ 0, without cancellation. */
+  function timeOfFall(velocity, height, gravity) {
+    const root = Math.sqrt(velocity * velocity + 2 * gravity * height);
+    return velocity > 0 ? (velocity + root) / gravity : (2 * height) / (root - velocity);
+  }
+
+  // Steps after which a search for an impact is lost, and so is a gap below zero by more than this many roundings.
+  const MAX_STEPS = 100000;
+  const LOST = 1e6;
+
   /* Duration of a flight from the gap q ≥ 0 with its rate, and the speed of approach at its end; infinite if there is
-     no impact before `limit`. The parabola of the bound q̈ ≥ -(g + a_z) reaches the plate before the part does: steps
-     to its root cannot jump over an impact. */
+     no impact before `limit`. Above the plate's highest point nothing can be hit. Below it the parabola of the bound
+     q̈ ≥ -(g + a_z) reaches the plate before the part does: steps to its root cannot jump over an impact. */
   function nextImpact(c, z, vz, q, rate, theta, limit) {
     const bound = c.gravity + c.aZ;
-    const resolution = 4 * EPSILON * (Math.abs(z) + c.height);
     let tau = 0;
-    if (q <= resolution) {
+    if (q <= 4 * EPSILON * (Math.abs(z) + c.height)) {
       // From the plate the parabola has no room; the bound a_z ω of the third derivative and the actual q̈ do.
       tau = (2 * Math.max(rate, 0)) / bound;
       const jerk = c.aZ * c.omega;
@@ -215,16 +224,27 @@ const solver = (() => {
       if (half < 0) tau = Math.max(tau, (2 * Math.max(rate, 0)) / (root - half));
       else if (jerk > 0) tau = Math.max(tau, (3 * (half + root)) / jerk);
       tau = Math.max(tau, 1e-9 / c.omega);
+      if (tau >= limit) return { tau: Infinity, speed: 0 };
       [q, rate] = gap(c, z, vz, tau, theta);
     }
-    for (let k = 0; k < 400; k++) {
-      if (q <= resolution && rate <= 0) return { tau, speed: -rate };
+    for (let k = 0; k < MAX_STEPS; k++) {
+      const velocity = vz - c.gravity * tau;
+      const height = z + 0.5 * (vz + velocity) * tau;
+      // What the longest way so far, up or down, has lost of its digits.
+      const lengths = Math.abs(z) + Math.abs(vz * tau) + 0.5 * c.gravity * tau * tau + c.height;
+      const rounding = 4 * EPSILON * lengths;
+      if (q <= rounding && rate <= 0) return { tau, speed: -rate };
+      if (q < -LOST * rounding) break;
       if (q < 0) return { tau, speed: 0 };
-      const advance = (rate + Math.sqrt(rate * rate + 2 * bound * q)) / bound;
-      if (advance <= 2 * EPSILON * tau) return { tau, speed: Math.max(-rate, 0) };
-      tau = Math.min(tau + advance, limit);
+      let advance = 0;
+      if (height > c.height + rounding) advance = timeOfFall(velocity, height - c.height, c.gravity);
+      if (advance <= 2 * EPSILON * tau) {
+        advance = timeOfFall(rate, q, bound);
+        if (advance <= 2 * EPSILON * tau) return { tau, speed: Math.max(-rate, 0) };
+      }
+      tau += advance;
+      if (tau >= limit) return { tau: Infinity, speed: 0 };
       [q, rate] = gap(c, z, vz, tau, theta);
-      if (tau === limit) return { tau: Infinity, speed: 0 };
     }
     throw new GaveUp("the search for the next impact came to no end");
   }
@@ -682,6 +702,8 @@ const solver = (() => {
   const MAX_PERIOD = 64;
   // A state repeats itself if it comes back to this distance, in units of the part at rest, and does so twice running.
   const REPEATED = 1e-6;
+  // A motion that doubles its period slowly is near twice its period first: parts of a period this close are one.
+  const SAME = 1e-4;
   // The second state spends most of a cycle in the air; micro-bounces of the first last a small part of it.
   const LONG_FLIGHT = 0.5;
 
@@ -706,18 +728,19 @@ const solver = (() => {
       const part = run.at(time);
       const ground = plate(c, time);
       const strobe = [part.z - ground.z, part.vz - ground.vz];
-      let found = 0;
-      for (let period = 1; period <= Math.min(n - 1, MAX_PERIOD) && !found; period++) {
-        const past = strobes[strobes.length - period];
-        const close =
-          Math.abs(strobe[0] - past[0]) <= REPEATED * c.scaleW * c.scaleW &&
-          Math.abs(strobe[1] - past[1]) <= REPEATED * c.scaleV;
-        if (close) found = period;
-      }
       strobes.push(strobe);
+      const periods = Array.from({ length: Math.min(n - 1, MAX_PERIOD) }, (_, k) => k + 1);
+      // Distance of the last state from the one `lag` cycles before, in units of the part at rest.
+      const distance = (lag) => {
+        const past = strobes.at(-1 - lag);
+        const [height, speed] = [strobe[0] - past[0], strobe[1] - past[1]];
+        return Math.max(Math.abs(height) / (c.scaleW * c.scaleW), Math.abs(speed) / c.scaleV);
+      };
+      const found = periods.find((period) => distance(period) <= REPEATED) || 0;
       repeats = found > 0 && found === candidate ? repeats + 1 : 0;
       candidate = found;
       if (candidate > 0 && repeats >= candidate) {
+        candidate = periods.find((period) => candidate % period === 0 && distance(period) <= SAME) || candidate;
         const flights = run
           .impacts()
           .filter((impact) => impact.time > time - candidate * c.period && impact.time <= time)
