@@ -2,13 +2,12 @@
 
 from pathlib import Path
 
-import pandas as pd
-
+from conveyor import tables
 from docs.companion import build
 from rule_log import logged
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        maps = [pd.read_parquet(path) for path in snakemake.input.maps]
+        maps = [tables.read(path, "sweeps") for path in snakemake.input.maps]
         text = build.page(maps, snakemake.params.settings)
         Path(snakemake.output[0]).write_text(text, encoding="utf-8")
