@@ -32,6 +32,8 @@ const CYCLES_IN_VIEW = [2, 4, 10, 25, Infinity];
 // What a step button moves by, in excitation cycles, and how many impacts a table shows.
 const STEP = 0.02;
 const ROWS = 1000;
+// So few points of a map are hard to see: their number is given.
+const FEW = 100;
 // A start is not known better than this (m), and a time that moves by more than this (s) with it is not known.
 const BLUR = 1e-13;
 const SHARP = 1e-6;
@@ -134,6 +136,12 @@ function showChoice() {
   later("hash", 500, () => history.replaceState(null, "", `#${hash}`));
 }
 
+/* Choose what a preset or the address says, and show a map of that conveyor if there is one. */
+function chooseAll(values) {
+  choose(values);
+  if (differences(map).length) showOnMap(maps.find((one) => stateOnMap(one) && !differences(one).length) || map);
+}
+
 function canBeChosen(name, value) {
   if (name === "tension") return solver.TENSIONS.includes(value);
   return (name === "z0" && value === "conveyor") || (name in CONTROLS && !fault(name, value));
@@ -150,7 +158,7 @@ function takeAddress() {
     ? `The address asks for ${wrong.join(" = ")}, which cannot be used: the defaults are shown.`
     : "";
   byId("address").hidden = !wrong;
-  choose({ ...model, ...(wrong ? {} : wanted.length ? Object.fromEntries(wanted) : data.presets[data.opening]) });
+  chooseAll({ ...model, ...(wrong ? {} : wanted.length ? Object.fromEntries(wanted) : data.presets[data.opening]) });
 }
 
 // ----------------------------------------------------------------------------------------------------- computing
@@ -314,16 +322,22 @@ function showMap() {
   });
   if (within(map.x) && within(map.y)) {
     const [x, y] = [mapFrame.x(onAxis(map.x)), mapFrame.y(onAxis(map.y))];
+    context.save();
+    context.beginPath();
+    context.rect(left, top, width, height);
+    context.clip();
     for (const [colour, width] of [["#ffffff", 4], ["#000000", 1.5]]) {
       context.strokeStyle = colour;
       context.lineWidth = width;
       context.beginPath();
+      context.arc(x, y, 4, 0, 2 * Math.PI);
       for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
         context.moveTo(x + 4 * dx, y + 4 * dy);
         context.lineTo(x + 16 * dx, y + 16 * dy);
       }
       context.stroke();
     }
+    context.restore();
   }
   const place = ({ name }) => `${inText(name)} ${shownAs(name, chosen[name])}`;
   const start = `${place(map.x)}, ${place(map.y)}`;
@@ -343,13 +357,22 @@ function showMap() {
   byId("map-axes").textContent = `${mapTitle(map)}${other.length ? `, not of this ${subject}` : ""}`;
 }
 
+/* The map that is shown from now on. */
+function showOnMap(one) {
+  map = one;
+  byId("map-choice").value = maps.indexOf(one);
+  showMapLegend();
+}
+
 function showMapLegend() {
-  const occurring = data.states.filter((_, code) => map.states.includes(code));
+  const count = (state) => map.states.filter((code) => data.states[code] === state).length;
+  const occurring = data.states.map((state) => [state, count(state)]).filter(([, points]) => points);
   byId("map-legend").replaceChildren(
-    ...occurring.map((state) => {
+    ...occurring.map(([state, points]) => {
       const swatch = element("span", { className: "swatch" });
       swatch.style.background = colours[state];
-      return element("span", {}, swatch, STATE_NAMES[state].toLowerCase());
+      const few = points < FEW ? ` (${points} of ${map.states.length} points)` : "";
+      return element("span", {}, swatch, STATE_NAMES[state].toLowerCase() + few);
     }),
   );
 }
@@ -483,7 +506,7 @@ function axes(shape, xLabel, yLabel, { xFactor = 1, yFactor = 1 } = {}) {
   context.strokeRect(left + 0.5, top + 0.5, width - 1, height - 1);
   context.textAlign = "center";
   context.textBaseline = "top";
-  for (const tick of ticks(xRange[0] * xFactor, xRange[1] * xFactor, Math.max(2, width / 80))) {
+  for (const tick of ticks(xRange[0] * xFactor, xRange[1] * xFactor, Math.max(3, width / 60))) {
     const x = shape.x(tick / xFactor);
     context.fillRect(x - 0.5, top + height, 1, 4);
     context.fillText(signed(String(tick)), x, top + height + 6);
@@ -803,11 +826,11 @@ function setUp() {
     const swatch = element("span", { className: "swatch" });
     swatch.style.background = colours[name] || "transparent";
     const button = element("button", { type: "button" }, swatch, STATE_NAMES[name] || name);
-    button.addEventListener("click", () => choose(values));
+    button.addEventListener("click", () => chooseAll(values));
     byId("presets").append(button);
   }
   fill(byId("map-choice"), [...maps.keys()], (k) => mapTitle(maps[k]), 0);
-  fill(byId("slow"), SLOWNESS, (one) => `${one} times`, 100);
+  fill(byId("slow"), SLOWNESS, (one) => `${one} ×`, 100);
   fill(byId("separation"), SEPARATIONS, (one) => `${power10(Math.round(Math.log10(one)))} m`, data.separation);
   fill(byId("cycles"), CYCLES_IN_VIEW, (one) => (one === Infinity ? "all" : one), 4);
   byId("duration").value = duration;
@@ -818,8 +841,7 @@ function setUp() {
   });
   byId("tension").addEventListener("change", (event) => choose({ tension: event.target.value }));
   byId("map-choice").addEventListener("change", (event) => {
-    map = maps[Number(event.target.value)];
-    showMapLegend();
+    showOnMap(maps[Number(event.target.value)]);
     showMap();
   });
   byId("map-take").addEventListener("click", () => moveTo(...[map.x, map.y].map((axis) => onAxis(axis) || axis.start)));
