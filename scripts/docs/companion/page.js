@@ -435,7 +435,8 @@ function showImpacts() {
   const impacts = run.impacts();
   const rows = impacts.slice(0, ROWS).map(({ time, speed, flight }, k) => {
     const phase = (run.c.omega * time + run.c.psi0) % (2 * Math.PI);
-    const texts = [String(k + 1), time.toFixed(12), phase.toFixed(6), digits(speed, 8), digits(1e3 * flight, 6)];
+    const [approach, before] = [speed, 1e3 * flight].map((one) => one.toPrecision(6));
+    const texts = [String(k + 1), time.toFixed(12), phase.toFixed(6), approach, before];
     const cells = texts.map((textContent) => element("td", { textContent: signed(textContent) }));
     return element("tr", { className: k < known ? "" : "blurred" }, ...cells);
   });
