@@ -441,6 +441,16 @@ def test_a_map_of_another_conveyor_is_marked(browser):
     assert not browser.driver.find_element(By.ID, "map-other").is_displayed()
 
 
+def test_a_preset_shows_a_map_of_its_conveyor(browser):
+    browser.open()
+    assert browser.text("map-axes").startswith("Start height")
+    preset = browser.driver.find_element(By.XPATH, "//button[contains(., 'Chaos')]")
+    preset.click()
+    browser.until("return document.getElementById('map-axes').textContent.startsWith('Amplitude')")
+    assert not browser.driver.find_element(By.ID, "map-other").is_displayed()
+    assert "chaos" in browser.text("map-here")
+
+
 def test_a_wrong_value_is_named_and_changes_nothing(browser):
     browser.open()
     before = browser.velocity()
@@ -482,6 +492,13 @@ def test_one_file_that_loads_nothing(browser):
     text = path.read_text(encoding="utf-8")
     assert not re.findall(r"https?:|//[a-z]+\.", text)
     assert "default-src 'none'" in text
+
+
+def test_the_stored_page_is_made_of_the_sources():
+    text = (ROOT / "docs/companion.html").read_text(encoding="utf-8")
+    assert len(text.encode()) <= 5_000_000
+    for name in build.PARTS:
+        assert (build.HERE / name).read_text(encoding="utf-8").strip() in text, f"snakemake docs/companion.html: {name}"
 
 
 def test_a_page_with_real_maps_is_small_enough():
