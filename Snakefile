@@ -7,7 +7,7 @@ from workflow.configuration import by_methods, canonical, problems
 min_version("9.27")
 
 # The config of the paper, one file for each stage; overlays of the command line are merged over it.
-STAGES = ("sweeps", "motion", "orbits", "dimensions", "fit", "accuracy", "claims", "figures")
+STAGES = ("sweeps", "motion", "orbits", "dimensions", "fit", "accuracy", "claims", "figures", "docs")
 files = [f"config/{name}.yaml" for name in ("config", *STAGES)] + [*workflow.overwrite_configfiles]
 read_files = [read(file) for file in files]
 if errors := [fault for faults, _ in read_files for fault in faults]:

@@ -10,7 +10,7 @@ from project import CAPTIONS, TARGETS, Project, copy_project
 def built(tmp_path_factory) -> Project:
     """A project whose figures have been made; tests leave its sources and results as they are."""
     project = Project(copy_project(tmp_path_factory.mktemp("built")))
-    project.make(*TARGETS, *CAPTIONS, "results/claims.md")
+    project.make(*TARGETS, *CAPTIONS, "results/claims.md", "docs/companion.html")
     return project
 
 

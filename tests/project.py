@@ -33,6 +33,7 @@ SINGLE = (
     "settling_times",
     "rigid_part",
     "random_points",
+    "companion",
 )
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}
 COARSE_PAIRS = {"axes": {"acceleration": {"num": 3}}, "duration": 0.1}
@@ -44,7 +45,7 @@ TINY = {
 }
 
 
-CONFIG_FILES = ("config", "sweeps", "motion", "orbits", "dimensions", "fit", "accuracy", "claims", "figures")
+CONFIG_FILES = ("config", "sweeps", "motion", "orbits", "dimensions", "fit", "accuracy", "claims", "figures", "docs")
 
 
 def read_config(*files: str) -> dict:
@@ -64,6 +65,7 @@ def small_config() -> dict:
     """The project's config with FIGURES and their tables only, on coarse axes."""
     config = merged(read_config(), TINY)
     config["figures"] = {figure: config["figures"][figure] for figure in FIGURES}
+    config["companion"]["maps"] = ["amplitudes"]
     used = {table for entry in config["figures"].values() for table in entry["tables"].values()}
     for section in set(config) - {"prefix", "model", "solver", "figures", *SINGLE}:
         config[section] = {name: entry for name, entry in config[section].items() if f"{section}/{name}" in used}

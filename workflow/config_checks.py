@@ -241,6 +241,16 @@ def claims(config: dict) -> Iterator[str]:
         yield from asked(f"claims.{claim}.settings", entry.get("settings", {}), known, needed, finding)
 
 
+def companion(config: dict) -> Iterator[str]:
+    own = config["companion"]
+    for index, name in enumerate(own["maps"]):
+        if name not in config["sweeps"]:
+            remedy = did_you_mean(name, config["sweeps"])
+            yield f"companion.maps[{index}] = {shown(name)} is no entry of sweeps; {remedy}"
+    if own["opening"] not in own["presets"]:
+        yield f"companion.opening = {shown(own['opening'])} is not one of {', '.join(own['presets'])}"
+
+
 CHECKS = (
     overridden_axes,
     steps,
@@ -253,6 +263,7 @@ CHECKS = (
     tables_of,
     figures,
     claims,
+    companion,
 )
 
 

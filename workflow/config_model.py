@@ -423,6 +423,15 @@ class Figure(TypedDict):
 
 
 # Strict, and without other keys than these; so are the sections below.
+class Companion(TypedDict):
+    maps: many(Name)
+    opening: Name
+    presets: Annotated[dict[Name, Model], Field(min_length=1)]
+    tolerance: Tolerance
+    cycles: Cycles
+    separation: positive(1, "m")
+
+
 @with_config(ConfigDict(extra="forbid", strict=True))
 class Config(TypedDict):
     prefix: text(rf"|{NAME}", f"a folder name of at most {LONGEST_NAME} letters, digits, - and _, or nothing")
@@ -452,6 +461,7 @@ class Config(TypedDict):
     settling_times: SettlingTimes
     random_points: RandomPoints
     figures: dict[Name, Figure]
+    companion: Companion
 
 
 MODEL = TypeAdapter(Config)

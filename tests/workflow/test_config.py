@@ -17,6 +17,9 @@ MINE = {"axes": {"acceleration": {"start": 30, "stop": 40, "num": 3}, "z0": [0.0
 
 # An overlay, and words of the message that it must cause.
 WRONG = [
+    ({"companion": {"maps": ["none"]}}, "companion.maps[0] = 'none' is no entry of sweeps"),
+    ({"companion": {"opening": "third"}}, "companion.opening = 'third' is not one of first, second, chaos"),
+    ({"companion": {"presets": {"mine": {"mas": 1.0}}}}, "companion.presets.mine.mas is an unknown key"),
     ({"sweep": {}}, "sweep is an unknown key; did you mean sweeps?"),
     ({"sweeps": {"mine": {**MINE, "methd": "euler"}}}, "sweeps.mine.methd is an unknown key; did you mean method?"),
     ({"model": {"mass": -0.1}}, "model.mass = -0.1 is outside [1e-12, 1e+06] kg"),

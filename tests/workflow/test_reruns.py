@@ -48,6 +48,24 @@ def test_no_simulation_after_the_states(edited):
 
 
 @pytest.mark.parametrize(
+    ("file", "old", "new"),
+    [
+        ("scripts/docs/companion/solver.js", "const ORDER = 16;", "const ORDER = 14;"),
+        ("scripts/docs/companion/page.css", "--paper: #ffffff;", "--paper: #fffffe;"),
+        ("scripts/docs/companion/build.py", "LAST = 0.25", "LAST = 0.2"),
+        ("scripts/figures/style.py", '"#0072B2"', '"#123456"'),
+    ],
+)
+def test_the_companion_after_what_it_is_made_of(edited, file, old, new):
+    assert edited(file, old, new).planned("docs/companion.html") == {"companion": 1}
+
+
+def test_the_companion_after_its_model(built):
+    assert built.planned("docs/companion.html") == {}
+    assert built.under({"companion": {"cycles": 17}}).planned("docs/companion.html") == {"companion": 1}
+
+
+@pytest.mark.parametrize(
     ("change", "expected"),
     [
         ({"estimates": {"phase": {"samples": 17}}}, {"estimates": 2, "plot_fig22": 1}),

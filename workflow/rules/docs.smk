@@ -15,6 +15,20 @@ RULES["claims_page"] = {
     "place": "docs/claims",
 }
 
+RULES["companion"] = {
+    "stage": "docs.companion.build",
+    "message": "The page to play with",
+    # What the page is put together from, as no import leads there.
+    "depends": [f"scripts/docs/companion/{name}" for name in ("page.html", "page.css", "solver.js", "page.js")],
+    "input": {"maps": [table("sweeps", name) for name in config["companion"]["maps"]]},
+    "output": {"page": page("companion.html")},
+    "place": "docs/companion",
+    "params": {
+        "kinds": {"maps": "sweeps"},
+        "settings": {name: config[name] for name in ("model", "solver", "companion")},
+    },
+}
+
 RULES["readme"] = {
     "stage": "docs.readme",
     "message": "The README",

@@ -1,0 +1,93 @@
+"""The companion: one HTML file that computes the motion of the part by itself, offline."""
+
+import base64
+import json
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from conveyor.solver.model import PARAMETERS, RANGES
+from figures import style
+
+HERE = Path(__file__).parent
+# What page.html is filled with; each stands there as the only comment of its name.
+PARTS = ("page.css", "solver.js", "page.js")
+STATES = tuple(style.STATE_COLOURS)
+LAST = 0.25  # share of the run over which the paper takes mean velocities (Sect. 3.1)
+
+
+def encode(table: pd.DataFrame) -> dict:
+    """A state map as the page reads it, from a sweep over two parameters.
+
+    Returns
+    -------
+    dict
+        x, y: name, start, stop (SI units) and number of values of both axes, the phase upwards; model: what all points
+        share; states: indices in STATES, the rows of y one after the other, four to a byte from the lowest bits on, in
+        base64
+
+    Raises
+    ------
+    ValueError
+        if the table is no sweep over two parameters in even steps
+    """
+    names = list(table.attrs["axes"])
+    if len(names) != 2:
+        raise ValueError(f"a state map has two axes, this sweep has {', '.join(names)}")
+    y, x = names if names[0] == "psi0" else reversed(names)
+    codes = table.assign(code=table.state.map(STATES.index)).pivot(index=y, columns=x, values="code")
+    axes = {}
+    for place, name, values in (("x", x, codes.columns.to_numpy()), ("y", y, codes.index.to_numpy())):
+        even = np.linspace(values[0], values[-1], len(values))
+        if len(values) < 2 or not np.allclose(values, even, rtol=0.0, atol=1e-6 * (even[1] - even[0])):
+            raise ValueError(f"the values of {name} are not evenly spaced")
+        axes[place] = {"name": name, "start": float(values[0]), "stop": float(values[-1]), "num": len(values)}
+    flat = codes.to_numpy().astype(np.uint8).ravel()
+    fours = np.pad(flat, (0, -len(flat) % 4)).reshape(-1, 4)
+    packed = fours[:, 0] | fours[:, 1] << 2 | fours[:, 2] << 4 | fours[:, 3] << 6
+    model = {name: value for name, value in table.attrs["model"].items() if name not in names}
+    return {**axes, "model": model, "states": base64.b64encode(packed.tobytes()).decode()}
+
+
+def make(maps: list[pd.DataFrame], settings: dict) -> str:
+    """The whole page.
+
+    Parameters
+    ----------
+    maps : sweeps over two parameters, with the column `state`, in the order in which the page offers them
+    settings : the config's `model`, its `solver`, and its `companion`
+
+    Raises
+    ------
+    ValueError
+        if a table is no state map, or a part does not fit into page.html
+    """
+    own = settings["companion"]
+    data = {
+        "model": {name: settings["model"][name] for name in PARAMETERS},
+        "ranges": RANGES,
+        "solver": {name: settings["solver"][name] for name in ("duration", "step")},
+        "tolerance": own["tolerance"],
+        "cycles": own["cycles"],
+        "separation": own["separation"],
+        "presets": own["presets"],
+        "opening": own["opening"],
+        "last": LAST,
+        "states": STATES,
+        "colours": style.STATE_COLOURS,
+        "euler": style.EULER,
+        "maps": [encode(table) for table in maps],
+    }
+    text = (HERE / "page.html").read_text(encoding="utf-8")
+    parts = {name: (HERE / name).read_text(encoding="utf-8").strip() for name in PARTS}
+    # Inside a script "</" could end it; in JSON it may be written so.
+    parts["data"] = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":")).replace("</", "<\\/")
+    for name, part in parts.items():
+        mark = f"/* {name} */"
+        if text.count(mark) != 1:
+            raise ValueError(f"page.html has {text.count(mark)} places for {name}")
+        if "</script" in part or "</style" in part:
+            raise ValueError(f"{name} would end its own element")
+        text = text.replace(mark, part)
+    return text

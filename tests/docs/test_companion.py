@@ -1,0 +1,522 @@
+"""The companion in headless Chromium: it agrees with the library, and everybody can use it."""
+
+import math
+import re
+import shutil
+import time
+from dataclasses import asdict, replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from project import read_config
+from selenium import webdriver
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+from conveyor.analysis import states
+from conveyor.analysis.random_conveyors import around_the_paper
+from conveyor.methods import fixed_step
+from conveyor.simulation import Run, simulate
+from conveyor.solver import model
+from conveyor.solver.model import Conveyor, Start, pack, unpack
+from docs.companion import build
+from pipeline import grid
+from workflow.configuration import resolve
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+CHROMEDRIVER = shutil.which("chromedriver")
+
+ROOT = Path(__file__).resolve().parents[2]
+CONFIG = read_config()
+TOLERANCE = CONFIG["companion"]["tolerance"]
+MAPS = ("map_height", "map_amplitude")
+PHONE, DESKTOP = (360, 740), (1280, 900)
+ARGUMENTS = (
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+)
+PLOTS = ("velocity", "height", "contact", "friction", "phase", "distance")
+
+# -- the page and the browser ------------------------------------------------------------------------------------------
+
+
+def coarse_map(name: str) -> pd.DataFrame:
+    """A state map of the config on a few points of its axes."""
+    settings = resolve(CONFIG, "sweeps", name)
+    settings["axes"] = {axis: {**values, "num": 12} for axis, values in settings["axes"].items()}
+    axes, parameters = grid.product(settings["axes"], settings["model"], (0, 144))
+    table = pd.DataFrame(axes | {"state": states.classify(parameters, tolerance=settings["tolerance"]).state})
+    table.attrs = settings
+    return table
+
+
+@pytest.fixture(scope="module")
+def maps() -> list[pd.DataFrame]:
+    return [coarse_map(name) for name in MAPS]
+
+
+@pytest.fixture(scope="module")
+def address(maps, tmp_path_factory) -> str:
+    path = tmp_path_factory.mktemp("companion") / "companion.html"
+    path.write_text(build.make(maps, CONFIG), encoding="utf-8")
+    return path.as_uri()
+
+
+class Browser:
+    """Chromium on the page."""
+
+    def __init__(self, driver: webdriver.Chrome, address: str):
+        self.driver = driver
+        self.address = address
+
+    def open(self, choice: str = "", size: tuple[int, int] = DESKTOP, motion: str = "reduce") -> None:
+        """Load the page with a choice in its address, as in "#acceleration=80"."""
+        width, height = size
+        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": size == PHONE}
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+        media = {"features": [{"name": "prefers-reduced-motion", "value": motion}]}
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", media)
+        self.driver.get("about:blank")
+        self.driver.get(self.address + choice)
+        self.until("return document.getElementById('state').textContent !== ''")
+
+    def run(self, script: str, *arguments):
+        return self.driver.execute_script(script, *arguments)
+
+    def until(self, script: str, *arguments) -> None:
+        for _ in range(200):
+            if self.run(script, *arguments):
+                return
+            time.sleep(0.05)
+        raise AssertionError(f"never true: {script}")
+
+    def text(self, name: str) -> str:
+        return self.run("return document.getElementById(arguments[0]).textContent", name)
+
+    def velocity(self) -> float:
+        return float(self.text("velocity").split(" ")[0].replace("−", "-"))
+
+    def chosen(self, name: str) -> float:
+        """What the number of a parameter shows, in its unit there."""
+        return float(self.run("return document.getElementById(arguments[0]).value", f"parameter-{name}"))
+
+    def press(self, *keys: str) -> None:
+        ActionChains(self.driver).send_keys(*keys).perform()
+
+    def tab_to(self, script: str) -> None:
+        """Press the tabulator until the element in focus satisfies `script`."""
+        for _ in range(60):
+            self.press(Keys.TAB)
+            if self.run(f"const element = document.activeElement; return {script}"):
+                return
+        raise AssertionError(f"the keyboard never reaches {script}")
+
+    def errors(self) -> list[dict]:
+        return self.driver.get_log("browser")
+
+
+@pytest.fixture(scope="module")
+def browser(address, tmp_path_factory):
+    if not (CHROMIUM and CHROMEDRIVER):
+        pytest.skip("Chromium and chromedriver are not installed (Debian: chromium, chromium-driver)")
+    options = webdriver.ChromeOptions()
+    options.binary_location = CHROMIUM
+    for argument in (*ARGUMENTS, f"--user-data-dir={tmp_path_factory.mktemp('profile')}"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    driver = webdriver.Chrome(options=options, service=webdriver.ChromeService(CHROMEDRIVER))
+    yield Browser(driver, address)
+    driver.quit()
+
+
+# -- the numbers -------------------------------------------------------------------------------------------------------
+
+
+def near_the_paper(count: int, seed: int) -> np.ndarray:
+    """Packed parameters, shape (count, 13), of the paper's conveyor at random amplitudes, starts and tensions."""
+    generator = np.random.default_rng(seed)
+    points = np.tile(pack(Conveyor(), Start()), (count, 1))
+    points[:, model.ACCELERATION] = generator.uniform(20.0, 60.0, count)
+    points[:, model.PSI0] = generator.uniform(0.0, 2.0 * math.pi, count)
+    points[:, model.TENSION] = generator.integers(len(model.TENSION_MODES), size=count)
+    points[:, model.Z0] = generator.uniform(0.0, 0.5e-3, count)
+    return points
+
+
+def quantities(run: Run) -> np.ndarray:
+    """Mean feeding velocity, end state and impact times."""
+    impacts = run.events["time"][run.events["kind"] == "impact"]
+    return np.array([run.mean_velocity(), run.x_end, run.vx_end, run.z_end, run.vz_end, *impacts])
+
+
+def relative_error(found: np.ndarray, truth: np.ndarray) -> float:
+    return float(np.max(np.abs(found - truth) / np.abs(truth))) if len(found) == len(truth) else math.inf
+
+
+def is_regular(run: Run, shifted: Run) -> bool:
+    """Whether a run has the events of one that started at another phase, and nearly its numbers, none of them zero."""
+    if not run.status == shifted.status == "ok" or list(run.events["kind"]) != list(shifted.events["kind"]):
+        return False
+    found, other = quantities(run), quantities(shifted)
+    # What is zero but for rounding has no relative error.
+    fastest = run.conveyor.acceleration / (2.0 * math.pi * run.conveyor.frequency)
+    return abs(found[0]) > 1e-9 * fastest and np.all(found != 0.0) and relative_error(found, other) < 1e-6
+
+
+def regular_runs(points: np.ndarray, count: int, cycles: float) -> list[Run]:
+    """The first `count` regular runs among random points, each over a number of excitation cycles."""
+    found = []
+    for point in points:
+        conveyor, start = unpack(point)
+        duration = cycles / conveyor.frequency
+        run, shifted = (
+            simulate(replace(conveyor, psi0=conveyor.psi0 + shift), start, duration=duration, tolerance=TOLERANCE)
+            for shift in (0.0, 1e-9)
+        )
+        if is_regular(run, shifted):
+            found.append(run)
+        if len(found) == count:
+            return found
+    raise AssertionError(f"only {len(found)} of {len(points)} runs are regular")
+
+
+def parameters_of(conveyor: Conveyor, start: Start) -> dict:
+    return {**asdict(conveyor), "z0": start.z, "vz0": start.vz}
+
+
+FOLLOW = """
+const [cases, tolerance, last] = arguments;
+return cases.map(([parameters, duration]) => {
+  const run = solver.follow(parameters, duration, {tolerance});
+  const {x, vx, z, vz} = run.at(run.end);
+  const impacts = run.impacts().map((impact) => impact.time);
+  const values = [run.meanVelocity(last), x, vx, z, vz, ...impacts];
+  return {status: run.status, values, kinds: run.events.map((event) => event.kind)};
+});
+"""
+
+
+def test_agrees_with_the_library_on_100_regular_cases(browser):
+    runs = regular_runs(around_the_paper(200, 1), 60, 20.0) + regular_runs(near_the_paper(200, 2), 40, 50.0)
+    assert {run.conveyor.tension for run in runs} == set(model.TENSION_MODES)
+    assert {1.0, 1.5} < {run.conveyor.exponent for run in runs}
+    browser.open()
+    cases = [[parameters_of(run.conveyor, run.start), run.duration] for run in runs]
+    found = browser.run(FOLLOW, cases, TOLERANCE, build.LAST)
+    assert all(one["status"] == "ok" for one in found)
+    assert [one["kinds"] for one in found] == [list(run.events["kind"]) for run in runs]
+    errors = [relative_error(np.array(one["values"]), quantities(run)) for one, run in zip(found, runs, strict=True)]
+    print(f"largest relative error {max(errors):.1e}")
+    assert len(errors) == 100
+    assert max(errors) < 1e-6
+
+
+def test_samples_between_the_events_agree_with_the_library(browser):
+    conveyor, start = Conveyor(acceleration=47.0, tension="clip"), Start("conveyor")
+    run = simulate(conveyor, start, duration=0.3, tolerance=TOLERANCE)
+    times = np.linspace(0.0, 0.3, 701)
+    browser.open()
+    script = "const run = solver.follow(arguments[0], 0.3, {tolerance: arguments[1]});"
+    script += "return arguments[2].map((time) => run.at(time))"
+    found = pd.DataFrame(browser.run(script, parameters_of(conveyor, start), TOLERANCE, times.tolist()))
+    truth = run.sample(times)
+    for name, column in (
+        ("contact_force", "contactForce"),
+        ("friction_force", "frictionForce"),
+        ("x", "x"),
+        ("z", "z"),
+    ):
+        assert np.max(np.abs(found[column] - truth[name])) < 1e-8 * np.max(np.abs(truth[name])), name
+
+
+def test_states_of_motion_are_those_of_the_library(browser):
+    # 55 m/s²: an orbit of two cycles; 80 m/s²: chaos, which the page must not claim.
+    points = np.concatenate([near_the_paper(40, 3), np.tile(pack(Conveyor(), Start()), (2, 1))])
+    points[-2:, model.ACCELERATION] = 55.0, 80.0
+    truth, periods, *_ = states.classify(points)
+    assert {"first", "second", "chaos"} <= set(truth)
+    browser.open()
+    script = "return arguments[0].map((parameters) => solver.settle(parameters, 500, {tolerance: arguments[1]}))"
+    found = browser.run(script, [parameters_of(*unpack(point)) for point in points], TOLERANCE)
+    expected = [(state if period else None, period or None) for state, period in zip(truth, periods, strict=True)]
+    assert [(one["state"], one.get("period")) for one in found] == expected
+
+
+def test_euler_is_that_of_the_library(browser):
+    browser.open()
+    for tension in model.TENSION_MODES:
+        conveyor, start = Conveyor(tension=tension), Start(0.3e-3)
+        truth = fixed_step.run(pack(conveyor, start), 0.2, 5e-7)
+        script = "const run = solver.euler(arguments[0], 0.2, 5e-7, 20); const {x, vx, z, vz} = run.at(0.2);"
+        found = browser.run(script + "return [x, vx, z, vz, run.meanVelocity(0.25)]", parameters_of(conveyor, start))
+        expected = [truth.x, truth.vx, truth.z, truth.vz, truth.mean_velocity]
+        assert relative_error(np.array(found), np.array(expected)) < 1e-9
+
+
+# -- what is shown -----------------------------------------------------------------------------------------------------
+
+
+def test_shows_what_the_library_finds(browser):
+    for name in ("first", "second"):
+        browser.open("#" + "&".join(f"{key}={value}" for key, value in CONFIG["companion"]["presets"][name].items()))
+        values = {**CONFIG["model"], **CONFIG["companion"]["presets"][name]}
+        start = Start(values.pop("z0"), values.pop("vz0"))
+        run = simulate(Conveyor(**values), start, duration=CONFIG["solver"]["duration"], tolerance=TOLERANCE)
+        assert browser.text("state").lower().startswith(f"{name} state")
+        assert browser.velocity() == pytest.approx(run.mean_velocity(), rel=1e-6)
+        rows = browser.run(
+            "return [...document.querySelectorAll('#impacts tr')].map((row) => row.cells[1].textContent)"
+        )
+        impacts = run.events["time"][run.events["kind"] == "impact"]
+        assert [float(row) for row in rows] == pytest.approx(impacts.tolist(), abs=1e-9)
+
+
+def test_not_settling_is_not_called_chaos(browser):
+    browser.open("#acceleration=80")
+    assert browser.text("state").startswith("Not settled within")
+    assert "map says chaos" in browser.text("state")
+    # Nor are digits given that rounding decides: a part shifted by an atom's share has others.
+    assert "rounding decides" in browser.text("velocity")
+    assert len(re.match(r"0\.0*(\d+) m/s", browser.text("velocity"))[1]) <= 2
+    # No map is of this conveyor: nobody says chaos.
+    browser.open("#acceleration=80&damping=0.29")
+    assert browser.text("state").startswith("Not settled within")
+    assert "That alone is not chaos" in browser.text("state")
+
+
+def test_giving_up_is_said_and_nothing_is_drawn(browser):
+    browser.open("#frequency=20000")
+    alert = browser.driver.find_element(By.ID, "failure")
+    assert alert.get_attribute("role") == "alert"
+    assert alert.is_displayed()
+    assert "gave up" in alert.text
+    assert not browser.driver.find_element(By.ID, "shown").is_displayed()
+    assert "not known" in browser.text("velocity")
+
+
+def coloured_pixels(browser: Browser, name: str, colour: str) -> int:
+    """Pixels of one colour on a canvas."""
+    script = """
+    const canvas = document.getElementById(arguments[0]);
+    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const wanted = [1, 3, 5].map((k) => parseInt(arguments[1].slice(k, k + 2), 16));
+    let count = 0;
+    for (let k = 0; k < data.length; k += 4) count += wanted.every((value, i) => Math.abs(data[k + i] - value) < 3);
+    return count;
+    """
+    return browser.run(script, name, colour)
+
+
+def test_curves_have_the_colour_of_the_state(browser):
+    for choice, state in (("#z0=0&vz0=0&damping=0.3&mass=0.0007", "first"), ("#z0=0.0003", "second")):
+        browser.open(choice)
+        for plot in PLOTS:
+            assert coloured_pixels(browser, f"plot-{plot}", build.style.STATE_COLOURS[state]) > 100, plot
+
+
+def test_a_second_part_comes_close_or_leaves(browser):
+    distances = {}
+    for name, choice in (("regular", "#z0=0.0003"), ("chaos", "#acceleration=80")):
+        browser.open(choice)
+        label = browser.driver.find_element(By.ID, "plot-distance").get_attribute("aria-label")
+        first, distances[name] = (float(number) for number in re.findall(r"([\d.e-]+) m at", label))
+        assert first == CONFIG["companion"]["separation"]
+    assert distances["regular"] < 1e-10
+    assert distances["chaos"] > 1e-4
+
+
+def test_an_euler_that_blows_up_is_not_drawn(browser):
+    for choice, drawn in (("#z0=0.0003", True), ("#stiffness=1e15", False)):
+        browser.open(choice)
+        browser.driver.find_element(By.ID, "euler").click()
+        browser.until("return !document.getElementById('euler-velocity').textContent.includes('…')")
+        assert ("blows up" in browser.text("euler-velocity")) != drawn
+        assert ("Euler" in browser.text("legend")) == drawn
+        assert (coloured_pixels(browser, "plot-height", build.style.EULER) > 20) == drawn
+
+
+@pytest.mark.parametrize("size", [PHONE, DESKTOP])
+def test_no_errors_and_nothing_cut(browser, size):
+    for choice in ("", "#acceleration=80", "#z0=conveyor&tension=clip", "#stiffness=1e15&exponent=1"):
+        browser.open(choice, size)
+        browser.run("document.querySelector('details').open = true; document.getElementById('euler').click()")
+        browser.until("return !document.getElementById('euler-velocity').textContent.includes('…')")
+        width, wide = browser.run("return [innerWidth, document.documentElement.scrollWidth]")
+        assert width == size[0]
+        assert wide <= width
+    assert browser.errors() == []
+
+
+def test_the_motion_waits_where_less_motion_is_preferred(browser):
+    browser.open()
+    assert browser.text("play") == "Play"
+    browser.open(motion="no-preference")
+    assert browser.text("play") == "Pause"
+    before = browser.text("readout")
+    browser.until("return document.getElementById('readout').textContent !== arguments[0]", before)
+
+
+# -- by hand -----------------------------------------------------------------------------------------------------------
+
+
+def test_sliders_by_keyboard(browser):
+    browser.open()
+    browser.tab_to("element.type === 'range' && element.getAttribute('aria-label').startsWith('Amplitude')")
+    assert browser.run("return getComputedStyle(document.activeElement).outlineStyle") == "solid"
+    before = browser.velocity()
+    browser.press(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
+    browser.until("return location.hash.includes('acceleration=40.2')")
+    assert browser.velocity() != before
+    conveyor = Conveyor(acceleration=40.2)
+    truth = simulate(conveyor, Start(0.3e-3), tolerance=TOLERANCE).mean_velocity()
+    assert browser.velocity() == pytest.approx(truth, rel=1e-6)
+
+
+def test_the_map_by_keyboard(browser):
+    browser.open()
+    browser.tab_to("element.id === 'map'")
+    assert browser.run("return getComputedStyle(document.activeElement).outlineStyle") == "solid"
+    assert "second state" in browser.text("map-here")
+    # Higher phases lead into the first state.
+    for _ in range(4):
+        browser.press(Keys.ARROW_UP)
+    axis = resolve(CONFIG, "sweeps", "map_height")["axes"]["psi0"]
+    phase = 4.0 * (axis["stop"] - axis["start"]) / 11
+    browser.until("return Math.abs(document.getElementById('parameter-psi0').value - arguments[0]) < 1e-5", phase)
+    assert browser.text("state").startswith("First state")
+    assert "first state" in browser.text("map-here")
+
+
+@pytest.mark.parametrize("size", [PHONE, DESKTOP])
+def test_a_click_into_the_map_starts_there(browser, maps, size):
+    browser.open("", size)
+    canvas = browser.driver.find_element(By.ID, "map")
+    browser.run("arguments[0].scrollIntoView({block: 'center'})", canvas)
+    seen = set()
+    for place in ((90, -70), (90, 40), (0, 90)):
+        before = browser.text("map-here")
+        ActionChains(browser.driver).move_to_element_with_offset(canvas, *place).click().perform()
+        browser.until("return document.getElementById('map-here').textContent !== arguments[0]", before)
+        z0, psi0 = 1e-3 * browser.chosen("z0"), browser.chosen("psi0")
+        # A click takes a grid point, where the page says what the table says and shows it in its colour.
+        (state,) = maps[0].state[np.isclose(maps[0].z0, z0) & np.isclose(maps[0].psi0, psi0)]
+        assert f"{state} state" in browser.text("map-here")
+        assert states_at(browser, place) == {state}
+        assert (z0 > 0.25e-3) == (place[0] > 0)
+        assert (psi0 > math.pi) == (place[1] < 0)
+        seen.add(state)
+    assert seen == {"first", "second"}
+
+
+def states_at(browser: Browser, place: tuple[int, int]) -> set[str]:
+    """States whose colours the map has about a place that is given from its middle, in pixels."""
+    script = """
+    const canvas = document.getElementById("map");
+    const [x, y] = [canvas.width / 2 + arguments[0], canvas.height / 2 + arguments[1]];
+    const pixels = canvas.getContext("2d").getImageData(x - 4, y - 4, 9, 9).data;
+    const hex = (k) => "#" + [0, 1, 2].map((i) => pixels[k + i].toString(16).padStart(2, "0")).join("");
+    return Array.from({length: 81}, (_, k) => hex(4 * k));
+    """
+    colours = set(browser.run(script, *place))
+    return {state for state, colour in build.style.STATE_COLOURS.items() if colour.lower() in colours}
+
+
+def test_a_map_of_another_conveyor_is_marked(browser):
+    browser.open("#damping=0.2")
+    mark = browser.driver.find_element(By.ID, "map-other")
+    assert mark.is_displayed()
+    assert mark.text == "not of this conveyor"
+    assert "contact damping 0.3 N s/m instead of 0.2 N s/m" in browser.text("map-here")
+    browser.driver.find_element(By.ID, "map-take").click()
+    browser.until("return document.getElementById('map-other').hidden")
+    assert browser.chosen("damping") == 0.3
+    # Friction does not act on the vertical motion.
+    browser.open("#friction=0.4")
+    assert not browser.driver.find_element(By.ID, "map-other").is_displayed()
+
+
+def test_a_preset_shows_a_map_of_its_conveyor(browser):
+    browser.open()
+    assert browser.text("map-axes").startswith("Start height")
+    preset = browser.driver.find_element(By.XPATH, "//button[contains(., 'Chaos')]")
+    preset.click()
+    browser.until("return document.getElementById('map-axes').textContent.startsWith('Amplitude')")
+    assert not browser.driver.find_element(By.ID, "map-other").is_displayed()
+    assert "chaos" in browser.text("map-here")
+
+
+def test_a_wrong_value_is_named_and_changes_nothing(browser):
+    browser.open()
+    before = browser.velocity()
+    entry = browser.driver.find_element(By.ID, "parameter-acceleration")
+    entry.clear()
+    entry.send_keys("-5", Keys.TAB)
+    message = browser.driver.find_element(By.ID, "parameter-acceleration-wrong")
+    assert message.is_displayed()
+    assert "from 0 m/s² to 10000 m/s²" in message.text
+    assert entry.get_attribute("aria-invalid") == "true"
+    assert browser.velocity() == before
+
+
+def test_everything_in_reach_of_the_keyboard_has_a_name(browser):
+    browser.open()
+    browser.run("document.querySelector('details').open = true")
+    nodes = browser.driver.execute_cdp_cmd("Accessibility.getFullAXTree", {})["nodes"]
+    focusable = [
+        node
+        for node in nodes
+        if any(one["name"] == "focusable" and one["value"]["value"] for one in node.get("properties", ()))
+    ]
+    assert len(focusable) > 30
+    unnamed = [node["role"]["value"] for node in focusable if not node.get("name", {}).get("value")]
+    assert [role for role in unnamed if role != "RootWebArea"] == []
+    images = [node for node in nodes if node.get("role", {}).get("value") in ("img", "image")]
+    assert len(images) >= len(PLOTS) + 1
+    assert all(node["name"]["value"] for node in images)
+
+
+# -- the file ----------------------------------------------------------------------------------------------------------
+
+
+def test_one_file_that_loads_nothing(browser):
+    browser.open()
+    path = Path(browser.address.removeprefix("file://"))
+    assert path.stat().st_size <= 5_000_000
+    assert browser.run("return performance.getEntriesByType('resource').length") == 0
+    text = path.read_text(encoding="utf-8")
+    assert not re.findall(r"https?:|//[a-z]+\.", text)
+    assert "default-src 'none'" in text
+
+
+def test_the_stored_page_is_made_of_the_sources():
+    text = (ROOT / "docs/companion.html").read_text(encoding="utf-8")
+    assert len(text.encode()) <= 5_000_000
+    for name in build.PARTS:
+        assert (build.HERE / name).read_text(encoding="utf-8").strip() in text, f"snakemake docs/companion.html: {name}"
+
+
+def test_a_page_with_real_maps_is_small_enough():
+    axes = {"psi0": np.linspace(0.0, 6.2, 400), "z0": np.linspace(0.0, 5e-4, 400)}
+    psi0, z0 = (values.ravel() for values in np.meshgrid(*axes.values(), indexing="ij"))
+    state = np.random.default_rng(1).choice(build.STATES, psi0.size)
+    table = pd.DataFrame({"psi0": psi0, "z0": z0, "state": state})
+    table.attrs = {"axes": {axis: {} for axis in axes}, "model": CONFIG["model"]}
+    assert len(build.make([table] * 5, CONFIG).encode()) <= 5_000_000
+
+
+def test_a_map_has_two_even_axes(maps):
+    table = maps[0].copy()
+    with pytest.raises(ValueError, match="z0 are not evenly spaced"):
+        build.encode(table.assign(z0=table.z0.replace(table.z0.max(), 1.0)))
+    table.attrs = {**table.attrs, "axes": {"z0": {}}}
+    with pytest.raises(ValueError, match="has two axes"):
+        build.encode(table)
