@@ -26,7 +26,7 @@ SINGLE = (
     "witnesses",
     "benchmark",
     "precision",
-    "estimators",
+    "precision_estimates",
     "stability",
     "stability_estimates",
     "scene_budget",

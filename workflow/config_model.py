@@ -274,7 +274,7 @@ class PairOfExponent(TypedDict):
     epsilon: Epsilon
 
 
-class Estimators(TypedDict):
+class PrecisionEstimates(TypedDict):
     exponent: PairOfExponent
     dimension: TypedDict("Sizes", {"points": many(Samples), "repeats": Count})
     fit: TypedDict("Fit", {"evaluations": whole(4, 10**9)})
@@ -453,7 +453,7 @@ class Config(TypedDict):
     claims: dict[Annotated[Name, AfterValidator(known_claim)], Claim]
     benchmark: Benchmark
     precision: Precision
-    estimators: Estimators
+    precision_estimates: PrecisionEstimates
     stability: Stability
     stability_estimates: StabilityEstimates
     scene_budget: SceneBudget

@@ -21,7 +21,7 @@ TABLES = {
         "claims",
         "benchmark",
         "random_points",
-        "estimators",
+        "precision_estimates",
         "stability",
         "stability_estimates",
         "scene_budget",

@@ -108,7 +108,7 @@ def as_in_the_paper(points: np.ndarray, settings: dict) -> Dimension:
 
 
 def estimates(points: np.ndarray, theiler: int, settings: dict) -> dict[str, Dimension]:
-    """The dimension of points by all estimators that can bear their number."""
+    """The dimension of points by all ways that can bear their number."""
     found = {"boxes": dimension.box_dimension(points), "boxes, as in the paper": as_in_the_paper(points, settings)}
     if len(points) <= settings["correlated"]:
         found["correlation sum"] = dimension.correlation_dimension(points, theiler)

@@ -83,10 +83,10 @@ scene_rule(
     params={"settings": {name: config["precision"][name] for name in ("repeats", "seconds")}},
 )
 accuracy_rule(
-    "estimators",
-    "Error against work of the estimators",
+    "precision_estimates",
+    "Error against work of the estimates",
     input={"critical": table("critical", FITTED["critical"])} if FITTED else {},
-    params={"settings": config["estimators"], "model": config["model"], "fit": FITTED},
+    params={"settings": config["precision_estimates"], "model": config["model"], "fit": FITTED},
 )
 accuracy_rule("stability", "Where methods stop working")
 accuracy_rule(

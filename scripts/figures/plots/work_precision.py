@@ -1,4 +1,4 @@
-"""Error against work: all methods in three scenes, with their failures, and estimators of exponent, dimension, fit."""
+"""Error against work: all methods in three scenes, with their failures, and estimates of exponent, dimension, fit."""
 
 import numpy as np
 import pandas as pd
@@ -128,8 +128,8 @@ def handles(tables: dict[str, pd.DataFrame]) -> list[Line2D]:
     return [*known, *treated, paper]
 
 
-def draw_estimators(axes: Axes, rows: pd.DataFrame, work: str, error: str) -> None:
-    """Error over work of the estimators of one quantity."""
+def draw_estimates(axes: Axes, rows: pd.DataFrame, work: str, error: str) -> None:
+    """Error over work of the estimates of one quantity."""
     colours = (style.EULER, "black", style.CONVERGED)
     for colour, (name, curve) in zip(colours, rows.groupby("estimator", sort=False), strict=False):
         axes.loglog(curve.work, curve.error.clip(lower=1e-16), ".-", color=colour, linewidth=0.8, label=name)
@@ -142,7 +142,7 @@ def draw_estimators(axes: Axes, rows: pd.DataFrame, work: str, error: str) -> No
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the tables of work and times of SCENES and that of the estimators; settings: paper_step, s."""
+    """From the tables of work and times of SCENES and that of the estimates; settings: paper_step, s."""
     figure = style.figure(style.PAGE, 215.0)
     upper, lower = figure.subfigures(2, 1, height_ratios=(3.4, 1.0))
     grid = upper.subplots(len(SCENES), len(PANELS), sharex="col", sharey=True)
@@ -157,7 +157,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         row[0].set_ylabel(f"{name}\nrelative error")
     upper.legend(handles=handles(tables), loc="outside upper center", ncols=5)
     upper.supxlabel(MEANINGS, size=7.0)
-    estimators = tables["estimators"]
+    estimates = tables["estimates"]
     for axes, (quantity, labels) in zip(lower.subplots(1, len(QUANTITIES)), QUANTITIES.items(), strict=True):
-        draw_estimators(axes, estimators[estimators.quantity == quantity], *labels)
+        draw_estimates(axes, estimates[estimates.quantity == quantity], *labels)
     return figure

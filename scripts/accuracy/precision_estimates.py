@@ -1,4 +1,4 @@
-"""Rule estimators: error against work of the estimators of the largest exponent, of the dimension and of the fit."""
+"""Rule precision_estimates: error against work of estimates of the largest exponent, of the dimension and of the fit."""
 
 import math
 
@@ -11,7 +11,7 @@ from conveyor.solver.model import Z0
 from pipeline import fields, grid
 
 TABLES = {
-    "estimators": (
+    "precision_estimates": (
         fields.text("quantity", "exponent, dimension or fit"),
         fields.text("estimator", "how it is estimated"),
         fields.number("work", "1", "simulated cycles, points or evaluations"),
@@ -69,13 +69,13 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
 
 def dimension_rows(settings: dict, seed: int) -> list[dict]:
     """Median error of both dimensions over sets of known dimension."""
-    estimators = {
+    ways = {
         "boxes": dimension.box_dimension,
         "boxes, as in the paper": dimension.box_dimension_of_paper,
         "correlation sum": lambda points: dimension.correlation_dimension(points, 0),
     }
     found = []
-    for name, estimate in estimators.items():
+    for name, estimate in ways.items():
         for count in settings["points"]:
             rng = np.random.default_rng(seed)
             errors = [
@@ -106,7 +106,7 @@ def fit_rows(settings: dict, data: pd.DataFrame, fit: dict, seed: int) -> list[d
 
 
 def make(settings: dict, model: dict, fit: dict | None = None, critical: pd.DataFrame | None = None) -> dict:
-    """The columns of the table of estimators; those of the fit need an entry and its critical heights."""
+    """The columns of the table; those of the fit need an entry and its critical heights."""
     rows = exponent_rows(settings["exponent"], model)
     rows += dimension_rows(settings["dimension"], settings["seed"])
     if critical is not None:
