@@ -1,4 +1,4 @@
-"""Rule benchmark: the solver against the paper's method, both compiled, both through `simulate`, one thread.
+"""The solver against the paper's method, both compiled, both through `simulate`, one thread.
 
 In each round every case gets its turn: some runs of the solver, some that compute every step of a settled motion anew,
 then one of Euler, so that whatever else the machine does slows all. The truth is an independent integration, scipy's

@@ -1,4 +1,4 @@
-"""Rule precision: error and force evaluations of every method over its tolerances or steps, in one scene.
+"""Error and force evaluations of every method over its tolerances or steps, in one scene.
 
 The truth is the solver at its tightest tolerance. It is not its own judge: an independent integration, scipy's DOP853
 from event to event at its tightest tolerance, is among the rows, and its error is the difference of the two.

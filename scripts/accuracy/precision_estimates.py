@@ -1,4 +1,4 @@
-"""Rule precision_estimates: error against work of estimates of the largest exponent, of the dimension and of the fit."""
+"""Error against work of estimates of the largest exponent, of the dimension and of the fit."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Rule random_points: the solver on many random conveyors and starts; how each run ends and how deep the part gets."""
+"""The solver on many random conveyors and starts; how each run ends and how deep the part gets."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Rule rigid_part: whether a rigid bouncing part would do in place of the contact.
+"""Whether a rigid bouncing part would do in place of the contact.
 
 Its velocity and state over the amplitude beside those of the contact, and the amplitudes of the fold and of the period
 doublings of its jumps, with a coefficient of restitution that is one number and with one that depends on the speed of

@@ -1,4 +1,4 @@
-"""Rule scene_budget: what the data of each figure need, what that costs, and what a reader would see of less.
+"""What the data of each figure need, what that costs, and what a reader would see of less.
 
 Some points of each table that a figure draws are computed as the config says, with the full model at a tight tolerance,
 and with variants of both: other tolerances, with the horizontal motion, half the time, a rigid bouncing part in place

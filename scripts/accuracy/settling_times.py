@@ -1,4 +1,4 @@
-"""Rule settling_times: after how many excitation cycles starts have settled, to choose how long to follow one."""
+"""After how many excitation cycles starts have settled, to choose how long to follow one."""
 
 import math
 

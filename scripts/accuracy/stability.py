@@ -1,4 +1,4 @@
-"""Rule stability: where methods stop working, over step and stiffness, damping, impact velocity or amplitude."""
+"""Where methods stop working, over step and stiffness, damping, impact velocity or amplitude."""
 
 import math
 from collections.abc import Callable

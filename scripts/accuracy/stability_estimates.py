@@ -1,4 +1,4 @@
-"""Rule stability_estimates: how far the paper's estimates carry.
+"""How far the paper's estimates carry.
 
 The exponent by finite differences (Eq. 23) over perturbation, time and step, in motions whose exponent is known; the
 dimension over the number of points of known sets and of phase portraits, and over the time of the run.

@@ -1,4 +1,4 @@
-"""Rule wall_times: wall time of every run of a table of work and precision, the methods alternating.
+"""Wall time of every run of a table of work and precision, the methods alternating.
 
 Times differ from run to run and from machine to machine. They have a table of their own, so that what does not stays as
 it is.

@@ -1,4 +1,4 @@
-"""Rule check_results: the tests of what has been made, tests/results, in a process of their own."""
+"""The tests of what has been made, tests/results, in a process of their own."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""Rule claims: the paper's checkable statements, what both methods give, and verdicts that follow from the numbers."""
+"""The paper's checkable statements, what both methods give, and verdicts that follow from the numbers."""
 
 import importlib
 import math

@@ -1,4 +1,4 @@
-"""Rule dimensions: fractal dimension of the phase portrait ż_p over z_p, over the axes of an entry of the config."""
+"""Fractal dimension of the phase portrait ż_p over z_p, over the axes of an entry of the config."""
 
 import math
 

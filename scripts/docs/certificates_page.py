@@ -1,4 +1,4 @@
-"""Rule certificates_page: what is proved, in words, with the numbers of the tables."""
+"""What is proved, in words, with the numbers of the tables."""
 
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 

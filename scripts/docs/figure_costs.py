@@ -1,4 +1,4 @@
-"""Rule figure_costs: what each figure took, from the benchmark files of the jobs that the workflow says it needs."""
+"""What each figure took, from the benchmark files of the jobs that the workflow says it needs."""
 
 import io
 import subprocess

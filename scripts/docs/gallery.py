@@ -1,4 +1,4 @@
-"""Rules gallery and readme_chart: pictures of the figures side by side, small enough to be kept beside the sources."""
+"""Pictures of the figures side by side, small enough to be kept beside the sources."""
 
 import matplotlib.image as mpimg
 import numpy as np

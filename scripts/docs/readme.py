@@ -1,4 +1,4 @@
-"""Rule readme: the README, its numbers filled in from the tables."""
+"""The README, its numbers filled in from the tables."""
 
 import numpy as np
 import pandas as pd

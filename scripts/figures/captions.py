@@ -1,4 +1,4 @@
-"""Rule captions: the captions of all figures, their numbers filled in from the tables that the figures draw."""
+"""The captions of all figures, their numbers filled in from the tables that the figures draw."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""Rule regressions: Eq. 13 fitted to the critical initial heights, and the valley of nearly equal fits."""
+"""Eq. 13 fitted to the critical initial heights, and the valley of nearly equal fits."""
 
 import numpy as np
 import pandas as pd

@@ -1,4 +1,4 @@
-"""Rule critical: the initial heights at which the state of motion changes, over the axes of an entry of the config."""
+"""The initial heights at which the state of motion changes, over the axes of an entry of the config."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Rule impacts: the first impact of each start, and the states that the start and its image on the plate lead to."""
+"""The first impact of each start, and the states that the start and its image on the plate lead to."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Rule signals: the motion of a few parts, and of their conveyors, over time."""
+"""The motion of a few parts, and of their conveyors, over time."""
 
 import numpy as np
 

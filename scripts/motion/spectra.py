@@ -1,4 +1,4 @@
-"""Rule spectra: amplitude spectra of a part's velocities at the end of its run."""
+"""Amplitude spectra of a part's velocities at the end of its run."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Rule orbits: branches of periodic orbits over the amplitude, their bifurcations, and the doubling cascade."""
+"""Branches of periodic orbits over the amplitude, their bifurcations, and the doubling cascade."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Rule certificates: periodic orbits, bifurcations and chaos, proved where floating point suggests them."""
+"""Periodic orbits, bifurcations and chaos, proved where floating point suggests them."""
 
 import sys
 import time

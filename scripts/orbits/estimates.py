@@ -1,4 +1,4 @@
-"""Rule estimate: Lyapunov exponents from pairs of trajectories, as the paper estimates them (Eq. 23)."""
+"""Lyapunov exponents from pairs of trajectories, as the paper estimates them (Eq. 23)."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Rule lyapunov: exponents on the attractors over the amplitude, from the variational equation."""
+"""Exponents on the attractors over the amplitude, from the variational equation."""
 
 import numpy as np
 import pandas as pd

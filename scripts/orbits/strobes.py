@@ -1,4 +1,4 @@
-"""Rule attractors: stroboscopic states over the amplitude, swept up and down, with the states of motion."""
+"""Stroboscopic states over the amplitude, swept up and down, with the states of motion."""
 
 import numpy as np
 

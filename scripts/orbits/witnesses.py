@@ -1,4 +1,4 @@
-"""Rule witnesses: is the motion at each amplitude chaotic by exponent, 0-1 test and period, and where they differ."""
+"""Is the motion at each amplitude chaotic by exponent, 0-1 test and period, and where they differ."""
 
 import numpy as np
 import pandas as pd

@@ -1,4 +1,4 @@
-"""Rule classify: the shards of a sweep below each other, and the state of motion that each of its runs leads to."""
+"""The shards of a sweep below each other, and the state of motion that each of its runs leads to."""
 
 import numpy as np
 import pandas as pd

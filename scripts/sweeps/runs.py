@@ -1,4 +1,4 @@
-"""Rule sweep: one trajectory for each point of a product of axes, or for some rows of it."""
+"""One trajectory for each point of a product of axes, or for some rows of it."""
 
 import numpy as np
 
