@@ -45,6 +45,7 @@ def estimate(points: np.ndarray, settings: dict) -> Dimension:
             return dimension.box_dimension(points)
         case "correlation":
             return dimension.correlation_dimension(points, settings["theiler"])
+    raise ValueError(f"estimator = {settings['estimator']!r} is not one of paper, box, correlation")
 
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:

@@ -1,0 +1,70 @@
+"""Strobes, exponents and witnesses on a few amplitudes, where they are known."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from orbits import exponents, strobes, witnesses
+
+MODEL = {
+    "acceleration": 40.0,
+    "angle": 0.20943951023931956,
+    "frequency": 50.0,
+    "psi0": 0.0,
+    "stiffness": 5e5,
+    "damping": 0.3,
+    "friction": 0.15,
+    "mass": 0.7e-3,
+    "exponent": 1.5,
+    "gravity": 9.81,
+    "tension": "allow",
+    "z0": 0.0,
+    "vz0": 0.0,
+}
+SETTINGS = {
+    "acceleration": {"start": 70.0, "stop": 90.0, "num": 3},
+    "transient": 300,
+    "strobes": 16,
+    "settling": 2000,
+    "tolerance": 1e-10,
+    "cycles": 100,
+    "blocks": 10,
+    "model": MODEL,
+}
+
+
+@pytest.fixture(scope="module")
+def tables():
+    """Strobes, their spectrum of exponents and their witnesses: rest and riding upwards, chaos at 80 m/s²."""
+    still = {**SETTINGS, "acceleration": {"start": 0.0, "stop": 80.0, "num": 3}}
+    points = pd.DataFrame(strobes.make(still))
+    spectrum = pd.DataFrame(exponents.make(points, still))
+    seen = pd.DataFrame(witnesses.make(points, spectrum, still | {"strobes": 1000, "seed": 1, "significant": 3.0}))
+    return points, spectrum, seen
+
+
+def test_a_resting_part_has_the_static_penetration(tables):
+    points, _, _ = tables
+    rest = points[points.acceleration == 0.0]
+    assert len(rest) == 2 * SETTINGS["strobes"]
+    # Ringing dies with -d_c/2m; what is left of it after 300 cycles is rounding.
+    static = (MODEL["mass"] * MODEL["gravity"] / MODEL["stiffness"]) ** (1.0 / MODEL["exponent"])
+    up = rest[rest.branch == "up"]
+    assert up.delta.to_numpy() == pytest.approx(np.full(len(up), static), rel=1e-6)
+    assert up.period.unique().tolist() == [1]
+
+
+def test_exponents_sum_to_the_damping_in_contact(tables):
+    _, spectrum, _ = tables
+    loss = -MODEL["damping"] / MODEL["mass"] * spectrum.contact_fraction
+    assert (spectrum.lambda_1 + spectrum.lambda_2).to_numpy() == pytest.approx(loss.to_numpy(), abs=1e-6)
+    rest = spectrum[spectrum.acceleration == 0.0]
+    assert rest.lambda_1.to_numpy() == pytest.approx(-MODEL["damping"] / (2.0 * MODEL["mass"]), rel=1e-3)
+
+
+def test_witnesses_agree_where_the_motion_is_clear(tables):
+    _, _, seen = tables
+    assert seen.agree.all(), seen.reason
+    assert seen.set_index(["branch", "acceleration"]).by_exponent.to_dict() == {
+        (branch, acceleration): acceleration == 80.0 for branch in ("up", "down") for acceleration in (0.0, 40.0, 80.0)
+    }
