@@ -31,6 +31,7 @@ SINGLE = (
     "stability_estimates",
     "scene_budget",
     "settling_times",
+    "label_checks",
     "rigid_part",
     "random_points",
     "companion",

@@ -386,6 +386,14 @@ class SettlingTimes(TypedDict):
     seed: Seed
 
 
+class LabelChecks(TypedDict):
+    acceleration: many(Acceleration)
+    starts: whole(1, 10**6)
+    unshared: whole(0, 10**6)
+    z0: interval(HeightNumber)
+    seed: Seed
+
+
 class RandomPoints(TypedDict):
     count: TypedDict("RandomCount", dict.fromkeys(("around the paper", "whole ranges"), whole(1, 10**7)))
     seed: Seed
@@ -459,6 +467,7 @@ class Config(TypedDict):
     scene_budget: SceneBudget
     rigid_part: RigidPart
     settling_times: SettlingTimes
+    label_checks: LabelChecks
     random_points: RandomPoints
     figures: dict[Name, Figure]
     companion: Companion

@@ -3,8 +3,10 @@
 import re
 from functools import cache
 
+import matplotlib.legend
 import matplotlib.text
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from draw import draw
 from figures import style
@@ -62,6 +64,19 @@ def test_size_and_type_are_the_journal_s(name):
     assert figure.get_figheight() / style.MM <= PAGE_HEIGHT
     texts = [text for text in figure.findobj(matplotlib.text.Text) if text.get_text() and text.get_visible()]
     assert min(text.get_fontsize() for text in texts) >= 7.0
+
+
+@pytest.mark.parametrize("name", ENTRIES)
+def test_legends_and_labels_are_not_cut(name):
+    figure = drawn_afresh(name)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    whole = figure.bbox.padded(1.0)  # pixel
+    named = [label for axes in figure.axes for label in (axes.title, axes.xaxis.label, axes.yaxis.label)]
+    for artist in [*figure.findobj(matplotlib.legend.Legend), *(one for one in named if one.get_text())]:
+        if artist.get_visible() and (artist.axes is None or artist.axes.axison):
+            extent = artist.get_window_extent(canvas.get_renderer())
+            assert whole.contains(extent.x0, extent.y0) and whole.contains(extent.x1, extent.y1), artist
 
 
 @pytest.mark.parametrize("name", ENTRIES)

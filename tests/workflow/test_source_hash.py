@@ -21,6 +21,7 @@ CALLS = {
         "sweeps/runs",
     },
     "accuracy/wall_times": {"accuracy/precision"},
+    "accuracy/label_checks": {"accuracy/settling_times"},
 }
 
 

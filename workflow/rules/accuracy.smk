@@ -104,6 +104,18 @@ accuracy_rule(
         "tolerance": config["solver"]["tolerance"],
     },
 )
+# No figure needs it, and it takes long: snakemake results/label_checks.parquet
+accuracy_rule(
+    "label_checks",
+    "Labels of starts, alone and together",
+    threads=2,
+    runtime=60,
+    params={
+        "settings": {**config["label_checks"], "settling": config["solver"]["settling"]},
+        "model": config["model"],
+        "tolerance": config["solver"]["tolerance"],
+    },
+)
 accuracy_rule(
     "scene_budget",
     "What the data of each figure need",

@@ -10,7 +10,7 @@ UNKNOWN = {"converged": 0.05, "correlation": 0.02}  # share of the axis where am
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     """From the dimensions `euler`, `converged` and `correlation`; settings: critical_acceleration, m/s²."""
-    figure = style.figure(style.COLUMN, 78.0)
+    figure = style.figure(style.COLUMN, 86.0)
     axes = figure.subplots()
     for dimension in (1.0, 2.0):
         axes.axhline(dimension, color="0.8", linewidth=0.6)
@@ -53,5 +53,5 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     axes.set_ylim(low - 0.12 * (high - low), high + 0.04 * (high - low))
     axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     axes.set_ylabel("dimension of the phase portrait")
-    style.legend_above(figure, axes, ncols=2)
+    style.legend_above(figure, axes)
     return figure

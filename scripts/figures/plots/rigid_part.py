@@ -7,20 +7,18 @@ from matplotlib.figure import Figure
 from figures import style
 
 MODELS = {
-    "contact": ("o", style.CONVERGED),
-    "rigid part, e(u)": ("s", style.EULER),
-    "rigid part, one e": ("D", "#CC79A7"),
+    "contact": ("o", style.CONVERGED, "compliant contact"),
+    "rigid part, e(u)": ("s", style.EULER, "rigid part, restitution by the speed of approach"),
+    "rigid part, one e": ("D", "#CC79A7", "rigid part, one coefficient of restitution"),
 }
+ORDINALS = {1: "first doubling", 2: "second", 3: "third"}
 
 
 def draw_velocities(axes: Axes, rows: pd.DataFrame) -> None:
-    """Mean velocities in both models; in chaos, where one run says nothing, points without a line."""
-    for model, (marker, colour) in MODELS.items():
+    """Mean velocities in both models, as points: where motions are long-lived, neighbours say nothing of each other."""
+    for model, (marker, colour, _) in MODELS.items():
         of = rows[rows.model == model]
-        regular = of.mean_velocity.where(of.state != "chaos")
-        axes.plot(of.acceleration, regular, color=colour, linewidth=1.0)
-        chaos = of[of.state == "chaos"]
-        axes.plot(chaos.acceleration, chaos.mean_velocity, marker, color=colour, markersize=1.5, markeredgewidth=0)
+        axes.plot(of.acceleration, of.mean_velocity, marker, color=colour, markersize=1.8, markeredgewidth=0)
     axes.set_title(f"start at $z_0$ = {1e3 * rows.z0.iloc[0]:g} mm")
     axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
 
@@ -38,23 +36,23 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     panels["high"].sharey(panels["low"])
 
     places = panels["places"]
-    for row, (model, (marker, colour)) in enumerate(MODELS.items()):
+    for row, (model, (marker, colour, label)) in enumerate(MODELS.items()):
         found = table[(table.kind != "velocity") & (table.model == model)]
-        places.plot(found.acceleration, [row] * len(found), marker, color=colour, markersize=4.0, label=model)
+        places.plot(found.acceleration, [row] * len(found), marker, color=colour, markersize=4.0, label=label)
         if model == "contact":
             for bifurcation in found.itertuples():
-                first = bifurcation.number == 1
+                fold = bifurcation.kind == "fold"
                 places.annotate(
-                    bifurcation.kind if first else str(bifurcation.number),
+                    "fold" if fold else ORDINALS.get(bifurcation.number, str(bifurcation.number)),
                     (bifurcation.acceleration, row),
                     xytext=(0, 5),
                     textcoords="offset points",
-                    ha="center",
+                    ha="left" if bifurcation.number == len(ORDINALS) else "right",
                     size=7.0,
                 )
-    places.set_yticks(range(len(MODELS)), MODELS)
+    places.set_yticks([])
     places.set_ylim(len(MODELS) - 0.5, -0.8)
     places.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     places.grid(axis="x", linewidth=0.3)
-    style.legend_above(figure, places, ncols=3)
+    style.legend_above(figure, places, ncols=3, fontsize=7.0)
     return figure

@@ -11,7 +11,7 @@ from figures import style
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     """From the table of settling times; its settings say how long the config follows a start."""
     table = tables["times"]
-    figure = style.figure(style.COLUMN, 80.0)
+    figure = style.figure(style.COLUMN, 84.0)
     axes = figure.subplots()
     most = table.cycles.max()
     amplitudes = np.sort(table.acceleration.unique())
@@ -32,5 +32,5 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     axes.set_ylim(-0.02, 1.05)
     axes.set_xlabel("excitation cycles")
     axes.set_ylabel("share of the starts that has not settled")
-    style.legend_above(figure, axes, ncols=4, handlelength=2.6)
+    style.legend_above(figure, axes, ncols=3, handlelength=2.6)
     return figure

@@ -1,0 +1,66 @@
+"""Whether each start earns its own label: found together, in reverse order and one by one, labels are compared."""
+
+import numpy as np
+from tqdm import tqdm
+
+from accuracy.settling_times import starts
+from conveyor.analysis import states
+from conveyor.analysis.chaotic_set import chaotic_sets
+from pipeline import fields
+
+TABLES = {
+    "label_checks": (
+        fields.number("acceleration", "m/s²", "amplitude of the excitation"),
+        fields.count("starts", "random starts, heights and phases"),
+        fields.count("chaotic", "those that are called chaos"),
+        fields.count("reversed", "starts whose state or period is another one in reverse order"),
+        fields.count("alone", "starts whose state or period is another one if they are looked at one by one"),
+        fields.count(
+            "unshared_starts", "starts that were looked at without the chaotic sets of their conveyor found before"
+        ),
+        fields.count("unshared", "those of them whose state or period is another one then"),
+    ),
+}
+
+
+def different(found: states.Motions, other: states.Motions) -> int:
+    """Number of starts whose state or period differ."""
+    return int(np.count_nonzero((found.state != other.state) | (found.period != other.period)))
+
+
+def together(parts: list[states.Motions]) -> states.Motions:
+    """Motions of several starts below each other."""
+    return states.Motions(*map(np.concatenate, zip(*parts, strict=True)))
+
+
+def row(acceleration: float, settings: dict, model: dict, options: dict) -> dict:
+    """The comparison at one amplitude (m/s²)."""
+    rows = starts(acceleration, settings, model)
+    known = chaotic_sets(rows, **options)
+    found = states.classify(rows, known=known, **options)
+    backwards = states.classify(rows[::-1], known=known, **options)
+    alone = [states.classify(rows[k : k + 1], known=known, **options) for k in range(len(rows))]
+    few = slice(0, settings["unshared"])
+    return {
+        "acceleration": acceleration,
+        "starts": len(rows),
+        "chaotic": int(np.count_nonzero(found.state == "chaos")),
+        "reversed": different(found, states.Motions(*(column[::-1] for column in backwards))),
+        "alone": different(found, together(alone)),
+        "unshared_starts": len(rows[few]),
+        "unshared": different(
+            states.Motions(*(column[few] for column in found)), states.classify(rows[few], **options)
+        ),
+    }
+
+
+def make(
+    settings: dict, model: dict, tolerance: float, *, threads: int = 1, progress: str | None = None
+) -> dict[str, np.ndarray]:
+    """The columns of the table of comparisons for the section of the config of that name."""
+    options = {"cycles": settings["settling"], "tolerance": tolerance, "threads": threads}
+    rows = [
+        row(acceleration, settings, model, options)
+        for acceleration in tqdm(settings["acceleration"], desc=progress, disable=progress is None)
+    ]
+    return {name: np.array([one[name] for one in rows]) for name in rows[0]}
