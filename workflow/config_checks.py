@@ -11,7 +11,6 @@ from workflow.known_names import findings, names_of_figure, names_of_finding, se
 from workflow.tables_of_config import ENTRIES, METHODS, count_points, count_values, entry_of, references, resolve
 
 LARGEST_TABLE = 10_000_000  # rows, or states to be found: some hours of a machine
-MOST_SHARDS = 500  # of one sweep: each is a job, which takes seconds to start
 MOST_STEPS = 10**9  # of one run by a fixed-step method: some ten seconds
 STEPS_IN_A_CYCLE = 20  # at least: fewer do not show an excitation cycle
 
@@ -151,7 +150,6 @@ def dimensions(config: dict) -> Iterator[str]:
 
 
 def sizes(config: dict) -> Iterator[str]:
-    shards = {}
     for section in ENTRIES:
         for name, entry in config[section].items():
             if "axes" not in entry:
@@ -163,16 +161,6 @@ def sizes(config: dict) -> Iterator[str]:
                     f"{section}.{name}.axes makes {rows:,} points or rows; at most {LARGEST_TABLE:,} are computed, "
                     "some hours of a machine: give a smaller num"
                 )
-            elif section == "sweeps":
-                shards[name] = points
-    per_job = config["solver"]["points_per_job"]
-    name, points = max(shards.items(), key=lambda item: item[1], default=("", 0))
-    if points > MOST_SHARDS * per_job:
-        yield (
-            f"solver.points_per_job = {per_job} cuts sweeps.{name} with its {points:,} points into "
-            f"{math.ceil(points / per_job):,} jobs of some seconds each; at most {MOST_SHARDS} are planned: "
-            f"give at least {math.ceil(points / MOST_SHARDS)}"
-        )
 
 
 def tables_of(config: dict) -> Iterator[str]:

@@ -12,7 +12,7 @@ from dimensions import portraits
 from motion import critical_heights, impacts, signals, spectra
 from orbits import estimates, exponents, strobes
 from pipeline import grid
-from sweeps import labels, runs
+from sweeps import shards
 
 
 class Shown(NamedTuple):
@@ -30,9 +30,7 @@ class Shown(NamedTuple):
 
 def swept(settings: dict) -> pd.DataFrame:
     """A table of sweeps."""
-    points = math.prod(len(grid.axis_values(name, axis)) for name, axis in settings["axes"].items())
-    found = pd.DataFrame(runs.make(settings, (0, points)))
-    return pd.DataFrame(labels.make([found], settings))
+    return pd.DataFrame(shards.make(settings))
 
 
 def heights_of_change(settings: dict) -> pd.DataFrame:

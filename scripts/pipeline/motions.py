@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from conveyor.analysis.chaotic_set import ChaoticSets, chaotic_sets
+from conveyor.analysis.chaotic_set import ChaoticSets, chaotic_sets, without_starts
 from conveyor.analysis.states import Motions, classify, continued
 from conveyor.simulation import DEFAULT_TOLERANCE
 from conveyor.solver.model import PARAMETERS, PSI0, VZ0, Z0
@@ -12,6 +12,8 @@ from pipeline import grid
 
 # From so many starts of a conveyor on it costs less to find its chaotic sets first.
 SHARED = 8
+# So many conveyors have their chaotic sets in memory at a time, some 30 kB each.
+CONVEYORS = 2000
 
 
 def starts_per_conveyor(axes: dict) -> int:
@@ -32,13 +34,26 @@ def known_sets(parameters: np.ndarray, settings: dict, *, threads: int = 1, prog
     return chaotic_sets(parameters, **options, threads=threads, progress=progress and f"{progress}: chaotic sets")
 
 
+def of_conveyors(parameters: np.ndarray) -> list[np.ndarray]:
+    """Rows of `parameters`, shape (n, 13), in batches that hold all starts of their conveyors."""
+    _, conveyor = np.unique(without_starts(parameters), axis=0, return_inverse=True)
+    order = np.argsort(conveyor, kind="stable")
+    batch = conveyor[order] // CONVEYORS
+    return np.split(order, np.flatnonzero(np.diff(batch)) + 1)
+
+
 def motions(parameters: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> Motions:
     """The motions that the starts of `parameters`, shape (n, 13), end in; `settings` are those of their entry."""
-    known = None
-    if starts_per_conveyor(settings["axes"]) >= SHARED:
-        known = known_sets(parameters, settings, threads=threads, progress=progress)
-    options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings)}
-    return classify(parameters, known=known, **options, threads=threads, progress=progress)
+    shared = starts_per_conveyor(settings["axes"]) >= SHARED
+    options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
+    batches = of_conveyors(parameters)
+    parts = []
+    for number, rows in enumerate(batches, start=1):
+        label = progress and (f"{progress} ({number} of {len(batches)})" if len(batches) > 1 else progress)
+        known = known_sets(parameters[rows], settings, threads=threads, progress=label) if shared else None
+        parts.append(classify(parameters[rows], known=known, **options, progress=label))
+    order = np.argsort(np.concatenate(batches))
+    return Motions(*(np.concatenate(column)[order] for column in zip(*parts, strict=True)))
 
 
 def motions_after(

@@ -8,7 +8,8 @@ comes first.
 import json
 import os
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ import pyarrow.parquet as pq
 
 # Rows of a row group: fixed, so that a table's bytes do not depend on how it was computed.
 ROW_GROUP = 1 << 20
+COMPRESSION = "zstd"
 KIND = b"kind"
 # The key under which pandas keeps DataFrame.attrs.
 SETTINGS = b"PANDAS_ATTRS"
@@ -53,19 +55,51 @@ def make(kind: str, schema: Sequence[pa.Field], columns: Mapping[str, Sequence],
     return pa.Table.from_arrays(arrays, schema=wanted.with_metadata(metadata))
 
 
-def write(path: str | Path, table: pa.Table) -> None:
-    """Write a table to `path` at once or not at all; its bytes depend on its content and on pyarrow's version only."""
+@contextmanager
+def replaced(path: str | Path) -> Iterator[str]:
+    """A file to write in place of `path`, which it replaces at once when all is written, or not at all."""
     path = Path(path)
     # A name of its own, so that two writers of one table cannot hurt each other.
     handle, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
     os.close(handle)
     try:
-        pq.write_table(table, part, compression="zstd", row_group_size=ROW_GROUP)
+        yield part
         os.chmod(part, 0o666 & ~umask())
         os.replace(part, path)
     except BaseException:
         os.unlink(part)
         raise
+
+
+def write(path: str | Path, table: pa.Table) -> None:
+    """Write a table to `path`; its bytes depend on its content and on pyarrow's version only."""
+    with replaced(path) as part:
+        pq.write_table(table, part, compression=COMPRESSION, row_group_size=ROW_GROUP)
+
+
+def gather(path: str | Path, shards: Iterable[str | Path], kind: str, settings: dict) -> None:
+    """Write shards of a table, given in the order of their rows, as one, with a row group of it in memory at a time.
+
+    The bytes are those that `write` gives of the whole table.
+
+    Raises
+    ------
+    TableError
+        if a shard is no table of this kind, or was made from other settings
+    """
+    waiting: list[pa.Table] = []
+    with replaced(path) as part, ExitStack() as files:
+        writer = None
+        for shard in shards:
+            check(shard, kind, settings)
+            waiting.append(pq.read_table(shard))
+            writer = writer or files.enter_context(pq.ParquetWriter(part, waiting[0].schema, compression=COMPRESSION))
+            while sum(map(len, waiting)) >= ROW_GROUP:
+                together = pa.concat_tables(waiting)
+                writer.write_table(together.slice(0, ROW_GROUP), row_group_size=ROW_GROUP)
+                waiting = [together.slice(ROW_GROUP)]
+        if sum(map(len, waiting)):
+            writer.write_table(pa.concat_tables(waiting), row_group_size=ROW_GROUP)
 
 
 def umask() -> int:
@@ -75,23 +109,24 @@ def umask() -> int:
     return mask
 
 
-def read(path: str | Path, kind: str, settings: dict | None = None) -> pd.DataFrame:
-    """The table at `path`, its settings in `attrs`.
-
-    Raises
-    ------
-    TableError
-        if there is no table of this kind, or one that was made from other `settings`
-    """
+def check(path: str | Path, kind: str, settings: dict | None = None) -> None:
+    """TableError unless there is a table of this kind at `path`, made from these settings if they are given."""
     remedy = "delete it, and the next run makes it again"
     try:
         metadata = pq.read_schema(path).metadata or {}
-        if metadata.get(KIND) != kind.encode():
-            found = metadata.get(KIND, b"").decode() or "something else"
-            raise TableError(f"{path} is not a table of {kind} but of {found}; {remedy}")
-        table = pd.read_parquet(path)
     except (pa.ArrowException, OSError) as error:
         raise TableError(f"{path} cannot be read as a table of {kind} ({error}); {remedy}") from error
-    if settings is not None and table.attrs != json.loads(json.dumps(settings)):
+    if metadata.get(KIND) != kind.encode():
+        found = metadata.get(KIND, b"").decode() or "something else"
+        raise TableError(f"{path} is not a table of {kind} but of {found}; {remedy}")
+    if settings is not None and json.loads(metadata[SETTINGS]) != json.loads(json.dumps(settings)):
         raise TableError(f"{path} was made from other settings than those that are asked for; {remedy}")
-    return table
+
+
+def read(path: str | Path, kind: str, settings: dict | None = None) -> pd.DataFrame:
+    """The table at `path`, its settings in `attrs`; TableError as from `check`, or if it is damaged."""
+    check(path, kind, settings)
+    try:
+        return pd.read_parquet(path)
+    except (pa.ArrowException, OSError) as error:
+        raise TableError(f"{path} is damaged ({error}); delete it, and the next run makes it again") from error

@@ -1,5 +1,7 @@
 """Tables: kinds, units, equal bytes, all or nothing, errors that name the column or the file."""
 
+from itertools import pairwise
+
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
@@ -12,6 +14,10 @@ SCHEMA = [fields.AXES["acceleration"], fields.number("lambda", "1/s", "an expone
 
 def estimates(n=3):
     return {"acceleration": np.linspace(20.0, 90.0, n), "lambda": np.array([-1.0, np.nan, 2.0])[:n]}
+
+
+def estimates_of(n):
+    return {"acceleration": np.linspace(20.0, 90.0, n), "lambda": np.arange(n) - 3.0}
 
 
 def made(columns=None, schema=SCHEMA, settings=SETTINGS, kind="estimates"):
@@ -121,3 +127,25 @@ def test_another_kind_or_other_settings_are_refused(path):
         tables.read(path, "sweeps")
     with pytest.raises(tables.TableError, match="other settings"):
         tables.read(path, "estimates", SETTINGS | {"duration": 2.0})
+
+
+@pytest.mark.parametrize("cuts", [[], [1, 2], range(1, 23)])
+def test_gathered_shards_have_the_bytes_of_the_whole(tmp_path, monkeypatch, cuts):
+    """Row groups of five, which no cut respects."""
+    monkeypatch.setattr(tables, "ROW_GROUP", 5)
+    whole = made(estimates_of(23))
+    tables.write(tmp_path / "whole", whole)
+    paths = []
+    for number, (begin, end) in enumerate(pairwise([0, *cuts, 23])):
+        paths.append(tmp_path / f"{number}.parquet")
+        tables.write(paths[-1], whole.slice(begin, end - begin))
+    tables.gather(tmp_path / "gathered", paths, "estimates", SETTINGS)
+    assert (tmp_path / "gathered").read_bytes() == (tmp_path / "whole").read_bytes()
+
+
+def test_a_foreign_shard_is_named(tmp_path):
+    tables.write(tmp_path / "0.parquet", made())
+    tables.write(tmp_path / "1.parquet", made(settings=SETTINGS | {"duration": 2.0}))
+    with pytest.raises(tables.TableError, match=r"1\.parquet was made from other settings"):
+        tables.gather(tmp_path / "all", [tmp_path / "0.parquet", tmp_path / "1.parquet"], "estimates", SETTINGS)
+    assert not (tmp_path / "all").exists()

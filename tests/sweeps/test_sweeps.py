@@ -86,6 +86,12 @@ def test_words_on_axes_and_vertical_needs(swept):
 
 
 def test_equal_bytes_for_any_cut_and_cores(swept):
-    shards = swept("cut", "mixed").parents[1] / "runs/mixed"
+    shards = swept("cut", "mixed").parents[1] / "shards/mixed"
     assert sorted(path.name for path in shards.iterdir()) == ["0.parquet", "1.parquet", "2.parquet"]
     assert swept("whole", "mixed").read_bytes() == swept("cut", "mixed").read_bytes()
+
+
+def test_a_large_sweep_is_cut_into_few_jobs(built):
+    many = {"axes": {"z0": {"start": 0.0, "stop": 1.0e-4, "num": 2001}}}
+    overlay = {"solver": {"points_per_job": 1}, "sweeps": {"many": many}}
+    assert 400 <= built.under(overlay).planned("results/sweeps/many.parquet")["shards"] <= 500

@@ -167,10 +167,6 @@ WRONG = [
         {"sweeps": {"map_height": {"axes": {"z0": {"num": 1.0e6}}}}},
         "sweeps.map_height.axes makes 400,000,000 points or rows; at most 10,000,000",
     ),
-    (
-        {"solver": {"points_per_job": 1}},
-        "solver.points_per_job = 1 cuts sweeps.map_amplitude with its 160,000 points into 160,000 jobs",
-    ),
 ]
 
 

@@ -110,7 +110,6 @@ def seconds_of_children() -> float:
 REFUSED = [
     ({"sweep": {}}, "sweep is an unknown key; did you mean sweeps?"),
     ({"sweeps": {"amplitudes": {"axes": {"z0": {"num": 1e12}}}}}, "sweeps.amplitudes.axes.z0.num"),
-    ({"solver": {"points_per_job": 1}, "sweeps": {"amplitudes": {"axes": {"z0": {"num": 999}}}}}, "points_per_job"),
     ({"prefix": "a\nb"}, "prefix = 'a\\nb' is not a folder name"),
     ({"prefix": "a" * 300}, "prefix"),
     ({1: {}}, "config has a key that YAML reads as 1"),

@@ -16,7 +16,7 @@ def test_nothing_after_nothing(built):
 
 
 def test_nothing_after_a_touch(built):
-    for file in ("scripts/sweeps/runs.py", "scripts/conveyor/solver/contact.py", "scripts/figures/plots/fig22.py"):
+    for file in ("scripts/sweeps/shards.py", "scripts/conveyor/solver/contact.py", "scripts/figures/plots/fig22.py"):
         os.utime(built.folder / file)
     assert built.planned(*TARGETS) == {}
 
@@ -33,18 +33,18 @@ def test_all_plots_after_the_style(edited):
 
 def test_simulations_after_the_contact(edited):
     project = edited("scripts/conveyor/solver/contact.py", *REMARK)
-    assert project.planned(*TARGETS) == {"runs": 2, "sweeps": 2, "estimates": 2, **PLOTS}
+    assert project.planned(*TARGETS) == {"shards": 2, "sweeps": 2, "estimates": 2, **PLOTS}
     assert project.planned("figures/fig22.pdf") == {"estimates": 2, "plot_fig22": 1}
 
 
-def test_no_sweep_after_the_exponents(edited):
+def test_labels_after_the_exponents(edited):
     project = edited("scripts/conveyor/analysis/lyapunov.py", *REMARK)
-    assert project.planned(*TARGETS) == {"sweeps": 2, "estimates": 2, **PLOTS}
+    assert project.planned(*TARGETS) == {"shards": 2, "sweeps": 2, "estimates": 2, **PLOTS}
 
 
-def test_no_simulation_after_the_states(edited):
+def test_no_exponent_after_the_states(edited):
     project = edited("scripts/conveyor/analysis/states.py", *REMARK)
-    assert project.planned("figures/fig08.pdf") == {"sweeps": 2, "plot_fig08": 1}
+    assert project.planned("figures/fig08.pdf") == {"shards": 2, "sweeps": 2, "plot_fig08": 1}
 
 
 @pytest.mark.parametrize(
@@ -62,7 +62,7 @@ def test_the_companion_after_what_it_is_made_of(edited, file, old, new):
 
 def test_the_companion_after_its_model(built):
     assert built.planned("docs/companion.html") == {}
-    assert built.under({"companion": {"cycles": 17}}).planned("docs/companion.html") == {"companion": 1}
+    assert built.under({"companion": {"cycles": 700}}).planned("docs/companion.html") == {"companion": 1}
 
 
 @pytest.mark.parametrize(

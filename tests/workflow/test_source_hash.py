@@ -17,8 +17,7 @@ CALLS = {
         "orbits/estimates",
         "orbits/exponents",
         "orbits/strobes",
-        "sweeps/labels",
-        "sweeps/runs",
+        "sweeps/shards",
     },
     "accuracy/wall_times": {"accuracy/precision"},
     "accuracy/label_checks": {"accuracy/settling_times"},
@@ -85,7 +84,7 @@ def test_hash_changes_with_the_version_of_what_runs(scripts, monkeypatch, packag
 
 def test_every_package_behind_a_number_or_a_picture_counts():
     """Found by what is imported, not listed: pandas, and llvmlite and pillow behind others."""
-    _, packages = source_hash.closure("draw", "figures/plots/fig22", "fit/regressions", "sweeps/runs")
+    _, packages = source_hash.closure("draw", "figures/plots/fig22", "fit/regressions", "sweeps/shards")
     names = {one.split("==")[0] for one in source_hash.versions(packages)}
     assert {
         "python",

@@ -1,37 +1,61 @@
-# Sweeps: a product of axes, one trajectory per point, one table per entry of the config. They are simulated in shards, so
-# that a cluster can share a large one, and labelled as a whole; the table does not depend on how it was cut.
+# Sweeps: a product of axes, one trajectory per point and the state that it leads to, one table per entry of the config. They
+# are computed in shards, so that a cluster can share a large one; the table does not depend on how it was cut.
+MOST_SHARDS = 500  # of one sweep: each is a job, which takes seconds to start
 
-POINTS_PER_JOB = config["solver"]["points_per_job"]
+
+def points_of(name):
+    return count_points(config["sweeps"][name]["axes"])
+
+
+def rows_per_shard(name):
+    return max(config["solver"]["points_per_job"], math.ceil(points_of(name) / MOST_SHARDS))
 
 
 def rows_of_shard(wildcards):
     """First row of a shard and the row behind its last one."""
-    begin = int(wildcards.shard) * POINTS_PER_JOB
-    return [begin, min(begin + POINTS_PER_JOB, count_points(config["sweeps"][wildcards.name]["axes"]))]
+    rows = rows_per_shard(wildcards.name)
+    begin = int(wildcards.shard) * rows
+    return [begin, min(begin + rows, points_of(wildcards.name))]
 
 
 def shards_of_sweep(wildcards):
     """The files of all shards, in the order of their rows."""
-    shards = math.ceil(count_points(config["sweeps"][wildcards.name]["axes"]) / POINTS_PER_JOB)
-    return [table("runs", f"{wildcards.name}/{shard}") for shard in range(shards)]
+    shards = math.ceil(points_of(wildcards.name) / rows_per_shard(wildcards.name))
+    return [table("shards", f"{wildcards.name}/{shard}") for shard in range(shards)]
 
 
-RULES["runs"] = {
-    "stage": "sweeps.runs",
+RULES["shards"] = {
+    "stage": "sweeps.shards",
     "message": "Sweep {wildcards.name}, shard {wildcards.shard}",
-    "output": {"runs": table("runs", "{name}/{shard}")},
-    "place": "runs/{name}/{shard}",
+    "output": {"sweeps": table("shards", "{name}/{shard}")},
+    "place": "shards/{name}/{shard}",
     "names": {"name": one_of(config["sweeps"]), "shard": r"\d+"},
     "threads": 2,
+    "runtime": 60,
     "params": {"settings": settings("sweeps"), "rows": rows_of_shard},
 }
 
-entry_rule(
-    "sweeps",
-    "sweeps.labels",
-    "States of motion of sweep",
-    input={"runs": shards_of_sweep},
-    threads=2,
-    mem_mb=2000,
-    runtime=60,
-)
+
+rule sweeps:
+    input:
+        shards_of_sweep,
+    output:
+        table("sweeps"),
+    log:
+        log_file("sweeps/{name}"),
+    benchmark:
+        benchmark_file("sweeps/{name}")
+    wildcard_constraints:
+        name=one_of(config["sweeps"]),
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=30,
+    params:
+        kind="sweeps",
+        settings=settings("sweeps"),
+        code=source_hash("gather"),
+    message:
+        "Sweep {wildcards.name}, all shards"
+    script:
+        "../../scripts/gather.py"

@@ -1,0 +1,8 @@
+"""The script of the rule that puts the shards of a table below each other, in the order of their rows."""
+
+from pipeline import tables
+from pipeline.rule_log import logged
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        tables.gather(snakemake.output[0], snakemake.input, snakemake.params.kind, snakemake.params.settings)
