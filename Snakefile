@@ -14,12 +14,14 @@ if errors := [fault for faults, _ in read_files for fault in faults]:
     raise WorkflowError(refusal(errors))
 
 contents = [content for _, content in read_files]
-config = as_first_written(merged([*contents, config]), contents)
-if errors := problems(config):
+whole = as_first_written(merged([*contents, config]), contents)
+if errors := problems(whole):
     raise WorkflowError(refusal(errors))
 
-# Nothing that follows from the config may depend on the order of keys or the spelling of numbers in overlays.
-config = by_methods(canonical(config))
+# Nothing that follows from the config may depend on the order of keys or the spelling of numbers in overlays. It is the same
+# object that Snakemake hands to the report.
+config.clear()
+config.update(by_methods(canonical(whole)))
 
 
 report: "workflow/report/workflow.rst"
