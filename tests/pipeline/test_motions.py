@@ -1,0 +1,44 @@
+"""Labels of starts of several conveyors, in batches and in any order."""
+
+import numpy as np
+import pytest
+
+from pipeline import grid, motions
+
+SETTINGS = {
+    "axes": {"acceleration": [40.0, 53.0, 80.0], "z0": {"start": 0.0, "stop": 4e-4, "num": 9}},
+    "settling": 1000,
+    "tolerance": 1e-8,
+}
+
+
+@pytest.fixture(scope="module")
+def starts():
+    return grid.product(SETTINGS["axes"], {})[1]
+
+
+@pytest.fixture(scope="module")
+def labels(starts):
+    return motions.motions(starts, SETTINGS)
+
+
+def equal(found, other) -> bool:
+    return all(np.array_equal(one, two, equal_nan=one.dtype.kind == "f") for one, two in zip(found, other, strict=True))
+
+
+def test_all_states_are_there(labels):
+    assert {"first", "second", "chaos"} <= set(labels.state)
+
+
+@pytest.mark.parametrize("conveyors", [1, 2])
+def test_labels_do_not_depend_on_batches(monkeypatch, starts, labels, conveyors):
+    monkeypatch.setattr(motions, "CONVEYORS", conveyors)
+    assert len(motions.of_conveyors(starts)) == -(-3 // conveyors)
+    assert equal(motions.motions(starts, SETTINGS, threads=2), labels)
+
+
+def test_labels_do_not_depend_on_the_order_of_starts(monkeypatch, starts, labels):
+    monkeypatch.setattr(motions, "CONVEYORS", 1)
+    order = np.random.default_rng(1).permutation(len(starts))
+    found = motions.motions(starts[order], SETTINGS)
+    assert equal(found, [column[order] for column in labels])
