@@ -10,6 +10,7 @@ import os
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -19,6 +20,8 @@ import pyarrow.parquet as pq
 # Rows of a row group: fixed, so that a table's bytes do not depend on how it was computed.
 ROW_GROUP = 1 << 20
 KIND = b"kind"
+# What a key has that is not there.
+NOTHING = "nothing"
 # The key under which pandas keeps DataFrame.attrs.
 SETTINGS = b"PANDAS_ATTRS"
 
@@ -92,6 +95,17 @@ def read(path: str | Path, kind: str, settings: dict | None = None) -> pd.DataFr
         table = pd.read_parquet(path)
     except (pa.ArrowException, OSError) as error:
         raise TableError(f"{path} cannot be read as a table of {kind} ({error}); {remedy}") from error
-    if settings is not None and table.attrs != json.loads(json.dumps(settings)):
-        raise TableError(f"{path} was made from other settings than those that are asked for; {remedy}")
+    if settings is not None and (other := differing(table.attrs, json.loads(json.dumps(settings)))):
+        raise TableError(f"{path} was made from other settings than those that are asked for ({other}); {remedy}")
     return table
+
+
+def differing(found: Any, asked: Any, key: str = "") -> str:
+    """The first place where two settings differ, as "KEY = FOUND, not ASKED"; nothing if they are equal."""
+    if isinstance(found, dict) and isinstance(asked, dict):
+        for name in found | asked:
+            place = f"{key}.{name}".lstrip(".")
+            if other := differing(found.get(name, NOTHING), asked.get(name, NOTHING), place):
+                return other
+        return ""
+    return "" if found == asked else f"{key} = {found}, not {asked}"

@@ -86,13 +86,13 @@ accuracy_rule(
     "estimators",
     "Error against work of the estimators",
     input={"critical": table("critical", FITTED["critical"])} if FITTED else {},
-    params={"settings": config["estimators"], "model": config["model"], "fit": FITTED},
+    params={"settings": config["estimators"], "model": MODEL_OF_ANY_AMPLITUDE, "fit": FITTED},
 )
 accuracy_rule("stability", "Where methods stop working")
 accuracy_rule(
     "stability_estimates",
     "How far the paper's estimates carry",
-    params={"settings": config["stability_estimates"], "model": config["model"]},
+    params={"settings": config["stability_estimates"], "model": MODEL_OF_ANY_AMPLITUDE},
 )
 accuracy_rule(
     "settling_times",
@@ -100,7 +100,7 @@ accuracy_rule(
     threads=2,
     params={
         "settings": {**config["settling_times"], "settling": config["solver"]["settling"]},
-        "model": config["model"],
+        "model": MODEL_OF_ANY_AMPLITUDE,
         "tolerance": config["solver"]["tolerance"],
     },
 )

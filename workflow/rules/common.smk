@@ -4,7 +4,9 @@
 # run scripts/make.py on a module of their stage.
 import json
 import math
+import re
 from pathlib import Path
+from types import SimpleNamespace
 
 from workflow.configuration import TABLES, count_points, entry_of, kind_of, resolve
 from workflow.source_hash import source_hash
@@ -14,6 +16,9 @@ PREFIX = config["prefix"] and f"{config['prefix']}/"
 
 # Jobs that take wall times run alone. Snakemake does not say how many cores a node of a cluster has: there a profile does.
 WHOLE_MACHINE = workflow.cores or 1
+
+# The model for sections that name their amplitudes themselves: the default one must not make them run again.
+MODEL_OF_ANY_AMPLITUDE = {name: value for name, value in config["model"].items() if name != "acceleration"}
 
 # Rules by their names, each with
 #   stage     the module of scripts/ that does the work
@@ -69,6 +74,26 @@ def settings(section):
         return resolve(config, section, wildcards.name)
 
     return settings_of
+
+
+def pattern_of(file):
+    """The files that a rule's output stands for, as a regular expression with a group for each wildcard."""
+    return re.sub(r"\\{(\w+)\\}", r"(?P<\1>\\w[\\w-]*)", re.escape(file))
+
+
+def settings_of_table(file):
+    """The settings that the table in `file` is made from, or None if its rule has none."""
+    for one in RULES.values():
+        for output in one.get("output", {}).values():
+            if found := re.fullmatch(pattern_of(output), file):
+                wanted = one.get("params", {}).get("settings")
+                return wanted(SimpleNamespace(**found.groupdict())) if callable(wanted) else wanted
+    return None
+
+
+def asked(wildcards, input):
+    """A param: the settings that each table among the inputs must have been made from, by its file."""
+    return {file: settings_of_table(file) for file in input if file.endswith(".parquet")}
 
 
 def read_tables(references):

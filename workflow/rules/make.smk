@@ -22,6 +22,7 @@ for name, one in RULES.items():
             runtime=one.get("runtime", 30),
         params:
             **one.get("params", {}),
+            asked=asked,
             stage=one["stage"],
             code=source_hash("make", one["stage"].replace(".", "/")),
         message:
