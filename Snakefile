@@ -3,8 +3,11 @@ from snakemake.utils import min_version
 
 from workflow.config_files import as_first_written, merged, read, refusal
 from workflow.configuration import by_methods, canonical, problems
+from workflow.interruptions import end_with_the_terminal, name_commands_at_a_lock
 
 min_version("9.27")
+end_with_the_terminal()
+name_commands_at_a_lock()
 
 # The config of the paper, one file for each stage; overlays of the command line are merged over it.
 STAGES = ("sweeps", "motion", "orbits", "dimensions", "fit", "accuracy", "claims", "figures", "docs")

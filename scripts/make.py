@@ -3,7 +3,8 @@
 A module of a stage has such a function, `make`, and TABLES, the schemas of the tables that it makes, by their kinds.
 Its arguments are the named inputs of the rule (tables or texts, lists of them where the rule has lists), the params
 beside those NOT_FOR_THE_STAGE, and, where it takes them, `threads` and `progress`. It returns what the one output
-holds: the columns of a table, a text or a picture; of several outputs a mapping by their names, or a list without names.
+holds: the columns of a table, a text or a picture; of several outputs a mapping by their names, or a list without
+names.
 """
 
 import importlib
