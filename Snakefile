@@ -38,6 +38,7 @@ include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/docs.smk"
+include: "workflow/rules/builds.smk"
 include: "workflow/rules/make.smk"
 
 
@@ -47,7 +48,8 @@ rule all:
         figure_files(),
         caption_files(),
         result("claims.md"),
-        result("checked.txt"),
+        checked_files(),
+        result("provenance.json"),
     localrule: True
     message:
         "All figures and claims are up to date"

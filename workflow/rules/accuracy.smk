@@ -64,6 +64,7 @@ accuracy_rule(
     "benchmark",
     "The solver against the paper's method",
     output={**tables_of("results", "benchmark"), "report": result("benchmark.md")},
+    timed=("benchmark", "report"),
     threads=WHOLE_MACHINE,
     params={
         "settings": {
@@ -79,6 +80,7 @@ scene_rule(
     "wall_times",
     "Wall times",
     input={"precision": table("precision")},
+    timed=("wall_times",),
     threads=WHOLE_MACHINE,
     params={"settings": {name: config["precision"][name] for name in ("repeats", "seconds")}},
 )
@@ -108,6 +110,7 @@ accuracy_rule(
     "scene_budget",
     "What the data of each figure need",
     output=tables_of("results", "scene_budget", "budget_times"),
+    timed=("budget_times",),
     threads=WHOLE_MACHINE,
     params={
         "settings": config["scene_budget"],

@@ -2,6 +2,7 @@
 #
 # The stages' files fill RULES: one entry for each rule that makes tables or pages, with what it needs to know. All of them
 # run scripts/make.py on a module of their stage.
+import hashlib
 import json
 import math
 import re
@@ -9,7 +10,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from workflow.configuration import TABLES, count_points, entry_of, kind_of, resolve
-from workflow.source_hash import source_hash
+from workflow.source_hash import closure, source_hash, versions
 
 # "" or "NAME/": a config with a prefix keeps its results apart.
 PREFIX = config["prefix"] and f"{config['prefix']}/"
@@ -24,7 +25,8 @@ MODEL_OF_ANY_AMPLITUDE = {name: value for name, value in config["model"].items()
 #   stage     the module of scripts/ that does the work
 #   message   what it makes, in words
 #   output    one file, or files by their names
-# and, where they differ from those of `rule_of`, the others.
+# and, where they differ from those in make.smk, the others; and
+#   timed     names of the outputs that hold wall times, which may differ from run to run
 RULES = {}
 
 

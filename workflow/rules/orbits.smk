@@ -30,6 +30,7 @@ RULES["certificates"] = {
     "message": "Orbits, bifurcations and chaos, proved",
     "input": tables_of("orbits", "branches", "folds_and_doublings", "cascade"),
     "output": tables_of("orbits", "certificates", "certified_bifurcations", "certified_chaos", "certificate_times"),
+    "timed": ("certificate_times",),
     "place": "orbits/certificates",
     "threads": 2,
     "mem_mb": 1500,
