@@ -3,8 +3,11 @@ from snakemake.utils import min_version
 
 from workflow.config_files import as_first_written, merged, read, refusal
 from workflow.configuration import by_methods, canonical, problems
+from workflow.interruptions import end_with_the_terminal, name_commands_at_a_lock
 
 min_version("9.27")
+end_with_the_terminal()
+name_commands_at_a_lock()
 
 # The config of the paper, one file for each stage; overlays of the command line are merged over it.
 STAGES = ("sweeps", "motion", "orbits", "dimensions", "fit", "accuracy", "claims", "figures", "docs")
@@ -37,6 +40,7 @@ include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/docs.smk"
+include: "workflow/rules/builds.smk"
 include: "workflow/rules/make.smk"
 
 
@@ -46,7 +50,8 @@ rule all:
         figure_files(),
         caption_files(),
         result("claims.md"),
-        result("checked.txt"),
+        checked_files(),
+        result("provenance.json"),
     localrule: True
     message:
         "All figures and claims are up to date"

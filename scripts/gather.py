@@ -5,4 +5,5 @@ from pipeline.rule_log import logged
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        tables.gather(snakemake.output[0], snakemake.input, snakemake.params.kind, snakemake.params.settings)
+        (kind,) = snakemake.output.keys()
+        tables.gather(snakemake.output[0], snakemake.input, kind, snakemake.params.settings)

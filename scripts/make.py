@@ -2,8 +2,9 @@
 
 A module of a stage has such a function, `make`, and TABLES, the schemas of the tables that it makes, by their kinds.
 Its arguments are the named inputs of the rule (tables or texts, lists of them where the rule has lists), the params
-beside STAGE, CODE and KINDS, and, where it takes them, `threads` and `progress`. It returns what the one output holds:
-the columns of a table, a text or a picture; of several outputs a mapping by their names, or a list without names.
+beside those NOT_FOR_THE_STAGE, and, where it takes them, `threads` and `progress`. It returns what the one output
+holds: the columns of a table, a text or a picture; of several outputs a mapping by their names, or a list without
+names.
 """
 
 import importlib
@@ -16,28 +17,28 @@ from typing import Any
 from pipeline import fields, tables
 from pipeline.rule_log import logged
 
-# Params that are not for the stage: its module, the hash of its sources, and the kinds of its input tables by their
-# names where a table's kind is not its name.
-STAGE, CODE, KINDS = "stage", "code", "kinds"
+# Its module, the hash of its sources, the kinds of its input tables by their names where a table's kind is not its
+# name, and the settings that each of them must have been made from, by its path.
+NOT_FOR_THE_STAGE = STAGE, CODE, KINDS, ASKED = "stage", "code", "kinds", "asked"
 
 
-def read(path: str, kind: str) -> Any:
+def read(path: str, kind: str, asked: dict[str, Any]) -> Any:
     """An input: a table, or a text."""
     if path.endswith(".parquet"):
-        return tables.read(path, kind)
+        return tables.read(path, kind, asked[path])
     return Path(path).read_text(encoding="utf-8")
 
 
-def read_inputs(paths: dict[str, Any], kinds: dict[str, Any]) -> dict[str, Any]:
+def read_inputs(paths: dict[str, Any], kinds: dict[str, Any], asked: dict[str, Any]) -> dict[str, Any]:
     """The contents of inputs by their names."""
     found = {}
     for name, path in paths.items():
         kind = kinds.get(name, name)
         if isinstance(path, str):
-            found[name] = read(path, kind)
+            found[name] = read(path, kind, asked)
         else:
             of_each = [kind] * len(path) if isinstance(kind, str) else kind
-            found[name] = [read(one, its_kind) for one, its_kind in zip(path, of_each, strict=True)]
+            found[name] = [read(one, its_kind, asked) for one, its_kind in zip(path, of_each, strict=True)]
     return found
 
 
@@ -70,8 +71,8 @@ def run(job: Any) -> None:
     """What a job of Snakemake does."""
     params = dict(job.params.items())
     stage = importlib.import_module(params[STAGE])
-    arguments = read_inputs(dict(job.input.items()), params.get(KINDS, {}))
-    arguments |= {name: value for name, value in params.items() if name not in (STAGE, CODE, KINDS)}
+    arguments = read_inputs(dict(job.input.items()), params.get(KINDS, {}), params[ASKED])
+    arguments |= {name: value for name, value in params.items() if name not in NOT_FOR_THE_STAGE}
     offered = {"threads": job.threads, "progress": " ".join([job.rule, *job.wildcards])}
     wanted = inspect.signature(stage.make).parameters
     arguments |= {name: value for name, value in offered.items() if name in wanted}

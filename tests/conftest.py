@@ -15,16 +15,20 @@ def built(tmp_path_factory) -> Project:
 
 
 @pytest.fixture
-def edited(built, tmp_path):
+def copied(built, tmp_path) -> Project:
+    """A copy of the built project, to do anything to."""
+    return Project(shutil.copytree(built.folder, tmp_path / "copy", symlinks=True))
+
+
+@pytest.fixture
+def edited(copied):
     """A function that edits one file of a copy of the built project and gives the copy."""
 
     def edit(file: str, old: str, new: str) -> Project:
-        folder = tmp_path / "copy"
-        shutil.copytree(built.folder, folder, symlinks=True)
-        path = folder / file
+        path = copied.folder / file
         text = path.read_text()
         assert old in text
         path.write_text(text.replace(old, new))
-        return Project(folder)
+        return copied
 
     return edit

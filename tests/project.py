@@ -95,22 +95,34 @@ class Project:
 
     folder: Path
     overlay: dict = field(default_factory=dict)
+    environment: dict[str, str] = field(default_factory=dict)  # beside that of the tests
 
     def snakemake(self, *arguments: str) -> subprocess.CompletedProcess:
         """Run Snakemake on the overlay; stdout holds what it and its jobs say."""
+        return self.called(*arguments, *self.configfile())
+
+    def configfile(self) -> tuple[str, str]:
+        """The option that names the overlay, which is written."""
         (self.folder / "overlay.yaml").write_text(yaml.safe_dump(self.overlay, sort_keys=False))
-        return self.called(*arguments, "--configfile", "overlay.yaml")
+        return "--configfile", "overlay.yaml"
 
     def called(self, *arguments: str) -> subprocess.CompletedProcess:
         """Run Snakemake with these arguments."""
-        return subprocess.run(
+        with self.started(*arguments) as process:
+            said, _ = process.communicate()
+        return subprocess.CompletedProcess(process.args, process.returncode, said)
+
+    def started(self, *arguments: str) -> subprocess.Popen:
+        """Start Snakemake with these arguments, in a process group of its own."""
+        environment = {name: value for name, value in os.environ.items() if not name.startswith("SNAKEMAKE")}
+        return subprocess.Popen(
             [sys.executable, "-m", "snakemake", *arguments],
             cwd=self.folder,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            check=False,
-            env={name: value for name, value in os.environ.items() if not name.startswith("SNAKEMAKE")},
+            start_new_session=True,
+            env=environment | self.environment,
         )
 
     def make(self, *targets: str) -> None:

@@ -11,6 +11,7 @@ import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -21,6 +22,8 @@ import pyarrow.parquet as pq
 ROW_GROUP = 1 << 20
 COMPRESSION = "zstd"
 KIND = b"kind"
+# What a key has that is not there.
+NOTHING = "nothing"
 # The key under which pandas keeps DataFrame.attrs.
 SETTINGS = b"PANDAS_ATTRS"
 
@@ -119,8 +122,8 @@ def check(path: str | Path, kind: str, settings: dict | None = None) -> None:
     if metadata.get(KIND) != kind.encode():
         found = metadata.get(KIND, b"").decode() or "something else"
         raise TableError(f"{path} is not a table of {kind} but of {found}; {remedy}")
-    if settings is not None and json.loads(metadata[SETTINGS]) != json.loads(json.dumps(settings)):
-        raise TableError(f"{path} was made from other settings than those that are asked for; {remedy}")
+    if settings is not None and (other := differing(json.loads(metadata[SETTINGS]), json.loads(json.dumps(settings)))):
+        raise TableError(f"{path} was made from other settings than those that are asked for ({other}); {remedy}")
 
 
 def read(path: str | Path, kind: str, settings: dict | None = None) -> pd.DataFrame:
@@ -130,3 +133,14 @@ def read(path: str | Path, kind: str, settings: dict | None = None) -> pd.DataFr
         return pd.read_parquet(path)
     except (pa.ArrowException, OSError) as error:
         raise TableError(f"{path} is damaged ({error}); delete it, and the next run makes it again") from error
+
+
+def differing(found: Any, asked: Any, key: str = "") -> str:
+    """The first place where two settings differ, as "KEY = FOUND, not ASKED"; nothing if they are equal."""
+    if isinstance(found, dict) and isinstance(asked, dict):
+        for name in found | asked:
+            place = f"{key}.{name}".lstrip(".")
+            if other := differing(found.get(name, NOTHING), asked.get(name, NOTHING), place):
+                return other
+        return ""
+    return "" if found == asked else f"{key} = {found}, not {asked}"

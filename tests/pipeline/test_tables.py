@@ -125,8 +125,12 @@ def test_another_kind_or_other_settings_are_refused(path):
     tables.write(path, made())
     with pytest.raises(tables.TableError, match="is not a table of sweeps but of estimates; delete it"):
         tables.read(path, "sweeps")
-    with pytest.raises(tables.TableError, match="other settings"):
+    with pytest.raises(tables.TableError, match=r"other settings .*\(duration = 1.0, not 2.0\); delete it"):
         tables.read(path, "estimates", SETTINGS | {"duration": 2.0})
+    with pytest.raises(tables.TableError, match=r"\(model.mass = 0.0007, not 0.001\)"):
+        tables.read(path, "estimates", SETTINGS | {"model": {"mass": 1.0e-3}})
+    with pytest.raises(tables.TableError, match=r"\(duration = 1.0, not nothing\)"):
+        tables.read(path, "estimates", {"model": SETTINGS["model"]})
 
 
 @pytest.mark.parametrize("cuts", [[], [1, 2], range(1, 23)])

@@ -46,7 +46,7 @@ def drawn_afresh(name):
         section, table = reference.split("/")
         paths[role] = RESULTS / (f"{table}.parquet" if section == "results" else f"{reference}.parquet")
         kinds[role] = kind_of(reference)
-    return draw(name, paths, kinds, entry.get("settings", {}))
+    return draw(name, paths, kinds, entry.get("settings", {}), asked={})
 
 
 @cache

@@ -77,7 +77,7 @@ def test_the_companion_after_its_model(built):
     ],
 )
 def test_only_users_after_a_config_value(built, change, expected):
-    assert built.under(change).planned(*TARGETS) == expected
+    assert built.under(change).planned(*TARGETS, *CAPTIONS) == {**expected, **({"captions": 1} if expected else {})}
 
 
 @pytest.mark.parametrize(

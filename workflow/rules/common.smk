@@ -2,12 +2,15 @@
 #
 # The stages' files fill RULES: one entry for each rule that makes tables or pages, with what it needs to know. All of them
 # run scripts/make.py on a module of their stage.
+import hashlib
 import json
 import math
+import re
 from pathlib import Path
+from types import SimpleNamespace
 
 from workflow.configuration import TABLES, count_points, entry_of, kind_of, resolve
-from workflow.source_hash import source_hash
+from workflow.source_hash import closure, source_hash, versions
 
 # "" or "NAME/": a config with a prefix keeps its results apart.
 PREFIX = config["prefix"] and f"{config['prefix']}/"
@@ -15,11 +18,16 @@ PREFIX = config["prefix"] and f"{config['prefix']}/"
 # Jobs that take wall times run alone. Snakemake does not say how many cores a node of a cluster has: there a profile does.
 WHOLE_MACHINE = workflow.cores or 1
 
+# The model for sections that name their amplitudes themselves: the default one must not make them run again.
+MODEL_OF_ANY_AMPLITUDE = {name: value for name, value in config["model"].items() if name != "acceleration"}
+
 # Rules by their names, each with
 #   stage     the module of scripts/ that does the work
+#   script    of one that has a rule of its own, and no stage: its script
 #   message   what it makes, in words
 #   output    one file, or files by their names
-# and, where they differ from those of `rule_of`, the others.
+# and, where they differ from those in make.smk, the others; and
+#   timed     names of the outputs that hold wall times, which may differ from run to run
 RULES = {}
 
 
@@ -69,6 +77,31 @@ def settings(section):
         return resolve(config, section, wildcards.name)
 
     return settings_of
+
+
+def sources_of(one):
+    """What an entry of RULES runs, as source_hash names it."""
+    return [one.get("script", "make"), *([one["stage"].replace(".", "/")] if "stage" in one else [])]
+
+
+def pattern_of(file):
+    """The files that a rule's output stands for, as a regular expression with a group for each wildcard."""
+    return re.sub(r"\\{(\w+)\\}", r"(?P<\1>\\w[\\w-]*)", re.escape(file))
+
+
+def settings_of_table(file):
+    """The settings that the table in `file` is made from, or None if its rule has none."""
+    for one in RULES.values():
+        for output in one.get("output", {}).values():
+            if found := re.fullmatch(pattern_of(output), file):
+                wanted = one.get("params", {}).get("settings")
+                return wanted(SimpleNamespace(**found.groupdict())) if callable(wanted) else wanted
+    return None
+
+
+def asked(wildcards, input):
+    """A param: the settings that each table among the inputs must have been made from, by its file."""
+    return {file: settings_of_table(file) for file in input if file.endswith(".parquet")}
 
 
 def read_tables(references):

@@ -56,6 +56,7 @@ for figure, entry in config["figures"].items():
             figure=figure,
             kinds={role: kind_of(reference) for role, reference in entry["tables"].items()},
             settings=entry.get("settings", {}),
+            asked=asked,
             code=source_hash("draw", f"figures/plots/{figure}"),
         message:
             f"Draw {figure}: {in_message(entry['title'])}"

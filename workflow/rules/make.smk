@@ -1,5 +1,7 @@
 # The rules that make tables and pages, from what the stages' files say of them.
 for name, one in RULES.items():
+    if "stage" not in one:
+        continue
 
     rule:
         name:
@@ -22,8 +24,9 @@ for name, one in RULES.items():
             runtime=one.get("runtime", 30),
         params:
             **one.get("params", {}),
+            asked=asked,
             stage=one["stage"],
-            code=source_hash("make", one["stage"].replace(".", "/")),
+            code=source_hash(*sources_of(one)),
         message:
             one["message"]
         script:

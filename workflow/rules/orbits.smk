@@ -2,13 +2,16 @@
 
 
 def of_sections(*sections):
-    """A param: these sections of the config with the model and the tolerance, overrides included, later ones first."""
+    """A param: these sections of the config with the model and the tolerance, overrides included, later ones first.
+
+    All of them name their amplitudes themselves.
+    """
     merged = {"tolerance": config["solver"]["tolerance"]}
     if "attractors" in sections:
         merged["settling"] = config["solver"]["settling"]
     for section in sections:
         merged.update(config[section])
-    return {**merged, "model": {**config["model"], **merged.get("model", {})}}
+    return {**merged, "model": {**MODEL_OF_ANY_AMPLITUDE, **merged.get("model", {})}}
 
 
 entry_rule("estimates", "orbits.estimates", "Lyapunov exponents by finite differences", threads=2, mem_mb=2000)
@@ -27,6 +30,7 @@ RULES["certificates"] = {
     "message": "Orbits, bifurcations and chaos, proved",
     "input": tables_of("orbits", "branches", "folds_and_doublings", "cascade"),
     "output": tables_of("orbits", "certificates", "certified_bifurcations", "certified_chaos", "certificate_times"),
+    "timed": ("certificate_times",),
     "place": "orbits/certificates",
     "threads": 2,
     "mem_mb": 1500,

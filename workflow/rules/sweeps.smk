@@ -35,12 +35,18 @@ RULES["shards"] = {
     "params": {"settings": settings("sweeps"), "rows": rows_of_shard},
 }
 
+RULES["sweeps"] = {
+    "script": "gather",
+    "output": {"sweeps": table("sweeps")},
+    "params": {"settings": settings("sweeps")},
+}
+
 
 rule sweeps:
     input:
         shards_of_sweep,
     output:
-        table("sweeps"),
+        **RULES["sweeps"]["output"],
     log:
         log_file("sweeps/{name}"),
     benchmark:
@@ -52,8 +58,7 @@ rule sweeps:
         mem_mb=1000,
         runtime=30,
     params:
-        kind="sweeps",
-        settings=settings("sweeps"),
+        **RULES["sweeps"]["params"],
         code=source_hash("gather"),
     message:
         "Sweep {wildcards.name}, all shards"

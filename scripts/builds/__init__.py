@@ -1,0 +1,1 @@
+"""Stage builds: what a build holds, and where it comes from."""

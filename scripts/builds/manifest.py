@@ -1,0 +1,27 @@
+"""Every result and figure with its SHA-256, or that it may differ as wall times stand in it.
+
+The manifest itself is equal in every build of a config, so that two builds are compared by their manifests.
+"""
+
+import hashlib
+from collections.abc import Collection
+from pathlib import Path
+
+HEAD = """\
+# Results and figures with their SHA-256: equal on any number of cores, in any folder, time zone and locale.
+# Whether the files are those that were made: sha256sum --quiet --check MANIFEST
+# In what two builds differ: diff MANIFEST OTHER_MANIFEST
+"""
+MAY_DIFFER = "# may differ, as wall times stand in it: "
+
+
+def line(file: str, timed: bool) -> str:
+    """What the manifest says of a file; sha256sum takes the lines of those that may differ for remarks."""
+    if timed:
+        return f"{MAY_DIFFER}{file}\n"
+    return f"{hashlib.sha256(Path(file).read_bytes()).hexdigest()}  {file}\n"
+
+
+def make(files: list[str], timed: Collection[str]) -> str:
+    """The manifest of `files`, of which those that are `timed` may differ from run to run."""
+    return HEAD + "".join(line(file, file in timed) for file in files)

@@ -1,0 +1,109 @@
+"""Builds on other cores, in another folder, time zone and locale: equal but for what the manifest names."""
+
+import json
+import os
+import shutil
+import subprocess
+
+import pytest
+from project import Project, copy_project, read_config
+
+from builds import provenance
+from builds.manifest import MAY_DIFFER
+
+# Of the figures that are drawn from wall times the one that is made fastest.
+TIMED = {
+    "figures": {"scene_budget": read_config("figures")["figures"]["scene_budget"]},
+    "scene_budget": {"points": {"sweeps": 1, "estimates": 1, "lyapunov": 1, "attractors": 1}},
+}
+MANIFEST, PROVENANCE = "results/manifest.sha256", "results/provenance.json"
+USES_UTF8 = "UTF" in (os.environ.get("LC_ALL") or os.environ.get("LANG") or "").upper()
+ELSEWHERE = {"TZ": "ELSEWHERE-12:45", "LC_ALL": "C" if USES_UTF8 else "C.UTF-8"}
+
+
+@pytest.fixture(scope="module")
+def builds(built, tmp_path_factory):
+    """Two builds of all that one config names."""
+    first = shutil.copytree(built.folder, tmp_path_factory.mktemp("builds") / "first", symlinks=True)
+    second = copy_project(tmp_path_factory.mktemp("zweiter Ort für alles"))
+    projects = Project(first, TIMED), Project(second, TIMED, ELSEWHERE)
+    projects[0].make("--cores", "2")
+    projects[1].make("--cores", "1", "all", "docs/companion.html")
+    return projects
+
+
+def made(project):
+    """The contents of all results, figures and pages, by their paths."""
+    aside = ("results/logs/", "results/benchmarks/", PROVENANCE)
+    files = [path for part in ("results", "figures", "docs") for path in (project.folder / part).rglob("*")]
+    contents = {str(path.relative_to(project.folder)): path.read_bytes() for path in files if path.is_file()}
+    return {name: content for name, content in contents.items() if not name.startswith(aside)}
+
+
+def test_two_builds_differ_in_what_their_manifest_names_only(builds):
+    first, second = map(made, builds)
+    assert set(first) == set(second)
+    lines = first[MANIFEST].decode().splitlines()
+    named = {line.removeprefix(MAY_DIFFER) for line in lines if line.startswith(MAY_DIFFER)}
+    assert named == {"results/budget_times.parquet", "figures/scene_budget.pdf", "figures/scene_budget.png"}
+    different = {name for name in first if first[name] != second[name]}
+    assert "results/budget_times.parquet" in different
+    assert different <= named
+
+
+def test_the_manifest_lists_all_but_pages_and_what_only_tables_are_made_of(builds):
+    project = builds[0]
+    listed = {line.split()[-1] for line in (project.folder / MANIFEST).read_text().splitlines()[3:]}
+    assert set(made(project)) - listed == {
+        MANIFEST,
+        "docs/companion.html",
+        "results/attractors/strobes.parquet",
+        "results/runs/amplitudes/0.parquet",
+        "results/runs/amplitudes_euler/0.parquet",
+    }
+    assert listed <= set(made(project))
+
+
+def test_a_changed_result_is_found_with_the_manifest(builds, tmp_path):
+    """As the README says."""
+    folder = shutil.copytree(builds[0].folder, tmp_path / "copy", symlinks=True)
+    check = ["sha256sum", "--quiet", "--check", MANIFEST]
+    subprocess.run(check, cwd=folder, check=True)
+    with (folder / "figures/fig08.pdf").open("ab") as file:
+        file.write(b" ")
+    run = subprocess.run(check, cwd=folder, capture_output=True, text=True, check=False)
+    assert run.returncode != 0
+    assert run.stdout == "figures/fig08.pdf: FAILED\n"
+
+
+def test_provenance_tells_all_and_reruns_nothing(builds):
+    told = json.loads((builds[1].folder / PROVENANCE).read_text())
+    assert told["commit"] == told["clean"] == "unknown"
+    assert len(told["config_sha256"]) == 64
+    assert told["config_sha256"] == json.loads((builds[0].folder / PROVENANCE).read_text())["config_sha256"]
+    assert told["threads"] == 1
+    assert told["seconds"]["figures"] > 0.0
+    names = {one.split("==")[0] for one in told["versions"]}
+    assert {"python", "numpy", "numba", "matplotlib", "python-flint", "pymoo", "snakemake"} <= names
+    for project in builds:
+        assert project.planned("all") == {}
+
+
+def test_the_commit_is_that_of_the_sources_themselves(tmp_path):
+    def git(*arguments):
+        identity = ("-c", "user.name=A", "-c", "user.email=a@b.c")
+        subprocess.run(["git", *identity, *arguments], cwd=tmp_path, check=True, capture_output=True)
+
+    archive = tmp_path / "archive"
+    archive.mkdir()
+    (archive / "file").write_text("one")
+    git("init")
+    git("add", ".")
+    git("commit", "--message", "one")
+    found = provenance.sources(tmp_path)
+    assert len(found["commit"]) == 40
+    assert found["clean"] is True
+    (archive / "file").write_text("two")
+    assert provenance.sources(tmp_path) == {"commit": found["commit"], "clean": False}
+    # An archive in a folder of another repository has no commit.
+    assert provenance.sources(archive) == {"commit": "unknown", "clean": "unknown"}

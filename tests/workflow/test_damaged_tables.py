@@ -1,0 +1,46 @@
+"""Files in place of the tables that were made: an error that names the file and the remedy, never a wrong number."""
+
+import re
+import shutil
+
+import pytest
+
+RUNS, SWEEP = "results/shards/amplitudes/0.parquet", "results/sweeps/amplitudes.parquet"
+OTHER = r"was made from other settings than those that are asked for \(model.damping = 0.2, not 0.3\)"
+
+
+@pytest.fixture(scope="module")
+def damped(built):
+    """The folder of results under another damping."""
+    project = built.under({"prefix": "damped", "model": {"damping": 0.2}})
+    project.make("results/damped/sweeps/amplitudes.parquet")
+    return built.folder / "results/damped"
+
+
+def foreign(path, other):
+    shutil.copyfile(other, path)
+
+
+def truncated(path, other):
+    path.write_bytes(path.read_bytes()[:-20])
+
+
+@pytest.mark.parametrize(
+    ("file", "harm", "told"),
+    [
+        (RUNS, foreign, OTHER),
+        (SWEEP, foreign, OTHER),
+        (SWEEP, truncated, "cannot be read as a table of sweeps"),
+    ],
+    ids=["a shard of another physics", "a sweep of another physics", "a truncated sweep"],
+)
+def test_a_wrong_table_is_named_and_made_again_once_it_is_deleted(copied, damped, file, harm, told):
+    path = copied.folder / file
+    sound = path.read_bytes()
+    harm(path, damped / path.relative_to(copied.folder / "results"))
+    run = copied.snakemake("figures/fig03.pdf")
+    assert run.returncode != 0, run.stdout
+    assert re.search(f"TableError: {file} {told}.*; delete it, and the next run makes it again", run.stdout), run.stdout
+    path.unlink()
+    copied.make(file)
+    assert path.read_bytes() == sound

@@ -1,0 +1,43 @@
+"""Snakemake ended from outside: a closed terminal leaves nothing behind, a kill a lock of which we name the remedy."""
+
+import os
+import signal
+import time
+
+import pytest
+
+TARGET, LOG = "results/{prefix}/estimates/phase.parquet", "results/{prefix}/logs/estimates/phase.log"
+
+
+def ended(built, prefix, end):
+    """A project with a job that was ended while it ran, its target, and the process of Snakemake."""
+    project = built.under({"prefix": prefix})
+    target = TARGET.format(prefix=prefix)
+    process = project.started(target, *project.configfile())
+    log = project.folder / LOG.format(prefix=prefix)
+    while not log.exists():
+        assert process.poll() is None, process.stdout.read()
+        time.sleep(0.05)
+    end(process.pid)
+    # Ends once neither Snakemake nor a job of it can write any more.
+    process.communicate(timeout=60)
+    return project, target, process
+
+
+@pytest.mark.parametrize("end", [os.kill, os.killpg], ids=["Snakemake", "all of the terminal"])
+def test_a_closed_terminal_leaves_no_lock_and_no_process(built, end):
+    project, target, process = ended(built, f"closed_{end.__name__}", lambda pid: end(pid, signal.SIGHUP))
+    assert process.returncode == 1
+    with pytest.raises(ProcessLookupError):
+        os.killpg(process.pid, 0)
+    project.make(target)
+
+
+def test_a_lock_left_behind_is_told_with_the_commands_that_help(built):
+    project, target, _ = ended(built, "killed", lambda pid: os.killpg(pid, signal.SIGKILL))
+    run = project.snakemake(target)
+    assert run.returncode != 0
+    assert "snakemake --unlock\n" in run.stdout
+    assert "snakemake --rerun-incomplete" in run.stdout
+    assert project.snakemake("--unlock").returncode == 0
+    project.make(target, "--rerun-incomplete")
