@@ -41,7 +41,7 @@ NAMES = {"euler": "paper's method", "converged": "converged solution"}
 def find(claim: dict, read: dict[str, pd.DataFrame]) -> Finding:
     """The Finding of a claim of the config, from the tables by their references."""
     module, function = claim["finding"].split(".")
-    found = getattr(importlib.import_module(f"findings.{module}"), function)
+    found = getattr(importlib.import_module(f"claims.{module}"), function)
     return found({role: read[reference] for role, reference in claim["tables"].items()}, **claim.get("settings", {}))
 
 

@@ -88,6 +88,23 @@ def test_a_quantity_that_no_finding_gives_is_an_error():
 CLAIMS = yaml.safe_load((Path(__file__).parents[2] / "config/claims.yaml").read_text())["claims"]
 
 
+def test_a_claim_names_its_finding_its_tables_and_its_settings():
+    table = pd.DataFrame({"acceleration": [30.0, 40.0], "z0": [2e-4, 1e-4], "is_critical": True})
+    claim = {
+        "finding": "about_states.critical_height",
+        "tables": {"euler": "a", "converged": "b"},
+        "settings": {"acceleration": 35.0},
+    }
+    found = verdicts.find(claim, {"a": table.assign(z0=3e-4), "b": table})
+    assert (*found.euler.values(), *found.converged.values()) == pytest.approx((0.3, 0.15))
+
+
+@pytest.mark.parametrize("name", CLAIMS)
+def test_findings_of_the_config_exist(name):
+    module, function = CLAIMS[name]["finding"].split(".")
+    assert callable(getattr({"about_chaos": about_chaos, "about_states": about_states}[module], function))
+
+
 def inside(low, high):
     if low is None or high is None:
         return (high if low is None else low) if (low, high) != (None, None) else 0.0
