@@ -189,7 +189,7 @@ def test_onset_of_chaos_by_scatter_and_by_state():
 
 @pytest.mark.parametrize("size", [0.01, 10.0])
 def test_scatter_is_relative(size):
-    """Two velocities v and (1 + d) v have a standard deviation of d/√2 v: 1.4 % of the mean below 55 m/s², then 13 %."""
+    """Of velocities v and (1 + d) v the standard deviation is d/√2 v: 1.4 % of the mean up to 55 m/s², then 13 %."""
     table = sweep("second", lambda a, z: size * (1.0 + (0.0 if z == 0.0 else 0.2 if a >= 55.0 else 0.02)))
     assert about_states.scatter_onset(table) == 55.0
 

@@ -105,5 +105,20 @@ def test_feigenbaum_of_a_geometric_sequence():
     assert error < 1e-12
 
 
+def test_feigenbaums_ratio_is_that_of_the_logistic_map():
+    """Of the parameters a of 1 - a x² at which 0 comes back to itself after 2, 4, … cycles."""
+    superstable = [0.0, 1.0, 1.31]
+    for n in range(2, 12):
+        a = superstable[n]
+        for _ in range(8):
+            x = slope = 0.0
+            for _ in range(2**n):
+                x, slope = 1.0 - a * x * x, -x * x - 2.0 * a * x * slope
+            a -= x / slope
+        superstable[n] = a
+        superstable.append(a + (a - superstable[n - 1]) ** 2 / (superstable[n - 1] - superstable[n - 2]))
+    assert orbits.ratios(np.array(superstable[:-1]))[-1] == pytest.approx(orbits.FEIGENBAUM, rel=1e-6)
+
+
 def test_no_orbit_is_found_where_there_is_none():
     assert settled(80.0, 0.0) is None

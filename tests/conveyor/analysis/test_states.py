@@ -49,6 +49,15 @@ def test_part_that_cannot_be_followed_is_undecided():
     assert states.classify(row[None]).state[0] == "undecided"
 
 
+def test_an_exponent_of_zero_is_no_state():
+    """A part that rides undamped on a spring swings for ever, with two exponents of zero: neither settled nor chaos."""
+    conveyor = Conveyor(acceleration=0.0, damping=0.0, exponent=1.0, stiffness=3e3)
+    depth = conveyor.mass * conveyor.gravity / conveyor.stiffness  # at rest
+    found = states.classify(np.array([pack(conveyor, Start(z=-share * depth)) for share in (0.5, 0.9)]), cycles=400)
+    assert list(found.state) == ["undecided"] * 2
+    assert (found.cycles == 400).all()
+
+
 def test_sweep_keeps_to_its_attractor():
     """Up from rest the part rides beyond 45 m/s², down from jumping it jumps below: hysteresis."""
     for amplitudes, z0, state in (
