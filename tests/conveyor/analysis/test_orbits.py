@@ -67,6 +67,18 @@ def test_multipliers_are_those_of_finite_differences(jumping):
     )
 
 
+def test_tests_of_bifurcations_are_determinants(branch):
+    """det(M - 1) = (1 - μ1)(1 - μ2) and det(M + 1) = (1 + μ1)(1 + μ2), with real multipliers and with complex ones."""
+    returns = orbits.ReturnMap(PARAMETERS, 1)
+    kinds = set()
+    for orbit in branch.orbits[::10]:
+        less_one = returns.residual(returns.scaled(orbit.acceleration, orbit.state))[1]
+        assert orbits.fold_test(orbit) == pytest.approx(np.linalg.det(less_one), abs=1e-6)
+        assert orbits.doubling_test(orbit) == pytest.approx(np.linalg.det(less_one + 2.0 * np.eye(2)), abs=1e-6)
+        kinds.add(orbit.multipliers[0].imag == 0.0)
+    assert kinds == {True, False}
+
+
 def test_jumping_exists_down_to_its_fold(branch):
     """Below the fold a part that jumps just above it comes to ride; at the fold a multiplier is +1."""
     fold = next(b for b in branch.bifurcations if b.kind == "fold")
