@@ -93,6 +93,34 @@ def test_jumping_exists_down_to_its_fold(branch):
         assert (features[-1, stroboscope.IMPACTS] > 0) == jumps
 
 
+def test_a_branch_is_followed_around_its_turns(monkeypatch):
+    """A closed branch, a circle half as large as the largest step: chords between its points keep to it within 2 %."""
+    radius = 0.5 * orbits.LARGEST_STEP
+
+    class Circle(orbits.ReturnMap):
+        def residual(self, unknown):
+            x, y, a = unknown
+            return np.array([x * x + (a - 1.0) ** 2 - radius**2, y]), np.diag([2.0 * x, 1.0])
+
+        def slope(self, unknown):
+            return np.array([2.0 * (unknown[2] - 1.0), 0.0])
+
+        def strobes(self, unknown):
+            return unknown[None]
+
+        def describe(self, unknown):
+            return orbits.Orbit(float(unknown[2]), self.state(unknown), 1, (0.5 + 0j, 0.1 + 0j), 0.05, 1, 0.0, 0.5)
+
+    monkeypatch.setattr(orbits, "ReturnMap", Circle)
+    circle = Circle(PARAMETERS, 1)
+    found = orbits.follow_branch(PARAMETERS, circle.describe(np.array([radius, 0.0, 1.0])), (0.0, 2.0))
+    assert found.ends == ("closed", "closed")
+    points = np.array([circle.scaled(orbit.acceleration, orbit.state) for orbit in found.orbits]) - [0.0, 0.0, 1.0]
+    assert np.linalg.norm(points, axis=1) == pytest.approx(radius, rel=1e-6)
+    middles = 0.5 * (points[1:] + points[:-1])
+    assert np.linalg.norm(middles, axis=1).min() > 0.98 * radius
+
+
 def test_period_doubles_where_iteration_says(branch):
     doubling = next(b for b in branch.bifurcations if b.kind == "period_doubling")
     assert doubling.multiplier == pytest.approx(-1.0, abs=1e-6)
