@@ -239,6 +239,19 @@ def test_a_nearly_still_plate_is_not_passed(acceleration):
     assert gap.max() == pytest.approx(0.07**2 / (2.0 * 9.81), rel=1e-3)
 
 
+@pytest.mark.parametrize("speed", [1e-2, 5e-2])
+def test_small_bounces_go_on(speed):
+    """Without damping a part that jumps off a plate at rest jumps as high again and again, however low that is."""
+    conveyor = replace(AT_REST, damping=0.0)
+    depth = (conveyor.mass * conveyor.gravity / conveyor.stiffness) ** (1.0 / conveyor.exponent)  # at rest
+    velocity = speed * math.sqrt(2.0 * conveyor.gravity * depth)
+    run = simulate(conveyor, Start("conveyor", velocity), duration=0.1, tolerance=1e-8)
+    assert run.impacts > 5
+    impacts, separations = (run.events[run.events["kind"] == kind]["time"] for kind in ("impact", "separation"))
+    flights = impacts[1:] - separations[: len(impacts) - 1]
+    np.testing.assert_allclose(flights, 2.0 * velocity / conveyor.gravity, rtol=1e-2)
+
+
 @pytest.mark.parametrize("acceleration", [30.0, 47.0])
 def test_steps_of_a_settled_motion_are_used_again(acceleration):
     """The vertical motion settles within the first second; from then on no step is computed, and nothing changes."""
