@@ -7,6 +7,7 @@ import pytest
 
 from conveyor import Conveyor, Start, simulate
 from conveyor.solver.model import UNITS
+from sweeps import labels
 
 # As the README shows it.
 MINE = {
@@ -89,3 +90,13 @@ def test_equal_bytes_for_any_cut_and_cores(swept):
     shards = swept("cut", "mixed").parents[1] / "runs/mixed"
     assert sorted(path.name for path in shards.iterdir()) == ["0.parquet", "1.parquet", "2.parquet"]
     assert swept("whole", "mixed").read_bytes() == swept("cut", "mixed").read_bytes()
+
+
+def test_a_run_that_failed_has_no_state():
+    """Whatever it left as its end; a run beside it, of the same motion, has the state of that."""
+    settings = {"axes": {"z0": [0.0, 1e-4]}, "model": {"acceleration": 30.0}, "duration": 0.1, "settling": 2000}
+    end = simulate(Conveyor(acceleration=30.0), Start(), duration=0.1)
+    runs = pd.DataFrame({"status": ["ok", "contact too stiff"], "z_end": end.z_end, "vz_end": end.vz_end})
+    found = labels.make([runs], settings)
+    assert (list(found["state"]), list(found["period"])) == (["first", "undecided"], [1, 0])
+    assert np.isfinite(found["longest_flight"]).tolist() == [True, False]
