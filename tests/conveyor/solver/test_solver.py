@@ -154,6 +154,18 @@ def test_stick_obeys_filippov():
         assert abs(a_x) * conveyor.mass == pytest.approx(conveyor.friction * last["contact_force"][0], rel=1e-8)
 
 
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-7, 1e-9])
+def test_stick_ends_with_its_friction(tolerance):
+    """It may outlast |ẍ_s| = μ F_c/m by a force that cannot be told from none: ten tolerances of the part's weight."""
+    conveyor = Conveyor(acceleration=8.0, friction=0.6)
+    run = simulate(conveyor, Start("conveyor"), duration=0.2, tolerance=tolerance)
+    slip = run.events[run.events["kind"] == "slip"]["time"]
+    assert len(slip) > 5
+    a_x = 8.0 * math.cos(conveyor.angle) * np.abs(np.cos(100 * math.pi * slip))
+    lack = a_x / conveyor.friction - run.sample(slip)["contact_force"] / conveyor.mass
+    assert np.abs(lack).max() < 20.0 * tolerance * conveyor.gravity
+
+
 @pytest.mark.parametrize(("acceleration", "z"), [(30.0, 0.0), (40.0, 3e-4), (47.0, 0.0)])
 def test_tolerance_means_what_it_says(acceleration, z):
     answers = [
