@@ -251,6 +251,13 @@ def test_a_nearly_still_plate_is_not_passed(acceleration):
     assert gap.max() == pytest.approx(0.07**2 / (2.0 * 9.81), rel=1e-3)
 
 
+def test_the_largest_gap_is_that_of_all_flights():
+    """A part that is dropped on a plate at rest never comes as high again."""
+    run = simulate(AT_REST, Start(z=5e-3), duration=0.3)
+    assert run.impacts > 3
+    assert run.max_gap == pytest.approx(5e-3, rel=1e-12)
+
+
 @pytest.mark.parametrize("speed", [1e-2, 5e-2])
 def test_small_bounces_go_on(speed):
     """Without damping a part that jumps off a plate at rest jumps as high again and again, however low that is."""
