@@ -61,3 +61,12 @@ def test_slip_may_end_before_the_force_pulls():
     assert pulled == pytest.approx(0.5)
     assert not friction.keeps_slipping(c, 1.0, 0.0, 1.2 - pulled, lapse, 1.0, 1.0, fastest, 1.0)
     assert friction.keeps_slipping(c, 1.0, 0.0, 0.9 - pulled, lapse, 1.0, 1.0, fastest, 1.0)
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_a_part_at_relative_rest_stays_within_the_cone_of_friction(sign):
+    """Filippov: it rests while |ẍ_s| ≤ μ F_c/m, and else slips with the sign of ẍ_s, also without friction."""
+    c = constants(1e-8)
+    assert friction.direction_at_rest(c, sign * 0.2 * 9.0 * (1.0 - 1e-4), 9.0, 0.2) == 0.0
+    assert friction.direction_at_rest(c, sign * 0.2 * 9.0 * (1.0 + 1e-4), 9.0, 0.2) == sign
+    assert friction.direction_at_rest(c, sign * 1e-12, 9.0, 0.0) == sign
