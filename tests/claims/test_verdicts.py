@@ -88,6 +88,23 @@ def test_a_quantity_that_no_finding_gives_is_an_error():
 CLAIMS = yaml.safe_load((Path(__file__).parents[2] / "config/claims.yaml").read_text())["claims"]
 
 
+def test_a_claim_names_its_finding_its_tables_and_its_settings():
+    table = pd.DataFrame({"acceleration": [30.0, 40.0], "z0": [2e-4, 1e-4], "is_critical": True})
+    claim = {
+        "finding": "about_states.critical_height",
+        "tables": {"euler": "a", "converged": "b"},
+        "settings": {"acceleration": 35.0},
+    }
+    found = verdicts.find(claim, {"a": table.assign(z0=3e-4), "b": table})
+    assert (*found.euler.values(), *found.converged.values()) == pytest.approx((0.3, 0.15))
+
+
+@pytest.mark.parametrize("name", CLAIMS)
+def test_findings_of_the_config_exist(name):
+    module, function = CLAIMS[name]["finding"].split(".")
+    assert callable(getattr({"about_chaos": about_chaos, "about_states": about_states}[module], function))
+
+
 def inside(low, high):
     if low is None or high is None:
         return (high if low is None else low) if (low, high) != (None, None) else 0.0
@@ -134,6 +151,7 @@ def test_null_is_no_bound():
     assert verdicts.holds(1e300, [0.0, None])
     assert verdicts.holds(-1e300, [None, 0.0])
     assert not verdicts.holds(-1.0, [0.0, None])
+    assert not any(verdicts.holds(math.nan, interval) for interval in ([0.0, None], [None, 0.0], [None, None]))
 
 
 def test_reason_says_which_number_is_outside():
@@ -167,6 +185,13 @@ def test_onset_of_chaos_by_scatter_and_by_state():
     assert "in between 100 % of the starts settle to a period (period 1 for 100 %)" in finding.note
     late = sweep(lambda a, z: "chaos" if a >= 50.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
     assert "nan" not in about_states.onset_of_chaos(both(late)).note
+
+
+@pytest.mark.parametrize("size", [0.01, 10.0])
+def test_scatter_is_relative(size):
+    """Of velocities v and (1 + d) v the standard deviation is d/√2 v: 1.4 % of the mean up to 55 m/s², then 13 %."""
+    table = sweep("second", lambda a, z: size * (1.0 + (0.0 if z == 0.0 else 0.2 if a >= 55.0 else 0.02)))
+    assert about_states.scatter_onset(table) == 55.0
 
 
 def certificates(*stable):
@@ -307,6 +332,14 @@ def test_overlap_of_maps():
     assert finding.note.startswith("0 points")  # the chaos of the higher amplitude is not counted
 
 
+def test_only_the_first_state_is_shared():
+    low, high = (pd.DataFrame({"state": states}) for states in (["first", "chaos", "second"], ["first"] * 3))
+    maps = {
+        f"{place}_{level}": one for place in ("height", "velocity") for level, one in (("low", low), ("high", high))
+    }
+    assert about_states.overlap(maps).converged["shared_height"] == pytest.approx(1.0 / 3.0)
+
+
 def test_mapped_states():
     table = pd.DataFrame({"state": ["first", "second", "first"], "mapped_state": ["first", "first", None]})
     assert numbers(about_states.mapped({"converged": table}).converged) == (0.5,)
@@ -335,6 +368,15 @@ def test_share_without_a_period():
     noise = strobes(0.0, np.random.default_rng(1).normal(size=128))
     regular = strobes(1e-4, np.tile([1.0, -1.0], 64))
     assert numbers(about_chaos.no_period(both(pd.concat([noise, regular]))).converged) == (0.5,)
+
+
+def test_a_motion_that_comes_back_to_a_fifth_of_its_extent_has_no_period():
+    """One that comes back to a fiftieth of it has: the distance is that of the strongest of the last cycles."""
+    to_and_fro, one = np.tile([1.0, -1.0], 64), np.arange(128) == 100
+    coarse, fine = strobes(0.0, to_and_fro - 0.2 * one), strobes(1e-4, to_and_fro - 0.02 * one)
+    assert about_chaos.least_return(coarse) == (pytest.approx(0.2), 2)
+    assert about_chaos.least_return(fine) == (pytest.approx(0.02), 2)
+    assert numbers(about_chaos.no_period(both(pd.concat([coarse, fine]))).converged) == (0.5,)
 
 
 def test_irregular_dependence():

@@ -5,8 +5,9 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
-from conveyor import Conveyor, Start, simulate
+from conveyor import Conveyor, Start, ensemble, simulate
 from conveyor.solver.model import UNITS
+from sweeps import shards
 
 # As the README shows it.
 MINE = {
@@ -95,3 +96,17 @@ def test_a_large_sweep_is_cut_into_few_jobs(built):
     many = {"axes": {"z0": {"start": 0.0, "stop": 1.0e-4, "num": 2001}}}
     overlay = {"solver": {"points_per_job": 1}, "sweeps": {"many": many}}
     assert 400 <= built.under(overlay).planned("results/sweeps/many.parquet")["shards"] <= 500
+
+
+def test_a_run_that_failed_has_no_state(monkeypatch):
+    """Whatever it left as its end; a run beside it, of the same motion, has the state of that."""
+    true = ensemble.run
+
+    def failing(parameters, **options):
+        return true(parameters, **options) | {"status": np.array(["ok", "contact too stiff"])}
+
+    monkeypatch.setattr(ensemble, "run", failing)
+    settings = {"axes": {"z0": [0.0, 1e-4]}, "model": {"acceleration": 30.0}, "duration": 0.1, "settling": 2000}
+    found = shards.make(settings)
+    assert (list(found["state"]), list(found["period"])) == (["first", "undecided"], [1, 0])
+    assert np.isfinite(found["longest_flight"]).tolist() == [True, False]

@@ -5,7 +5,7 @@ import pytest
 
 from conveyor import Conveyor, Start
 from conveyor.analysis import lyapunov, stroboscope
-from conveyor.solver.model import pack
+from conveyor.solver.model import VZ0, pack
 
 DECAY = Conveyor().damping / Conveyor().mass
 
@@ -56,6 +56,17 @@ def test_standard_error_shrinks_with_the_run():
 def test_exponents_do_not_depend_on_threads():
     one, two = (lyapunov.spectrum(points(*PAIRS), cycles=10, threads=threads) for threads in (1, 2))
     assert all((a == b).all() for a, b in zip(one, two, strict=True))
+
+
+@pytest.mark.parametrize("method", ["event", "rk4"])
+def test_the_papers_estimate_of_a_flight(method):
+    """In the air a push ε shifts the velocity by ε and the height by ε t: Eq. 23 gives 0 and log(t) / t."""
+    here, times = points((20.0, 10.0)), np.linspace(0.75, 1.0, 501)
+    pushed = here.copy()
+    pushed[:, VZ0] += 1e-3
+    for output, wanted in (("vz", 0.0), ("z", np.mean(np.log(times) / times))):
+        found = lyapunov.finite_difference_estimate(here, pushed, 1e-3, output=output, method=method, step=5e-4)
+        assert found == pytest.approx([wanted], abs=1e-9)
 
 
 def test_settings_are_checked():

@@ -67,6 +67,18 @@ def test_multipliers_are_those_of_finite_differences(jumping):
     )
 
 
+def test_tests_of_bifurcations_are_determinants(branch):
+    """det(M - 1) = (1 - μ1)(1 - μ2) and det(M + 1) = (1 + μ1)(1 + μ2), with real multipliers and with complex ones."""
+    returns = orbits.ReturnMap(PARAMETERS, 1)
+    kinds = set()
+    for orbit in branch.orbits[::10]:
+        less_one = returns.residual(returns.scaled(orbit.acceleration, orbit.state))[1]
+        assert orbits.fold_test(orbit) == pytest.approx(np.linalg.det(less_one), abs=1e-6)
+        assert orbits.doubling_test(orbit) == pytest.approx(np.linalg.det(less_one + 2.0 * np.eye(2)), abs=1e-6)
+        kinds.add(orbit.multipliers[0].imag == 0.0)
+    assert kinds == {True, False}
+
+
 def test_jumping_exists_down_to_its_fold(branch):
     """Below the fold a part that jumps just above it comes to ride; at the fold a multiplier is +1."""
     fold = next(b for b in branch.bifurcations if b.kind == "fold")
@@ -79,6 +91,34 @@ def test_jumping_exists_down_to_its_fold(branch):
         row = pack(Conveyor(acceleration=fold.orbit.acceleration + change), Start())
         stroboscope.follow(row, 1e-11, state, 4000, strobes, features)
         assert (features[-1, stroboscope.IMPACTS] > 0) == jumps
+
+
+def test_a_branch_is_followed_around_its_turns(monkeypatch):
+    """A closed branch, a circle half as large as the largest step: chords between its points keep to it within 2 %."""
+    radius = 0.5 * orbits.LARGEST_STEP
+
+    class Circle(orbits.ReturnMap):
+        def residual(self, unknown):
+            x, y, a = unknown
+            return np.array([x * x + (a - 1.0) ** 2 - radius**2, y]), np.diag([2.0 * x, 1.0])
+
+        def slope(self, unknown):
+            return np.array([2.0 * (unknown[2] - 1.0), 0.0])
+
+        def strobes(self, unknown):
+            return unknown[None]
+
+        def describe(self, unknown):
+            return orbits.Orbit(float(unknown[2]), self.state(unknown), 1, (0.5 + 0j, 0.1 + 0j), 0.05, 1, 0.0, 0.5)
+
+    monkeypatch.setattr(orbits, "ReturnMap", Circle)
+    circle = Circle(PARAMETERS, 1)
+    found = orbits.follow_branch(PARAMETERS, circle.describe(np.array([radius, 0.0, 1.0])), (0.0, 2.0))
+    assert found.ends == ("closed", "closed")
+    points = np.array([circle.scaled(orbit.acceleration, orbit.state) for orbit in found.orbits]) - [0.0, 0.0, 1.0]
+    assert np.linalg.norm(points, axis=1) == pytest.approx(radius, rel=1e-6)
+    middles = 0.5 * (points[1:] + points[:-1])
+    assert np.linalg.norm(middles, axis=1).min() > 0.98 * radius
 
 
 def test_period_doubles_where_iteration_says(branch):
@@ -103,6 +143,21 @@ def test_feigenbaum_of_a_geometric_sequence():
     limit, error = orbits.accumulation(amplitudes)
     assert limit == pytest.approx(10.0)
     assert error < 1e-12
+
+
+def test_feigenbaums_ratio_is_that_of_the_logistic_map():
+    """Of the parameters a of 1 - a x² at which 0 comes back to itself after 2, 4, … cycles."""
+    superstable = [0.0, 1.0, 1.31]
+    for n in range(2, 12):
+        a = superstable[n]
+        for _ in range(8):
+            x = slope = 0.0
+            for _ in range(2**n):
+                x, slope = 1.0 - a * x * x, -x * x - 2.0 * a * x * slope
+            a -= x / slope
+        superstable[n] = a
+        superstable.append(a + (a - superstable[n - 1]) ** 2 / (superstable[n - 1] - superstable[n - 2]))
+    assert orbits.ratios(np.array(superstable[:-1]))[-1] == pytest.approx(orbits.FEIGENBAUM, rel=1e-6)
 
 
 def test_no_orbit_is_found_where_there_is_none():

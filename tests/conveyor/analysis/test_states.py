@@ -49,6 +49,15 @@ def test_part_that_cannot_be_followed_is_undecided():
     assert states.classify(row[None]).state[0] == "undecided"
 
 
+def test_an_exponent_of_zero_is_no_state():
+    """A part that rides undamped on a spring swings for ever, with two exponents of zero: neither settled nor chaos."""
+    conveyor = Conveyor(acceleration=0.0, damping=0.0, exponent=1.0, stiffness=3e3)
+    depth = conveyor.mass * conveyor.gravity / conveyor.stiffness  # at rest
+    found = states.classify(np.array([pack(conveyor, Start(z=-share * depth)) for share in (0.5, 0.9)]), cycles=400)
+    assert list(found.state) == ["undecided"] * 2
+    assert (found.cycles == 400).all()
+
+
 def test_sweep_keeps_to_its_attractor():
     """Up from rest the part rides beyond 45 m/s², down from jumping it jumps below: hysteresis."""
     for amplitudes, z0, state in (
@@ -115,6 +124,12 @@ def test_a_conveyor_may_have_two_chaotic_attractors():
     assert len(chaotic_set.chaotic_sets(random_starts(40.0, 1), cycles=states.CYCLES).low) == 0
     # At 72.97 m/s² chaos is a long transient: no start may be called chaos before its time is over.
     assert len(chaotic_set.chaotic_sets(random_starts(72.97, 1), cycles=states.CYCLES).low) == 0
+
+
+@pytest.mark.parametrize("cycles", [500, 1000, 2000])
+def test_chaos_that_some_starts_leave_late_is_no_attractor(cycles):
+    """At 73 m/s² all starts settle in the end: those that do late show it, though others have not settled by then."""
+    assert len(chaotic_set.chaotic_sets(random_starts(73.0, 1), cycles=cycles).low) == 0
 
 
 def test_a_period_is_the_shortest():

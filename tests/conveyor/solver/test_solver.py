@@ -154,6 +154,18 @@ def test_stick_obeys_filippov():
         assert abs(a_x) * conveyor.mass == pytest.approx(conveyor.friction * last["contact_force"][0], rel=1e-8)
 
 
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-7, 1e-9])
+def test_stick_ends_with_its_friction(tolerance):
+    """It may outlast |ẍ_s| = μ F_c/m by a force that cannot be told from none: ten tolerances of the part's weight."""
+    conveyor = Conveyor(acceleration=8.0, friction=0.6)
+    run = simulate(conveyor, Start("conveyor"), duration=0.2, tolerance=tolerance)
+    slip = run.events[run.events["kind"] == "slip"]["time"]
+    assert len(slip) > 5
+    a_x = 8.0 * math.cos(conveyor.angle) * np.abs(np.cos(100 * math.pi * slip))
+    lack = a_x / conveyor.friction - run.sample(slip)["contact_force"] / conveyor.mass
+    assert np.abs(lack).max() < 20.0 * tolerance * conveyor.gravity
+
+
 @pytest.mark.parametrize(("acceleration", "z"), [(30.0, 0.0), (40.0, 3e-4), (47.0, 0.0)])
 def test_tolerance_means_what_it_says(acceleration, z):
     answers = [
@@ -237,6 +249,26 @@ def test_a_nearly_still_plate_is_not_passed(acceleration):
     deepest = (5.0 * 0.7e-3 * 0.07**2 / (4.0 * 5e5)) ** 0.4
     assert -1.1 * deepest < gap.min() < -deepest  # a little more, since the weight presses too
     assert gap.max() == pytest.approx(0.07**2 / (2.0 * 9.81), rel=1e-3)
+
+
+def test_the_largest_gap_is_that_of_all_flights():
+    """A part that is dropped on a plate at rest never comes as high again."""
+    run = simulate(AT_REST, Start(z=5e-3), duration=0.3)
+    assert run.impacts > 3
+    assert run.max_gap == pytest.approx(5e-3, rel=1e-12)
+
+
+@pytest.mark.parametrize("speed", [1e-2, 5e-2])
+def test_small_bounces_go_on(speed):
+    """Without damping a part that jumps off a plate at rest jumps as high again and again, however low that is."""
+    conveyor = replace(AT_REST, damping=0.0)
+    depth = (conveyor.mass * conveyor.gravity / conveyor.stiffness) ** (1.0 / conveyor.exponent)  # at rest
+    velocity = speed * math.sqrt(2.0 * conveyor.gravity * depth)
+    run = simulate(conveyor, Start("conveyor", velocity), duration=0.1, tolerance=1e-8)
+    assert run.impacts > 5
+    impacts, separations = (run.events[run.events["kind"] == kind]["time"] for kind in ("impact", "separation"))
+    flights = impacts[1:] - separations[: len(impacts) - 1]
+    np.testing.assert_allclose(flights, 2.0 * velocity / conveyor.gravity, rtol=1e-2)
 
 
 @pytest.mark.parametrize("acceleration", [30.0, 47.0])

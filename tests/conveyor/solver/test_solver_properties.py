@@ -4,6 +4,7 @@ import math
 from time import process_time
 
 import numpy as np
+import pytest
 from hypothesis import HealthCheck, Phase, example, given, settings
 from hypothesis import strategies as st
 
@@ -70,7 +71,8 @@ def check(run, tolerance):
     depth = conveyor_motion(run.conveyor, times)["z"] - sample["z"]
     allowed = deepest_allowed(pack(run.conveyor, run.start)[None], np.array([run.max_gap]))[0]
     assert depth.max() <= allowed * (1.0 + 1e-6) + 1e-12 * abs(sample["z"]).max()
-    assert 0.0 <= run.contact_fraction <= 1.0 + 1e-12
+    # It is a sum over the steps, each with a rounding.
+    assert 0.0 <= run.contact_fraction <= 1.0 + 1e-12 + (run.work + run.repeats) * np.finfo(float).eps
     assert (np.diff(run.events["time"]) >= -1e-13 * run.duration).all()  # of one moment, up to rounding
     force = run.conveyor.friction * np.abs(sample["contact_force"])
     # A force that stick cannot tell from none rubs as well.
@@ -169,6 +171,25 @@ def test_any_run_ends_with_a_finite_motion_above_the_plate(conveyor, start):
     run = simulate(conveyor, start, duration=0.2, tolerance=1e-9)
     assert run.status == "ok"
     check(run, 1e-9)
+
+
+@pytest.mark.parametrize("acceleration", [0.0, 20.0, 35.0])
+def test_the_deepest_penetration_is_that_of_a_drop(acceleration):
+    """An undamped part dropped on a plate pushed up evenly: δ where the spring holds the work m (g + a) (h + δ).
+
+    From its lowest point on, 1 Hz, the plate's acceleration stays at a during the drop, to 1 - cos(0.04).
+    """
+    conveyor = Conveyor(acceleration=acceleration, angle=0.5 * math.pi, frequency=1.0, damping=0.0)
+    pull, height = conveyor.gravity + acceleration, 3e-4
+    start = Start(z=height - acceleration / (2.0 * math.pi) ** 2)
+    allowed = deepest_allowed(pack(conveyor, start)[None], np.array([height]))[0]
+    work = conveyor.mass * pull * (height + allowed)
+    assert conveyor.stiffness * allowed**2.5 / 2.5 == pytest.approx(work, rel=1e-12)
+    times = np.linspace(0.0, 1.5 * math.sqrt(2.0 * height / pull), 20_001)
+    run = simulate(conveyor, start, duration=times[-1], tolerance=1e-12)
+    depth = conveyor_motion(conveyor, times)["z"] - run.sample(times)["z"]
+    assert depth.max() == pytest.approx(allowed, rel=1e-3)
+    assert depth.max() <= allowed * (1.0 + 1e-9)
 
 
 def test_two_thousand_random_points():

@@ -1,0 +1,72 @@
+"""Single steps of the contact and what friction does in them, against energies and impulses."""
+
+import math
+
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start
+from conveyor.solver import contact, friction
+from conveyor.solver.model import pack
+
+
+def constants(tolerance, **model):
+    return contact.constants(pack(Conveyor(**model), Start()), tolerance)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5])
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-9, 1e-12])
+def test_a_step_errs_by_its_tolerance(exponent, tolerance):
+    """Without damping, on a plate at rest, v²/2 + k δ^(p+1)/(m (p+1)) - g δ stays as it was at the impact."""
+    stiffness = 5e5 if exponent == 1.5 else 3e3
+    c = constants(tolerance, acceleration=0.0, damping=0.0, exponent=exponent, stiffness=stiffness)
+    for speed in np.geomspace(c.scale_v, 1e3 * c.scale_v, 20):
+        series, w, v, sine, cosine = contact.workspace(), 0.0, speed, 0.0, 1.0
+        steps, event = 0, contact.NOTHING
+        while event != contact.SEPARATION:
+            _, w, v, lapse, event = contact.step(c, series, contact.FIRST, w, v, sine, cosine, False)
+            phase = math.atan2(sine, cosine) + c.omega * lapse
+            sine, cosine = math.sin(phase), math.cos(phase)
+            steps += 1
+            spring = c.stiffness * w ** (2.0 * exponent + 2.0) / (exponent + 1.0) - c.gravity * w * w
+            assert abs(0.5 * v * v + spring - 0.5 * speed * speed) <= steps * tolerance * speed * speed
+        assert v == pytest.approx(-speed, rel=steps * tolerance + 1e-14)
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
+def test_a_part_that_the_plate_leaves_behind_separates_once(tolerance):
+    """At its top the plate falls with a > g. Next to its surface, where the spring is nothing, a part comes out of it
+    with v² = v0² + 2 (a - g) δ0, and no step, however long it could be, swings through to the other side.
+    """
+    c = constants(tolerance, acceleration=100.0, angle=0.5 * math.pi, damping=0.0)
+    pull = c.a_z - c.gravity
+    for speed in c.rest_speed * np.geomspace(1.0, 10.0, 30):
+        depth = 0.5 * speed * speed / pull
+        for share in (0.1, 1.0, 10.0):
+            w, v0 = math.sqrt(depth), -share * speed
+            series, v, event = contact.workspace(), v0, contact.NOTHING
+            for _ in range(20):
+                _, w, v, _, event = contact.step(c, series, contact.FIRST, w, v, 0.0, -1.0, False)
+                if event != contact.NOTHING:
+                    break
+            assert (event, w) == (contact.SEPARATION, 0.0)
+            assert v == pytest.approx(-math.hypot(v0, speed), rel=1e-4, abs=tolerance * c.scale_v)
+
+
+def test_slip_may_end_before_the_force_pulls():
+    """A force that gives 1.2 m/s and then takes 0.5 m/s back has ended a slip of 1 m/s in between."""
+    c = constants(1e-8, acceleration=0.0)._replace(damping=2.0)
+    lapse, fastest = 0.01, 25.0  # a part that separates as fast all the time is pulled for damping × fastest × lapse
+    pulled = c.damping * fastest * lapse
+    assert pulled == pytest.approx(0.5)
+    assert not friction.keeps_slipping(c, 1.0, 0.0, 1.2 - pulled, lapse, 1.0, 1.0, fastest, 1.0)
+    assert friction.keeps_slipping(c, 1.0, 0.0, 0.9 - pulled, lapse, 1.0, 1.0, fastest, 1.0)
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_a_part_at_relative_rest_stays_within_the_cone_of_friction(sign):
+    """Filippov: it rests while |ẍ_s| ≤ μ F_c/m, and else slips with the sign of ẍ_s, also without friction."""
+    c = constants(1e-8)
+    assert friction.direction_at_rest(c, sign * 0.2 * 9.0 * (1.0 - 1e-4), 9.0, 0.2) == 0.0
+    assert friction.direction_at_rest(c, sign * 0.2 * 9.0 * (1.0 + 1e-4), 9.0, 0.2) == sign
+    assert friction.direction_at_rest(c, sign * 1e-12, 9.0, 0.0) == sign
