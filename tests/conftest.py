@@ -3,14 +3,14 @@
 import shutil
 
 import pytest
-from project import CAPTIONS, TARGETS, Project, copy_project
+from project import Project, copy_project
 
 
 @pytest.fixture(scope="session")
 def built(tmp_path_factory) -> Project:
     """A project whose figures have been made; tests leave its sources and results as they are."""
     project = Project(copy_project(tmp_path_factory.mktemp("built")))
-    project.make(*TARGETS, *CAPTIONS, "results/claims.md", "docs/companion.html")
+    project.make("all", "docs/companion.html")
     return project
 
 

@@ -14,7 +14,7 @@ def stems(folder, pattern):
 
 def test_every_figure_has_script_and_caption():
     assert stems("scripts/figures/plots", "*.py") - {"__init__"} == set(ENTRIES)
-    assert stems("workflow/report", "*.rst") - {"workflow", "claims"} == set(ENTRIES)
+    assert stems("workflow/report", "*.rst") - {"workflow", "claims", "provenance"} == set(ENTRIES)
 
 
 def test_readme_lists_every_figure():
@@ -32,6 +32,7 @@ def test_report_shows_every_figure_with_its_caption(built):
     run = built.snakemake("--report", "report.html")
     assert run.returncode == 0, run.stdout
     report = (built.folder / "report.html").read_text()
+    assert "results/provenance.json" in report
     for figure in FIGURES:
         assert f"figures/{figure}.png" in report
         assert json.dumps(ENTRIES[figure]["title"]) in report

@@ -1,12 +1,17 @@
 """Tests of results that the pipeline has made, not of its code: `snakemake` runs them as its rule check_results."""
 
-import pandas as pd
 import pytest
 
 from made import RESULTS
+from pipeline import tables
+from workflow.tables_of_config import kind_of
 
 
 @pytest.fixture(scope="session")
 def result():
     """A function that reads a table of the results."""
-    return lambda name: pd.read_parquet(RESULTS / f"{name}.parquet")
+
+    def read(name: str):
+        return tables.read(RESULTS / f"{name}.parquet", kind_of(name if "/" in name else f"results/{name}"))
+
+    return read

@@ -101,6 +101,13 @@ def test_every_package_behind_a_number_or_a_picture_counts():
     assert not names & {"math", "dataclasses"}
 
 
+def test_what_checks_the_config_reruns_nothing():
+    scripts = [str(path.relative_to(source_hash.SCRIPTS).with_suffix("")) for path in source_hash.SCRIPTS.rglob("*.py")]
+    _, packages = source_hash.closure(*scripts)
+    assert "numpy" in packages
+    assert not {"pydantic", "pydantic_core", "yaml", "snakemake", "workflow"} & set(packages)
+
+
 def test_plots_depend_on_no_solver():
     for figure in ("fig03", "fig22"):
         assert modules("draw", f"figures/plots/{figure}") == {
