@@ -108,21 +108,23 @@ class Project:
 
     def called(self, *arguments: str) -> subprocess.CompletedProcess:
         """Run Snakemake with these arguments."""
-        with self.started(*arguments) as process:
-            said, _ = process.communicate()
-        return subprocess.CompletedProcess(process.args, process.returncode, said)
+        return self.given_to(subprocess.run, *arguments, check=False)
 
     def started(self, *arguments: str) -> subprocess.Popen:
-        """Start Snakemake with these arguments, in a process group of its own."""
+        """Start Snakemake with these arguments, in a process group of its own, as a terminal does."""
+        return self.given_to(subprocess.Popen, *arguments, start_new_session=True)
+
+    def given_to(self, function, *arguments: str, **options):
+        """What a function of `subprocess` returns for Snakemake with these arguments."""
         environment = {name: value for name, value in os.environ.items() if not name.startswith("SNAKEMAKE")}
-        return subprocess.Popen(
+        return function(
             [sys.executable, "-m", "snakemake", *arguments],
             cwd=self.folder,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            start_new_session=True,
             env=environment | self.environment,
+            **options,
         )
 
     def make(self, *targets: str) -> None:
@@ -142,7 +144,7 @@ class Project:
 
     def under(self, overlay: dict) -> "Project":
         """The same folder under another overlay."""
-        return Project(self.folder, overlay)
+        return Project(self.folder, overlay, self.environment)
 
 
 def copy_project(folder: Path) -> Path:

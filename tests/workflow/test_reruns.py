@@ -62,7 +62,7 @@ def test_the_companion_after_what_it_is_made_of(edited, file, old, new):
 
 def test_the_companion_after_its_model(built):
     assert built.planned("docs/companion.html") == {}
-    assert built.under({"companion": {"cycles": 700}}).planned("docs/companion.html") == {"companion": 1}
+    assert built.under({"companion": {"cycles": 300}}).planned("docs/companion.html") == {"companion": 1}
 
 
 @pytest.mark.parametrize(
