@@ -3,6 +3,7 @@
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 from dataclasses import dataclass, field
@@ -111,8 +112,15 @@ class Project:
         return self.given_to(subprocess.run, *arguments, check=False)
 
     def started(self, *arguments: str) -> subprocess.Popen:
-        """Start Snakemake with these arguments, in a process group of its own, as a terminal does."""
-        return self.given_to(subprocess.Popen, *arguments, start_new_session=True)
+        """Start Snakemake with these arguments, in a process group of its own, as a terminal does.
+
+        Tests that nohup has started would hand on that SIGHUP is ignored.
+        """
+
+        def heed_the_terminal():
+            signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+        return self.given_to(subprocess.Popen, *arguments, start_new_session=True, preexec_fn=heed_the_terminal)
 
     def given_to(self, function, *arguments: str, **options):
         """What a function of `subprocess` returns for Snakemake with these arguments."""

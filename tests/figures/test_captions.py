@@ -122,6 +122,6 @@ def test_the_workflow_tells_its_own_jobs(built, monkeypatch):
     methods = ("amplitudes", "amplitudes_euler")
     assert names == {
         "figures/fig08.tsv",
-        *(f"runs/{name}/0.tsv" for name in methods),
+        *(f"shards/{name}/0.tsv" for name in methods),
         *(f"sweeps/{name}.tsv" for name in methods),
     }

@@ -11,7 +11,8 @@ TARGET, LOG = "results/{prefix}/estimates/phase.parquet", "results/{prefix}/logs
 
 def ended(built, prefix, end):
     """A project with a job that was ended while it ran, its target, and the process of Snakemake."""
-    project = built.under({"prefix": prefix})
+    # Long enough that the job still runs when its end comes.
+    project = built.under({"prefix": prefix, "estimates": {"phase": {"duration": 20.0}}})
     target = TARGET.format(prefix=prefix)
     process = project.started(target, *project.configfile())
     log = project.folder / LOG.format(prefix=prefix)
