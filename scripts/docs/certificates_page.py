@@ -85,7 +85,7 @@ def chaos(table: pd.DataFrame) -> str:
     return "\n".join(lines)
 
 
-def make(orbits: pd.DataFrame, folds: pd.DataFrame, horseshoes: pd.DataFrame) -> str:
+def page(orbits: pd.DataFrame, folds: pd.DataFrame, horseshoes: pd.DataFrame) -> str:
     """The page in Markdown."""
     settings = orbits.attrs
     held = orbits[orbits.contained]
@@ -189,3 +189,8 @@ They rest on python-flint's ball arithmetic at {settings["bits"]} bits (chaos: {
 Python, and on the processor. Tests repeat enclosures with other numbers of bits and orders and by hand-made bounds in
 rational arithmetic, and see that false orbits, wrong periods, a turned sign and a grazing box are refused.
 """
+
+
+def make(certificates: pd.DataFrame, certified_bifurcations: pd.DataFrame, certified_chaos: pd.DataFrame) -> str:
+    """The page from the tables of what was proved."""
+    return page(certificates, certified_bifurcations, certified_chaos)

@@ -90,7 +90,7 @@ def test_axes_have_units(name):
             labels = {one.get_label_text() for one in siblings} - {""}
             assert labels or any(in_words(one) for one in siblings), f"{axis} without a label"
             for label in labels:
-                unit = label.rsplit(" in ", 1)[-1]
+                unit = " ".join(label.split()).rsplit(" in ", 1)[-1]
                 assert unit in UNITS or any(word in label for word in NO_UNIT), label
 
 

@@ -31,7 +31,8 @@ def test_what_is_given_up_is_too_stiff(result):
     """Or starts so deep in the plate that its spring overflows."""
     table = result("random_points")
     given_up = table[table.status.isin(["contact too stiff", "too many events"])]
-    assert len(given_up)
+    # One in a thousand over the whole ranges.
+    assert len(given_up) or table.attrs["count"]["whole ranges"] < 1000
     assert (rates(given_up) > STIFF).all()
     assert (table.status == "ok").mean() > 0.5
 
