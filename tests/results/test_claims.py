@@ -86,7 +86,9 @@ def test_a_difference_is_told_with_both_values(result):
     row = table.index[table.id == "C07"][0]
     changed = table.copy()
     changed.at[row, "verdict"] = NOT_REPRODUCED
-    changed.at[row, "converged"] = np.array([0.08])
+    changed["converged"] = [
+        np.array([0.08]) if name == "C07" else found for name, found in zip(table.id, table.converged, strict=True)
+    ]
     first, second = differences(changed, ["C07"])
     assert first == "C07 is not reproduced, on the page reproduced"
     assert second.startswith("C07 has converged [0.08], on the page [0.07")
