@@ -21,6 +21,9 @@ whole = as_first_written(merged([*contents, config]), contents)
 if errors := problems(whole):
     raise WorkflowError(refusal(errors))
 
+# What overlays are compared with where the report says what it shows.
+PAPER = merged(contents[: len(STAGES) + 1])
+
 # Nothing that follows from the config may depend on the order of keys or the spelling of numbers in overlays. It is the same
 # object that Snakemake hands to the report.
 config.clear()
@@ -41,6 +44,7 @@ include: "workflow/rules/figures.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/docs.smk"
 include: "workflow/rules/builds.smk"
+include: "workflow/rules/report.smk"
 include: "workflow/rules/make.smk"
 
 
@@ -52,6 +56,7 @@ rule all:
         result("claims.md"),
         checked_files(),
         result("provenance.json"),
+        report_files(),
     localrule: True
     message:
         "All figures and claims are up to date"

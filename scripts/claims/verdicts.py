@@ -83,6 +83,11 @@ def written(interval: list[float | None]) -> str:
     return f"[{'-∞' if low is None else f'{low:.4g}'}, {'∞' if high is None else f'{high:.4g}'}]"
 
 
+def interval(low: float | None, high: float | None) -> str:
+    """An accepted interval of the table of claims, in which NaN, too, is no bound."""
+    return written([None if bound is None or math.isnan(bound) else bound for bound in (low, high)])
+
+
 def columns(claims: dict[str, dict], found: dict[str, Finding]) -> dict[str, list]:
     """The columns of the table of claims."""
     quantities = [claim["quantities"] for claim in claims.values()]
@@ -120,9 +125,6 @@ def report(rows: pd.DataFrame) -> str:
     def numbers(values) -> str:
         return ", ".join("–" if value is None or math.isnan(value) else f"{value:.4g}" for value in values) or "–"
 
-    def bound(value: float | None) -> float | None:
-        return None if value is None or math.isnan(value) else value
-
     lines = [
         "# The paper's statements",
         "",
@@ -136,7 +138,7 @@ def report(rows: pd.DataFrame) -> str:
     ]
     for row in rows.itertuples():
         accepted = "; ".join(
-            f"{written([bound(low), bound(high)])} ({because})"
+            f"{interval(low, high)} ({because})"
             for low, high, because in zip(row.accepted_low, row.accepted_high, row.because, strict=True)
         )
         lines.append(

@@ -2,7 +2,6 @@
 
 import math
 import re
-import shutil
 import time
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from browser import chromium
 from project import read_config
 from selenium import webdriver
 from selenium.webdriver.common.action_chains import ActionChains
@@ -26,24 +26,11 @@ from docs.companion import build
 from pipeline import grid
 from workflow.configuration import resolve
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-CHROMEDRIVER = shutil.which("chromedriver")
-
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG = read_config()
 TOLERANCE = CONFIG["companion"]["tolerance"]
 MAPS = ("map_height", "map_amplitude")
 PHONE, DESKTOP = (360, 740), (1280, 900)
-ARGUMENTS = (
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-)
 PLOTS = ("velocity", "height", "contact", "friction", "phase", "distance")
 
 # -- the page and the browser ------------------------------------------------------------------------------------------
@@ -126,14 +113,7 @@ class Browser:
 
 @pytest.fixture(scope="module")
 def browser(address, tmp_path_factory):
-    if not (CHROMIUM and CHROMEDRIVER):
-        pytest.skip("Chromium and chromedriver are not installed (Debian: chromium, chromium-driver)")
-    options = webdriver.ChromeOptions()
-    options.binary_location = CHROMIUM
-    for argument in (*ARGUMENTS, f"--user-data-dir={tmp_path_factory.mktemp('profile')}"):
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    driver = webdriver.Chrome(options=options, service=webdriver.ChromeService(CHROMEDRIVER))
+    driver = chromium(tmp_path_factory.mktemp("profile"))
     yield Browser(driver, address)
     driver.quit()
 

@@ -36,7 +36,8 @@ def made(project):
     """The contents of all results, figures and pages, by their paths."""
     # What other tests have made below a prefix of their own is none of this build.
     others = [f"results/{logs.parent.name}/" for logs in (project.folder / "results").glob("*/logs")]
-    aside = ("results/logs/", "results/benchmarks/", PROVENANCE, *others)
+    # Where results come from is not what they are; the report tells it.
+    aside = ("results/logs/", "results/benchmarks/", "results/report/", PROVENANCE, *others)
     files = [path for part in ("results", "figures", "docs") for path in (project.folder / part).rglob("*")]
     contents = {str(path.relative_to(project.folder)): path.read_bytes() for path in files if path.is_file()}
     return {name: content for name, content in contents.items() if not name.startswith(aside)}

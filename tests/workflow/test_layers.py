@@ -8,7 +8,7 @@ from workflow import source_hash
 STAGES = ("sweeps", "motion", "orbits", "dimensions", "fit", "accuracy", "claims", "figures", "docs")
 # Rooms of the library, from the ground up; `conveyor` itself has what leads to solver and methods: simulate, ensembles.
 ROOMS = ("conveyor.solver", "conveyor.methods", "conveyor", "conveyor.analysis", "conveyor.certificates")
-FLOORS = (*ROOMS, "pipeline", *STAGES, "builds", "")
+FLOORS = (*ROOMS, "pipeline", *STAGES, "builds", "report", "")
 
 
 def floor_of(module: str) -> int:

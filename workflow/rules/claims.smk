@@ -2,10 +2,7 @@
 RULES["claims"] = {
     "stage": "claims.verdicts",
     "message": "The paper's statements",
-    "output": {
-        "claims": result("claims.parquet"),
-        "report": report(result("claims.md"), caption="../report/claims.rst", category="Claims"),
-    },
+    "output": {"claims": result("claims.parquet"), "report": result("claims.md")},
     "place": "checks/claims",
     "runtime": 10,
 } | read_tables(reference for claim in config["claims"].values() for reference in claim["tables"].values())

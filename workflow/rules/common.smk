@@ -2,9 +2,11 @@
 #
 # The stages' files fill RULES: one entry for each rule that makes tables or pages, with what it needs to know. All of them
 # run scripts/make.py on a module of their stage.
+import glob
 import hashlib
 import json
 import math
+import os
 import re
 from pathlib import Path
 from types import SimpleNamespace

@@ -1,4 +1,4 @@
-# Figures: the table `figures` of the config makes one rule for each, with its own caption in the report.
+# Figures: the table `figures` of the config makes one rule for each.
 
 
 def figure_file(figure, ending="pdf"):
@@ -20,11 +20,6 @@ def in_message(text):
     return text.replace("{", "{{").replace("}", "}}")
 
 
-def in_label(text):
-    """A text for a label of the report, where {name} is a wildcard that nothing escapes: an invisible character does."""
-    return text.replace("{", "{\u2060")
-
-
 for figure, entry in config["figures"].items():
 
     rule:
@@ -34,16 +29,7 @@ for figure, entry in config["figures"].items():
             **{role: table(*reference.split("/")) for role, reference in entry["tables"].items()},
         output:
             pdf=figure_file(figure),
-            png=report(
-                figure_file(figure, "png"),
-                caption=f"../../{result(f'captions/{figure}.rst')}",
-                category="Figures",
-                labels={
-                    "figure": figure,
-                    "title": in_label(entry["title"]),
-                    "section": in_label(entry["section"]),
-                },
-            ),
+            png=figure_file(figure, "png"),
         log:
             log_file(f"figures/{figure}"),
         benchmark:

@@ -1,0 +1,1 @@
+"""Stage report: the pages that `snakemake --report` shows, figures beside their captions."""
