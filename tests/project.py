@@ -36,6 +36,7 @@ SINGLE = (
     "rigid_part",
     "random_points",
     "companion",
+    "operating",
 )
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}
 COARSE_PAIRS = {"axes": {"acceleration": {"num": 3}}, "duration": 0.1}
@@ -47,7 +48,19 @@ TINY = {
 }
 
 
-CONFIG_FILES = ("config", "sweeps", "motion", "orbits", "dimensions", "fit", "accuracy", "claims", "figures", "docs")
+CONFIG_FILES = (
+    "config",
+    "sweeps",
+    "motion",
+    "orbits",
+    "dimensions",
+    "fit",
+    "operating",
+    "accuracy",
+    "claims",
+    "figures",
+    "docs",
+)
 
 
 def read_config(*files: str) -> dict:

@@ -161,6 +161,10 @@ def sizes(config: dict) -> Iterator[str]:
                     f"{section}.{name}.axes makes {rows:,} points or rows; at most {LARGEST_TABLE:,} are computed, "
                     "some hours of a machine: give a smaller num"
                 )
+    operating = config["operating"]
+    starts = count_values(operating["acceleration"]) * operating["starts"]
+    if starts > LARGEST_TABLE:
+        yield f"operating.starts makes {starts:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
 
 
 def tables_of(config: dict) -> Iterator[str]:

@@ -401,6 +401,20 @@ class RandomPoints(TypedDict):
     tolerance: Tolerance
 
 
+class Operating(TypedDict):
+    acceleration: Accelerations
+    resolution: positive(1e4, "m/s²")
+    height: interval(number(0, 10, "m"), point=True)
+    vz0: interval(Velocity, point=True)
+    psi0: interval(NUMBERS["psi0"], point=True)
+    starts: whole(16, 10**6)
+    seed: Seed
+    followed: whole(2, 1000)
+    cycles: whole(10, 10**6, "excitation cycles")
+    same_velocity: number(0, 1, "of the larger velocity", "()")
+    tolerance: Tolerance
+
+
 class FigureSettings(TypedDict, total=False):
     acceleration: Acceleration
     z0: HeightNumber
@@ -469,6 +483,7 @@ class Config(TypedDict):
     settling_times: SettlingTimes
     label_checks: LabelChecks
     random_points: RandomPoints
+    operating: Operating
     figures: dict[Name, Figure]
     companion: Companion
 

@@ -17,6 +17,7 @@ TABLES = {
     ),
     "attractors": ("strobes",),
     "lyapunov": ("spectrum", "witnesses"),
+    "operating": ("shares", "regimes"),
     "results": (
         "claims",
         "benchmark",

@@ -9,6 +9,7 @@ from jinja2 import Environment, StrictUndefined
 from accuracy import stability
 from claims.about_chaos import positive_onset
 from claims.about_states import runs_of, second_from_rest, written_runs
+from operating.chart import of_the_search
 
 MM = 1e3
 SIGNIFICANT = 3.0  # standard errors by which an exponent is positive
@@ -135,6 +136,11 @@ def stability_maps(tables: Tables, settings: dict) -> dict[str, str]:
     }
 
 
+def of_the_box(tables: Tables, settings: dict) -> dict[str, str]:
+    shares = tables["shares"]
+    return of_the_search(shares) | {"largest_error": f"{100.0 * shares.stderr.max():.1f}"}
+
+
 NUMBERS: dict[str, Callable[[Tables, dict], dict[str, str]]] = {
     "fig03": fig03,
     "fig08": fig08,
@@ -145,7 +151,9 @@ NUMBERS: dict[str, Callable[[Tables, dict], dict[str, str]]] = {
     "fig23": fig23,
     "fig24": fig24,
     "bifurcation": bifurcation,
+    "basin_stability": of_the_box,
     "certificates": longest_period,
+    "operating": of_the_box,
     "rigid_part": rigid_part,
     "settling": settling,
     "stability": stability_maps,

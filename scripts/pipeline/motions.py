@@ -42,9 +42,16 @@ def of_conveyors(parameters: np.ndarray) -> list[np.ndarray]:
     return np.split(order, np.flatnonzero(np.diff(batch)) + 1)
 
 
-def motions(parameters: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> Motions:
-    """The motions that the starts of `parameters`, shape (n, 13), end in; `settings` are those of their entry."""
-    shared = starts_per_conveyor(settings["axes"]) >= SHARED
+def motions_of_starts(
+    parameters: np.ndarray, settings: dict, *, shared: bool, threads: int = 1, progress: str | None = None
+) -> Motions:
+    """The motions that starts end in, whether or not their conveyors' chaotic sets are found first (`shared`).
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 13)
+    settings : `settling`, and `tolerance` if it is not the default
+    """
     options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
     batches = of_conveyors(parameters)
     parts = []
@@ -54,6 +61,12 @@ def motions(parameters: np.ndarray, settings: dict, *, threads: int = 1, progres
         parts.append(classify(parameters[rows], known=known, **options, progress=label))
     order = np.argsort(np.concatenate(batches))
     return Motions(*(np.concatenate(column)[order] for column in zip(*parts, strict=True)))
+
+
+def motions(parameters: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> Motions:
+    """The motions that the starts of `parameters`, shape (n, 13), end in; `settings` are those of their entry."""
+    shared = starts_per_conveyor(settings["axes"]) >= SHARED
+    return motions_of_starts(parameters, settings, shared=shared, threads=threads, progress=progress)
 
 
 def motions_after(

@@ -19,6 +19,7 @@ ALLOWED = (
     r":sub:`\d`",
     r"1/s\b",
     r"DOP853|RK4\d?",
+    r"a confidence of 95 %",
 )
 WORDS = r"\b(eleven|twelve|thirteen|fifteen|twenty|thirty|fifty|hundred)\b"
 

@@ -1,0 +1,67 @@
+"""Basin stability: the velocity of each motion over the amplitude, as thick as the share of starts that end in it."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from figures import style
+
+THICKEST = 6.0  # points: the width of a line for all starts
+THINNEST = 0.5  # points, so that the rarest motion is seen
+SHOWN = (0.05, 0.5, 1.0)  # shares in the legend
+
+
+def width(share: np.ndarray | float) -> np.ndarray:
+    """Width of a line in points for a share of the starts."""
+    return THINNEST + (THICKEST - THINNEST) * np.asarray(share)
+
+
+def ends_of(amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where the piece of an axis begins and ends that stands for each of some amplitudes, ascending, shape (m,)."""
+    between = 0.5 * (amplitudes[1:] + amplitudes[:-1])
+    return np.concatenate([amplitudes[:1], between]), np.concatenate([between, amplitudes[-1:]])
+
+
+def vertical_axis(axes: Axes, shares: pd.DataFrame) -> Axis:
+    """An axis above for the largest vertical acceleration of the plate, in g."""
+    unit = shares.acceleration.iloc[0] / shares.vertical.iloc[0]
+    above = axes.secondary_xaxis("top", functions=(lambda x: x / unit, lambda x: x * unit))
+    above.set_xlabel("vertical acceleration $a_z$ in g")
+    return above
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the table of shares."""
+    shares = tables["shares"]
+    figure = style.figure(style.PAGE, 92.0)
+    axes = figure.subplots()
+    amplitudes = np.sort(shares.acceleration.unique())
+    begin, end = ends_of(amplitudes)
+    place = np.searchsorted(amplitudes, shares.acceleration)
+    pieces = [
+        [(begin[k], velocity), (end[k], velocity)] for k, velocity in zip(place, shares.mean_velocity, strict=True)
+    ]
+    colours = shares.state.map(style.STATE_COLOURS)
+    # Without smoothed edges, which would leave hairlines between the pieces.
+    axes.add_collection(LineCollection(pieces, linewidths=width(shares.share), colors=colours, antialiaseds=False))
+    axes.axhline(0.0, color="black", linewidth=0.6, zorder=0)
+    axes.set_xlim(amplitudes[0], amplitudes[-1])
+    low, high = shares.mean_velocity.min(), shares.mean_velocity.max()
+    axes.set_ylim(min(0.0, low) - 0.05 * (high - low), high + 0.08 * (high - low))
+    axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    axes.set_ylabel("mean feeding velocity in m/s")
+    vertical_axis(axes, shares)
+    handles = [
+        Patch(color=style.STATE_COLOURS[state], label=state)
+        for state in style.STATE_COLOURS
+        if state in set(shares.state)
+    ]
+    handles += [Line2D([], [], color="0.3", linewidth=width(share), label=f"{100.0 * share:g} %") for share in SHOWN]
+    handles.append(Patch(color="none", label="of the starts"))
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), columnspacing=1.2)
+    return figure

@@ -1,0 +1,67 @@
+"""Operating chart: regimes, velocities and the share of starts that gets the best one, over the amplitude."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from figures import style
+from figures.plots.basin_stability import ends_of, vertical_axis
+from operating.regimes import BESIDE, CHAOS, ONE, SEVERAL, UNKNOWN, best_of
+
+LOOKS = {
+    ONE: {"facecolor": "#56B4E9"},
+    SEVERAL: {"facecolor": "#F0E442"},
+    BESIDE: {"facecolor": "white", "edgecolor": style.STATE_COLOURS["chaos"], "hatch": "//////"},
+    CHAOS: {"facecolor": style.STATE_COLOURS["chaos"]},
+    UNKNOWN: {"facecolor": style.STATE_COLOURS["undecided"]},
+}
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the tables of shares and regimes."""
+    shares, regimes = tables["shares"], tables["regimes"]
+    figure = style.figure(style.PAGE, 104.0)
+    strip, velocities, share = figure.subplots(3, 1, sharex=True, height_ratios=(0.35, 3.0, 2.0))
+    amplitudes = np.sort(shares.acceleration.unique())
+    begin, end = ends_of(amplitudes)
+    for row in regimes.itertuples():
+        left, right = begin[np.searchsorted(amplitudes, row.begin)], end[np.searchsorted(amplitudes, row.end)]
+        strip.axvspan(left, right, linewidth=0.0, **LOOKS[row.regime])
+    strip.set_yticks([])
+    strip.spines[["left", "bottom"]].set_visible(False)
+    strip.tick_params(bottom=False)
+    vertical_axis(strip, shares)
+
+    by_amplitude = shares.groupby("acceleration")
+    best = best_of(shares, shares.attrs["same_velocity"])
+    means = by_amplitude.apply(lambda rows: (rows.share * rows.mean_velocity).sum(skipna=False), include_groups=False)
+    velocities.fill_between(amplitudes, by_amplitude.mean_velocity.min(), best.best, color="0.88", linewidth=0.0)
+    velocities.plot(best.acceleration, best.best, color="black", label="fastest motion")
+    velocities.plot(
+        means.index, means, color="black", linewidth=0.8, linestyle=(0, (3, 2)), label="mean over all starts"
+    )
+    velocities.plot(
+        amplitudes, by_amplitude.mean_velocity.min(), color="0.5", linewidth=0.8, linestyle=":", label="slowest motion"
+    )
+    velocities.axhline(0.0, color="black", linewidth=0.4, zorder=0)
+    velocities.set_ylabel("mean feeding velocity in m/s")
+
+    share.fill_between(
+        best.acceleration,
+        100.0 * (best.best_share - 2.0 * best.stderr).clip(0.0, 1.0),
+        100.0 * (best.best_share + 2.0 * best.stderr).clip(0.0, 1.0),
+        color="0.75",
+        linewidth=0.0,
+        step="mid",
+    )
+    share.plot(best.acceleration, 100.0 * best.best_share, color="black", drawstyle="steps-mid")
+    share.set_ylim(0.0, 104.0)
+    share.set_ylabel("starts that get the\nfastest motion in %")
+    share.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    share.set_xlim(amplitudes[0], amplitudes[-1])
+    figure.align_ylabels([velocities, share])
+    handles = [Patch(**look, label=regime) for regime, look in LOOKS.items() if (regimes.regime == regime).any()]
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
+    velocities.legend(loc="upper left")
+    return figure

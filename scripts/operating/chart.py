@@ -1,0 +1,116 @@
+"""The operating chart in words: one paragraph and one table, all numbers from the tables."""
+
+import math
+
+import numpy as np
+import pandas as pd
+from jinja2 import Environment, StrictUndefined
+
+from operating.regimes import CHAOS, ONE, SEVERAL, UNKNOWN, best_of
+
+# None of n independent starts did it: with 95 % confidence fewer than this over n do (-log 0.05 is 2.996).
+RULE_OF_THREE = 3.0
+
+
+def numbers(low: float, high: float, factor: float = 1.0) -> str:
+    """ "0.0648 to 0.141", or one number where both are equal to three digits."""
+    if math.isnan(low):
+        return "not known"
+    both = [f"{factor * value:.3g}" for value in (low, high)]
+    return both[0] if both[0] == both[1] else f"{both[0]} to {both[1]}"
+
+
+def listed(parts: list[str]) -> str:
+    return " and ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)
+
+
+def places(begin: pd.Series, end: pd.Series, resolution: float) -> str:
+    """Intervals of amplitudes (m/s²), to the digits that are known."""
+    digits = max(0, math.ceil(-math.log10(resolution)))
+    ends = [(f"{first:.{digits}f}", f"{last:.{digits}f}") for first, last in zip(begin, end, strict=True)]
+    return listed([first if first == last else f"{first} to {last}" for first, last in ends])
+
+
+def regular(shares: pd.DataFrame, regimes: pd.DataFrame) -> dict[str, str]:
+    """Where every start ends in one velocity, and where in several; of these which share gets the best one."""
+    resolution = shares.attrs["resolution"]
+    one, several = regimes[regimes.regime == ONE], regimes[regimes.regime == SEVERAL]
+    found = {
+        "one": listed(
+            [
+                f"{places([row.begin], [row.end], resolution)} m/s² ({row.states.replace(', ', ' and ')} state, "
+                f"{numbers(row.velocity_low, row.best_high)} m/s)"
+                for row in one.itertuples()
+            ]
+        )
+        if len(one)
+        else "",
+        "several": places(several.begin, several.end, resolution) if len(several) else "",
+    }
+    if several.empty:
+        return found
+    best = best_of(shares, shares.attrs["same_velocity"])
+    within = [best.acceleration.between(row.begin, row.end) for row in several.itertuples()]
+    best = best[np.logical_or.reduce(within)]
+    most = best.loc[best.best_share.idxmax()]
+    return found | {
+        "several_best": numbers(several.best_low.min(), several.best_high.max()),
+        "several_share": numbers(several.best_share_low.min(), several.best_share_high.max(), 100.0),
+        "most_share": f"{100.0 * most.best_share:.1f}",
+        "most_stderr": f"{100.0 * most.stderr:.1f}",
+        "most_at": f"{most.acceleration:g}",
+        "most_best": f"{most.best:.3g}",
+    }
+
+
+def irregular(regimes: pd.DataFrame, resolution: float) -> dict[str, str]:
+    """Where chaos begins, where it is all there is, and where nothing is known."""
+    chaotic = regimes[regimes.states.str.contains("chaos")].begin.head(1)
+    found = {"chaos": places(chaotic, chaotic, resolution) if len(chaotic) else ""}
+    for name, regime in (("only", CHAOS), ("unknown", UNKNOWN)):
+        rows = regimes[regimes.regime == regime]
+        found[name] = places(rows.begin, rows.end, resolution) if len(rows) else ""
+    return found
+
+
+def of_the_search(shares: pd.DataFrame) -> dict[str, str]:
+    """What was looked at, and how closely."""
+    search = shares.attrs
+    amplitudes = np.sort(shares.acceleration.unique())
+    return {
+        "starts": str(search["starts"]),
+        "heights_mm": numbers(*search["height"], 1e3),
+        "velocities": numbers(*search["vz0"]),
+        "phases": numbers(*search["psi0"]),
+        "amplitudes": str(len(amplitudes)),
+        "lowest": f"{amplitudes[0]:g}",
+        "highest": f"{amplitudes[-1]:g}",
+        "vertical": numbers(shares.vertical.min(), shares.vertical.max()),
+        "others": f"{100.0 * RULE_OF_THREE / search['starts']:.2g}",
+        "resolution": f"{search['resolution']:g}",
+        "step": f"{np.diff(amplitudes).max(initial=0.0):.3g}",
+        "same_velocity": f"{100.0 * search['same_velocity']:g}",
+    }
+
+
+def rows_of(regimes: pd.DataFrame, resolution: float) -> list[list[str]]:
+    """The cells of the table, a row for each interval of amplitudes."""
+    return [
+        [
+            places([row.begin], [row.end], resolution),
+            row.regime,
+            row.states,
+            numbers(row.best_low, row.best_high),
+            numbers(row.best_share_low, row.best_share_high, 100.0),
+            numbers(row.velocity_low, row.velocity_low),
+        ]
+        for row in regimes.itertuples()
+    ]
+
+
+def make(template: str, shares: pd.DataFrame, regimes: pd.DataFrame) -> str:
+    """The page from its template and the tables of shares and regimes."""
+    resolution = shares.attrs["resolution"]
+    told = regular(shares, regimes) | irregular(regimes, resolution) | of_the_search(shares)
+    environment = Environment(undefined=StrictUndefined, keep_trailing_newline=True)
+    return environment.from_string(template).render(told, rows=rows_of(regimes, resolution))

@@ -1,0 +1,105 @@
+"""What the shares of motions mean for who runs a conveyor: where one velocity is certain, where several exist."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+
+from pipeline import fields
+
+ONE, SEVERAL, BESIDE, CHAOS, UNKNOWN = REGIMES = (
+    "one velocity",
+    "several velocities",
+    "chaos beside other motions",
+    "chaos only",
+    "unknown",
+)
+
+TABLES = {
+    "regimes": (
+        fields.count("number", "of the interval of amplitudes, from below"),
+        fields.text("regime", f"{', '.join(REGIMES)} (a start is undecided, or a velocity not known)"),
+        fields.number("begin", "m/s²", "lowest amplitude of the interval that was looked at"),
+        fields.number("end", "m/s²", "highest amplitude of the interval that was looked at"),
+        fields.number("step", "m/s²", "largest distance of neighbouring amplitudes that were looked at within"),
+        fields.count("amplitudes", "that were looked at"),
+        fields.text("states", "states of motion that occur, the most frequent one first"),
+        fields.number("velocity_low", "m/s", "smallest mean velocity of any motion"),
+        fields.number("best_low", "m/s", "smallest velocity, over the amplitudes, of the fastest motion"),
+        fields.number("best_high", "m/s", "largest velocity of the fastest motion"),
+        fields.number("best_share_low", "1", "smallest share of starts that get the velocity of the fastest motion"),
+        fields.number("best_share_high", "1", "largest share of starts that get the velocity of the fastest motion"),
+        fields.number("best_share_stderr", "1", "largest standard error of these shares"),
+    ),
+}
+
+
+def same(velocity: np.ndarray, other: float, share: float) -> np.ndarray:
+    """Which velocities are one with another: they differ by at most a share of the larger one."""
+    return np.abs(velocity - other) <= share * np.maximum(np.abs(velocity), abs(other))
+
+
+def regime_of(state: np.ndarray, velocity: np.ndarray, share: float) -> str:
+    """The regime of one amplitude from states and velocities of its motions, shape (k,)."""
+    if np.isnan(velocity).any() or (state == "undecided").any():
+        return UNKNOWN
+    if (state == "chaos").all():
+        return CHAOS
+    if (state == "chaos").any():
+        return BESIDE
+    return ONE if same(velocity, velocity.max(), share).all() else SEVERAL
+
+
+def regimes_of(table: Mapping[str, np.ndarray], share: float) -> tuple[np.ndarray, np.ndarray]:
+    """Amplitudes of a table of shares, ascending, and the regime at each, both of shape (m,)."""
+    places, begin = np.unique(table["acceleration"], return_index=True)
+    ends = [*begin[1:], len(table["acceleration"])]
+    state, velocity = np.asarray(table["state"]), np.asarray(table["mean_velocity"])
+    parts = [slice(*part) for part in zip(begin, ends, strict=True)]
+    return places, np.array([regime_of(state[part], velocity[part], share) for part in parts])
+
+
+def best_of(shares: pd.DataFrame, share: float) -> pd.DataFrame:
+    """By amplitude: `best`, the velocity of the fastest motion, `best_share`, that of all starts that get it, and the
+    `stderr` of the latter; NaN where no velocity is known.
+    """
+    rows = []
+    for acceleration, motions in shares.groupby("acceleration"):
+        best = motions.mean_velocity.max()
+        get_it = float(motions.share[same(motions.mean_velocity.to_numpy(), best, share)].sum())
+        get_it = np.nan if np.isnan(best) else get_it
+        # The sum of shares may miss one by a rounding.
+        error = np.sqrt(max(get_it * (1.0 - get_it), 0.0) / motions.starts.sum())
+        rows.append((acceleration, best, get_it, error))
+    return pd.DataFrame(rows, columns=["acceleration", "best", "best_share", "stderr"])
+
+
+def make(shares: pd.DataFrame) -> dict[str, np.ndarray]:
+    """The columns of the table of regimes: one row for each interval of amplitudes with one regime."""
+    limit = shares.attrs["same_velocity"]
+    places, regimes = regimes_of({name: shares[name].to_numpy() for name in shares}, limit)
+    best = best_of(shares, limit)
+    changes = np.flatnonzero(regimes[1:] != regimes[:-1]) + 1
+    rows = []
+    for number, part in enumerate(np.split(np.arange(len(places)), changes), start=1):
+        inside = shares[shares.acceleration.between(places[part[0]], places[part[-1]])]
+        own = best.iloc[part]
+        states = inside.groupby("state").starts.sum().sort_values(ascending=False, kind="stable")
+        rows.append(
+            {
+                "number": number,
+                "regime": regimes[part[0]],
+                "begin": places[part[0]],
+                "end": places[part[-1]],
+                "step": np.diff(places[part]).max() if len(part) > 1 else np.nan,
+                "amplitudes": len(part),
+                "states": ", ".join(states.index),
+                "velocity_low": inside.mean_velocity.min(),
+                "best_low": own.best.min(),
+                "best_high": own.best.max(),
+                "best_share_low": own.best_share.min(),
+                "best_share_high": own.best_share.max(),
+                "best_share_stderr": own.stderr.max(),
+            }
+        )
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}

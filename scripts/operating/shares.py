@@ -1,0 +1,187 @@
+"""Basin stability: the motions in which the starts of a box end, with their shares and velocities, over the amplitude.
+
+The starts are drawn independently, so that a share has the standard error of a binomial one. Steps of the amplitude are
+halved where the answer changes.
+"""
+
+import math
+
+import numpy as np
+
+from conveyor import ensemble
+from conveyor.analysis.states import Motions
+from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, GRAVITY, PSI0, VZ0, Z0
+from operating.regimes import regimes_of
+from pipeline import fields, grid
+from pipeline.motions import motions_of_starts
+
+TABLES = {
+    "shares": (
+        fields.number("acceleration", "m/s²", "amplitude of the excitation"),
+        fields.number("vertical", "1", "largest vertical acceleration of the plate, in g"),
+        fields.count("motion", "number of the motion at this amplitude, the fastest one first"),
+        *fields.STATE,
+        fields.number("longest_flight", "1", "of the motion, in excitation cycles; null for none"),
+        fields.count("starts", "starts that end in the motion"),
+        fields.number("share", "1", "of all starts of the box"),
+        fields.number("stderr", "1", "standard error of the share"),
+        fields.number("mean_velocity", "m/s", "mean feeding velocity of the motion; null where it is not known"),
+        fields.number("velocity_stderr", "m/s", "its standard error, from several starts that end in the motion"),
+        fields.text("status", "ok, or why there is no velocity"),
+    ),
+}
+
+# Motions of one state and period are two if their longest flights are farther apart, in excitation cycles.
+APART = 0.01
+# A mean velocity is known if a run twice as long has the same one, to this share of the plate's largest.
+SETTLED = 1e-3
+DOUBLINGS = 6  # of the run, after which its velocity is not known
+FORGOTTEN = 200  # excitation cycles that the horizontal motion gets at least to forget its start
+
+
+def starts_of_box(settings: dict) -> np.ndarray:
+    """Height above the plate (m), vertical velocity (m/s) and phase (rad) of the starts, shape (n, 3)."""
+    low, high = np.array([settings[name] for name in ("height", "vz0", "psi0")], dtype=np.float64).T
+    return low + (high - low) * np.random.default_rng(settings["seed"]).random((settings["starts"], 3))
+
+
+def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:
+    """Packed parameters of all starts, shape (n, 3), at each of m amplitudes, shape (m n, 13)."""
+    _, conveyors = grid.product({"acceleration": list(amplitudes)}, model)
+    rows = np.repeat(conveyors, len(starts), axis=0)
+    height, velocity, phase = np.tile(starts, (len(amplitudes), 1)).T
+    stroke = rows[:, ACCELERATION] * np.sin(rows[:, ANGLE]) / (2.0 * math.pi * rows[:, FREQUENCY]) ** 2
+    rows[:, PSI0], rows[:, VZ0] = phase, velocity
+    rows[:, Z0] = height - stroke * np.cos(phase)  # Eq. 4
+    return rows
+
+
+def groups(found: Motions) -> np.ndarray:
+    """The number of each start's motion, int64, shape (n,): state and period are one, longest flights neighbours."""
+    flights = np.nan_to_num(found.longest_flight, nan=-1.0)
+    order = np.lexsort((flights, found.period, found.state))
+    same = (
+        (found.state[order][1:] == found.state[order][:-1])
+        & (found.period[order][1:] == found.period[order][:-1])
+        & (np.diff(flights[order]) <= APART)
+    )
+    number = np.empty(len(order), dtype=np.int64)
+    number[order] = np.concatenate([[0], np.cumsum(~same)])
+    return number
+
+
+def velocities(
+    parameters: np.ndarray, period: np.ndarray, settled: np.ndarray, settings: dict, *, threads: int = 1
+) -> tuple[np.ndarray, np.ndarray]:
+    """Mean feeding velocity (m/s) of starts once they have settled, and why it is not known, both of shape (n,).
+
+    Each is followed until it has settled, and twice as long, until both mean velocities agree; those of chaos, which
+    never do, are taken over the longer run.
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 13)
+    period : of the motion in excitation cycles, 0 for none
+    settled : excitation cycles after which the vertical motion has settled
+    """
+    n = len(parameters)
+    found, status = np.full(n, np.nan), np.full(n, "mean velocity not settled", dtype=object)
+    plate = parameters[:, ACCELERATION] * np.cos(parameters[:, ANGLE]) / (2.0 * math.pi * parameters[:, FREQUENCY])
+    # A mean over whole periods; the last quarter of a run is what a mean is taken over.
+    step = np.maximum(period, 1)
+    quarter = np.maximum(settings["cycles"], np.ceil((settled + FORGOTTEN) / 3.0))
+    open_ = np.arange(n)
+    for doubling in range(DOUBLINGS):
+        cycles = 4.0 * step[open_] * np.ceil(2.0**doubling * quarter[open_] / step[open_])
+        runs = ensemble.run(
+            parameters[open_],
+            duration=cycles / parameters[open_, FREQUENCY],
+            tolerance=settings["tolerance"],
+            chunk=4,
+            threads=threads,
+        )
+        failed = runs["status"] != "ok"
+        status[open_[failed]] = runs["status"][failed]
+        chaotic = period[open_] == 0
+        close = np.abs(runs["mean_velocity"] - found[open_]) <= SETTLED * plate[open_]
+        known = ~failed & (close | (chaotic & (doubling > 0)))
+        found[open_] = runs["mean_velocity"]
+        status[open_[known]] = "ok"
+        open_ = open_[~failed & ~known]
+    found[status != "ok"] = np.nan
+    return found, status
+
+
+def motions_at(amplitudes: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict:
+    """The columns of the table for some amplitudes (m/s²), ascending, shape (m,)."""
+    starts = starts_of_box(settings)
+    parameters = parameters_of(amplitudes, starts, settings["model"])
+    found = motions_of_starts(parameters, settings, shared=True, threads=threads, progress=progress)
+    rows, chosen, numbers = [], [], []
+    for k in range(len(amplitudes)):
+        own = slice(k * len(starts), (k + 1) * len(starts))
+        number = groups(Motions(*(column[own] for column in found)))
+        for motion in range(number.max() + 1):
+            members = own.start + np.flatnonzero(number == motion)
+            soonest = members[np.argsort(found.cycles[members], kind="stable")][: settings["followed"]]
+            chosen.append(soonest)
+            numbers.append(np.full(len(soonest), len(rows)))
+            rows.append((members[0], len(members)))
+    first, count = np.array(rows).T
+    chosen, numbers = np.concatenate(chosen), np.concatenate(numbers)
+    period, cycles = found.period[chosen], found.cycles[chosen]
+    # What has no period is no more settled later on.
+    settled = np.where(period > 0, cycles, np.minimum(cycles, settings["cycles"]))
+    each, each_status = velocities(parameters[chosen], period, settled, settings, threads=threads)
+    each_status[found.state[chosen] == "undecided"] = "state not decided"
+    known = each_status == "ok"
+    sizes = np.bincount(numbers, weights=known, minlength=len(rows))
+    velocity, error = np.full(len(rows), np.nan), np.full(len(rows), np.nan)
+    status = np.full(len(rows), "ok", dtype=object)
+    for row in range(len(rows)):
+        own = numbers == row
+        status[row] = "ok" if known[own].all() else each_status[own][~known[own]][0]
+        if status[row] == "ok":
+            velocity[row] = each[own].mean()
+            error[row] = each[own].std(ddof=1) / math.sqrt(sizes[row]) if sizes[row] > 1 else np.nan
+    share = count / len(starts)
+    acceleration = parameters[first, ACCELERATION]
+    order = np.lexsort((-count, -np.nan_to_num(velocity, nan=-np.inf), acceleration))
+    columns = {
+        "acceleration": acceleration,
+        "vertical": acceleration * np.sin(parameters[first, ANGLE]) / parameters[first, GRAVITY],
+        "state": found.state[first],
+        "period": found.period[first],
+        "longest_flight": found.longest_flight[first],
+        "starts": count,
+        "share": share,
+        "stderr": np.sqrt(share * (1.0 - share) / len(starts)),
+        "mean_velocity": velocity,
+        "velocity_stderr": error,
+        "status": status,
+    }
+    columns = {name: values[order] for name, values in columns.items()}
+    _, begin = np.unique(columns["acceleration"], return_index=True)
+    columns["motion"] = np.arange(len(rows)) - np.repeat(begin, np.diff([*begin, len(rows)])) + 1
+    return columns
+
+
+def joined(one: dict[str, np.ndarray], other: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Rows of two tables, by amplitude and motion."""
+    both = {name: np.concatenate([one[name], other[name]]) for name in one}
+    order = np.lexsort((both["motion"], both["acceleration"]))
+    return {name: values[order] for name, values in both.items()}
+
+
+def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
+    """The columns of the table for the settings of the config."""
+    amplitudes = np.unique(grid.axis_values("acceleration", settings["acceleration"]))
+    table = motions_at(amplitudes, settings, threads=threads, progress=progress)
+    while True:
+        places, regimes = regimes_of(table, settings["same_velocity"])
+        wide = (regimes[1:] != regimes[:-1]) & (np.diff(places) > settings["resolution"])
+        if not wide.any():
+            return table
+        between = 0.5 * (places[1:] + places[:-1])[wide]
+        label = progress and f"{progress}, {len(between)} amplitudes between"
+        table = joined(table, motions_at(between, settings, threads=threads, progress=label))
