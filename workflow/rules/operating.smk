@@ -29,10 +29,6 @@ RULES["operating_chart"] = {
     "stage": "operating.chart",
     "message": "The operating chart in words",
     "input": {"template": "workflow/templates/operating_chart.md", **tables_of("operating", "shares", "regimes")},
-    "output": {
-        "chart": report(
-            result("operating/chart.md"), caption="../report/operating_chart.rst", category="Operating chart"
-        )
-    },
+    "output": {"chart": result("operating/chart.md")},
     "place": "operating/chart",
 }

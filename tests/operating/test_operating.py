@@ -1,0 +1,198 @@
+"""Shares of starts: the box, its motions and their velocities, and what is said of them."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+from project import ROOT, read_config
+
+from conveyor import Start, simulate
+from conveyor.analysis.states import Motions
+from conveyor.solver.model import Conveyor, conveyor_motion
+from operating import chart, regimes, shares
+from pipeline.motions import motions
+
+BOX = {
+    **read_config("operating")["operating"],
+    "starts": 64,
+    "settling": 2000,
+    "followed": 2,
+    "model": {},
+}
+
+
+def test_heights_are_above_the_plate_at_the_phase_of_the_start():
+    starts = np.array([[1e-4, 0.1, 0.0], [0.0, -0.2, 1.0], [3e-4, 0.0, 4.0]])
+    rows = shares.parameters_of(np.array([30.0, 50.0]), starts, {"angle": 0.3})
+    assert rows.shape == (6, 13)
+    for row, acceleration, (height, velocity, phase) in zip(
+        rows, np.repeat([30.0, 50.0], 3), np.tile(starts, (2, 1)), strict=True
+    ):
+        plate = conveyor_motion(Conveyor(acceleration=acceleration, angle=0.3, psi0=phase), np.zeros(1))["z"][0]
+        assert row[11] - plate == pytest.approx(height, abs=1e-15)
+        assert (row[12], row[3]) == (velocity, phase)
+
+
+def test_starts_fill_the_box_and_follow_the_seed():
+    starts = shares.starts_of_box({**BOX, "starts": 1000})
+    for column, name in zip(starts.T, ("height", "vz0", "psi0"), strict=True):
+        low, high = BOX[name]
+        assert low <= column.min() < low + 0.02 * (high - low)
+        assert high - 0.02 * (high - low) < column.max() <= high
+    assert (starts == shares.starts_of_box({**BOX, "starts": 1000})).all()
+    assert (starts != shares.starts_of_box({**BOX, "starts": 1000, "seed": 2})).all()
+
+
+def test_motions_are_told_apart_by_state_period_and_flight():
+    found = Motions(
+        state=np.array(["second", "first", "second", "chaos", "second", "second", "chaos"]),
+        period=np.array([1, 1, 2, 0, 1, 1, 0]),
+        longest_flight=np.array([0.92, 0.0, 0.92, np.nan, 1.9, 0.9201, np.nan]),
+        cycles=np.zeros(7, dtype=np.int64),
+    )
+    number = shares.groups(found)
+    assert number[0] == number[5]
+    assert number[3] == number[6]
+    assert len(set(number)) == 5
+
+
+@pytest.fixture(scope="module")
+def table():
+    """Shares at two amplitudes with one and with two motions."""
+    return pd.DataFrame(shares.motions_at(np.array([22.0, 40.0]), BOX))
+
+
+def test_labels_are_those_of_sweeps(table):
+    """The same starts as rows of a sweep, whose chaotic sets are not shared."""
+    parameters = shares.parameters_of(np.array([40.0]), shares.starts_of_box(BOX), {})
+    found = motions(parameters, {**BOX, "axes": {"acceleration": [40.0]}})
+    own = table[table.acceleration == 40.0].set_index("state").starts
+    assert own.to_dict() == pd.Series(found.state).value_counts().to_dict()
+    assert own.sum() == BOX["starts"]
+
+
+def test_velocities_are_means_over_whole_cycles(table):
+    """Those of one long run by itself, over fifty cycles behind its first hundred."""
+    for state, start in (("second", Start(3e-4)), ("first", Start(0.0))):
+        x = simulate(Conveyor(acceleration=40.0), start, duration=3.0).sample(np.array([2.0, 3.0]))["x"]
+        row = table[(table.acceleration == 40.0) & (table.state == state)].iloc[0]
+        assert row.mean_velocity == pytest.approx(x[1] - x[0], rel=1e-6)
+    assert (table.status == "ok").all()
+    assert (table.velocity_stderr < 1e-6).all()
+    assert (table.motion == table.groupby("acceleration").mean_velocity.rank(ascending=False)).all()
+
+
+def test_the_standard_error_is_that_of_repeated_draws():
+    drawn = [
+        pd.DataFrame(shares.motions_at(np.array([40.0]), {**BOX, "seed": seed})).set_index("state").loc["first"]
+        for seed in range(30)
+    ]
+    share = np.array([row.share for row in drawn])
+    # A standard deviation of thirty is known to an eighth.
+    assert share.std(ddof=1) == pytest.approx(np.mean([row.stderr for row in drawn]), rel=0.4)
+
+
+def test_machines_with_equal_dimensionless_groups_have_equal_shares(table):
+    """Lengths in g/ω², velocities in g/ω: another frequency, gravity and mass with damping and stiffness that fit."""
+    paper = Conveyor()
+    frequency, gravity, mass = 3.0, 1.7, 5.0
+    length, velocity = gravity / frequency**2, gravity / frequency
+    model = {
+        "frequency": frequency * paper.frequency,
+        "gravity": gravity * paper.gravity,
+        "mass": mass * paper.mass,
+        "damping": mass * frequency * paper.damping,
+        "stiffness": mass * gravity / length**paper.exponent * paper.stiffness,
+    }
+    box = {"height": [length * end for end in BOX["height"]], "vz0": [velocity * end for end in BOX["vz0"]]}
+    other = pd.DataFrame(shares.motions_at(gravity * np.array([22.0, 40.0]), {**BOX, **box, "model": model}))
+    for name in ("state", "period", "starts", "share", "stderr", "motion"):
+        assert (other[name] == table[name]).all(), name
+    assert np.allclose(other.vertical, table.vertical, rtol=1e-12)
+    assert np.allclose(other.mean_velocity, velocity * table.mean_velocity, rtol=1e-6)
+
+
+def rows_at(acceleration: float) -> dict[str, list]:
+    """Made-up motions: one velocity below 31.4 m/s², two up to 50, chaos beside a jump beyond."""
+    common = {"period": 1, "longest_flight": 0.0, "velocity_stderr": 0.0, "status": "ok", "stderr": 0.05}
+    common |= {"acceleration": acceleration, "vertical": acceleration / 47.0}
+    motions = [("first", 100, 0.01)]
+    if acceleration > 31.4:
+        motions = [("second", 30, 0.06), ("first", 70, 0.01)]
+    if acceleration > 50.0:
+        motions = [("second", 20, 0.07), ("chaos", 80, 0.05)]
+    return [
+        {**common, "motion": k, "state": state, "starts": starts, "share": starts / 100.0, "mean_velocity": velocity}
+        for k, (state, starts, velocity) in enumerate(motions, start=1)
+    ]
+
+
+def made_up(amplitudes, settings, **options):
+    rows = pd.DataFrame([row for acceleration in amplitudes for row in rows_at(acceleration)])
+    return {name: rows[name].to_numpy() for name in rows}
+
+
+SETTINGS = {**BOX, "acceleration": {"start": 20.0, "stop": 60.0, "num": 9}, "resolution": 0.1, "starts": 100}
+
+
+@pytest.fixture
+def refined(monkeypatch) -> pd.DataFrame:
+    monkeypatch.setattr(shares, "motions_at", made_up)
+    found = pd.DataFrame(shares.make(SETTINGS))
+    found.attrs = SETTINGS
+    return found
+
+
+def test_amplitudes_are_halved_where_the_answer_changes(refined):
+    places = refined.acceleration.unique()
+    assert (np.diff(places) > 0.0).all()
+    for change in (31.4, 50.0):
+        below, above = places[places <= change].max(), places[places > change].min()
+        assert above - below <= SETTINGS["resolution"]
+    assert len(places) < 30
+
+
+def test_regimes_and_their_words(refined):
+    found = pd.DataFrame(regimes.make(refined))
+    assert list(found.regime) == [regimes.ONE, regimes.SEVERAL, regimes.BESIDE]
+    assert list(found.best_share_low) == [1.0, 0.3, 0.2]
+    assert list(found.velocity_low) == [0.01, 0.01, 0.05]
+    assert found.best_share_stderr[1] == pytest.approx(math.sqrt(0.3 * 0.7 / 100))
+    template = (ROOT / "workflow/templates/operating_chart.md").read_text()
+    page = chart.make(template, refined, found)
+    assert "Every start of the box ends in one velocity at 20.0 to 31.3 m/s² (first state, 0.01 m/s)." in page
+    assert "Several velocities exist side by side, without chaos, at 31.4 to 50.0 m/s²" in page
+    assert "30 % of the starts get, most of them (30.0 ± 4.6 %)" in page
+    assert "Chaos begins at 50.1 m/s²; nowhere is it all that the starts end in." in page
+    assert "fewer than 3 % of the box do, at 95 %\nconfidence" in page
+    assert "could not be decided" not in page
+
+
+@pytest.mark.parametrize(
+    ("states", "velocities", "regime"),
+    [
+        (["first"], [0.01], regimes.ONE),
+        (["second", "second"], [0.1, 0.0985], regimes.ONE),
+        (["second", "second"], [0.1, 0.0975], regimes.SEVERAL),
+        (["first", "first"], [0.01, -0.01], regimes.SEVERAL),
+        (["chaos", "chaos"], [0.1, 0.1], regimes.CHAOS),
+        (["chaos", "second"], [0.1, 0.1], regimes.BESIDE),
+        (["second", "undecided"], [0.1, 0.1], regimes.UNKNOWN),
+        (["second", "first"], [0.1, np.nan], regimes.UNKNOWN),
+    ],
+)
+def test_regime_of_an_amplitude(states, velocities, regime):
+    assert regimes.regime_of(np.array(states), np.array(velocities), 0.02) == regime
+
+
+def test_nothing_is_said_that_is_not_there(refined):
+    """A table of an unknown amplitude alone."""
+    alone = refined[refined.acceleration == 20.0].assign(state="undecided", mean_velocity=np.nan)
+    page = chart.make(
+        (ROOT / "workflow/templates/operating_chart.md").read_text(), alone, pd.DataFrame(regimes.make(alone))
+    )
+    assert "At no amplitude does every start" in page
+    assert "No start of the box ends in chaos" in page
+    assert "At 20.0 m/s² a motion could not be decided" in page
+    assert "| 20.0 | unknown | undecided | not known | not known | not known |" in page
