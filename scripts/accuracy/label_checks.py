@@ -5,7 +5,7 @@ from tqdm import tqdm
 
 from accuracy.settling_times import starts
 from conveyor.analysis import states
-from conveyor.analysis.chaotic_set import chaotic_sets
+from conveyor.analysis.known_attractors import known_attractors
 from pipeline import fields
 
 TABLES = {
@@ -16,7 +16,7 @@ TABLES = {
         fields.count("reversed", "starts whose state or period is another one in reverse order"),
         fields.count("alone", "starts whose state or period is another one if they are looked at one by one"),
         fields.count(
-            "unshared_starts", "starts that were looked at without the chaotic sets of their conveyor found before"
+            "unshared_starts", "starts that were looked at without the attractors of their conveyor found before"
         ),
         fields.count("unshared", "those of them whose state or period is another one then"),
     ),
@@ -36,7 +36,7 @@ def together(parts: list[states.Motions]) -> states.Motions:
 def row(acceleration: float, settings: dict, model: dict, options: dict) -> dict:
     """The comparison at one amplitude (m/s²)."""
     rows = starts(acceleration, settings, model)
-    known = chaotic_sets(rows, **options)
+    known = known_attractors(rows, **options)
     found = states.classify(rows, known=known, **options)
     backwards = states.classify(rows[::-1], known=known, **options)
     alone = [states.classify(rows[k : k + 1], known=known, **options) for k in range(len(rows))]

@@ -4,10 +4,10 @@ import numpy as np
 
 from conveyor import ensemble
 from conveyor.analysis import critical
-from conveyor.analysis.chaotic_set import ChaoticSets
+from conveyor.analysis.known import KnownAttractors
 from conveyor.analysis.states import classify, continued
 from pipeline import fields, grid
-from pipeline.motions import known_sets, tolerance_of
+from pipeline.motions import known_of, tolerance_of
 
 TABLES = {
     "critical": (
@@ -20,7 +20,7 @@ TABLES = {
 }
 
 
-def decide(parameters: np.ndarray, settings: dict, known: ChaoticSets, threads: int) -> np.ndarray:
+def decide(parameters: np.ndarray, settings: dict, known: KnownAttractors, threads: int) -> np.ndarray:
     """The state of motion that each start leads to.
 
     A fixed-step method is followed for the duration, as the paper does; the converged solution goes on from its end.
@@ -40,7 +40,7 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     """
     axes, parameters = grid.product(settings["axes"], settings["model"])
     heights = grid.axis_values("z0", settings["scan"])
-    known = known_sets(parameters, settings, threads=threads)
+    known = known_of(parameters, len(heights), settings, threads=threads)
     found = critical.crossings(
         parameters, heights, lambda rows: decide(rows, settings, known, threads), settings["resolution"]
     )

@@ -116,7 +116,7 @@ def motions_at(amplitudes: np.ndarray, settings: dict, *, threads: int = 1, prog
     """The columns of the table for some amplitudes (m/s²), ascending, shape (m,)."""
     starts = starts_of_box(settings)
     parameters = parameters_of(amplitudes, starts, settings["model"])
-    found = motions_of_starts(parameters, settings, shared=True, threads=threads, progress=progress)
+    found = motions_of_starts(parameters, settings, starts=len(starts), threads=threads, progress=progress)
     rows, chosen, numbers = [], [], []
     for k in range(len(amplitudes)):
         own = slice(k * len(starts), (k + 1) * len(starts))

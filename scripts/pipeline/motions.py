@@ -4,15 +4,17 @@ import math
 
 import numpy as np
 
-from conveyor.analysis.chaotic_set import ChaoticSets, chaotic_sets, without_starts
+from conveyor.analysis.conveyors import distinct
+from conveyor.analysis.known import NOTHING, KnownAttractors
+from conveyor.analysis.known_attractors import known_attractors
 from conveyor.analysis.states import Motions, classify, continued
 from conveyor.simulation import DEFAULT_TOLERANCE
 from conveyor.solver.model import PARAMETERS, PSI0, VZ0, Z0
 from pipeline import grid
 
-# From so many starts of a conveyor on it costs less to find its chaotic sets first.
-SHARED = 8
-# So many conveyors have their chaotic sets in memory at a time, some 30 kB each.
+# From so many starts of a conveyor on it costs less to find its chaotic sets first, and neighbourhoods of its orbits.
+CHAOS_SHARED, ORBITS_SHARED = 8, 200
+# So many conveyors have their attractors in memory at a time, some 30 kB each.
 CONVEYORS = 2000
 
 
@@ -28,36 +30,42 @@ def tolerance_of(settings: dict) -> float:
     return settings.get("tolerance", DEFAULT_TOLERANCE)
 
 
-def known_sets(parameters: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> ChaoticSets:
-    """The chaotic sets of conveyors, shape (n, 13), as the settings of an entry ask for them."""
-    options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings)}
-    return chaotic_sets(parameters, **options, threads=threads, progress=progress and f"{progress}: chaotic sets")
+def known_of(
+    parameters: np.ndarray, starts: int, settings: dict, *, threads: int = 1, progress: str | None = None
+) -> KnownAttractors:
+    """The attractors of conveyors, shape (n, 13), that are worth finding for so many starts of each of them."""
+    if starts < CHAOS_SHARED:
+        return NOTHING
+    options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
+    progress = progress and f"{progress}: attractors"
+    return known_attractors(parameters, orbits=starts >= ORBITS_SHARED, **options, progress=progress)
 
 
 def of_conveyors(parameters: np.ndarray) -> list[np.ndarray]:
     """Rows of `parameters`, shape (n, 13), in batches that hold all starts of their conveyors."""
-    _, conveyor = np.unique(without_starts(parameters), axis=0, return_inverse=True)
+    _, conveyor = distinct(parameters)
     order = np.argsort(conveyor, kind="stable")
     batch = conveyor[order] // CONVEYORS
     return np.split(order, np.flatnonzero(np.diff(batch)) + 1)
 
 
 def motions_of_starts(
-    parameters: np.ndarray, settings: dict, *, shared: bool, threads: int = 1, progress: str | None = None
+    parameters: np.ndarray, settings: dict, *, starts: int, threads: int = 1, progress: str | None = None
 ) -> Motions:
-    """The motions that starts end in, whether or not their conveyors' chaotic sets are found first (`shared`).
+    """The motions that starts end in; what those of a conveyor share is found first if they are many.
 
     Parameters
     ----------
     parameters : float64, shape (n, 13)
     settings : `settling`, and `tolerance` if it is not the default
+    starts : of each conveyor, in all batches and shards
     """
     options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
     batches = of_conveyors(parameters)
     parts = []
     for number, rows in enumerate(batches, start=1):
         label = progress and (f"{progress} ({number} of {len(batches)})" if len(batches) > 1 else progress)
-        known = known_sets(parameters[rows], settings, threads=threads, progress=label) if shared else None
+        known = known_of(parameters[rows], starts, settings, threads=threads, progress=label)
         parts.append(classify(parameters[rows], known=known, **options, progress=label))
     order = np.argsort(np.concatenate(batches))
     return Motions(*(np.concatenate(column)[order] for column in zip(*parts, strict=True)))
@@ -65,8 +73,8 @@ def motions_of_starts(
 
 def motions(parameters: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> Motions:
     """The motions that the starts of `parameters`, shape (n, 13), end in; `settings` are those of their entry."""
-    shared = starts_per_conveyor(settings["axes"]) >= SHARED
-    return motions_of_starts(parameters, settings, shared=shared, threads=threads, progress=progress)
+    starts = starts_per_conveyor(settings["axes"])
+    return motions_of_starts(parameters, settings, starts=starts, threads=threads, progress=progress)
 
 
 def motions_after(

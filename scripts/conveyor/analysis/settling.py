@@ -1,4 +1,4 @@
-"""When does a motion settle? A trajectory is followed until it repeats itself, or stays within known chaotic sets."""
+"""When does a motion settle? It is followed until it repeats itself, or comes to a known orbit or chaotic set."""
 
 import math
 
@@ -21,11 +21,31 @@ SETTLED, STAYS, OPEN, FAILED = range(4)
 
 
 @inlined
-def inside(state, low, size, cells, first, behind):
+def measure(c, centre, factor, state):
+    """Both components of a state's distance from a point of an orbit; see known.AttractingOrbits."""
+    along = state[0] - centre[0]
+    across = state[1] + c.damping * max(state[0], 0.0) - centre[1]
+    return factor[0] * along + factor[1] * across, factor[2] * across
+
+
+@kernel
+def reached(c, state, orbits, first, behind):
+    """The known orbit, from number `first` to that before `behind`, in whose neighbourhood a state lies, or -1."""
+    for k in range(first, behind):
+        along, across = measure(c, orbits.centres[k], orbits.factors[k], state)
+        if along * along + across * across <= 1.0:
+            return k
+    return -1
+
+
+@kernel
+def inside(state, chaotic, first, behind):
     """Whether a state lies in one of the boxes of the chaotic sets from number `first` to that before `behind`."""
     for k in range(first, behind):
-        i, j = (state[0] - low[k, 0]) / size[k, 0], (state[1] - low[k, 1]) / size[k, 1]
-        if 0.0 <= i < cells.shape[1] and 0.0 <= j < cells.shape[2] and cells[k, int(i), int(j)]:
+        i = (state[0] - chaotic.low[k, 0]) / chaotic.size[k, 0]
+        j = (state[1] - chaotic.low[k, 1]) / chaotic.size[k, 1]
+        rows, columns = chaotic.cells[k].shape
+        if 0.0 <= i < rows and 0.0 <= j < columns and chaotic.cells[k, int(i), int(j)]:
             return True
     return False
 
@@ -38,14 +58,14 @@ def near(state, history, lag, n, scale_0, scale_1):
 
 
 @kernel
-def settle(c, series, state, max_cycles, low, size, cells, first, behind, strobes):
-    """Follow `state`, at the phase BEGIN_OF_CYCLE, until it is periodic or stays within chaotic sets.
+def settle(c, series, state, max_cycles, known, mine, strobes):
+    """Follow `state`, at the phase BEGIN_OF_CYCLE, until it is periodic or at a known attractor.
 
     Parameters
     ----------
     c, series, state : as in stroboscope.advance
     max_cycles : after which the search ends
-    low, size, cells, first, behind : chaotic sets (see chaotic_set.ChaoticSets) from `first` to that before `behind`
+    known, mine : known.KnownAttractors, and a row of what `of` says of this conveyor
     strobes : float64, shape (max_cycles, 2), filled with the states after each cycle; of length 0 where not wanted
 
     Returns
@@ -62,6 +82,9 @@ def settle(c, series, state, max_cycles, low, size, cells, first, behind, strobe
     for n in range(max_cycles):
         if stroboscope.advance(c, series, state, BEGIN_OF_CYCLE, c.period, no_tangent, features) != OK:
             return FAILED, 0, math.nan, n
+        orbit = reached(c, state, known.orbits, mine[0], mine[1])
+        if orbit >= 0:
+            return SETTLED, known.orbits.periods[orbit], known.orbits.flights[orbit], n + 1
         flights[n % (2 * MAX_PERIOD)] = max(features[stroboscope.LONGEST_FLIGHT], features[stroboscope.AIRBORNE])
         found = 0
         for period in range(1, min(n, MAX_PERIOD) + 1):
@@ -85,7 +108,7 @@ def settle(c, series, state, max_cycles, low, size, cells, first, behind, strobe
             for k in range(candidate):
                 longest = max(longest, flights[(n - k) % (2 * MAX_PERIOD)])
             return SETTLED, candidate, longest, n + 1
-        stays = stays + 1 if inside(state, low, size, cells, first, behind) else 0
+        stays = stays + 1 if inside(state, known.chaotic, mine[2], mine[3]) else 0
         if stays >= STAY:
             return STAYS, 0, math.nan, n + 1
     longest = 0.0

@@ -4,8 +4,9 @@ A trajectory is followed from excitation cycle to excitation cycle until it repe
 cycles; the longest flight of the repeated motion tells the first state from the second. What has not repeated itself
 after a given number of cycles is chaos if its own largest Lyapunov exponent is positive by then, beyond its standard
 error; else it is a regular motion of a longer period, or `undecided`. Every start is followed by itself: its label
-depends on nothing but its conveyor and itself. What starts of one conveyor may share is how its chaotic attractor looks
-(see chaotic_set): a start that has come there to stay need not be followed to the end.
+depends on nothing but its conveyor and itself. What starts of one conveyor may share is which attractors it has (see
+known_attractors): a start that has come so near to a periodic orbit that it must end there, or into chaos to stay, need
+not be followed to the end.
 """
 
 import math
@@ -18,7 +19,7 @@ from ..solver.jit import kernel
 from ..solver.model import FREQUENCY, PSI0, VZ0, Z0
 from ..solver.parallel import for_each_chunk
 from . import lyapunov, stroboscope
-from .chaotic_set import ChaoticSets, chaotic_sets_of
+from .known import NOTHING, KnownAttractors
 from .settling import FAILED, OPEN, SETTLED, STAYS, settle
 
 STATES = ("first", "second", "chaos", "undecided")
@@ -42,21 +43,23 @@ class Motions(NamedTuple):
 
 
 @kernel
-def settle_points(
-    parameters, points, tolerance, cycles, low, size, cells, first, behind, outcomes, periods, flights, followed
-):
-    """`settle` for rows of `parameters`, shape (n, 13), from `points`, shape (n, 2), which are advanced.
+def settle_points(parameters, points, tolerance, cycles, known, places, outcomes, periods, flights, followed):
+    """`settle` for rows of `parameters`, shape (n, 13).
 
-    low, size, cells : chaotic sets; those of the point i are number `first[i]` to that before `behind[i]`
+    points : float64, shape (n, 2), filled with the states (δ in m, v in m/s) at the end of the search
+    known, places : attractors, and what `of` them says of each point, shape (n, 4)
     outcomes, periods, flights (in excitation cycles), followed : shape (n,), filled
     """
     series = contact.workspace()
     no_strobes = np.empty((0, 2))
+    stroboscope.to_begin_of_cycle(parameters, tolerance, points)
     for i in range(parameters.shape[0]):
+        outcomes[i], periods[i], longest, followed[i] = FAILED, 0, math.nan, 0
         c = contact.constants(parameters[i], tolerance)
-        outcomes[i], periods[i], longest, followed[i] = settle(
-            c, series, points[i], cycles, low, size, cells, first[i], behind[i], no_strobes
-        )
+        if math.isfinite(points[i, 0]) and math.isfinite(points[i, 1]):
+            outcomes[i], periods[i], longest, followed[i] = settle(
+                c, series, points[i], cycles, known, places[i], no_strobes
+            )
         flights[i] = longest / c.period
 
 
@@ -74,7 +77,7 @@ def classify(
     parameters: np.ndarray,
     *,
     cycles: int = CYCLES,
-    known: ChaoticSets | None = None,
+    known: KnownAttractors = NOTHING,
     tolerance: float = 1e-8,
     threads: int = 1,
     progress: str | None = None,
@@ -85,39 +88,31 @@ def classify(
     ----------
     parameters : float64, shape (n, 13), rows as from model.pack; after a run, those of `continued`
     cycles : excitation cycles after which a start that has not settled is followed no further
-    known : chaotic sets of conveyors; None where each start is followed to its own end
+    known : attractors of conveyors; with none of them each start is followed to its own end
     tolerance : of the contact steps
     threads, progress : as in sweep.run
     """
     parameters = np.ascontiguousarray(parameters, dtype=np.float64)
     n = len(parameters)
-    known = chaotic_sets_of([], []) if known is None else known
-    points = stroboscope.states_at_begin_of_cycle(parameters, tolerance)
-    outcomes, periods, followed = np.full(n, FAILED), np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
-    flights = np.full(n, math.nan)
-    finite = np.flatnonzero(np.isfinite(points).all(axis=1))
-    rows, states = parameters[finite], points[finite]
-    first, behind = known.of(rows)
-    found = tuple(np.empty(len(finite), dtype) for dtype in (np.int64, np.int64, np.float64, np.int64))
+    points, places = np.empty((n, 2)), known.of(parameters)
+    outcomes, periods, flights, followed = (np.empty(n, kind) for kind in (np.int64, np.int64, np.float64, np.int64))
 
     def work(begin, end):
-        part = slice(begin, end)
+        rows = slice(begin, end)
         settle_points(
-            rows[part],
-            states[part],
+            parameters[rows],
+            points[rows],
             tolerance,
             cycles,
-            known.low,
-            known.size,
-            known.cells,
-            first[part],
-            behind[part],
-            *(column[part] for column in found),
+            known,
+            places[rows],
+            outcomes[rows],
+            periods[rows],
+            flights[rows],
+            followed[rows],
         )
 
-    for_each_chunk(work, len(finite), threads=threads, chunk=16, progress=progress)
-    for column, values in zip((outcomes, periods, flights, followed), found, strict=True):
-        column[finite] = values
+    for_each_chunk(work, n, threads=threads, progress=progress)
     codes = np.full(n, UNDECIDED)
     regular = np.where(flights >= LONG_FLIGHT, SECOND, FIRST)
     codes[outcomes == SETTLED] = regular[outcomes == SETTLED]
@@ -126,7 +121,7 @@ def classify(
     if len(still):
         exponent = lyapunov.spectrum(
             parameters[still],
-            states[np.searchsorted(finite, still)],
+            points[still],
             begin_of_cycle=True,
             transient=0,
             tolerance=tolerance,

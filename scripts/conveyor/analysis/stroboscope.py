@@ -203,13 +203,6 @@ def to_begin_of_cycle(parameters, tolerance, states):
             states[i, :] = np.nan
 
 
-def states_at_begin_of_cycle(parameters: np.ndarray, tolerance: float) -> np.ndarray:
-    """δ (m) and v (m/s) of starts, shape (n, 13), when the plate is next at its top, shape (n, 2); NaN if lost."""
-    states = np.empty((len(parameters), 2))
-    to_begin_of_cycle(np.ascontiguousarray(parameters, dtype=np.float64), tolerance, states)
-    return states
-
-
 @kernel
 def follow(parameters, tolerance, state, cycles, strobes, features):
     """Advance `state` by a number of cycles.

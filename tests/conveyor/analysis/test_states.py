@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start, ensemble
-from conveyor.analysis import attractors, chaotic_set, settling, states, stroboscope
+from conveyor.analysis import attractors, known, known_attractors, settling, states, stroboscope
 from conveyor.solver import contact
 from conveyor.solver.model import PSI0, Z0, pack
 from pipeline import grid
@@ -97,15 +97,20 @@ def test_a_label_is_its_starts_own(hard):
     together = states.classify(hard, threads=2)
     backwards = states.classify(hard[::-1])
     alone = [states.classify(row[None]) for row in hard]
-    known = chaotic_set.chaotic_sets(hard, cycles=states.CYCLES)
-    shared = states.classify(hard, known=known)
-    one_by_one = [states.classify(row[None], known=known) for row in hard[::3]]
+    shared_by = known_attractors.known_attractors(hard, cycles=states.CYCLES)
+    shared = states.classify(hard, known=shared_by)
+    one_by_one = [states.classify(row[None], known=shared_by) for row in hard[::3]]
     for name in ("state", "period", "longest_flight"):
         wanted = getattr(together, name)
         np.testing.assert_array_equal(getattr(backwards, name)[::-1], wanted)
         np.testing.assert_array_equal(np.concatenate([getattr(one, name) for one in alone]), wanted)
-        np.testing.assert_array_equal(getattr(shared, name), wanted)
-        np.testing.assert_array_equal(np.concatenate([getattr(one, name) for one in one_by_one]), wanted[::3])
+        found = getattr(shared, name)
+        np.testing.assert_array_equal(np.concatenate([getattr(one, name) for one in one_by_one]), found[::3])
+        if name == "longest_flight":  # that of the orbit, to which the others have come close
+            np.testing.assert_allclose(found, wanted, rtol=0.0, atol=1e-6)
+        else:
+            np.testing.assert_array_equal(found, wanted)
+    assert shared.cycles.sum() < 0.8 * together.cycles.sum()
     assert {"first", "second", "chaos"} <= set(together.state)
 
 
@@ -120,16 +125,16 @@ def test_long_transients_are_not_chaos():
 
 def test_a_conveyor_may_have_two_chaotic_attractors():
     rows = random_starts(53.0, 1)
-    assert len(chaotic_set.chaotic_sets(rows, cycles=states.CYCLES).low) == 2
-    assert len(chaotic_set.chaotic_sets(random_starts(40.0, 1), cycles=states.CYCLES).low) == 0
+    assert len(known_attractors.known_attractors(rows, cycles=states.CYCLES).chaotic.low) == 2
+    assert len(known_attractors.known_attractors(random_starts(40.0, 1), cycles=states.CYCLES).chaotic.low) == 0
     # At 72.97 m/s² chaos is a long transient: no start may be called chaos before its time is over.
-    assert len(chaotic_set.chaotic_sets(random_starts(72.97, 1), cycles=states.CYCLES).low) == 0
+    assert len(known_attractors.known_attractors(random_starts(72.97, 1), cycles=states.CYCLES).chaotic.low) == 0
 
 
 @pytest.mark.parametrize("cycles", [500, 1000, 2000])
 def test_chaos_that_some_starts_leave_late_is_no_attractor(cycles):
     """At 73 m/s² all starts settle in the end: those that do late show it, though others have not settled by then."""
-    assert len(chaotic_set.chaotic_sets(random_starts(73.0, 1), cycles=cycles).low) == 0
+    assert len(known_attractors.known_attractors(random_starts(73.0, 1), cycles=cycles).chaotic.low) == 0
 
 
 def test_a_period_is_the_shortest():
@@ -147,10 +152,8 @@ def test_longest_flight_is_that_of_the_end_of_the_search():
     strobes, features = np.empty((count, 2)), np.empty((count, stroboscope.FEATURES))
     stroboscope.follow(parameters, 1e-8, state.copy(), count, strobes, features)
     flights = features[:, [stroboscope.LONGEST_FLIGHT, stroboscope.AIRBORNE]].max(axis=1)
-    nothing = chaotic_set.chaotic_sets_of([], [])
-    outcome, _, longest, _ = settling.settle(
-        c, series, state, count, nothing.low, nothing.size, nothing.cells, 0, 0, np.empty((0, 2))
-    )
+    nowhere = np.zeros(4, dtype=np.int64)
+    outcome, _, longest, _ = settling.settle(c, series, state, count, known.NOTHING, nowhere, np.empty((0, 2)))
     assert outcome == settling.OPEN
     assert flights[: settling.MAX_PERIOD].max() > 2.0 * flights[-settling.MAX_PERIOD :].max()
     assert longest == pytest.approx(flights[-settling.MAX_PERIOD :].max(), rel=1e-6)
