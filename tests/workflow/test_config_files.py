@@ -161,3 +161,11 @@ def test_snakemake_names_file_and_line_of_an_overlay(project, tmp_path, content,
         file.write_bytes(content)
     run = project.called("--dry-run", "figures/fig22.pdf", *(part.format(file) for part in option))
     assert_refused(run, f"{file}{message}")
+
+
+def test_the_profile_for_slurm_names_them_too(project, tmp_path):
+    file = tmp_path / "mine.yaml"
+    file.write_text("model: [\n")
+    profile = ("--workflow-profile", "workflow/profiles/slurm")
+    run = project.called("--dry-run", "figures/fig22.pdf", *profile, "--configfile", str(file))
+    assert_refused(run, f"{file}:2: is not YAML")

@@ -65,7 +65,7 @@ accuracy_rule(
     "The solver against the paper's method",
     output={**tables_of("results", "benchmark"), "report": result("benchmark.md")},
     timed=("benchmark", "report"),
-    threads=WHOLE_MACHINE,
+    **ALONE,
     params={
         "settings": {
             "cases": benchmark_cases(),
@@ -81,7 +81,7 @@ scene_rule(
     "Wall times",
     input={"precision": table("precision")},
     timed=("wall_times",),
-    threads=WHOLE_MACHINE,
+    **ALONE,
     params={"settings": {name: config["precision"][name] for name in ("repeats", "seconds")}},
 )
 accuracy_rule(
@@ -123,7 +123,7 @@ accuracy_rule(
     "What the data of each figure need",
     output=tables_of("results", "scene_budget", "budget_times"),
     timed=("budget_times",),
-    threads=WHOLE_MACHINE,
+    **ALONE,
     params={
         "settings": config["scene_budget"],
         "entries": {name: converged_entry(name) for names in DRAWN.values() for name in names},

@@ -17,8 +17,10 @@ from workflow.source_hash import closure, source_hash, versions
 # "" or "NAME/": a config with a prefix keeps its results apart.
 PREFIX = config["prefix"] and f"{config['prefix']}/"
 
-# Jobs that take wall times run alone. Snakemake does not say how many cores a node of a cluster has: there a profile does.
+# Jobs that take wall times run alone, on a cluster with a node to themselves. Snakemake does not say how many cores a node
+# has: there a profile does.
 WHOLE_MACHINE = workflow.cores or 1
+ALONE = {"threads": WHOLE_MACHINE, "resources": {"slurm_extra": "--exclusive"}}
 
 # The model for sections that name their amplitudes themselves: the default one must not make them run again.
 MODEL_OF_ANY_AMPLITUDE = {name: value for name, value in config["model"].items() if name != "acceleration"}

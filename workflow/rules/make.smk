@@ -20,6 +20,7 @@ for name, one in RULES.items():
             **one.get("names", {}),
         threads: one.get("threads", 1)
         resources:
+            **one.get("resources", {}),
             mem_mb=one.get("mem_mb", 1000),
             runtime=one.get("runtime", 30),
         params:

@@ -1,0 +1,56 @@
+"""The README's command for a cluster, on a Slurm of one node that is started for these tests."""
+
+import re
+import shlex
+
+import local_slurm
+import pytest
+import yaml
+from project import ROOT, Project, copy_project
+
+if obstacle := local_slurm.obstacle():
+    pytest.skip(f"no Slurm for a test: {obstacle}", allow_module_level=True)
+
+# As the README shows it, in three shards.
+MINE = yaml.safe_load(re.search(r"```yaml\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)[1])
+OVERLAY = {**MINE, "solver": {"points_per_job": 8}}
+TABLE, FIGURE = "results/sweeps/mine.parquet", "figures/fig22.pdf"
+SHARD = "rule_shards_wildcards_mine_1"  # as Snakemake names its job to Slurm
+COMPUTING = 120.0  # s
+
+
+@pytest.fixture(scope="module")
+def slurm(tmp_path_factory):
+    with local_slurm.slurm(tmp_path_factory.mktemp("slurm")):
+        yield
+
+
+@pytest.fixture(scope="module")
+def local(tmp_path_factory) -> Project:
+    """The table and the figure without a cluster."""
+    project = Project(copy_project(tmp_path_factory.mktemp("local")), OVERLAY)
+    project.make("--cores", "2", TABLE, FIGURE)
+    return project
+
+
+def command() -> list[str]:
+    """The options of the README's command for a cluster."""
+    (line,) = re.findall(r"`snakemake (--workflow-profile [^`]*slurm)`", (ROOT / "README.md").read_text())
+    return shlex.split(line)
+
+
+def test_a_cluster_makes_what_one_machine_makes(slurm, local, tmp_path):
+    """Although one of its running shards is cancelled."""
+    project = Project(copy_project(tmp_path / "cluster"), OVERLAY)
+    run = project.started(*command(), *project.configfile(), "--", TABLE, FIGURE)
+    try:
+        local_slurm.until(lambda: SHARD in local_slurm.jobs("RUNNING").values(), f"{SHARD} runs", COMPUTING)
+        (cancelled,) = (number for number, name in local_slurm.jobs("RUNNING").items() if name == SHARD)
+        local_slurm.cancel(cancelled)
+        said, _ = run.communicate(timeout=COMPUTING)
+    finally:
+        run.kill()
+    assert run.returncode == 0, said
+    assert f"SLURM-job '{cancelled}' failed, SLURM status is: 'CANCELLED'" in said
+    for file in (TABLE, FIGURE):
+        assert (project.folder / file).read_bytes() == (local.folder / file).read_bytes(), file
