@@ -6,4 +6,5 @@ from pipeline.rule_log import logged
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         (kind,) = snakemake.output.keys()
-        tables.gather(snakemake.output[0], snakemake.input, kind, snakemake.params.settings)
+        params = snakemake.params
+        tables.gather(snakemake.output[0], snakemake.input, kind, params.settings, params.points)

@@ -82,7 +82,7 @@ def small_config() -> dict:
     config["figures"] = {figure: config["figures"][figure] for figure in FIGURES}
     config["companion"]["maps"] = ["amplitudes"]
     used = {table for entry in config["figures"].values() for table in entry["tables"].values()}
-    for section in set(config) - {"prefix", "model", "solver", "figures", *SINGLE}:
+    for section in set(config) - {"prefix", "model", "solver", "sharing", "figures", *SINGLE}:
         config[section] = {name: entry for name, entry in config[section].items() if f"{section}/{name}" in used}
     reasons = config["scene_budget"]["reasons"]
     config["scene_budget"]["reasons"] = {table: reason for table, reason in reasons.items() if table in used}

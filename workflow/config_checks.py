@@ -8,21 +8,22 @@ from collections.abc import Iterator
 
 from workflow.config_types import ROOT, did_you_mean, shown
 from workflow.known_names import findings, names_of_figure, names_of_finding, settings_of_finding
-from workflow.tables_of_config import ENTRIES, METHODS, count_points, count_values, entry_of, references, resolve
+from workflow.sharing import plan
+from workflow.tables_of_config import (
+    ENTRIES,
+    METHODS,
+    count_points,
+    count_values,
+    ends,
+    entry_of,
+    references,
+    resolve,
+    values_of,
+)
 
-LARGEST_TABLE = 10_000_000  # rows, or states to be found: some hours of a machine
+LARGEST_TABLE = 10_000_000  # rows that one job makes, or states that it finds: some hours of a machine
 MOST_STEPS = 10**9  # of one run by a fixed-step method: some ten seconds
 STEPS_IN_A_CYCLE = 20  # at least: fewer do not show an excitation cycle
-
-
-def ends(axis: list | dict) -> list:
-    """The values of an axis, or the first and the last one."""
-    return axis if isinstance(axis, list) else [axis["start"], axis["stop"]]
-
-
-def values_of(entry: dict, name: str) -> list:
-    """The values that a parameter takes in a resolved entry, or the ends of their range."""
-    return ends(entry["axes"][name]) if name in entry["axes"] else [entry["model"][name]]
 
 
 def whole_steps(duration: float, step: float) -> bool:
@@ -150,9 +151,17 @@ def dimensions(config: dict) -> Iterator[str]:
 
 
 def sizes(config: dict) -> Iterator[str]:
+    for name in config["sweeps"]:
+        shared, limit = plan(config, name), config["sharing"]["core_hours"]
+        if shared.core_hours > limit:
+            yield (
+                f"sweeps.{name}.axes makes {shared.points:,} points, some {shared.core_hours:.2g} hours of one core in "
+                f"{shared.shards} jobs of {shared.memory / 1000.0:.2g} GB; give a smaller num, or raise "
+                f"sharing.core_hours = {limit:g}"
+            )
     for section in ENTRIES:
         for name, entry in config[section].items():
-            if "axes" not in entry:
+            if section == "sweeps" or "axes" not in entry:
                 continue
             points = count_points(entry["axes"])
             rows = points * count_values(entry.get("times") or entry.get("scan") or [None])

@@ -77,7 +77,20 @@ class Solver(TypedDict):
     tolerance: Tolerance
     step: Step
     settling: Cycles
-    points_per_job: whole(1, 10**8)
+
+
+Seconds = positive(1e6, "s")
+Megabytes = positive(1e6, "MB")
+COSTS = ("cycle", "fixed_step", "start", "restless_start", "quiet_conveyor", "restless_conveyor")
+
+
+class Sharing(TypedDict):
+    job_seconds: Seconds
+    job_megabytes: Megabytes
+    most_jobs: whole(1, 10**5)
+    core_hours: positive(1e9, "h")
+    seconds: TypedDict("Costs", dict.fromkeys(COSTS, Seconds))
+    megabytes: TypedDict("Memory", dict.fromkeys(("program", "row", "gathered_row"), Megabytes))
 
 
 class Followed(TypedDict):
@@ -459,6 +472,7 @@ class Config(TypedDict):
     prefix: text(rf"|{NAME}", f"a folder name of at most {LONGEST_NAME} letters, digits, - and _, or nothing")
     model: WholeModel
     solver: Solver
+    sharing: Sharing
     sweeps: dict[Name, Sweep]
     estimates: dict[Name, Estimate]
     critical: dict[Name, Critical]

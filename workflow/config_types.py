@@ -39,10 +39,10 @@ def did_you_mean(name, known: Iterable[str]) -> str:
 
 
 def constants(file: str, *names: str) -> dict[str, Any]:
-    """Constants of a module of the library, by their names, without the slow imports of NumPy and Numba."""
+    """Constants of a module of scripts/, by their names, without the slow imports of NumPy and Numba."""
     body = [
         node
-        for node in ast.parse((ROOT / "scripts/conveyor" / file).read_bytes()).body
+        for node in ast.parse((ROOT / "scripts" / file).read_bytes()).body
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name) and node.targets[0].id in names
     ]
     namespace = {"math": math}
@@ -50,8 +50,8 @@ def constants(file: str, *names: str) -> dict[str, Any]:
     return {name: namespace[name] for name in names}
 
 
-LIBRARY = constants("solver/model.py", "PARAMETERS", "TENSION_MODES", "UNITS", "RANGES") | constants(
-    "methods/fixed_step.py", "METHODS"
+LIBRARY = constants("conveyor/solver/model.py", "PARAMETERS", "TENSION_MODES", "UNITS", "RANGES") | constants(
+    "conveyor/methods/fixed_step.py", "METHODS"
 )
 
 

@@ -93,6 +93,16 @@ def resolve(config: dict, section: str, name: str) -> dict:
     return entry
 
 
+def ends(axis: list | dict) -> list:
+    """The values of an axis, or the first and the last one."""
+    return axis if isinstance(axis, list) else [axis["start"], axis["stop"]]
+
+
+def values_of(entry: dict, name: str) -> list:
+    """The values that a parameter takes in a resolved entry, or the ends of their range."""
+    return ends(entry["axes"][name]) if name in entry["axes"] else [entry["model"][name]]
+
+
 def count_values(axis: list | dict) -> int:
     """Number of values of an axis."""
     return len(axis) if isinstance(axis, list) else int(axis["num"])

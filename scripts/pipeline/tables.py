@@ -80,22 +80,24 @@ def write(path: str | Path, table: pa.Table) -> None:
         pq.write_table(table, part, compression=COMPRESSION, row_group_size=ROW_GROUP)
 
 
-def gather(path: str | Path, shards: Iterable[str | Path], kind: str, settings: dict) -> None:
-    """Write shards of a table, given in the order of their rows, as one, with a row group of it in memory at a time.
+def gather(path: str | Path, shards: Iterable[str | Path], kind: str, settings: dict, rows: int) -> None:
+    """Write shards of a table, given in the order of their `rows`, as one, with a row group of it in memory at a time.
 
     The bytes are those that `write` gives of the whole table.
 
     Raises
     ------
     TableError
-        if a shard is no table of this kind, or was made from other settings
+        if a shard is no table of this kind, or was made from other settings, or all have other rows than these
     """
     waiting: list[pa.Table] = []
+    found = 0
     with replaced(path) as part, ExitStack() as files:
         writer = None
         for shard in shards:
             check(shard, kind, settings)
             waiting.append(pq.read_table(shard))
+            found += len(waiting[-1])
             writer = writer or files.enter_context(pq.ParquetWriter(part, waiting[0].schema, compression=COMPRESSION))
             while sum(map(len, waiting)) >= ROW_GROUP:
                 together = pa.concat_tables(waiting)
@@ -103,6 +105,10 @@ def gather(path: str | Path, shards: Iterable[str | Path], kind: str, settings: 
                 waiting = [together.slice(ROW_GROUP)]
         if sum(map(len, waiting)):
             writer.write_table(pa.concat_tables(waiting), row_group_size=ROW_GROUP)
+        if found != rows:
+            raise TableError(
+                f"the shards of {path} have {found} rows, not {rows}; delete them: the next run makes new ones"
+            )
 
 
 def umask() -> int:

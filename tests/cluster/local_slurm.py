@@ -1,4 +1,4 @@
-"""A Slurm of one node on this machine, which listens on the loopback interface only: started, and stopped without a trace."""
+"""A Slurm of one node on this machine that listens on the loopback only: started, and stopped without a trace."""
 
 import os
 import shutil
@@ -73,9 +73,12 @@ def until(condition: Callable[[], bool], what: str, patience: float = PATIENCE) 
 @contextmanager
 def daemon(log: Path, *command: str, **options) -> Iterator[None]:
     """A program that runs in the foreground of its own session, and is ended by its process id."""
-    with log.open("w") as said, subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=said, stderr=said, start_new_session=True, **options
-    ) as process:
+    with (
+        log.open("w") as said,
+        subprocess.Popen(
+            command, stdin=subprocess.DEVNULL, stdout=said, stderr=said, start_new_session=True, **options
+        ) as process,
+    ):
         try:
             yield
         finally:

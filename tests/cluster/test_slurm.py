@@ -3,17 +3,18 @@
 import re
 import shlex
 
-import local_slurm
 import pytest
 import yaml
 from project import ROOT, Project, copy_project
 
-if obstacle := local_slurm.obstacle():
-    pytest.skip(f"no Slurm for a test: {obstacle}", allow_module_level=True)
+import local_slurm
+
+OBSTACLE = local_slurm.obstacle()
+pytestmark = pytest.mark.skipif(OBSTACLE is not None, reason=f"no Slurm can be started: {OBSTACLE}")
 
 # As the README shows it, in three shards.
 MINE = yaml.safe_load(re.search(r"```yaml\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)[1])
-OVERLAY = {**MINE, "solver": {"points_per_job": 8}}
+OVERLAY = {**MINE, "sharing": {"job_megabytes": 288, "megabytes": {"program": 280, "row": 1}}}  # 8 rows
 TABLE, FIGURE = "results/sweeps/mine.parquet", "figures/fig22.pdf"
 SHARD = "rule_shards_wildcards_mine_1"  # as Snakemake names its job to Slurm
 COMPUTING = 120.0  # s
@@ -41,7 +42,7 @@ def command() -> list[str]:
 
 def test_a_cluster_makes_what_one_machine_makes(slurm, local, tmp_path):
     """Although one of its running shards is cancelled."""
-    project = Project(copy_project(tmp_path / "cluster"), OVERLAY)
+    project = Project(copy_project(tmp_path), OVERLAY)
     run = project.started(*command(), *project.configfile(), "--", TABLE, FIGURE)
     try:
         local_slurm.until(lambda: SHARD in local_slurm.jobs("RUNNING").values(), f"{SHARD} runs", COMPUTING)

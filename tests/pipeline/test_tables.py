@@ -143,13 +143,21 @@ def test_gathered_shards_have_the_bytes_of_the_whole(tmp_path, monkeypatch, cuts
     for number, (begin, end) in enumerate(pairwise([0, *cuts, 23])):
         paths.append(tmp_path / f"{number}.parquet")
         tables.write(paths[-1], whole.slice(begin, end - begin))
-    tables.gather(tmp_path / "gathered", paths, "estimates", SETTINGS)
+    tables.gather(tmp_path / "gathered", paths, "estimates", SETTINGS, 23)
     assert (tmp_path / "gathered").read_bytes() == (tmp_path / "whole").read_bytes()
+
+
+def test_shards_of_another_cut_are_refused(tmp_path):
+    """As Snakemake takes them for current where it is told to look at times alone."""
+    tables.write(tmp_path / "0.parquet", made())
+    with pytest.raises(tables.TableError, match=r"all\.parquet have 3 rows, not 5; delete them"):
+        tables.gather(tmp_path / "all.parquet", [tmp_path / "0.parquet"], "estimates", SETTINGS, 5)
+    assert not (tmp_path / "all.parquet").exists()
 
 
 def test_a_foreign_shard_is_named(tmp_path):
     tables.write(tmp_path / "0.parquet", made())
     tables.write(tmp_path / "1.parquet", made(settings=SETTINGS | {"duration": 2.0}))
     with pytest.raises(tables.TableError, match=r"1\.parquet was made from other settings"):
-        tables.gather(tmp_path / "all", [tmp_path / "0.parquet", tmp_path / "1.parquet"], "estimates", SETTINGS)
+        tables.gather(tmp_path / "all", [tmp_path / "0.parquet", tmp_path / "1.parquet"], "estimates", SETTINGS, 6)
     assert not (tmp_path / "all").exists()

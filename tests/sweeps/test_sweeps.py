@@ -1,5 +1,7 @@
 """Sweeps from the config: columns and rows of an own one, and independence of how it is cut and shared."""
 
+from itertools import pairwise
+
 import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
@@ -7,6 +9,7 @@ import pytest
 
 from conveyor import Conveyor, Start, ensemble, simulate
 from conveyor.solver.model import UNITS
+from pipeline import fields, tables
 from sweeps import shards
 
 # As the README shows it.
@@ -41,6 +44,21 @@ MIXED = {
     "duration": 0.2,
     "needs": "vertical",
 }
+# Starts of conveyors that share what is known of their chaotic sets, among those of one that has none.
+MAP = {
+    "axes": {"acceleration": [30.0, 40.0, 45.0, 48.0, 80.0], "psi0": [0.0, 3.0], "z0": [0.0, 1e-4, 2e-4, 3e-4, 4e-4]},
+    "model": {},
+    "duration": 0.02,
+    "method": "event",
+    "tolerance": 1.0e-6,
+    "settling": 1000,
+}
+POINTS = 50
+
+
+def rows_per_shard(rows: int) -> dict:
+    """Of the config: jobs of so much memory that a shard has so many rows."""
+    return {"job_megabytes": 1 + rows, "megabytes": {"program": 1, "row": 1}}
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +68,7 @@ def swept(built):
     sweeps = {"mine": MINE, "mixed": MIXED}
     whole = {"prefix": "whole", "sweeps": sweeps}
     built.under(whole).make("--cores", "2", *(f"results/whole/sweeps/{name}.parquet" for name in sweeps))
-    cut = {"prefix": "cut", "solver": {"points_per_job": 10}, "sweeps": sweeps}
+    cut = {"prefix": "cut", "sharing": rows_per_shard(10), "sweeps": sweeps}
     built.under(cut).make("--cores", "1", "results/cut/sweeps/mixed.parquet")
     return lambda prefix, name: built.folder / f"results/{prefix}/sweeps/{name}.parquet"
 
@@ -94,8 +112,43 @@ def test_equal_bytes_for_any_cut_and_cores(swept):
 
 def test_a_large_sweep_is_cut_into_few_jobs(built):
     many = {"axes": {"z0": {"start": 0.0, "stop": 1.0e-4, "num": 2001}}}
-    overlay = {"solver": {"points_per_job": 1}, "sweeps": {"many": many}}
+    overlay = {"sharing": rows_per_shard(1), "sweeps": {"many": many}}
     assert 400 <= built.under(overlay).planned("results/sweeps/many.parquet")["shards"] <= 500
+
+
+@pytest.fixture(scope="module")
+def in_one(tmp_path_factory):
+    """The file of a sweep that one thread has made in one piece."""
+    return gathered(tmp_path_factory.mktemp("one"), MAP, 1, threads=1)
+
+
+def gathered(folder, settings, count, threads):
+    """The file of a sweep that is cut into so many shards."""
+    schema = [*(fields.AXES[axis] for axis in settings["axes"]), *shards.TABLES["sweeps"]]
+    paths, cuts = [], np.linspace(0, POINTS, count + 1).astype(int)
+    for number, rows in enumerate(pairwise(cuts.tolist())):
+        paths.append(folder / f"{number}.parquet")
+        columns = shards.make(settings, rows, threads=threads)
+        tables.write(paths[-1], tables.make("sweeps", schema, columns, settings))
+    tables.gather(folder / "all.parquet", paths, "sweeps", settings, POINTS)
+    return folder / "all.parquet"
+
+
+@pytest.mark.parametrize(("count", "threads"), [(1, 2), (3, 1), (50, 2)])
+def test_equal_bytes_for_any_number_of_shards_and_threads(tmp_path, in_one, count, threads):
+    assert gathered(tmp_path, MAP, count, threads).read_bytes() == in_one.read_bytes()
+
+
+def test_rows_do_not_depend_on_their_order(in_one):
+    """The values of all axes in another order: the table is that of before, its rows permuted."""
+    permuted = {name: np.random.default_rng(1).permutation(values).tolist() for name, values in MAP["axes"].items()}
+    found = pd.DataFrame(shards.make(MAP | {"axes": permuted}))
+    axes = list(permuted)
+    expected = pd.read_parquet(in_one).sort_values(axes, ignore_index=True)
+    assert {"first", "second", "chaos"} <= set(expected.state)
+    pd.testing.assert_frame_equal(
+        found[list(expected)].sort_values(axes, ignore_index=True), expected, check_dtype=False, check_exact=True
+    )
 
 
 def test_a_run_that_failed_has_no_state(monkeypatch):

@@ -164,8 +164,12 @@ WRONG = [
         "sweeps.heights.axes.z0.num = 1000000000000 makes too many points",
     ),
     (
-        {"sweeps": {"map_height": {"axes": {"z0": {"num": 1.0e6}}}}},
-        "sweeps.map_height.axes makes 400,000,000 points or rows; at most 10,000,000",
+        {"critical": {"edge": {"axes": {"acceleration": {"num": 1.0e6}}}}},
+        "points or rows; at most 10,000,000",
+    ),
+    (
+        {"sweeps": {"map_height": {"axes": {"psi0": {"num": 1.0e6}, "z0": {"num": 1.0e6}}}}},
+        "sweeps.map_height.axes makes 1,000,000,000,000 points, some",
     ),
 ]
 

@@ -149,7 +149,7 @@ def without_kept(config: dict) -> dict:
     [
         {"figures": {"fig03": {"title": r"$\dot{x}_p$ über $\hat{a}$ {braces} {}"}}},
         {"claims": {"C01": {"statement": "Ä ö ü ß {x}", "where": "{}"}}},
-        {"solver": {"points_per_job": 5.0e4, "settling": 2.0e4}},
+        {"sharing": {"most_jobs": 5.0e2}, "solver": {"settling": 2.0e4}},
         {"sweeps": {"amplitudes": {"axes": {"acceleration": {"start": 20, "num": 20.0}}}}},
         {"prefix": "a-b_C1"},
         {"sweeps": {"one": {"axes": {"z0": ["conveyor"]}}}},

@@ -1,27 +1,34 @@
 # Sweeps: a product of axes, one trajectory per point and the state that it leads to, one table per entry of the config. They
 # are computed in shards, so that a cluster can share a large one; the table does not depend on how it was cut.
-MOST_SHARDS = 500  # of one sweep: each is a job, which takes seconds to start
+from workflow.sharing import THREADS, plan
 
-
-def points_of(name):
-    return count_points(config["sweeps"][name]["axes"])
-
-
-def rows_per_shard(name):
-    return max(config["solver"]["points_per_job"], math.ceil(points_of(name) / MOST_SHARDS))
+PLANS = {name: plan(config, name) for name in config["sweeps"]}
+LATER = 3  # times what was expected, so long a job may run
 
 
 def rows_of_shard(wildcards):
     """First row of a shard and the row behind its last one."""
-    rows = rows_per_shard(wildcards.name)
-    begin = int(wildcards.shard) * rows
-    return [begin, min(begin + rows, points_of(wildcards.name))]
+    shared = PLANS[wildcards.name]
+    begin = int(wildcards.shard) * shared.rows
+    return [begin, min(begin + shared.rows, shared.points)]
 
 
 def shards_of_sweep(wildcards):
     """The files of all shards, in the order of their rows."""
-    shards = math.ceil(points_of(wildcards.name) / rows_per_shard(wildcards.name))
-    return [table("shards", f"{wildcards.name}/{shard}") for shard in range(shards)]
+    return [table("shards", f"{wildcards.name}/{shard}") for shard in range(PLANS[wildcards.name].shards)]
+
+
+def memory_of_shard(wildcards, attempt):
+    """MB of a shard: more if it was not enough before."""
+    return math.ceil(attempt * PLANS[wildcards.name].memory)
+
+
+def minutes_of_shard(wildcards, attempt):
+    return math.ceil(attempt * (10 + LATER * PLANS[wildcards.name].seconds / 60))
+
+
+def memory_of_gathering(wildcards, attempt):
+    return math.ceil(attempt * PLANS[wildcards.name].gathering)
 
 
 RULES["shards"] = {
@@ -30,15 +37,16 @@ RULES["shards"] = {
     "output": {"sweeps": table("shards", "{name}/{shard}")},
     "place": "shards/{name}/{shard}",
     "names": {"name": one_of(config["sweeps"]), "shard": r"\d+"},
-    "threads": 2,
-    "runtime": 60,
+    "threads": THREADS,
+    "mem_mb": memory_of_shard,
+    "runtime": minutes_of_shard,
     "params": {"settings": settings("sweeps"), "rows": rows_of_shard},
 }
 
 RULES["sweeps"] = {
     "script": "gather",
     "output": {"sweeps": table("sweeps")},
-    "params": {"settings": settings("sweeps")},
+    "params": {"settings": settings("sweeps"), "points": lambda wildcards: PLANS[wildcards.name].points},
 }
 
 
@@ -55,7 +63,7 @@ rule sweeps:
         name=one_of(config["sweeps"]),
     threads: 1
     resources:
-        mem_mb=1000,
+        mem_mb=memory_of_gathering,
         runtime=30,
     params:
         **RULES["sweeps"]["params"],
