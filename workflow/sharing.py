@@ -13,7 +13,7 @@ from workflow.tables_of_config import count_points, count_values, ends, resolve,
 
 THREADS = 2  # of a job
 STARTS = ("psi0", "z0", "vz0")  # what belongs to a start; all other parameters are those of its conveyor
-SHARED = constants("pipeline/motions.py", "SHARED")["SHARED"]
+CHAOS_SHARED = constants("pipeline/motions.py", "CHAOS_SHARED")["CHAOS_SHARED"]
 ROW_GROUP = constants("pipeline/tables.py", "ROW_GROUP")["ROW_GROUP"]
 
 
@@ -62,7 +62,7 @@ def seconds_of(entry: dict, costs: dict, rows: int) -> float:
         run = costs["cycle"] * entry["duration"] * sum(frequencies) / len(frequencies)
     share = restless(entry)
     starts = math.prod(count_values(axis) for name, axis in entry["axes"].items() if name in STARTS)
-    if starts < SHARED:
+    if starts < CHAOS_SHARED:
         return rows * (run + costs["start"] + share * costs["restless_start"])
     sets = costs["quiet_conveyor"] + share * costs["restless_conveyor"]
     return rows * (run + costs["start"]) + conveyors_of(entry["axes"], rows) * sets

@@ -13,7 +13,8 @@ from conveyor.solver.model import PARAMETERS, PSI0, VZ0, Z0
 from pipeline import grid
 
 # From so many starts of a conveyor on it costs less to find its chaotic sets first, and neighbourhoods of its orbits.
-CHAOS_SHARED, ORBITS_SHARED = 8, 200
+CHAOS_SHARED = 8
+ORBITS_SHARED = 200
 # So many conveyors have their attractors in memory at a time, some 30 kB each.
 CONVEYORS = 2000
 
