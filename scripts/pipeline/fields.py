@@ -38,12 +38,15 @@ AXES = {name: number(name, UNITS[name], "axis of the sweep") for name in PARAMET
 AXES["z0"] = number("z0", UNITS["z0"], "axis of the sweep; null for a start on the conveyor (Eq. 15)")
 AXES[PARAMETERS[TENSION]] = text(PARAMETERS[TENSION], "axis of the sweep")
 
-RESULTS = (
-    number("mean_velocity", "m/s", "mean feeding velocity over the last quarter; null for vertical needs"),
+ENDS = (
     number("z_end", "m", "height of the part at the end"),
     number("vz_end", "m/s", "vertical velocity of the part at the end"),
     number("x_end", "m", "horizontal position of the part at the end; null for vertical needs"),
     number("vx_end", "m/s", "horizontal velocity of the part at the end; null for vertical needs"),
+)
+RESULTS = (
+    number("mean_velocity", "m/s", "mean feeding velocity over the last quarter; null for vertical needs"),
+    *ENDS,
 )
 STATE = (
     text("state", "state of motion that the run leads to: first, second, chaos, undecided"),

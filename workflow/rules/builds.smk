@@ -66,3 +66,66 @@ RULES["provenance"] = {
         "benchmarks": f"results/{PREFIX}benchmarks",
     },
 }
+
+# All that is no result: what redraws the figures, and what makes everything anew.
+SOURCES = [
+    *("Snakefile", "README.md", "LICENSE", "CITATION.cff", "CONTRIBUTING.md", "CHANGELOG.md", "pyproject.toml"),
+    *("environment.txt", "config", "workflow", "profiles", "scripts", "tests"),
+]
+
+
+def sources():
+    """The sources that are here, with the overlays."""
+    overlays = map(os.path.relpath, workflow.overwrite_configfiles)
+    inside = [file for file in overlays if not file.startswith("..")]
+    return [file for file in dict.fromkeys([*SOURCES, *inside]) if Path(file).exists()]
+
+
+def hash_of_sources(wildcards):
+    """A param: the hash of all sources."""
+    paths = [path for source in sources() for path in (Path(source), *Path(source).rglob("*"))]
+    digest = hashlib.sha256()
+    for path in sorted(path for path in paths if path.is_file() and path.suffix != ".pyc"):
+        digest.update(f"{path}\0".encode() + path.read_bytes() + b"\0")
+    return digest.hexdigest()[:16]
+
+
+ARCHIVED = [
+    *figure_files(),
+    *caption_files(),
+    *sorted(tables_read()),
+    *(result(name) for name in ("claims.parquet", "claims.md", "manifest.sha256", "provenance.json")),
+]
+
+
+rule archive:
+    input:
+        ARCHIVED,
+        readme="workflow/templates/ARCHIVE.md",
+    output:
+        directory(f"archive/{config['prefix'] or 'paper'}"),
+    log:
+        log_file("builds/archive"),
+    benchmark:
+        benchmark_file("builds/archive")
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=10,
+    params:
+        results=ARCHIVED,
+        sources=sources(),
+        figures={
+            figure_file(figure): {
+                "name": figure,
+                "tables": {role: table(*reference.split("/")) for role, reference in entry["tables"].items()},
+                "kinds": {role: kind_of(reference) for role, reference in entry["tables"].items()},
+                "settings": entry.get("settings", {}),
+            }
+            for figure, entry in config["figures"].items()
+        },
+        code=hash_of_sources,
+    message:
+        "An archive of the figures and what they are made from"
+    script:
+        "../../scripts/archive.py"

@@ -1,0 +1,60 @@
+"""The script of the rule that puts into one folder what a reader of the figures needs, and can draw them again from.
+
+Figures, the tables that they, their captions and the claims are made from, where all that comes from, the sources and
+their environment, and the SHA-256 of every file. Runs end in states that nothing is drawn from: the tables come without
+these columns, which are half of their bytes.
+"""
+
+import hashlib
+import json
+import shutil
+from collections.abc import Iterable
+from pathlib import Path
+
+import pyarrow.parquet as pq
+
+from pipeline import fields, tables
+from pipeline.rule_log import logged
+
+SUMS = "SHA256SUMS"
+# What scripts/redraw.py draws: the tables of each figure by their names in its plot, their kinds, and its settings.
+DRAWN = "figures.json"
+ENDS = {field.name for field in fields.ENDS}
+NOT_SOURCES = shutil.ignore_patterns("__pycache__", ".*")
+
+
+def copy_table(source: Path, target: Path) -> None:
+    """Copy a table without the columns of ends of runs."""
+    table = pq.read_table(source)
+    tables.write(target, table.drop_columns([name for name in table.column_names if name in ENDS]))
+
+
+def copy(names: Iterable[str], folder: Path) -> None:
+    """Copy files and folders to the same places below a folder."""
+    for name in names:
+        source, target = Path(name), folder / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        if source.is_dir():
+            shutil.copytree(source, target, ignore=NOT_SOURCES)
+        elif source.suffix == ".parquet":
+            copy_table(source, target)
+        else:
+            shutil.copyfile(source, target)
+
+
+def sums(folder: Path) -> str:
+    """The SHA-256 of all files below a folder, as sha256sum checks them."""
+    files = sorted(path for path in folder.rglob("*") if path.is_file())
+    return "".join(
+        f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(folder).as_posix()}\n" for path in files
+    )
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        archive = Path(snakemake.output[0])
+        archive.mkdir(parents=True)
+        copy([*snakemake.params.sources, *snakemake.params.results], archive)
+        shutil.copyfile(snakemake.input.readme, archive / "ARCHIVE.md")
+        (archive / DRAWN).write_text(json.dumps(snakemake.params.figures, indent=1) + "\n", encoding="utf-8")
+        (archive / SUMS).write_text(sums(archive), encoding="utf-8")
