@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import yaml
-from snakemake.utils import update_config
+
+from workflow.config_files import merged
 
 ROOT = Path(__file__).resolve().parents[1]
 PARTS = ("Snakefile", "workflow", "profiles", "config", "scripts")
@@ -66,14 +67,6 @@ CONFIG_FILES = (
 def read_config(*files: str) -> dict:
     """The merged config, or that of some files."""
     return merged(*(yaml.safe_load((ROOT / f"config/{file}.yaml").read_text()) for file in files or CONFIG_FILES))
-
-
-def merged(*configs: dict) -> dict:
-    """Configs merged as Snakemake merges overlays, the last one first in rank."""
-    result = {}
-    for config in configs:
-        update_config(result, config)
-    return result
 
 
 def small_config() -> dict:

@@ -11,18 +11,8 @@ import numpy as np
 import pandas as pd
 from tqdm import tqdm
 
-from accuracy.precision import Method, follow
+from accuracy.precision import RUN, Method, follow
 from pipeline import fields
-
-RUN = (
-    fields.text("method", "event, a fixed-step method, or one of scipy's integrators"),
-    fields.text(
-        "treatment",
-        "of impacts and slip reversals: exact, with or without repeated steps, fixed step, sign, events or modes",
-    ),
-    fields.number("tolerance", "1", "relative tolerance; null for fixed steps"),
-    fields.number("step", "s", "step; null for tolerances"),
-)
 
 TABLES = {
     "wall_times": (

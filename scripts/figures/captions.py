@@ -7,8 +7,10 @@ import pandas as pd
 from jinja2 import Environment, StrictUndefined
 
 from accuracy import stability
+from accuracy.rigid_part import CONTACT, RIGID
 from claims.about_chaos import positive_onset
 from claims.about_states import runs_of, second_from_rest, written_runs
+from claims.finding import lowest
 from operating.chart import of_the_search
 
 MM = 1e3
@@ -116,8 +118,28 @@ def longest_period(tables: Tables, settings: dict) -> dict[str, str]:
 
 def rigid_part(tables: Tables, settings: dict) -> dict[str, str]:
     table = tables["rigid"]
-    contact = table[(table.model == "contact") & (table.kind == "velocity")]
-    return {"leaves": f"{second_from_rest(contact):g}"}
+    velocities = table[table.kind == "velocity"]
+    contact, rigid = (velocities[velocities.model == model] for model in (CONTACT, RIGID))
+    leaves = second_from_rest(rigid)
+    both = pd.merge(contact, rigid, on=["acceleration", "z0"], suffixes=("_contact", ""))
+    later = both[(both.z0 == 0.0) & (both.acceleration >= leaves)]
+    arrived = later[(later.mean_velocity > 0.5 * later.mean_velocity_contact) & (later.state_contact != "first")]
+    return {
+        "duration": f"{tables['contact'].attrs['duration']:g}",
+        "leaves": f"{second_from_rest(contact):g}",
+        "rigid_leaves": f"{leaves:g}",
+        "arrives": f"{lowest(arrived.acceleration):g}",
+    }
+
+
+def scene_budget(tables: Tables, settings: dict) -> dict[str, str]:
+    """In how many tables a reader would see that a variant is not the full model."""
+    rows = tables["budget"].drop_duplicates(["table", "variant", "tolerance"])
+    numbers = {}
+    for name, variant in (("rigid", "rigid part"), ("half", "half the time")):
+        visible = rows[rows.variant == variant].visible
+        numbers |= {f"{name}_seen": str(int(visible.sum())), f"{name}_of": str(len(visible))}
+    return numbers
 
 
 def settling(tables: Tables, settings: dict) -> dict[str, str]:
@@ -155,6 +177,7 @@ NUMBERS: dict[str, Callable[[Tables, dict], dict[str, str]]] = {
     "certificates": longest_period,
     "operating": of_the_box,
     "rigid_part": rigid_part,
+    "scene_budget": scene_budget,
     "settling": settling,
     "stability": stability_maps,
 }

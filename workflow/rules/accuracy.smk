@@ -37,11 +37,8 @@ def scene_rule(name, message, **rest):
 
 def converged_entry(reference):
     """All that a converged table of trajectories depends on, with an axis over the amplitude in any case."""
-    section, name = reference.split("/")
-    if section in ("attractors", "lyapunov"):
-        merged = of_sections(*("attractors", "lyapunov")[: 1 + (section == "lyapunov")])
-        return {**merged, "axes": {"acceleration": merged["acceleration"]}, "duration": None}
-    return resolve(config, section, name)
+    entry = settings_of_table(table(*reference.split("/")))
+    return entry if "axes" in entry else {**entry, "axes": {"acceleration": entry["acceleration"]}, "duration": None}
 
 
 def is_budgeted(reference):
