@@ -17,12 +17,12 @@ if errors := [fault for faults, _ in read_files for fault in faults]:
     raise WorkflowError(refusal(errors))
 
 contents = [content for _, content in read_files]
-whole = as_first_written(merged([*contents, config]), contents)
+whole = as_first_written(merged(*contents, config), contents)
 if errors := problems(whole):
     raise WorkflowError(refusal(errors))
 
 # What overlays are compared with where the report says what it shows.
-PAPER = merged(contents[: len(STAGES) + 1])
+PAPER = merged(*contents[: len(STAGES) + 1])
 
 # Nothing that follows from the config may depend on the order of keys or the spelling of numbers in overlays. It is the same
 # object that Snakemake hands to the report.

@@ -74,8 +74,8 @@ def read(file: str | Path) -> tuple[list[str], Any]:
     return [f"{file}:{line}: {fault}" for line, fault in misread(node, "", (), set())], content
 
 
-def merged(contents: list[dict]) -> dict:
-    """Configs merged as Snakemake merges overlays, each over those before it."""
+def merged(*contents: dict) -> dict:
+    """Configs merged as Snakemake merges overlays, each over those before it; they stay as they are."""
     found = {}
     for content in contents:
         update_config(found, content)
