@@ -108,17 +108,39 @@ def bifurcation_rows(branches: list[Branch]) -> list[dict]:
     return rows
 
 
+def doubles(bifurcation: Bifurcation) -> bool:
+    """Whether a period doubles there."""
+    return bifurcation.kind == "period_doubling"
+
+
 def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orbit) -> list[Bifurcation]:
-    """The first two doublings of the orbit that `jumping` becomes when the amplitude grows."""
-    own = next(branch for branch in branches if orbits.on_branch(parameters, branch, jumping))
+    """The first two doublings of the orbit that `jumping` becomes when the amplitude grows.
+
+    Raises
+    ------
+    ValueError
+        if the branches do not reach them
+    """
+    begin = jumping.acceleration
+    own = [branch for branch in branches if orbits.on_branch(parameters, branch, jumping)]
     first = next(
-        b for b in own.bifurcations if b.kind == "period_doubling" and b.orbit.acceleration > jumping.acceleration
+        (b for branch in own for b in branch.bifurcations if doubles(b) and b.orbit.acceleration > begin), None
     )
+    if first is None:
+        end = max((orbit.acceleration for branch in own for orbit in branch.orbits), default=begin)
+        raise ValueError(
+            f"the jumping orbit of {begin:g} m/s² (the last of orbits.seeds) is followed to {end:g} m/s² and does not double its "
+            "period: the upper one of orbits.limits must lie behind its first doubling"
+        )
     double = orbits.doubled(parameters, first)
-    following = orbits.follow_branch(
-        parameters, double, (first.orbit.acceleration - 1.0, first.orbit.acceleration + 20.0)
-    )
-    second = min((b for b in following.bifurcations if b.kind == "period_doubling"), key=lambda b: b.orbit.acceleration)
+    span = (first.orbit.acceleration - 1.0, first.orbit.acceleration + 20.0)
+    following = orbits.follow_branch(parameters, double, span)
+    second = min(filter(doubles, following.bifurcations), key=lambda b: b.orbit.acceleration, default=None)
+    if second is None:
+        raise ValueError(
+            f"the orbit that doubles its period at {first.orbit.acceleration:g} m/s² does not double it again below {span[1]:g} m/s²: "
+            "there is no cascade behind the last of orbits.seeds"
+        )
     return [first, second]
 
 

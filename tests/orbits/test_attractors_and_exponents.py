@@ -3,8 +3,9 @@
 import numpy as np
 import pandas as pd
 import pytest
+from project import read_config
 
-from orbits import exponents, strobes, witnesses
+from orbits import branches, exponents, strobes, witnesses
 
 MODEL = {
     "acceleration": 40.0,
@@ -68,3 +69,10 @@ def test_witnesses_agree_where_the_motion_is_clear(tables):
     assert seen.set_index(["branch", "acceleration"]).by_exponent.to_dict() == {
         (branch, acceleration): acceleration == 80.0 for branch in ("up", "down") for acceleration in (0.0, 40.0, 80.0)
     }
+
+
+def test_limits_below_the_first_doubling_are_named():
+    section = read_config("orbits")["orbits"]
+    settings = {**section, "limits": [20.0, 45.0], "max_period": 1, "model": MODEL}
+    with pytest.raises(ValueError, match=r"followed to 45\.\d+ m/s².*upper one of orbits\.limits"):
+        branches.make(settings)
