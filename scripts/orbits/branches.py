@@ -129,8 +129,8 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
     if first is None:
         end = max((orbit.acceleration for branch in own for orbit in branch.orbits), default=begin)
         raise ValueError(
-            f"the jumping orbit of {begin:g} m/s² (the last of orbits.seeds) is followed to {end:g} m/s² and does not double its "
-            "period: the upper one of orbits.limits must lie behind its first doubling"
+            f"the jumping orbit of {begin:g} m/s² (the last of orbits.seeds) is followed to {end:g} m/s² and does "
+            "not double its period: the upper one of orbits.limits must lie behind its first doubling"
         )
     double = orbits.doubled(parameters, first)
     span = (first.orbit.acceleration - 1.0, first.orbit.acceleration + 20.0)
@@ -138,8 +138,8 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
     second = min(filter(doubles, following.bifurcations), key=lambda b: b.orbit.acceleration, default=None)
     if second is None:
         raise ValueError(
-            f"the orbit that doubles its period at {first.orbit.acceleration:g} m/s² does not double it again below {span[1]:g} m/s²: "
-            "there is no cascade behind the last of orbits.seeds"
+            f"the orbit that doubles its period at {first.orbit.acceleration:g} m/s² does not double it again below "
+            f"{span[1]:g} m/s²: there is no cascade behind the last of orbits.seeds"
         )
     return [first, second]
 
