@@ -77,8 +77,8 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     axes.text(*project(5.8, 1.5, 0.95), "feeding", color=style.EULER)
     axes.text(*project(3.2, 2.9, 1.25), "part $O$")
     axes.text(2.05, -0.75, "vibrating channel $N$", va="top")
-    arrow(axes, (9.3, -1.55), (10.9, -1.05), "<|-|>", style.CONVERGED)
-    axes.text(10.2, -1.6, "vibration\nin $x$ and $z$", color=style.CONVERGED, va="top")
+    arrow(axes, (9.3, -0.4), (10.9, 0.1), "<|-|>", style.CONVERGED)
+    axes.text(10.2, -0.45, "vibration\nin $x$ and $z$", color=style.CONVERGED, va="top")
     origin = (-2.6, -0.6)
     for tip, name in (((1.3, 0.0), "$x$"), ((0.9 * DEPTH[0] * 2, 0.9 * DEPTH[1] * 2), "$y$"), ((0.0, 1.3), "$z$")):
         end = origin[0] + tip[0], origin[1] + tip[1]

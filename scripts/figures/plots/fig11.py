@@ -2,6 +2,7 @@
 
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from figures import style
 
@@ -20,5 +21,6 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     panels[0].set_ylabel("mean feeding velocity in m/s")
     panels[0].set_ylim(bottom=0.0)
-    panels[0].legend(handles=style.state_handles(*tables.values()), loc="upper left")
+    two_states = Patch(color="0.93", label="two states wanted")
+    panels[0].legend(handles=[*style.state_handles(*tables.values()), two_states], loc="upper left")
     return figure

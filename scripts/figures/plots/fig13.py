@@ -18,6 +18,7 @@ def phase_map(table: pd.DataFrame, name: str, label: str, start: str) -> tuple[F
     axes.set_xlabel(label)
     axes.set_ylabel("initial phase $\\psi_0$ in rad")
     style.phase_axis(axes.yaxis)
+    axes.set_ylim(top=2.0 * np.pi)
     figure.legend(handles=style.state_handles(table), loc="outside upper center", ncols=4)
     return figure, axes
 
@@ -30,4 +31,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     phases = np.linspace(table.psi0.min(), table.psi0.max(), 200)
     plate = conveyor_motion(Conveyor(**model), phases / (2.0 * np.pi * model["frequency"]))["z"]
     axes.plot(1e3 * plate[plate >= 0.0], phases[plate >= 0.0], color="white", linewidth=1.0)
+    top = plate.argmax()
+    beside = {"xytext": (3, 0), "textcoords": "offset points", "va": "center", "size": 7.0}
+    axes.annotate("plate", (1e3 * plate[top], phases[top]), color="white", **beside)
     return figure

@@ -17,7 +17,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     for axes, (role, colour, title) in zip(panels, looks, strict=True):
         rows = tables[role]
         axes.plot(1e3 * rows.z0, rows.mean_velocity, ".-", color=colour, linewidth=0.4, markersize=2.5)
-        axes.set_title(title)
+        axes.set_title(f"{title}, $\\hat{{a}}$ = {rows.attrs['model']['acceleration']:g} m/s²")
         axes.set_xlabel("initial height $z_0$ in mm")
     panels[0].set_ylabel("mean feeding velocity in m/s")
     panels[0].set_ylim(bottom=0.0)

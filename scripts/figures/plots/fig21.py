@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 
 from figures import style
 
+LEAST = 1e-12  # m/s: where both parts slip they have the same velocity but for rounding
 LOOKS = {
     "euler": (style.EULER, style.EULER_LABEL),
     "converged": (style.CONVERGED, style.CONVERGED_LABEL),
@@ -31,6 +32,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
             )
         distance = np.abs(perturbed.vx.to_numpy() - base.vx.to_numpy())
         difference.semilogy(base.time, distance, color=colour, linewidth=0.7)
+        difference.set_ylim(bottom=LEAST)
         position.set_title(title)
         position.legend(loc="upper left")
         difference.set_xlabel("time in s")

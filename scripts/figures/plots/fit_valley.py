@@ -26,11 +26,13 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
 
     errors.axhline(1e6 * settings["paper_error"] ** 0.5, color="black", linewidth=0.6, linestyle=":")
     errors.annotate(
-        "the paper's error",
-        (-20.0, 1e6 * settings["paper_error"] ** 0.5),
-        xytext=(0, 2),
+        "the paper",
+        (1.0, 1e6 * settings["paper_error"] ** 0.5),
+        xycoords=("axes fraction", "data"),
+        xytext=(0, -2),
         textcoords="offset points",
-        ha="center",
+        ha="right",
+        va="top",
         size=7.0,
     )
     labels = {"fit": (style.CONVERGED, "converged data"), "fit_euler": (style.EULER, "by the paper's method")}
@@ -62,7 +64,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         row = flat.iloc[index]
         curve = critical_height(range_of_fit, Hyperbola(row.A, row.B, row.C))
         colour = colormaps["viridis"](shade)
-        heights.plot(range_of_fit, 1e3 * curve, color=colour, linewidth=0.6, label=f"$B$ = {row.B:.1f} m/s²")
+        heights.plot(range_of_fit, 1e3 * curve, color=colour, linewidth=0.6, label=f"$B = {row.B:.1f}$ m/s²")
     edge = data[data.is_critical]
     heights.plot(
         edge.acceleration, 1e3 * edge.z0, ".", color="black", markersize=2.0, markeredgewidth=0.0, label="data"

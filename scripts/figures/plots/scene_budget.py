@@ -22,13 +22,19 @@ def look(row) -> tuple[str, str]:
     return "o", TOLERANCES[nearest]
 
 
+def in_words(figure: str) -> str:
+    """The name of a figure as a reader knows it."""
+    number = figure.removeprefix("fig")
+    return f"Fig. {int(number)}" if number.isdigit() else figure.replace("_", " ")
+
+
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     """From the table `budget` and its wall `times`."""
     table = tables["budget"].merge(tables["times"], on=["table", "variant", "tolerance"], how="left")
     table.attrs = tables["budget"].attrs
     drawn = table[table.table != "none"]
     names = list(dict.fromkeys(drawn.table))
-    figures = drawn.groupby("table").figure.unique().map(", ".join)
+    figures = drawn.groupby("table").figure.unique().map(lambda drawing: ", ".join(map(in_words, drawing)))
     rows = drawn.drop_duplicates(["table", "variant", "tolerance"])
     rows = rows.assign(place=rows.table.map(names.index), seen=rows.changed.clip(lower=NONE))
 
@@ -56,7 +62,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     cost.plot(1e3 * chosen.seconds, chosen.place, markeredgewidth=0.8, **RING)
     seen.plot(chosen.seen, chosen.place, markeredgewidth=0.8, **RING)
     seen.axvline(table.attrs["pixels"], color="black", linewidth=0.6, linestyle=":")
-    cost.set_yticks(range(len(names)), [f"{name}\n{figures[name]}" for name in names])
+    cost.set_yticks(range(len(names)), [f"{figures[name]}\n{name}" for name in names])
     cost.set_ylim(len(names) - 0.5, -0.5)
     for axes in (cost, seen):
         axes.set_xscale("log")

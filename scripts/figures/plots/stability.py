@@ -93,7 +93,7 @@ def draw_chatter(axes: Axes, table: pd.DataFrame) -> None:
         axes.loglog(rows.x, rows.y.clip(lower=SMALLEST), ".-", color=METHOD_COLOURS[method])
         axes.annotate(label, (rows.x.iloc[0], rows.y.iloc[0]), xytext=(0, 5), textcoords="offset points", size=7.0)
     axes.set_xlabel("step in s")
-    axes.set_ylabel("slip while sticking in m/s")
+    axes.set_ylabel("slip in stick in m/s")
 
 
 def draw_hard(axes: Axes, table: pd.DataFrame) -> None:
@@ -116,7 +116,7 @@ def draw_hard(axes: Axes, table: pd.DataFrame) -> None:
     axes.set_xticks([1e-14, 1e-10, 1e-6, 1e-2])
     axes.set_yticks([])
     axes.spines.left.set_visible(False)
-    axes.set_xlabel("relative error of the height at the end")
+    axes.set_xlabel("relative error of the height")
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:

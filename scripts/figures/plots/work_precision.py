@@ -49,9 +49,9 @@ PANELS = (
     ("milliseconds", "state_error", "wall time in ms", "state at the end"),
     ("evaluations", "state_error", "force evaluations", "state at the end"),
 )
-# Above this error there is a band of failures, with a line for each treatment (share of the height of the axes).
+# Above this error there is a band of failures, with a line for each method and treatment that has some.
 FAILED = 3.0
-LINES = {"sign": 0.96, "fixed step": 0.92, "events": 0.88, "modes": 0.84}
+BAND_ENDS = 1e8
 
 QUANTITIES = {
     "exponent": ("simulated cycles", "relative error of $\\lambda_1$"),
@@ -61,7 +61,7 @@ QUANTITIES = {
 
 
 def curve(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
-    """One method: its successes as a curve, its failures as letters in the band above."""
+    """The successes of one method."""
     method, treatment = rows.method.iloc[0], rows.treatment.iloc[0]
     colour, _ = METHODS[method]
     marker, line, _ = TREATMENTS[treatment]
@@ -79,20 +79,23 @@ def curve(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
         markerfacecolor=colour if treatment in ("exact", "fixed step") else "none",
         zorder=3 if ours else 2,
     )
-    for outcome, failed in rows[rows.outcome.isin(FAILURES)].groupby("outcome"):
-        # One letter on a line over all of a kind: side by side they could not be read.
+
+
+def draw_failures(axes: Axes, table: pd.DataFrame, x: str) -> None:
+    """The failures of a scene in the band: a line over the work of each kind, with its letter at the right end."""
+    kinds = table[table.outcome.isin(FAILURES)].groupby(["method", "treatment", "outcome"], sort=False)
+    lines = np.geomspace(BAND_ENDS, FAILED, kinds.ngroups + 2)[1:-1]
+    for line, ((method, _, outcome), failed) in zip(lines, kinds, strict=True):
+        colour, _ = METHODS[method]
         least, most = failed[x].min(), failed[x].max()
-        across = axes.get_xaxis_transform()
-        axes.plot([least, most], [LINES[treatment]] * 2, color=colour, linewidth=0.6, transform=across)
+        axes.plot([least, most], [line] * 2, color=colour, linewidth=0.8, marker="|", markersize=2.5)
         axes.annotate(
             FAILURES[outcome],
-            (most, LINES[treatment]),
-            xycoords=("data", "axes fraction"),
-            xytext=(4.0, 0.0),
+            (most, line),
+            xytext=(3.0, 0.0),
             textcoords="offset points",
             color=colour,
-            size=7.0,
-            ha="center",
+            size=5.5,
             va="center",
             annotation_clip=False,
         )
@@ -104,13 +107,12 @@ def panel(axes: Axes, table: pd.DataFrame, x: str, y: str, settings: dict) -> No
         curve(axes, rows, x, y)
     paper = table[(table.method == "euler") & np.isclose(table.step, settings["paper_step"])]
     axes.plot(paper[x], paper[y], "o", markersize=7.0, markerfacecolor="none", color=style.EULER)
-    # Failures are annotations, which do not move the limits.
-    axes.plot(table[x], np.full(len(table), FAILED), linestyle="")
+    draw_failures(axes, table, x)
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_ylim(1e-15, 1e4)
+    axes.set_ylim(1e-15, BAND_ENDS)
     axes.set_yticks([1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1.0])
-    axes.axhspan(FAILED, 1e4, color="0.95", linewidth=0.0)
+    axes.axhspan(FAILED, BAND_ENDS, color="0.95", linewidth=0.0)
     axes.minorticks_off()
     axes.grid(linewidth=0.3, color="0.9")
 
