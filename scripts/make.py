@@ -3,8 +3,8 @@
 A module of a stage has such a function, `make`, and TABLES, the schemas of the tables that it makes, by their kinds.
 Its arguments are the named inputs of the rule (tables or texts, lists of them where the rule has lists), the params
 beside those NOT_FOR_THE_STAGE, and, where it takes them, `threads` and `progress`. It returns what the one output
-holds: the columns of a table, a text or a picture; of several outputs a mapping by their names, or a list without
-names.
+holds: the columns of a table (an iterator: of blocks of its rows), a text or a picture; of several outputs a mapping by
+their names, or a list without names.
 """
 
 import importlib
@@ -60,7 +60,10 @@ def write(stage: ModuleType, name: str, path: str, content: Any, settings: dict)
     if path.endswith(".parquet"):
         kind = name if name in stage.TABLES else next(iter(stage.TABLES))
         schema = [*(fields.AXES[axis] for axis in settings.get("axes", ())), *stage.TABLES[kind]]
-        tables.write(path, tables.make(kind, schema, content, settings))
+        if isinstance(content, Iterator):
+            tables.write_blocks(path, (tables.make(kind, schema, block, settings) for block in content))
+        else:
+            tables.write(path, tables.make(kind, schema, content, settings))
     elif isinstance(content, str):
         Path(path).write_text(content, encoding="utf-8")
     else:

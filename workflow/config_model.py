@@ -81,16 +81,22 @@ class Solver(TypedDict):
 
 Seconds = positive(1e6, "s")
 Megabytes = positive(1e6, "MB")
-COSTS = ("cycle", "fixed_step", "start", "restless_start", "quiet_conveyor", "restless_conveyor")
+QuietOrRestless = interval(Seconds, point=True)
+
+
+class Costs(TypedDict):
+    cycle: Seconds
+    fixed_step: Seconds
+    start: TypedDict("CostOfStart", dict.fromkeys(("alone", "chaos", "orbits"), QuietOrRestless))
+    conveyor: TypedDict("CostOfConveyor", dict.fromkeys(("chaos", "orbits"), QuietOrRestless))
 
 
 class Sharing(TypedDict):
     job_seconds: Seconds
-    job_megabytes: Megabytes
     most_jobs: whole(1, 10**5)
     core_hours: positive(1e9, "h")
-    seconds: TypedDict("Costs", dict.fromkeys(COSTS, Seconds))
-    megabytes: TypedDict("Memory", dict.fromkeys(("program", "row", "gathered_row"), Megabytes))
+    seconds: Costs
+    megabytes: TypedDict("Memory", dict.fromkeys(("program", "row", "written_row"), Megabytes))
 
 
 class Followed(TypedDict):

@@ -13,8 +13,9 @@ from workflow.tables_of_config import count_points, count_values, ends, resolve,
 
 THREADS = 2  # of a job
 STARTS = ("psi0", "z0", "vz0")  # what belongs to a start; all other parameters are those of its conveyor
-CHAOS_SHARED = constants("pipeline/motions.py", "CHAOS_SHARED")["CHAOS_SHARED"]
+SHARED = constants("pipeline/motions.py", "CHAOS_SHARED", "ORBITS_SHARED")
 ROW_GROUP = constants("pipeline/tables.py", "ROW_GROUP")["ROW_GROUP"]
+BLOCK = constants("sweeps/shards.py", "BLOCK")["BLOCK"]
 
 
 class Plan(NamedTuple):
@@ -45,12 +46,20 @@ def restless(entry: dict) -> float:
 
 def conveyors_of(axes: dict, rows: int) -> int:
     """How many conveyors some consecutive rows of a product of axes have, the first axis the slowest."""
-    found, stride = 1, math.prod(map(count_values, axes.values()))
+    found, stride = min(rows, 1), math.prod(map(count_values, axes.values()))
     for name, axis in axes.items():
         stride //= count_values(axis)
         if name not in STARTS:
             found *= min(count_values(axis), math.ceil(rows / stride))
     return found
+
+
+def known_of(axes: dict) -> str:
+    """What is found of the attractors of each conveyor before its starts are followed."""
+    starts = math.prod(count_values(axis) for name, axis in axes.items() if name in STARTS)
+    if starts < SHARED["CHAOS_SHARED"]:
+        return "alone"
+    return "chaos" if starts < SHARED["ORBITS_SHARED"] else "orbits"
 
 
 def seconds_of(entry: dict, costs: dict, rows: int) -> float:
@@ -60,12 +69,14 @@ def seconds_of(entry: dict, costs: dict, rows: int) -> float:
     else:
         frequencies = values_of(entry, "frequency")
         run = costs["cycle"] * entry["duration"] * sum(frequencies) / len(frequencies)
-    share = restless(entry)
-    starts = math.prod(count_values(axis) for name, axis in entry["axes"].items() if name in STARTS)
-    if starts < CHAOS_SHARED:
-        return rows * (run + costs["start"] + share * costs["restless_start"])
-    sets = costs["quiet_conveyor"] + share * costs["restless_conveyor"]
-    return rows * (run + costs["start"]) + conveyors_of(entry["axes"], rows) * sets
+    known, share = known_of(entry["axes"]), restless(entry)
+    start, conveyor = (
+        quiet + share * (thrown - quiet)
+        for quiet, thrown in (costs["start"][known], costs["conveyor"].get(known, (0, 0)))
+    )
+    blocks, rest = divmod(rows, BLOCK)
+    conveyors = blocks * conveyors_of(entry["axes"], BLOCK) + conveyors_of(entry["axes"], rest)
+    return rows * (run + start) + conveyors * conveyor
 
 
 def most_rows(entry: dict, costs: dict, seconds: float) -> int:
@@ -78,20 +89,18 @@ def most_rows(entry: dict, costs: dict, seconds: float) -> int:
 
 
 def plan(config: dict, name: str) -> Plan:
-    """How the sweep `name` is shared: jobs of the wanted time and memory, unless they were too many."""
+    """How the sweep `name` is shared: jobs of the wanted time, unless they were too many."""
     sharing, entry = config["sharing"], resolve(config, "sweeps", name)
     costs, memory = sharing["seconds"], sharing["megabytes"]
     points = count_points(entry["axes"])
-    rows = min(
-        most_rows(entry, costs, THREADS * sharing["job_seconds"]),
-        max(1, int((sharing["job_megabytes"] - memory["program"]) / memory["row"])),
-    )
+    rows = most_rows(entry, costs, THREADS * sharing["job_seconds"])
     rows = min(points, max(rows, math.ceil(points / sharing["most_jobs"])))
+    computed, written = memory["row"] * min(rows, BLOCK), memory["written_row"] * min(rows, ROW_GROUP + BLOCK)
     return Plan(
         points,
         rows,
         math.ceil(points / rows),
         seconds_of(entry, costs, rows),
-        memory["program"] + rows * memory["row"],
-        memory["program"] + min(points, rows + ROW_GROUP) * memory["gathered_row"],
+        memory["program"] + computed + written,
+        memory["program"] + memory["written_row"] * min(points, 2 * ROW_GROUP),
     )

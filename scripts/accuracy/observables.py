@@ -30,7 +30,7 @@ class Shown(NamedTuple):
 
 def swept(settings: dict) -> pd.DataFrame:
     """A table of sweeps."""
-    return pd.DataFrame(shards.make(settings))
+    return pd.DataFrame(shards.columns(settings))
 
 
 def heights_of_change(settings: dict) -> pd.DataFrame:

@@ -94,24 +94,16 @@ def write(path: str | Path, table: pa.Table) -> None:
         pq.write_table(table, part, row_group_size=ROW_GROUP, **encoding(table.schema))
 
 
-def gather(path: str | Path, shards: Iterable[str | Path], kind: str, settings: dict, rows: int) -> None:
-    """Write shards of a table, given in the order of their `rows`, as one, with a row group of it in memory at a time.
+def write_blocks(path: str | Path, blocks: Iterable[pa.Table]) -> None:
+    """Write blocks of rows of a table, at least one, with little more than a row group of it in memory at a time.
 
     The bytes are those that `write` gives of the whole table.
-
-    Raises
-    ------
-    TableError
-        if a shard is no table of this kind, or was made from other settings, or all have other rows than these
     """
     waiting: list[pa.Table] = []
-    found = 0
     with replaced(path) as part, ExitStack() as files:
         writer = None
-        for shard in shards:
-            check(shard, kind, settings)
-            waiting.append(pq.read_table(shard))
-            found += len(waiting[-1])
+        for block in blocks:
+            waiting.append(block)
             schema = waiting[0].schema
             writer = writer or files.enter_context(pq.ParquetWriter(part, schema, **encoding(schema)))
             while sum(map(len, waiting)) >= ROW_GROUP:
@@ -120,10 +112,30 @@ def gather(path: str | Path, shards: Iterable[str | Path], kind: str, settings: 
                 waiting = [together.slice(ROW_GROUP)]
         if sum(map(len, waiting)):
             writer.write_table(pa.concat_tables(waiting), row_group_size=ROW_GROUP)
-        if found != rows:
-            raise TableError(
-                f"the shards of {path} have {found} rows, not {rows}; delete them: the next run makes new ones"
-            )
+
+
+def gather(path: str | Path, shards: Sequence[str | Path], kind: str, settings: dict, rows: int) -> None:
+    """Write shards of a table, given in the order of their rows, as one.
+
+    Raises
+    ------
+    TableError
+        if a shard is no table of this kind, or was made from other settings, or all together have not so many `rows`
+    """
+    for shard in shards:
+        check(shard, kind, settings)
+    if (found := sum(pq.read_metadata(shard).num_rows for shard in shards)) != rows:
+        raise TableError(
+            f"the shards of {path} have {found} rows, not {rows}; delete them: the next run makes new ones"
+        )
+    write_blocks(path, (group for shard in shards for group in row_groups(shard)))
+
+
+def row_groups(path: str | Path) -> Iterator[pa.Table]:
+    """The row groups of a table, one by one."""
+    with pq.ParquetFile(path) as file:
+        for number in range(file.num_row_groups):
+            yield file.read_row_group(number)
 
 
 def umask() -> int:

@@ -1,5 +1,7 @@
 """Some rows of a sweep: a trajectory for each point of a product of axes, and the state of motion that it leads to."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from conveyor import ensemble
@@ -18,7 +20,21 @@ TABLES = {
 }
 
 
+# Rows that are computed at a time: some hundred megabytes.
+BLOCK = 1 << 18
+
+
 def make(
+    settings: dict, rows: tuple[int, int], *, threads: int = 1, progress: str | None = None
+) -> Iterator[dict[str, np.ndarray]]:
+    """The `columns` of some rows of a table of sweeps, in blocks."""
+    blocks = range(*rows, BLOCK)
+    for number, begin in enumerate(blocks, start=1):
+        label = progress and (f"{progress} ({number} of {len(blocks)})" if len(blocks) > 1 else progress)
+        yield columns(settings, (begin, min(begin + BLOCK, rows[1])), threads=threads, progress=label)
+
+
+def columns(
     settings: dict, rows: tuple[int, int] | None = None, *, threads: int = 1, progress: str | None = None
 ) -> dict[str, np.ndarray]:
     """The columns of a table of sweeps for the resolved `settings` of an entry of the config.

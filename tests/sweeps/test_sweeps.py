@@ -57,8 +57,9 @@ POINTS = 50
 
 
 def rows_per_shard(rows: int) -> dict:
-    """Of the config: jobs of so much memory that a shard has so many rows."""
-    return {"job_megabytes": 1 + rows, "megabytes": {"program": 1, "row": 1}}
+    """Of the config: starts so slow, one in a second, that a shard has so many rows."""
+    start = {known: [1, 1] for known in ("alone", "chaos", "orbits")}
+    return {"job_seconds": 0.5 * rows + 0.1, "seconds": {"start": start}}
 
 
 @pytest.fixture(scope="module")
@@ -128,8 +129,8 @@ def gathered(folder, settings, count, threads):
     paths, cuts = [], np.linspace(0, POINTS, count + 1).astype(int)
     for number, rows in enumerate(pairwise(cuts.tolist())):
         paths.append(folder / f"{number}.parquet")
-        columns = shards.make(settings, rows, threads=threads)
-        tables.write(paths[-1], tables.make("sweeps", schema, columns, settings))
+        blocks = shards.make(settings, rows, threads=threads)
+        tables.write_blocks(paths[-1], (tables.make("sweeps", schema, block, settings) for block in blocks))
     tables.gather(folder / "all.parquet", paths, "sweeps", settings, POINTS)
     return folder / "all.parquet"
 
@@ -139,10 +140,15 @@ def test_equal_bytes_for_any_number_of_shards_and_threads(tmp_path, in_one, coun
     assert gathered(tmp_path, MAP, count, threads).read_bytes() == in_one.read_bytes()
 
 
+def test_equal_bytes_for_any_blocks(tmp_path, monkeypatch, in_one):
+    monkeypatch.setattr(shards, "BLOCK", 7)
+    assert gathered(tmp_path, MAP, 2, 1).read_bytes() == in_one.read_bytes()
+
+
 def test_rows_do_not_depend_on_their_order(in_one):
     """The values of all axes in another order: the table is that of before, its rows permuted."""
     permuted = {name: np.random.default_rng(1).permutation(values).tolist() for name, values in MAP["axes"].items()}
-    found = pd.DataFrame(shards.make(MAP | {"axes": permuted}))
+    found = pd.DataFrame(shards.columns(MAP | {"axes": permuted}))
     axes = list(permuted)
     expected = pd.read_parquet(in_one).sort_values(axes, ignore_index=True)
     assert {"first", "second", "chaos"} <= set(expected.state)
@@ -160,6 +166,6 @@ def test_a_run_that_failed_has_no_state(monkeypatch):
 
     monkeypatch.setattr(ensemble, "run", failing)
     settings = {"axes": {"z0": [0.0, 1e-4]}, "model": {"acceleration": 30.0}, "duration": 0.1, "settling": 2000}
-    found = shards.make(settings)
+    found = shards.columns(settings)
     assert (list(found["state"]), list(found["period"])) == (["first", "undecided"], [1, 0])
     assert np.isfinite(found["longest_flight"]).tolist() == [True, False]

@@ -64,20 +64,14 @@ def test_a_plate_throws_parts_where_its_acceleration_exceeds_gravity(axes, share
 def test_jobs_take_the_wanted_time():
     """Not by a count of points: slow ones make more jobs."""
     points = sweep(psi0=span(6.0, 1000), z0=span(1e-4, 10_000))
-    quick = planned(points, job_megabytes=5000)
-    slow = planned(points | {"duration": 1.0}, job_megabytes=5000)
+    quick, slow = planned(points), planned(points | {"duration": 1.0})
     for shared in (quick, slow):
         assert 0.9 * THREADS * SHARING["job_seconds"] < shared.seconds <= THREADS * SHARING["job_seconds"]
         assert shared.rows * (shared.shards - 1) < shared.points == 10**7 <= shared.rows * shared.shards
     assert slow.shards > 1.5 * quick.shards
 
 
-def test_jobs_take_the_wanted_memory():
-    shared = planned(sweep(psi0=span(6.0, 1000), z0=span(1e-4, 10_000)), job_megabytes=500)
-    assert 0.99 * 500 < shared.memory <= 500
-
-
-@pytest.mark.parametrize("points", [10**5, 10**6, 10**7])
+@pytest.mark.parametrize("points", [10**5, 10**6, 10**7, 10**8])
 def test_no_job_of_a_usual_sweep_takes_a_gigabyte(points):
     shared = planned(sweep(psi0=span(6.0, 1000), z0=span(1e-4, points // 1000)))
     assert max(shared.memory, shared.gathering) < 1000.0
