@@ -2,10 +2,10 @@
 
 Perturbations are those of (δ, Y) (see stroboscope) by five quantities, in this order:
 
-    δ and Y at the beginning of the cycle, a_z (m/s²), d_c/m (1/s), k_c/m (of its unit).
+    δ and Y at the beginning of the cycle, a_z (m/s²), d_c/m (1/s), k_c/m (of its unit), p.
 
 The first derivatives solve the linearised equations of motion with the forces that a change of a parameter adds. The
-second ones, by a state and any of the five, solve those equations again, driven by products of the first ones. They
+second ones, by a state and any of the six, solve those equations again, driven by products of the first ones. They
 jump where δ passes zero with the rate v: the equations of (δ, Y) have a kink in their damping there, whose second
 derivative is a Dirac function, and so is the one of the spring where p = 1. `clip` adds the kink where the force
 begins to pull or ceases to.
@@ -25,12 +25,14 @@ from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, moti
 from .stroboscope import tangent_length
 
 # What is perturbed; the first two are the state.
-DELTA, Y, AMPLITUDE, DAMPING, STIFFNESS = range(5)
-QUANTITIES = 5
+DELTA, Y, AMPLITUDE, DAMPING, STIFFNESS, EXPONENT = range(6)
+QUANTITIES = 6
 # Products of perturbations ring at twice the frequency of each: their steps are half as long.
 PART = 0.5
-# Powers of w that are not whole have a branch point at w = 0; a step covers this part of the distance to it.
+# The derivative of w^(2p+1) by p has the factor log w, singular at w = 0: a step covers this part of the distance to it,
+# and below this part of the √penetration at rest, where it weighs nothing, it is left out.
 PART_OF_RADIUS = 0.2
+LOG_EDGE = 1e-5
 
 
 @kernel
@@ -43,6 +45,27 @@ def power_series(c, series, exponent, out):
         for n in range(1, ORDER):
             series[contact.SCRATCH, n] = contact.power_term(series, w, contact.SCRATCH, exponent, n)
     out[:] = series[contact.SCRATCH]
+
+
+@kernel
+def log_series(c, series, out):
+    """Fill `out`, shape (SIZE,), with the Taylor coefficients of 2 log w of a contact step, 0 where w is left out."""
+    w = series[FIRST + contact.W]
+    out[:] = 0.0
+    if w[0] > branch_edge(c):
+        out[0] = math.log(w[0])
+        for n in range(1, ORDER):
+            total = n * w[n]
+            for k in range(1, n):
+                total -= k * out[k] * w[n - k]
+            out[n] = total / (n * w[0])
+        out *= 2.0
+
+
+@inlined
+def branch_edge(c):
+    """The √penetration (√m) from which on steps keep away from the branch point at w = 0."""
+    return c.edge_w if c.edge_w > 0.0 else LOG_EDGE * c.scale_w
 
 
 @inlined
@@ -58,8 +81,8 @@ def product(a, b, n):
 def expand(c, series, first, second, free):
     """Taylor coefficients in s of the perturbations along a contact step, from their values at s = 0.
 
-    first : shape (5, 2, SIZE), of δ and Y by each quantity
-    second : shape (2, 5, 2, SIZE), of δ and Y by a state and a quantity
+    first : shape (6, 2, SIZE), of δ and Y by each quantity
+    second : shape (2, 6, 2, SIZE), of δ and Y by a state and a quantity
     free : whether the contact force is left out
     """
     w, square = series[FIRST + contact.W], series[FIRST + contact.SQUARE]
@@ -76,8 +99,12 @@ def expand(c, series, first, second, free):
     else:
         power_series(c, series, 2.0 * c.exponent - 1.0, slope)
         power_series(c, series, 2.0 * c.exponent - 3.0, bend)
+    # log w² itself, and times the spring's slope: with 1/p times that slope the derivative of p w^(2p-1) by p, over p.
+    log, slope_by_exponent = np.zeros(SIZE), np.zeros(SIZE)
+    log_series(c, series, log)
     products = np.zeros((2, QUANTITIES, SIZE))
     for n in range(ORDER):
+        slope_by_exponent[n] = product(slope, log, n) + slope[n] / c.exponent
         for j in range(QUANTITIES):
             delta, y = first[j, 0], first[j, 1]
             drift = product(w, y, n) - damping * product(w, delta, n)
@@ -88,6 +115,8 @@ def expand(c, series, first, second, free):
                 drift -= product(w, square, n)
             elif j == STIFFNESS and not free:
                 push -= spring[n]
+            elif j == EXPONENT:
+                push -= stiffness * product(spring, log, n)
             for i in range(2):
                 products[i, j, n] = product(first[i, 0], delta, n)
                 of_both = second[i, j]
@@ -98,6 +127,8 @@ def expand(c, series, first, second, free):
                     drift_of_both -= product(w, first[i, 0], n)
                 elif j == STIFFNESS and not free:
                     pull += product(slope, first[i, 0], n)
+                elif j == EXPONENT:
+                    pull += stiffness * product(slope_by_exponent, first[i, 0], n)
                 of_both[0, n + 1] = drift_of_both / (n + 1)
                 of_both[1, n + 1] = -c.exponent * pull / (n + 1)
             delta[n + 1] = drift / (n + 1)
@@ -143,6 +174,7 @@ def cross_force(c, first, second, w, v, acceleration):
         change[j] = slope * first[j, 0, 0] + c.damping * first[j, 1, 0]
     change[DAMPING] += v
     change[STIFFNESS] += delta**c.exponent
+    change[EXPONENT] += c.stiffness * delta**c.exponent * math.log(delta)
     for i in range(2):
         for j in range(QUANTITIES):
             second[i, j, 1, 0] -= change[i] * change[j] / rate
@@ -166,8 +198,13 @@ def press(c, series, first, second, motion, piece):
     """Advance the perturbations along a contact step; return the piece up to where they could go."""
     expand(c, series, first, second, motion.pulled and c.tension == TENSION_CLIP)
     longest = PART * min(tangent_length(c, first[DELTA]), tangent_length(c, first[Y]))
-    if motion.w > c.edge_w > 0.0:
+    edge = branch_edge(c)
+    if motion.w > edge:
         longest = min(longest, PART_OF_RADIUS * motion.w / abs(0.5 * motion.v))
+    else:
+        longest = min(longest, piece.length)
+        while polynomial.value(series, FIRST + contact.W, longest) > 4.0 * edge:
+            longest *= 0.5
     if longest < piece.length:
         duration = polynomial.value(series, FIRST + contact.T, longest)
         piece = shortened(series, FIRST, longest, duration, contact.NOTHING)
@@ -236,8 +273,8 @@ def cycles(parameters, tolerance, state, first, second, states):
     ----------
     parameters : float64, shape (13,); tolerance per step
     state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced
-    first : float64, shape (n, 2, 5), filled with ∂(δ, Y) at the end of each cycle by the five quantities at its begin
-    second : float64, shape (n, 2, 2, 5), filled with the derivatives of first[..., :2] by the five quantities
+    first : float64, shape (n, 2, 6), filled with ∂(δ, Y) at the end of each cycle by the six quantities at its begin
+    second : float64, shape (n, 2, 2, 6), filled with the derivatives of first[..., :2] by the six quantities
     states : float64, shape (n, 2), filled with δ and v after each cycle
 
     Returns
