@@ -31,12 +31,13 @@ GRAZING = "grazing"
 
 
 class Derivatives(NamedTuple):
-    """Pⁿ of the scaled state (x, y) and its derivatives by (x, y, Γ, D, K, p)."""
+    """Pⁿ of the scaled state (x, y) and its derivatives by the first k of x, y, Γ, D, K and p."""
 
     image: np.ndarray  # shape (2,)
-    first: np.ndarray  # shape (2, 6)
-    second: np.ndarray  # shape (2, 2, 6), of first[:, :2]
+    first: np.ndarray  # shape (2, k)
+    second: np.ndarray  # shape (2, 2, k), of first[:, :2]
     states: np.ndarray  # (x, y) after each cycle, shape (n, 2)
+    impacts: int  # of all cycles
 
 
 class Point(NamedTuple):
@@ -48,22 +49,28 @@ class Point(NamedTuple):
     groups: Groups  # with Γ
 
 
-def derivatives(groups: Groups, state: np.ndarray, period: int, psi0: float = 0.0) -> Derivatives | None:
-    """The image of a scaled state (x, y) at the phase ψ0 and its derivatives, or None where the motion is lost."""
-    first, second = np.empty((period, 2, 6)), np.empty((period, 2, 2, 6))
-    states = np.empty((period, 2))
+def derivatives(
+    groups: Groups, state: np.ndarray, period: int, psi0: float = 0.0, *, exponent: bool = False
+) -> Derivatives | None:
+    """The image of a scaled state (x, y) at the phase ψ0 and its derivatives, or None where the motion is lost.
+
+    exponent : whether those by p are wanted, which take several times as long
+    """
+    count = second_order.QUANTITIES if exponent else second_order.EXPONENT
+    first, second = np.empty((period, 2, count)), np.empty((period, 2, 2, count))
+    states, impacts = np.empty((period, 2)), np.empty(period, dtype=np.int64)
     start = velocity_for_y(groups, np.array(state, dtype=np.float64))
-    if second_order.cycles(packed(groups, psi0), TOLERANCE, start, first, second, states) != OK:
+    if second_order.cycles(packed(groups, psi0), TOLERANCE, start, first, second, states, impacts) != OK:
         return None
     states[:, 1] += groups.damping * np.maximum(states[:, 0], 0.0)
     # What (x, y, Γ, D, K, p) at the begin does to itself later on, and to the second derivatives: the chain rule.
-    whole, bent = np.eye(6), np.zeros((2, 2, 6))
+    whole, bent = np.eye(count), np.zeros((2, 2, count))
     for of_one, of_two in zip(first, second, strict=True):
         bent = np.einsum("ca,aij->cij", of_one[:, :2], bent) + np.einsum(
             "cab,ai,bj->cij", of_two, whole[:2, :2], whole
         )
         whole[:2] = of_one @ whole
-    return Derivatives(states[-1], whole[:2].copy(), bent, states)
+    return Derivatives(states[-1], whole[:2].copy(), bent, states, int(impacts.sum()))
 
 
 def velocity_for_y(groups: Groups, state: np.ndarray) -> np.ndarray:
@@ -71,12 +78,14 @@ def velocity_for_y(groups: Groups, state: np.ndarray) -> np.ndarray:
     return np.array([state[0], state[1] - groups.damping * max(state[0], 0.0)])
 
 
-def system(kind: str, period: int, unknown: np.ndarray, groups: Groups) -> tuple[np.ndarray, np.ndarray] | None:
-    """The functions whose zero a bifurcation is, shape (k,), and their derivatives by its k unknowns, D, K and p."""
+def system(
+    kind: str, period: int, unknown: np.ndarray, groups: Groups, *, exponent: bool = False
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """The functions whose zero a bifurcation is, shape (k,), and their derivatives by its k unknowns, D, K (and p)."""
     if kind == GRAZING:
-        return touching(period, unknown, groups)
+        return touching(period, unknown, groups, exponent=exponent)
     here = groups._replace(amplitude=float(unknown[2]))
-    found = derivatives(here, unknown[:2], period)
+    found = derivatives(here, unknown[:2], period, exponent=exponent)
     if found is None:
         return None
     matrix = found.first[:, :2]
@@ -88,15 +97,17 @@ def system(kind: str, period: int, unknown: np.ndarray, groups: Groups) -> tuple
         - found.second[1, 0] * matrix[0, 1]
     )
     test = 1.0 - SIGNS[kind] * np.trace(matrix) + np.linalg.det(matrix)
-    jacobian = np.vstack([found.first - np.eye(2, 6), determinant - SIGNS[kind] * trace])
+    jacobian = np.vstack([found.first - np.eye(2, found.first.shape[1]), determinant - SIGNS[kind] * trace])
     return np.append(found.image - unknown[:2], test), jacobian
 
 
-def touching(period: int, unknown: np.ndarray, groups: Groups) -> tuple[np.ndarray, np.ndarray] | None:
-    """Where the part is, n cycles after it touched the plate at rest, by the phase ψ of the touch, Γ, D, K and p."""
+def touching(
+    period: int, unknown: np.ndarray, groups: Groups, *, exponent: bool = False
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """Where the part is n cycles after it touched the plate at rest, and the derivatives by ψ, Γ, D, K (and p)."""
     psi, amplitude = (float(value) for value in unknown)
     here = groups._replace(amplitude=amplitude)
-    found = derivatives(here, np.zeros(2), period, psi)
+    found = derivatives(here, np.zeros(2), period, psi, exponent=exponent)
     if found is None:
         return None
     # A later section sees the end later, and begins with an earlier part of the same motion.
@@ -137,7 +148,7 @@ def moves(point: Point) -> np.ndarray | None:
 
     The last row is that of Γ. None where the system is singular (a codimension-two point) or cannot be evaluated.
     """
-    found = system(point.kind, point.period, point.unknown, point.groups)
+    found = system(point.kind, point.period, point.unknown, point.groups, exponent=True)
     count = len(point.unknown)
     return None if found is None else solve(found[1][:, :count], -found[1][:, count:])
 

@@ -78,13 +78,15 @@ def product(a, b, n):
 
 
 @kernel
-def expand(c, series, first, second, free):
+def expand(c, series, first, second, free, count):
     """Taylor coefficients in s of the perturbations along a contact step, from their values at s = 0.
 
     first : shape (6, 2, SIZE), of δ and Y by each quantity
     second : shape (2, 6, 2, SIZE), of δ and Y by a state and a quantity
     free : whether the contact force is left out
+    count : how many of the quantities are wanted, from the first one on
     """
+    series, first, second = borrowed(series), borrowed(first), borrowed(second)
     w, square = series[FIRST + contact.W], series[FIRST + contact.SQUARE]
     spring, cosine_w = series[FIRST + contact.SPRING], series[FIRST + contact.COSINE_W]
     damping = 0.0 if free else c.damping
@@ -92,8 +94,7 @@ def expand(c, series, first, second, free):
     # w^(2p-1) and w^(2p-3), the first and second derivatives of the spring times w.
     slope, bend = np.zeros(SIZE), np.zeros(SIZE)
     if c.exponent == 1.5:
-        slope[:] = square
-        bend[0] = 1.0
+        slope[:] = square  # and w^(2p-3) is 1
     elif c.exponent == 1.0:
         slope[:] = w
     else:
@@ -101,11 +102,14 @@ def expand(c, series, first, second, free):
         power_series(c, series, 2.0 * c.exponent - 3.0, bend)
     # log w² itself, and times the spring's slope: with 1/p times that slope the derivative of p w^(2p-1) by p, over p.
     log, slope_by_exponent = np.zeros(SIZE), np.zeros(SIZE)
-    log_series(c, series, log)
+    by_exponent = count > EXPONENT
+    if by_exponent:
+        log_series(c, series, log)
     products = np.zeros((2, QUANTITIES, SIZE))
     for n in range(ORDER):
-        slope_by_exponent[n] = product(slope, log, n) + slope[n] / c.exponent
-        for j in range(QUANTITIES):
+        if by_exponent:
+            slope_by_exponent[n] = product(slope, log, n) + slope[n] / c.exponent
+        for j in range(count):
             delta, y = first[j, 0], first[j, 1]
             drift = product(w, y, n) - damping * product(w, delta, n)
             push = -c.exponent * stiffness * product(slope, delta, n)
@@ -118,11 +122,13 @@ def expand(c, series, first, second, free):
             elif j == EXPONENT:
                 push -= stiffness * product(spring, log, n)
             for i in range(2):
-                products[i, j, n] = product(first[i, 0], delta, n)
+                if i > j:
+                    continue  # it is the one by the same two states in the other order
                 of_both = second[i, j]
+                products[i, j, n] = product(first[i, 0], delta, n)
                 drift_of_both = product(w, of_both[1], n) - damping * product(w, of_both[0], n)
-                pull = stiffness * (c.exponent - 1.0) * product(bend, products[i, j], n)
-                pull += stiffness * product(slope, of_both[0], n)
+                curvature = products[i, j, n] if c.exponent == 1.5 else product(bend, products[i, j], n)
+                pull = stiffness * ((c.exponent - 1.0) * curvature + product(slope, of_both[0], n))
                 if j == DAMPING and not free:
                     drift_of_both -= product(w, first[i, 0], n)
                 elif j == STIFFNESS and not free:
@@ -131,6 +137,8 @@ def expand(c, series, first, second, free):
                     pull += stiffness * product(slope_by_exponent, first[i, 0], n)
                 of_both[0, n + 1] = drift_of_both / (n + 1)
                 of_both[1, n + 1] = -c.exponent * pull / (n + 1)
+                if i < j < 2:
+                    second[j, i, :, n + 1] = of_both[:, n + 1]
             delta[n + 1] = drift / (n + 1)
             y[n + 1] = push / (n + 1)
 
@@ -194,12 +202,14 @@ def fly(c, first, second, motion, piece):
 
 
 @inlined
-def press(c, series, first, second, motion, piece):
+def press(c, series, first, second, motion, piece, count):
     """Advance the perturbations along a contact step; return the piece up to where they could go."""
-    expand(c, series, first, second, motion.pulled and c.tension == TENSION_CLIP)
+    expand(c, series, first, second, motion.pulled and c.tension == TENSION_CLIP, count)
     longest = PART * min(tangent_length(c, first[DELTA]), tangent_length(c, first[Y]))
     edge = branch_edge(c)
-    if motion.w > edge:
+    if c.edge_w == 0.0 and count <= EXPONENT:
+        pass  # nothing has a branch point
+    elif motion.w > edge:
         longest = min(longest, PART_OF_RADIUS * motion.w / abs(0.5 * motion.v))
     else:
         longest = min(longest, piece.length)
@@ -208,7 +218,7 @@ def press(c, series, first, second, motion, piece):
     if longest < piece.length:
         duration = polynomial.value(series, FIRST + contact.T, longest)
         piece = shortened(series, FIRST, longest, duration, contact.NOTHING)
-    for j in range(QUANTITIES):
+    for j in range(count):
         for of in range(2):
             first[j, of, 0] = polynomial.value(first[j], of, piece.length)
             for i in range(2):
@@ -217,8 +227,12 @@ def press(c, series, first, second, motion, piece):
 
 
 @kernel
-def cycle(c, series, state, first, second):
-    """Advance `state` by one excitation cycle, and fill the first coefficients of `first` and `second`."""
+def cycle(c, series, state, first, second, count):
+    """Advance `state` by one excitation cycle, and fill the first coefficients of `first` and `second`.
+
+    count : how many of the quantities are wanted; the one by p, the last, takes several times as long as the others
+    Returns the status code and the number of impacts.
+    """
     series, state, first, second = borrowed(series), borrowed(state), borrowed(first), borrowed(second)
     first[:] = 0.0
     second[:] = 0.0
@@ -228,14 +242,15 @@ def cycle(c, series, state, first, second):
     if motion.pulled and clip:
         switch(c, first, second, state[0], True)
     most = patience(c)
-    lone = 0
+    lone = impacts = 0
     for _ in range(MAX_PIECES):
         piece = next_piece(c, series, FIRST, motion, c.period - motion.t)
         if piece.kind == CONTACT:
-            piece = press(c, series, first, second, motion, piece)
+            piece = press(c, series, first, second, motion, piece, count)
         else:
             if piece.kind == FLIGHT and piece.end == LOST:
-                return IMPACT_LOST
+                return IMPACT_LOST, impacts
+            impacts += piece.end == IMPACT
             fly(c, first, second, motion, piece)
         following = arrive(c, motion, piece, c.psi0)
         free = motion.pulled and clip
@@ -252,30 +267,32 @@ def cycle(c, series, state, first, second):
                 switch(c, first, second, delta, False)
         lone = lone + 1 if piece.end == contact.NOTHING else 0
         if lone > 2 * most:
-            return TOO_STIFF
+            return TOO_STIFF, impacts
         motion = following
         if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)):
-            return NOT_FINITE
+            return NOT_FINITE, impacts
         if piece.end == LIMIT:
             state[0] = motion.w * motion.w if motion.touching else -max(motion.q, 0.0)
             state[1] = motion.v if motion.touching else -motion.rate
             if motion.pulled and clip:
                 switch(c, first, second, state[0], False)
-            return OK
-    return TOO_STIFF
+            return OK, impacts
+    return TOO_STIFF, impacts
 
 
 @kernel
-def cycles(parameters, tolerance, state, first, second, states):
+def cycles(parameters, tolerance, state, first, second, states, impacts):
     """Advance `state` by n cycles, with the derivatives of each.
 
     Parameters
     ----------
     parameters : float64, shape (13,); tolerance per step
     state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced
-    first : float64, shape (n, 2, 6), filled with ∂(δ, Y) at the end of each cycle by the six quantities at its begin
-    second : float64, shape (n, 2, 2, 6), filled with the derivatives of first[..., :2] by the six quantities
+    first : float64, shape (n, 2, k), k = 5 or 6, filled with ∂(δ, Y) at the end of each cycle by the first k
+        quantities at its begin; those by p take several times as long as all others
+    second : float64, shape (n, 2, 2, k), filled with the derivatives of first[..., :2] by the same quantities
     states : float64, shape (n, 2), filled with δ and v after each cycle
+    impacts : int64, shape (n,), filled with the number of impacts in each cycle
 
     Returns
     -------
@@ -286,10 +303,10 @@ def cycles(parameters, tolerance, state, first, second, states):
     of_one = np.empty((QUANTITIES, 2, SIZE))
     of_two = np.empty((2, QUANTITIES, 2, SIZE))
     for n in range(first.shape[0]):
-        status = cycle(c, series, state, of_one, of_two)
+        status, impacts[n] = cycle(c, series, state, of_one, of_two, first.shape[2])
         states[n, :] = state
         for of in range(2):
-            for j in range(QUANTITIES):
+            for j in range(first.shape[2]):
                 first[n, of, j] = of_one[j, of, 0]
                 for i in range(2):
                     second[n, of, i, j] = of_two[i, j, of, 0]
