@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .bifurcation_points import FARTHEST, ITERATIONS, derivatives, solve
-from .groups import Groups
+from .groups import AMPLITUDE, DAMPING, EXPONENT, HEIGHT, NAMES, PHASE, STIFFNESS, VELOCITY, Groups
 
 # Images followed before a saddle is looked for, and the longest period of one, in cycles.
 SEARCHED, LONGEST = 60, 4
@@ -25,8 +25,6 @@ SEARCHED, LONGEST = 60, 4
 CONVERGED = 1e-11
 NEAR = 1e-7
 MOST = 200
-# What the last unknown is.
-HEIGHT, AMPLITUDE = "height", "amplitude"
 
 
 class Launch(NamedTuple):
@@ -46,11 +44,11 @@ class Edge(NamedTuple):
     saddle: np.ndarray  # (x, y) at the phase ψ0
     multipliers: tuple[float, float]  # of the saddle, the unstable one first
     images: np.ndarray  # of the start, shape (N + 1, 2)
-    moves: dict[str, np.ndarray]  # derivatives of height and of amplitude by each of QUANTITIES, the other one fixed
+    moves: np.ndarray  # derivatives of what was unknown by all groups in the order of groups.NAMES, shape (7,); its own 0
 
 
-# What an edge moves with: the groups D, K and p, and the rest of the start.
-QUANTITIES = ("damping", "stiffness", "exponent", "velocity", "psi0")
+# What an edge moves with beside height and amplitude, in this order.
+OTHERS = (DAMPING, STIFFNESS, EXPONENT, VELOCITY, PHASE)
 
 
 def launched(launch: Launch, groups: Groups) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -58,7 +56,7 @@ def launched(launch: Launch, groups: Groups) -> tuple[np.ndarray, np.ndarray, np
 
     Returns
     -------
-    state, shape (2,); derivatives by (height, Γ), shape (2, 2), and by QUANTITIES, shape (2, 5): that by ψ0 is the one
+    state, shape (2,); derivatives by (height, Γ), shape (2, 2), and by OTHERS, shape (2, 5): that by ψ0 is the one
     of the state at the *unchanged* phase which the start with a changed one passes through
     """
     sine, cosine = math.sin(launch.psi0), math.cos(launch.psi0)
@@ -120,10 +118,10 @@ def fixed_point(groups: Groups, state: np.ndarray, period: int, psi0: float) -> 
     return None
 
 
-def on_edge(launch: Launch, groups: Groups, unknown: str) -> Edge | str:
+def on_edge(launch: Launch, groups: Groups, unknown: int) -> Edge | str:
     """The start on the edge of a basin next to a start that is nearly on it, or why there is none.
 
-    unknown : HEIGHT or AMPLITUDE, what is changed so that the start lies on the edge
+    unknown : groups.HEIGHT or groups.AMPLITUDE, what is changed so that the start lies on the edge
     """
     near = saddle_near(launch, groups)
     if near is None:
@@ -140,13 +138,13 @@ def on_edge(launch: Launch, groups: Groups, unknown: str) -> Edge | str:
             return solution
         launch, groups, saddle, images = solution
         if np.linalg.norm(images[-1] - saddle) < NEAR:
-            return _moved(launch, groups, period, saddle, np.array(images))
+            return _moved(launch, groups, unknown, period, saddle, np.array(images))
         images = list(images)
     return "the start does not come close to the saddle"
 
 
 def _linearised(launch, groups, period, saddle, images, *, exponent=False):
-    """Residuals of the multiple shooting, their derivatives by the images and (height, Γ), and by QUANTITIES."""
+    """Residuals of the multiple shooting, their derivatives by the images and (height, Γ), and by OTHERS."""
     at_saddle = derivatives(groups, saddle, period, launch.psi0, exponent=exponent)
     if at_saddle is None:
         return None
@@ -158,7 +156,7 @@ def _linearised(launch, groups, period, saddle, images, *, exponent=False):
     state, by_unknown, by_quantities = launched(launch, groups)
     count = len(images)
     residual = np.zeros(2 * count + 1)
-    jacobian, others = np.zeros((2 * count + 1, 2 * count + 2)), np.zeros((2 * count + 1, len(QUANTITIES)))
+    jacobian, others = np.zeros((2 * count + 1, 2 * count + 2)), np.zeros((2 * count + 1, len(OTHERS)))
     residual[:2] = images[0] - state
     jacobian[:2, :2], jacobian[:2, -2:], others[:2] = np.eye(2), -by_unknown, -by_quantities
     groups_moved = at_saddle.first.shape[1] - 3
@@ -203,14 +201,15 @@ def _shoot(launch, groups, unknown, period, saddle, images):
     return "Newton's iteration does not converge"
 
 
-def _moved(launch, groups, period, saddle, images):
+def _moved(launch, groups, unknown, period, saddle, images):
     """The Edge, with the derivatives by the implicit function theorem."""
     _, jacobian, others, values = _linearised(launch, groups, period, saddle, images, exponent=True)
-    moves = {
-        name: np.linalg.solve(np.column_stack([jacobian[:, :-2], jacobian[:, column]]), -others)[-1]
-        for name, column in ((HEIGHT, -2), (AMPLITUDE, -1))
-    }
-    by_amplitude = np.linalg.solve(np.column_stack([jacobian[:, :-2], jacobian[:, -2]]), -jacobian[:, -1])[-1]
-    moves["height by amplitude"] = np.array([by_amplitude])
+    count = len(images)
+    own, other = (-2, -1) if unknown == HEIGHT else (-1, -2)
+    right = -np.column_stack([others, jacobian[:, other]])
+    *moved, by_other = np.linalg.solve(np.column_stack([jacobian[:, : 2 * count], jacobian[:, own]]), right)[-1]
+    moves = np.zeros(len(NAMES))
+    moves[list(OTHERS)] = moved
+    moves[AMPLITUDE if unknown == HEIGHT else HEIGHT] = by_other
     order = np.argsort(-np.abs(values))
     return Edge(launch, groups, period, saddle, tuple(values[order]), images, moves)

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import root
 
-from .bifurcation_points import GRAZING, SIGNS, Point, derivatives, solve, system, touch, touching
+from .bifurcation_points import GRAZING, SIGNS, Point, derivatives, solve, solved, system, touch, touching
 from .groups import Groups
 
 CONVERGED, ITERATIONS = 1e-10, 12
@@ -204,6 +204,35 @@ def follow(
     impacts = np.array([impacts_of(one) for one in points])
     meetings = list(_meetings(following, unknowns, forms, rights[1:], impacts, (first, last)))
     return Curve(points, np.array([unknown[3] for unknown in unknowns]), np.array(forms), impacts, meetings, (first, last))
+
+
+def follow_touch(
+    point: Point, path: Path, amplitude: tuple[float, float], reach: tuple[float, float], *, step: float
+) -> Curve:
+    """Follow the amplitude at which an orbit touches the plate (a grazing) to both sides, in equal steps of λ.
+
+    It ends where Newton's iteration finds no touch near the last one ("lost"). The other parameters are those of
+    `follow`; such a curve has no points of codimension two of its own.
+    """
+    found, ends = [], []
+    for direction, end in ((-1.0, reach[0]), (1.0, reach[1])):
+        here, part, side, reason = point, 0.0, [], LIMIT
+        while abs(part) < abs(end):
+            part = direction * min(abs(part) + step, abs(end))
+            groups = Following(point, path).groups(np.append(np.zeros(2), [np.log(here.groups.amplitude), part]))
+            there = solved(GRAZING, point.period, here.unknown, groups)
+            if there is None or np.abs(there.unknown - here.unknown).max() > 3.0 * step:
+                reason = LOST
+                break
+            here = there
+            side.append((here, part))
+            if not amplitude[0] <= here.groups.amplitude <= amplitude[1]:
+                break
+        found = [*side[::-1], (point, 0.0)] if direction < 0.0 else [*found, *side]
+        ends.append(reason)
+    points, parts = [one for one, _ in found], np.array([part for _, part in found])
+    impacts = np.zeros(len(points), dtype=np.int64)
+    return Curve(points, parts, np.full(len(points), np.nan), impacts, [], tuple(ends))
 
 
 def _side(following, begin, direction, limits, longest_step, most):

@@ -14,9 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ..solver import contact
+from ..solver.model import PSI0
 from ..solver.trajectory import OK
 from . import second_order, stroboscope
-from .groups import Groups, packed
+from .groups import Groups, groups_of, packed, units
 
 TOLERANCE = 1e-14
 # Newton's iteration: its last correction, below what corrections that shrink no more are round-off, and its longest.
@@ -71,6 +72,21 @@ def derivatives(
         )
         whole[:2] = of_one @ whole
     return Derivatives(states[-1], whole[:2].copy(), bent, states, int(impacts.sum()))
+
+
+def at_phase_zero(parameters: np.ndarray, state: np.ndarray) -> np.ndarray | None:
+    """Scaled (x, y) at the phase 0 of a motion whose δ (m) and v (m/s) at the phase ψ0 are `state`, or None."""
+    groups, (length, velocity) = groups_of(parameters), units(parameters)
+    psi0 = float(parameters[PSI0])
+    c = contact.constants(packed(groups, psi0), TOLERANCE)
+    here = np.array(state) / (length, velocity)
+    remaining = (-psi0 % (2.0 * math.pi)) / c.omega
+    features, no_tangent = np.zeros(stroboscope.FEATURES), np.empty((0, 2))
+    if remaining > 0.0:
+        status = stroboscope.advance(c, contact.workspace(), here, psi0, remaining, no_tangent, features)
+        if status != OK:
+            return None
+    return np.array([here[0], here[1] + groups.damping * max(here[0], 0.0)])
 
 
 def velocity_for_y(groups: Groups, state: np.ndarray) -> np.ndarray:

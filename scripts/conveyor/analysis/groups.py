@@ -18,8 +18,9 @@ import numpy as np
 from ..solver import model
 from ..solver.model import PARAMETERS
 
-# The groups that a derivative may be taken by, in the order of Groups.
-NAMES = ("amplitude", "damping", "stiffness", "exponent")
+# The groups in the order of their derivatives; the last three are those of a start: z0 ω²/g, ż0 ω/g and ψ0.
+NAMES = ("amplitude", "damping", "stiffness", "exponent", "height", "velocity", "phase")
+AMPLITUDE, DAMPING, STIFFNESS, EXPONENT, HEIGHT, VELOCITY, PHASE = range(len(NAMES))
 # A conveyor whose units are those of its groups: g = 1, ω = 1, m = 1, φ = 90°.
 FREQUENCY_OF_ONE = 0.5 / math.pi
 
@@ -68,38 +69,70 @@ def amplitude_of(parameters: np.ndarray, ratio: float) -> float:
     return float(ratio * parameters[model.GRAVITY] / math.sin(parameters[model.ANGLE]))
 
 
+def start_of(parameters: np.ndarray) -> tuple[float, float, float]:
+    """The groups of a start: z0 ω²/g, ż0 ω/g and ψ0 (rad)."""
+    length, velocity = units(parameters)
+    return float(parameters[model.Z0] / length), float(parameters[model.VZ0] / velocity), float(parameters[model.PSI0])
+
+
 def slopes(parameters: np.ndarray) -> dict[str, np.ndarray]:
-    """Derivatives of (D, K, p) by the parameters that are numbers, the amplitude apart: each of shape (3,).
+    """Derivatives of all groups, in the order of NAMES, by each parameter that is a number: shape (7,).
 
     That by the exponent is at constant k_c in N/m^p, whose unit changes with p.
     """
     groups = groups_of(parameters)
-    frequency, mass, gravity = (float(parameters[i]) for i in (model.FREQUENCY, model.MASS, model.GRAVITY))
-    p, stiffness = groups.exponent, groups.stiffness
-    length, _ = units(parameters)
-    zero = np.zeros(3)
-    return {
-        "angle": zero,
-        "frequency": np.array([-groups.damping, -2.0 * p * stiffness, 0.0]) / frequency,
-        "psi0": zero,
-        "stiffness": np.array([0.0, stiffness / float(parameters[model.STIFFNESS]), 0.0]),
-        "damping": np.array([1.0 / (2.0 * math.pi * frequency * mass), 0.0, 0.0]),
-        "friction": zero,
-        "mass": np.array([-groups.damping, -stiffness, 0.0]) / mass,
-        "exponent": np.array([0.0, stiffness * math.log(length), 1.0]),
-        "gravity": np.array([0.0, (p - 1.0) * stiffness / gravity, 0.0]),
+    height, velocity_ratio, _ = start_of(parameters)
+    value = dict(zip(PARAMETERS, map(float, parameters), strict=True))
+    length, velocity = units(parameters)
+    ratio, damping, stiffness, p, _ = groups
+    sine, cosine = math.sin(value["angle"]), math.cos(value["angle"])
+    frequency, gravity, mass = value["frequency"], value["gravity"], value["mass"]
+    by = {
+        "acceleration": {AMPLITUDE: sine / gravity},
+        "angle": {AMPLITUDE: value["acceleration"] * cosine / gravity},
+        "frequency": {
+            DAMPING: -damping / frequency,
+            STIFFNESS: -2.0 * p * stiffness / frequency,
+            HEIGHT: 2.0 * height / frequency,
+            VELOCITY: velocity_ratio / frequency,
+        },
+        "psi0": {PHASE: 1.0},
+        "stiffness": {STIFFNESS: stiffness / value["stiffness"]},
+        "damping": {DAMPING: 1.0 / (2.0 * math.pi * frequency * mass)},
+        "friction": {},
+        "mass": {DAMPING: -damping / mass, STIFFNESS: -stiffness / mass},
+        "exponent": {STIFFNESS: stiffness * math.log(length), EXPONENT: 1.0},
+        "gravity": {
+            AMPLITUDE: -ratio / gravity,
+            STIFFNESS: (p - 1.0) * stiffness / gravity,
+            HEIGHT: -height / gravity,
+            VELOCITY: -velocity_ratio / gravity,
+        },
+        "z0": {HEIGHT: 1.0 / length},
+        "vz0": {VELOCITY: 1.0 / velocity},
     }
-
-
-def slopes_of_amplitude(parameters: np.ndarray, ratio: float, by_groups: np.ndarray) -> dict[str, float]:
-    """Derivatives of the amplitude â (m/s²) of a bifurcation by each parameter, â/unit of it.
-
-    ratio : Γ of the bifurcation
-    by_groups : its derivatives by D, K and p, shape (3,)
-    """
-    amplitude = amplitude_of(parameters, ratio)
-    found = {name: amplitude_of(parameters, float(by_groups @ slope)) for name, slope in slopes(parameters).items()}
-    # â = Γ g/sin φ itself.
-    found["angle"] -= amplitude / math.tan(parameters[model.ANGLE])
-    found["gravity"] += amplitude / float(parameters[model.GRAVITY])
+    found = {name: np.zeros(len(NAMES)) for name in by}
+    for name, entries in by.items():
+        for group, slope in entries.items():
+            found[name][group] = slope
     return found
+
+
+def derivatives_of(moved: str, parameters: np.ndarray, by: np.ndarray) -> dict[str, float]:
+    """Derivatives of a parameter that an equation between the groups determines, by each of the others.
+
+    Parameters
+    ----------
+    moved : "acceleration" or "z0"
+    parameters : packed, shape (13,), at which the equation holds
+    by : derivatives of the group of `moved`, Γ or z0 ω²/g, by all groups in the order of NAMES, shape (7,); its own 0
+
+    Returns
+    -------
+    by the names of the parameters, in units of `moved` per unit of the parameter
+    """
+    of = slopes(parameters)
+    own = AMPLITUDE if moved == "acceleration" else HEIGHT
+    return {
+        name: float((by @ slope - slope[own]) / of[moved][own]) for name, slope in of.items() if name != moved
+    }

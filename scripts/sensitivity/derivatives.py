@@ -1,0 +1,273 @@
+"""How bifurcations and critical heights move with each parameter, and the same with each dimensionless group."""
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from conveyor.analysis import basin_edge, bifurcation_points, orbits
+from conveyor.analysis.basin_edge import Launch
+from conveyor.analysis.groups import (
+    AMPLITUDE,
+    HEIGHT,
+    NAMES,
+    amplitude_of,
+    derivatives_of,
+    groups_of,
+    start_of,
+    units,
+)
+from conveyor.solver.model import PARAMETERS, UNITS, VZ0, Z0
+from pipeline import fields
+from sensitivity.selection import Selected, at, conveyor, selected
+
+MOVED = (
+    fields.text("kind", "fold, period_doubling, grazing, accumulation, critical_amplitude or critical_height"),
+    fields.count("period", "excitation cycles; 0 where there is none"),
+    fields.number("acceleration", "m/s²", "amplitude of the excitation"),
+    fields.number("z0", "m", "height of the start; null where there is none"),
+    fields.flag("rides", "for a grazing: whether the part never leaves the plate until then"),
+)
+TABLES = {
+    "derivatives": (
+        *MOVED,
+        fields.text("moved", "what moves: acceleration or z0"),
+        fields.text("moved_unit", "its unit"),
+        fields.text("parameter", "what it moves with, everything else being equal"),
+        fields.text("parameter_unit", "its unit"),
+        fields.number("value", "that of parameter_unit", "the parameter"),
+        fields.number("derivative", "moved_unit per parameter_unit", "by the implicit function theorem"),
+        fields.number("difference", "moved_unit per parameter_unit", "the same from points solved again"),
+        fields.number("elasticity", "1", "relative change of what moves over that of the parameter; null where one is 0"),
+        fields.text("status", "ok, or why there is no result, or that both ways disagree"),
+    ),
+    "groups": (
+        *MOVED,
+        fields.text("moved", "amplitude: Γ = a_z/g, or height: z0 ω²/g"),
+        fields.number("moved_value", "1", "its value"),
+        fields.text("group", "damping: d_c/(m ω); stiffness: (k_c/m) g^(p-1)/ω^(2p); exponent; height; velocity: ż0 ω/g"),
+        fields.number("value", "1", "of the group"),
+        fields.number("derivative", "1", "of what moves by the group"),
+        fields.number("elasticity", "1", "relative change of what moves over that of the group; null where one is 0"),
+        fields.text("status", "ok, or why there is no result"),
+    ),
+}
+# Groups that move each kind: a start has some of its own.
+OF_ORBITS, OF_STARTS = ("damping", "stiffness", "exponent"), NAMES[:-1]
+STARTS = ("z0", "vz0")
+
+
+class Moved(NamedTuple):
+    """Something that moves with the parameters."""
+
+    kind: str
+    period: int
+    parameters: np.ndarray  # packed, at which it is
+    rides: bool
+    moved: str  # acceleration or z0
+    by: np.ndarray | None  # derivatives of its group by all groups, shape (7,)
+    again: Callable[[np.ndarray], float]  # its value (m/s² or m) for other parameters, NaN where it is not found
+    status: str
+
+    @property
+    def of_start(self) -> bool:
+        return self.kind.startswith("critical")
+
+
+def of_bifurcation(parameters: np.ndarray, one: Selected) -> Moved:
+    """A bifurcation of an orbit."""
+    moves = None if one.point is None else bifurcation_points.moves(one.point)
+    here = at(parameters, one.acceleration)
+    if moves is None:
+        status = "not found again" if one.point is None else "singular"
+        return Moved(one.kind, one.period, here, one.rides, "acceleration", None, lambda row: np.nan, status)
+    by = np.zeros(len(NAMES))
+    by[1:4] = moves[-1]
+    here = at(parameters, amplitude_of(parameters, one.point.groups.amplitude))
+    found: dict[tuple, float] = {}
+
+    def again(row):
+        groups = groups_of(row)
+        if (key := groups[1:]) not in found:
+            change = np.array(key[:3]) - one.point.groups[1:4]
+            there = bifurcation_points.solved(one.kind, one.period, one.point.unknown + moves @ change, groups)
+            found[key] = np.nan if there is None else there.groups.amplitude
+        return amplitude_of(row, found[key])
+
+    return Moved(one.kind, one.period, here, one.rides, "acceleration", by, again, "ok")
+
+
+def of_accumulation(parameters: np.ndarray, doublings: list[Moved]) -> Moved | None:
+    """Where the doublings accumulate, by Aitken's process; None for too few of them."""
+    usable = [one for one in doublings if one.by is not None]
+    if len(usable) < 4 or len(usable) < len(doublings):
+        return None
+    before, last, limit = (np.array([one.parameters[0] for one in usable[n:]][:3]) for n in (-4, -3, -3))
+    point = orbits.accumulation(np.append(before[:1], last))[0]
+    # The limit L of three a, b, c: a - (b - a)²/(c - 2b + a).
+    a, b, c = limit
+    bend = c - 2.0 * b + a
+    weights = np.array(
+        [1.0 + 2.0 * (b - a) / bend + ((b - a) / bend) ** 2, -2.0 * (b - a) / bend - 2.0 * ((b - a) / bend) ** 2]
+    )
+    weights = np.append(weights, ((b - a) / bend) ** 2)
+    by = weights @ np.array([one.by for one in usable[-3:]])
+
+    def again(row):
+        return orbits.accumulation(np.array([one.again(row) for one in usable[-4:]]))[0]
+
+    return Moved("accumulation", 0, at(parameters, point), False, "acceleration", by, again, "ok")
+
+
+def on_edge(kind: str, parameters: np.ndarray, unknown: int) -> Moved:
+    """A start near the edge of a basin, moved onto it."""
+    moved = "acceleration" if unknown == AMPLITUDE else "z0"
+
+    def solved(row):
+        return basin_edge.on_edge(Launch(*start_of(row)), groups_of(row), unknown)
+
+    edge = solved(parameters)
+    if isinstance(edge, str):
+        return Moved(kind, 0, parameters, False, moved, None, lambda row: np.nan, edge)
+    here = parameters.copy()
+    here[PARAMETERS.index(moved)] = value_of(edge, parameters, unknown)
+
+    def again(row):
+        there = solved(row)
+        return np.nan if isinstance(there, str) else value_of(there, row, unknown)
+
+    return Moved(kind, edge.period, here, False, moved, edge.moves, again, "ok")
+
+
+def value_of(edge: basin_edge.Edge, row: np.ndarray, unknown: int) -> float:
+    """What was unknown of an edge, in m/s² or m."""
+    if unknown == AMPLITUDE:
+        return amplitude_of(row, edge.groups.amplitude)
+    return edge.launch.height * units(row)[0]
+
+
+def steps_of(parameters: np.ndarray, difference: float) -> dict[str, float]:
+    """Step of the differences by each parameter: relative, for those of a start in parts of its scale."""
+    length, velocity = units(parameters)
+    scales = dict(zip(PARAMETERS, np.abs(parameters), strict=True)) | {"psi0": 1.0, "z0": length, "vz0": velocity}
+    scales = {name: scale if scale > 0.0 else 1.0 for name, scale in scales.items()}
+    return {name: difference * float(scale) for name, scale in scales.items()}
+
+
+def about(one: Moved) -> dict:
+    """The columns that both tables share."""
+    row = one.parameters
+    return {
+        "kind": one.kind,
+        "period": one.period,
+        "acceleration": row[0],
+        "z0": row[Z0] if one.of_start else np.nan,
+        "rides": one.rides,
+        "moved": one.moved,
+    }
+
+
+def physical_rows(one: Moved, difference: float, agreement: float) -> Iterator[dict]:
+    """One row for each parameter."""
+    exact = None if one.by is None else derivatives_of(one.moved, one.parameters, one.by)
+    moved = one.parameters[PARAMETERS.index(one.moved)]
+    for name, step in steps_of(one.parameters, difference).items():
+        if name in (one.moved, "tension") or (name in STARTS and not one.of_start):
+            continue
+        place = PARAMETERS.index(name)
+        value = one.parameters[place]
+        row = {
+            **about(one),
+            "moved_unit": UNITS[one.moved],
+            "parameter": name,
+            "parameter_unit": UNITS[name],
+            "value": value,
+            "derivative": np.nan,
+            "difference": np.nan,
+            "elasticity": np.nan,
+            "status": one.status,
+        }
+        if exact is not None:
+            ends = []
+            for sign in (1.0, -1.0):
+                there = one.parameters.copy()
+                there[place] += sign * step
+                ends.append(one.again(there))
+            row["derivative"], row["difference"] = exact[name], (ends[0] - ends[1]) / (2.0 * step)
+            row["elasticity"] = exact[name] * value / moved if value != 0.0 and moved != 0.0 else np.nan
+            # In what the step is a part of, over the scale of what moves.
+            scale = step / difference / (abs(moved) if one.moved == "acceleration" else units(one.parameters)[0])
+            error = scale * abs(row["derivative"] - row["difference"])
+            if not error <= agreement * max(1.0, scale * abs(row["derivative"])):
+                row["status"] = "differences disagree" if np.isfinite(error) else "not found again beside it"
+        yield row
+
+
+def group_rows(one: Moved) -> Iterator[dict]:
+    """One row for each group."""
+    own = AMPLITUDE if one.moved == "acceleration" else HEIGHT
+    groups = np.array([*groups_of(one.parameters)[:4], *start_of(one.parameters)])
+    for name in OF_STARTS if one.of_start else OF_ORBITS:
+        place = NAMES.index(name)
+        if place == own:
+            continue
+        derivative = np.nan if one.by is None else one.by[place]
+        relative = groups[place] / groups[own] if groups[place] != 0.0 and groups[own] != 0.0 else np.nan
+        yield {
+            **about(one),
+            "moved": NAMES[own],
+            "moved_value": groups[own],
+            "group": name,
+            "value": groups[place],
+            "derivative": derivative,
+            "elasticity": derivative * relative,
+            "status": one.status,
+        }
+
+
+def starts(critical: pd.DataFrame, settings: dict) -> Iterator[Moved]:
+    """The critical amplitude of the start at rest, and critical heights; none has its row, too, with the reason."""
+    parameters = conveyor({**critical.attrs["model"], "z0": 0.0})
+    edges = critical[critical.is_critical].sort_values("acceleration")
+    rest = parameters.copy()
+    rest[Z0], rest[VZ0] = settings["rest"]["z0"], settings["rest"]["vz0"]
+    if len(edges):
+        # The start on the edge next to the one at rest is a guess of it.
+        rest = at(rest, edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - rest[Z0])))])
+    yield on_edge("critical_amplitude", rest, AMPLITUDE)
+    for acceleration in settings["heights"]:
+        here = at(parameters, acceleration)
+        row = edges[np.isclose(edges.acceleration, acceleration, rtol=1e-9)]
+        if row.empty:
+            here[Z0] = np.nan
+            reason = "no critical height at this amplitude"
+            yield Moved("critical_height", 0, here, False, "z0", None, lambda row: np.nan, reason)
+            continue
+        here[Z0] = row.z0.iloc[0]
+        yield on_edge("critical_height", here, HEIGHT)
+
+
+def columns(rows: list[dict], kind: str) -> dict[str, np.ndarray]:
+    """Rows as the columns of a kind of table."""
+    return {column.name: np.array([row[column.name] for row in rows]) for column in TABLES[kind]}
+
+
+def make(
+    folds_and_doublings: pd.DataFrame, cascade: pd.DataFrame, critical: pd.DataFrame, settings: dict
+) -> dict[str, dict[str, np.ndarray]]:
+    """The columns of both tables, by their kinds, for the section `sensitivity` of the config."""
+    parameters = conveyor(settings["model"])
+    chosen = selected(
+        parameters, folds_and_doublings, cascade, settings["longest_period"], settings["doublings"]
+    )
+    bifurcations = [of_bifurcation(parameters, one) for one in chosen]
+    accumulation = of_accumulation(parameters, bifurcations[len(bifurcations) - min(settings["doublings"], len(cascade)):])
+    moved = [*bifurcations, *([accumulation] if accumulation else []), *starts(critical, settings)]
+    return {
+        "derivatives": columns(
+            [row for one in moved for row in physical_rows(one, settings["difference"], settings["agreement"])],
+            "derivatives",
+        ),
+        "groups": columns([row for one in moved for row in group_rows(one)], "groups"),
+    }

@@ -1,0 +1,78 @@
+"""Which bifurcations of the tables of orbits are looked at, solved again in the dimensionless groups."""
+
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from conveyor.analysis import bifurcation_points
+from conveyor.analysis.bifurcation_points import GRAZING, Point
+from conveyor.analysis.groups import groups_of
+from conveyor.solver.model import ACCELERATION
+from pipeline import grid
+
+# A bifurcation solved again that is farther from its table, relative, is another one.
+SAME = 1e-6
+
+
+class Selected(NamedTuple):
+    """A bifurcation of a table."""
+
+    kind: str
+    period: int
+    acceleration: float  # m/s², of the table
+    point: Point | None  # None where Newton's iteration does not find it again
+    rides: bool  # whether the part never leaves the plate until then
+
+
+def conveyor(model: dict) -> np.ndarray:
+    """The packed conveyor of a model without an amplitude."""
+    return grid.product({"acceleration": [0.0]}, model)[1][0]
+
+
+def at(parameters: np.ndarray, acceleration: float) -> np.ndarray:
+    """The same conveyor at an amplitude (m/s²)."""
+    row = parameters.copy()
+    row[ACCELERATION] = acceleration
+    return row
+
+
+def solved_again(parameters: np.ndarray, row: pd.Series) -> Point | None:
+    """The bifurcation of a row of a table, solved in the groups; None where that finds none or another one."""
+    kind, period = row["kind"], int(row.period)
+    here = at(parameters, row.acceleration)
+    groups = groups_of(here)
+    state = bifurcation_points.at_phase_zero(here, np.array([row.delta, row.v]))
+    if state is None:
+        return None
+    if kind == GRAZING:
+        guess = bifurcation_points.touch(groups, state, period)
+    else:
+        guess = np.append(state, groups.amplitude)
+    point = None if guess is None else bifurcation_points.solved(kind, period, guess, groups)
+    near = point is not None and abs(point.groups.amplitude / groups.amplitude - 1.0) < SAME
+    return point if near else None
+
+
+def selected(
+    parameters: np.ndarray, bifurcations: pd.DataFrame, cascade: pd.DataFrame, longest_period: int, doublings: int
+) -> list[Selected]:
+    """The folds, doublings and grazings up to a period, by amplitude, then the first doublings of the cascade."""
+    first = cascade.sort_values("number").head(doublings).assign(kind="period_doubling", in_cascade=True)
+    others = bifurcations[bifurcations.period <= longest_period].sort_values("acceleration")
+    repeated = [
+        ((first.period == row.period) & (abs(first.acceleration / row.acceleration - 1.0) < SAME)).any()
+        and row.kind == "period_doubling"
+        for row in others.itertuples()
+    ]
+    rows = pd.concat([others[~np.array(repeated, dtype=bool)], first])
+    return [
+        Selected(
+            row["kind"],
+            int(row.period),
+            float(row.acceleration),
+            solved_again(parameters, row),
+            row["kind"] == GRAZING and row.impacts == 0,
+        )
+        for _, row in rows.iterrows()
+    ]
