@@ -37,6 +37,7 @@ SINGLE = (
     "rigid_part",
     "random_points",
     "companion",
+    "sensitivity",
     "operating",
 )
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}
@@ -56,6 +57,7 @@ CONFIG_FILES = (
     "orbits",
     "dimensions",
     "fit",
+    "sensitivity",
     "operating",
     "accuracy",
     "claims",

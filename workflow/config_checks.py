@@ -119,6 +119,20 @@ def scans(config: dict) -> Iterator[str]:
             yield f"regressions.{name}.critical = {entry['critical']!r} is no entry of critical; {remedy}"
 
 
+def sensitivity(config: dict) -> Iterator[str]:
+    name = config["sensitivity"]["critical"]
+    if name not in config["critical"]:
+        remedy = did_you_mean(name, config["critical"])
+        yield f"sensitivity.critical = {name!r} is no entry of critical; {remedy}"
+        return
+    entry = resolve(config, "critical", name)
+    if set(entry["axes"]) != {"acceleration"} or entry["method"] != "event":
+        yield (
+            f"sensitivity.critical = {name!r} is not over the acceleration alone, or not by the method event; give "
+            "another entry of critical"
+        )
+
+
 def times(config: dict) -> Iterator[str]:
     for name, entry in config["signals"].items():
         duration = resolve(config, "signals", name)["duration"]
@@ -257,6 +271,7 @@ CHECKS = (
     steps,
     perturbations,
     scans,
+    sensitivity,
     times,
     orbits,
     dimensions,

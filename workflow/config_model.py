@@ -420,6 +420,29 @@ class RandomPoints(TypedDict):
     tolerance: Tolerance
 
 
+Factor = number(1, 1e3, "", "(]")
+
+
+class Sensitivity(TypedDict):
+    longest_period: whole(1, 64)
+    doublings: whole(1, 12)
+    rest: TypedDict("Rest", {"z0": HeightNumber, "vz0": Velocity})
+    critical: Name
+    heights: whole(1, 1000)
+    difference: number(1e-7, 1e-2)
+    agreement: positive(1)
+    curves: TypedDict(
+        "Curves",
+        {
+            "doublings": whole(0, 12),
+            "factors": TypedDict("Factors", dict.fromkeys(("damping", "stiffness", "frequency", "angle"), Factor)),
+            "amplitude": interval(positive(1e3)),
+            "step": positive(1),
+            "points": whole(10, 10**5),
+        },
+    )
+
+
 class Operating(TypedDict):
     acceleration: Accelerations
     resolution: positive(1e4, "m/s²")
@@ -503,6 +526,7 @@ class Config(TypedDict):
     settling_times: SettlingTimes
     label_checks: LabelChecks
     random_points: RandomPoints
+    sensitivity: Sensitivity
     operating: Operating
     figures: dict[Name, Figure]
     companion: Companion

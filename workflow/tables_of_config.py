@@ -17,6 +17,7 @@ TABLES = {
     ),
     "attractors": ("strobes",),
     "lyapunov": ("spectrum", "witnesses"),
+    "sensitivity": ("derivatives", "groups", "continued", "meetings"),
     "operating": ("shares", "regimes"),
     "results": (
         "claims",

@@ -12,11 +12,12 @@ from conveyor.analysis.groups import amplitude_of
 from conveyor.solver.model import ANGLE, PARAMETERS, UNITS
 from conveyor.solver.parallel import for_each_chunk
 from pipeline import fields
-from sensitivity.selection import Selected, conveyor, selected
+from sensitivity.selection import COLUMNS, Selected, conveyor, selected
 
 OF_CURVE = (
     fields.text("kind", "fold, period_doubling or grazing (where a riding part begins to leave the plate)"),
     fields.count("period", "excitation cycles"),
+    *COLUMNS,
     fields.number("begin", "m/s²", "amplitude at which the conveyor of the config has this bifurcation"),
     fields.text("parameter", "what is changed beside the amplitude"),
     fields.text("parameter_unit", "its unit"),
@@ -34,7 +35,9 @@ TABLES = {
         fields.count("point", "number of the point along its curve"),
         *PLACE,
         fields.count("impacts", "impacts of the orbit per period"),
-        fields.number("normal_form", "1", "coefficient whose zero is a cusp or a generalised doubling; null for a grazing"),
+        fields.number(
+            "normal_form", "1", "coefficient whose zero is a cusp or a generalised doubling; null for a grazing"
+        ),
         fields.text("status", "ok, or at the ends of a curve why it goes no further"),
     ),
     "meetings": (
@@ -61,11 +64,13 @@ ENDS = {
 STEEPEST = 0.49 * np.pi  # rad, of an angle of throw that is looked at
 
 
-def begun(parameters: np.ndarray, one: Selected, parameter: str) -> dict:
+def begun(one: Selected, parameter: str) -> dict:
     """The columns that name a curve."""
     return {
         "kind": one.kind,
         "period": one.period,
+        "doubling": one.doubling,
+        "rides": one.rides,
         "begin": one.acceleration,
         "parameter": parameter,
         "parameter_unit": UNITS[parameter],
@@ -98,7 +103,7 @@ def followed(point: Point, parameter: str, settings: dict) -> Curve:
 
 def of_curve(parameters: np.ndarray, one: Selected, parameter: str, curve: Curve) -> tuple[list[dict], list[dict]]:
     """The rows of its points and of its meetings."""
-    name = begun(parameters, one, parameter)
+    name = begun(one, parameter)
     last = len(curve.points) - 1
     points = []
     for n, (point, part, form, impacts) in enumerate(
@@ -122,7 +127,7 @@ def over_angle(parameters: np.ndarray, one: Selected, settings: dict) -> Iterato
     for n, part in enumerate(parts):
         end = n in (0, len(parts) - 1)
         about = {"point": n, "impacts": 0, "normal_form": np.nan, "status": "limit of the config" if end else "ok"}
-        yield {**begun(parameters, one, "angle"), **place(parameters, one.point, "angle", part), **about}
+        yield {**begun(one, "angle"), **place(parameters, one.point, "angle", part), **about}
 
 
 def columns(rows: list[dict], kind: str) -> dict[str, np.ndarray]:

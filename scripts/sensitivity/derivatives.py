@@ -20,14 +20,14 @@ from conveyor.analysis.groups import (
 )
 from conveyor.solver.model import PARAMETERS, UNITS, VZ0, Z0
 from pipeline import fields
-from sensitivity.selection import Selected, at, conveyor, selected
+from sensitivity.selection import COLUMNS, Selected, at, conveyor, selected
 
 MOVED = (
     fields.text("kind", "fold, period_doubling, grazing, accumulation, critical_amplitude or critical_height"),
     fields.count("period", "excitation cycles; 0 where there is none"),
     fields.number("acceleration", "m/s²", "amplitude of the excitation"),
     fields.number("z0", "m", "height of the start; null where there is none"),
-    fields.flag("rides", "for a grazing: whether the part never leaves the plate until then"),
+    *COLUMNS,
 )
 TABLES = {
     "derivatives": (
@@ -39,14 +39,18 @@ TABLES = {
         fields.number("value", "that of parameter_unit", "the parameter"),
         fields.number("derivative", "moved_unit per parameter_unit", "by the implicit function theorem"),
         fields.number("difference", "moved_unit per parameter_unit", "the same from points solved again"),
-        fields.number("elasticity", "1", "relative change of what moves over that of the parameter; null where one is 0"),
+        fields.number(
+            "elasticity", "1", "relative change of what moves over that of the parameter; null where one is 0"
+        ),
         fields.text("status", "ok, or why there is no result, or that both ways disagree"),
     ),
     "groups": (
         *MOVED,
         fields.text("moved", "amplitude: Γ = a_z/g, or height: z0 ω²/g"),
         fields.number("moved_value", "1", "its value"),
-        fields.text("group", "damping: d_c/(m ω); stiffness: (k_c/m) g^(p-1)/ω^(2p); exponent; height; velocity: ż0 ω/g"),
+        fields.text(
+            "group", "damping: d_c/(m ω); stiffness: (k_c/m) g^(p-1)/ω^(2p); exponent; height; velocity: ż0 ω/g"
+        ),
         fields.number("value", "1", "of the group"),
         fields.number("derivative", "1", "of what moves by the group"),
         fields.number("elasticity", "1", "relative change of what moves over that of the group; null where one is 0"),
@@ -64,6 +68,7 @@ class Moved(NamedTuple):
     kind: str
     period: int
     parameters: np.ndarray  # packed, at which it is
+    doubling: int
     rides: bool
     moved: str  # acceleration or z0
     by: np.ndarray | None  # derivatives of its group by all groups, shape (7,)
@@ -81,7 +86,9 @@ def of_bifurcation(parameters: np.ndarray, one: Selected) -> Moved:
     here = at(parameters, one.acceleration)
     if moves is None:
         status = "not found again" if one.point is None else "singular"
-        return Moved(one.kind, one.period, here, one.rides, "acceleration", None, lambda row: np.nan, status)
+        return Moved(
+            one.kind, one.period, here, one.doubling, one.rides, "acceleration", None, lambda row: np.nan, status
+        )
     by = np.zeros(len(NAMES))
     by[1:4] = moves[-1]
     here = at(parameters, amplitude_of(parameters, one.point.groups.amplitude))
@@ -95,7 +102,7 @@ def of_bifurcation(parameters: np.ndarray, one: Selected) -> Moved:
             found[key] = np.nan if there is None else there.groups.amplitude
         return amplitude_of(row, found[key])
 
-    return Moved(one.kind, one.period, here, one.rides, "acceleration", by, again, "ok")
+    return Moved(one.kind, one.period, here, one.doubling, one.rides, "acceleration", by, again, "ok")
 
 
 def of_accumulation(parameters: np.ndarray, doublings: list[Moved]) -> Moved | None:
@@ -117,7 +124,7 @@ def of_accumulation(parameters: np.ndarray, doublings: list[Moved]) -> Moved | N
     def again(row):
         return orbits.accumulation(np.array([one.again(row) for one in usable[-4:]]))[0]
 
-    return Moved("accumulation", 0, at(parameters, point), False, "acceleration", by, again, "ok")
+    return Moved("accumulation", 0, at(parameters, point), 0, False, "acceleration", by, again, "ok")
 
 
 def on_edge(kind: str, parameters: np.ndarray, unknown: int) -> Moved:
@@ -129,7 +136,7 @@ def on_edge(kind: str, parameters: np.ndarray, unknown: int) -> Moved:
 
     edge = solved(parameters)
     if isinstance(edge, str):
-        return Moved(kind, 0, parameters, False, moved, None, lambda row: np.nan, edge)
+        return Moved(kind, 0, parameters, 0, False, moved, None, lambda row: np.nan, edge)
     here = parameters.copy()
     here[PARAMETERS.index(moved)] = value_of(edge, parameters, unknown)
 
@@ -137,7 +144,7 @@ def on_edge(kind: str, parameters: np.ndarray, unknown: int) -> Moved:
         there = solved(row)
         return np.nan if isinstance(there, str) else value_of(there, row, unknown)
 
-    return Moved(kind, edge.period, here, False, moved, edge.moves, again, "ok")
+    return Moved(kind, edge.period, here, 0, False, moved, edge.moves, again, "ok")
 
 
 def value_of(edge: basin_edge.Edge, row: np.ndarray, unknown: int) -> float:
@@ -163,6 +170,7 @@ def about(one: Moved) -> dict:
         "period": one.period,
         "acceleration": row[0],
         "z0": row[Z0] if one.of_start else np.nan,
+        "doubling": one.doubling,
         "rides": one.rides,
         "moved": one.moved,
     }
@@ -227,7 +235,7 @@ def group_rows(one: Moved) -> Iterator[dict]:
 
 
 def starts(critical: pd.DataFrame, settings: dict) -> Iterator[Moved]:
-    """The critical amplitude of the start at rest, and critical heights; none has its row, too, with the reason."""
+    """The critical amplitude of the start at rest, and critical heights."""
     parameters = conveyor({**critical.attrs["model"], "z0": 0.0})
     edges = critical[critical.is_critical].sort_values("acceleration")
     rest = parameters.copy()
@@ -236,15 +244,11 @@ def starts(critical: pd.DataFrame, settings: dict) -> Iterator[Moved]:
         # The start on the edge next to the one at rest is a guess of it.
         rest = at(rest, edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - rest[Z0])))])
     yield on_edge("critical_amplitude", rest, AMPLITUDE)
-    for acceleration in settings["heights"]:
-        here = at(parameters, acceleration)
-        row = edges[np.isclose(edges.acceleration, acceleration, rtol=1e-9)]
-        if row.empty:
-            here[Z0] = np.nan
-            reason = "no critical height at this amplitude"
-            yield Moved("critical_height", 0, here, False, "z0", None, lambda row: np.nan, reason)
-            continue
-        here[Z0] = row.z0.iloc[0]
+    # Evenly among them, without the first and the last one.
+    inner = np.linspace(0, len(edges) - 1, settings["heights"] + 2)[1:-1].round().astype(int)
+    for edge in edges.iloc[np.unique(inner)].itertuples() if len(edges) else ():
+        here = at(parameters, edge.acceleration)
+        here[Z0] = edge.z0
         yield on_edge("critical_height", here, HEIGHT)
 
 
@@ -258,11 +262,11 @@ def make(
 ) -> dict[str, dict[str, np.ndarray]]:
     """The columns of both tables, by their kinds, for the section `sensitivity` of the config."""
     parameters = conveyor(settings["model"])
-    chosen = selected(
-        parameters, folds_and_doublings, cascade, settings["longest_period"], settings["doublings"]
-    )
+    chosen = selected(parameters, folds_and_doublings, cascade, settings["longest_period"], settings["doublings"])
     bifurcations = [of_bifurcation(parameters, one) for one in chosen]
-    accumulation = of_accumulation(parameters, bifurcations[len(bifurcations) - min(settings["doublings"], len(cascade)):])
+    accumulation = of_accumulation(
+        parameters, bifurcations[len(bifurcations) - min(settings["doublings"], len(cascade)) :]
+    )
     moved = [*bifurcations, *([accumulation] if accumulation else []), *starts(critical, settings)]
     return {
         "derivatives": columns(

@@ -9,10 +9,16 @@ from conveyor.analysis import bifurcation_points
 from conveyor.analysis.bifurcation_points import GRAZING, Point
 from conveyor.analysis.groups import groups_of
 from conveyor.solver.model import ACCELERATION
-from pipeline import grid
+from pipeline import fields, grid
 
 # A bifurcation solved again that is farther from its table, relative, is another one.
 SAME = 1e-6
+
+
+COLUMNS = (
+    fields.count("doubling", "number of the doubling in the cascade of the jumping orbit; 0 for what is not in it"),
+    fields.flag("rides", "for a grazing: whether the part never leaves the plate until then"),
+)
 
 
 class Selected(NamedTuple):
@@ -22,7 +28,8 @@ class Selected(NamedTuple):
     period: int
     acceleration: float  # m/s², of the table
     point: Point | None  # None where Newton's iteration does not find it again
-    rides: bool  # whether the part never leaves the plate until then
+    doubling: int  # its number in the cascade, 0 for those that are not in it
+    rides: bool  # of a grazing: whether the part never leaves the plate until then
 
 
 def conveyor(model: dict) -> np.ndarray:
@@ -45,10 +52,8 @@ def solved_again(parameters: np.ndarray, row: pd.Series) -> Point | None:
     state = bifurcation_points.at_phase_zero(here, np.array([row.delta, row.v]))
     if state is None:
         return None
-    if kind == GRAZING:
-        guess = bifurcation_points.touch(groups, state, period)
-    else:
-        guess = np.append(state, groups.amplitude)
+    touches = kind == GRAZING
+    guess = bifurcation_points.touch(groups, state, period) if touches else np.append(state, groups.amplitude)
     point = None if guess is None else bifurcation_points.solved(kind, period, guess, groups)
     near = point is not None and abs(point.groups.amplitude / groups.amplitude - 1.0) < SAME
     return point if near else None
@@ -58,20 +63,21 @@ def selected(
     parameters: np.ndarray, bifurcations: pd.DataFrame, cascade: pd.DataFrame, longest_period: int, doublings: int
 ) -> list[Selected]:
     """The folds, doublings and grazings up to a period, by amplitude, then the first doublings of the cascade."""
-    first = cascade.sort_values("number").head(doublings).assign(kind="period_doubling", in_cascade=True)
+    first = cascade.sort_values("number").head(doublings).assign(kind="period_doubling")
     others = bifurcations[bifurcations.period <= longest_period].sort_values("acceleration")
     repeated = [
         ((first.period == row.period) & (abs(first.acceleration / row.acceleration - 1.0) < SAME)).any()
         and row.kind == "period_doubling"
         for row in others.itertuples()
     ]
-    rows = pd.concat([others[~np.array(repeated, dtype=bool)], first])
+    rows = pd.concat([others[~np.array(repeated, dtype=bool)].assign(number=0), first])
     return [
         Selected(
             row["kind"],
             int(row.period),
             float(row.acceleration),
             solved_again(parameters, row),
+            int(row.number),
             row["kind"] == GRAZING and row.impacts == 0,
         )
         for _, row in rows.iterrows()

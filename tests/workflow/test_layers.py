@@ -5,7 +5,19 @@ from project import ROOT
 
 from workflow import source_hash
 
-STAGES = ("sweeps", "motion", "orbits", "dimensions", "fit", "operating", "accuracy", "claims", "figures", "docs")
+STAGES = (
+    "sweeps",
+    "motion",
+    "orbits",
+    "dimensions",
+    "fit",
+    "sensitivity",
+    "operating",
+    "accuracy",
+    "claims",
+    "figures",
+    "docs",
+)
 # Rooms of the library, from the ground up; `conveyor` itself has what leads to solver and methods: simulate, ensembles.
 ROOMS = ("conveyor.solver", "conveyor.methods", "conveyor", "conveyor.analysis", "conveyor.certificates")
 FLOORS = (*ROOMS, "pipeline", *STAGES, "builds", "report", "")

@@ -44,7 +44,9 @@ class Edge(NamedTuple):
     saddle: np.ndarray  # (x, y) at the phase ψ0
     multipliers: tuple[float, float]  # of the saddle, the unstable one first
     images: np.ndarray  # of the start, shape (N + 1, 2)
-    moves: np.ndarray  # derivatives of what was unknown by all groups in the order of groups.NAMES, shape (7,); its own 0
+    moves: (
+        np.ndarray
+    )  # derivatives of what was unknown by all groups in the order of groups.NAMES, shape (7,); its own 0
 
 
 # What an edge moves with beside height and amplitude, in this order.

@@ -4,8 +4,8 @@ The curve of a bifurcation is followed by pseudo-arclength (Keller 1977) in (x, 
 e^λ times its first value. On it lie points of codimension two:
 
     cusp                   on a fold, where l·D²Pⁿ(r, r) = 0: two folds meet
-    generalised doubling   on a doubling, where the coefficient of its normal form is 0: the doubled orbit's branch turns
-                           from one side to the other, and the curve of its folds begins there
+    generalised doubling   on a doubling, where the coefficient of its normal form is 0: the doubled orbit's branch
+                           turns from one side to the other, and the curve of its folds begins there
     grazing                where an impact of the orbit begins or ceases to exist
 
 l and r are the left and right eigenvectors of the multiplier. The product of the multipliers is below 1, where there is
@@ -203,7 +203,9 @@ def follow(
         rights.append(right)
     impacts = np.array([impacts_of(one) for one in points])
     meetings = list(_meetings(following, unknowns, forms, rights[1:], impacts, (first, last)))
-    return Curve(points, np.array([unknown[3] for unknown in unknowns]), np.array(forms), impacts, meetings, (first, last))
+    return Curve(
+        points, np.array([unknown[3] for unknown in unknowns]), np.array(forms), impacts, meetings, (first, last)
+    )
 
 
 def follow_touch(

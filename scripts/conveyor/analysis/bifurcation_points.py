@@ -25,7 +25,7 @@ CONVERGED, STAGNANT = 1e-12, 1e-7
 ITERATIONS = 30
 FARTHEST = 10.0
 # Moments of an orbit at which a touch is looked for.
-MOMENTS = 4000
+MOMENTS = 1000
 
 SIGNS = {"fold": 1.0, "period_doubling": -1.0}
 GRAZING = "grazing"
@@ -67,9 +67,7 @@ def derivatives(
     # What (x, y, Γ, D, K, p) at the begin does to itself later on, and to the second derivatives: the chain rule.
     whole, bent = np.eye(count), np.zeros((2, 2, count))
     for of_one, of_two in zip(first, second, strict=True):
-        bent = np.einsum("ca,aij->cij", of_one[:, :2], bent) + np.einsum(
-            "cab,ai,bj->cij", of_two, whole[:2, :2], whole
-        )
+        bent = np.einsum("ca,aij->cij", of_one[:, :2], bent) + np.einsum("cab,ai,bj->cij", of_two, whole[:2, :2], whole)
         whole[:2] = of_one @ whole
     return Derivatives(states[-1], whole[:2].copy(), bent, states, int(impacts.sum()))
 

@@ -133,6 +133,4 @@ def derivatives_of(moved: str, parameters: np.ndarray, by: np.ndarray) -> dict[s
     """
     of = slopes(parameters)
     own = AMPLITUDE if moved == "acceleration" else HEIGHT
-    return {
-        name: float((by @ slope - slope[own]) / of[moved][own]) for name, slope in of.items() if name != moved
-    }
+    return {name: float((by @ slope - slope[own]) / of[moved][own]) for name, slope in of.items() if name != moved}

@@ -29,15 +29,15 @@ DELTA, Y, AMPLITUDE, DAMPING, STIFFNESS, EXPONENT = range(6)
 QUANTITIES = 6
 # Products of perturbations ring at twice the frequency of each: their steps are half as long.
 PART = 0.5
-# The derivative of w^(2p+1) by p has the factor log w, singular at w = 0: a step covers this part of the distance to it,
-# and below this part of the √penetration at rest, where it weighs nothing, it is left out.
+# The derivative of w^(2p+1) by p has the factor log w, singular at w = 0: a step covers this part of the distance to
+# it, and below this part of the √penetration at rest, where it weighs nothing, it is left out.
 PART_OF_RADIUS = 0.2
 LOG_EDGE = 1e-5
 
 
 @kernel
 def power_series(c, series, exponent, out):
-    """Fill `out`, shape (SIZE,), with the Taylor coefficients of w^exponent of a contact step, 0 where w begins at 0."""
+    """Fill `out`, shape (SIZE,), with the Taylor coefficients of w^exponent of a contact step, 0 if w begins at 0."""
     w = FIRST + contact.W
     series[contact.SCRATCH, :] = 0.0
     if series[w, 0] > c.edge_w:
