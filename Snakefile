@@ -10,7 +10,19 @@ end_with_the_terminal()
 name_commands_at_a_lock()
 
 # The config of the paper, one file for each stage; overlays of the command line are merged over it.
-STAGES = ("sweeps", "motion", "orbits", "dimensions", "fit", "sensitivity", "operating", "accuracy", "claims", "figures", "docs")
+STAGES = (
+    "sweeps",
+    "motion",
+    "orbits",
+    "dimensions",
+    "fit",
+    "sensitivity",
+    "operating",
+    "accuracy",
+    "claims",
+    "figures",
+    "docs",
+)
 files = [f"config/{name}.yaml" for name in ("config", *STAGES)] + [*workflow.overwrite_configfiles]
 read_files = [read(file) for file in files]
 if errors := [fault for faults, _ in read_files for fault in faults]:
