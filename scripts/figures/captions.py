@@ -14,6 +14,7 @@ from claims.finding import lowest
 from operating.chart import of_the_search
 
 MM = 1e3
+SMALL_ELASTICITY = 1e-3  # errors of smaller ones are told by no relative number
 SIGNIFICANT = 3.0  # standard errors by which an exponent is positive
 
 Tables = dict[str, pd.DataFrame]
@@ -158,6 +159,25 @@ def stability_maps(tables: Tables, settings: dict) -> dict[str, str]:
     }
 
 
+def sensitivity(tables: Tables, settings: dict) -> dict[str, str]:
+    derivatives, continued, meetings = (tables[role] for role in ("derivatives", "continued", "meetings"))
+    right = derivatives[derivatives.status == "ok"]
+    heights = right[right.kind == "critical_height"].acceleration.unique()
+    error = ((right.derivative - right.difference) / right.derivative).abs()[right.elasticity.abs() > SMALL_ELASTICITY]
+    own = continued[continued.parameter == "angle"]
+    first = continued[continued.kind == "fold"].begin.min()
+    cusps = meetings[(meetings.begin == first) & (meetings.meeting == "cusp") & (meetings.parameter == "damping")]
+    return {
+        "heights": " and ".join(", ".join(f"{one:g}" for one in heights).rsplit(", ", 1)) or "no",
+        "error": f"{error.max():.0e}".replace("e-0", "e-"),
+        "failed": str(len(derivatives) - len(right)),
+        "damping": f"{own.damping_group.iloc[0]:.2f}" if len(own) else "unknown",
+        "stiffness": f"{own.stiffness_group.iloc[0]:.1f}" if len(own) else "unknown",
+        "exponent": f"{continued.attrs['model']['exponent']:g}",
+        "cusp": " and ".join(f"{one:.2f}" for one in cusps[cusps.status == "ok"].damping_group.sort_values()),
+    }
+
+
 def of_the_box(tables: Tables, settings: dict) -> dict[str, str]:
     shares = tables["shares"]
     return of_the_search(shares) | {"largest_error": f"{100.0 * shares.stderr.max():.1f}"}
@@ -173,6 +193,7 @@ NUMBERS: dict[str, Callable[[Tables, dict], dict[str, str]]] = {
     "fig23": fig23,
     "fig24": fig24,
     "bifurcation": bifurcation,
+    "sensitivity": sensitivity,
     "basin_stability": of_the_box,
     "certificates": longest_period,
     "operating": of_the_box,

@@ -18,7 +18,7 @@ from conveyor.analysis.groups import (
     start_of,
     units,
 )
-from conveyor.solver.model import PARAMETERS, UNITS, VZ0, Z0
+from conveyor.solver.model import ACCELERATION, PARAMETERS, UNITS, VZ0, Z0
 from pipeline import fields
 from sensitivity.selection import COLUMNS, Selected, at, conveyor, selected
 
@@ -105,26 +105,25 @@ def of_bifurcation(parameters: np.ndarray, one: Selected) -> Moved:
     return Moved(one.kind, one.period, here, one.doubling, one.rides, "acceleration", by, again, "ok")
 
 
+def weights(a: float, b: float, c: float) -> np.ndarray:
+    """Derivatives of the limit a - (b - a)²/(c - 2b + a) of Aitken's process by the three amplitudes, shape (3,)."""
+    part = (b - a) / (c - 2.0 * b + a)
+    return np.array([(1.0 + part) ** 2, -2.0 * part * (1.0 + part), part**2])
+
+
 def of_accumulation(parameters: np.ndarray, doublings: list[Moved]) -> Moved | None:
-    """Where the doublings accumulate, by Aitken's process; None for too few of them."""
-    usable = [one for one in doublings if one.by is not None]
-    if len(usable) < 4 or len(usable) < len(doublings):
+    """Where the doublings accumulate; None where there are not four of them, or one was not found again."""
+    if len(doublings) < 4 or any(one.by is None for one in doublings):
         return None
-    before, last, limit = (np.array([one.parameters[0] for one in usable[n:]][:3]) for n in (-4, -3, -3))
-    point = orbits.accumulation(np.append(before[:1], last))[0]
-    # The limit L of three a, b, c: a - (b - a)²/(c - 2b + a).
-    a, b, c = limit
-    bend = c - 2.0 * b + a
-    weights = np.array(
-        [1.0 + 2.0 * (b - a) / bend + ((b - a) / bend) ** 2, -2.0 * (b - a) / bend - 2.0 * ((b - a) / bend) ** 2]
-    )
-    weights = np.append(weights, ((b - a) / bend) ** 2)
-    by = weights @ np.array([one.by for one in usable[-3:]])
+    last = doublings[-4:]
+    amplitudes = np.array([one.parameters[ACCELERATION] for one in last])
+    by = weights(*amplitudes[1:]) @ np.array([one.by for one in last[1:]])
 
     def again(row):
-        return orbits.accumulation(np.array([one.again(row) for one in usable[-4:]]))[0]
+        return orbits.accumulation(np.array([one.again(row) for one in last]))[0]
 
-    return Moved("accumulation", 0, at(parameters, point), 0, False, "acceleration", by, again, "ok")
+    here = at(parameters, orbits.accumulation(amplitudes)[0])
+    return Moved("accumulation", 0, here, 0, False, "acceleration", by, again, "ok")
 
 
 def on_edge(kind: str, parameters: np.ndarray, unknown: int) -> Moved:
@@ -264,9 +263,7 @@ def make(
     parameters = conveyor(settings["model"])
     chosen = selected(parameters, folds_and_doublings, cascade, settings["longest_period"], settings["doublings"])
     bifurcations = [of_bifurcation(parameters, one) for one in chosen]
-    accumulation = of_accumulation(
-        parameters, bifurcations[len(bifurcations) - min(settings["doublings"], len(cascade)) :]
-    )
+    accumulation = of_accumulation(parameters, [one for one in bifurcations if one.doubling])
     moved = [*bifurcations, *([accumulation] if accumulation else []), *starts(critical, settings)]
     return {
         "derivatives": columns(

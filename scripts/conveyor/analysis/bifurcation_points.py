@@ -20,8 +20,9 @@ from . import second_order, stroboscope
 from .groups import Groups, groups_of, packed, units
 
 TOLERANCE = 1e-14
-# Newton's iteration: its last correction, below what corrections that shrink no more are round-off, and its longest.
-CONVERGED, STAGNANT = 1e-12, 1e-7
+# Newton's iteration: its last correction; below what, and how often, corrections that shrink no more are round-off (at
+# a grazing they are of either size, by what the solver makes of a touch); and its longest.
+CONVERGED, STAGNANT, OFTEN = 1e-12, 1e-7, 4
 ITERATIONS = 30
 FARTHEST = 10.0
 # Moments of an orbit at which a touch is looked for.
@@ -134,7 +135,7 @@ def touching(
 
 def solved(kind: str, period: int, unknown: np.ndarray, groups: Groups) -> Point | None:
     """The bifurcation that Newton's iteration finds from a guess of its unknowns, or None."""
-    here, size = np.array(unknown, dtype=np.float64), math.inf
+    here, size, stagnant = np.array(unknown, dtype=np.float64), math.inf, 0
     for _ in range(ITERATIONS):
         found = system(kind, period, here, groups)
         step = None if found is None else solve(found[1][:, : len(here)], -found[0])
@@ -144,7 +145,8 @@ def solved(kind: str, period: int, unknown: np.ndarray, groups: Groups) -> Point
         previous, size = size, np.abs(step).max()
         if not size < FARTHEST:
             return None
-        if size < CONVERGED or (previous < STAGNANT and size > 0.1 * previous):
+        stagnant += previous < STAGNANT and size > 0.1 * previous
+        if size < CONVERGED or stagnant == OFTEN:
             return Point(kind, period, here, groups._replace(amplitude=float(here[-1])))
     return None
 

@@ -1,0 +1,160 @@
+"""How much bifurcations and critical heights move with each parameter, and charts of them in dimensionless groups."""
+
+import numpy as np
+import pandas as pd
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
+
+from figures import style
+
+# Names of the parameters, from above; those that move nothing are left out, as is the exponent, whose change changes the
+# unit of k_c.
+NAMES = {
+    "acceleration": "amplitude $\\hat{a}$",
+    "angle": "angle $\\varphi$",
+    "gravity": "gravity $g$",
+    "frequency": "frequency $f$",
+    "mass": "mass $m$",
+    "stiffness": "stiffness $k_c$",
+    "damping": "damping $d_c$",
+}
+CHAOS, SECOND, FIRST = (style.STATE_COLOURS[state] for state in ("chaos", "second", "first"))
+OTHER = "0.7"
+POINTS = {
+    "lift-off of a riding part": {"marker": "^", "color": FIRST},
+    "start at rest leaves first state": {"marker": "s", "color": FIRST, "markerfacecolor": "none"},
+    "first fold": {"marker": "o", "color": SECOND},
+    "first doubling": {"marker": "o", "color": CHAOS, "markerfacecolor": "none"},
+    "second doubling": {"marker": "D", "color": CHAOS, "markerfacecolor": "none"},
+    "accumulation of doublings": {"marker": "*", "color": CHAOS, "markersize": 5.0},
+}
+MEETINGS = {
+    "cusp": ("cusp of folds", {"marker": "D", "markersize": 2.8}),
+    "generalised doubling": ("generalised doubling", {"marker": "v", "markersize": 3.2}),
+    "grazing": ("grazing that ends a curve", {"marker": "x", "markersize": 3.0}),
+}
+
+
+def chosen(table: pd.DataFrame) -> dict[str, pd.DataFrame]:
+    """The rows of the bifurcations that are named in the figure."""
+    folds = table[table.kind == "fold"]
+    found = {
+        "lift-off of a riding part": table[table.rides],
+        "start at rest leaves first state": table[table.kind == "critical_amplitude"],
+        "first fold": folds[folds.acceleration == folds.acceleration.min()],
+        "first doubling": table[table.doubling == 1],
+        "second doubling": table[table.doubling == 2],
+        "accumulation of doublings": table[table.kind == "accumulation"],
+    }
+    return {label: rows[rows.status == "ok"] for label, rows in found.items()}
+
+
+def dots(axes: Axes, groups: dict[str, pd.DataFrame], parameters: list[str], column: str, looks: dict) -> None:
+    """One row of dots for each parameter, the groups below each other within it."""
+    for n, (label, rows) in enumerate(groups.items()):
+        values = rows.set_index("parameter")[column].reindex(parameters)
+        offset = 0.6 * ((n + 0.5) / len(groups) - 0.5)
+        axes.plot(values, np.arange(len(parameters)) + offset, linestyle="", label=label, **looks[label])
+    for n in range(1, len(parameters)):
+        axes.axhline(n - 0.5, color="0.9", linewidth=0.5, zorder=0)
+    axes.axvline(0.0, color="black", linewidth=0.5, zorder=0)
+    axes.set_ylim(len(parameters) - 0.5, -0.5)
+    axes.set_yticks(range(len(parameters)), [NAMES[name] for name in parameters])
+    axes.tick_params(axis="y", length=0.0)
+
+
+def look_of(curve: pd.DataFrame, first_fold: float) -> tuple[str, dict]:
+    """Label and style of a curve in the charts."""
+    one = curve.iloc[0]
+    if one.kind == "grazing":
+        return "lift-off of a riding part", {"color": FIRST}
+    if one.kind == "fold":
+        if one.begin == first_fold:
+            return "first fold", {"color": SECOND, "linewidth": 1.4}
+        return "other folds", {"color": OTHER, "linewidth": 0.8}
+    if one.doubling:
+        dashes = {1: "-", 2: (0, (4, 1.5)), 3: (0, (1.5, 1.5))}.get(one.doubling, (0, (1, 3)))
+        names = {1: "first doubling", 2: "second doubling", 3: "third doubling"}
+        return names.get(one.doubling, "later doublings"), {"color": CHAOS, "linestyle": dashes}
+    return "other doublings", {"color": OTHER, "linewidth": 0.8, "linestyle": (0, (2, 1.5))}
+
+
+def chart(axes: Axes, tables: dict[str, pd.DataFrame], parameter: str, group: str, name: str) -> None:
+    """Γ over a group, with the points of codimension two and the conveyor of the config."""
+    continued = tables["continued"][tables["continued"].parameter == parameter]
+    folds = continued[continued.kind == "fold"]
+    curves = [rows for _, rows in continued.groupby(["kind", "doubling", "begin"], sort=False)]
+    # What is named lies above the others.
+    for rows in sorted(curves, key=lambda rows: not look_of(rows, folds.begin.min())[0].startswith("other")):
+        label, look = look_of(rows, folds.begin.min())
+        axes.plot(rows[group], rows.amplitude_group, label=label, **look)
+    meetings = tables["meetings"][tables["meetings"].parameter == parameter]
+    shown = meetings[
+        (meetings.status == "ok") & (meetings.meeting != "grazing") | (meetings.status == "the curve ends here")
+    ]
+    for kind, (label, look) in MEETINGS.items():
+        rows = shown[shown.meeting == kind]
+        if len(rows):
+            axes.plot(
+                rows[group],
+                rows.amplitude_group,
+                linestyle="",
+                color="black",
+                markerfacecolor="none",
+                label=label,
+                markeredgewidth=0.6,
+                **look,
+            )
+    own = tables["continued"][tables["continued"].parameter == "angle"]
+    if len(own):
+        axes.axvline(own[group].iloc[0], color="black", linewidth=0.5, linestyle=":")
+        axes.annotate(
+            "this conveyor",
+            (own[group].iloc[0], 0.02),
+            xycoords=("data", "axes fraction"),
+            xytext=(2, 0),
+            textcoords="offset points",
+            size=7.0,
+        )
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    low, high = 0.15, 5.0
+    axes.set_ylim(low, high)
+    axes.set_yticks([0.2, 0.5, 1.0, 2.0, 5.0], ["0.2", "0.5", "1", "2", "5"])
+    axes.yaxis.set_minor_locator(LogLocator(subs=()))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.set_xlabel(name)
+    axes.set_ylabel("amplitude group $\\Gamma = a_z/g$")
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the tables of derivatives, of continued curves and of their meetings."""
+    table = tables["derivatives"]
+    figure = style.figure(style.PAGE, 140.0)
+    (amplitudes, heights), (damping, stiffness) = figure.subplots(2, 2, height_ratios=(1.0, 1.15))
+
+    named = {label: rows for label, rows in chosen(table).items() if len(rows)}
+    dots(amplitudes, named, [name for name in NAMES if name != "acceleration"], "elasticity", POINTS)
+    amplitudes.set_xlabel("change of the amplitude $\\hat{a}$ in % for 1 % more")
+    amplitudes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, columnspacing=1.0, handletextpad=0.2)
+
+    rows = table[(table.kind == "critical_height") & (table.status == "ok")]
+    rows = rows.assign(per_percent=1e4 * rows.derivative * rows.value)
+    of_amplitudes = {f"{a:g} m/s²": one for a, one in rows.groupby("acceleration")}
+    shades = colormaps["viridis"](np.linspace(0.0, 0.85, max(len(of_amplitudes), 1)))
+    looks = {label: {"marker": "o", "color": shade} for label, shade in zip(of_amplitudes, shades, strict=False)}
+    dots(heights, of_amplitudes, list(NAMES), "per_percent", looks)
+    heights.set_xlabel("change of the critical height in µm for 1 % more")
+    heights.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, columnspacing=1.0, handletextpad=0.1)
+
+    chart(damping, tables, "damping", "damping_group", "damping group $D = d_c/(m\\omega)$")
+    chart(stiffness, tables, "stiffness", "stiffness_group", "stiffness group $K = k_c g^{p-1}/(m\\omega^{2p})$")
+    handles: dict = {}
+    for axes in (damping, stiffness):
+        handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4)
+    for axes, letter in zip((amplitudes, heights, damping, stiffness), "abcd", strict=True):
+        axes.set_title(letter, loc="left", x=-0.24, fontweight="bold")
+    return figure
