@@ -9,8 +9,8 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from figures import style
 
-# Names of the parameters, from above; those that move nothing are left out, as is the exponent, whose change changes the
-# unit of k_c.
+# Names of the parameters, from above; those that move nothing are left out, as is the exponent, whose change changes
+# the unit of k_c.
 NAMES = {
     "acceleration": "amplitude $\\hat{a}$",
     "angle": "angle $\\varphi$",
