@@ -77,6 +77,7 @@ def small_config() -> dict:
     config["figures"] = {figure: config["figures"][figure] for figure in FIGURES}
     config["companion"]["maps"] = ["amplitudes"]
     used = {table for entry in config["figures"].values() for table in entry["tables"].values()}
+    used.add(f"critical/{config['sensitivity']['critical']}")
     for section in set(config) - {"prefix", "model", "solver", "sharing", "figures", *SINGLE}:
         config[section] = {name: entry for name, entry in config[section].items() if f"{section}/{name}" in used}
     reasons = config["scene_budget"]["reasons"]
