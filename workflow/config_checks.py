@@ -6,8 +6,18 @@ Each function takes a config of the right types (see config_model) and gives lin
 import math
 from collections.abc import Iterator
 
-from workflow.config_types import ROOT, did_you_mean, shown
-from workflow.known_names import findings, names_of_figure, names_of_finding, settings_of_finding
+from workflow.config_types import LIBRARY, ROOT, did_you_mean, shown
+from workflow.known_names import (
+    caption_functions,
+    compared,
+    findings,
+    keys_of,
+    names_asked,
+    names_of_figure,
+    names_of_finding,
+    names_of_template,
+    settings_of_finding,
+)
 from workflow.sharing import plan
 from workflow.tables_of_config import (
     ENTRIES,
@@ -238,6 +248,16 @@ def figures(config: dict) -> Iterator[str]:
         yield from asked(f"figures.{figure}.tables", {}, known, needed - given.keys(), user)
         settings = set().union(*(one.needed for one in names_of_figure(figure, "settings")))
         yield from asked(f"figures.{figure}.settings", entry.get("settings", {}), settings, settings, user)
+        yield from numbers_of_caption(figure)
+
+
+def numbers_of_caption(figure: str) -> Iterator[str]:
+    """What the caption of a figure asks for in vain."""
+    wanted, function = names_of_template(ROOT / f"workflow/report/{figure}.rst"), caption_functions().get(figure)
+    given = names_asked("figures.captions", function, "tables").texts if function else set()
+    for name in sorted(wanted - given):
+        lacking = f"{function} does not give it" if function else f"NUMBERS has no function for {figure}"
+        yield f"workflow/report/{figure}.rst asks for {name}, but in scripts/figures/captions.py {lacking}"
 
 
 def claims(config: dict) -> Iterator[str]:
@@ -247,6 +267,9 @@ def claims(config: dict) -> Iterator[str]:
             remedy = did_you_mean(finding, sorted(findings()))
             yield f"claims.{claim}.finding = {shown(finding)} is no function of scripts/claims; {remedy}"
             continue
+        module = finding.split(".")[0]
+        if module not in keys_of("claims.verdicts", "FINDINGS"):
+            yield f"claims.{claim}.finding = {shown(finding)}: add {module} to FINDINGS in scripts/claims/verdicts.py"
         names = names_of_finding(finding)
         for key in ("tables", "quantities"):
             known = {name for name in entry[key] if names.knows(name)}
@@ -254,6 +277,21 @@ def claims(config: dict) -> Iterator[str]:
             yield from asked(f"claims.{claim}.{key}", entry[key], known | needed, set(needed), finding)
         known, needed = map(set, settings_of_finding(finding))
         yield from asked(f"claims.{claim}.settings", entry.get("settings", {}), known, needed, finding)
+
+
+def fixed_steps(config: dict) -> Iterator[str]:
+    """Methods of fixed steps that are named and no more."""
+    module, file = "conveyor.methods.fixed_step", "scripts/conveyor/methods/fixed_step.py"
+    stepped, counted = compared(module, "integrate", "integrate_all"), len(LIBRARY["EVALUATIONS"])
+    for place, method in enumerate(LIBRARY["METHODS"]):
+        if method.upper() not in stepped:
+            yield f"method {method}: {file} has no step for it; add one where `integrate` compares `method`"
+        if place >= counted:
+            yield f"method {method}: EVALUATIONS in {file} does not say how often it evaluates the forces; add it"
+        if method not in LIBRARY["GROWTH"]:
+            yield f"method {method}: GROWTH in {file} does not say how it multiplies a decay; add it, or None"
+        if method not in keys_of("figures.style", "METHODS"):
+            yield f"method {method}: METHODS in scripts/figures/style.py has no colour and no name for it; add them"
 
 
 def companion(config: dict) -> Iterator[str]:
@@ -279,6 +317,7 @@ CHECKS = (
     tables_of,
     figures,
     claims,
+    fixed_steps,
     companion,
 )
 

@@ -51,7 +51,7 @@ def constants(file: str, *names: str) -> dict[str, Any]:
 
 
 LIBRARY = constants("conveyor/solver/model.py", "PARAMETERS", "TENSION_MODES", "UNITS", "RANGES") | constants(
-    "conveyor/methods/fixed_step.py", "METHODS"
+    "conveyor/methods/fixed_step.py", "METHODS", "EVALUATIONS", "GROWTH"
 )
 
 

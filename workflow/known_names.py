@@ -7,6 +7,9 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+from jinja2 import Environment
+from jinja2.meta import find_undeclared_variables
+
 SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
 
 
@@ -138,8 +141,8 @@ def names_asked(module: str, function: str, mapping: str) -> Names:
 @cache
 def caption_functions() -> dict[str, str]:
     """The function of figures/captions.py that gives the numbers of a caption, by the name of the figure."""
-    numbers = read("figures.captions").definitions["NUMBERS"].value
-    return {key.value: value.id for key, value in zip(numbers.keys, numbers.values, strict=True)}
+    functions = [value.id for value in read("figures.captions").definitions["NUMBERS"].value.values]
+    return dict(zip(keys_of("figures.captions", "NUMBERS"), functions, strict=True))
 
 
 def names_of_figure(figure: str, mapping: str) -> list[Names]:
@@ -148,6 +151,28 @@ def names_of_figure(figure: str, mapping: str) -> list[Names]:
     if figure in caption_functions():
         names.append(names_asked("figures.captions", caption_functions()[figure], mapping))
     return names
+
+
+def has_make(stage: str) -> bool:
+    """Whether the module of a stage has what its rule calls."""
+    return "make" in read(stage).definitions
+
+
+def keys_of(module: str, mapping: str) -> list[str]:
+    """The keys of a mapping that a module below scripts/ writes out."""
+    return [key.value for key in read(module).definitions[mapping].value.keys]
+
+
+def compared(module: str, *functions: str) -> set[str]:
+    """The names that functions of a module compare something with."""
+    nodes = [node for function in functions for node in ast.walk(read(module).definitions[function])]
+    sides = [side for node in nodes if isinstance(node, ast.Compare) for side in node.comparators]
+    return {side.id for side in sides if isinstance(side, ast.Name)}
+
+
+def names_of_template(file: Path) -> set[str]:
+    """What a template of a caption asks for."""
+    return find_undeclared_variables(Environment().parse(file.read_text(encoding="utf-8")))
 
 
 @cache

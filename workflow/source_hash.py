@@ -66,6 +66,11 @@ def closure(*scripts: str) -> tuple[list[Path], list[str]]:
         path = todo.pop()
         if path in files:
             continue
+        if not path.is_file():
+            name = path.relative_to(SCRIPTS.parent)
+            raise FileNotFoundError(
+                f"{name} is missing, which a rule names; add it: CONTRIBUTING.md says what it holds"
+            )
         files.add(path)
         more_files, more_packages = direct_imports(path)
         todo.extend(more_files)

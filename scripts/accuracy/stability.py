@@ -54,24 +54,26 @@ def characteristic(stiffness: float, damping: float, mass: float) -> tuple[compl
 def limit(method: str, stiffness: float, damping: float, mass: float) -> float:
     """Largest stable step (s) of a method in a linear contact: k N/m, d N s/m, m kg.
 
-    Explicit Euler: |1 + hλ| = 1, which is h = d/k for an oscillation. Semi-implicit Euler: h² k/m + 2 h d/m = 4, near
-    2/ω. RK4: |R(hλ)| = 1 for its stability polynomial R, near 2.78/ω.
+    Semi-implicit Euler: h² k/m + 2 h d/m = 4, near 2/ω. All others: |R(hλ)| = 1 for the polynomial R by which a step
+    multiplies a decay; explicit Euler: h = d/k for an oscillation, RK4: near 2.78/ω.
     """
+    if method not in fixed_step.METHODS:
+        raise ValueError(f"method = {method!r} is not one of {', '.join(fixed_step.METHODS)}")
     roots = characteristic(stiffness, damping, mass)
-    if method == "euler":
-        return min(-2.0 * root.real / abs(root) ** 2 for root in roots)
     if method == "semi_implicit_euler":
         rate, square = damping / mass, stiffness / mass
         return (math.sqrt(rate * rate + 4.0 * square) - rate) / square
-
-    if method != "rk4":
-        raise ValueError(f"method = {method!r} is not one of {', '.join(fixed_step.METHODS)}")
+    if method == "euler":
+        return min(-2.0 * root.real / abs(root) ** 2 for root in roots)
 
     def growth(step):
-        return max(abs(1 + (x := step * root) * (1 + x / 2 * (1 + x / 3 * (1 + x / 4)))) for root in roots) - 1.0
+        return max(abs(np.polynomial.Polynomial(fixed_step.GROWTH[method])(step * root)) for root in roots) - 1.0
 
+    # The first step with growth, which may be far below 1/|λ|: the polynomial may turn soon.
     size = max(map(abs, roots))
-    return brentq(growth, 1.0 / size, 4.0 / size)
+    steps = np.geomspace(1e-4, 10.0, 200) / size
+    last = next(place for place, step in enumerate(steps) if growth(step) > 0.0)
+    return brentq(growth, steps[last - 1], steps[last])
 
 
 def whole(duration: float, step: float) -> float:

@@ -30,6 +30,18 @@ SECOND_ESTIMATE = "#CC79A7"  # beside CONVERGED; green means chaos elsewhere
 CONVERGED_LABEL = "converged (exact events)"
 EULER_LABEL = "paper's method (Euler)"
 PLATE = "#555555"
+# Colour and name of every method that the solver is compared with.
+METHODS = {
+    "event": (CONVERGED, "this solver"),
+    "euler": (EULER, "explicit Euler"),
+    "semi_implicit_euler": ("#E69F00", "semi-implicit Euler"),
+    "rk4": ("#000000", "RK4, fixed step"),
+    "RK45": ("#56B4E9", "RK45"),
+    "DOP853": ("#009E73", "DOP853"),
+    "Radau": ("#CC79A7", "Radau"),
+    "LSODA": ("#8C6D31", "LSODA"),
+    "heyoka": ("#7A4FBF", "heyoka"),
+}
 # Curves of both methods in one panel: where they coincide, the dashes lie on the line.
 CURVES = {
     "converged": {"color": CONVERGED, "linewidth": 1.4, "label": CONVERGED_LABEL},

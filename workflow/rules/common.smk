@@ -12,6 +12,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from workflow.configuration import TABLES, count_points, entry_of, kind_of, resolve
+from workflow.known_names import has_make
 from workflow.source_hash import closure, source_hash, versions
 
 # "" or "NAME/": a config with a prefix keeps its results apart.

@@ -21,6 +21,11 @@ from .force_law import contact_acceleration, friction_acceleration
 
 METHODS = ("euler", "semi_implicit_euler", "rk4")
 EULER, SEMI_IMPLICIT_EULER, RK4 = range(len(METHODS))
+# Evaluations of the forces in a step of each.
+EVALUATIONS = (1, 1, 4)
+# What a step h multiplies a decay exp(λt) by, as coefficients of the powers of hλ; None where a step does not.
+GROWTH = {"euler": (1.0, 1.0), "semi_implicit_euler": None, "rk4": (1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0)}
+LAST_CODE = len(METHODS) - 1
 SAMPLE_COLUMNS = ("x", "vx", "z", "vz", "contact_force", "friction_force")
 EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U10")])
 WHOLE = 1e-9  # relative: a duration this close to a whole number of steps is one, up to the rounding of both
@@ -73,7 +78,7 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
     parameters : float64, shape (13,), packed as in `model.PARAMETERS`
     step : Δt, s
     n_steps : number of steps
-    method : SEMI_IMPLICIT_EULER or RK4
+    method : the code of one of METHODS, not EULER
     sample_indices : int64, shape (n,), ascending step numbers in [0, n_steps] to be sampled
     samples : float64, shape (n, 6), filled in the order of SAMPLE_COLUMNS (m, m/s, m, m/s, N, N); rows after a state
         that is not finite keep what they held
@@ -86,8 +91,8 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
         x (m), vx (m/s), z (m), vz (m/s) at the last step; number of events; impacts; time with contact force (s);
         largest gap (m) at the steps; number of force evaluations; status
     """
-    if method not in (SEMI_IMPLICIT_EULER, RK4):
-        raise ValueError("method is neither SEMI_IMPLICIT_EULER nor RK4")
+    if not EULER < method <= LAST_CODE:
+        raise ValueError("method is the code of no other of METHODS than EULER")
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
     psi0 = parameters[model.PSI0]
     a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
@@ -138,12 +143,14 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
             x += step * vx
             vz += step * (push - gravity)
             z += step * vz
-        else:
+        elif method == RK4:
             x, vx, z, vz = rk4_step(
                 (x, vx, z, vz), rub, push, step, phase, omega * step, plate, contact, friction, gravity, tension
             )
+        else:
+            raise ValueError("a method without a step")
         i += 1
-    evaluations = i * (4 if method == RK4 else 1)
+    evaluations = i * EVALUATIONS[method]
     status = OK if math.isfinite(x + vx + z + vz) else NOT_FINITE
     return x, vx, z, vz, n_events, n_impacts, contact_steps * step, max_gap, evaluations, status
 

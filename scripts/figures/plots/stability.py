@@ -10,7 +10,6 @@ from matplotlib.patches import Patch
 from figures import style
 
 OUTCOMES = {"right": "#BFD9EA", "wrong state": "#F3D9A0", "energy grows": "#D55E00", "blow-up": "#444444"}
-METHODS = {"euler": "Euler", "semi_implicit_euler": "semi-implicit Euler", "rk4": "RK4"}
 AXES = {
     "stiffness": "stiffness in N/m",
     "damping": "damping in N s/m",
@@ -20,12 +19,6 @@ AXES = {
 LIMIT = {"color": "black", "linewidth": 1.2, "linestyle": (0, (4, 2))}
 PAPER = {"marker": "*", "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.6, "markersize": 8.0}
 EDGES = {"stiffness": "o", "damping": "s", "impact velocity": "^"}
-METHOD_COLOURS = {
-    "euler": style.EULER,
-    "semi_implicit_euler": "#009E73",
-    "rk4": "#CC79A7",
-    "event": style.CONVERGED,
-}
 SMALLEST = 1e-18  # of a slip on a logarithmic axis
 
 
@@ -51,14 +44,15 @@ def draw_map(axes: Axes, rows: pd.DataFrame, panel: str) -> None:
 
 def draw_maps(figure: SubFigure, table: pd.DataFrame, acceleration: float) -> None:
     """A row of maps for each quantity, a column for each method; the paper's step at its amplitude (m/s²)."""
-    panels = figure.subplots(len(AXES), len(METHODS), sharex=True, sharey="row", squeeze=False)
+    methods = table.attrs["methods"]
+    panels = figure.subplots(len(AXES), len(methods), sharex=True, sharey="row", squeeze=False)
     for row, panel in zip(panels, AXES, strict=True):
-        for axes, method in zip(row, METHODS, strict=True):
+        for axes, method in zip(row, methods, strict=True):
             draw_map(axes, table[(table.panel == panel) & (table.method == method)], panel)
         row[0].set_ylabel(AXES[panel])
     panels[-1, 0].plot(table.attrs["paper_step"], acceleration, **PAPER)
-    for axes, label in zip(panels[0], METHODS.values(), strict=True):
-        axes.set_title(label)
+    for axes, method in zip(panels[0], methods, strict=True):
+        axes.set_title(style.METHODS[method][1])
     for axes in panels[-1]:
         axes.set_xlabel("step in s")
 
@@ -66,9 +60,9 @@ def draw_maps(figure: SubFigure, table: pd.DataFrame, acceleration: float) -> No
 def draw_edges(axes: Axes, table: pd.DataFrame) -> None:
     """Measured limits in units of those in theory."""
     for panel, marker in EDGES.items():
-        for method in METHODS:
+        for method in table.attrs["methods"]:
             rows = table[(table.panel == f"edge: {panel}") & (table.method == method)]
-            look = {"color": METHOD_COLOURS[method], "markersize": 2.5, "markeredgewidth": 0.0}
+            look = {"color": style.METHODS[method][0], "markersize": 2.5, "markeredgewidth": 0.0}
             axes.plot(rows.theory, rows.x / rows.theory, marker, **look)
     axes.axhspan(0.8, 1.2, color="0.93")
     axes.set_xscale("log")
@@ -90,7 +84,7 @@ def draw_chatter(axes: Axes, table: pd.DataFrame) -> None:
     """Slip of a part that should stick, over the step."""
     for method, label in {"euler": "Euler", "event": "this solver"}.items():
         rows = table[(table.panel == "chatter") & (table.method == method)]
-        axes.loglog(rows.x, rows.y.clip(lower=SMALLEST), ".-", color=METHOD_COLOURS[method])
+        axes.loglog(rows.x, rows.y.clip(lower=SMALLEST), ".-", color=style.METHODS[method][0])
         axes.annotate(label, (rows.x.iloc[0], rows.y.iloc[0]), xytext=(0, 5), textcoords="offset points", size=7.0)
     axes.set_xlabel("step in s")
     axes.set_ylabel("slip in stick in m/s")
@@ -102,7 +96,7 @@ def draw_hard(axes: Axes, table: pd.DataFrame) -> None:
     for place, case in enumerate(cases):
         rows = table[table.panel == case].set_index("method")
         for method in ("euler", "event"):
-            axes.semilogx(rows.y[method], place, "o", color=METHOD_COLOURS[method], markersize=4.0)
+            axes.semilogx(rows.y[method], place, "o", color=style.METHODS[method][0], markersize=4.0)
         axes.annotate(
             f"{case.removeprefix('hard: ')}; Euler: {rows.outcome['euler']}",
             (0.02, place),
@@ -133,10 +127,9 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     handles.append(Line2D([], [], **LIMIT, label="limit in theory"))
     handles.append(Line2D([], [], linestyle="", **PAPER, label="the paper"))
     above.legend(handles=handles, loc="outside upper center", ncols=6)
-    names = METHODS | {"event": "this solver"}
     handles = [
-        Line2D([], [], linestyle="", marker="o", color=METHOD_COLOURS[method], label=name)
-        for method, name in names.items()
+        Line2D([], [], linestyle="", marker="o", color=colour, label=name)
+        for colour, name in (style.METHODS[method] for method in (*table.attrs["methods"], "event"))
     ]
     below.legend(handles=handles, loc="outside upper center", ncols=4)
     return figure

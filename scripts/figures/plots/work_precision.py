@@ -9,18 +9,7 @@ from matplotlib.lines import Line2D
 from figures import style
 
 SCENES = {"jumping": "jumping", "riding": "always in contact", "bouncing": "micro-bounces"}
-# Colour and name of each method, marker and line of each treatment.
-METHODS = {
-    "event": (style.CONVERGED, "this solver"),
-    "euler": (style.EULER, "explicit Euler"),
-    "semi_implicit_euler": ("#E69F00", "semi-implicit Euler"),
-    "rk4": ("#000000", "RK4, fixed step"),
-    "RK45": ("#56B4E9", "RK45"),
-    "DOP853": ("#009E73", "DOP853"),
-    "Radau": ("#CC79A7", "Radau"),
-    "LSODA": ("#8C6D31", "LSODA"),
-    "heyoka": ("#7A4FBF", "heyoka"),
-}
+# Marker and line of each treatment.
 TREATMENTS = {
     "exact": ("o", "-", None),
     "exact, nothing repeated": ("o", "-.", "this solver, every step computed"),
@@ -63,7 +52,7 @@ QUANTITIES = {
 def curve(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
     """The successes of one method."""
     method, treatment = rows.method.iloc[0], rows.treatment.iloc[0]
-    colour, _ = METHODS[method]
+    colour, _ = style.METHODS[method]
     marker, line, _ = TREATMENTS[treatment]
     good = rows[rows.outcome == "ok"]
     ours = method == "event"
@@ -123,7 +112,7 @@ def handles(tables: dict[str, pd.DataFrame]) -> list[Line2D]:
     ran = set(everything[everything.outcome != MISSING].method)
     known = [
         Line2D([], [], color=colour, linewidth=1.4, label=name)
-        for method, (colour, name) in METHODS.items()
+        for method, (colour, name) in style.METHODS.items()
         if method in ran
     ]
     treated = [
