@@ -8,7 +8,7 @@ RULES["claims"] = {
 } | read_tables(reference for claim in config["claims"].values() for reference in claim["tables"].values())
 RULES["claims"]["params"]["settings"] = {"claims": config["claims"]}
 
-TESTS = sorted(str(path.relative_to(workflow.basedir)) for path in Path(workflow.basedir).glob("tests/results/*.py"))
+TESTS = sorted(map(str, Path("tests/results").glob("*.py")))
 
 # The tables that the tests look at; a copy of the project without its tests makes nothing for them.
 LOOKED_AT = (
