@@ -75,7 +75,7 @@ def draw_failures(axes: Axes, table: pd.DataFrame, x: str) -> None:
     kinds = table[table.outcome.isin(FAILURES)].groupby(["method", "treatment", "outcome"], sort=False)
     lines = np.geomspace(BAND_ENDS, FAILED, kinds.ngroups + 2)[1:-1]
     for line, ((method, _, outcome), failed) in zip(lines, kinds, strict=True):
-        colour, _ = METHODS[method]
+        colour, _ = style.METHODS[method]
         least, most = failed[x].min(), failed[x].max()
         axes.plot([least, most], [line] * 2, color=colour, linewidth=0.8, marker="|", markersize=2.5)
         axes.annotate(
