@@ -254,8 +254,8 @@ def figures(config: dict) -> Iterator[str]:
 def numbers_of_caption(figure: str) -> Iterator[str]:
     """What the caption of a figure asks for in vain."""
     wanted, function = names_of_template(ROOT / f"workflow/report/{figure}.rst"), caption_functions().get(figure)
-    given = names_asked("figures.captions", function, "tables").texts if function else set()
-    for name in sorted(wanted - given):
+    given = names_asked("figures.captions", function, "tables") if function else None
+    for name in sorted(name for name in wanted if not (given and given.knows(name))):
         lacking = f"{function} does not give it" if function else f"NUMBERS has no function for {figure}"
         yield f"workflow/report/{figure}.rst asks for {name}, but in scripts/figures/captions.py {lacking}"
 
