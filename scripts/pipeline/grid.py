@@ -37,6 +37,15 @@ def axis_values(name: str, axis: Axis) -> np.ndarray:
     )
 
 
+def columns_of_axes(axes: Mapping[str, Axis], rows: tuple[int, int] | None = None) -> dict[str, np.ndarray]:
+    """Values of the axes at the points of their product, by name, each of shape (n,); arguments as of product()."""
+    values = {name: axis_values(name, axis) for name, axis in axes.items()}
+    shape = tuple(len(value) for value in values.values())
+    begin, end = rows or (0, math.prod(shape))
+    places = np.unravel_index(np.arange(begin, end), shape)
+    return {name: value[place] for (name, value), place in zip(values.items(), places, strict=True)}
+
+
 def product(
     axes: Mapping[str, Axis], model: Mapping[str, float | str], rows: tuple[int, int] | None = None
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
@@ -53,14 +62,10 @@ def product(
     columns : values of the axes, each of shape (n,)
     parameters : float64, shape (n, 13), rows as from model.pack
     """
-    values = {name: axis_values(name, axis) for name, axis in axes.items()}
-    shape = tuple(len(value) for value in values.values())
-    begin, end = rows or (0, math.prod(shape))
-    places = np.unravel_index(np.arange(begin, end), shape)
-    columns = {name: value[place] for (name, value), place in zip(values.items(), places, strict=True)}
+    columns = columns_of_axes(axes, rows)
     start = Start(model.get("z0", 0.0), model.get("vz0", 0.0))
     conveyor = Conveyor(**{name: value for name, value in model.items() if name not in ("z0", "vz0")})
-    parameters = np.tile(pack(conveyor, start), (end - begin, 1))
+    parameters = np.tile(pack(conveyor, start), (len(next(iter(columns.values()))), 1))
     for name, column in columns.items():
         codes = column if column.dtype.kind == "f" else [TENSION_MODES.index(mode) for mode in column]
         parameters[:, PARAMETERS.index(name)] = codes

@@ -18,8 +18,11 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from pipeline import grid
+
 # Rows of a row group: fixed, so that a table's bytes do not depend on how it was computed.
 ROW_GROUP = 1 << 20
+REMEDY = "delete it, and the next run makes it again"
 LEVEL = 12  # of zstd: higher ones take longer and save little
 KIND = b"kind"
 UNIT, UNITS = b"unit", b"units"
@@ -120,7 +123,8 @@ def gather(path: str | Path, shards: Sequence[str | Path], kind: str, settings: 
     Raises
     ------
     TableError
-        if a shard is no table of this kind, or was made from other settings, or all together have not so many `rows`
+        if a shard is no table of this kind, or was made from other settings or of other rows, or all together have
+        not so many `rows`
     """
     for shard in shards:
         check(shard, kind, settings)
@@ -128,14 +132,28 @@ def gather(path: str | Path, shards: Sequence[str | Path], kind: str, settings: 
         raise TableError(
             f"the shards of {path} have {found} rows, not {rows}; delete them: the next run makes new ones"
         )
-    write_blocks(path, (group for shard in shards for group in row_groups(shard)))
+    write_blocks(path, blocks_of(shards, settings.get("axes", {})))
 
 
-def row_groups(path: str | Path) -> Iterator[pa.Table]:
-    """The row groups of a table, one by one."""
-    with pq.ParquetFile(path) as file:
-        for number in range(file.num_row_groups):
-            yield file.read_row_group(number)
+def blocks_of(shards: Sequence[str | Path], axes: dict) -> Iterator[pa.Table]:
+    """The row groups of shards, one by one; TableError if they are not those of the product of the axes, in its order."""
+    found = 0
+    for path in shards:
+        with pq.ParquetFile(path) as file:
+            for number in range(file.num_row_groups):
+                block = file.read_row_group(number)
+                begin, found = found, found + len(block)
+                if not holds(block, axes, (begin, found)):
+                    raise TableError(f"{path} does not hold rows {begin} to {found - 1} of its table; {REMEDY}")
+                yield block
+
+
+def holds(shard: pa.Table, axes: dict, rows: tuple[int, int]) -> bool:
+    """Whether a shard has these rows of the product of the axes."""
+    wanted = grid.columns_of_axes(axes, rows) if axes else {}
+    return all(
+        pa.array(values, from_pandas=True).equals(shard[name].combine_chunks()) for name, values in wanted.items()
+    )
 
 
 def umask() -> int:
@@ -147,16 +165,15 @@ def umask() -> int:
 
 def check(path: str | Path, kind: str, settings: dict | None = None) -> None:
     """TableError unless there is a table of this kind at `path`, made from these settings if they are given."""
-    remedy = "delete it, and the next run makes it again"
     try:
         metadata = pq.read_schema(path).metadata or {}
     except (pa.ArrowException, OSError) as error:
-        raise TableError(f"{path} cannot be read as a table of {kind} ({error}); {remedy}") from error
+        raise TableError(f"{path} cannot be read as a table of {kind} ({error}); {REMEDY}") from error
     if metadata.get(KIND) != kind.encode():
         found = metadata.get(KIND, b"").decode() or "something else"
-        raise TableError(f"{path} is not a table of {kind} but of {found}; {remedy}")
+        raise TableError(f"{path} is not a table of {kind} but of {found}; {REMEDY}")
     if settings is not None and (other := differing(json.loads(metadata[SETTINGS]), json.loads(json.dumps(settings)))):
-        raise TableError(f"{path} was made from other settings than those that are asked for ({other}); {remedy}")
+        raise TableError(f"{path} was made from other settings than those that are asked for ({other}); {REMEDY}")
 
 
 def read(path: str | Path, kind: str, settings: dict | None = None) -> pd.DataFrame:
@@ -165,7 +182,7 @@ def read(path: str | Path, kind: str, settings: dict | None = None) -> pd.DataFr
     try:
         return pd.read_parquet(path)
     except (pa.ArrowException, OSError) as error:
-        raise TableError(f"{path} is damaged ({error}); delete it, and the next run makes it again") from error
+        raise TableError(f"{path} is damaged ({error}); {REMEDY}") from error
 
 
 def differing(found: Any, asked: Any, key: str = "") -> str:

@@ -161,3 +161,17 @@ def test_a_foreign_shard_is_named(tmp_path):
     with pytest.raises(tables.TableError, match=r"1\.parquet was made from other settings"):
         tables.gather(tmp_path / "all", [tmp_path / "0.parquet", tmp_path / "1.parquet"], "estimates", SETTINGS, 6)
     assert not (tmp_path / "all").exists()
+
+
+def test_a_shard_of_other_rows_is_named(tmp_path):
+    """As where one is copied by hand over another."""
+    settings = SETTINGS | {"axes": {"acceleration": [20.0, 55.0, 90.0, 91.0]}}
+    for name, values in (("0", [20.0, 55.0]), ("1", [90.0, 91.0])):
+        columns = {"acceleration": values, "lambda": [0.0, 1.0]}
+        tables.write(tmp_path / f"{name}.parquet", made(columns, settings=settings))
+    paths = [tmp_path / "0.parquet", tmp_path / "1.parquet"]
+    tables.gather(tmp_path / "all", paths, "estimates", settings, 4)
+    paths[1].write_bytes(paths[0].read_bytes())
+    with pytest.raises(tables.TableError, match=r"1\.parquet does not hold rows 2 to 3 of its table; delete it"):
+        tables.gather(tmp_path / "none", paths, "estimates", settings, 4)
+    assert not (tmp_path / "none").exists()
