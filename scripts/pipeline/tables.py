@@ -136,7 +136,7 @@ def gather(path: str | Path, shards: Sequence[str | Path], kind: str, settings: 
 
 
 def blocks_of(shards: Sequence[str | Path], axes: dict) -> Iterator[pa.Table]:
-    """The row groups of shards, one by one; TableError if they are not those of the product of the axes, in its order."""
+    """The row groups of shards, one by one; TableError where they are not those of the product of the axes in order."""
     found = 0
     for path in shards:
         with pq.ParquetFile(path) as file:
