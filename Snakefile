@@ -2,7 +2,7 @@ from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
 from workflow.config_files import as_first_written, merged, read, refusal
-from workflow.configuration import by_methods, canonical, problems
+from workflow.configuration import by_methods, canonical, problems, with_tighter
 from workflow.interruptions import end_with_the_terminal, name_commands_at_a_lock
 
 min_version("9.27")
@@ -39,7 +39,7 @@ PAPER = merged(*contents[: len(STAGES) + 1])
 # Nothing that follows from the config may depend on the order of keys or the spelling of numbers in overlays. It is the same
 # object that Snakemake hands to the report.
 config.clear()
-config.update(by_methods(canonical(whole)))
+config.update(with_tighter(by_methods(canonical(whole))))
 
 
 report: "workflow/report/workflow.rst"

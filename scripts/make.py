@@ -3,8 +3,8 @@
 A module of a stage has such a function, `make`, and TABLES, the schemas of the tables that it makes, by their kinds.
 Its arguments are the named inputs of the rule (tables or texts, lists of them where the rule has lists), the params
 beside those NOT_FOR_THE_STAGE, and, where it takes them, `threads` and `progress`. It returns what the one output
-holds: the columns of a table (an iterator: of blocks of its rows), a text or a picture; of several outputs a mapping by
-their names, or a list without names.
+holds: the columns of a table (an iterator: of blocks of its rows), a text, bytes or a picture; of several outputs a
+mapping by their names, or a list without names.
 """
 
 import importlib
@@ -66,6 +66,8 @@ def write(stage: ModuleType, name: str, path: str, content: Any, settings: dict)
             tables.write(path, tables.make(kind, schema, content, settings))
     elif isinstance(content, str):
         Path(path).write_text(content, encoding="utf-8")
+    elif isinstance(content, bytes):
+        Path(path).write_bytes(content)
     else:
         content.save(path, optimize=True)
 

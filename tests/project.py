@@ -26,6 +26,7 @@ SINGLE = (
     "attractors",
     "lyapunov",
     "witnesses",
+    "uncertainty",
     "benchmark",
     "precision",
     "precision_estimates",
@@ -76,6 +77,7 @@ def small_config() -> dict:
     config = merged(read_config(), TINY)
     config["figures"] = {figure: config["figures"][figure] for figure in FIGURES}
     config["companion"]["maps"] = ["amplitudes"]
+    config["uncertainty"]["claims"] = []
     used = {table for entry in config["figures"].values() for table in entry["tables"].values()}
     used.add(f"critical/{config['sensitivity']['critical']}")
     for section in set(config) - {"prefix", "model", "solver", "sharing", "figures", *SINGLE}:

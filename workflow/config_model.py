@@ -248,6 +248,11 @@ class Claim(TypedDict):
     tables: dict[Name, Reference]
 
 
+class Uncertainty(TypedDict):
+    tighter: number(1, 1e4, "", "(]")
+    claims: Annotated[list[Annotated[Name, AfterValidator(known_claim)]], AfterValidator(distinct)]
+
+
 class Wanted(TypedDict):
     error: positive(1e300)
     speed: number(0, 1e300, "", "(]", form=lambda value: value)
@@ -516,6 +521,7 @@ class Config(TypedDict):
     lyapunov: Lyapunov
     witnesses: Witnesses
     claims: dict[Annotated[Name, AfterValidator(known_claim)], Claim]
+    uncertainty: Uncertainty
     benchmark: Benchmark
     precision: Precision
     precision_estimates: PrecisionEstimates

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from reprlib import Repr
 from textwrap import shorten
-from typing import Annotated, Any, Literal, Union
+from typing import Annotated, Any, Literal, NamedTuple, Union
 
 from pydantic import AfterValidator, Discriminator, Field, PlainValidator, Tag, WrapValidator
 from pydantic_core import PydanticCustomError
@@ -55,6 +55,13 @@ LIBRARY = constants("conveyor/solver/model.py", "PARAMETERS", "TENSION_MODES", "
 )
 
 
+class Allowed(NamedTuple):
+    """What a type allows, in words, for the page of all keys."""
+
+    values: str
+    unit: str = ""
+
+
 def reads_as_number(text: str) -> bool:
     try:
         float(text)
@@ -93,7 +100,7 @@ def number(low: float, high: float, unit: str = "", ends: str = "[]", form: Call
             raise wrong(outside(value, low, high, unit, ends))
         return form(value)
 
-    return Annotated[float, PlainValidator(check)]
+    return Annotated[float, PlainValidator(check), Allowed(f"number in {ends[0]}{low:g}, {high:g}{ends[1]}", unit)]
 
 
 def positive(high: float, unit: str = ""):
@@ -112,7 +119,7 @@ def whole(low: int, high: int, unit: str = "", few: str = "", many: str = ""):
             raise wrong(f"= {shown(int(value))} {reason}" if reason else outside(value, low, high, unit, "[]"))
         return int(value)
 
-    return Annotated[int, PlainValidator(check)]
+    return Annotated[int, PlainValidator(check), Allowed(f"whole number in [{low:g}, {high:g}]", unit)]
 
 
 def word(*words: str):
@@ -121,7 +128,7 @@ def word(*words: str):
             raise wrong(f"= {shown(value)} is not one of {', '.join(words)}")
         return value
 
-    return Annotated[Literal[words], PlainValidator(check)]
+    return Annotated[Literal[words], PlainValidator(check), Allowed(", ".join(words))]
 
 
 def text(pattern: str, expected: str):
@@ -132,7 +139,7 @@ def text(pattern: str, expected: str):
             raise wrong(f"= {shown(value)} is not {expected}")
         return value
 
-    return Annotated[str, PlainValidator(check)]
+    return Annotated[str, PlainValidator(check), Allowed(expected)]
 
 
 Line = text(r"[^\x00-\x1f]+", "text on one line; put it in quotes")
@@ -165,7 +172,9 @@ def interval(end, point: bool = False):
             raise wrong(f"= {shown(values)} is {'reversed' if low > high else 'empty'}; give [least, largest]")
         return values
 
-    return Annotated[list[end], Field(min_length=2, max_length=2), AfterValidator(check)]
+    return Annotated[
+        list[end], Field(min_length=2, max_length=2), AfterValidator(check), Allowed("[least, largest], each")
+    ]
 
 
 def many(item):
@@ -234,7 +243,11 @@ def height(value):
     return float(value)
 
 
-Height = Annotated[float | str, PlainValidator(height)]
+Height = Annotated[
+    float | str,
+    PlainValidator(height),
+    Allowed("number in [{:g}, {:g}], or conveyor".format(*LIBRARY["RANGES"]["z0"]), "m"),
+]
 PARAMETERS = {
     name: {"z0": Height, "tension": word(*LIBRARY["TENSION_MODES"])}.get(name) or NUMBERS[name]
     for name in LIBRARY["PARAMETERS"]

@@ -13,7 +13,18 @@ from typing_extensions import is_typeddict
 from workflow.config_checks import contradictions
 from workflow.config_model import MODEL, Config
 from workflow.config_types import did_you_mean, shown
-from workflow.tables_of_config import METHODS, TABLES, by_methods, count_points, entry_of, kind_of, resolve
+from workflow.tables_of_config import (
+    METHODS,
+    TABLES,
+    by_methods,
+    count_points,
+    entry_of,
+    kind_of,
+    resolve,
+    roles_of_solution,
+    tighter_reference,
+    with_tighter,
+)
 
 __all__ = [
     "TABLES",
@@ -24,6 +35,9 @@ __all__ = [
     "kind_of",
     "problems",
     "resolve",
+    "roles_of_solution",
+    "tighter_reference",
+    "with_tighter",
 ]
 
 # What YAML calls the types of Python.

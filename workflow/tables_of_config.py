@@ -39,6 +39,10 @@ SETTLING = ("sweeps", "critical", "impacts", "signals", "spectra")
 # Sections whose entries may be followed by a fixed-step method for their duration.
 METHODS = ("sweeps", "estimates", "critical", "signals", "spectra")
 
+# Sections whose entries have a tolerance, or are made from one that has.
+TIGHTENED = ("sweeps", "estimates", "critical", "dimensions", "signals", "spectra", "regressions")
+TIGHTER = "tighter"
+
 
 def entry_of(config: dict, reference: str) -> dict | None:
     """What the config says about the table SECTION/NAME, or None if there is no such table."""
@@ -69,6 +73,40 @@ def by_methods(config: dict) -> dict:
             first, *others = entry["methods"]
             found[section][name] = alone | {"method": first}
             found[section] |= {f"{name}_{method}": alone | {"method": method} for method in others}
+    return found
+
+
+def roles_of_solution(tables: dict[str, str]) -> list[str]:
+    """The roles in which a claim reads the converged solution: those that say so, or all of a claim without one."""
+    named = [role for role in tables if role.startswith("converged")]
+    return named or list(tables)
+
+
+def tighter_reference(config: dict, reference: str) -> str:
+    """The table of tighter tolerances beside a table; the same one if it has no tolerance to be tightened."""
+    section, name = reference.split("/")
+    twin = f"{name}_{TIGHTER}"
+    return f"{section}/{twin}" if section in ENTRIES and twin in config[section] else reference
+
+
+def with_tighter(config: dict) -> dict:
+    """A config with NAME_tighter beside each entry that says how sure a claim is: the same with a tighter tolerance."""
+    found = config | {section: dict(config[section]) for section in TIGHTENED}
+
+    def tighten(reference: str) -> None:
+        section, name = reference.split("/")
+        entry = config[section][name] if section in TIGHTENED else {"method": None}
+        if section == "regressions":
+            tighten(f"critical/{entry['critical']}")
+            found[section][f"{name}_{TIGHTER}"] = entry | {"critical": f"{entry['critical']}_{TIGHTER}"}
+        elif entry.get("method", config["solver"]["method"]) == "event":
+            tolerance = entry.get("tolerance", config["solver"]["tolerance"]) / config["uncertainty"]["tighter"]
+            found[section][f"{name}_{TIGHTER}"] = entry | {"tolerance": tolerance}
+
+    for name in config["uncertainty"]["claims"]:
+        tables = config["claims"][name]["tables"]
+        for role in roles_of_solution(tables):
+            tighten(tables[role])
     return found
 
 

@@ -45,6 +45,14 @@ def fig08(tables: Tables, settings: dict) -> dict[str, str]:
     return heights(tables["converged"])
 
 
+def aside(least: float, most: float) -> str:
+    """How changes between two bounds (%) are told, "1.1 to 4.2 % below"."""
+    if least * most < 0.0:
+        return f"between {min(least, most):+.1f} and {max(least, most):+.1f} % off"
+    low, high = sorted((abs(least), abs(most)))
+    return f"{low:.1f} to {high:.1f} % {'below' if most < 0.0 else 'above'}"
+
+
 def fig10(tables: Tables, settings: dict) -> dict[str, str]:
     both = [
         tables[method][tables[method].is_critical].set_index("acceleration").z0 for method in ("euler", "converged")
@@ -52,8 +60,7 @@ def fig10(tables: Tables, settings: dict) -> dict[str, str]:
     change = 100.0 * (both[0] / both[1] - 1.0).dropna()
     return {
         "resolution": f"{tables['converged'].attrs['resolution']:g}",
-        "least": f"{change.max():+.1f}",
-        "most": f"{change.min():+.1f}",
+        "aside": aside(change.max(), change.min()),
         "most_at": f"{change.idxmin():g}",
     }
 
@@ -110,6 +117,16 @@ def bifurcation(tables: Tables, settings: dict) -> dict[str, str]:
         "early_up": written_runs(runs["up"], 2) if runs.get("up") else "nowhere",
         "early_down": written_runs(runs["down"], 2) if runs.get("down") else "nowhere",
         "regular_share": f"{100.0 * regular.mean():.0f}",
+    }
+
+
+def overview(tables: Tables, settings: dict) -> dict[str, str]:
+    found = tables["bifurcations"]
+    return {
+        "fold": f"{found[(found.kind == 'fold') & found.proved].acceleration_low.min():.1f}",
+        "accumulation": f"{tables['cascade'].accumulation.dropna().iloc[-1]:.2f}",
+        "euler_positive": f"{positive_onset(tables['estimate']):g}",
+        "map_at": f"{tables['map'].attrs['model']['acceleration']:g}",
     }
 
 
@@ -192,6 +209,7 @@ NUMBERS: dict[str, Callable[[Tables, dict], dict[str, str]]] = {
     "fig22": fig22,
     "fig23": fig23,
     "fig24": fig24,
+    "overview": overview,
     "bifurcation": bifurcation,
     "sensitivity": sensitivity,
     "basin_stability": of_the_box,

@@ -1,34 +1,16 @@
 """Captions and pages: every number in them comes from a table."""
 
-import re
-
 import numpy as np
 import pandas as pd
 import pytest
 from jinja2 import UndefinedError
 from project import ROOT, read_config
+from prose import typed
 
-from docs import figure_costs
+from docs import costs
 from figures import captions
 
 FIGURES = read_config()["figures"]
-# What may stand in a template: references, names, units, mathematics.
-ALLOWED = (
-    r"\{\{.*?\}\}|\{%.*?%\}",
-    r"\b(Figs?|Eqs?|Sects?)\. \d+(\.\d+)?( (and|to) \d+)?",
-    r":sub:`\d`",
-    r"1/s\b",
-    r"DOP853|RK4\d?",
-    r"a confidence of 95 %",
-)
-WORDS = r"\b(eleven|twelve|thirteen|fifteen|twenty|thirty|fifty|hundred)\b"
-
-
-def typed(template):
-    """Digits and number words of a template that no table has given."""
-    for pattern in ALLOWED:
-        template = re.sub(pattern, "", template)
-    return re.findall(rf"\S*\d\S*|{WORDS}", template)
 
 
 @pytest.mark.parametrize("name", FIGURES)
@@ -106,19 +88,19 @@ def test_costs_are_those_of_all_jobs_behind_a_figure():
         columns=["output_file", "log-file(s)", "input-file(s)"],
     )
     folder = "results/benchmarks"
-    assert figure_costs.jobs_of("figures/a.pdf", table) == {
+    assert costs.jobs_of("figures/a.pdf", table) == {
         f"{folder}/figures/a.tsv",
         f"{folder}/x/late.tsv",
         f"{folder}/x/early.tsv",
         f"{folder}/y/both.tsv",
     }
-    assert figure_costs.jobs_of("figures/b.pdf", table) == {f"{folder}/figures/b.tsv", f"{folder}/y/both.tsv"}
+    assert costs.jobs_of("figures/b.pdf", table) == {f"{folder}/figures/b.tsv", f"{folder}/y/both.tsv"}
 
 
 def test_the_workflow_tells_its_own_jobs(built, monkeypatch):
     """A sweep has its shards and their states behind it."""
     monkeypatch.chdir(built.folder)
-    jobs = figure_costs.jobs_of("figures/fig08.pdf", figure_costs.summary(["figures/fig08.pdf"], []))
+    jobs = costs.jobs_of("figures/fig08.pdf", costs.summary(["figures/fig08.pdf"], []))
     names = {job.removeprefix("results/benchmarks/") for job in jobs}
     methods = ("amplitudes", "amplitudes_euler")
     assert names == {

@@ -1,6 +1,4 @@
-"""The table of figures: one entry for each target, plot script, caption and line of the README."""
-
-import re
+"""The table of figures: one entry for each target, plot script and caption."""
 
 from project import FIGURES, ROOT, read_config
 
@@ -14,12 +12,6 @@ def stems(folder, pattern):
 def test_every_figure_has_script_and_caption():
     assert stems("scripts/figures/plots", "*.py") - {"__init__"} == set(ENTRIES)
     assert stems("workflow/report", "*.rst") - {"workflow"} == set(ENTRIES)
-
-
-def test_readme_lists_every_figure():
-    readme = (ROOT / "README.md").read_text()
-    rows = re.findall(r"^\| `figures/(\w+)\.pdf` \| ([^|]+) \| ([^|]+) \|", readme, re.MULTILINE)
-    assert rows == [(figure, entry["title"], entry["section"]) for figure, entry in ENTRIES.items()]
 
 
 def test_every_figure_of_the_config_is_a_target(built):

@@ -11,9 +11,19 @@ import re
 from pathlib import Path
 from types import SimpleNamespace
 
-from workflow.configuration import TABLES, count_points, entry_of, kind_of, resolve
+from workflow.config_keys import all_written
+from workflow.config_keys import keys as config_keys
+from workflow.configuration import (
+    TABLES,
+    count_points,
+    entry_of,
+    kind_of,
+    resolve,
+    roles_of_solution,
+    tighter_reference,
+)
 from workflow.known_names import has_make
-from workflow.source_hash import closure, source_hash, versions
+from workflow.source_hash import SCRIPTS, closure, source_hash, versions
 
 # "" or "NAME/": a config with a prefix keeps its results apart.
 PREFIX = config["prefix"] and f"{config['prefix']}/"

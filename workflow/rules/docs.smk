@@ -29,50 +29,180 @@ RULES["companion"] = {
     },
 }
 
-RULES["readme"] = {
-    "stage": "docs.readme",
-    "message": "The README",
-    "input": {
-        "template": "workflow/templates/README.md",
-        **tables_of("results", "claims", "benchmark"),
-        "edge": table("critical", "edge"),
-        "edge_euler": table("critical", "edge_euler"),
-        **tables_of("lyapunov", "spectrum"),
-        **tables_of("orbits", "cascade"),
-    },
-    "output": {"page": result("docs/README.md") if PREFIX else "README.md"},
-    "place": "docs/readme",
-    "params": {
-        "kinds": {"edge": "critical", "edge_euler": "critical"},
-        "figures": {
-            name: {key: entry[key] for key in ("title", "section")} for name, entry in config["figures"].items()
+# What the pages tell, from these tables.
+FACTS = {
+    **tables_of("results", "claims", "benchmark"),
+    "edge": table("critical", "edge"),
+    "edge_euler": table("critical", "edge_euler"),
+    "estimate": table("estimates", "phase"),
+    "estimate_euler": table("estimates", "phase_euler"),
+    "fit": table("regressions", "height"),
+    **tables_of("lyapunov", "spectrum"),
+    **tables_of("orbits", "cascade", "certificates", "certified_bifurcations", "certified_chaos"),
+}
+KINDS_OF_FACTS = {
+    "edge": "critical",
+    "edge_euler": "critical",
+    "estimate": "estimates",
+    "estimate_euler": "estimates",
+    "fit": "regressions",
+}
+
+
+def template(name):
+    return f"workflow/templates/{name}"
+
+
+def beside_the_sources(name):
+    """A file in the project's folder if it is made from the paper's config."""
+    return result(f"docs/{name}") if PREFIX else name
+
+
+def pages_rule(name, message, templates, outputs, **rest):
+    """The rule of pages that are made from templates."""
+    inputs, params = rest.pop("input", {}), rest.pop("params", {})
+    RULES[name] = {
+        "stage": "docs.pages",
+        "message": message,
+        "input": {**FACTS, "templates": templates, **inputs},
+        "outputs": outputs,
+        "place": f"docs/{name}",
+        "params": {
+            "kinds": KINDS_OF_FACTS,
+            "figures": {
+                figure: {key: entry[key] for key in ("title", "section")} for figure, entry in config["figures"].items()
+            },
+            "values": {
+                "prefix": config["prefix"],
+                "step": config["solver"]["step"],
+                "tighter": config["uncertainty"]["tighter"],
+            },
+            **params,
         },
+        **rest,
+    }
+
+
+# The README, and the form of the journal ReScience and the manifest of CODECHECK, which name this project's files.
+KEPT = ("README.md", "metadata.yaml", "codecheck.yml")
+pages_rule("kept_pages", "README and metadata", [*map(template, KEPT)], [*map(beside_the_sources, KEPT)])
+
+CLAIMED = {
+    name: [table(*reference.split("/")) for reference in claim["tables"].values()]
+    for name, claim in config["claims"].items()
+}
+
+RULES["costs"] = {
+    "stage": "docs.costs",
+    "message": "What each figure and claim costs",
+    "depends": [*figure_files(), *sorted({file for files in CLAIMED.values() for file in files})],
+    "output": {"costs": result("costs.json")},
+    "place": "docs/costs",
+    "params": {
+        "files": {figure: [figure_file(figure)] for figure in config["figures"]} | CLAIMED,
+        "configfiles": [str(file) for file in workflow.overwrite_configfiles],
     },
 }
 
 RULES["figure_costs"] = {
     "stage": "docs.figure_costs",
     "message": "What each figure costs",
-    "depends": figure_files(),
+    "input": {"costs": result("costs.json")},
     "output": {"page": page("figures.md")},
     "place": "docs/figures",
-    "params": {
-        "files": {figure: figure_file(figure) for figure in config["figures"]},
-        "configfiles": [str(file) for file in workflow.overwrite_configfiles],
-    },
+    "params": {"figures": list(config["figures"])},
 }
 
-# Pictures of figures, by the names of their rules: which figures, and in how many columns.
-for name, (figures, columns) in {
-    "gallery": (list(config["figures"]), 4),
-    "work_precision": (["work_precision"], 1),
-}.items():
-    files = {figure: figure_file(figure, "png") for figure in figures}
+# The article, and the site, which shows it as well.
+CONFIG_FILES = [f"config/{name}.yaml" for name in ("config", *STAGES)]
+TOLD = {
+    "captions": caption_files(),
+    "costs": result("costs.json"),
+    "uncertainty": result("uncertainty.json"),
+    "proved": page("certificates.md"),
+}
+
+
+def written_keys(wildcards):
+    """The keys of the paper's config, with the comments there."""
+    return [key._asdict() for key in all_written(CONFIG_FILES)]
+
+
+def known_keys(wildcards):
+    """All keys that a config may have."""
+    return [key._asdict() for key in config_keys()]
+
+
+pages_rule(
+    "article_text",
+    "The text of the article",
+    [template("article.md")],
+    [result("article/article.md")],
+    input=TOLD,
+    depends=CONFIG_FILES,
+    params={"medium": "print", "folder": f"/figures/{PREFIX}", "written": written_keys},
+)
+
+RULES["article"] = {
+    "stage": "docs.article",
+    "message": "The article",
+    "depends": figure_files(),
+    "input": {"text": result("article/article.md"), "frame": template("article.typ")},
+    "output": {"article": result("article.pdf")},
+    "place": "docs/article",
+}
+
+SITE_TEMPLATES = sorted(Path("workflow/templates/site").glob("*.md"))
+LIBRARY = sorted(
+    str(path.relative_to(SCRIPTS).with_suffix(""))
+    for path in (SCRIPTS / "conveyor").rglob("*.py")
+    if path.name != "__init__.py"
+)
+
+pages_rule(
+    "site_pages",
+    "The pages of the site",
+    [template("article.md"), *(template(f"site/{path.name}") for path in SITE_TEMPLATES)],
+    [result(f"site_pages/{path.name}") for path in (Path("article.md"), *SITE_TEMPLATES)],
+    input=TOLD,
+    depends=CONFIG_FILES,
+    params={"medium": "site", "folder": "figures/", "written": written_keys, "known": known_keys, "library": LIBRARY},
+)
+
+
+rule site:
+    input:
+        article=result("article.pdf"),
+        companion=page("companion.html"),
+        pages=RULES["site_pages"]["outputs"],
+        style="scripts/docs/site.css",
+        pdf=figure_files(),
+        png=figure_files("png"),
+    output:
+        directory(result("site")),
+    log:
+        log_file("docs/site"),
+    benchmark:
+        benchmark_file("docs/site")
+    threads: 1
+    resources:
+        mem_mb=1500,
+        runtime=10,
+    params:
+        code=source_hash("build_site", *LIBRARY),
+    message:
+        "The site"
+    script:
+        "../../scripts/build_site.py"
+
+
+# Pictures of the README.
+for name in ("overview", "work_precision"):
     RULES[f"{name}_picture"] = {
-        "stage": "docs.gallery",
+        "stage": "docs.pictures",
         "message": f"The picture {name} of the documentation",
-        "depends": list(files.values()),
+        "depends": [figure_file(name, "png")],
         "output": {"picture": page(f"{name}.png")},
         "place": f"docs/{name}",
-        "params": {"files": files, "columns": columns},
+        "params": {"file": figure_file(name, "png")},
     }

@@ -1,0 +1,18 @@
+"""The script of the rule that makes the site: it puts pages, pictures and files together, and runs Sphinx."""
+
+import os
+import tempfile
+
+# The library's functions are documented as Python has them, not as compiled objects without a signature.
+os.environ["NUMBA_DISABLE_JIT"] = "1"
+
+from docs import site
+from pipeline.rule_log import logged
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]), tempfile.TemporaryDirectory() as folder:
+        given = snakemake.input
+        site.gather(
+            folder, given.pages, given.style, given.png, {"figures": given.pdf, "": [given.article, given.companion]}
+        )
+        site.build(folder, snakemake.output[0])

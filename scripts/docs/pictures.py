@@ -1,0 +1,21 @@
+"""Pictures of figures for screens: scaled and with a palette, a fraction of the bytes of the figure in print."""
+
+from PIL import Image
+
+from figures.style import RESOLUTION
+
+SCREEN = 220  # dpi
+COLOURS = 256
+
+
+def for_screens(path: str) -> Image.Image:
+    """The picture of a PNG file."""
+    with Image.open(path) as image:
+        size = [max(1, round(extent * SCREEN / RESOLUTION)) for extent in image.size]
+        small = image.convert("RGB").resize(size, Image.Resampling.BICUBIC, reducing_gap=2.0)
+    return small.quantize(COLOURS, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+
+
+def make(file: str) -> Image.Image:
+    """The picture of a figure, a PNG file."""
+    return for_screens(file)

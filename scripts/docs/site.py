@@ -1,0 +1,74 @@
+"""The site: Sphinx on pages in Markdown, with pictures that fit a screen."""
+
+import shutil
+from collections.abc import Iterable
+from io import StringIO
+from pathlib import Path
+
+from sphinx.application import Sphinx
+from sphinx.util.docutils import docutils_namespace, patch_docutils
+
+from docs.pictures import for_screens
+
+SETTINGS = {
+    "project": "Dynamics of a vibratory conveyor",
+    "html_title": "Dynamics of a vibratory conveyor",
+    "extensions": ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "docs.sphinx_extension"],
+    "myst_enable_extensions": ["colon_fence", "dollarmath"],
+    "myst_heading_anchors": 3,
+    "html_theme": "furo",
+    "html_theme_options": {"navigation_with_keys": True},
+    "html_copy_source": False,
+    "html_show_copyright": False,
+    "html_last_updated_fmt": None,
+    "html_extra_path": ["extra"],
+    "html_static_path": ["style"],
+    "html_css_files": ["site.css"],
+    "autodoc_member_order": "bysource",
+    "autodoc_typehints": "signature",
+    "napoleon_use_ivar": True,
+    "napoleon_use_rtype": False,
+    "default_role": "code",
+    "add_module_names": False,
+    "html_math_renderer": "mathml",
+}
+
+
+def gather(
+    folder: str, pages: Iterable[str], style: str, pictures: Iterable[str], extra: dict[str, Iterable[str]]
+) -> None:
+    """Put into a folder what Sphinx needs: pages, their style, pictures in figures/, and files that are copied as they
+    are, by the folders that they go to.
+    """
+    source = Path(folder)
+    (source / "style").mkdir()
+    shutil.copyfile(style, source / "style" / Path(style).name)
+    for page in pages:
+        shutil.copyfile(page, source / Path(page).name)
+    (source / "figures").mkdir()
+    for picture in pictures:
+        for_screens(picture).save(source / "figures" / Path(picture).name)
+    for place, files in extra.items():
+        (source / "extra" / place).mkdir(parents=True, exist_ok=True)
+        for file in files:
+            shutil.copyfile(file, source / "extra" / place / Path(file).name)
+
+
+def build(source: str, output: str) -> None:
+    """Run Sphinx from a folder of pages to one of HTML.
+
+    Raises
+    ------
+    RuntimeError
+        with all warnings if there is one: a page that is missing, a link that leads nowhere, a docstring that cannot
+        be read
+    """
+    warnings = StringIO()
+    doctrees = str(Path(source, "_doctrees"))
+    # As Sphinx's own command does it: what one build registers with docutils is not there for the next one.
+    with patch_docutils(source), docutils_namespace():
+        app = Sphinx(source, None, output, doctrees, "html", SETTINGS, status=None, warning=warnings, freshenv=True)
+        app.build(force_all=True)
+    if app.statuscode or warnings.getvalue():
+        raise RuntimeError(f"Sphinx is not content:\n{warnings.getvalue()}")
+    Path(output, ".buildinfo").unlink(missing_ok=True)

@@ -1,0 +1,113 @@
+"""All at a glance: attractors over the amplitude, both exponents below, and a map of starts beside them."""
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from figures import style
+
+MM = 1e3
+SHADE = "0.93"
+
+
+def attractors(axes: Axes, strobes: pd.DataFrame) -> None:
+    """Stroboscopic states in the colour of the motion; chaos behind the others."""
+    for state in ("chaos", "undecided", "second", "first"):
+        rows = strobes[strobes.state == state]
+        size = 0.6 if state == "chaos" else 1.2
+        axes.plot(
+            rows.acceleration,
+            rows.v,
+            ".",
+            markersize=size,
+            markeredgewidth=0.0,
+            color=style.STATE_COLOURS[state],
+            rasterized=True,
+        )
+    axes.set_ylabel("speed of approach at $\\psi$ = $\\psi_0$ in m/s")
+
+
+def exponents(axes: Axes, spectrum: pd.DataFrame, estimate: pd.DataFrame) -> None:
+    """The exponents of the motions swept up and down, and the paper's estimate."""
+    axes.axhline(0.0, color="black", linewidth=0.6)
+    for branch, rows in spectrum.groupby("branch", sort=False):
+        label = "converged" if branch == "up" else None
+        axes.plot(rows.acceleration, rows.lambda_1, color=style.CONVERGED, linewidth=0.6, label=label)
+    axes.plot(
+        estimate.acceleration, estimate["lambda"], color=style.EULER, linewidth=0.9, label="paper's estimate (Fig. 22)"
+    )
+    axes.set_ylabel("exponent in 1/s")
+    axes.legend(loc="lower left", bbox_to_anchor=(0.06, 0.56))
+
+
+def said(axes: Axes, x: float, height: float, text: str) -> None:
+    """A line at x, and what it means, left of it."""
+    axes.axvline(x, color="black", linewidth=0.6, linestyle=":")
+    axes.annotate(
+        text,
+        (x, height),
+        xycoords=("data", "axes fraction"),
+        xytext=(-2, 0),
+        textcoords="offset points",
+        ha="right",
+        va="top",
+        size=7.0,
+    )
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From strobes, bifurcations, cascade, spectrum, the paper's estimate and a map; settings: critical_acceleration
+    (m/s²), lowest_exponent (1/s).
+    """
+    figure = style.figure(style.PAGE, 96.0)
+    both = figure.subplots(1, 2, width_ratios=(2.0, 1.0))
+    for axes in both:
+        axes.remove()
+    grid = both[0].get_gridspec()
+    left = grid[0].subgridspec(2, 1, height_ratios=(1.5, 1.0))
+    diagram = figure.add_subplot(left[0])
+    below = figure.add_subplot(left[1], sharex=diagram)
+    starts = figure.add_subplot(grid[1])
+
+    fold = tables["bifurcations"].query("kind == 'fold' and proved").acceleration_low.min()
+    accumulation = tables["cascade"].accumulation.dropna().iloc[-1]
+    attractors(diagram, tables["strobes"])
+    exponents(below, tables["spectrum"], tables["estimate"])
+    for axes in (diagram, below):
+        axes.axvspan(settings["critical_acceleration"], accumulation, color=SHADE, zorder=-1)
+        axes.axvline(fold, color="black", linewidth=0.6, linestyle=":")
+        axes.axvline(accumulation, color="black", linewidth=0.6, linestyle=":")
+    diagram.annotate(
+        "two stable motions",
+        (fold, 0.97),
+        xycoords=("data", "axes fraction"),
+        xytext=(2, 0),
+        textcoords="offset points",
+        va="top",
+        size=7.0,
+    )
+    said(diagram, accumulation, 0.97, "doublings\naccumulate")
+    below.annotate(
+        "called\nchaos",
+        (0.5 * (settings["critical_acceleration"] + accumulation), 0.97),
+        xycoords=("data", "axes fraction"),
+        ha="center",
+        va="top",
+        size=7.0,
+    )
+    diagram.tick_params(labelbottom=False)
+    below.set_ylim(settings["lowest_exponent"], 1.5 * tables["spectrum"].lambda_1.max())
+    below.set_xlim(tables["strobes"].acceleration.min(), tables["strobes"].acceleration.max())
+    below.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+
+    table = tables["map"]
+    style.state_map(starts, table.assign(z0=MM * table.z0), "z0", "psi0")
+    style.phase_axis(starts.yaxis)
+    starts.set_xlabel("initial height $z_0$ in mm")
+    starts.set_ylabel("initial phase $\\psi_0$ in rad")
+    starts.set_title(f"$\\hat{{a}}$ = {table.attrs['model']['acceleration']:g} m/s²")
+    for axes, letter in ((diagram, "a"), (below, "b"), (starts, "c")):
+        axes.set_title(letter, loc="left", weight="bold")
+    figure.legend(handles=style.state_handles(tables["strobes"], table), loc="outside upper center", ncols=4)
+    figure.align_ylabels([diagram, below])
+    return figure

@@ -1,0 +1,76 @@
+"""How sure the claims are: tables of tighter tolerances beside those that claims read, and what they change."""
+
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+from project import merged, read_config
+
+from claims import uncertainty
+from claims.verdicts import REPRODUCED
+from workflow.configuration import by_methods, canonical, problems, tighter_reference, with_tighter
+
+CONFIG = read_config()
+
+
+def tightened(overlay: dict) -> dict:
+    return with_tighter(by_methods(canonical(merged(CONFIG, overlay))))
+
+
+def test_only_the_tolerance_of_a_tighter_table_differs():
+    config = tightened({"uncertainty": {"tighter": 100.0, "claims": ["C01"]}})
+    plain, twin = (config["sweeps"][name] for name in ("amplitudes", "amplitudes_tighter"))
+    assert twin == plain | {"tolerance": plain["tolerance"] / 100.0}
+    assert "amplitudes_euler_tighter" not in config["sweeps"]
+
+
+def test_a_tolerance_that_is_not_said_is_that_of_the_solver():
+    config = tightened({"uncertainty": {"tighter": 10.0, "claims": ["C07"]}})
+    assert "tolerance" not in config["critical"]["edge"]
+    assert config["critical"]["edge_tighter"]["tolerance"] == config["solver"]["tolerance"] / 10.0
+
+
+def test_a_fit_is_made_from_tighter_heights():
+    config = tightened({"uncertainty": {"claims": ["C09"]}})
+    assert config["regressions"]["height_tighter"]["critical"] == "edge_tighter"
+    assert "edge_tighter" in config["critical"]
+    assert tighter_reference(config, "regressions/height") == "regressions/height_tighter"
+    assert tighter_reference(config, "impacts/map") == "impacts/map"
+
+
+def test_nobody_looks_where_no_claim_is_named():
+    assert tightened({"uncertainty": {"claims": []}}) == by_methods(
+        canonical(merged(CONFIG, {"uncertainty": {"claims": []}}))
+    )
+
+
+@pytest.mark.parametrize(
+    ("overlay", "words"),
+    [
+        ({"tighter": 1.0}, "uncertainty.tighter = 1.0 is outside (1, 10000]"),
+        ({"claims": ["C99"]}, "uncertainty.claims[0] = 'C99' is no statement of the paper"),
+    ],
+)
+def test_a_wrong_key_is_named(overlay, words):
+    assert any(words in line for line in problems(merged(CONFIG, {"uncertainty": overlay})))
+
+
+def edges(height: float) -> pd.DataFrame:
+    return pd.DataFrame({"acceleration": [40.0], "z0": [height], "is_critical": [True]})
+
+
+@pytest.mark.parametrize(("tighter", "same"), [(0.0721e-3, True), (0.0761e-3, False)])
+def test_changes_and_verdicts_are_those_of_the_tighter_tables(tighter, same):
+    claim = CONFIG["claims"]["C07"] | {"tables": {"converged": "critical/edge_tighter", "euler": "critical/edge_euler"}}
+    before = pd.DataFrame({"id": ["C07"], "verdict": [REPRODUCED], "converged": [[0.072]]})
+    read = [edges(0.071e-3), edges(tighter)]
+    found = json.loads(
+        uncertainty.make({"claims": {"C07": claim}}, ["critical/edge_euler", "critical/edge_tighter"], read, before)
+    )["C07"]
+    assert found["changes"] == [pytest.approx(abs(1e3 * tighter - 0.072))]
+    assert found["same_verdict"] is same
+
+
+def test_no_number_changes_by_no_number():
+    assert uncertainty.differences([1.0, np.nan], [1.5, 2.0]) == [0.5, None]

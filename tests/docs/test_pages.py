@@ -1,0 +1,236 @@
+"""Article, site and README: what they tell comes from tables, and a page that cannot be made says why."""
+
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+from jinja2 import UndefinedError
+from project import ROOT, read_config
+from prose import typed
+
+from claims.verdicts import NOT_REPRODUCED, PAPER_METHOD_ONLY, REPRODUCED
+from docs import article, facts, pages, site
+from workflow.config_keys import all_written, keys, written
+from workflow.config_model import MODEL
+
+TEMPLATES = ROOT / "workflow/templates"
+FRAME = (TEMPLATES / "article.typ").read_text(encoding="utf-8")
+# Pages with results; what a user may write, as an example, is no result.
+PROSE = [TEMPLATES / "README.md", TEMPLATES / "article.md", *sorted((TEMPLATES / "site").glob("*.md"))]
+KEPT = ("README.md", "metadata.yaml", "codecheck.yml")
+FIGURES = read_config()["figures"]
+CONFIG = [str(file) for file in sorted((ROOT / "config").glob("*.yaml")) if file.stem != "reduced"]
+
+# -- no result is typed ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("template", PROSE, ids=lambda path: path.stem)
+def test_no_number_of_a_page_is_typed(template):
+    assert typed(template.read_text(encoding="utf-8")) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "accumulate at 62.77 m/s²",
+        "of Fig. 22 from 50 m/s² on",
+        "$\\hat a = 62.77$",
+        "$$\nz_0 = 31\n$$",
+        "a share of `0.6` %",
+        "fifty amplitudes",
+        "C19 says 59",
+    ],
+)
+def test_a_planted_result_is_found(text):
+    article = (TEMPLATES / "article.md").read_text(encoding="utf-8")
+    assert len(typed(f"{article}\nThe doublings {text}.\n")) == 1
+
+
+@pytest.mark.parametrize(
+    "text", ["see Figs. 13 and 18", "$\\omega^2 t_1$", "{{ fold }} m/s²", "`results/claims/C07.md`"]
+)
+def test_a_reference_or_a_formula_is_no_result(text):
+    assert typed(text) == []
+
+
+def test_a_number_that_nobody_gives_is_an_error():
+    with pytest.raises(UndefinedError, match="speed"):
+        pages.filled("at {{ speed }} m/s", {})
+
+
+@pytest.mark.parametrize("name", KEPT)
+def test_kept_pages_are_their_templates_filled(name):
+    """What the rule made last: all of the template but its fields, word by word."""
+    parts = re.split(r"(\{\{.*?\}\}|\{%.*?%\})", (TEMPLATES / name).read_text(encoding="utf-8"), flags=re.DOTALL)
+    pattern = "".join(
+        ".*?" if part[:2] in ("{{", "{%") else r"\s*".join(map(re.escape, part.split())) for part in parts
+    )
+    kept = (ROOT / name).read_text(encoding="utf-8")
+    assert re.search(r"\s*".join(pattern.split()), kept, re.DOTALL) or name == "codecheck.yml"
+    if name == "codecheck.yml":
+        assert re.findall(r"figures/(\w+)\.pdf", kept) == list(FIGURES)
+
+
+# -- the facts ---------------------------------------------------------------------------------------------------------
+
+
+def claim(verdict: str, low: float | None, high: float | None, value: float) -> dict:
+    """A row of the table of claims with one quantity."""
+    return {
+        "id": "C07",
+        "where": "Fig. 10",
+        "statement": "a height",
+        "quantities": ["height in mm"],
+        "paper": [0.07],
+        "paper_method": [],
+        "converged": [value],
+        "accepted_low": [low],
+        "accepted_high": [high],
+        "because": ["a digit"],
+        "verdict": verdict,
+        "reason": None,
+    }
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "value", "accepted", "margin"),
+    [
+        (0.065, 0.075, 0.072, "0.065 to 0.075", "0.003"),
+        (0.065, 0.075, 0.08, "0.065 to 0.075", "-0.005"),
+        (None, 0.075, 0.07, "at most 0.075", "0.005"),
+        (2.0, None, 21.0, "at least 2", "19"),
+        (0.065, 0.075, np.nan, "0.065 to 0.075", "–"),
+    ],
+)
+def test_margins_are_distances_to_the_nearer_end(low, high, value, accepted, margin):
+    told = facts.of_claims(pd.DataFrame([claim(REPRODUCED, low, high, value)]))["C07"]
+    assert (told["accepted"], told["margin"], told["paper_method"]) == ([accepted], [margin], ["–"])
+
+
+def test_verdicts_are_counted():
+    table = pd.DataFrame(
+        {"id": ["C01", "C02", "C03", "C04"], "verdict": [REPRODUCED, NOT_REPRODUCED, NOT_REPRODUCED, PAPER_METHOD_ONLY]}
+    )
+    told = facts.of_verdicts(table)
+    assert (told["claims"], told["reproduced"], told["by_paper"], told["not_reproduced"]) == ("4", "1", "1", "2")
+    assert (told["by_paper_names"], told["not_reproduced_names"]) == ("C04", "C02 and C03")
+
+
+# -- the config, key by key --------------------------------------------------------------------------------------------
+
+
+def test_every_key_of_the_paper_s_config_is_one_of_the_model():
+    known = {key.path for key in keys()}
+    parameters = {path for path in known if path[-1] in ("model", "axes")}
+
+    def is_known(path: tuple[str, ...]) -> bool:
+        return any(
+            len(pattern) == len(path) and all(part in (name, "NAME") for part, name in zip(pattern, path, strict=True))
+            for pattern in known | {(*path, "NAME") for path in parameters}
+        )
+
+    lone = [key.path for key in all_written(CONFIG) if key.value and not is_known(key.path)]
+    # Values that are lists or mappings of their own: their keys are those of the model below them.
+    assert all(any(path == one[: len(path)] or "NAME" in one for one in known) for path in lone), lone
+
+
+def test_every_key_says_what_it_may_be():
+    found = list(keys())
+    assert {key.path[0] for key in found} == set(read_config())
+    assert all(re.search("[a-z]", key.allowed) for key in found)
+    by_name = {".".join(key.path): key for key in found}
+    assert by_name["model.mass"] == (("model", "mass"), "number in [1e-12, 1e+06]", "kg", True)
+    assert by_name["solver.duration"][1:] == ("number in (0, 1e+06]", "s", True)
+    assert by_name["sweeps.NAME.needs"][1:] == ("feeding, vertical", "", False)
+
+
+def test_the_ranges_told_are_those_that_are_checked():
+    config = read_config()
+    told = next(key.allowed for key in keys() if key.path == ("model", "friction"))
+    low, high = map(float, re.findall(r"[\d.e+-]+", told.removeprefix("number in ")))
+    for value, right in (
+        (low, True),
+        (high, True),
+        (np.nextafter(low, -1.0), False),
+        (np.nextafter(high, 100.0), False),
+    ):
+        config["model"]["friction"] = float(value)
+        if right:
+            MODEL.validate_python(config)
+        else:
+            with pytest.raises(ValueError, match="outside"):
+                MODEL.validate_python(config)
+
+
+def test_comments_belong_to_their_keys():
+    text = '# of the file\n\nfirst:   # beside "first"\n  # above\n  # it\n  second: "a # b"   # c\n  third: {x: 1}\n'
+    found = list(written(text))
+    assert [tuple(key) for key in found] == [
+        (("first",), "", 'beside "first"', ""),
+        (("first", "second"), '"a # b"', "c", "above it"),
+        (("first", "third"), "{x: 1}", "", ""),
+    ]
+
+
+def test_what_the_paper_leaves_open_is_told():
+    found = pages.of_gaps([key._asdict() for key in all_written(CONFIG)])
+    assert {"model.gravity", "sweeps.amplitudes.axes.acceleration", "estimates.phase.epsilon"} <= {
+        gap["key"] for gap in found
+    }
+    assert all(gap["comment"] for gap in found)
+
+
+# -- media -------------------------------------------------------------------------------------------------------------
+
+FIGURE = {"name": "fig02", "label": "Fig. 2", "title": "A part"}
+
+
+def test_a_caption_has_its_subscripts_in_both_media():
+    caption = "The mass m\\ :sub:`p` at\nthe height z\\ :sub:`s`."
+    assert pages.in_markdown(caption, "print") == "The mass m~p~ at the height z~s~."
+    assert pages.in_markdown(caption, "site") == "The mass m{sub}`p` at the height z{sub}`s`."
+
+
+def test_the_article_is_equal_bytes():
+    text = "# A title\n\n## One\n\nWith $\\ddot z_p = -g$ and\n\n| a | b |\n|:--|:--|\n| `model.gravity` | c |\n"
+    first, second = (article.make(text, FRAME) for _ in range(2))
+    assert first == second
+    assert first.startswith(b"%PDF-")
+
+
+def test_an_article_without_its_figure_is_an_error(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(Exception, match=r"fig99\.pdf"):
+        article.make("# A title\n\n![a figure](/figures/fig99.pdf)\n", FRAME)
+
+
+@pytest.fixture
+def source(tmp_path):
+    """A folder of pages for a small site."""
+    folder = tmp_path / "source"
+    folder.mkdir()
+    return folder
+
+
+def put(folder, text: str) -> None:
+    """One page, index.md."""
+    page = folder.parent / "index.md"
+    page.write_text(text, encoding="utf-8")
+    style = folder.parent / "site.css"
+    style.write_text("", encoding="utf-8")
+    site.gather(str(folder), [str(page)], str(style), [], {"": []})
+
+
+def test_a_link_that_leads_nowhere_is_an_error(source, tmp_path):
+    put(source, "# A page\n\n[there](nowhere.md)\n")
+    with pytest.raises(RuntimeError, match=r"nowhere\.md"):
+        site.build(str(source), str(tmp_path / "html"))
+
+
+def test_formulas_need_no_network(source, tmp_path):
+    put(source, "# A page\n\n$\\ddot z_p = -g$\n")
+    site.build(str(source), str(tmp_path / "html"))
+    page = (tmp_path / "html/index.html").read_text(encoding="utf-8")
+    assert "<math" in page
+    assert not re.search(r"(?:src|href)=\"https?://", page.split("<footer")[0])

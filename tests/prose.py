@@ -1,0 +1,28 @@
+"""Numbers that stand in the text of a template, where a table should have given them."""
+
+import re
+
+# What may stand there: fields, references, names, units, code, and in formulas single digits.
+ALLOWED = (
+    r"\{\{.*?\}\}|\{%.*?%\}",
+    r"(?ms)^```.*?^```$",
+    r"`[A-Za-z./{(][^`\n]*`",
+    r"\]\([^)\s]*\)",
+    r"\b(Figs?|Eqs?|Sects?)\. \d+(\.\d+)?(( and|,| to) \d+(\.\d+)?)*",
+    r"\bC\d\d\b",
+    r":sub:`\d`",
+    r"(?m)^:scale: \d+$|^\d+\. ",
+    r"1/s\b",
+    r"a confidence of 95 %",
+    r"DOP853|RK4\d?|SHA-256|BSD-3-Clause|Python 3\.11|\bD_2\b",
+)
+FORMULA = re.compile(r"\$\$.*?\$\$|\$[^$\n]*\$", re.DOTALL)
+WORDS = r"\b(?:eleven|twelve|thirteen|fifteen|twenty|thirty|fifty|hundred)\b"
+
+
+def typed(template: str) -> list[str]:
+    """Digits and number words of a template that no table has given."""
+    for pattern in ALLOWED:
+        template = re.sub(pattern, " ", template)
+    template = FORMULA.sub(lambda formula: re.sub(r"(?<![\d.])\d(?![\d.])", "", formula[0]), template)
+    return re.findall(rf"\S*\d\S*|{WORDS}", template)

@@ -1,0 +1,123 @@
+"""Article and site as they have been made by `snakemake article site`: links, pictures, and a browser wide and narrow.
+
+The results are those below the folder that CONVEYOR_RESULTS names, else those of the paper.
+"""
+
+import os
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+import pytest
+from browser import chromium
+from project import ROOT, read_config
+
+from docs import article
+
+RESULTS = ROOT / os.environ.get("CONVEYOR_RESULTS", "results")
+SITE = RESULTS / "site"
+PAGES = sorted(path.name for path in SITE.glob("*.html"))
+CONFIG = read_config()
+WIDE, NARROW = (1600, 900), (360, 740)
+# The page to play with is one of its own, with tests of its own.
+OWN = [page for page in PAGES if page not in ("companion.html", "search.html", "genindex.html", "py-modindex.html")]
+
+
+class Links(HTMLParser):
+    """Addresses that a page leads to, and the places in it that others may lead to."""
+
+    def __init__(self, text: str):
+        super().__init__()
+        self.found, self.places = [], set()
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
+        for name, value in attributes:
+            if name in ("href", "src") and value:
+                self.found.append(value)
+            elif name in ("id", "name") and value:
+                self.places.add(value)
+
+
+@pytest.fixture(scope="module")
+def links() -> dict[str, Links]:
+    return {page: Links((SITE / page).read_text(encoding="utf-8")) for page in PAGES}
+
+
+def broken(page: str, links: dict[str, Links]) -> list[str]:
+    """The links of a page that lead to no file or no place of the site, or out of it for what the page needs."""
+    found = []
+    for link in links[page].found:
+        address = urlsplit(link)
+        if address.scheme or address.netloc:
+            continue
+        target = (SITE / page).parent / unquote(address.path) if address.path else SITE / page
+        places = links[target.name].places if target.name in links else {unquote(address.fragment)}
+        if not target.is_file() or (address.fragment and unquote(address.fragment) not in places):
+            found.append(link)
+    return found
+
+
+def test_all_pages_are_there():
+    wanted = {path.stem for path in (ROOT / "workflow/templates/site").glob("*.md")} | {"article", "companion"}
+    assert wanted <= {Path(page).stem for page in PAGES}
+
+
+@pytest.mark.parametrize("page", OWN)
+def test_links_lead_somewhere(page, links):
+    assert broken(page, links) == []
+
+
+def test_a_broken_link_is_found(links):
+    planted = links | {"index.html": Links('<a href="nowhere.html">x</a><a href="figures.html#no-place">y</a>')}
+    assert broken("index.html", planted) == ["nowhere.html", "figures.html#no-place"]
+
+
+def test_every_figure_and_claim_is_shown(links):
+    figures = (SITE / "figures.html").read_text(encoding="utf-8")
+    for name, entry in CONFIG["figures"].items():
+        assert (SITE / f"_images/{name}.png").is_file()
+        assert (SITE / f"figures/{name}.pdf").is_file()
+        assert f"_images/{name}.png" in figures
+        assert entry["title"].replace("'", "’").split("’")[0] in figures
+    assert {claim.lower() for claim in CONFIG["claims"]} <= links["claims.html"].places
+
+
+def test_the_article_shows_all_figures_of_the_paper():
+    text = (RESULTS / "article/article.md").read_text(encoding="utf-8")
+    for number in range(1, 25):
+        assert f"**Fig. {number}.**" in text
+        assert f"fig{number:02d}.pdf)" in text
+    for claim in CONFIG["claims"]:
+        assert f"\n| {claim} |" in text
+        assert f"results/claims/{claim}.md" in text
+
+
+def test_the_article_is_made_of_its_text_to_the_byte(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    frame = (ROOT / "workflow/templates/article.typ").read_text(encoding="utf-8")
+    text = (RESULTS / "article/article.md").read_text(encoding="utf-8")
+    assert (RESULTS / "article.pdf").read_bytes() == article.make(text, frame)
+
+
+@pytest.fixture(scope="module")
+def driver(tmp_path_factory):
+    driver = chromium(tmp_path_factory.mktemp("profile"))
+    yield driver
+    driver.quit()
+
+
+UNSEEN = "return [...document.images].filter((image) => !image.naturalWidth).map((image) => image.src)"
+OVERFLOW = "return document.documentElement.scrollWidth - document.documentElement.clientWidth"
+
+
+@pytest.mark.parametrize("size", [WIDE, NARROW], ids=["wide", "narrow"])
+@pytest.mark.parametrize("page", OWN)
+def test_pages_open_wide_and_narrow_without_an_error(page, size, driver):
+    width, height = size
+    metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": size == NARROW}
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+    driver.get((SITE / page).as_uri())
+    assert driver.execute_script(OVERFLOW) <= 0
+    assert driver.execute_script(UNSEEN) == []
+    assert driver.get_log("browser") == []
