@@ -1,0 +1,70 @@
+"""What CONTRIBUTING, pre-commit, GitHub Actions and the workflow catalogue say is there."""
+
+import re
+
+import yaml
+from project import ROOT
+
+CI = (ROOT / ".ci/run").read_text()
+
+
+def test_files_that_the_guide_names_are_there():
+    guide = (ROOT / "CONTRIBUTING.md").read_text()
+    named = {name for name in re.findall(r"`([\w./*]+/[\w./*]+)`", guide) if not re.search("STAGE|NAME|SECTION", name)}
+    assert len(named) > 10
+    assert [
+        name for name in sorted(named) if not list(ROOT.glob(name)) and not name.startswith(("figures", "results"))
+    ] == []
+
+
+def test_names_that_the_guide_tells_to_edit_are_there():
+    for file, name in (
+        ("scripts/figures/captions.py", "NUMBERS"),
+        ("scripts/claims/verdicts.py", "FINDINGS"),
+        ("workflow/config_model.py", "CLAIMS"),
+        ("workflow/tables_of_config.py", "TABLES"),
+        ("scripts/figures/style.py", "METHODS"),
+        *(("scripts/conveyor/methods/fixed_step.py", name) for name in ("METHODS", "EVALUATIONS", "GROWTH")),
+    ):
+        assert re.search(rf"^{name}\b.*=", (ROOT / file).read_text(), re.MULTILINE), (file, name)
+        assert name in (ROOT / "CONTRIBUTING.md").read_text()
+
+
+def test_pre_commit_checks_what_ci_does():
+    hooks = yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text())["repos"][0]["hooks"]
+    commands = re.search(r'step "format and lint"\n(.*?)\n\n', CI, re.DOTALL)[1].replace('"$bin/', "").replace('"', "")
+    assert [hook["entry"] for hook in hooks] == commands.splitlines()
+    assert {hook["language"] for hook in hooks} == {"system"}
+
+
+def test_github_runs_the_same_script_with_pinned_actions():
+    actions = yaml.safe_load((ROOT / ".github/workflows/ci.yml").read_text())
+    steps = actions["jobs"]["ci"]["steps"]
+    assert [step["run"] for step in steps if "run" in step] == [".ci/run"]
+    assert all(re.fullmatch(r"[\w/-]+@v\d+\.\d+\.\d+", step["uses"]) for step in steps if "uses" in step)
+    (version,) = (step["with"]["python-version"] for step in steps if "setup-python" in step.get("uses", ""))
+    assert f"python{version} " in CI
+
+
+def test_the_catalogue_finds_what_it_asks_for():
+    usage = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text())["usage"]
+    assert set(usage) == {"mandatory-flags", "software-stack-deployment", "report"}
+    assert (ROOT / "workflow/Snakefile").is_file()
+    readme = (ROOT / "README.md").read_text().lower()
+    assert "snakemake" in readme
+    assert "workflow" in readme
+
+
+def test_the_config_guide_names_files_that_are_there():
+    named = re.findall(r"`(\w+\.yaml)`", (ROOT / "config/README.md").read_text())
+    assert len(named) > 3
+    assert all((ROOT / "config" / name).is_file() for name in named)
+
+
+def test_the_other_snakefile_plans_the_same(built):
+    """The catalogue's way in: workflow/Snakefile."""
+    plans = [
+        built.snakemake("--dry-run", "--forceall", *options) for options in ((), ("--snakefile", "workflow/Snakefile"))
+    ]
+    stats = [sorted(run.stdout.split("Job stats:")[1].split("\n\n")[0].splitlines()) for run in plans]
+    assert stats[0] == stats[1]
