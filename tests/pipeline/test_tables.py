@@ -1,5 +1,6 @@
 """Tables: kinds, units, equal bytes, all or nothing, errors that name the column or the file."""
 
+import json
 from itertools import pairwise
 
 import numpy as np
@@ -44,6 +45,8 @@ def test_fields_carry_units_and_nan_becomes_null(path):
     written = pq.read_table(path)
     units = {field.name: field.metadata[b"unit"].decode() for field in written.schema}
     assert units == {"acceleration": "m/s²", "lambda": "1/s"}
+    # For readers that see no fields, as DuckDB.
+    assert json.loads(written.schema.metadata[b"units"]) == units
     assert written["lambda"].null_count == 1
 
 

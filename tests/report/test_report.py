@@ -102,6 +102,16 @@ def test_pictures_keep_white_and_colours_in_few_bytes(tmp_path):
     assert np.array_equal(found, pixels[::2, ::2])
 
 
+def test_white_stays_white_among_many_colours(tmp_path):
+    pixels = np.random.default_rng(1).integers(0, 256, (400, 400, 3), dtype=np.uint8)
+    pixels[:, 100:200] |= 248  # as at the rim of a letter
+    pixels[:, 200:] = 255
+    Image.fromarray(pixels).save(tmp_path / "figure.png")
+    uri, _ = figure_pages.picture(tmp_path / "figure.png")
+    with Image.open(io.BytesIO(base64.b64decode(uri.split(",")[1]))) as found:
+        assert found.getpixel((150, 100)) == (255, 255, 255)
+
+
 def test_a_caption_with_a_mistake_is_an_error():
     assert figure_pages.html("m\\ :sub:`p`\n") == "<p>m<sub>p</sub></p>\n"
     with pytest.raises(Exception, match="Unknown interpreted text role"):
