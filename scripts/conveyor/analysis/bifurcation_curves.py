@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import root
 
-from .bifurcation_points import GRAZING, SIGNS, Point, derivatives, solve, solved, system, touch, touching
+from .bifurcation_points import GRAZING, SIGNS, Point, derivatives, solve, solved, system, touch
 from .groups import Groups
 
 CONVERGED, ITERATIONS = 1e-10, 12
@@ -26,6 +26,7 @@ FARTHEST = 1.0  # what a correction may move a point
 RESOLUTION = 1e-8  # of a point of codimension two along its curve
 FIRST_STEP, SMALLEST_STEP = 1e-2, 1e-6
 STRAIGHT = 0.9  # cosine of the largest turn within one step
+MOST_EVALUATIONS = 60  # of the functions of a grazing in the search for it
 TOUCHES = 1e-8  # of the functions of a grazing
 NEARBY = 1e-2  # a grazing within this distance of the end of a curve, in log Γ and λ, is the one that ends it
 SMALL = 1e-3  # of its neighbours' tests: that of a cusp or generalised doubling
@@ -310,18 +311,17 @@ def _grazings(following, begin, end, status):
 
     def functions(guess):
         groups = following.groups(np.append(np.zeros(2), guess[1:]))
-        found = touching(following.period, np.array([guess[0], groups.amplitude]), groups)
+        found = derivatives(groups, np.zeros(2), following.period, guess[0])
         if found is None:
             return np.full(3, np.nan)
-        matrix = derivatives(groups, np.zeros(2), following.period, guess[0]).first[:, :2]
-        sign = SIGNS[following.kind]
-        return np.append(found[0], 1.0 - sign * np.trace(matrix) + np.linalg.det(matrix))
+        matrix, sign = found.first[:, :2], SIGNS[following.kind]
+        return np.append(found.image, 1.0 - sign * np.trace(matrix) + np.linalg.det(matrix))
 
     for near in (end, begin):
         phase = touch(following.groups(near), near[:2], following.period)
         if phase is None:
             continue
-        solution = root(functions, np.append(phase[0], near[2:]), tol=CONVERGED)
+        solution = root(functions, np.append(phase[0], near[2:]), tol=CONVERGED, options={"maxfev": MOST_EVALUATIONS})
         if np.abs(solution.fun).max() < TOUCHES and np.abs(solution.x[1:] - near[2:]).max() < 2.0 * max(
             np.abs(end - begin).max(), NEARBY
         ):
