@@ -3,10 +3,13 @@
 The curve of a bifurcation is followed by pseudo-arclength (Keller 1977) in (x, y, log Γ, λ), where the parameter is
 e^λ times its first value. On it lie points of codimension two:
 
-    cusp                   on a fold, where l·D²Pⁿ(r, r) = 0: two folds meet
-    generalised doubling   on a doubling, where the coefficient of its normal form is 0: the doubled orbit's branch
-                           turns from one side to the other, and the curve of its folds begins there
-    grazing                where an impact of the orbit begins or ceases to exist
+cusp
+    on a fold, where l·D²Pⁿ(r, r) = 0: two folds meet
+generalised doubling
+    on a doubling, where the coefficient of its normal form is 0: the doubled orbit's branch turns from one side to the
+    other, and the curve of its folds begins there
+grazing
+    where an impact of the orbit begins or ceases to exist
 
 l and r are the left and right eigenvectors of the multiplier. The product of the multipliers is below 1, where there is
 damping, and positive: no orbit has two multipliers +1, two -1, or one of each, and there are no other generic ones.
