@@ -43,11 +43,11 @@ def test_a_module_of_findings_that_is_not_listed_is_named(monkeypatch):
 
 
 def test_a_number_that_a_caption_asks_for_in_vain_is_named(monkeypatch):
-    monkeypatch.setattr(config_checks, "names_of_template", lambda file: {"most", "mode"})
+    monkeypatch.setattr(config_checks, "names_of_template", lambda file: {"most_at", "mode"})
     place = "workflow/report/{}.rst asks for {}, but in scripts/figures/captions.py {}"
     assert list(config_checks.numbers_of_caption("fig10")) == [place.format("fig10", "mode", "fig10 does not give it")]
     assert list(config_checks.numbers_of_caption("fig01")) == [
-        place.format("fig01", name, "NUMBERS has no function for fig01") for name in ("mode", "most")
+        place.format("fig01", name, "NUMBERS has no function for fig01") for name in ("mode", "most_at")
     ]
 
 
