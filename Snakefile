@@ -20,6 +20,7 @@ STAGES = (
     "operating",
     "accuracy",
     "claims",
+    "identification",
     "figures",
     "docs",
 )
@@ -54,6 +55,7 @@ include: "workflow/rules/fit.smk"
 include: "workflow/rules/sensitivity.smk"
 include: "workflow/rules/operating.smk"
 include: "workflow/rules/accuracy.smk"
+include: "workflow/rules/identification.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/docs.smk"

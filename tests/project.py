@@ -40,6 +40,7 @@ SINGLE = (
     "companion",
     "sensitivity",
     "operating",
+    "identification",
 )
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}
 COARSE_PAIRS = {"axes": {"acceleration": {"num": 3}}, "duration": 0.1}
@@ -62,6 +63,7 @@ CONFIG_FILES = (
     "operating",
     "accuracy",
     "claims",
+    "identification",
     "figures",
     "docs",
 )

@@ -2,7 +2,7 @@
 
 from typing import Annotated, NotRequired
 
-from pydantic import AfterValidator, ConfigDict, Field, TypeAdapter, with_config
+from pydantic import AfterValidator, ConfigDict, Field, Strict, TypeAdapter, with_config
 from typing_extensions import TypedDict
 
 from workflow.config_types import (
@@ -22,6 +22,7 @@ from workflow.config_types import (
     Reference,
     Scan,
     WholeModel,
+    ascending,
     did_you_mean,
     distinct,
     forwards,
@@ -482,6 +483,61 @@ class FigureSettings(TypedDict, total=False):
     paper_error: positive(1, "m²")
 
 
+OBJECTIVES = ("places", "first_velocity", "second_velocity")
+NumberOfClaim = text(rf"C\d\d\.{NAME}", "CLAIM.QUANTITY, as in C01.critical_amplitude")
+
+
+class Evidence(TypedDict):
+    without: Annotated[list[NumberOfClaim], AfterValidator(distinct)]
+    shifted: Annotated[bool, Strict()]
+
+
+class EdgesOfFirst(TypedDict):
+    vertical_acceleration: span(positive(1e4, "m/s²"), AtLeastTwo)
+    further: positive(1e3, "m/s²")
+    resolution: positive(10, "m/s²")
+
+
+class FrontSearch(TypedDict):
+    weights: whole(1, 50)
+    least: positive(1)
+    drawn: whole(10, 10**6)
+    starts: whole(1, 100)
+    population: whole(20, 10**4)
+    generations: whole(4, 10**5)
+    seeds: Annotated[many(Seed), Field(min_length=2)]
+    worst: positive(1e3)
+    settled: positive(1)
+    distance: positive(1e3)
+
+
+class Identification(TypedDict):
+    bounds: TypedDict(
+        "SearchedBounds",
+        {
+            "friction": interval(number(0, 10, "1", "(]")),
+            "loss": interval(number(0, 2, "1", "(]")),
+            "stiffness": interval(Stiffness),
+            "angle": interval(number(0, 1.5707, "rad", "(]")),
+        },
+    )
+    readings: many(PARAMETERS["tension"])
+    objectives: TypedDict("Objectives", dict.fromkeys(OBJECTIVES, many(NumberOfClaim)))
+    evidence: TypedDict("EvidenceSets", dict.fromkeys(("all", "end_left_out", "paper_method"), Evidence))
+    contacts: TypedDict("Contacts", dict.fromkeys(("loss", "stiffness"), whole(4, 1000)))
+    heights: Annotated[list[HeightNumber], Field(min_length=4), AfterValidator(ascending)]
+    edges: EdgesOfFirst
+    inside: positive(10, "m/s²")
+    search: FrontSearch
+    profiles: TypedDict("Profiles", {"points": whole(3, 1000), "confidence": number(0, 1, "", "()")})
+    told: dict[
+        Name,
+        TypedDict(
+            "Told", {name: PARAMETERS[name] for name in ("friction", "damping", "stiffness", "angle")}, total=False
+        ),
+    ]
+
+
 class Figure(TypedDict):
     title: Line
     section: Line
@@ -534,6 +590,7 @@ class Config(TypedDict):
     random_points: RandomPoints
     sensitivity: Sensitivity
     operating: Operating
+    identification: Identification
     figures: dict[Name, Figure]
     companion: Companion
 

@@ -19,6 +19,7 @@ TABLES = {
     "lyapunov": ("spectrum", "witnesses"),
     "sensitivity": ("derivatives", "groups", "continued", "meetings"),
     "operating": ("shares", "regimes"),
+    "identification": ("edges", "printed", "front", "generations", "profiles", "optima", "frictions", "implied"),
     "results": (
         "claims",
         "benchmark",

@@ -12,6 +12,7 @@ from claims.about_chaos import positive_onset
 from claims.about_states import runs_of, second_from_rest, written_runs
 from claims.finding import lowest
 from operating.chart import of_the_search
+from identification import findings
 
 MM = 1e3
 SMALL_ELASTICITY = 1e-3  # errors of smaller ones are told by no relative number
@@ -200,6 +201,20 @@ def of_the_box(tables: Tables, settings: dict) -> dict[str, str]:
     return of_the_search(shares) | {"largest_error": f"{100.0 * shares.stderr.max():.1f}"}
 
 
+def identification(tables: Tables, settings: dict) -> dict[str, str]:
+    front, asked = tables["front"], tables["front"].attrs
+    return {
+        "friction_alone": findings.friction_alone(tables["frictions"], asked["numbers"]),
+        "search": findings.search(front, tables["generations"]),
+        "confidence": f"{100.0 * asked['profiles']['confidence']:g}",
+        "population": str(asked["search"]["population"]),
+        "generations": str(asked["search"]["generations"]),
+        "contacts": str(asked["contacts"]["loss"] * asked["contacts"]["stiffness"]),
+        "points": str(asked["profiles"]["points"]),
+        "coarse": "Coarse: " if findings.coarse(asked) else "",
+    }
+
+
 NUMBERS: dict[str, Callable[[Tables, dict], dict[str, str]]] = {
     "fig03": fig03,
     "fig08": fig08,
@@ -209,6 +224,7 @@ NUMBERS: dict[str, Callable[[Tables, dict], dict[str, str]]] = {
     "fig22": fig22,
     "fig23": fig23,
     "fig24": fig24,
+    "identification": identification,
     "overview": overview,
     "bifurcation": bifurcation,
     "sensitivity": sensitivity,

@@ -15,6 +15,7 @@ STAGES = (
     "operating",
     "accuracy",
     "claims",
+    "identification",
     "figures",
     "docs",
 )

@@ -16,6 +16,7 @@ from workflow.config_keys import keys as config_keys
 from workflow.configuration import (
     TABLES,
     count_points,
+    count_values,
     entry_of,
     kind_of,
     resolve,

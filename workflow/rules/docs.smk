@@ -7,6 +7,17 @@ RULES["certificates_page"] = {
     "place": "docs/certificates",
 }
 
+RULES["identification_page"] = {
+    "stage": "docs.identification_page",
+    "message": "What the paper's numbers say of its parameters, in words",
+    "input": {
+        "template": "workflow/templates/identification.md",
+        **tables_of("identification", *TABLES["identification"][1:]),
+    },
+    "output": {"page": page("identification.md")},
+    "place": "docs/identification",
+}
+
 RULES["claims_page"] = {
     "stage": "docs.copy_page",
     "message": "The page of claims that later builds are compared with",

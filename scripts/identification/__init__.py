@@ -1,0 +1,1 @@
+"""Stage identification: which parameters the numbers of the paper imply."""

@@ -1,0 +1,54 @@
+"""Least squares of misfits, with some parameters held."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import least_squares
+
+# Of logarithms: small against a per cent, large against the tolerance of the trajectories.
+STEP = 1e-3
+EVALUATIONS = 60
+ENOUGH = 1e-6  # relative change of the total, and of the parameters
+
+
+class Fit(NamedTuple):
+    """Parameters, shape (k,), the sum of the squared misfits there, and whether the search came to an end."""
+
+    x: np.ndarray
+    total: float
+    settled: bool
+
+
+def fit(residuals: Callable[[np.ndarray], np.ndarray], starts: np.ndarray, bounds: np.ndarray) -> Fit:
+    """The least sum of squares from several starts, by the trust-region method with differences.
+
+    Parameters
+    ----------
+    residuals : shape (n, m), for parameters of shape (n, k)
+    starts : shape (s, k); what lies outside the bounds is moved to them
+    bounds : lower and upper ones, shape (2, k)
+    """
+    low, high = bounds
+    inner = 1e-9 * (high - low)
+
+    def slope(x: np.ndarray) -> np.ndarray:
+        # Away from the upper bounds.
+        steps = np.where(x + STEP <= high, STEP, -STEP)
+        found = residuals(np.vstack([x, x + np.diag(steps)]))
+        return ((found[1:] - found[0]) / steps[:, None]).T
+
+    found = []
+    for start in starts:
+        solution = least_squares(
+            lambda x: residuals(x[None])[0],
+            np.clip(start, low + inner, high - inner),
+            jac=slope,
+            bounds=bounds,
+            max_nfev=EVALUATIONS,
+            ftol=ENOUGH,
+            xtol=ENOUGH,
+            gtol=ENOUGH,
+        )
+        found.append(Fit(solution.x, 2.0 * float(solution.cost), solution.status > 0))
+    return min(found, key=lambda one: one.total)

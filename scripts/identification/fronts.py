@@ -1,0 +1,191 @@
+"""Which parameters fit the paper's numbers best, if not all can be fitted at once: fronts by NSGA-II (pymoo)."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pandas as pd
+from pymoo.algorithms.moo.nsga2 import NSGA2
+from pymoo.core.callback import Callback
+from pymoo.core.problem import Problem
+from pymoo.indicators.hv import HV
+from pymoo.operators.crossover.pcx import PCX
+from pymoo.optimize import minimize
+from pymoo.util.nds.non_dominated_sorting import NonDominatedSorting
+from pymoo.util.ref_dirs import get_reference_directions
+
+from identification import measures
+from identification.fits import fit
+from identification.misfits import numbers_of, root_mean_square
+from identification.search_space import PARAMETERS, SEARCHED, bounds_of, values_of
+from pipeline import fields
+
+OBJECTIVES = ("places", "first_velocity", "second_velocity")
+SEARCH = (
+    fields.text("tension", "reading of a contact force that pulls"),
+    fields.count("seed", "of the search"),
+)
+TABLES = {
+    "front": (
+        *SEARCH,
+        *(fields.number(name, unit, "parameter") for name, unit in PARAMETERS.items()),
+        fields.number("places", "1", "root mean square misfit of where the states change, in half accepted intervals"),
+        fields.number("first_velocity", "1", "root mean square misfit of the first state's velocity"),
+        fields.number("second_velocity", "1", "misfit of the fall of the second state's velocity"),
+        fields.flag("on_front", "whether no member of any reading and seed is better in all three"),
+        fields.text("status", "converged, or why the search of its reading is not"),
+    ),
+    "generations": (
+        *SEARCH,
+        fields.count("generation", "number of the generation, from 1"),
+        fields.number("hypervolume", "1", "share that the front so far dominates of the cube up to the worst misfits"),
+    ),
+}
+
+Evaluate = Callable[[np.ndarray], np.ndarray]
+
+
+def objectives(misfits: np.ndarray, sizes: list[int]) -> np.ndarray:
+    """Root mean squares of groups of misfits, shape (n, 3), of misfits in the order of the groups, shape (n, m)."""
+    parts = np.split(misfits, np.cumsum(sizes)[:-1], axis=-1)
+    return np.stack([root_mean_square(part) for part in parts], axis=-1)
+
+
+def compromises(
+    misfits: Evaluate, sizes: list[int], drawn: np.ndarray, bounds: np.ndarray, settings: dict
+) -> np.ndarray:
+    """Points near the front by least squares, one for each of some weights of the objectives: shape (k, 4).
+
+    Parameters
+    ----------
+    misfits : in the order of the groups, shape (n, m), of what is searched, shape (n, 4)
+    sizes : numbers of misfits in the groups
+    drawn, bounds : points of which the best ones are the starts, shape (s, 4), and shape (2, 4)
+    settings : `weights`, into how many parts they divide one, and `least`, in place of zero: without any weight an
+        objective would be left anywhere; `starts`, how many
+    """
+    found, of_drawn = [], misfits(drawn)
+    for weights in get_reference_directions("das-dennis", len(sizes), n_partitions=settings["weights"]):
+        factors = np.repeat(np.sqrt(np.maximum(weights, settings["least"]) / sizes), sizes)
+        best = np.argsort(np.sum((factors * of_drawn) ** 2, axis=1), kind="stable")[: settings["starts"]]
+        found.append(fit(lambda x, factors=factors: factors * misfits(x), drawn[best], bounds).x)
+    return np.array(found)
+
+
+class Archive(Callback):
+    """Keeps what no member of any generation betters, and its hypervolume as a share of the cube [0, worst]³.
+
+    A generation has room for some of it only, and drops others: its own hypervolume may fall.
+    """
+
+    def __init__(self, worst: float):
+        super().__init__()
+        self.indicator = HV(ref_point=np.full(len(OBJECTIVES), worst))
+        self.cube = worst ** len(OBJECTIVES)
+        self.x, self.values = np.empty((0, len(SEARCHED))), np.empty((0, len(OBJECTIVES)))
+        self.shares = []
+
+    def update(self, algorithm):
+        x = np.vstack([self.x, algorithm.pop.get("X")])
+        values = np.vstack([self.values, algorithm.pop.get("F")])
+        # Sorted by their objectives, whatever the order in which they were found; each once.
+        values, rows = np.unique(values, axis=0, return_index=True)
+        best = np.sort(not_bettered(values))
+        self.x, self.values = x[rows][best], values[best]
+        self.shares.append(float(self.indicator(self.values)) / self.cube)
+
+
+def not_bettered(values: np.ndarray) -> np.ndarray:
+    """Rows of objectives, shape (n, 3), that no other row betters."""
+    return NonDominatedSorting().do(values, only_non_dominated_front=True)
+
+
+def search(
+    evaluate: Evaluate, first: np.ndarray, bounds: np.ndarray, settings: dict, seed: int
+) -> tuple[np.ndarray, np.ndarray, list[float]]:
+    """Front of one reading: what is searched, shape (n, 4), its objectives, shape (n, 3), and the hypervolumes.
+
+    Parents are recombined along the directions in which they differ (PCX): the valley of equally good contacts and
+    angles lies across all of them.
+
+    Parameters
+    ----------
+    evaluate : objectives, shape (n, 3), of what is searched, shape (n, 4)
+    first : points that the first generation holds, shape (k, 4); its others are drawn
+    bounds : shape (2, 4)
+    settings : population, generations, worst
+    """
+
+    class Misfits(Problem):
+        def __init__(self):
+            super().__init__(n_var=len(SEARCHED), n_obj=len(OBJECTIVES), xl=bounds[0], xu=bounds[1])
+
+        def _evaluate(self, x, out):
+            out["F"] = evaluate(x)
+
+    drawn = np.random.default_rng(seed).uniform(*bounds, (max(settings["population"] - len(first), 0), len(SEARCHED)))
+    archive = Archive(settings["worst"])
+    minimize(
+        Misfits(),
+        NSGA2(pop_size=settings["population"], sampling=np.vstack([first, drawn]), crossover=PCX()),
+        ("n_gen", settings["generations"]),
+        seed=seed,
+        callback=archive,
+    )
+    return archive.x, archive.values, archive.shares
+
+
+def distance(one: np.ndarray, other: np.ndarray) -> float:
+    """Mean distance (largest difference of an objective) of members of each front from the nearest of the other."""
+    apart = np.abs(one[:, None] - other[None]).max(axis=-1)
+    return 0.5 * float(apart.min(axis=0).mean() + apart.min(axis=1).mean())
+
+
+def status(fronts: list[np.ndarray], volumes: list[list[float]], settings: dict) -> str:
+    """Whether the searches of one reading have come to rest, and to the same front."""
+    for shares in volumes:
+        earlier = shares[3 * len(shares) // 4 - 1]
+        if not abs(shares[-1] - earlier) <= settings["settled"] * shares[-1]:
+            return "not converged: the hypervolume still grows"
+    for shares, front in zip(volumes[1:], fronts[1:], strict=True):
+        if not abs(shares[-1] - volumes[0][-1]) <= settings["settled"] * volumes[0][-1]:
+            return "not converged: the seeds' hypervolumes differ"
+        inside = [one[(one <= settings["worst"]).all(axis=1)] for one in (front, fronts[0])]
+        if not distance(*inside) <= settings["distance"]:
+            return "not converged: the seeds' fronts are apart"
+    return "converged"
+
+
+def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, dict]:
+    """The columns of the tables of fronts and of generations."""
+    model, options = settings["model"], settings["search"]
+    interpolated = measures.edges_of(edges, model)
+    bounds = bounds_of(settings)
+    groups = [settings["objectives"][name] for name in OBJECTIVES]
+    numbers, sizes = (
+        numbers_of(settings, [name for group in groups for name in group]),
+        [len(group) for group in groups],
+    )
+    follow = measures.by_events(threads)
+    drawn = np.random.default_rng(options["seeds"][0]).uniform(*bounds, (options["drawn"], len(SEARCHED)))
+    members, history = [], []
+    for reading in settings["readings"]:
+
+        def misfits(x, reading=reading):
+            return numbers.misfits(measures.at(interpolated, values_of(x, model), reading, settings, follow))
+
+        first = compromises(misfits, sizes, drawn, bounds, options)
+        found = [
+            search(lambda x: objectives(misfits(x), sizes), first, bounds, options, seed) for seed in options["seeds"]
+        ]
+        verdict = status([values for _, values, _ in found], [shares for *_, shares in found], options)
+        for seed, (x, values, shares) in zip(options["seeds"], found, strict=True):
+            of_search = {"tension": reading, "seed": seed}
+            columns = dict(zip(PARAMETERS, values_of(x, model).T, strict=True))
+            columns |= dict(zip(OBJECTIVES, values.T, strict=True))
+            members.append(pd.DataFrame(columns).assign(**of_search, status=verdict))
+            counted = {"generation": np.arange(1, len(shares) + 1), "hypervolume": shares}
+            history.append(pd.DataFrame(counted).assign(**of_search))
+    front = pd.concat(members, ignore_index=True)
+    best = not_bettered(front[list(OBJECTIVES)].to_numpy())
+    front["on_front"] = np.isin(np.arange(len(front)), best)
+    return {"front": front.to_dict("list"), "generations": pd.concat(history).to_dict("list")}

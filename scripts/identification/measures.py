@@ -1,0 +1,185 @@
+"""What the numbers of the paper are for any conveyor: measured as the claims measure them, on a thinner axis.
+
+The places where the states of motion change follow from the edges of a contact (see edges), which hold for all angles
+and frictions. Only four trajectories are followed for a conveyor: each state of motion at both ends of the interval in
+which the paper tells its velocity.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+from scipy.interpolate import CubicSpline, NdBSpline, make_interp_spline
+
+from conveyor import ensemble
+from conveyor.analysis.regression import Hyperbola, mean_squared_error
+from conveyor.solver.model import ACCELERATION, ANGLE, DAMPING, STIFFNESS, Z0
+from identification.edges import VERTICAL, VERTICAL_OF, impact_loss
+from identification.search_space import packed
+
+MM, CM = 1e3, 1e2
+# Heights between those of the edges, at which their curve is evaluated.
+FINE = 1001
+# Of the contact steps of the four trajectories (see figure scene_budget).
+TOLERANCE = 1e-6
+
+Follow = Callable[[np.ndarray], np.ndarray]
+
+
+class Edges(NamedTuple):
+    """Edges of contacts, interpolated: a spline for each vertical reading, with one value for each height (m)."""
+
+    heights: np.ndarray
+    splines: dict[str, NdBSpline]
+    model: dict
+
+
+def edges_of(table: pd.DataFrame, model: dict) -> Edges:
+    """The table of edges as splines over the logarithms of loss and stiffness.
+
+    Raises
+    ------
+    ValueError
+        if a start of the table has no edge: the bounds of the config are then too wide
+    """
+    if table.vertical_acceleration.isna().any():
+        row = table[table.vertical_acceleration.isna()].iloc[0]
+        raise ValueError(
+            f"no edge was found at the loss {row.loss:.3g}, the stiffness {row.stiffness:.3g} and z0 = {row.z0:g} m; "
+            "narrow identification.contacts, or widen identification.edges.vertical_acceleration"
+        )
+    axes = [np.sort(table[name].unique()) for name in ("loss", "stiffness", "z0")]
+    splines = {}
+    for reading in VERTICAL:
+        rows = table[table.tension == reading].sort_values(["loss", "stiffness", "z0"])
+        values = rows.vertical_acceleration.to_numpy().reshape([len(axis) for axis in axes])
+        along_loss = make_interp_spline(np.log(axes[0]), values, axis=0)
+        along_stiffness = make_interp_spline(np.log(axes[1]), along_loss.c, axis=1)
+        coefficients = np.moveaxis(along_stiffness.c, 0, 1) if along_stiffness.axis else along_stiffness.c
+        splines[reading] = NdBSpline((along_loss.t, along_stiffness.t), coefficients, 3)
+    return Edges(axes[2], splines, model)
+
+
+def vertical_edges(edges: Edges, parameters: np.ndarray, reading: str) -> np.ndarray:
+    """Edges as vertical amplitudes (m/s²) for conveyors, shape (n, 13), under a reading of tension: shape (n, h)."""
+    loss = impact_loss(parameters[:, DAMPING], parameters[:, STIFFNESS], edges.model)
+    return edges.splines[VERTICAL_OF[reading]](np.log(np.stack([loss, parameters[:, STIFFNESS]], axis=1)))
+
+
+class Curve(NamedTuple):
+    """Amplitude at the edge over the initial height: heights (m, shape (k,)), amplitudes (m/s², shape (n, k))."""
+
+    heights: np.ndarray
+    amplitudes: np.ndarray
+
+    def at(self, heights: np.ndarray) -> np.ndarray:
+        """Amplitudes at the edge of starts at some heights (m, shape (m,)): shape (n, m)."""
+        return np.array([np.interp(heights, self.heights, amplitudes) for amplitudes in self.amplitudes])
+
+    def critical_height(self, acceleration: np.ndarray) -> np.ndarray:
+        """Lowest height (m) that leaves the first state at amplitudes of shape (n, m): that shape.
+
+        Zero where the lowest start leaves it, the height of the lowest edge where none does.
+        """
+        heights = np.empty_like(acceleration)
+        for row, (wanted, amplitudes) in enumerate(zip(acceleration, self.amplitudes, strict=True)):
+            falling = np.minimum.accumulate(amplitudes[: amplitudes.argmin() + 1])
+            heights[row] = np.interp(-wanted, -falling, self.heights[: len(falling)])
+        return heights
+
+
+def curve(heights: np.ndarray, edges: np.ndarray, angle: np.ndarray) -> Curve:
+    """The Curve of conveyors with the given angles (rad, shape (n,)) from vertical edges of shape (n, h)."""
+    fine = np.linspace(heights[0], heights[-1], FINE)
+    return Curve(fine, CubicSpline(heights, edges, axis=1)(fine) / np.sin(angle)[:, None])
+
+
+def by_events(threads: int = 1) -> Follow:
+    """Mean feeding velocities (m/s) of conveyors and starts, converged."""
+    return lambda rows: ensemble.run(rows, tolerance=TOLERANCE, threads=threads)["mean_velocity"]
+
+
+def starts_of_both_states(parameters: np.ndarray, found: Curve, measured: dict) -> np.ndarray:
+    """Starts in the first and the second state at both ends of the interval of Fig. 9: shape (n, 2, 2, 13).
+
+    The axes are state and end. An end that does not have both states gives way to the nearest amplitude that has, and
+    lies as far inside as the step of the amplitudes' axis there. The first state starts in the middle of the heights
+    that lead to it there, the second one at the height whose edge is the lowest.
+    """
+    inside = measured["inside"]
+    low, high = measured["interval"]
+    low = np.maximum(low, found.amplitudes.min(axis=1) + inside)
+    high = np.minimum(high, found.amplitudes.max(axis=1) - inside)
+    rows = np.tile(parameters[:, None, None, :], (1, 2, 2, 1))
+    rows[..., 0, ACCELERATION], rows[..., 1, ACCELERATION] = low[:, None], high[:, None]
+    rows[:, 0, :, Z0] = 0.5 * found.critical_height(np.stack([low, high], axis=1))
+    rows[:, 1, :, Z0] = found.heights[found.amplitudes.argmin(axis=1)][:, None]
+    return rows
+
+
+def fitted_amplitudes(measured: dict) -> np.ndarray:
+    """Amplitudes (m/s²) of the critical heights that Eq. 13 is compared with, as far apart as those of the claims."""
+    low, high = measured["interval"]
+    return np.linspace(low, high, round((high - low) / measured["inside"]) + 1)
+
+
+def places(found: Curve, measured: dict) -> dict[str, np.ndarray]:
+    """The quantities that tell where the states change, by CLAIM.QUANTITY, each of shape (n,), in the claims' units."""
+    fig_8, fig_11 = (found.at(np.linspace(*measured[name])) for name in ("starts", "moved_starts"))
+    low, _ = measured["interval"]
+    n = len(found.amplitudes)
+    # The critical height is largest at the lower end, or where the second state begins if that is above it. Then it
+    # hardly depends on where that is: with the slope of Eq. 13 a search is led back to what the paper says.
+    lowest = np.maximum(low, found.amplitudes.min(axis=1))
+    triple = Hyperbola(**measured["triple"])
+    missing = triple.A / (triple.B + low) ** 2 * (lowest - low)
+    heights = {name: found.critical_height(np.full((n, 1), a))[:, 0] for name, a in measured["critical"].items()}
+    fitted = fitted_amplitudes(measured)
+    deviations = mean_squared_error(fitted, found.critical_height(np.tile(fitted, (n, 1))), triple)
+    return {
+        "C01.critical_amplitude": fig_8[:, 0],
+        "C02.lower_end": fig_8.min(axis=1),
+        "C02.upper_end": fig_8.max(axis=1),
+        "C04.largest_height": MM * (found.critical_height(lowest[:, None])[:, 0] + missing),
+        **{f"{name}.height": MM * height for name, height in heights.items()},
+        "C09.error": deviations,
+        "C10.lower_end": fig_11.min(axis=1),
+        "C10.upper_end": fig_11.max(axis=1),
+    }
+
+
+def velocities(parameters: np.ndarray, found: Curve, measured: dict, follow: Follow) -> dict[str, np.ndarray]:
+    """The quantities that tell how fast the states feed, by CLAIM.QUANTITY, each of shape (n,), in cm/s."""
+    starts = starts_of_both_states(parameters, found, measured)
+    first, second = np.moveaxis(CM * follow(starts.reshape(-1, starts.shape[-1])).reshape(starts.shape[:3]), 1, 0)
+    return {
+        "C05.velocity_at_lower_end": first[:, 0],
+        "C05.velocity_at_upper_end": first[:, 1],
+        "C06.fall": second[:, 0] - second[:, 1],
+    }
+
+
+def quantities(
+    parameters: np.ndarray, heights: np.ndarray, edges: np.ndarray, measured: dict, follow: Follow
+) -> dict[str, np.ndarray]:
+    """All quantities of conveyors, by CLAIM.QUANTITY, each of shape (n,), in the units of the claims.
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 13), rows as from model.pack; their acceleration and start are not used
+    heights, edges : m, shape (h,), and the vertical edges there, m/s², shape (n, h)
+    measured : what of the config the claims are measured with: `interval` of amplitudes and how far `inside` its ends
+        velocities are taken (m/s²), `starts` and `moved_starts` of Figs. 8 and 11 (first, last and number, m),
+        `critical` amplitudes by claim (m/s²), the `triple` of Eq. 13
+    follow : mean velocities (m/s) of rows of parameters
+    """
+    found = curve(heights, edges, parameters[:, ANGLE])
+    return places(found, measured) | velocities(parameters, found, measured, follow)
+
+
+def at(edges: Edges, values: np.ndarray, reading: str, settings: dict, follow: Follow) -> dict[str, np.ndarray]:
+    """The quantities at values of the parameters, shape (n, 4), under a reading, with interpolated edges."""
+    parameters = packed(values, reading, settings["model"])
+    vertical = vertical_edges(edges, parameters, reading)
+    return quantities(parameters, edges.heights, vertical, settings["measured"], follow)

@@ -1,0 +1,54 @@
+"""How far measured numbers are from the paper's, in units of the intervals that the claims accept."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Number(NamedTuple):
+    """The interval that is accepted for a number of the paper; `low` is None for a mean squared error."""
+
+    low: float | None
+    high: float
+
+
+def misfit(values: np.ndarray, number: Number) -> np.ndarray:
+    """Distance from the middle of the accepted interval over half its width: within ±1 if it is accepted.
+
+    Of a mean squared error, for which only a largest value is accepted, the root of its share of that.
+    """
+    if number.low is None:
+        return np.sqrt(np.maximum(values, 0.0) / number.high)
+    return (values - 0.5 * (number.low + number.high)) / (0.5 * (number.high - number.low))
+
+
+def number(told: dict) -> Number:
+    """The Number of an entry of the settings."""
+    return Number(told["low"], told["high"])
+
+
+class Numbers(NamedTuple):
+    """Numbers of the paper by CLAIM.QUANTITY, and what is added to the measured ones before they are compared."""
+
+    of_paper: dict[str, Number]
+    shifts: dict[str, float]
+
+    def misfits(self, found: dict[str, np.ndarray]) -> np.ndarray:
+        """Misfits of measured quantities, each of shape (n,): shape (n, m), in the order of the numbers."""
+        each = [misfit(found[name] + self.shifts.get(name, 0.0), number) for name, number in self.of_paper.items()]
+        return np.stack(each, axis=-1)
+
+
+def numbers_of(settings: dict, names: list[str], shifts: dict[str, float] | None = None) -> Numbers:
+    """The Numbers of these names of the settings."""
+    return Numbers({name: number(settings["numbers"][name]) for name in names}, shifts or {})
+
+
+def root_mean_square(values: np.ndarray) -> np.ndarray:
+    """Over the last axis."""
+    return np.sqrt(np.mean(values**2, axis=-1))
+
+
+def smallest_widening(one: Number, other: Number) -> float:
+    """The factor by which two intervals must be widened about their middles until some value lies in both."""
+    return abs(one.low + one.high - other.low - other.high) / (one.high - one.low + other.high - other.low)

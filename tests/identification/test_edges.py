@@ -1,0 +1,72 @@
+"""Amplitudes above which starts leave the first state."""
+
+import numpy as np
+import pytest
+from project import read_config
+
+from conveyor import Conveyor, Start
+from conveyor.analysis.states import classify
+from conveyor.solver.model import ACCELERATION, ANGLE, FRICTION, PARAMETERS, Z0, pack
+from identification import edges
+
+MODEL = read_config()["model"]
+SCAN, FURTHER = np.arange(10.0, 31.0, 2.0), 0.1 * np.arange(1.0, 11.0)
+
+
+def first_below(*intervals):
+    """A state for each amplitude: first within the intervals."""
+
+    def decide(parameters):
+        a = parameters[:, ACCELERATION]
+        return np.where(np.any([(a > low) & (a < high) for low, high in intervals], axis=0), "first", "second")
+
+    return decide
+
+
+@pytest.mark.parametrize(
+    "intervals, expected",
+    [
+        ([(0.0, 17.3)], 17.3),
+        ([(0.0, 17.3), (17.6, 18.1)], 18.1),  # a tongue below the edge
+        ([(0.0, 17.3), (17.6, 18.1), (18.8, 19.5)], 19.5),  # and another
+        ([(0.0, 17.3), (25.0, 27.0)], 17.3),  # another motion far above
+        ([(0.0, 40.0)], np.nan),
+        ([(0.0, 5.0)], np.nan),
+    ],
+)
+def test_the_edge_lies_above_all_tongues(intervals, expected):
+    found = edges.edge(np.zeros((1, len(PARAMETERS))), SCAN, FURTHER, 1e-6, first_below(*intervals))
+    assert found == pytest.approx([expected], abs=1e-6, nan_ok=True)
+
+
+def test_each_row_may_have_a_scan_of_its_own():
+    rows = np.zeros((2, len(PARAMETERS)))
+    scan = np.array([[17.0, 10.0], [18.0, 11.0]])
+    found = edges.edge(rows, scan, FURTHER, 1e-6, first_below((0.0, 17.3)))
+    assert found == pytest.approx([17.3, np.nan], abs=1e-6, nan_ok=True)
+
+
+def test_the_loss_is_that_of_the_linear_contact():
+    """For a Hooke contact d_c/m times sqrt(m/k), twice the damping ratio; and for any it is dimensionless."""
+    linear = MODEL | {"exponent": 1.0}
+    ratio = 0.3 / np.sqrt(2e3 * MODEL["mass"])
+    assert edges.impact_loss(0.3, 2e3, linear) == pytest.approx(ratio)
+    # Lengths in mm and masses in g: N = kg m/s², so that N/m^1.5 takes 10^(3 + 3 - 4.5) and N s/m 10^(3 + 3 - 3).
+    other = MODEL | {"mass": 1e3 * MODEL["mass"], "gravity": 1e3 * MODEL["gravity"]}
+    assert edges.impact_loss(0.3e3, 5e5 * 10**1.5, other) == pytest.approx(edges.impact_loss(0.3, 5e5, MODEL))
+
+
+def test_one_edge_serves_all_angles_frictions_and_frictionless_tension():
+    """States of motion depend on the vertical amplitude alone, not on friction, and not on friction under tension."""
+    z0 = np.array([0.0, 1e-4, 3e-4])
+    for degrees, friction, tension in ((9.0, 0.3, "allow"), (15.0, 0.1, "frictionless")):
+        angle = np.radians(degrees)
+        rows = np.tile(pack(Conveyor(angle=angle, friction=friction, tension=tension), Start()), (6, 1))
+        vertical = np.tile(pack(Conveyor(angle=0.5 * np.pi), Start()), (6, 1))
+        a_z = np.repeat([6.2, 9.5], 3)
+        rows[:, ACCELERATION], vertical[:, ACCELERATION] = a_z / np.sin(angle), a_z
+        rows[:, Z0] = vertical[:, Z0] = np.tile(z0, 2)
+        states = [classify(one, tolerance=1e-6).state.tolist() for one in (rows, vertical)]
+        assert states[0] == states[1]
+        assert {"first", "second"} == set(states[0])
+        assert rows[0, FRICTION] == friction and vertical[0, ANGLE] == 0.5 * np.pi

@@ -1,0 +1,153 @@
+"""Numbers measured from edges and four trajectories, against the claims' own way to them."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from project import read_config
+
+from claims import about_states
+from conveyor import ensemble
+from conveyor.analysis.regression import Hyperbola, mean_squared_error
+from conveyor.analysis.states import classify
+from identification import edges, measures, printed
+from identification.search_space import PARAMETERS, packed
+from motion import critical_heights
+from pipeline import grid
+
+CONFIG = read_config()
+MODEL, OWN = CONFIG["model"], CONFIG["identification"]
+PRINTED = np.array([MODEL[name] for name in PARAMETERS])
+TRIPLE = CONFIG["regressions"]["height"]["paper"]
+MEASURED = {
+    "inside": 0.25,
+    "interval": [29.0, 47.0],
+    "starts": [0.0, 0.5e-3, 11],
+    "moved_starts": [0.07e-3, 0.13e-3, 11],
+    "critical": {"C07": 40.0, "C08": 35.0},
+    "triple": TRIPLE,
+    "bounds_of_b": [-28.0, 0.0],
+}
+# Contacts close around the printed one.
+NEAR = {
+    **OWN,
+    "model": MODEL,
+    "measured": MEASURED,
+    "bounds": OWN["bounds"] | {"loss": [0.24, 0.253], "stiffness": [4.5e5, 5.5e5]},
+    "contacts": {"loss": 4, "stiffness": 4},
+    "heights": [0.0, 2e-5, 5e-5, 7e-5, 1e-4, 1.3e-4, 1.6e-4, 2e-4, 2.5e-4, 3e-4, 3.5e-4, 4e-4, 4.5e-4, 5e-4],
+    "edges": OWN["edges"] | {"vertical_acceleration": {"start": 5.0, "stop": 11.0, "num": 5}},
+}
+
+
+@pytest.fixture(scope="module")
+def direct() -> dict[str, float]:
+    """All quantities at the printed parameters."""
+    return printed.measured(PRINTED, "allow", printed.CONVERGED, NEAR, 1)
+
+
+def states(axes: dict, model: dict) -> pd.DataFrame:
+    """A sweep with the columns that the claims read."""
+    columns, parameters = grid.product(axes, MODEL_WITHOUT | model)
+    velocity = ensemble.run(parameters, tolerance=1e-6)["mean_velocity"]
+    return pd.DataFrame(columns | {"mean_velocity": velocity, "state": classify(parameters, tolerance=1e-6).state})
+
+
+MODEL_WITHOUT = {name: value for name, value in MODEL.items() if name not in ("acceleration", "z0")}
+
+
+def test_places_agree_with_the_claims_on_a_thin_axis(direct):
+    """The claims take the first or the last amplitude of an axis: within its step the edge lies."""
+    step = 0.25
+    ends = np.concatenate([np.arange(28.25, 29.5, step), np.arange(48.75, 50.25, step)])
+    table = states({"acceleration": ends, "z0": np.linspace(0.0, 0.5e-3, 11)}, {})
+    assert 0.0 < about_states.second_from_rest(table) - direct["C01.critical_amplitude"] <= step
+    low, high = about_states.two_states(table)
+    assert 0.0 <= low - direct["C02.lower_end"] <= step
+    assert 0.0 <= direct["C02.upper_end"] - high <= step
+    table = states(
+        {
+            "acceleration": np.concatenate([np.arange(34.75, 36.0, step), np.arange(39.5, 40.75, step)]),
+            "z0": np.linspace(0.07e-3, 0.13e-3, 11),
+        },
+        {},
+    )
+    low, high = about_states.two_states(table)
+    assert 0.0 <= low - direct["C10.lower_end"] <= step
+    assert 0.0 <= direct["C10.upper_end"] - high <= step
+
+
+def test_critical_heights_and_their_fit_agree_with_the_claims(direct):
+    settings = {
+        "axes": {"acceleration": [29.0, 32.0, 35.0, 38.0, 40.0, 44.0, 47.0]},
+        "model": MODEL_WITHOUT,
+        "scan": {"start": 0.0, "stop": 0.5e-3, "num": 11},
+        "resolution": 1e-8,
+        "settling": 1000,
+        "method": "event",
+        "tolerance": 1e-6,
+    }
+    table = pd.DataFrame(critical_heights.make(settings))
+    for name, acceleration in (("C04.largest_height", 29.0), ("C07.height", 40.0), ("C08.height", 35.0)):
+        assert direct[name] == pytest.approx(1e3 * about_states.critical_at(table, acceleration), abs=2e-4), name
+    data = table[table.is_critical].sort_values("acceleration")
+    one = printed.edges_at(PRINTED, "allow", printed.CONVERGED, NEAR, 1)
+    curve = measures.curve(np.array(NEAR["heights"]), one[None], PRINTED[3:])
+    heights = curve.critical_height(data.acceleration.to_numpy()[None])[0]
+    assert heights == pytest.approx(data.z0.to_numpy(), abs=3e-7)
+    errors = [
+        mean_squared_error(data.acceleration.to_numpy(), z0, Hyperbola(**TRIPLE))
+        for z0 in (heights, data.z0.to_numpy())
+    ]
+    assert errors[0] == pytest.approx(errors[1], rel=0.02)
+    assert direct["C09.error"] == pytest.approx(2.94e-11, rel=0.01)  # docs/claims.md, the note of C09
+
+
+def test_velocities_agree_with_the_claims(direct):
+    """Within what starts of one state differ by after a second; and friction alone moves them, as first looked at."""
+    table = states({"acceleration": [29.0, 47.0], "z0": np.linspace(0.0, 0.4e-3, 41)}, {})
+    first, second = (about_states.velocities(table, state) for state in ("first", "second"))
+    assert direct["C05.velocity_at_lower_end"] == pytest.approx(first[0], abs=0.005)
+    assert direct["C05.velocity_at_upper_end"] == pytest.approx(first[1], abs=0.02)
+    assert direct["C06.fall"] == pytest.approx(second[0] - second[1], abs=0.005)
+
+
+@pytest.fixture(scope="module")
+def interpolated() -> measures.Edges:
+    return measures.edges_of(pd.DataFrame(edges.make(NEAR)), MODEL)
+
+
+def test_interpolated_edges_are_those_of_the_contact(interpolated, direct):
+    found = measures.at(interpolated, PRINTED[None], "allow", NEAR, measures.by_events())
+    for name, value in found.items():
+        assert value[0] == pytest.approx(direct[name], rel=2e-3), name
+
+
+def test_friction_moves_velocities_alone(interpolated):
+    values = np.tile(PRINTED, (3, 1))
+    values[:, 0] = 0.15, 0.20, 0.25
+    found = measures.at(interpolated, values, "allow", NEAR, measures.by_events())
+    for name, value in found.items():
+        if name[:3] in ("C05", "C06"):
+            assert (np.diff(value) > 0.05).all(), name
+        else:
+            assert np.ptp(value) == 0.0, name
+
+
+def test_velocities_scale_with_friction_and_the_slope_of_the_excitation(interpolated):
+    """μ times a function of cot φ/μ and the vertical motion: x over μ feels a_x over μ, and nothing else of both."""
+    angle = np.radians(13.0)
+    values = np.tile(PRINTED, (2, 1))
+    values[1, 3] = angle
+    values[1, 0] = values[0, 0] * np.tan(values[0, 3]) / np.tan(angle)
+    rows = packed(values, "allow", MODEL)
+    rows[:, 0] = 8.0 / np.sin(values[:, 3])
+    velocities = measures.by_events()(rows) / values[:, 0]
+    assert velocities[0] == pytest.approx(velocities[1], rel=1e-6)
+
+
+def test_a_table_with_a_gap_is_refused(interpolated):
+    table = pd.DataFrame(
+        {"loss": [0.2], "stiffness": [5e5], "tension": ["allow"], "z0": [0.0], "vertical_acceleration": [np.nan]}
+    )
+    with pytest.raises(ValueError, match=r"no edge was found at the loss 0\.2"):
+        measures.edges_of(table, MODEL)

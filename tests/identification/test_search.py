@@ -1,0 +1,130 @@
+"""Fits, fronts and profiles of misfits whose least values are known."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from project import read_config
+from scipy.stats import chi2
+
+from identification import findings, fronts, profiles
+from identification.fits import fit
+from identification.search_space import LOSS, PARAMETERS, SEARCHED, bounds_of, packed, searched, values_of
+
+CONFIG = read_config()
+MODEL = CONFIG["model"]
+OWN = CONFIG["identification"]
+BOUNDS = bounds_of(OWN)
+CENTRE = BOUNDS.mean(axis=0)
+SETTINGS = {**OWN["search"], "population": 40, "generations": 40}
+
+
+def test_values_and_what_is_searched_are_inverse():
+    values = np.array([[0.15, 0.3, 5e5, 0.2], [0.3, 0.2, 1e5, 0.25]])
+    assert values_of(searched(values, MODEL), MODEL) == pytest.approx(values)
+    assert packed(values, "clip", MODEL)[0, [1, 4, 5, 6, 10]].tolist() == [0.2, 5e5, 0.3, 0.15, 2.0]
+
+
+def test_least_squares_finds_the_bottom_and_stops_at_bounds():
+    target = np.array([0.3, 2.0])
+    found = fit(lambda x: (x - target) * [1.0, 10.0], np.zeros((1, 2)), np.array([[-1.0, -1.0], [1.0, 1.0]]))
+    assert found.x == pytest.approx([0.3, 1.0], abs=1e-6)
+    assert found.total == pytest.approx(100.0)
+    assert found.settled
+
+
+@pytest.mark.parametrize("parameter", PARAMETERS)
+def test_a_held_parameter_is_held(parameter):
+    value = float(values_of(CENTRE[None], MODEL)[0, list(PARAMETERS).index(parameter)])
+    space = profiles.holding(parameter, value, BOUNDS, MODEL)
+    corners = np.stack(np.meshgrid(*space.bounds.T), axis=-1).reshape(-1, 3)
+    whole = space.whole(corners)
+    assert values_of(whole, MODEL)[:, list(PARAMETERS).index(parameter)] == pytest.approx(value)
+    assert space.rest(whole) == pytest.approx(corners)
+    assert (whole[:, LOSS] > BOUNDS[0, LOSS] - 1e-9).all() and (whole[:, LOSS] < BOUNDS[1, LOSS] + 1e-9).all()
+
+
+def test_the_profile_of_a_linear_problem_is_a_parabola():
+    """Two misfits of the sum and one of the first: held, the others make up for all but its own."""
+    column = SEARCHED.index("friction")
+
+    def misfits(x):
+        y = x - CENTRE
+        return np.stack([y.sum(axis=1), 3.0 * y[:, column] - 1.0], axis=1)
+
+    grid = np.exp(CENTRE[column] + np.array([-0.3, 0.0, 0.3, 0.6]))
+    pool = profiles.Pool(CENTRE[None], misfits(CENTRE[None]))
+    found = profiles.profile(misfits, "friction", grid, CENTRE, pool, BOUNDS, MODEL)
+    assert [total for _, total, _ in found] == pytest.approx((3.0 * np.log(grid / grid[1]) - 1.0) ** 2, abs=1e-6)
+    assert {status for *_, status in found} == {"ok"}
+
+
+def test_status_tells_a_bound_and_a_search_that_gave_up():
+    bounds = np.array([[0.0], [1.0]])
+    assert profiles.status_of(profiles.Fit(np.array([1.0]), 0.0, True), bounds) == "at a bound"
+    assert profiles.status_of(profiles.Fit(np.array([0.5]), 0.0, False), bounds) == "not settled"
+
+
+def test_ends_of_an_interval():
+    x = np.array([-3.0, -2.0, -1.0, 0.0, 1.0, 2.0])
+    total = x**2
+    free = np.zeros(6, dtype=bool)
+    assert findings.ends(x, total, free, 2.5) == ((-1.5, False), (1.5, False))
+    assert findings.ends(x, total, x > 1.5, 2.5) == ((-1.5, False), (1.5, True))
+    assert findings.ends(x, total, free, 5.0) == ((pytest.approx(-2.2), False), None)
+    with pytest.raises(ValueError, match="above the level"):
+        findings.ends(x, total, free, -1.0)
+
+
+def test_rises_grow_where_the_best_misses_by_more_than_the_errors():
+    optima = pd.DataFrame(
+        {"evidence": ["a", "a", "b"], "tension": ["allow", "clip", "allow"], "total": [18.0, 20.0, 3.0], "numbers": 10}
+    )
+    found = profiles.with_rises(optima, 0.95)
+    assert found.scale.tolist() == [3.0, 3.0, 1.0]
+    assert found.rise.tolist() == pytest.approx([3.0 * 3.8415, 3.0 * 3.8415, 3.8415], rel=1e-4)
+    assert found.rise_of_all.iloc[2] == pytest.approx(chi2.ppf(0.95, 4))
+
+
+def conflict(x):
+    """Misfits of which no two of the last three can be zero at once: 0, y, y - 1 and z."""
+    y = (x - CENTRE) / np.ptp(BOUNDS, axis=0)
+    return np.stack([4.0 * y[:, 1], 4.0 * y[:, 0], 4.0 * y[:, 0] - 1.0, 4.0 * y[:, 2]], axis=1)
+
+
+SIZES = [2, 1, 1]
+
+
+def objectives(x):
+    return fronts.objectives(conflict(x), SIZES)
+
+
+def test_objectives_are_root_mean_squares_of_their_groups():
+    found = fronts.objectives(np.array([[3.0, 4.0, -2.0, 0.5]]), SIZES)
+    assert found[0].tolist() == pytest.approx([np.sqrt(12.5), 2.0, 0.5])
+
+
+def test_the_front_of_two_parabolas():
+    """Between the zeros of both: the first objective is y/√2, the second 1 - y, and the third can vanish."""
+    drawn = np.random.default_rng(1).uniform(*BOUNDS, (50, 4))
+    first = fronts.compromises(conflict, SIZES, drawn, BOUNDS, SETTINGS)
+    x, found, shares = fronts.search(objectives, first, BOUNDS, SETTINGS, 1)
+    sums = found[:, 0] * np.sqrt(2.0) + found[:, 1]
+    assert sums.min() > 1.0 - 1e-9
+    y = np.linspace(0.0, 1.0, 21)
+    true = np.stack([y / np.sqrt(2.0), 1.0 - y, np.zeros(21)], axis=1)
+    assert np.abs(found[:, None] - true).max(axis=-1).min(axis=0).max() < 0.08
+    # All of the cube of 4 x 4 x 4 but the prism below the front.
+    assert shares[-1] == pytest.approx(1.0 - 0.5 / np.sqrt(2.0) * 4.0 / 4.0**3, abs=0.002)
+    assert (np.diff(shares) >= 0.0).all()
+    again, *_ = fronts.search(objectives, first, BOUNDS, SETTINGS, 1)
+    assert np.array_equal(x, again)
+
+
+def test_a_search_that_has_not_come_to_rest_says_so():
+    front = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
+    still, grows = [0.5] * 20, [0.01 * n for n in range(1, 21)]
+    assert fronts.status([front, front], [still, still], OWN["search"]) == "converged"
+    assert "still grows" in fronts.status([front, front], [grows, grows], OWN["search"])
+    assert "hypervolumes differ" in fronts.status([front, front], [still, [0.6] * 20], OWN["search"])
+    assert "apart" in fronts.status([front, front + 0.5], [still, still], OWN["search"])
+    assert fronts.distance(front, front + 0.5) == pytest.approx(0.5)
