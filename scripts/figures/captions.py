@@ -202,7 +202,7 @@ def of_the_box(tables: Tables, settings: dict) -> dict[str, str]:
 
 
 def identification(tables: Tables, settings: dict) -> dict[str, str]:
-    front, asked = tables["front"], tables["front"].attrs
+    front, asked = tables["front"], tables["profiles"].attrs
     return {
         "friction_alone": findings.friction_alone(tables["frictions"], asked["numbers"]),
         "search": findings.search(front, tables["generations"]),
