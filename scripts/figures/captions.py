@@ -11,8 +11,8 @@ from accuracy.rigid_part import CONTACT, RIGID
 from claims.about_chaos import positive_onset
 from claims.about_states import runs_of, second_from_rest, written_runs
 from claims.finding import lowest
-from operating.chart import of_the_search
 from identification import findings
+from operating.chart import of_the_search
 
 MM = 1e3
 SMALL_ELASTICITY = 1e-3  # errors of smaller ones are told by no relative number
