@@ -304,6 +304,26 @@ def companion(config: dict) -> Iterator[str]:
         yield f"companion.opening = {shown(own['opening'])} is not one of {', '.join(own['presets'])}"
 
 
+def identification(config: dict) -> Iterator[str]:
+    own = config["identification"]
+    searched = [number for group in own["objectives"].values() for number in group]
+    for number in sorted({number for number in searched if searched.count(number) > 1}):
+        yield f"identification.objectives has {number} in two of its groups; keep it in one of them"
+    for name, evidence in own["evidence"].items():
+        for number in evidence["without"]:
+            if number not in searched:
+                remedy = did_you_mean(number, searched)
+                yield f"identification.evidence.{name}.without = {number!r} is in no objective; {remedy}"
+        left = len(searched) - len(evidence["without"])
+        if left <= len(own["bounds"]):
+            yield f"identification.evidence.{name}.without leaves {left} numbers for {len(own['bounds'])} parameters"
+    if own["search"]["population"] <= (weights := own["search"]["weights"] + 1) * (weights + 1) // 2:
+        yield (
+            f"identification.search.population = {own['search']['population']} holds no more than the triples of "
+            f"weights, {weights * (weights + 1) // 2}; give more, or fewer weights"
+        )
+
+
 CHECKS = (
     overridden_axes,
     steps,
@@ -319,6 +339,7 @@ CHECKS = (
     claims,
     fixed_steps,
     companion,
+    identification,
 )
 
 

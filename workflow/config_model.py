@@ -484,7 +484,21 @@ class FigureSettings(TypedDict, total=False):
 
 
 OBJECTIVES = ("places", "first_velocity", "second_velocity")
-NumberOfClaim = text(rf"C\d\d\.{NAME}", "CLAIM.QUANTITY, as in C01.critical_amplitude")
+# The numbers of the claims that scripts/identification/measures.py gives for any conveyor.
+NumberOfClaim = word(
+    "C01.critical_amplitude",
+    "C02.lower_end",
+    "C02.upper_end",
+    "C04.largest_height",
+    "C05.velocity_at_lower_end",
+    "C05.velocity_at_upper_end",
+    "C06.fall",
+    "C07.height",
+    "C08.height",
+    "C09.error",
+    "C10.lower_end",
+    "C10.upper_end",
+)
 
 
 class Evidence(TypedDict):

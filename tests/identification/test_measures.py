@@ -1,5 +1,7 @@
 """Numbers measured from edges and four trajectories, against the claims' own way to them."""
 
+from typing import get_args
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -13,6 +15,7 @@ from identification import edges, measures, printed
 from identification.search_space import PARAMETERS, packed
 from motion import critical_heights
 from pipeline import grid
+from workflow.config_model import NumberOfClaim
 
 CONFIG = read_config()
 MODEL, OWN = CONFIG["model"], CONFIG["identification"]
@@ -120,6 +123,11 @@ def test_interpolated_edges_are_those_of_the_contact(interpolated, direct):
     found = measures.at(interpolated, PRINTED[None], "allow", NEAR, measures.by_events())
     for name, value in found.items():
         assert value[0] == pytest.approx(direct[name], rel=2e-3), name
+
+
+def test_the_config_knows_what_is_measured(direct):
+    known = get_args(get_args(NumberOfClaim)[0])
+    assert set(known) == {name for name in direct if name not in ("C09.A", "C09.B", "C09.C")}
 
 
 def test_friction_moves_velocities_alone(interpolated):

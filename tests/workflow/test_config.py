@@ -20,6 +20,22 @@ WRONG = [
     ({"companion": {"maps": ["none"]}}, "companion.maps[0] = 'none' is no entry of sweeps"),
     ({"companion": {"opening": "third"}}, "companion.opening = 'third' is not one of first, second, chaos"),
     ({"companion": {"presets": {"mine": {"mas": 1.0}}}}, "companion.presets.mine.mas is an unknown key"),
+    (
+        {"identification": {"objectives": {"second_velocity": ["C06.rise"]}}},
+        "identification.objectives.second_velocity[0] = 'C06.rise' is not one of",
+    ),
+    (
+        {"identification": {"objectives": {"second_velocity": ["C06.fall", "C07.height"]}}},
+        "identification.objectives has C07.height in two of its groups",
+    ),
+    (
+        {"identification": {"objectives": {"places": ["C01.critical_amplitude"]}}},
+        "identification.evidence.end_left_out.without = 'C02.upper_end' is in no objective",
+    ),
+    ({"identification": {"bounds": {"angle": [8, 16]}}}, "8° are 0.1396 rad"),
+    ({"identification": {"bounds": {"friction": [0.4, 0.1]}}}, "is reversed"),
+    ({"identification": {"search": {"population": 20, "weights": 5}}}, "holds no more than the triples of weights, 21"),
+    ({"identification": {"heights": [0.0, 2.0e-4, 1.0e-4, 3.0e-4]}}, "is not ascending"),
     ({"sweep": {}}, "sweep is an unknown key; did you mean sweeps?"),
     ({"sweeps": {"mine": {**MINE, "methd": "euler"}}}, "sweeps.mine.methd is an unknown key; did you mean method?"),
     ({"model": {"mass": -0.1}}, "model.mass = -0.1 is outside [1e-12, 1e+06] kg"),
