@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor import ensemble
-from conveyor.analysis.chaotic_set import chaotic_sets_of
+from conveyor.analysis.known import NOTHING
 from conveyor.analysis.regression import fit_least_squares
 from conveyor.solver.model import ANGLE, Z0
 from identification import edges as of_edges
@@ -45,9 +45,8 @@ def edges_at(values: np.ndarray, reading: str, method: str, settings: dict, thre
     found = of_edges.edges_of(rows, settings, of_edges.by_events(threads))
     if method == CONVERGED:
         return found
-    unknown = chaotic_sets_of([], [])
     return of_edges.edges_of(
-        rows, settings, lambda some: decide(some, settings["euler"], unknown, threads), found + AROUND[:, None]
+        rows, settings, lambda some: decide(some, settings["euler"], NOTHING, threads), found + AROUND[:, None]
     )
 
 
