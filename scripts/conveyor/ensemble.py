@@ -5,7 +5,6 @@ import numpy as np
 from .methods import euler_lanes, fixed_step
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, METHODS
 from .solver import trajectory
-from .solver.jit import kernel
 from .solver.parallel import for_each_chunk
 
 STATUS = trajectory.STATUS
@@ -15,25 +14,17 @@ MEAN_VELOCITY, Z_END, VZ_END, X_END, VX_END, MAX_GAP, IMPACTS, CONTACT_FRACTION,
 COLUMNS = ("mean_velocity", "z_end", "vz_end", "x_end", "vx_end", "max_gap", "impacts", "contact_fraction")
 
 
-@kernel
 def follow_by_events(parameters, durations, tolerance, feeding, out):
     """Fill the rows of `out`, shape (n, 9), for `parameters`, shape (n, 13), and `durations` (s), by events."""
-    times = np.empty(2)
-    samples = np.empty((2, 6))
-    no_times = np.empty(0)
-    no_kinds = np.empty(0, np.int8)
-    for i in range(parameters.shape[0]):
-        duration = durations[i]
-        times[0], times[1] = (1.0 - LAST) * duration, duration
-        status, _, impacts, contact_time, max_gap, _, _ = trajectory.integrate(
-            parameters[i], tolerance, feeding, True, times, samples, no_times, no_kinds
-        )
-        out[i, MEAN_VELOCITY] = (samples[1, 0] - samples[0, 0]) / (LAST * duration)
-        out[i, X_END], out[i, VX_END], out[i, Z_END], out[i, VZ_END] = samples[1, :4]
-        out[i, MAX_GAP] = max_gap
-        out[i, IMPACTS] = impacts
-        out[i, CONTACT_FRACTION] = contact_time / duration
-        out[i, CODE] = status
+    times = np.column_stack([(1.0 - LAST) * durations, durations])
+    samples, results = trajectory.integrate(parameters, times, tolerance=tolerance, feeding=feeding)
+    out[:, MEAN_VELOCITY] = (samples[:, 1, 0] - samples[:, 0, 0]) / (LAST * durations)
+    for column, place in enumerate((X_END, VX_END, Z_END, VZ_END)):
+        out[:, place] = samples[:, 1, column]
+    out[:, MAX_GAP] = results[:, trajectory.MAX_GAP]
+    out[:, IMPACTS] = results[:, trajectory.IMPACTS]
+    out[:, CONTACT_FRACTION] = results[:, trajectory.CONTACT_TIME] / durations
+    out[:, CODE] = results[:, trajectory.CODE]
 
 
 def follow_by_steps(parameters, duration, step, method, out):
@@ -54,15 +45,10 @@ def follow_by_steps(parameters, duration, step, method, out):
         out[i, CODE] = trajectory.OK if status == fixed_step.OK else trajectory.NOT_FINITE
 
 
-@kernel
 def samples_by_events(parameters, times, tolerance, column, feeding, out):
     """Fill `out`, shape (n, len(times)), with one column of the samples of n event-driven runs."""
-    samples = np.empty((times.size, 6))
-    no_times = np.empty(0)
-    no_kinds = np.empty(0, np.int8)
-    for i in range(parameters.shape[0]):
-        trajectory.integrate(parameters[i], tolerance, feeding, True, times, samples, no_times, no_kinds)
-        out[i, :] = samples[:, column]
+    moments = np.tile(times, (len(parameters), 1))
+    out[:] = trajectory.integrate(parameters, moments, tolerance=tolerance, feeding=feeding)[0][:, :, column]
 
 
 def samples_by_steps(parameters, indices, step, method, column, out):
@@ -83,7 +69,7 @@ def run(
     step: float = DEFAULT_STEP,
     needs: str = "feeding",
     threads: int = 1,
-    chunk: int = 64,
+    chunk: int = 128,
     progress: str | None = None,
 ) -> dict[str, np.ndarray]:
     """Follow every point for `duration` (s); the event-driven method takes one for each point, too, shape (n,).

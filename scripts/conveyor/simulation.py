@@ -17,8 +17,6 @@ DEFAULT_STEP = 5e-7  # s, Sect. 3 of the paper
 LAST = 0.25  # share of the run over which the paper takes mean values (Sect. 3.1)
 
 EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U14")])
-NO_TIMES = np.empty(0)
-NO_KINDS = np.empty(0, np.int8)
 
 
 @dataclass(frozen=True)
@@ -82,8 +80,9 @@ class Run:
         moments, place = np.unique(times, return_inverse=True)
         samples = np.empty((moments.size, len(SAMPLES)))
         if moments.size:
-            parameters = pack(self.conveyor, self.start)
-            trajectory.integrate(parameters, self.tolerance, True, self.reuse, moments, samples, NO_TIMES, NO_KINDS)
+            parameters = pack(self.conveyor, self.start)[None]
+            options = {"tolerance": self.tolerance, "reuse": self.reuse}
+            (samples,), _ = trajectory.integrate(parameters, moments[None], **options)
         return {name: samples[place, k].reshape(times.shape) for k, name in enumerate(SAMPLES)}
 
     @cached_property
@@ -93,9 +92,9 @@ class Run:
         if self.method != "event":
             return fixed_step.events(parameters, self.duration, self.step, self.method).astype(EVENT_DTYPE)
         times, kinds = np.empty(self.event_count), np.empty(self.event_count, np.int8)
-        samples = np.empty((1, len(SAMPLES)))
-        ends = np.array([self.duration])
-        trajectory.integrate(parameters, self.tolerance, True, self.reuse, ends, samples, times, kinds)
+        options = {"tolerance": self.tolerance, "reuse": self.reuse}
+        options |= {"event_times": times[None], "event_kinds": kinds[None]}
+        trajectory.integrate(parameters[None], np.array([[self.duration]]), **options)
         events = np.empty(self.event_count, dtype=EVENT_DTYPE)
         events["time"] = times
         events["kind"] = np.array(EVENTS)[kinds]
@@ -140,14 +139,12 @@ def simulate(
     if method == "event":
         if not 1e-14 <= tolerance <= 1e-2:
             raise ValueError(f"tolerance = {tolerance!r} must lie in [1e-14, 1e-2]")
-        times = np.array([(1.0 - LAST) * duration, duration])
-        samples = np.empty((2, len(SAMPLES)))
-        code, event_count, impacts, contact_time, max_gap, work, repeats = trajectory.integrate(
-            parameters, tolerance, True, reuse, times, samples, NO_TIMES, NO_KINDS
-        )
+        times = np.array([[(1.0 - LAST) * duration, duration]])
+        (samples,), (results,) = trajectory.integrate(parameters[None], times, tolerance=tolerance, reuse=reuse)
+        code, event_count, impacts, contact_time, max_gap, work, repeats = results
         x_last = samples[0, X]
         x_end, vx_end, z_end, vz_end = samples[1, :4]
-        status = trajectory.STATUS[code]
+        status = trajectory.STATUS[int(code)]
         contact_fraction = contact_time / duration
     else:
         found = fixed_step.run(parameters, duration, step, method, LAST)

@@ -319,8 +319,9 @@ def in_lanes(lanes: int):
             # A lane to spare rests in the air for ever, without gravity.
             memory[:] = 0.0
             memory[Z] = 1.0
+            left = min(lanes, len(parameters) - first)
             for lane in range(lanes):
-                running[lane] = first + lane < len(parameters)
+                running[lane] = lane < left
                 if running[lane]:
                     prepare(parameters[first + lane], step, memory[:, lane])
             i = 0
@@ -344,14 +345,18 @@ def in_lanes(lanes: int):
 
                 if i % CHECK == 0 or i == n_steps:
                     for lane in range(lanes):
-                        finite = math.isfinite(np.sum(memory[:4, lane]))
+                        finite = True
+                        for column in range(4):
+                            finite = finite and math.isfinite(memory[column, lane])
                         if running[lane] and (i == n_steps or not finite):
                             running[lane] = False
+                            left -= 1
                             row = results[first + lane]
-                            row[:] = memory[:RESULTS, lane]
+                            for column in range(RESULTS):
+                                row[column] = memory[column, lane]
                             row[CONTACT_TIME] *= step
                             row[STATUS] = OK if finite else NOT_FINITE
-                    if not running.any():
+                    if left == 0:
                         break
 
                 for lane in range(lanes):

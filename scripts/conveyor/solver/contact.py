@@ -20,7 +20,7 @@ from collections import namedtuple
 import numpy as np
 
 from . import model, polynomial, unrolled
-from .jit import inlined, kernel
+from .jit import inlined, kernel, spliced
 from .polynomial import ORDER, SHIFTED, SIZE
 
 # What ends a contact step before its full length.
@@ -97,7 +97,7 @@ def force(c, w, v):
 expand_hertz = kernel(unrolled.expand_hertz)
 
 
-@inlined
+@spliced
 def expand(c, series, at, w0, v0, sine0, cosine0, free):
     """Fill the rows W to COSINE_W of a step from their values at s = 0; `free` leaves the contact force out."""
     stiffness = 0.0 if free else c.stiffness
@@ -189,7 +189,7 @@ def step_length(c, series, at, w0, v0):
     return length
 
 
-@inlined
+@spliced
 def step(c, series, at, w0, v0, sine0, cosine0, pulled):
     """Expand the motion from w0 ≥ 0, v0 and find where its step ends.
 

@@ -13,7 +13,7 @@ import math
 
 from . import polynomial
 from .contact import SCRATCH, SINE, T, V, expand_force
-from .jit import inlined
+from .jit import inlined, spliced
 from .polynomial import ORDER
 
 
@@ -42,7 +42,7 @@ def keeps_slipping(c, slip, plate, gain, lapse, cosine, cosine_end, fastest, mu)
     return max(forward, backward) > 0.0
 
 
-@inlined
+@spliced
 def slip_end(c, series, at, start, length, slip, sigma, mu):
     """Where, in (start, length] of a contact step, the slip velocity reaches zero; infinity if it does not.
 
@@ -58,7 +58,7 @@ def slip_end(c, series, at, start, length, slip, sigma, mu):
     return polynomial.first_root(series, SCRATCH, start, length)
 
 
-@inlined
+@spliced
 def stick_end(c, series, at, start, length, cosine, cosine_end):
     """Where, in (start, length] of a contact step, |ẍ_s| outgrows μ F_c/m, and whether it stays so until the end.
 

@@ -7,7 +7,7 @@ import math
 from collections import namedtuple
 
 from . import contact, friction
-from .jit import inlined
+from .jit import inlined, spliced
 from .model import TENSION_CLIP
 from .polynomial import value
 from .vertical import invert_time
@@ -57,7 +57,7 @@ def moved(c, segment, tau, sine, cosine, z, vz):
     return segment.x + segment.vx * tau + pull * path, segment.vx + pull * (vz - segment.vz + c.gravity * tau)
 
 
-@inlined
+@spliced
 def segment_end(c, series, at, segment, piece, released, fastest):
     """Where in s a segment ends (infinity: not in this step), and whether slip that follows lasts to its end."""
     if released:
@@ -76,7 +76,7 @@ def segment_end(c, series, at, segment, piece, released, fastest):
     return friction.slip_end(c, series, at, segment.s, piece.length, slip, sigma, segment.mu), False
 
 
-@inlined
+@spliced
 def sample_contact(c, series, at, motion, piece, segment, pressing, tau, samples, n):
     """Fill the row n of `samples` at the time tau (s) since a contact step began, within a segment."""
     speed_z = c.a_z / c.omega
@@ -93,7 +93,7 @@ def sample_contact(c, series, at, motion, piece, segment, pressing, tau, samples
     samples[n, FRICTION_FORCE] = c.mass * rub
 
 
-@inlined
+@spliced
 def feed(
     c,
     series,

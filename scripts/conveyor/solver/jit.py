@@ -9,10 +9,36 @@ from . import machine_code  # noqa: F401 - says where compiled code is kept
 # Neighbouring operations share an instruction. Their order stays, and with it every digit.
 numba.config.SLP_VECTORIZE = 1
 
-# The GIL is released so that threads can share a sweep; divisions follow IEEE 754 instead of raising.
-kernel = numba.njit(cache=True, nogil=True, error_model="numpy")
-# For what is called several times in a step: to pass the constants and the arrays would cost a good part of the time.
-inlined = numba.njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+
+def kernel(function, **options):
+    """Compile a function when it is called first, once for all values of its arguments.
+
+    The GIL is released so that threads can share a sweep; divisions follow IEEE 754 instead of raising.
+    """
+    dispatcher = numba.njit(cache=True, nogil=True, error_model="numpy", **options)(function)
+    template_for = dispatcher.get_call_template
+
+    def template_for_any_value(arguments, keywords):
+        # Numba takes the type of a 0 in a call to be that of no other number, and would compile for it alone.
+        return template_for(
+            tuple(map(types.unliteral, arguments)), {name: types.unliteral(one) for name, one in keywords.items()}
+        )
+
+    dispatcher.get_call_template = template_for_any_value
+    return dispatcher
+
+
+def inlined(function):
+    """A `kernel` for what is called several times in a step: to pass constants and arrays would cost much of the time.
+
+    The compiler inlines its machine code, so that it is compiled by itself, too.
+    """
+    return kernel(function, forceinline=True)
+
+
+def spliced(function):
+    """A `kernel` for a long function that is called from one place: it is compiled there only, not by itself as well."""
+    return kernel(function, inline="always")
 
 
 @intrinsic

@@ -9,7 +9,7 @@ come as close.
 import numpy as np
 
 from .contact import FIRST, ROWS
-from .jit import inlined, kernel
+from .jit import inlined
 from .polynomial import SIZE
 from .vertical import CONTACT, Piece
 
@@ -22,14 +22,19 @@ CLOSE = 0.1
 BEGIN_T, BEGIN_W, BEGIN_V, PULLED, DURATION, LENGTH, END, END_W, END_V, END_SINE, END_COSINE = range(11)
 
 
-@kernel
-def unused():
+def room() -> tuple[np.ndarray, np.ndarray]:
     """Room for the series of PLACES steps (see contact), and for what else is kept of them, shape (PLACES, 11)."""
-    series = np.empty((FIRST + PLACES * ROWS, SIZE))
-    series[:FIRST] = 0.0
-    kept = np.empty((PLACES, END_COSINE + 1))
-    kept[:, BEGIN_T] = np.inf
-    return series, kept
+    return np.empty((FIRST + PLACES * ROWS, SIZE)), np.empty((PLACES, END_COSINE + 1))
+
+
+@inlined
+def clear(series, kept):
+    """Forget all steps."""
+    for row in range(FIRST):
+        for n in range(SIZE):
+            series[row, n] = 0.0
+    for place in range(PLACES):
+        kept[place, BEGIN_T] = np.inf
 
 
 @inlined

@@ -11,7 +11,7 @@ from collections import namedtuple
 from . import contact, polynomial
 from .contact import FORCE_SIGN, NOTHING, SEPARATION
 from .flight import gap, next_impact
-from .jit import inlined, kernel
+from .jit import inlined, kernel, spliced
 from .model import TENSION_ALLOW
 
 # What a piece is.
@@ -105,7 +105,7 @@ def shortened(series, at, length, duration, end):
     )
 
 
-@inlined
+@spliced
 def next_piece(c, series, at, motion, limit):
     """The Piece that begins with a Motion and takes at most `limit` (s).
 
