@@ -91,9 +91,11 @@ def settle(c, series, state, max_cycles, known, mine, strobes):
             if near(state, history, period, n, scale_0, scale_1) <= CLOSE:
                 found = period
                 break
-        history[n % (2 * MAX_PERIOD), :] = state
-        if n < strobes.shape[0]:
-            strobes[n, :] = state
+        # Slices would bring in the text functions of their errors, which take long to compile.
+        for k in range(2):
+            history[n % (2 * MAX_PERIOD), k] = state[k]
+            if n < strobes.shape[0]:
+                strobes[n, k] = state[k]
         if found > 0 and found == candidate:
             repeats += 1
         else:

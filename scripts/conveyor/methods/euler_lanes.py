@@ -345,9 +345,10 @@ def in_lanes(lanes: int):
 
                 if i % CHECK == 0 or i == n_steps:
                     for lane in range(lanes):
-                        finite = True
+                        total = 0.0
                         for column in range(4):
-                            finite = finite and math.isfinite(memory[column, lane])
+                            total += memory[column, lane]
+                        finite = math.isfinite(total)
                         if running[lane] and (i == n_steps or not finite):
                             running[lane] = False
                             left -= 1

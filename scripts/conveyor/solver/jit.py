@@ -37,7 +37,7 @@ def inlined(function):
 
 
 def spliced(function):
-    """A `kernel` for a long function that is called from one place: it is compiled there only, not by itself as well."""
+    """A `kernel` for a long function that is called from one place: it is compiled there, not by itself as well."""
     return kernel(function, inline="always")
 
 
