@@ -16,6 +16,8 @@ def kernel(function, **options):
     The GIL is released so that threads can share a sweep; divisions follow IEEE 754 instead of raising.
     """
     dispatcher = numba.njit(cache=True, nogil=True, error_model="numpy", **options)(function)
+    if numba.config.DISABLE_JIT:  # the function itself
+        return dispatcher
     template_for = dispatcher.get_call_template
 
     def template_for_any_value(arguments, keywords):
