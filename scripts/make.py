@@ -45,14 +45,14 @@ def read_inputs(paths: dict[str, Any], kinds: dict[str, Any], asked: dict[str, A
 def contents(outputs: Any, made: Any) -> Iterator[tuple[str, str, Any]]:
     """Name, path and content of each output."""
     names = dict(outputs.items())
-    if len(outputs) == 1:
+    if isinstance(made, list):
+        yield from (("", path, content) for path, content in zip(outputs, made, strict=True))
+    elif len(outputs) == 1:
         yield next(iter(names), ""), outputs[0], made
-    elif names:
+    else:
         if set(names) != set(made):
             raise ValueError(f"outputs {', '.join(names)} of the rule, but {', '.join(made)} of the stage")
         yield from ((name, path, made[name]) for name, path in names.items())
-    else:
-        yield from (("", path, content) for path, content in zip(outputs, made, strict=True))
 
 
 def write(stage: ModuleType, name: str, path: str, content: Any, settings: dict) -> None:

@@ -37,6 +37,7 @@ SINGLE = (
     "label_checks",
     "rigid_part",
     "random_points",
+    "scaling",
     "companion",
     "sensitivity",
     "operating",

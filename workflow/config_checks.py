@@ -176,7 +176,7 @@ def dimensions(config: dict) -> Iterator[str]:
 
 def sizes(config: dict) -> Iterator[str]:
     for name in config["sweeps"]:
-        shared, limit = plan(config, name), config["sharing"]["core_hours"]
+        shared, limit = plan(config["sharing"], resolve(config, "sweeps", name)), config["sharing"]["core_hours"]
         if shared.core_hours > limit:
             yield (
                 f"sweeps.{name}.axes makes {shared.points:,} points, some {shared.core_hours:.2g} hours of one core in "
@@ -205,7 +205,7 @@ def tables_of(config: dict) -> Iterator[str]:
     known = references(config)
     used = [
         (f"{user}.{name}.{key}.{role}", reference)
-        for user in ("figures", "claims")
+        for user in ("figures", "figures_on_request", "claims")
         for name, entry in config[user].items()
         for key in ("tables", "caption_tables")
         for role, reference in entry.get(key, {}).items()
@@ -228,7 +228,7 @@ def asked(key: str, given: dict, known: set[str], needed: set[str], user: str) -
 
 
 def figures(config: dict) -> Iterator[str]:
-    for figure, entry in config["figures"].items():
+    for figure, entry in (config["figures"] | config["figures_on_request"]).items():
         files = [f"scripts/figures/plots/{figure}.py", f"workflow/report/{figure}.rst"]
         missing = [file for file in files if not (ROOT / file).is_file()]
         for file in missing:

@@ -419,6 +419,14 @@ class LabelChecks(TypedDict):
     seed: Seed
 
 
+class Scaling(TypedDict):
+    points: many(whole(1000, 10**10))
+    conveyors: many(whole(10, 10**6))
+    threads: many(whole(1, 256))
+    shards: many(whole(1, 1000))
+    shared_points: whole(1000, 10**8)
+
+
 class RandomPoints(TypedDict):
     count: TypedDict("RandomCount", dict.fromkeys(("around the paper", "whole ranges"), whole(1, 10**7)))
     seed: Seed
@@ -603,9 +611,11 @@ class Config(TypedDict):
     label_checks: LabelChecks
     random_points: RandomPoints
     sensitivity: Sensitivity
+    scaling: Scaling
     operating: Operating
     identification: Identification
     figures: dict[Name, Figure]
+    figures_on_request: dict[Name, Figure]
     companion: Companion
 
 

@@ -9,7 +9,7 @@ import math
 from typing import NamedTuple
 
 from workflow.config_types import constants
-from workflow.tables_of_config import count_points, count_values, ends, resolve, values_of
+from workflow.tables_of_config import count_points, count_values, ends, values_of
 
 THREADS = 2  # of a job
 STARTS = ("psi0", "z0", "vz0")  # what belongs to a start; all other parameters are those of its conveyor
@@ -88,9 +88,8 @@ def most_rows(entry: dict, costs: dict, seconds: float) -> int:
     return low
 
 
-def plan(config: dict, name: str) -> Plan:
-    """How the sweep `name` is shared: jobs of the wanted time, unless they were too many."""
-    sharing, entry = config["sharing"], resolve(config, "sweeps", name)
+def plan(sharing: dict, entry: dict) -> Plan:
+    """How a sweep is shared, by its resolved entry: jobs of the wanted time, unless they were too many."""
     costs, memory = sharing["seconds"], sharing["megabytes"]
     points = count_points(entry["axes"])
     rows = most_rows(entry, costs, THREADS * sharing["job_seconds"])

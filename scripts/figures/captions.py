@@ -170,6 +170,15 @@ def settling(tables: Tables, settings: dict) -> dict[str, str]:
     }
 
 
+def scaling(tables: Tables, settings: dict) -> dict[str, str]:
+    table = tables["scaling"]
+    return {
+        "threads": str(table[table.varied == "points"].threads.iloc[0]),
+        "shared_points": f"{table[table.varied == 'shards'].points.iloc[0]:,}",
+        "gathered": f"{table.gathered.max():,}",
+    }
+
+
 def stability_maps(tables: Tables, settings: dict) -> dict[str, str]:
     return {
         "start_mm": f"{MM * tables['stability'].attrs['conveyor']['z0']:g}",
@@ -233,6 +242,7 @@ NUMBERS: dict[str, Callable[[Tables, dict], dict[str, str]]] = {
     "operating": of_the_box,
     "rigid_part": rigid_part,
     "scene_budget": scene_budget,
+    "scaling": scaling,
     "settling": settling,
     "stability": stability_maps,
 }

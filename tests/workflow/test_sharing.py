@@ -5,7 +5,7 @@ from project import merged, read_config
 
 from pipeline import grid
 from pipeline.motions import of_conveyors
-from workflow.configuration import problems
+from workflow.configuration import problems, resolve
 from workflow.sharing import THREADS, conveyors_of, plan, restless
 
 CONFIG = read_config()
@@ -21,7 +21,8 @@ def sweep(**axes) -> dict:
 
 
 def planned(entry: dict, **sharing):
-    return plan(merged(CONFIG, {"sharing": sharing, "sweeps": {"mine": entry}}), "mine")
+    config = merged(CONFIG, {"sharing": sharing, "sweeps": {"mine": entry}})
+    return plan(config["sharing"], resolve(config, "sweeps", "mine"))
 
 
 AXES = [

@@ -1,5 +1,6 @@
 # How accurate, how fast, how robust: the solver against other methods. Rules that take wall times get the machine to
 # themselves; such a time changes whenever it is taken, so that nothing which must have equal bytes is made from it.
+from workflow.sharing import THREADS, plan, seconds_of
 
 
 def benchmark_cases():
@@ -132,4 +133,52 @@ accuracy_rule(
     "A rigid part in place of the contact",
     input={"sweeps": table("sweeps", "amplitudes"), **tables_of("orbits", "folds_and_doublings", "cascade")},
     params={"settings": config["rigid_part"], "entry": resolve(config, "sweeps", "amplitudes")},
+)
+
+
+def case_of_scaling(varied, axes, *, shards=None, threads=THREADS, conveyors=1):
+    """A sweep of the chart of scaling, in as many shards as the config says if not in so many."""
+    own = {"axes": axes, "needs": "vertical", "duration": 0.02, "tolerance": 1.0e-6}
+    entry = resolve(config | {"sweeps": {varied: own}}, "sweeps", varied)
+    if conveyors > 1:
+        entry["model"] |= {"z0": 0.0}
+    shared = plan(config["sharing"], entry)
+    if shards:
+        rows = math.ceil(shared.points / shards)
+        seconds = seconds_of(entry, config["sharing"]["seconds"], rows)
+        shared = shared._replace(rows=rows, shards=math.ceil(shared.points / rows), seconds=seconds)
+    return {"varied": varied, "settings": entry, "plan": shared._asdict(), "threads": threads, "conveyors": conveyors}
+
+
+def starts_of_scaling(points):
+    """Axes of so many starts, nearly, as in Fig. 13."""
+    phases = round(points**0.5)
+    z0 = {"start": 0.0, "stop": 0.5e-3, "num": points // phases}
+    return {"psi0": {"start": 0.0, "stop": 2.0 * math.pi * (1.0 - 1.0 / phases), "num": phases}, "z0": z0}
+
+
+def cases_of_scaling():
+    """All sweeps of the chart of scaling."""
+    wanted = config["scaling"]
+    few = starts_of_scaling(wanted["shared_points"])
+    return [
+        *(case_of_scaling("points", starts_of_scaling(points)) for points in wanted["points"]),
+        *(
+            case_of_scaling(
+                "conveyors", {"acceleration": {"start": 20.0, "stop": 45.0, "num": number}}, conveyors=number
+            )
+            for number in wanted["conveyors"]
+        ),
+        *(case_of_scaling("threads", few, shards=1, threads=threads) for threads in wanted["threads"]),
+        *(case_of_scaling("shards", few, shards=shards) for shards in wanted["shards"]),
+    ]
+
+
+# On request, as it takes minutes: snakemake figures/scaling.pdf
+accuracy_rule(
+    "scaling",
+    "What jobs of sweeps take",
+    timed=("scaling",),
+    **ALONE,
+    params={"settings": config["scaling"], "cases": cases_of_scaling()},
 )

@@ -25,6 +25,7 @@ from workflow.configuration import (
 )
 from workflow.known_names import has_make
 from workflow.source_hash import SCRIPTS, closure, source_hash, versions
+from workflow.tables_of_config import ON_REQUEST
 
 # "" or "NAME/": a config with a prefix keeps its results apart.
 PREFIX = config["prefix"] and f"{config['prefix']}/"

@@ -26,6 +26,15 @@ RULES["claims_page"] = {
     "place": "docs/claims",
 }
 
+RULES["cluster_page"] = {
+    "stage": "docs.cluster_page",
+    "message": "What large sweeps cost",
+    "input": {"scaling": table("results", "scaling"), "template": "workflow/templates/cluster.md"},
+    "output": {"page": page("cluster.md")},
+    "place": "docs/cluster",
+    "params": {"settings": config["sharing"]},
+}
+
 RULES["companion"] = {
     "stage": "docs.companion.build",
     "message": "The page to play with",

@@ -10,9 +10,9 @@ def figure_files(ending="pdf"):
     return [figure_file(figure, ending) for figure in config["figures"]]
 
 
-def caption_files():
-    """The captions of all figures, their numbers filled in."""
-    return [result(f"captions/{figure}.rst") for figure in config["figures"]]
+def caption_files(figures=config["figures"]):
+    """The captions of figures, their numbers filled in."""
+    return [result(f"captions/{figure}.rst") for figure in figures]
 
 
 def in_message(text):
@@ -20,7 +20,7 @@ def in_message(text):
     return text.replace("{", "{{").replace("}", "}}")
 
 
-for figure, entry in config["figures"].items():
+for figure, entry in (config["figures"] | config["figures_on_request"]).items():
 
     rule:
         name:
@@ -50,17 +50,22 @@ for figure, entry in config["figures"].items():
             "../../scripts/draw.py"
 
 
-RULES["captions"] = {
-    "stage": "figures.captions",
-    "message": "Captions of all figures",
-    "outputs": caption_files(),
-    "place": "figures/captions",
-    "runtime": 10,
-} | read_tables(
-    reference
-    for entry in config["figures"].values()
-    for key in ("tables", "caption_tables")
-    for reference in entry.get(key, {}).values()
-)
-RULES["captions"]["input"]["templates"] = [f"workflow/report/{figure}.rst" for figure in config["figures"]]
-RULES["captions"]["params"]["figures"] = config["figures"]
+# Of all figures, and of those that only who asks for them makes.
+for name, figures, message in (
+    ("captions", config["figures"], "Captions of all figures"),
+    ("captions_on_request", config["figures_on_request"], "Captions of the figures on request"),
+):
+    RULES[name] = {
+        "stage": "figures.captions",
+        "message": message,
+        "outputs": caption_files(figures),
+        "place": f"figures/{name}",
+        "runtime": 10,
+    } | read_tables(
+        reference
+        for entry in figures.values()
+        for key in ("tables", "caption_tables")
+        for reference in entry.get(key, {}).values()
+    )
+    RULES[name]["input"]["templates"] = [f"workflow/report/{figure}.rst" for figure in figures]
+    RULES[name]["params"]["figures"] = figures

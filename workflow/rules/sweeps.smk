@@ -2,8 +2,9 @@
 # are computed in shards, so that a cluster can share a large one; the table does not depend on how it was cut.
 from workflow.sharing import THREADS, plan
 
-PLANS = {name: plan(config, name) for name in config["sweeps"]}
+PLANS = {name: plan(config["sharing"], resolve(config, "sweeps", name)) for name in config["sweeps"]}
 LATER = 3  # times what was expected, so long a job may run
+ROWS_A_MINUTE = 20_000_000  # that are put together
 
 
 def rows_of_shard(wildcards):
@@ -29,6 +30,10 @@ def minutes_of_shard(wildcards, attempt):
 
 def memory_of_gathering(wildcards, attempt):
     return math.ceil(attempt * PLANS[wildcards.name].gathering)
+
+
+def minutes_of_gathering(wildcards, attempt):
+    return math.ceil(attempt * (10 + LATER * PLANS[wildcards.name].points / ROWS_A_MINUTE))
 
 
 RULES["shards"] = {
@@ -64,7 +69,7 @@ rule sweeps:
     threads: 1
     resources:
         mem_mb=memory_of_gathering,
-        runtime=30,
+        runtime=minutes_of_gathering,
     params:
         **RULES["sweeps"]["params"],
         code=source_hash("gather"),

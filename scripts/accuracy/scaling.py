@@ -1,0 +1,134 @@
+"""What the jobs of sweeps take over points, threads, shards and conveyors: wall times, and the most memory they have.
+
+Every job is measured in a process of its own, from its start on, as a cluster starts it. Of a large sweep one shard is
+made; what puts the shards together is measured on copies of it, of which more change nothing but the time.
+"""
+
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pyarrow.parquet as pq
+from tqdm import tqdm
+
+from pipeline import fields, tables
+from sweeps import shards
+
+SCRIPTS = Path(__file__).resolve().parents[1]
+MOST_GATHERED = 3  # shards of which a measured table is put together
+
+TABLES = {
+    "scaling": (
+        fields.text("varied", "what the rows of this kind differ in: points, conveyors, threads, shards"),
+        fields.count("points", "of the sweep"),
+        fields.count("conveyors", "of the sweep"),
+        fields.count("shards", "of the sweep"),
+        fields.count("rows", "of a shard"),
+        fields.count("threads", "of a shard"),
+        fields.count("measured", "shards that were made; the largest one counts below"),
+        fields.number("shard_seconds", "s", "wall time of a shard, from the start of Python; of several the sum"),
+        fields.number(
+            "computing_seconds", "s", "of it without the start of Python and its imports; of several the sum"
+        ),
+        fields.number("shard_memory", "MB", "most resident memory of a shard"),
+        fields.number(
+            "estimated_seconds", "s", "of a shard on its threads, as the config estimates it to cut the sweep"
+        ),
+        fields.number("estimated_memory", "MB", "of a shard, as it asks a cluster for it"),
+        fields.count("gathered", "rows that were put together"),
+        fields.number("gathering_seconds", "s", "wall time of that, from the start of Python"),
+        fields.number("gathering_memory", "MB", "most resident memory of that"),
+        fields.number("bytes", "B", "size of the file, for each row"),
+    ),
+}
+
+
+def peak_memory() -> float:
+    """MB, the most resident memory that this process has had; not what it inherited from the one that started it."""
+    return int(re.search(r"VmHWM:\s+(\d+) kB", Path("/proc/self/status").read_text())[1]) * 1024 / 1e6
+
+
+def job() -> None:
+    """What a measured process does: as the task on stdin says; it answers on stdout."""
+    task = json.load(sys.stdin)
+    begin = perf_counter()
+    if "shards" in task:
+        tables.gather(task["path"], task["shards"], "sweeps", task["settings"], task["rows"])
+    else:
+        settings = task["settings"]
+        schema = [*(fields.AXES[axis] for axis in settings["axes"]), *shards.TABLES["sweeps"]]
+        blocks = shards.make(settings, task["rows"], threads=task["threads"])
+        tables.write_blocks(task["path"], (tables.make("sweeps", schema, block, settings) for block in blocks))
+    json.dump({"seconds": perf_counter() - begin, "memory": peak_memory()}, sys.stdout)
+
+
+def run(**task: Any) -> dict[str, float]:
+    """Wall times (s) with and without the start of Python, and most memory (MB), of one job."""
+    begin = perf_counter()
+    done = subprocess.run(
+        [sys.executable, "-c", "from accuracy import scaling; scaling.job()"],
+        input=json.dumps(task),
+        stdout=subprocess.PIPE,
+        text=True,
+        check=True,
+        env=os.environ | {"PYTHONPATH": str(SCRIPTS)},
+    )
+    return json.loads(done.stdout) | {"whole": perf_counter() - begin}
+
+
+def measured(case: dict, folder: Path) -> dict[str, Any]:
+    """A row of the table for one `case`: what is varied, the settings of its sweep, its plan and its threads."""
+    plan, settings = case["plan"], case["settings"]
+    points, rows = plan["points"], plan["rows"]
+    wanted = range(plan["shards"]) if case["varied"] == "shards" else [0]
+    paths = [str(folder / f"{number}.parquet") for number in wanted]
+    made = [
+        run(settings=settings, threads=case["threads"], path=path, rows=[k * rows, min((k + 1) * rows, points)])
+        for k, path in zip(wanted, paths, strict=True)
+    ]
+    copies = paths if len(paths) > 1 else paths * min(plan["shards"], MOST_GATHERED)
+    gathered = sum(pq.read_metadata(path).num_rows for path in copies)
+    whole = folder / "all.parquet"
+    together = run(settings=settings, shards=copies, rows=gathered, path=str(whole))
+    return {
+        "varied": case["varied"],
+        "points": points,
+        "conveyors": case["conveyors"],
+        "shards": plan["shards"],
+        "rows": rows,
+        "threads": case["threads"],
+        "measured": len(made),
+        "shard_seconds": math.fsum(one["whole"] for one in made),
+        "computing_seconds": math.fsum(one["seconds"] for one in made),
+        "shard_memory": max(one["memory"] for one in made),
+        "estimated_seconds": plan["seconds"] / case["threads"],
+        "estimated_memory": plan["memory"],
+        "gathered": gathered,
+        "gathering_seconds": together["whole"],
+        "gathering_memory": together["memory"],
+        "bytes": whole.stat().st_size / gathered,
+    }
+
+
+def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> dict[str, np.ndarray]:
+    """The columns of the table for `cases`, one row each; what has to be compiled is compiled before."""
+
+    def rows() -> Iterator[dict[str, Any]]:
+        for case in tqdm(cases, desc=progress, unit="sweep", disable=progress is None, file=sys.stderr):
+            with tempfile.TemporaryDirectory() as folder:
+                yield measured(case, Path(folder))
+
+    with tempfile.TemporaryDirectory() as folder:
+        for one in cases:
+            run(settings=one["settings"], threads=1, rows=[0, 1], path=f"{folder}/one.parquet")
+    return {name: column.to_numpy() for name, column in pd.DataFrame(rows()).items()}

@@ -1,0 +1,71 @@
+"""What sweeps take: points in a second and memory of their jobs, over points, threads and shards."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
+
+from figures import style
+
+MAPS, CONVEYORS, GATHERING = "#0072B2", "#D55E00", "#CC79A7"
+
+
+def rate(rows: pd.DataFrame) -> pd.Series:
+    """Points that a job follows in a second, its start included."""
+    return np.minimum(rows.rows * rows.measured, rows.points) / rows.shard_seconds
+
+
+def over_points(left: Axes, right: Axes, table: pd.DataFrame) -> None:
+    for varied, colour, name in (
+        ("points", MAPS, "starts of one conveyor"),
+        ("conveyors", CONVEYORS, "conveyors of one start"),
+    ):
+        rows = table[table.varied == varied].sort_values("points")
+        left.plot(rows.points, rate(rows), "o-", color=colour, label=name)
+        right.plot(rows.points, rows.shard_memory, "o-", color=colour)
+        if varied == "points":
+            right.plot(rows.points, rows.gathering_memory, "s--", color=GATHERING, label="shards put together")
+    for axes in (left, right):
+        axes.set_xscale("log")
+        axes.set_xlabel("points of the sweep")
+    left.set_yscale("log")
+    left.set_ylabel("points per second of a job")
+    right.set_ylim(bottom=0.0)
+    right.set_ylabel("largest memory of a job (MB)")
+
+
+def over_counts(axes: Axes, rows: pd.DataFrame, varied: str, rates: pd.Series) -> None:
+    """The rates of some rows over what they vary in; of threads with a line in proportion."""
+    counts, rates = rows[varied].to_numpy(), rates.to_numpy()
+    axes.plot(counts, rates, "o-", color=MAPS)
+    if varied == "threads":
+        axes.plot(counts, rates[0] * counts / counts[0], color="black", linewidth=0.6, linestyle=":")
+        axes.annotate(
+            "in proportion", (counts[-1], rates[0] * counts[-1] / counts[0]), ha="right", va="bottom", size=7.0
+        )
+    else:
+        axes.set_xscale("log")
+    axes.set_xticks(counts, [f"{count}" for count in counts])
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.minorticks_off()
+    axes.set_ylim(bottom=0.0)
+
+
+def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
+    """From the table of scaling."""
+    table = tables["scaling"]
+    figure = style.figure(style.PAGE, 116.0)
+    (left, right), (threads, shards) = figure.subplots(2, 2)
+    over_points(left, right, table)
+    rows = table[table.varied == "threads"].sort_values("threads")
+    over_counts(threads, rows, "threads", rows.points / rows.computing_seconds)
+    threads.set_xlabel("threads of a job")
+    threads.set_ylabel("points per second of a job,\nonce it has started")
+    rows = table[table.varied == "shards"].sort_values("shards")
+    over_counts(shards, rows, "shards", rate(rows))
+    shards.set_xlabel("shards of a sweep")
+    shards.set_ylabel("points per second of all jobs,\none after the other")
+    handles = [handle for axes in (left, right) for handle in axes.get_legend_handles_labels()[0]]
+    figure.legend(handles=handles, loc="outside upper center", ncols=3)
+    return figure
