@@ -5,16 +5,15 @@ then one of Euler, so that whatever else the machine does slows all. The truth i
 DOP853 from event to event.
 """
 
-import sys
 from time import perf_counter
 
 import numpy as np
-from tqdm import tqdm
 
 from conveyor.methods import peers
 from conveyor.simulation import Run, simulate
 from conveyor.solver.model import Conveyor, Start, pack
 from conveyor.solver.polynomial import ORDER
+from conveyor.solver.progress import bar
 from pipeline import fields
 
 TABLES = {
@@ -90,7 +89,7 @@ def times(cases: list[dict], repeats: int, progress: str | None) -> np.ndarray:
     A first round, which compiles, does not count.
     """
     spent = [[[], [], []] for _ in cases]
-    for turn in tqdm(range(repeats + 1), desc=progress, unit="round", disable=progress is None, file=sys.stderr):
+    for turn in bar(range(repeats + 1), label=progress, unit="rounds"):
         for case, (ours, without, theirs) in zip(cases, spent, strict=True):
             solver = [timed(case, case["duration"], "event")[0] for _ in range(RUNS)]
             anew = [timed(case, case["duration"], "event", reuse=False)[0] for _ in range(RUNS)]

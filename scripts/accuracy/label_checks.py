@@ -1,11 +1,11 @@
 """Whether each start earns its own label: found together, in reverse order and one by one, labels are compared."""
 
 import numpy as np
-from tqdm import tqdm
 
 from accuracy.settling_times import starts
 from conveyor.analysis import states
 from conveyor.analysis.known_attractors import known_attractors
+from conveyor.solver.progress import bar
 from pipeline import fields
 
 TABLES = {
@@ -61,6 +61,6 @@ def make(
     options = {"cycles": settings["settling"], "tolerance": tolerance, "threads": threads}
     rows = [
         row(acceleration, settings, model, options)
-        for acceleration in tqdm(settings["acceleration"], desc=progress, disable=progress is None)
+        for acceleration in bar(settings["acceleration"], label=progress, unit="amplitudes")
     ]
     return {name: np.array([one[name] for one in rows]) for name in rows[0]}

@@ -7,13 +7,13 @@ from event to event at its tightest tolerance, is among the rows, and its error 
 from typing import NamedTuple
 
 import numpy as np
-from tqdm import tqdm
 
 from conveyor.analysis import states
 from conveyor.methods import fixed_step, peers
 from conveyor.simulation import simulate
 from conveyor.solver.model import Conveyor, Start, conveyor_motion, pack
 from conveyor.solver.polynomial import ORDER
+from conveyor.solver.progress import bar
 from pipeline import fields
 
 RUN = (
@@ -130,7 +130,7 @@ def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray
     state = leads_to(settings, truth.end)
     _, *scale = peers.scales(pack(*scene(settings)))
     listed = methods(settings)
-    results = [follow(method, settings) for method in tqdm(listed, progress, unit="run", disable=progress is None)]
+    results = [follow(method, settings) for method in bar(listed, label=progress, unit="runs")]
     velocity = np.array([result.mean_velocity for result in results])
     velocity_error = np.abs(velocity / truth.mean_velocity - 1.0)
     outcomes = [outcome(result, error, settings, state) for result, error in zip(results, velocity_error, strict=True)]

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
-from tqdm import tqdm
 
 from conveyor.analysis import states
 from conveyor.methods import rigid_part_motion
@@ -27,6 +26,7 @@ from conveyor.solver.model import (
     pack,
     unpack,
 )
+from conveyor.solver.progress import bar
 from pipeline import fields, grid
 
 TABLES = {
@@ -189,6 +189,6 @@ def make(
         for row in doublings.itertuples()
     ]
     models = {RIGID: of_speed, ONE_NUMBER: one_number}
-    for model, restitution in tqdm(models.items(), desc=progress, disable=progress is None):
+    for model, restitution in bar(models.items(), label=progress, unit="models"):
         rows += bifurcation_rows(model, conveyor, restitution, settings)
     return {name: np.array([row[name] for row in rows]) for name in rows[-1]}

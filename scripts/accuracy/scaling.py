@@ -19,8 +19,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
-from tqdm import tqdm
 
+from conveyor.solver.progress import bar
 from pipeline import fields, tables
 from sweeps import shards
 
@@ -124,7 +124,7 @@ def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> d
     """The columns of the table for `cases`, one row each; what has to be compiled is compiled before."""
 
     def rows() -> Iterator[dict[str, Any]]:
-        for case in tqdm(cases, desc=progress, unit="sweep", disable=progress is None, file=sys.stderr):
+        for case in bar(cases, label=progress, unit="sweeps"):
             with tempfile.TemporaryDirectory() as folder:
                 yield measured(case, Path(folder))
 

@@ -12,12 +12,12 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from tqdm import tqdm
 
 from accuracy import observables, rigid_part
 from accuracy.observables import SHOWN
 from conveyor.simulation import simulate
 from conveyor.solver.model import unpack
+from conveyor.solver.progress import bar
 from pipeline import fields, grid
 
 TABLES = {
@@ -177,7 +177,7 @@ def make(
     """
     found = {
         reference: rows_of_table(reference, of_table, settings)
-        for reference, of_table in tqdm(entries.items(), desc=progress, unit="tables", disable=progress is None)
+        for reference, of_table in bar(entries.items(), label=progress, unit="tables")
     }
     rows = [
         {"figure": figure, **row}

@@ -6,11 +6,11 @@ from collections.abc import Callable
 import numpy as np
 from scipy.optimize import brentq
 from scipy.special import beta
-from tqdm import tqdm
 
 from conveyor.methods import fixed_step
 from conveyor.simulation import simulate
 from conveyor.solver.model import Conveyor, Start, conveyor_motion, pack
+from conveyor.solver.progress import bar
 from pipeline import fields
 
 TABLES = {
@@ -217,7 +217,7 @@ def region_rows(settings: dict, progress: str | None) -> list[dict]:
         for value in spaced(*(settings[panel.replace(" ", "_")][name] for name in ("start", "stop", "num")))
     ]
     rows = []
-    for panel, method, value in tqdm(lines, desc=progress, unit="lines", disable=progress is None):
+    for panel, method, value in bar(lines, label=progress, unit="lines"):
         outcome, theory = experiment(panel, method, value, settings)
         rows += [row(panel, method, step, value, outcome(step), theory) for step in steps]
         if has_edge(panel, method):

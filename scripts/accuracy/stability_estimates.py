@@ -7,13 +7,13 @@ dimension over the number of points of known sets and of phase portraits, and ov
 import math
 
 import numpy as np
-from tqdm import tqdm
 
 from conveyor.analysis import dimension, lyapunov, orbits, stroboscope
 from conveyor.analysis.dimension import Dimension
 from conveyor.analysis.known_sets import DIMENSIONS
 from conveyor.simulation import DEFAULT_TOLERANCE, simulate
 from conveyor.solver.model import PARAMETERS, unpack
+from conveyor.solver.progress import bar
 from pipeline import fields, grid
 
 TABLES = {
@@ -82,7 +82,7 @@ def exponent_rows(settings: dict, model: dict, progress: str | None) -> list[dic
         here = parameters_of(case, model)
         truth = exponent_in_truth(case, here, model)
         for panel, runs in varied.items():
-            for run in tqdm(runs, desc=progress and f"{progress}: {name}, {panel}", disable=progress is None):
+            for run in bar(runs, label=progress and f"{progress}: {name}, {panel}", unit="runs"):
                 there = here.copy()
                 there[:, PARAMETERS.index(case["perturb"])] += run["epsilon"]
                 bound = largest_estimate(here, case["output"], run["epsilon"], run["duration"])
@@ -126,7 +126,7 @@ def dimension_rows(settings: dict, model: dict, seed: int, progress: str | None)
             for name, one in found.items()
         )
 
-    for count in tqdm(settings["samples"], desc=progress and f"{progress}: points", disable=progress is None):
+    for count in bar(settings["samples"], label=progress and f"{progress}: points", unit="sizes"):
         rng = np.random.default_rng(seed)
         for draw, truth in DIMENSIONS.items():
             add("known set", draw.__name__, estimates(draw(rng, count), 0, settings), truth, samples=count)

@@ -4,14 +4,13 @@ Times differ from run to run and from machine to machine. They have a table of t
 it is.
 """
 
-import sys
 from time import perf_counter
 
 import numpy as np
 import pandas as pd
-from tqdm import tqdm
 
 from accuracy.precision import RUN, Method, follow
+from conveyor.solver.progress import bar
 from pipeline import fields
 
 TABLES = {
@@ -40,7 +39,7 @@ def make(precision: pd.DataFrame, settings: dict, *, progress: str | None = None
     times: list[list[float]] = [[] for _ in listed]
     for method in listed:
         follow(method, scene | {"max_evaluations": 1000, "duration": 1e-3})
-    for _ in tqdm(range(settings["repeats"]), progress, unit="round", disable=progress is None, file=sys.stderr):
+    for _ in bar(range(settings["repeats"]), label=progress, unit="rounds"):
         for method, spent in zip(listed, times, strict=True):
             turn_ends = perf_counter() + TURN
             while sum(spent) < settings["seconds"]:

@@ -105,6 +105,7 @@ def run(
             follow_by_events(parameters[rows], durations[rows], tolerance, feeding, out[rows])
         else:
             follow_by_steps(parameters[begin:end], duration, step, fixed_step.METHODS.index(method), out[begin:end])
+        return np.count_nonzero(out[begin:end, CODE] != trajectory.OK)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=chunk, progress=progress)
     columns = {name: np.ascontiguousarray(out[:, k]) for k, name in enumerate(COLUMNS)}

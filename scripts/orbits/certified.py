@@ -1,6 +1,5 @@
 """Periodic orbits, bifurcations and chaos, proved where floating point suggests them."""
 
-import sys
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
@@ -12,7 +11,6 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 from pyarrow import Field
-from tqdm import tqdm
 
 from conveyor.analysis import orbits
 from conveyor.analysis.orbits import Bifurcation, Orbit, ReturnMap
@@ -24,6 +22,7 @@ from conveyor.certificates.motion import Accuracy
 from conveyor.certificates.orbit import ProvedOrbit, check_near, prove_orbit
 from conveyor.certificates.shooting import NODES, Shooting
 from conveyor.solver.model import unpack
+from conveyor.solver.progress import bar
 from pipeline import fields, grid
 
 
@@ -361,7 +360,7 @@ def all_done(settings: dict, works: list[Work], processes: int) -> list[tuple[di
     """What all pieces of work find, in their order, by processes that share nothing."""
     with ProcessPoolExecutor(processes, mp_context=get_context("fork")) as pool:
         futures = [pool.submit(timed, settings, work) for work in works]
-        return [future.result() for future in tqdm(futures, desc="certificates", unit="proof", file=sys.stderr)]
+        return [future.result() for future in bar(futures, label="certificates", unit="proofs")]
 
 
 def numbered(table: pd.DataFrame) -> Iterator[tuple[int, SimpleNamespace]]:

@@ -1,0 +1,48 @@
+"""Progress of long work on stderr: a bar on a terminal, else a line from time to time."""
+
+import math
+import sys
+from typing import TextIO
+
+from tqdm import tqdm
+
+SECONDS = 1.0  # between two looks of a bar
+SECONDS_OF_LINES = 60.0  # between two lines
+LINE = "{desc}: {n_fmt} of {total_fmt}{unit}, {rate_fmt}, {elapsed} gone, {remaining} left{postfix}"
+
+
+class Lines(tqdm):
+    """Lines in place of a bar: one each SECONDS_OF_LINES, and a last one."""
+
+    @staticmethod
+    def status_printer(file: TextIO):
+        def print_line(text: str) -> None:
+            if text:
+                file.write(f"{text}\n")
+                file.flush()
+
+        return print_line
+
+    shown = 0  # units at the last line
+
+    def display(self, msg=None, pos=None) -> bool:
+        if self.n == self.shown:
+            return False
+        self.shown = self.n
+        return super().display(msg, pos)
+
+    def close(self) -> None:
+        if not self.disable:
+            self.display()
+            self.delay = math.inf  # that of tqdm would add an empty line
+        super().close()
+
+
+def bar(items=None, *, total: int | None = None, label: str | None, unit: str = "points") -> tqdm:
+    """Progress over `items`, or over `total` units that `update` counts; without a label none is shown."""
+    options = {"desc": label, "unit": f" {unit}", "disable": label is None, "file": sys.stderr}
+    if sys.stderr.isatty():
+        return tqdm(items, total=total, mininterval=SECONDS, dynamic_ncols=True, **options)
+    return Lines(
+        items, total=total, mininterval=SECONDS_OF_LINES, maxinterval=SECONDS_OF_LINES, bar_format=LINE, **options
+    )
