@@ -228,15 +228,16 @@ def asked(key: str, given: dict, known: set[str], needed: set[str], user: str) -
 
 
 def figures(config: dict) -> Iterator[str]:
-    for figure, entry in (config["figures"] | config["figures_on_request"]).items():
+    listed = [(section, *one) for section in ("figures", "figures_on_request") for one in config[section].items()]
+    for section, figure, entry in listed:
         files = [f"scripts/figures/plots/{figure}.py", f"workflow/report/{figure}.rst"]
         missing = [file for file in files if not (ROOT / file).is_file()]
         for file in missing:
-            yield f"figures.{figure} has no {file}; a figure needs a plot script and a caption of its name"
+            yield f"{section}.{figure} has no {file}; a figure needs a plot script and a caption of its name"
         for reference in entry["tables"].values():
             table = entry_of(config, reference)
             if table and entry["needs"] == "feeding" and table.get("needs") == "vertical":
-                yield f"figures.{figure} needs feeding, but {reference} is computed for vertical needs only"
+                yield f"{section}.{figure} needs feeding, but {reference} is computed for vertical needs only"
         if missing:
             continue
         names, user = names_of_figure(figure, "tables"), f"scripts/figures/plots/{figure}.py"
@@ -244,10 +245,10 @@ def figures(config: dict) -> Iterator[str]:
         known = {role for role in given if any(one.knows(role) for one in names)}
         needed = set().union(*(one.needed for one in names))
         for key in ("tables", "caption_tables"):
-            yield from asked(f"figures.{figure}.{key}", entry.get(key, {}), known | needed, set(), user)
-        yield from asked(f"figures.{figure}.tables", {}, known, needed - given.keys(), user)
+            yield from asked(f"{section}.{figure}.{key}", entry.get(key, {}), known | needed, set(), user)
+        yield from asked(f"{section}.{figure}.tables", {}, known, needed - given.keys(), user)
         settings = set().union(*(one.needed for one in names_of_figure(figure, "settings")))
-        yield from asked(f"figures.{figure}.settings", entry.get("settings", {}), settings, settings, user)
+        yield from asked(f"{section}.{figure}.settings", entry.get("settings", {}), settings, settings, user)
         yield from numbers_of_caption(figure)
 
 
