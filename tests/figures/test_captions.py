@@ -10,7 +10,8 @@ from prose import typed
 from docs import costs
 from figures import captions
 
-FIGURES = read_config()["figures"]
+CONFIG = read_config()
+FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]
 
 
 @pytest.mark.parametrize("name", FIGURES)

@@ -2,7 +2,8 @@
 
 from project import FIGURES, ROOT, read_config
 
-ENTRIES = read_config()["figures"]
+CONFIG = read_config()
+ENTRIES = CONFIG["figures"] | CONFIG["figures_on_request"]
 
 
 def stems(folder, pattern):
