@@ -1,10 +1,13 @@
 """The script of the rule that puts the shards of a table below each other, in the order of their rows."""
 
-from pipeline import tables
+from functools import partial
+
+from pipeline import grid, tables
 from pipeline.rule_log import logged
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         (kind,) = snakemake.output.keys()
         params = snakemake.params
-        tables.gather(snakemake.output[0], snakemake.input, kind, params.settings, params.points)
+        wanted = partial(grid.columns_of_axes, params.settings["axes"])
+        tables.gather(snakemake.output[0], snakemake.input, kind, params.settings, params.points, wanted)

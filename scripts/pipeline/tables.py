@@ -8,7 +8,7 @@ it is and what was computed (model, duration, method, …) stand there, too; pan
 import json
 import os
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
@@ -18,8 +18,6 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from pipeline import grid
-
 # Rows of a row group: fixed, so that a table's bytes do not depend on how it was computed.
 ROW_GROUP = 1 << 20
 REMEDY = "delete it, and the next run makes it again"
@@ -28,6 +26,8 @@ KIND = b"kind"
 UNIT, UNITS = b"unit", b"units"
 # What a key has that is not there.
 NOTHING = "nothing"
+# Values of columns by their names, for a first row and the one behind the last.
+Wanted = Callable[[tuple[int, int]], Mapping[str, np.ndarray]]
 # The key under which pandas keeps DataFrame.attrs.
 SETTINGS = b"PANDAS_ATTRS"
 
@@ -117,8 +117,10 @@ def write_blocks(path: str | Path, blocks: Iterable[pa.Table]) -> None:
             writer.write_table(pa.concat_tables(waiting), row_group_size=ROW_GROUP)
 
 
-def gather(path: str | Path, shards: Sequence[str | Path], kind: str, settings: dict, rows: int) -> None:
-    """Write shards of a table, given in the order of their rows, as one.
+def gather(
+    path: str | Path, shards: Sequence[str | Path], kind: str, settings: dict, rows: int, wanted: Wanted
+) -> None:
+    """Write shards of a table, given in the order of their rows, as one; `wanted` says what some columns hold.
 
     Raises
     ------
@@ -132,27 +134,26 @@ def gather(path: str | Path, shards: Sequence[str | Path], kind: str, settings: 
         raise TableError(
             f"the shards of {path} have {found} rows, not {rows}; delete them: the next run makes new ones"
         )
-    write_blocks(path, blocks_of(shards, settings.get("axes", {})))
+    write_blocks(path, blocks_of(shards, wanted))
 
 
-def blocks_of(shards: Sequence[str | Path], axes: dict) -> Iterator[pa.Table]:
-    """The row groups of shards, one by one; TableError where they are not those of the product of the axes in order."""
+def blocks_of(shards: Sequence[str | Path], wanted: Wanted) -> Iterator[pa.Table]:
+    """The row groups of shards, one by one; TableError where columns do not hold what is wanted of their rows."""
     found = 0
     for path in shards:
         with pq.ParquetFile(path) as file:
             for number in range(file.num_row_groups):
                 block = file.read_row_group(number)
                 begin, found = found, found + len(block)
-                if not holds(block, axes, (begin, found)):
+                if not holds(block, wanted((begin, found))):
                     raise TableError(f"{path} does not hold rows {begin} to {found - 1} of its table; {REMEDY}")
                 yield block
 
 
-def holds(shard: pa.Table, axes: dict, rows: tuple[int, int]) -> bool:
-    """Whether a shard has these rows of the product of the axes."""
-    wanted = grid.columns_of_axes(axes, rows) if axes else {}
+def holds(block: pa.Table, wanted: Mapping[str, np.ndarray]) -> bool:
+    """Whether columns of a block have these values."""
     return all(
-        pa.array(values, from_pandas=True).equals(shard[name].combine_chunks()) for name, values in wanted.items()
+        pa.array(values, from_pandas=True).equals(block[name].combine_chunks()) for name, values in wanted.items()
     )
 
 

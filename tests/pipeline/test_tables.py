@@ -25,6 +25,11 @@ def made(columns=None, schema=SCHEMA, settings=SETTINGS, kind="estimates"):
     return tables.make(kind, schema, columns or estimates(), settings)
 
 
+def nothing(rows):
+    """That no column has to hold what its rows say."""
+    return {}
+
+
 @pytest.fixture
 def path(tmp_path):
     return tmp_path / "a.parquet"
@@ -146,7 +151,7 @@ def test_gathered_shards_have_the_bytes_of_the_whole(tmp_path, monkeypatch, cuts
     for number, (begin, end) in enumerate(pairwise([0, *cuts, 23])):
         paths.append(tmp_path / f"{number}.parquet")
         tables.write(paths[-1], whole.slice(begin, end - begin))
-    tables.gather(tmp_path / "gathered", paths, "estimates", SETTINGS, 23)
+    tables.gather(tmp_path / "gathered", paths, "estimates", SETTINGS, 23, nothing)
     assert (tmp_path / "gathered").read_bytes() == (tmp_path / "whole").read_bytes()
 
 
@@ -154,7 +159,7 @@ def test_shards_of_another_cut_are_refused(tmp_path):
     """As Snakemake takes them for current where it is told to look at times alone."""
     tables.write(tmp_path / "0.parquet", made())
     with pytest.raises(tables.TableError, match=r"all\.parquet have 3 rows, not 5; delete them"):
-        tables.gather(tmp_path / "all.parquet", [tmp_path / "0.parquet"], "estimates", SETTINGS, 5)
+        tables.gather(tmp_path / "all.parquet", [tmp_path / "0.parquet"], "estimates", SETTINGS, 5, nothing)
     assert not (tmp_path / "all.parquet").exists()
 
 
@@ -162,19 +167,23 @@ def test_a_foreign_shard_is_named(tmp_path):
     tables.write(tmp_path / "0.parquet", made())
     tables.write(tmp_path / "1.parquet", made(settings=SETTINGS | {"duration": 2.0}))
     with pytest.raises(tables.TableError, match=r"1\.parquet was made from other settings"):
-        tables.gather(tmp_path / "all", [tmp_path / "0.parquet", tmp_path / "1.parquet"], "estimates", SETTINGS, 6)
+        shards = [tmp_path / "0.parquet", tmp_path / "1.parquet"]
+        tables.gather(tmp_path / "all", shards, "estimates", SETTINGS, 6, nothing)
     assert not (tmp_path / "all").exists()
 
 
 def test_a_shard_of_other_rows_is_named(tmp_path):
     """As where one is copied by hand over another."""
-    settings = SETTINGS | {"axes": {"acceleration": [20.0, 55.0, 90.0, 91.0]}}
-    for name, values in (("0", [20.0, 55.0]), ("1", [90.0, 91.0])):
-        columns = {"acceleration": values, "lambda": [0.0, 1.0]}
-        tables.write(tmp_path / f"{name}.parquet", made(columns, settings=settings))
+    accelerations = np.array([20.0, 55.0, 90.0, 91.0])
+
+    def wanted(rows):
+        return {"acceleration": accelerations[slice(*rows)]}
+
+    for name, rows in (("0", (0, 2)), ("1", (2, 4))):
+        tables.write(tmp_path / f"{name}.parquet", made(wanted(rows) | {"lambda": [0.0, 1.0]}))
     paths = [tmp_path / "0.parquet", tmp_path / "1.parquet"]
-    tables.gather(tmp_path / "all", paths, "estimates", settings, 4)
+    tables.gather(tmp_path / "all", paths, "estimates", SETTINGS, 4, wanted)
     paths[1].write_bytes(paths[0].read_bytes())
     with pytest.raises(tables.TableError, match=r"1\.parquet does not hold rows 2 to 3 of its table; delete it"):
-        tables.gather(tmp_path / "none", paths, "estimates", settings, 4)
+        tables.gather(tmp_path / "none", paths, "estimates", SETTINGS, 4, wanted)
     assert not (tmp_path / "none").exists()

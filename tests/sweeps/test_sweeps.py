@@ -1,5 +1,6 @@
 """Sweeps from the config: columns and rows of an own one, and independence of how it is cut and shared."""
 
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 from conveyor import Conveyor, Start, ensemble, simulate
 from conveyor.solver.model import UNITS
-from pipeline import fields, tables
+from pipeline import fields, grid, tables
 from sweeps import shards
 
 # As the README shows it.
@@ -131,7 +132,8 @@ def gathered(folder, settings, count, threads):
         paths.append(folder / f"{number}.parquet")
         blocks = shards.make(settings, rows, threads=threads)
         tables.write_blocks(paths[-1], (tables.make("sweeps", schema, block, settings) for block in blocks))
-    tables.gather(folder / "all.parquet", paths, "sweeps", settings, POINTS)
+    wanted = partial(grid.columns_of_axes, settings["axes"])
+    tables.gather(folder / "all.parquet", paths, "sweeps", settings, POINTS, wanted)
     return folder / "all.parquet"
 
 

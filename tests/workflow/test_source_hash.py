@@ -21,6 +21,10 @@ CALLS = {
     },
     "accuracy/wall_times": {"accuracy/precision"},
     "accuracy/label_checks": {"accuracy/settling_times"},
+    "operating/shares": {"operating/regimes"},
+    "identification/fronts": {"identification/edges"},
+    "identification/printed": {"identification/edges", "motion/critical_heights"},
+    "identification/profiles": {"identification/edges", "identification/printed", "motion/critical_heights"},
 }
 
 
