@@ -4,6 +4,7 @@ from snakemake.utils import min_version
 from workflow.config_files import as_first_written, merged, read, refusal
 from workflow.configuration import by_methods, canonical, problems, with_tighter
 from workflow.interruptions import end_with_the_terminal, name_commands_at_a_lock
+from workflow.own_machine import fitted, is_own, model_problems, refusals
 
 min_version("9.27")
 end_with_the_terminal()
@@ -30,12 +31,17 @@ if errors := [fault for faults, _ in read_files for fault in faults]:
     raise WorkflowError(refusal(errors))
 
 contents = [content for _, content in read_files]
+# What overlays are compared with where the report says what it shows.
+PAPER = merged(*contents[: len(STAGES) + 1])
+# Another machine's config is the paper's in that machine's own scales.
+OWN_MACHINE = is_own(PAPER, config)
+if OWN_MACHINE:
+    if errors := model_problems(PAPER, config):
+        raise WorkflowError(refusal(errors))
+    contents = [fitted(PAPER, config), *contents[len(STAGES) + 1 :]]
 whole = as_first_written(merged(*contents, config), contents)
 if errors := problems(whole):
     raise WorkflowError(refusal(errors))
-
-# What overlays are compared with where the report says what it shows.
-PAPER = merged(*contents[: len(STAGES) + 1])
 
 # Nothing that follows from the config may depend on the order of keys or the spelling of numbers in overlays. It is the same
 # object that Snakemake hands to the report.

@@ -157,7 +157,7 @@ def times(config: dict) -> Iterator[str]:
 
 def orbits(config: dict) -> Iterator[str]:
     low, high = config["orbits"]["limits"]
-    for place, seed in enumerate(config["orbits"]["seeds"]):
+    for place, seed in enumerate(config["orbits"].get("seeds", [])):
         if not low < seed["acceleration"] < high:
             yield (
                 f"orbits.limits = {[low, high]!r} m/s² must hold the amplitude of orbits.seeds[{place}], "
@@ -247,16 +247,17 @@ def figures(config: dict) -> Iterator[str]:
         for key in ("tables", "caption_tables"):
             yield from asked(f"{section}.{figure}.{key}", entry.get(key, {}), known | needed, set(), user)
         yield from asked(f"{section}.{figure}.tables", {}, known, needed - given.keys(), user)
-        settings = set().union(*(one.needed for one in names_of_figure(figure, "settings")))
-        yield from asked(f"{section}.{figure}.settings", entry.get("settings", {}), settings, settings, user)
+        names, given = names_of_figure(figure, "settings"), entry.get("settings", {})
+        known, needed = (set().union(*(getattr(one, kind) for one in names)) for kind in ("asked", "needed"))
+        yield from asked(f"{section}.{figure}.settings", given, known, needed, user)
         yield from numbers_of_caption(figure)
 
 
 def numbers_of_caption(figure: str) -> Iterator[str]:
-    """What the caption of a figure asks for in vain."""
+    """What the caption of a figure asks for in vain; all are told whether they are about the paper's machine."""
     wanted, function = names_of_template(ROOT / f"workflow/report/{figure}.rst"), caption_functions().get(figure)
     given = names_asked("figures.captions", function, "tables") if function else None
-    for name in sorted(name for name in wanted if not (given and given.knows(name))):
+    for name in sorted(name for name in wanted - {"paper"} if not (given and given.knows(name))):
         lacking = f"{function} does not give it" if function else f"NUMBERS has no function for {figure}"
         yield f"workflow/report/{figure}.rst asks for {name}, but in scripts/figures/captions.py {lacking}"
 

@@ -60,7 +60,13 @@ def read(file: str | Path) -> tuple[list[str], Any]:
         node = yaml.compose(text, Loader=yaml.CSafeLoader)
         content = yaml.load(text, Loader=yaml.CSafeLoader)
     except OSError as error:
-        return [f"{file}: {error.strerror}; give a file of the config"], None
+        made = Path(file).parts[:1] in (("figures",), ("results",), ("docs",))
+        remedy = (
+            "name what is to be made before --configfile, which takes all that follows"
+            if made
+            else "give a file of the config"
+        )
+        return [f"{file}: {error.strerror}; {remedy}"], None
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
         return [f"{file}:{line}: is not UTF-8 text ({error.reason}); save it as UTF-8"], None

@@ -2,7 +2,7 @@
 
 from typing import Annotated, NotRequired
 
-from pydantic import AfterValidator, ConfigDict, Field, Strict, TypeAdapter, with_config
+from pydantic import AfterValidator, ConfigDict, Field, Strict, TypeAdapter, ValidationInfo, with_config
 from typing_extensions import TypedDict
 
 from workflow.config_types import (
@@ -23,6 +23,7 @@ from workflow.config_types import (
     Scan,
     WholeModel,
     ascending,
+    brought,
     did_you_mean,
     distinct,
     forwards,
@@ -132,12 +133,12 @@ class Critical(Timed):
 
 class Regression(TypedDict):
     critical: Name
-    acceleration: interval(Acceleration)
+    acceleration: NotRequired[interval(Acceleration)]
     bounds: TypedDict("Bounds", {name: interval(of) for name, of in Paper.items()})
     seed: Seed
     evaluations: Count
     valley: span(FitParameter, AtLeastTwo)
-    paper: TypedDict("Paper", Paper)
+    paper: NotRequired[TypedDict("Paper", Paper)]
 
 
 class Dimension(Followed):
@@ -171,7 +172,7 @@ class Seeded(TypedDict):
 
 
 class Orbits(TypedDict):
-    seeds: Annotated[list[Seeded], Field(min_length=1)]
+    seeds: NotRequired[Annotated[list[Seeded], Field(min_length=1)]]
     limits: interval(Acceleration)
     max_period: whole(1, 64)
     cycles: whole(64, 10**9)
@@ -289,7 +290,7 @@ class Precision(TypedDict):
     peers: TypedDict("Peers", dict.fromkeys(("sign", "events", "modes"), Integrators), total=False)
     max_evaluations: Count
     repeats: Count
-    seconds: positive(3600, "s")
+    seconds: positive(3600, "s of wall time")
 
 
 class PairOfExponent(TypedDict):
@@ -471,6 +472,11 @@ class Operating(TypedDict):
     tolerance: Tolerance
 
 
+def portrait(values: list[float], info: ValidationInfo) -> list[float]:
+    """Amplitude and initial height of a phase portrait."""
+    return [brought(value, unit, info) for value, unit in zip(values, ("m/s²", "m"), strict=True)]
+
+
 class FigureSettings(TypedDict, total=False):
     acceleration: Acceleration
     z0: HeightNumber
@@ -481,7 +487,9 @@ class FigureSettings(TypedDict, total=False):
     begin: number(0, 1e6, "s")
     highest: positive(1e6, "Hz")
     portraits: Annotated[
-        list[Annotated[list[number(-1, 1e4, "m/s² or m")], Field(min_length=2, max_length=2)]],
+        list[
+            Annotated[list[number(-1, 1e4, "m/s² or m")], Field(min_length=2, max_length=2), AfterValidator(portrait)]
+        ],
         Field(min_length=3, max_length=3),
     ]
     transient: number(0, 1e6, "s")
@@ -563,6 +571,7 @@ class Identification(TypedDict):
 class Figure(TypedDict):
     title: Line
     section: Line
+    paper_only: NotRequired[Line]
     needs: word("feeding", "vertical", "nothing")
     tables: dict[Name, Reference]
     settings: NotRequired[FigureSettings]

@@ -1,7 +1,8 @@
 """What values of the config may be: numbers with their ranges and units, words, intervals, axes.
 
 Every type converts what it accepts to one form, so that 20, 20.0 and 2.0e+1 are the same float, and says in words what
-it does not accept: the text goes behind the key, "model.mass = -0.1 is outside …".
+it does not accept: the text goes behind the key, "model.mass = -0.1 is outside …". Under a context, functions by units,
+numbers of these units are changed by them (see own_machine).
 """
 
 import ast
@@ -14,7 +15,7 @@ from reprlib import Repr
 from textwrap import shorten
 from typing import Annotated, Any, Literal, NamedTuple, Union
 
-from pydantic import AfterValidator, Discriminator, Field, PlainValidator, Tag, WrapValidator
+from pydantic import AfterValidator, Discriminator, Field, PlainValidator, Tag, ValidationInfo, WrapValidator
 from pydantic_core import PydanticCustomError
 from typing_extensions import TypedDict
 
@@ -89,16 +90,22 @@ def outside(value: float, low: float, high: float, unit: str, ends: str) -> str:
     return text
 
 
+def brought(value: float, unit: str, info: ValidationInfo) -> float:
+    """A number of a unit, changed as the context of the validation says."""
+    change = (info.context or {}).get(unit)
+    return change(value) if change else value
+
+
 def number(low: float, high: float, unit: str = "", ends: str = "[]", form: Callable[[Any], float] = float):
     """A finite number between `low` and `high`; `ends` are those of the interval, "(]" leaves the lower one out."""
 
-    def check(value):
+    def check(value, info: ValidationInfo):
         value = checked(value, "a number", unit)
         above = low < value if ends[0] == "(" else low <= value
         below = value < high if ends[1] == ")" else value <= high
         if not (above and below):
             raise wrong(outside(value, low, high, unit, ends))
-        return form(value)
+        return form(brought(value, unit, info))
 
     return Annotated[float, PlainValidator(check), Allowed(f"number in {ends[0]}{low:g}, {high:g}{ends[1]}", unit)]
 
@@ -230,7 +237,7 @@ def in_given_order(values, handler):
 NUMBERS = {name: number(low, high, LIBRARY["UNITS"][name]) for name, (low, high) in LIBRARY["RANGES"].items()}
 
 
-def height(value):
+def height(value, info: ValidationInfo):
     """An initial height."""
     if isinstance(value, str) and not reads_as_number(value):
         if value != "conveyor":
@@ -240,7 +247,7 @@ def height(value):
     value = checked(value, "a number", "m, or the word conveyor")
     if not low <= value <= high:
         raise wrong(outside(value, low, high, "m", "[]"))
-    return float(value)
+    return float(brought(value, "m", info))
 
 
 Height = Annotated[

@@ -40,6 +40,7 @@ __all__ = [
     "roles_of_solution",
     "tighter_reference",
     "with_tighter",
+    "type_problems",
 ]
 
 # What YAML calls the types of Python.
@@ -111,13 +112,21 @@ def lacking(errors: list[ErrorDetails]) -> list[str]:
     return [f"{key} lacks {', '.join(names)}" for key, names in missing.items()]
 
 
-def problems(config: dict) -> list[str]:
-    """All errors of a config, one line each; empty if there are none."""
+def type_problems(config: dict) -> list[str]:
+    """Errors of the types of a config, one line each."""
     try:
-        typed = MODEL.validate_python(config)
+        MODEL.validate_python(config)
     except ValidationError as invalid:
         errors = invalid.errors(include_url=False)
         return lacking(errors) + [explain(error) for error in errors if error["type"] != "missing"]
+    return []
+
+
+def problems(config: dict) -> list[str]:
+    """All errors of a config, one line each; empty if there are none."""
+    if errors := type_problems(config):
+        return errors
+    typed = MODEL.validate_python(config)
     written = {
         f"{section}.{name}_{method}": f"{section}.{name}"
         for section in METHODS

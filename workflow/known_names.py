@@ -17,6 +17,7 @@ class Names(NamedTuple):
     """What a function and all that it calls ask of a mapping: what it must hold, and what it may hold."""
 
     needed: frozenset[str]
+    asked: frozenset[str]  # needed, or looked for before it is used
     texts: frozenset[str]
     patterns: frozenset[str]
 
@@ -135,7 +136,7 @@ def names_asked(module: str, function: str, mapping: str) -> Names:
                     written = [re.escape(part.value) if isinstance(part, ast.Constant) else r"(\w+)" for part in parts]
                     if any(isinstance(part, ast.Constant) for part in parts):
                         patterns.add("".join(written))
-    return Names(frozenset(needed - optional), frozenset(texts), frozenset(patterns))
+    return Names(frozenset(needed - optional), frozenset(needed | optional), frozenset(texts), frozenset(patterns))
 
 
 @cache

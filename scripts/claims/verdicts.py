@@ -125,6 +125,11 @@ def report(rows: pd.DataFrame) -> str:
     def numbers(values) -> str:
         return ", ".join("–" if value is None or math.isnan(value) else f"{value:.4g}" for value in values) or "–"
 
+    if rows.empty:
+        return (
+            "# The paper's statements\n\nThey are about the paper's machine, and are not held against this one; an "
+            "overlay without a prefix does so.\n"
+        )
     lines = [
         "# The paper's statements",
         "",

@@ -39,7 +39,7 @@ def chaotic(spectrum: pd.DataFrame) -> pd.Series:
 
 
 def fig03(tables: Tables, settings: dict) -> dict[str, str]:
-    return of_runs(tables["euler"])
+    return of_runs(tables["euler" if "euler" in tables else "converged"])
 
 
 def fig08(tables: Tables, settings: dict) -> dict[str, str]:
@@ -55,12 +55,14 @@ def aside(least: float, most: float) -> str:
 
 
 def fig10(tables: Tables, settings: dict) -> dict[str, str]:
+    told = {"resolution": f"{tables['converged'].attrs['resolution']:g}"}
+    if "euler" not in tables:
+        return told
     both = [
         tables[method][tables[method].is_critical].set_index("acceleration").z0 for method in ("euler", "converged")
     ]
     change = 100.0 * (both[0] / both[1] - 1.0).dropna()
-    return {
-        "resolution": f"{tables['converged'].attrs['resolution']:g}",
+    return told | {
         "aside": aside(change.max(), change.min()),
         "most_at": f"{change.idxmin():g}",
     }
@@ -73,6 +75,9 @@ def fig20(tables: Tables, settings: dict) -> dict[str, str]:
 
 
 def fig22(tables: Tables, settings: dict) -> dict[str, str]:
+    told = {"epsilon": f"{tables['converged'].attrs['epsilon']:.0e}".replace("e-0", "e-")}
+    if "euler" not in tables:
+        return told
     spectrum = tables["spectrum"]
     up = spectrum[(spectrum.branch == "up")].sort_values("acceleration")
     joined = pd.merge_asof(
@@ -82,8 +87,7 @@ def fig22(tables: Tables, settings: dict) -> dict[str, str]:
         direction="nearest",
     )
     joined = joined[joined.chaotic]
-    return {
-        "epsilon": f"{tables['converged'].attrs['epsilon']:.0e}".replace("e-0", "e-"),
+    return told | {
         "euler_positive": f"{positive_onset(tables['euler']):g}",
         "converged_positive": f"{positive_onset(tables['converged']):g}",
         "plateau": f"{joined['lambda'].median():.0f}",
@@ -105,8 +109,10 @@ def fig24(tables: Tables, settings: dict) -> dict[str, str]:
 
 
 def bifurcation(tables: Tables, settings: dict) -> dict[str, str]:
-    spectrum, accumulation = tables["spectrum"], tables["cascade"].accumulation.dropna().iloc[-1]
-    runs = {}
+    spectrum, found = tables["spectrum"], tables["cascade"].accumulation.dropna()
+    if found.empty:
+        return {"longest_period": str(settings["longest_period"]), "accumulation": ""}
+    accumulation, runs = found.iloc[-1], {}
     for branch, rows in spectrum.sort_values("acceleration").groupby("branch"):
         early = rows[rows.acceleration < accumulation]
         runs[branch] = runs_of(early.acceleration, chaotic(early))
@@ -248,8 +254,8 @@ NUMBERS: dict[str, Callable[[Tables, dict], dict[str, str]]] = {
 }
 
 
-def caption(template: str, name: str, tables: Tables, settings: dict) -> str:
-    """The caption of a figure from its template.
+def caption(template: str, name: str, tables: Tables, settings: dict, paper: bool = True) -> str:
+    """The caption of a figure from its template; `paper` tells whether it is about the paper's machine.
 
     Raises
     ------
@@ -257,15 +263,21 @@ def caption(template: str, name: str, tables: Tables, settings: dict) -> str:
         if the template asks for a number that NUMBERS does not give
     """
     numbers = NUMBERS[name](tables, settings) if name in NUMBERS else {}
-    return Environment(undefined=StrictUndefined, keep_trailing_newline=True).from_string(template).render(numbers)
+    return (
+        Environment(undefined=StrictUndefined, keep_trailing_newline=True)
+        .from_string(template)
+        .render(numbers, paper=paper)
+    )
 
 
-def make(figures: dict[str, dict], references: list[str], read: list[pd.DataFrame], templates: list[str]) -> list[str]:
+def make(
+    figures: dict[str, dict], paper: bool, references: list[str], read: list[pd.DataFrame], templates: list[str]
+) -> list[str]:
     """The captions of all figures, in their order, from the tables that `references` name as SECTION/NAME."""
     tables_by_name = dict(zip(references, read, strict=True))
     found = []
     for (name, entry), template in zip(figures.items(), templates, strict=True):
         of_figure = {**entry["tables"], **entry.get("caption_tables", {})}
         tables = {role: tables_by_name[reference] for role, reference in of_figure.items()}
-        found.append(caption(template, name, tables, entry.get("settings", {})))
+        found.append(caption(template, name, tables, entry.get("settings", {}), paper))
     return found

@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from contextlib import AbstractContextManager
 
 import matplotlib as mpl
@@ -29,6 +29,7 @@ EULER = "#D55E00"
 SECOND_ESTIMATE = "#CC79A7"  # beside CONVERGED; green means chaos elsewhere
 CONVERGED_LABEL = "converged (exact events)"
 EULER_LABEL = "paper's method (Euler)"
+PANELS = {"euler": EULER_LABEL, "converged": CONVERGED_LABEL}  # of the paper's figures, in their order
 PLATE = "#555555"
 # Colour and name of every method that the solver is compared with.
 METHODS = {
@@ -83,6 +84,18 @@ def applied() -> AbstractContextManager:
 def figure(width: float, height: float) -> Figure:
     """An empty figure of a size in mm."""
     return Figure(figsize=(width * MM, height * MM))
+
+
+def panels(tables: Mapping[str, pd.DataFrame]) -> dict[str, str]:
+    """The methods whose tables are there, with their titles: for a machine of one's own it may be one."""
+    return {role: title for role, title in PANELS.items() if role in tables}
+
+
+def from_zero(axes: Axes) -> None:
+    """Let the vertical axis begin at zero, or below what is less."""
+    low = min((np.nanmin(line.get_ydata()) for line in axes.lines if len(line.get_ydata())), default=0.0)
+    if low >= 0.0:
+        axes.set_ylim(bottom=0.0)
 
 
 def mark(axes: Axes, x: float, label: str) -> None:

@@ -23,21 +23,32 @@ TABLES = {
 }
 
 
+BELOW = 0.999  # of the lowest amplitude: where the pole may lie at most
+
+
 def make(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
-    """The columns of a table of regressions from a table of critical heights."""
-    low, high = settings["acceleration"]
+    """The columns of a table of regressions from a table of critical heights; empty for too few of them."""
+    low, high = settings.get("acceleration", (critical.acceleration.min(), critical.acceleration.max()))
     data = critical[critical.is_critical & critical.acceleration.between(low, high)]
     data = data.acceleration.to_numpy(), data.z0.to_numpy()
-    paper = Hyperbola(**settings["paper"])
+    if len(np.unique(data[0])) <= len(Hyperbola._fields):
+        return {column.name: [] for column in TABLES["regressions"]}
     bounds = {name: tuple(limits) for name, limits in settings["bounds"].items()}
+    valley = dict(settings["valley"])
+    if "acceleration" not in settings:
+        # Of data that are not known beforehand: the pole of Eq. 13 stays below them.
+        valley["start"] = -BELOW * data[0].min()
+        bounds["B"] = valley["start"], bounds["B"][1]
+    valley = np.linspace(valley["start"], valley["stop"], int(valley["num"]))
     pymoo = regression.fit_pymoo(*data, bounds, settings["seed"], settings["evaluations"])
     least_squares = regression.fit_least_squares(*data, bounds["B"])
-    valley = settings["valley"]
-    valley, errors = regression.profile(*data, np.linspace(valley["start"], valley["stop"], int(valley["num"])))
-    triples = np.vstack([pymoo.parameters, least_squares.parameters, paper, valley])
+    valley, errors = regression.profile(*data, valley)
+    rows = [("pymoo", *pymoo.parameters, pymoo.error, pymoo.evaluations)]
+    rows.append(("least_squares", *least_squares.parameters, least_squares.error, least_squares.evaluations))
+    if "paper" in settings:
+        paper = Hyperbola(**settings["paper"])
+        rows.append(("paper", *paper, regression.mean_squared_error(*data, paper), 0))
+    rows += [("valley", *triple, error, 1) for triple, error in zip(valley, errors, strict=True)]
     return {
-        "fit": np.array(["pymoo", "least_squares", "paper"] + ["valley"] * len(valley)),
-        **dict(zip(Hyperbola._fields, triples.T, strict=True)),
-        "error": np.array([pymoo.error, least_squares.error, regression.mean_squared_error(*data, paper), *errors]),
-        "evaluations": np.array([pymoo.evaluations, least_squares.evaluations, 0] + [1] * len(valley)),
+        column.name: list(values) for column, values in zip(TABLES["regressions"], zip(*rows, strict=True), strict=True)
     }

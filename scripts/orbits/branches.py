@@ -2,8 +2,10 @@
 
 import numpy as np
 
-from conveyor.analysis import orbits, stroboscope
+from conveyor.analysis import orbits
 from conveyor.analysis.orbits import Bifurcation, Branch, Orbit, ReturnMap
+from conveyor.analysis.states import LONG_FLIGHT
+from orbits.seeds import seeds
 from pipeline import fields, grid
 
 TABLES = {
@@ -35,30 +37,6 @@ TABLES = {
 def parameters_of(settings: dict) -> np.ndarray:
     """The packed conveyor of the settings; its amplitude does not count."""
     return grid.product({"acceleration": [0.0]}, settings["model"])[1][0]
-
-
-def seeds(settings: dict) -> list[Orbit]:
-    """The stable orbits that the starts of the settings end in.
-
-    Raises
-    ------
-    ValueError
-        names the start that does not end in one
-    """
-    found = []
-    for start in settings["seeds"]:
-        row = grid.product({name: [value] for name, value in start.items()}, settings["model"])[1]
-        state = stroboscope.initial_states(row, orbits.TOLERANCE)[0]
-        orbit, _ = orbits.settled_orbit(
-            row[0], start["acceleration"], state, range(1, settings["max_period"] + 1), settings["cycles"]
-        )
-        if orbit is None:
-            raise ValueError(
-                f"orbits.seeds: {start} ends in no stable orbit of up to {settings['max_period']} cycles; "
-                "choose another amplitude or more cycles"
-            )
-        found.append(orbit)
-    return found
 
 
 def describe(orbit: Orbit) -> dict[str, float]:
@@ -132,7 +110,8 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
             f"the jumping orbit of {begin:g} m/s² (the last of orbits.seeds) is followed to {end:g} m/s² and does "
             "not double its period: the upper one of orbits.limits must lie behind its first doubling"
         )
-    double = orbits.doubled(parameters, first)
+    if (double := orbits.doubled(parameters, first)) is None:
+        raise ValueError(f"no orbit of twice the period was found at the doubling at {first.orbit.acceleration:g} m/s²")
     span = (first.orbit.acceleration - 1.0, first.orbit.acceleration + 20.0)
     following = orbits.follow_branch(parameters, double, span)
     second = min(filter(doubles, following.bifurcations), key=lambda b: b.orbit.acceleration, default=None)
@@ -144,8 +123,26 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
     return [first, second]
 
 
+def cascade_of(
+    parameters: np.ndarray, branches: list[Branch], starts: list[Orbit], settings: dict
+) -> list[Bifurcation]:
+    """The doubling cascade of the last one of given seeds, or of the first jumping orbit that has one; else nothing."""
+    if "seeds" in settings:
+        return orbits.doubling_cascade(parameters, *first_doublings(parameters, branches, starts[-1]))
+    jumps = [orbit for orbit in starts if orbit.longest_flight >= LONG_FLIGHT]
+    for orbit in sorted(jumps, key=lambda orbit: (orbit.period, orbit.acceleration)):
+        try:
+            doublings = first_doublings(parameters, branches, orbit)
+        except ValueError:
+            continue
+        return orbits.doubling_cascade(parameters, *doublings)
+    return []
+
+
 def cascade_rows(cascade: list[Bifurcation]) -> list[dict]:
     """One row for each doubling, with Feigenbaum's ratio and the accumulation point that the doublings so far tell."""
+    if not cascade:
+        return []
     amplitudes = np.array([b.orbit.acceleration for b in cascade])
     ratios = [np.nan, *orbits.ratios(amplitudes), np.nan]
     rows = []
@@ -164,9 +161,9 @@ def columns(rows: list[dict], kind: str) -> dict[str, np.ndarray]:
 def make(settings: dict) -> dict[str, dict[str, np.ndarray]]:
     """The columns of the three tables, by their kinds, for the section `orbits` of the config."""
     parameters = parameters_of(settings)
-    starts = seeds(settings)
+    starts = seeds(parameters, settings)
     branches = orbits.explore(parameters, starts, tuple(settings["limits"]), settings["max_period"])
-    cascade = orbits.doubling_cascade(parameters, *first_doublings(parameters, branches, starts[-1]))
+    cascade = cascade_of(parameters, branches, starts, settings)
     return {
         "branches": columns(branch_rows(parameters, branches), "branches"),
         "folds_and_doublings": columns(bifurcation_rows(branches), "folds_and_doublings"),

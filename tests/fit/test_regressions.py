@@ -17,14 +17,19 @@ SETTINGS = {
 }
 
 
-def made() -> pd.DataFrame:
-    """The table of fits to critical heights on the curve; what is not critical, or outside, lies off it."""
+def made(settings: dict = SETTINGS) -> pd.DataFrame:
+    """The table of fits to these heights."""
+    return pd.DataFrame(regressions.make(heights(), settings))
+
+
+def heights() -> pd.DataFrame:
+    """Critical heights on the curve; what is not critical, or outside of the settings' amplitudes, lies off it."""
     acceleration = np.linspace(25.0, 50.0, 51)
     height = TRUE["A"] / (TRUE["B"] + acceleration) + TRUE["C"]
     on_curve = pd.DataFrame({"acceleration": acceleration, "z0": height, "is_critical": True})
     on_curve.loc[~on_curve.acceleration.between(*SETTINGS["acceleration"]), "z0"] = 1.0
     others = on_curve.assign(z0=1.0, is_critical=False)
-    return pd.DataFrame(regressions.make(pd.concat([on_curve, others]), SETTINGS))
+    return pd.concat([on_curve, others])
 
 
 def test_both_fits_find_the_curve():
@@ -39,3 +44,20 @@ def test_the_valley_has_its_bottom_at_the_true_parameter():
     assert valley.B.tolist() == pytest.approx([-22.0, -21.0, -20.0, -19.0, -18.0])
     assert valley.error.idxmin() == valley.index[2]
     assert valley.error.iloc[2] < 1e-20
+
+
+def test_without_an_interval_all_amplitudes_are_fitted():
+    """As for a machine of one's own: the lowest amplitude bounds B, and no triple of the paper's is looked at."""
+    own = {name: value for name, value in SETTINGS.items() if name not in ("acceleration", "paper")}
+    data = heights()
+    data = data[data.is_critical & (data.z0 < 1.0)]
+    table = pd.DataFrame(regressions.make(data, own | {"bounds": SETTINGS["bounds"] | {"B": [-15.0, 0.0]}}))
+    assert set(table.fit) == {"pymoo", "least_squares", "valley"}
+    assert table.B.min() == pytest.approx(-data.acceleration.min(), rel=2e-3)
+    assert table.set_index("fit").loc["pymoo", "B"] == pytest.approx(TRUE["B"], rel=1e-4)
+
+
+def test_too_few_heights_are_not_fitted():
+    own = {name: value for name, value in SETTINGS.items() if name not in ("acceleration", "paper")}
+    assert pd.DataFrame(regressions.make(heights().head(3), own)).empty
+    assert pd.DataFrame(regressions.make(heights().head(0), own)).empty

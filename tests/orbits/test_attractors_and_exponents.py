@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 from project import read_config
 
-from orbits import branches, exponents, strobes, witnesses
+from orbits import branches, exponents, seeds, strobes, witnesses
 
 MODEL = {
     "acceleration": 40.0,
@@ -75,4 +75,28 @@ def test_limits_below_the_first_doubling_are_named():
     section = read_config("orbits")["orbits"]
     settings = {**section, "limits": [20.0, 45.0], "max_period": 1, "model": MODEL}
     with pytest.raises(ValueError, match=r"followed to 45\.\d+ m/s².*upper one of orbits\.limits"):
+        branches.make(settings)
+
+
+def test_orbits_to_begin_with_are_found():
+    """At 35 to 45 m/s² a part rides on the plate or jumps with the period of the excitation, and no cascade begins."""
+    section = read_config("orbits")["orbits"]
+    settings = {**section, "limits": [35.0, 45.0], "max_period": 1, "cycles": 300, "model": MODEL}
+    del settings["seeds"]
+    found = seeds.seeds(branches.parameters_of(settings), settings)
+    assert {orbit.period for orbit in found} == {1}
+    assert {orbit.longest_flight > 0.5 for orbit in found} == {True, False}
+    tables = branches.make(settings)
+    assert len(set(tables["branches"]["branch"])) == 2
+    assert len(tables["cascade"]["number"]) == 0
+
+
+def test_no_orbit_to_begin_with_is_told():
+    """In chaos there is no stable one."""
+    section = read_config("orbits")["orbits"]
+    settings = {**section, "limits": [79.0, 81.0], "cycles": 300, "model": MODEL}
+    del settings["seeds"]
+    with pytest.raises(
+        ValueError, match=r"orbits\.seeds: no start between \[79\.0, 81\.0\] m/s² ends in a stable orbit"
+    ):
         branches.make(settings)

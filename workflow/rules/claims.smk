@@ -68,14 +68,14 @@ LOOKED_AT = (
         *tables_of("precision", *config["precision"]["scenes"]).values(),
         *tables_of("results", *(name for name in TABLES["results"] if name not in ON_REQUEST)).values(),
     ]
-    if TESTS
+    if TESTS and not OWN_MACHINE
     else []
 )
 
 
 def checked_files():
-    """What says that the results were tested, where there are tests."""
-    return [result("checked.txt")] if TESTS else []
+    """What says that the results were tested, where there are tests of them."""
+    return [result("checked.txt")] if TESTS and not OWN_MACHINE else []
 
 
 RULES["check_results"] = {

@@ -20,6 +20,15 @@ def in_message(text):
     return text.replace("{", "{{").replace("}", "}}")
 
 
+def refuse(figure, reason):
+    """Inputs of a rule whose figure makes no sense for this machine: an error that says why, once it is asked for."""
+
+    def refused(wildcards):
+        raise WorkflowError(f"{figure_file(figure)} is not made for this machine: {reason}")
+
+    return [refused]
+
+
 for figure, entry in (config["figures"] | config["figures_on_request"]).items():
 
     rule:
@@ -68,4 +77,19 @@ for name, figures, message in (
         for reference in entry.get(key, {}).values()
     )
     RULES[name]["input"]["templates"] = [f"workflow/report/{figure}.rst" for figure in figures]
-    RULES[name]["params"]["figures"] = figures
+    RULES[name]["params"] |= {"figures": figures, "paper": not OWN_MACHINE}
+
+# Figures that make no sense for this machine.
+for figure, reason in refusals(PAPER, config).items():
+
+    rule:
+        name:
+            f"refuse_{figure}"
+        input:
+            refuse(figure, reason),
+        output:
+            figure_file(figure),
+            figure_file(figure, "png"),
+        localrule: True
+        message:
+            f"{figure} is the paper's own"

@@ -47,23 +47,25 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
             zorder=3,
             label=label,
         )
-    cascade = tables["cascade"]
-    for axes in (diagram, exponents):
-        axes.axvline(cascade.accumulation.iloc[-1], color="0.5", linewidth=0.6, linestyle=":")
+    # Where no doublings were found, or too few, nothing is known of where they accumulate.
+    accumulation = tables["cascade"].accumulation.dropna().tail(1)
+    for place in accumulation:
+        for axes in (diagram, exponents):
+            axes.axvline(place, color="0.5", linewidth=0.6, linestyle=":")
+        exponents.annotate(
+            "doublings accumulate",
+            (place, 0.05),
+            xycoords=("data", "axes fraction"),
+            xytext=(3, 0),
+            textcoords="offset points",
+            size=7.0,
+        )
     for branch, rows in tables["spectrum"].groupby("branch", sort=False):
         exponents.plot(
             rows.acceleration, rows.lambda_1, color=DIRECTIONS[branch], linewidth=0.6, label=f"swept {branch}"
         )
     exponents.axhline(0.0, color="black", linewidth=0.6)
     exponents.set_ylim(settings["lowest_exponent"], 1.15 * tables["spectrum"].lambda_1.max())
-    exponents.annotate(
-        "doublings accumulate",
-        (cascade.accumulation.iloc[-1], 0.05),
-        xycoords=("data", "axes fraction"),
-        xytext=(3, 0),
-        textcoords="offset points",
-        size=7.0,
-    )
     diagram.plot([], [], color="black", linewidth=0.7, label="stable orbit")
     diagram.plot([], [], color="black", linewidth=0.5, linestyle=(0, (3, 2)), label="unstable orbit")
     diagram.set_ylabel("speed of approach $v$ at $\\psi$ = $\\psi_0$ in m/s")

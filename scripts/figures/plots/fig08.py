@@ -22,11 +22,12 @@ def plate_velocity(sweep: pd.DataFrame) -> tuple[list[float], list[float]]:
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     """From the sweeps `converged` and `euler` over acceleration and z0; settings: two_states, m/s²."""
     figure = style.figure(style.PAGE, 72.0)
-    panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    titles = {"euler": style.EULER_LABEL, "converged": style.CONVERGED_LABEL}
+    titles = style.panels(tables)
+    panels = figure.subplots(1, len(titles), sharex=True, sharey=True, squeeze=False)[0]
     for axes, (role, title) in zip(panels, titles.items(), strict=True):
         sweep = tables[role]
-        axes.axvspan(*settings["two_states"], color="0.93", linewidth=0.0)
+        if "two_states" in settings:
+            axes.axvspan(*settings["two_states"], color="0.93", linewidth=0.0)
         axes.plot(*plate_velocity(sweep), color=style.PLATE, linewidth=0.8, linestyle="--")
         for state, colour in style.STATE_COLOURS.items():
             rows = sweep[sweep.state == state]
@@ -34,7 +35,8 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         axes.set_title(title)
         axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     panels[0].set_ylabel("mean feeding velocity in m/s")
-    panels[0].set_ylim(bottom=0.0)
+    for axes in panels:
+        style.from_zero(axes)
     present = {state for table in tables.values() for state in table.state}
     handles = {
         state: Line2D([], [], color=colour, marker="o", linestyle="")
@@ -42,6 +44,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         if state in present
     }
     handles["largest velocity of the conveyor"] = Line2D([], [], color=style.PLATE, linewidth=0.8, linestyle="--")
-    handles["two states (paper)"] = Patch(color="0.93")
+    if "two_states" in settings:
+        handles["two states (paper)"] = Patch(color="0.93")
     figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=len(handles))
     return figure

@@ -17,29 +17,32 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     """From the critical heights `converged` and `euler` and the regressions `fit` and `fit_euler`."""
     figure = style.figure(style.COLUMN, 66.0)
     axes = figure.subplots()
-    converged, euler = tables["converged"], tables["euler"]
-    euler = euler[euler.is_critical]
-    fitted = np.linspace(*tables["fit"].attrs["acceleration"], 200)
-    curves = (
-        (tables["fit"], "pymoo", style.CONVERGED, "-", "Eq. 13, fitted to converged"),
-        (tables["fit_euler"], "pymoo", style.EULER, "-", "Eq. 13, fitted to the paper's method"),
-        (tables["fit"], "paper", "black", ":", "Eq. 13 with the paper's A, B, C"),
-    )
-    for fits, fit, colour, line, label in curves:
-        axes.plot(
-            fitted, 1e3 * critical_height(fitted, triple(fits, fit)), line, color=colour, linewidth=0.8, label=label
-        )
-    hollow = {"markerfacecolor": "none", "markeredgewidth": 0.6, "linestyle": ""}
-    axes.plot(
-        euler.acceleration,
-        1e3 * euler.z0,
-        marker="o",
-        markersize=4.0,
-        color=style.EULER,
-        label=style.EULER_LABEL,
-        **hollow,
-    )
+    converged = tables["converged"]
     edge = converged[converged.is_critical]
+    curves = (
+        ("fit", "pymoo", style.CONVERGED, "-", "Eq. 13, fitted to converged"),
+        ("fit_euler", "pymoo", style.EULER, "-", "Eq. 13, fitted to the paper's method"),
+        ("fit", "paper", "black", ":", "Eq. 13 with the paper's A, B, C"),
+    )
+    there = [curve for curve in curves if curve[0] in tables and (tables[curve[0]].fit == curve[1]).any()]
+    for role, fit, colour, line, label in there:
+        fitted = np.linspace(
+            *tables[role].attrs.get("acceleration", (edge.acceleration.min(), edge.acceleration.max())), 200
+        )
+        height = 1e3 * critical_height(fitted, triple(tables[role], fit))
+        axes.plot(fitted, height, line, color=colour, linewidth=0.8, label=label)
+    hollow = {"markerfacecolor": "none", "markeredgewidth": 0.6, "linestyle": ""}
+    if "euler" in tables:
+        euler = tables["euler"][tables["euler"].is_critical]
+        axes.plot(
+            euler.acceleration,
+            1e3 * euler.z0,
+            marker="o",
+            markersize=4.0,
+            color=style.EULER,
+            label=style.EULER_LABEL,
+            **hollow,
+        )
     axes.plot(edge.acceleration, 1e3 * edge.z0, ".", markersize=2.6, color=style.CONVERGED, label=style.CONVERGED_LABEL)
     back = converged[~converged.is_critical]
     if len(back):
@@ -55,5 +58,9 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     axes.set_ylabel("critical initial height $z_0$ in mm")
     axes.set_ylim(bottom=0.0)
+    if edge.empty:
+        axes.annotate("no change of state over these heights", (0.5, 0.5), xycoords="axes fraction", ha="center")
+    if tables["fit"].empty:
+        axes.plot([], [], " ", label=f"no fit of Eq. 13 to {edge.acceleration.nunique()} amplitudes")
     axes.legend()
     return figure

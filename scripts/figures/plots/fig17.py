@@ -9,16 +9,14 @@ from figures import style
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     """From the sweeps `converged` and `euler` over z0."""
     figure = style.figure(style.PAGE, 60.0)
-    panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    looks = (
-        ("euler", style.EULER, style.EULER_LABEL),
-        ("converged", style.CONVERGED, style.CONVERGED_LABEL),
-    )
-    for axes, (role, colour, title) in zip(panels, looks, strict=True):
-        rows = tables[role]
+    titles = style.panels(tables)
+    panels = figure.subplots(1, len(titles), sharex=True, sharey=True, squeeze=False)[0]
+    for axes, (role, title) in zip(panels, titles.items(), strict=True):
+        rows, colour = tables[role], style.CURVES[role]["color"]
         axes.plot(1e3 * rows.z0, rows.mean_velocity, ".-", color=colour, linewidth=0.4, markersize=2.5)
         axes.set_title(f"{title}, $\\hat{{a}}$ = {rows.attrs['model']['acceleration']:g} m/s²")
         axes.set_xlabel("initial height $z_0$ in mm")
     panels[0].set_ylabel("mean feeding velocity in m/s")
-    panels[0].set_ylim(bottom=0.0)
+    for axes in panels:
+        style.from_zero(axes)
     return figure

@@ -8,30 +8,37 @@ from figures import style
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     """From the estimates `converged`, `euler` and the critical heights `edge`; settings: first_positive, m/s²."""
-    figure = style.figure(style.COLUMN, 84.0)
-    panels = figure.subplots(2, 1, sharex=True, sharey=True)
+    titles = style.panels(tables)
+    figure = style.figure(style.COLUMN, 16.0 + 34.0 * len(titles))
+    panels = figure.subplots(len(titles), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     edge = tables["edge"]
-    curves = {
-        "euler": (style.EULER, style.EULER_LABEL),
-        "converged": (style.CONVERGED, style.CONVERGED_LABEL),
-    }
-    for axes, (role, (colour, label)) in zip(panels, curves.items(), strict=True):
-        table = tables[role]
+    for axes, (role, label) in zip(panels, titles.items(), strict=True):
+        table, colour = tables[role], style.CURVES[role]["color"]
         between = edge.acceleration[edge.is_critical & (edge.z0 < table.attrs["epsilon"])]
-        axes.axvspan(between.min(), between.max(), color="0.88", linewidth=0.0)
         axes.axhline(0.0, color="black", linewidth=0.6)
         axes.plot(table.acceleration, table["lambda"], color=colour, linewidth=0.8)
-        axes.axvline(settings["first_positive"], color="black", linewidth=0.6, linestyle=":")
-        axes.annotate(
-            f"{settings['first_positive']:g} m/s²",
-            (settings["first_positive"], 0.0),
-            xytext=(-3, -9),
-            textcoords="offset points",
-            ha="right",
-            size=7.0,
-        )
-        axes.annotate("two basins", (between.mean(), -20.0), ha="center", va="center", rotation=90, size=7.0)
+        if len(between):
+            axes.axvspan(between.min(), between.max(), color="0.88", linewidth=0.0, zorder=0)
+            axes.annotate(
+                "two basins",
+                (between.mean(), 0.25),
+                xycoords=("data", "axes fraction"),
+                ha="center",
+                va="center",
+                rotation=90,
+                size=7.0,
+            )
+        if "first_positive" in settings:
+            axes.axvline(settings["first_positive"], color="black", linewidth=0.6, linestyle=":")
+            axes.annotate(
+                f"{settings['first_positive']:g} m/s²",
+                (settings["first_positive"], 0.0),
+                xytext=(-3, -9),
+                textcoords="offset points",
+                ha="right",
+                size=7.0,
+            )
         axes.set_title(label, color=colour)
         axes.set_ylabel("exponent of $z_p$ in 1/s")
-    panels[1].set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    panels[-1].set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     return figure

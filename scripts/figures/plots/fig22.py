@@ -11,12 +11,11 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     figure = style.figure(style.COLUMN, 62.0)
     axes = figure.subplots()
     axes.axhline(0.0, color="black", linewidth=0.6)
-    for role, colour, width, label in (
-        ("euler", style.EULER, 1.6, style.EULER_LABEL),
-        ("converged", style.CONVERGED, 0.8, style.CONVERGED_LABEL),
-    ):
-        axes.plot(tables[role].acceleration, tables[role]["lambda"], color=colour, linewidth=width, label=label)
-    style.mark(axes, settings["critical_acceleration"], f"{settings['critical_acceleration']:g} m/s²")
+    for role, label in style.panels(tables).items():
+        table, width = tables[role], 1.6 if role == "euler" else 0.8
+        axes.plot(table.acceleration, table["lambda"], color=style.CURVES[role]["color"], linewidth=width, label=label)
+    if "critical_acceleration" in settings:
+        style.mark(axes, settings["critical_acceleration"], f"{settings['critical_acceleration']:g} m/s²")
     axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     axes.set_ylabel("Lyapunov exponent of $\\dot{x}_p$ in 1/s")
     style.legend_above(figure, axes, ncols=2)

@@ -14,12 +14,12 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     axes = figure.subplots()
     for dimension in (1.0, 2.0):
         axes.axhline(dimension, color="0.8", linewidth=0.6)
-    curves = (
+    looks = (
         ("euler", "o-", style.EULER, "paper's method: boxes, first second"),
         ("converged", "s", style.CONVERGED, "converged: boxes, settled motion"),
         ("correlation", "x", style.SECOND_ESTIMATE, "converged: correlation sum"),
     )
-    for role, marker, colour, label in curves:
+    for role, marker, colour, label in [look for look in looks if look[0] in tables]:
         table = tables[role]
         known = table[table.dimension.notna()]
         axes.errorbar(
@@ -46,7 +46,8 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
                 markeredgewidth=0.8,
             )
     axes.plot([], [], "|", color="black", markersize=3.5, label="no estimate: its interval is too wide")
-    style.mark(axes, settings["critical_acceleration"], f"{settings['critical_acceleration']:g} m/s²")
+    if "critical_acceleration" in settings:
+        style.mark(axes, settings["critical_acceleration"], f"{settings['critical_acceleration']:g} m/s²")
     # Every bar is seen from end to end, with room for the marks below.
     ends = [table.dimension + sign * table.error for table in tables.values() for sign in (-1.0, 1.0)]
     low, high = pd.concat(ends).min(), pd.concat(ends).max()

@@ -1,0 +1,187 @@
+"""A machine of one's own: the paper's config in its scales, without what belongs to the paper."""
+
+import math
+
+import pytest
+import yaml
+from project import ROOT, Project, merged, read_config
+
+from conveyor.solver.model import Conveyor
+from workflow.configuration import by_methods, canonical, problems
+from workflow.own_machine import MARKS, contact_time, fitted, is_own, model_problems, refusals
+
+CONFIG = canonical(read_config())
+EXAMPLES = {path.stem: path for path in sorted((ROOT / "config/examples").glob("*.yaml"))}
+# Figures for any machine.
+ANY = {f"fig{number:02d}" for number in (3, 8, 9, 10, 12, 13, 14, 17, 18, 19, 20, 22, 23, 24)}
+ANY |= {"bifurcation", "operating", "basin_stability"}
+
+
+def example(name: str) -> dict:
+    return yaml.safe_load(EXAMPLES[name].read_text())
+
+
+def config_of(overlay: dict) -> dict:
+    """The whole config of an overlay, as the Snakefile makes it."""
+    whole = merged(fitted(CONFIG, overlay), overlay)
+    assert problems(whole) == []
+    return by_methods(canonical(whole))
+
+
+@pytest.mark.parametrize(
+    ("overlay", "own"),
+    [
+        ({}, False),
+        ({"prefix": "mine"}, False),
+        ({"model": {"friction": 0.2}}, False),
+        ({"prefix": "mine", "model": {"acceleration": 50.0, "z0": 0.1}}, False),
+        ({"prefix": "mine", "model": {"friction": 0.15}}, False),
+        ({"prefix": "mine", "model": {"friction": 0.2}}, True),
+        ({"prefix": "mine", "model": 3}, False),
+    ],
+)
+def test_a_prefix_and_another_machine_make_a_machine_of_ones_own(overlay, own):
+    assert is_own(CONFIG, overlay) == own
+
+
+def test_overlays_of_the_paper_change_what_they_name_only():
+    """The reduced config has a prefix, but the paper's machine: its axes begin and end where the paper's do."""
+    assert not is_own(CONFIG, read_config("reduced"))
+
+
+def test_numbers_keep_their_values_in_the_scales_of_the_machine():
+    """Twice the frequency under four times the gravity: heights g/ω² stay, velocities double, times halve."""
+    found = config_of({"prefix": "mine", "model": {"frequency": 100.0, "gravity": 39.24}})
+    assert found["model"]["acceleration"] == 160.0
+    assert (found["model"]["frequency"], found["model"]["gravity"]) == (100.0, 39.24)
+    assert found["sweeps"]["amplitudes"]["axes"] == {
+        "acceleration": {"start": 80.0, "stop": 360.0, "num": 281},
+        "z0": {"start": 0.0, "stop": 0.5e-3, "num": 11},
+    }
+    assert found["sweeps"]["map_velocity"]["axes"]["vz0"] == {"start": -0.4, "stop": 0.4, "num": 400}
+    assert found["sweeps"]["map_velocity"]["axes"]["psi0"] == CONFIG["sweeps"]["map_velocity"]["axes"]["psi0"]
+    assert found["solver"]["duration"] == 0.5
+    assert found["sweeps"]["map_velocity"]["duration"] == 0.01
+    assert found["signals"]["states"]["times"]["stop"] == 0.5
+    assert found["orbits"]["limits"] == [80.0, 360.0]
+    assert found["operating"]["vz0"] == [-0.4, 0.4]
+    assert found["estimates"]["height"]["epsilon"] == 5.0e-5
+    assert found["figures"]["fig23"]["settings"]["portraits"][2] == [320.0, 0.0]
+
+
+def test_amplitudes_are_those_of_the_vertical_motion():
+    angle = math.asin(2.0 * math.sin(CONFIG["model"]["angle"]))
+    found = config_of({"prefix": "mine", "model": {"angle": angle}})
+    assert found["orbits"]["limits"] == [10.0, 45.0]
+    assert found["critical"]["edge"]["scan"] == CONFIG["critical"]["edge"]["scan"]
+
+
+def test_a_machine_of_the_same_scales_has_the_same_axes():
+    found = fitted(CONFIG, {"prefix": "mine", "model": {"damping": 0.4, "friction": 0.3}})
+    assert found["operating"] == CONFIG["operating"]
+    assert found["attractors"] == CONFIG["attractors"]
+    assert found["solver"] == CONFIG["solver"]
+    assert found["sweeps"]["map_amplitude"] == CONFIG["sweeps"]["map_amplitude"]
+    assert found["model"] == CONFIG["model"] | {"damping": 0.4, "friction": 0.3}
+
+
+def test_the_step_is_that_of_the_contact():
+    """A contact a hundred times as stiff (p = 1.5: k^(1/3) in the frequency), whole steps in each cycle."""
+    assert contact_time(CONFIG["model"]) == pytest.approx(1.0 / (2.0 * math.pi * 255.0), rel=0.01)
+    stiff = fitted(CONFIG, {"prefix": "mine", "model": {"stiffness": 5.0e7}})["solver"]["step"]
+    expected = CONFIG["solver"]["step"] * 100.0 ** (-1.0 / 3.0)
+    assert 0.95 * expected < stiff <= expected
+    assert (1.0 / (50.0 * stiff)) == pytest.approx(round(1.0 / (50.0 * stiff)), abs=1e-6)
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_examples_are_short_and_unlike_the_paper(name):
+    assert len(EXAMPLES[name].read_text().splitlines()) <= 15
+    overlay = example(name)
+    assert overlay["prefix"] == name
+    paper = Conveyor()
+    assert overlay["model"]["frequency"] != paper.frequency
+    assert overlay["model"]["mass"] > 5.0 * paper.mass
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_what_is_the_papers_own_is_left_out(name):
+    found = config_of(example(name))
+    assert set(found["figures"]) >= ANY
+    assert not set(found["figures"]) & set(refusals(CONFIG, found))
+    assert set(found["figures"]) | set(refusals(CONFIG, found)) == set(CONFIG["figures"])
+    assert found["claims"] == {}
+    assert "seeds" not in found["orbits"]
+    for entry in found["figures"].values():
+        assert not set(entry.get("settings", {})) & set(MARKS)
+        assert not any("euler" in role for role in entry["tables"])
+    methods = {
+        entry.get("method", "event")
+        for section in ("sweeps", "critical", "estimates", "signals", "spectra", "dimensions")
+        for entry in found[section].values()
+    }
+    assert methods == {"event"}
+
+
+def test_what_an_overlay_names_is_as_it_says():
+    overlay = merged(
+        example("bowl"),
+        {
+            "sweeps": {"amplitudes": {"methods": ["event", "euler"], "axes": {"z0": {"num": 3}}}},
+            "critical": {"edge_euler": {"axes": {"acceleration": [30.0]}}},
+            "orbits": {"seeds": [{"acceleration": 20.0, "z0": 0.0}]},
+            "figures": {"fig04": {"title": "Mine"}},
+        },
+    )
+    found = config_of(overlay)
+    assert "amplitudes_euler" in found["sweeps"]
+    assert "heights_euler" not in found["sweeps"]
+    assert found["sweeps"]["amplitudes"]["axes"]["z0"]["num"] == 3
+    assert found["sweeps"]["amplitudes"]["axes"]["z0"]["stop"] == pytest.approx(1.25e-4)
+    assert found["figures"]["fig03"]["tables"]["euler"] == "sweeps/amplitudes_euler"
+    assert "euler" not in found["figures"]["fig09"]["tables"]
+    assert found["figures"]["fig10"]["tables"].keys() == {"converged", "euler", "fit", "fit_euler"}
+    assert found["critical"]["edge_euler"]["axes"]["acceleration"] == [30.0]
+    assert found["orbits"]["seeds"][0]["acceleration"] == 20.0
+    assert found["figures"]["fig04"]["title"] == "Mine"
+    assert found["figures"]["fig04"]["tables"]["euler"] == "signals/below_above_euler"
+
+
+@pytest.mark.parametrize(
+    ("model", "told"),
+    [
+        ({"mass": -1.0}, "model.mass = -1.0 is outside"),
+        ({"angle": 0.0}, "model.angle = 0.0 moves the plate to and fro only"),
+        ({"weight": 1.0, "mass": 1.0}, "model.weight is an unknown key"),
+    ],
+)
+def test_a_machine_that_cannot_be_is_told(model, told):
+    (line,) = model_problems(CONFIG, {"prefix": "mine", "model": model})
+    assert told in line
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_the_named_figures_are_planned(name):
+    targets = [f"figures/{name}/{figure}.pdf" for figure in sorted(ANY)]
+    run = Project(ROOT).called("--dry-run", "--forceall", *targets, "--configfile", str(EXAMPLES[name]))
+    assert run.returncode == 0, run.stdout
+    for figure in ANY:
+        assert f"plot_{figure} " in run.stdout
+
+
+def test_a_figure_that_makes_no_sense_says_so():
+    run = Project(ROOT).called("--dry-run", "figures/bowl/fig04.pdf", "--configfile", str(EXAMPLES["bowl"]))
+    assert run.returncode != 0
+    assert "figures/bowl/fig04.pdf is not made for this machine: its amplitudes lie" in run.stdout
+
+
+def test_figures_and_captions_of_another_machine_are_made(built):
+    """On the small config: the converged solution alone, and nothing of the paper's in the captions."""
+    project = built.under({"prefix": "mine", "model": {"frequency": 100.0, "friction": 0.3}})
+    figures = ("fig03", "fig08", "fig22")
+    made = [f"figures/mine/{figure}.pdf" for figure in figures]
+    project.make(*made, "results/mine/captions/fig03.rst", "results/mine/claims.md")
+    for figure in figures:
+        assert "the paper" not in (project.folder / f"results/mine/captions/{figure}.rst").read_text()
+    assert "are not held against this one" in (project.folder / "results/mine/claims.md").read_text()
+    assert not list((project.folder / "results/mine").rglob("*euler*"))
