@@ -39,8 +39,8 @@ __all__ = [
     "resolve",
     "roles_of_solution",
     "tighter_reference",
-    "with_tighter",
     "type_problems",
+    "with_tighter",
 ]
 
 # What YAML calls the types of Python.

@@ -136,7 +136,7 @@ def fitted(paper: dict, overlay: dict) -> dict:
     del config["orbits"]["seeds"]
     for entry in config["regressions"].values():
         del entry["acceleration"], entry["paper"]
-    config["claims"] = {}
+    config["claims"], config["uncertainty"]["claims"] = {}, []
     asked = mapping(overlay.get("figures"))
     for name, entry in list(config["figures"].items()):
         if "paper_only" in entry and name not in asked:
