@@ -22,7 +22,7 @@ def test_nothing_after_a_touch(built):
 
 
 def test_one_plot_after_a_colour(edited):
-    project = edited("scripts/figures/plots/fig22.py", "style.CONVERGED,", '"#123456",')
+    project = edited("scripts/figures/plots/fig22.py", 'style.CURVES[role]["color"]', '"#123456"')
     assert project.planned(*TARGETS) == {"plot_fig22": 1}
 
 
