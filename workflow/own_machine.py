@@ -15,6 +15,7 @@ from workflow.tables_of_config import METHODS
 
 # Parameters that make a machine; the others of the model say how it runs.
 MACHINE = ("angle", "frequency", "stiffness", "damping", "friction", "mass", "exponent", "gravity")
+FIGURES = ("figures", "figures_on_request")
 # Settings of figures that mark a number of the paper.
 MARKS = ("critical_acceleration", "critical_height", "first_positive", "two_states")
 DIGITS = 4  # of scaled amplitudes, heights and velocities: they stand on axes and in titles
@@ -86,7 +87,7 @@ def without_twins(config: dict, overlay: dict) -> set[str]:
 
     Returns the tables that are left out.
     """
-    named = [config["figures"].get(name, {}) for name in mapping(overlay.get("figures"))]
+    named = [config[of].get(name, {}) for of in FIGURES for name in mapping(overlay.get(of))]
     needed = {reference for entry in named if "paper_only" in entry for reference in entry["tables"].values()}
     gone = set()
     for section in (*METHODS, "dimensions"):
@@ -137,23 +138,30 @@ def fitted(paper: dict, overlay: dict) -> dict:
     for entry in config["regressions"].values():
         del entry["acceleration"], entry["paper"]
     config["claims"], config["uncertainty"]["claims"] = {}, []
-    asked = mapping(overlay.get("figures"))
-    for name, entry in list(config["figures"].items()):
-        if "paper_only" in entry and name not in asked:
-            del config["figures"][name]
-            continue
-        for key in ("tables", "caption_tables"):
-            if key in entry:
-                entry[key] = {role: reference for role, reference in entry[key].items() if reference not in gone}
-        if "settings" in entry:
-            entry["settings"] = {key: value for key, value in entry["settings"].items() if key not in MARKS}
+    for section in FIGURES:
+        asked = mapping(overlay.get(section))
+        for name, entry in list(config[section].items()):
+            if "paper_only" in entry and name not in asked:
+                del config[section][name]
+            else:
+                without_the_papers(entry, gone)
     return config
+
+
+def without_the_papers(figure: dict, gone: set[str]) -> None:
+    """Leave out of a figure the tables that there are not, and the marks of the paper's numbers."""
+    for key in ("tables", "caption_tables"):
+        if key in figure:
+            figure[key] = {role: reference for role, reference in figure[key].items() if reference not in gone}
+    if "settings" in figure:
+        figure["settings"] = {key: value for key, value in figure["settings"].items() if key not in MARKS}
 
 
 def refusals(paper: dict, config: dict) -> dict[str, str]:
     """Figures of the paper's config that another one does not have, and why."""
     return {
         name: entry["paper_only"]
-        for name, entry in paper["figures"].items()
-        if "paper_only" in entry and name not in config["figures"]
+        for section in FIGURES
+        for name, entry in paper[section].items()
+        if "paper_only" in entry and name not in config[section]
     }

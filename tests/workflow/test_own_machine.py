@@ -109,7 +109,8 @@ def test_what_is_the_papers_own_is_left_out(name):
     found = config_of(example(name))
     assert set(found["figures"]) >= ANY
     assert not set(found["figures"]) & set(refusals(CONFIG, found))
-    assert set(found["figures"]) | set(refusals(CONFIG, found)) == set(CONFIG["figures"])
+    everything = set(CONFIG["figures"]) | set(CONFIG["figures_on_request"])
+    assert set(found["figures"]) | set(found["figures_on_request"]) | set(refusals(CONFIG, found)) == everything
     assert found["claims"] == {}
     assert "seeds" not in found["orbits"]
     for entry in found["figures"].values():
