@@ -97,6 +97,8 @@ def permuted(value):
             return {key: permuted(value[key]) for key in reversed(value)}
         case list():
             return [permuted(item) for item in value]
+        case bool():
+            return value
         case float() if value.is_integer():
             return int(value)
         case int():

@@ -12,6 +12,7 @@ from workflow.config_types import (
     NAME,
     NUMBERS,
     PARAMETERS,
+    Allowed,
     AtLeastTwo,
     Axes,
     Height,
@@ -519,7 +520,7 @@ NumberOfClaim = word(
 
 class Evidence(TypedDict):
     without: Annotated[list[NumberOfClaim], AfterValidator(distinct)]
-    shifted: Annotated[bool, Strict()]
+    shifted: Annotated[bool, Strict(), Allowed("true or false")]
 
 
 class EdgesOfFirst(TypedDict):

@@ -52,7 +52,12 @@ def test_a_number_that_a_caption_asks_for_in_vain_is_named(monkeypatch):
 
 
 def test_templates_tell_what_they_ask_for():
-    assert known_names.names_of_template(ROOT / "workflow/report/fig08.rst") == {"heights", "lowest_mm", "highest_mm"}
+    assert known_names.names_of_template(ROOT / "workflow/report/fig08.rst") == {
+        "heights",
+        "highest_mm",
+        "lowest_mm",
+        "paper",
+    }
 
 
 @pytest.mark.parametrize(

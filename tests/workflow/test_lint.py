@@ -11,6 +11,7 @@ ACCEPTED = {
     "Specify a conda environment or container for each rule.": "one environment for all, environment.txt, with hashes",
     "Mixed rules and functions in same snakefile.": "a stage's rules and what they alone need stand together",
     'Absolute path "/': "a separator of SECTION/NAME, no path",
+    "Param file is a prefix of input or output file but hardcoded": "a picture, which its job opens by itself",
     "Param results is a prefix of input or output file but hardcoded": "results/PREFIX/, which the config names",
 }
 

@@ -21,6 +21,7 @@ CALLS = {
     },
     "accuracy/wall_times": {"accuracy/precision"},
     "accuracy/label_checks": {"accuracy/settling_times"},
+    "accuracy/scaling": {"sweeps/shards"},
     "operating/shares": {"operating/regimes"},
     "identification/fronts": {"identification/edges"},
     "identification/printed": {"identification/edges", "motion/critical_heights"},
