@@ -3,13 +3,13 @@
 import os
 import tempfile
 
-# The library's functions are documented as Python has them, not as compiled objects without a signature.
-os.environ["NUMBA_DISABLE_JIT"] = "1"
-
 from docs import site
 from pipeline.rule_log import logged
 
 if __name__ == "__main__":
+    # The library's functions are documented as Python has them, not as compiled objects without a signature; Sphinx has
+    # not imported them yet.
+    os.environ["NUMBA_DISABLE_JIT"] = "1"
     with logged(snakemake.log[0]), tempfile.TemporaryDirectory() as folder:
         given = snakemake.input
         site.gather(

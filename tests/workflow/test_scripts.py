@@ -1,6 +1,7 @@
 """Every script can be imported without Snakemake."""
 
 import importlib
+import os
 
 import pytest
 from project import ROOT
@@ -15,4 +16,7 @@ MODULES = sorted(
 
 @pytest.mark.parametrize("name", MODULES)
 def test_a_script_is_a_module(name):
+    before = dict(os.environ)
     assert importlib.import_module(name)
+    # Other tests of the same process, and whoever imports it, keep their settings.
+    assert dict(os.environ) == before
