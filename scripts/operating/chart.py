@@ -58,7 +58,7 @@ def regular(shares: pd.DataFrame, regimes: pd.DataFrame) -> dict[str, str]:
         "several_share": numbers(several.best_share_low.min(), several.best_share_high.max(), 100.0),
         "most_share": f"{100.0 * most.best_share:.1f}",
         "most_stderr": f"{100.0 * most.stderr:.1f}",
-        "most_at": f"{most.acceleration:g}",
+        "most_at": f"{most.acceleration:.4g}",
         "most_best": f"{most.best:.3g}",
     }
 
@@ -87,7 +87,7 @@ def of_the_search(shares: pd.DataFrame) -> dict[str, str]:
         "highest": f"{amplitudes[-1]:g}",
         "vertical": numbers(shares.vertical.min(), shares.vertical.max()),
         "others": f"{100.0 * RULE_OF_THREE / search['starts']:.2g}",
-        "resolution": f"{search['resolution']:g}",
+        "resolution": f"{search['resolution']:.2g}",
         "step": f"{np.diff(amplitudes).max(initial=0.0):.3g}",
         "same_velocity": f"{100.0 * search['same_velocity']:g}",
     }
