@@ -86,6 +86,23 @@ def bifurcation_rows(branches: list[Branch]) -> list[dict]:
     return rows
 
 
+def explored(parameters: np.ndarray, starts: list[Orbit], settings: dict) -> list[Branch]:
+    """All branches that hang together with some orbits, each once.
+
+    Orbits that were looked for come in the order of their periods: those of doubled branches lie on what has been found
+    by then, and close to a doubling two branches of one orbit would not be seen to be one.
+    """
+    options = tuple(settings["limits"]), settings["max_period"]
+    if "seeds" in settings:
+        return orbits.explore(parameters, starts, *options)
+    branches = []
+    for period in sorted({orbit.period for orbit in starts}):
+        new = [orbit for orbit in starts if orbit.period == period]
+        new = [orbit for orbit in new if not any(orbits.on_branch(parameters, branch, orbit) for branch in branches)]
+        branches += orbits.explore(parameters, new, *options)
+    return branches
+
+
 def doubles(bifurcation: Bifurcation) -> bool:
     """Whether a period doubles there."""
     return bifurcation.kind == "period_doubling"
@@ -162,7 +179,7 @@ def make(settings: dict) -> dict[str, dict[str, np.ndarray]]:
     """The columns of the three tables, by their kinds, for the section `orbits` of the config."""
     parameters = parameters_of(settings)
     starts = seeds(parameters, settings)
-    branches = orbits.explore(parameters, starts, tuple(settings["limits"]), settings["max_period"])
+    branches = explored(parameters, starts, settings)
     cascade = cascade_of(parameters, branches, starts, settings)
     return {
         "branches": columns(branch_rows(parameters, branches), "branches"),

@@ -1,5 +1,7 @@
 """Strobes, exponents and witnesses on a few amplitudes, where they are known."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -100,3 +102,16 @@ def test_no_orbit_to_begin_with_is_told():
         ValueError, match=r"orbits\.seeds: no start between \[79\.0, 81\.0\] m/s² ends in a stable orbit"
     ):
         branches.make(settings)
+
+
+def test_orbits_of_a_doubled_branch_begin_no_other_one(monkeypatch):
+    """Each orbit stands for a branch; `explore` finds the one of doubled period, too, on which the second orbit lies."""
+    periods = {"double": 2, "once": 1, "apart": 2}
+    starts = [SimpleNamespace(name=name, period=period) for name, period in periods.items()]
+    found = {"once": ["once", "double"], "apart": ["apart"], "double": ["double"]}
+    monkeypatch.setattr(branches.orbits, "on_branch", lambda parameters, branch, orbit: branch == orbit.name)
+    monkeypatch.setattr(
+        branches.orbits, "explore", lambda parameters, seeds, *rest: [one for seed in seeds for one in found[seed.name]]
+    )
+    settings = {"limits": [20.0, 90.0], "max_period": 2}
+    assert branches.explored(None, starts, settings) == ["once", "double", "apart"]
