@@ -105,7 +105,7 @@ def test_no_orbit_to_begin_with_is_told():
 
 
 def test_orbits_of_a_doubled_branch_begin_no_other_one(monkeypatch):
-    """Each orbit stands for a branch; `explore` finds the one of doubled period, too, on which the second orbit lies."""
+    """Each orbit stands for a branch; that of one cycle leads to the doubled one, on which another orbit lies."""
     periods = {"double": 2, "once": 1, "apart": 2}
     starts = [SimpleNamespace(name=name, period=period) for name, period in periods.items()]
     found = {"once": ["once", "double"], "apart": ["apart"], "double": ["double"]}
