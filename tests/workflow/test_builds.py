@@ -35,7 +35,8 @@ def builds(built, tmp_path_factory):
 def made(project):
     """The contents of all results, figures and pages, by their paths."""
     # What other tests have made below a prefix of their own is none of this build.
-    others = [f"results/{logs.parent.name}/" for logs in (project.folder / "results").glob("*/logs")]
+    prefixes = [logs.parent.name for logs in (project.folder / "results").glob("*/logs")]
+    others = [f"{part}/{prefix}/" for part in ("results", "figures") for prefix in prefixes]
     # Where results come from is not what they are; the report tells it.
     aside = ("results/logs/", "results/benchmarks/", "results/report/", PROVENANCE, *others)
     files = [path for part in ("results", "figures", "docs") for path in (project.folder / part).rglob("*")]
