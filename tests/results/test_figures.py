@@ -33,9 +33,28 @@ UNITS = {
     "10$^{-3}$ m²/s²",
     "N/m",
     "N s/m",
+    "10$^5$ N/m$^{1.5}$",
+    "cm/s",
+    "°",
+    "%",
+    "% for 1 % more",
+    "µm for 1 % more",
 }
 # Counts and ratios.
-NO_UNIT = ("dimension", "error", "evaluations", "cycles", "points", "share", "relative", "samples", "changes")
+NO_UNIT = (
+    "dimension",
+    "error",
+    "evaluations",
+    "cycles",
+    "points",
+    "share",
+    "relative",
+    "samples",
+    "changes",
+    "friction",
+    "misfit",
+    "group",
+)
 
 
 def drawn_afresh(name):

@@ -40,7 +40,7 @@ PANELS = (
 )
 # Above this error there is a band of failures, with a line for each method and treatment that has some.
 FAILED = 3.0
-BAND_ENDS = 1e8
+BAND_ENDS = 1e10
 
 QUANTITIES = {
     "exponent": ("simulated cycles", "relative error of $\\lambda_1$"),
@@ -84,7 +84,7 @@ def draw_failures(axes: Axes, table: pd.DataFrame, x: str) -> None:
             xytext=(3.0, 0.0),
             textcoords="offset points",
             color=colour,
-            size=5.5,
+            size=7.0,
             va="center",
             annotation_clip=False,
         )
