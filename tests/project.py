@@ -53,8 +53,7 @@ TINY = {
 }
 
 
-CONFIG_FILES = (
-    "config",
+STAGES = (
     "sweeps",
     "motion",
     "orbits",
@@ -68,6 +67,7 @@ CONFIG_FILES = (
     "figures",
     "docs",
 )
+CONFIG_FILES = ("config", *STAGES)
 
 
 def read_config(*files: str) -> dict:

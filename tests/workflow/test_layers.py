@@ -1,24 +1,10 @@
 """The house: each stage is a column, and imports point from later stages to earlier ones, never the other way."""
 
 import pytest
-from project import ROOT
+from project import ROOT, STAGES
 
 from workflow import source_hash
 
-STAGES = (
-    "sweeps",
-    "motion",
-    "orbits",
-    "dimensions",
-    "fit",
-    "sensitivity",
-    "operating",
-    "accuracy",
-    "claims",
-    "identification",
-    "figures",
-    "docs",
-)
 # Rooms of the library, from the ground up; `conveyor` itself has what leads to solver and methods: simulate, ensembles.
 ROOMS = ("conveyor.solver", "conveyor.methods", "conveyor", "conveyor.analysis", "conveyor.certificates")
 FLOORS = (*ROOMS, "pipeline", *STAGES, "builds", "report", "")
