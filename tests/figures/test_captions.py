@@ -109,3 +109,29 @@ def test_the_workflow_tells_its_own_jobs(built, monkeypatch):
         *(f"shards/{name}/0.tsv" for name in methods),
         *(f"sweeps/{name}.tsv" for name in methods),
     }
+
+
+def test_when_a_rigid_part_leaves_and_arrives():
+    """It leaves at 30 and has half of the contact's velocity at 50; what feeds fast elsewhere does not count."""
+    rows = [
+        (model, "velocity", amplitude, height, velocity, state)
+        for model, velocities, states in (
+            (captions.CONTACT, (0.01, 0.01, 0.06, 0.06), ("first", "first", "second", "second")),
+            (captions.RIGID, (0.01, 0.01, 0.02, 0.04), ("first", "second", "second", "second")),
+        )
+        for height in (0.0, 5e-4)
+        for amplitude, velocity, state in zip((20.0, 30.0, 40.0, 50.0), velocities, states, strict=True)
+    ]
+    table = pd.DataFrame(rows, columns=["model", "kind", "acceleration", "z0", "mean_velocity", "state"])
+    contact = pd.DataFrame()
+    contact.attrs["duration"] = 1.0
+    numbers = captions.rigid_part({"rigid": table, "contact": contact}, {})
+    assert numbers == {"duration": "1", "leaves": "40", "rigid_leaves": "30", "arrives": "50"}
+
+
+def test_tables_are_counted_once_where_a_variant_is_seen():
+    names = ("sweeps/a", "sweeps/a", "sweeps/b")
+    table = pd.DataFrame({"table": names, "variant": "rigid part", "tolerance": np.nan, "visible": [True, True, False]})
+    half = table.assign(variant="half the time", visible=False)
+    numbers = captions.scene_budget({"budget": pd.concat([table, half])}, {})
+    assert numbers == {"rigid_seen": "1", "rigid_of": "2", "half_seen": "0", "half_of": "2"}
