@@ -38,6 +38,7 @@ SINGLE = (
     "rigid_part",
     "random_points",
     "scaling",
+    "throughput",
     "companion",
     "sensitivity",
     "operating",

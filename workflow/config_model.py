@@ -278,9 +278,8 @@ class Benchmark(TypedDict):
 
 
 Tolerances = Annotated[list[Tolerance], AfterValidator(distinct)]
-Integrators = TypedDict(
-    "Integrators", dict.fromkeys(("RK45", "DOP853", "Radau", "LSODA", "heyoka"), Tolerances), total=False
-)
+INTEGRATORS = ("RK45", "DOP853", "Radau", "LSODA", "heyoka")
+Integrators = TypedDict("Integrators", dict.fromkeys(INTEGRATORS, Tolerances), total=False)
 
 
 class Precision(TypedDict):
@@ -427,6 +426,13 @@ class Scaling(TypedDict):
     threads: many(whole(1, 256))
     shards: many(whole(1, 1000))
     shared_points: whole(1000, 10**8)
+
+
+class Throughput(TypedDict):
+    starts: whole(4, 10**6)
+    peers: TypedDict("TimedPeers", dict.fromkeys(INTEGRATORS, Tolerance), total=False)
+    max_evaluations: Count
+    repeats: Count
 
 
 class RandomPoints(TypedDict):
@@ -622,6 +628,7 @@ class Config(TypedDict):
     random_points: RandomPoints
     sensitivity: Sensitivity
     scaling: Scaling
+    throughput: Throughput
     operating: Operating
     identification: Identification
     figures: dict[Name, Figure]

@@ -32,10 +32,11 @@ TABLES = {
         "rigid_part",
         "settling_times",
         "scaling",
+        "throughput",
     ),
 }
 # Those of them that are made only where they are asked for.
-ON_REQUEST = ("scaling",)
+ON_REQUEST = ("scaling", "throughput")
 # Tables of the folder of results that another section than that of their name makes.
 SECTION_OF = {"budget_times": "scene_budget"}
 # Sections whose tables say what motion a start ends in.

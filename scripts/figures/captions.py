@@ -182,6 +182,8 @@ def scaling(tables: Tables, settings: dict) -> dict[str, str]:
         "threads": str(table[table.varied == "points"].threads.iloc[0]),
         "shared_points": f"{table[table.varied == 'shards'].points.iloc[0]:,}",
         "gathered": f"{table.gathered.max():,}",
+        "starts": str(tables["throughput"].starts.iloc[0]),
+        "lacking": ", ".join(tables["throughput"].method[tables["throughput"].outcome != "ok"]),
     }
 
 

@@ -182,3 +182,14 @@ accuracy_rule(
     **ALONE,
     params={"settings": config["scaling"], "cases": cases_of_scaling()},
 )
+accuracy_rule(
+    "throughput",
+    "Starts that a thread follows in a second",
+    timed=("throughput",),
+    **ALONE,
+    params={
+        "settings": case_of_scaling("points", starts_of_scaling(config["throughput"]["starts"]))["settings"]
+        | {name: config["solver"][name] for name in ("duration", "tolerance", "step")}
+        | config["throughput"]
+    },
+)

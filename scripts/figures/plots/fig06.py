@@ -5,11 +5,13 @@ from matplotlib.figure import Figure
 
 from figures import style
 
+LOWEST = 1e-6  # m/s, of the axis: lines of the riding part fall to the noise of the samples below it
+
 
 def plot_signal(tables: dict[str, pd.DataFrame], signal: str, symbol: str, highest: float) -> Figure:
     """One signal of the spectra `converged` and `euler` at two amplitudes up to the frequency `highest` (Hz)."""
     figure = style.figure(style.PAGE, 60.0)
-    panels = figure.subplots(1, 2, sharex=True)
+    panels = figure.subplots(1, 2, sharex=True, sharey=True)
     looks = {
         "euler": {
             "marker": "o",
@@ -27,10 +29,11 @@ def plot_signal(tables: dict[str, pd.DataFrame], signal: str, symbol: str, highe
         ):
             axes.plot(rows.frequency, rows.amplitude, linestyle="", markersize=4.0, markeredgewidth=0.6, **look)
             if role == "converged":
-                axes.vlines(rows.frequency, 0.0, rows.amplitude, color=look["color"], linewidth=0.8)
+                axes.vlines(rows.frequency, LOWEST, rows.amplitude, color=look["color"], linewidth=0.8)
             axes.set_title(f"{place}, $\\hat{{a}}$ = {acceleration:g} m/s²")
             axes.set_xlabel("frequency in Hz")
-            axes.set_ylim(bottom=0.0)
+            axes.set_yscale("log")
+            axes.set_ylim(LOWEST, 1.5 * shown.amplitude.max())
             axes.set_ylabel(f"amplitude of {symbol} in m/s")
     panels[1].legend(loc="upper right")
     return figure

@@ -1,4 +1,4 @@
-"""What sweeps take: points in a second and memory of their jobs, over points, threads and shards."""
+"""What sweeps take: points in a second and memory of jobs, over points, threads and shards, and beside peers."""
 
 import numpy as np
 import pandas as pd
@@ -52,11 +52,31 @@ def over_counts(axes: Axes, rows: pd.DataFrame, varied: str, rates: pd.Series) -
     axes.set_ylim(bottom=0.0)
 
 
+def beside_peers(axes: Axes, table: pd.DataFrame) -> None:
+    """Starts that a thread follows to their end in a second by each method, with the error of what it finds."""
+    rows = table[table.outcome == "ok"].iloc[::-1]
+    rates = ((rows.starts - rows.failed) / rows.seconds).to_numpy()
+    axes.barh(
+        [style.METHODS[method][1] for method in rows.method],
+        rates,
+        color=[style.METHODS[method][0] for method in rows.method],
+        height=0.6,
+    )
+    for place, (one, row) in enumerate(zip(rates, rows.itertuples(), strict=True)):
+        label = f" {one:.3g}/s, error {row.velocity_error:.0e}".replace("e-0", "e-")
+        axes.annotate(label + (f", {row.failed} given up" if row.failed else ""), (one, place), va="center", size=7.0)
+    axes.set_xscale("log")
+    axes.set_xlim(0.5 * rates[rates > 0.0].min(), 50.0 * rates.max())
+    axes.set_xlabel(f"starts followed for {table.attrs['duration']:g} s, per second of one thread")
+
+
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the table of scaling."""
+    """From the tables of scaling and of throughput."""
     table = tables["scaling"]
-    figure = style.figure(style.PAGE, 116.0)
-    (left, right), (threads, shards) = figure.subplots(2, 2)
+    figure = style.figure(style.PAGE, 150.0)
+    rows = figure.add_gridspec(3, 2, height_ratios=(3, 3, 2))
+    left, right, threads, shards = (figure.add_subplot(rows[place]) for place in ((0, 0), (0, 1), (1, 0), (1, 1)))
+    beside_peers(figure.add_subplot(rows[2, :]), tables["throughput"])
     over_points(left, right, table)
     rows = table[table.varied == "threads"].sort_values("threads")
     over_counts(threads, rows, "threads", rows.points / rows.computing_seconds)
