@@ -7,6 +7,8 @@ tighter tolerance, as in chaos and in long transients, do not count: there the m
 """
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from time import perf_counter
 from typing import Any
 
@@ -112,8 +114,11 @@ def work_of(parameters: np.ndarray, tolerance: float) -> tuple[float, float]:
     return float(np.mean([run.work for run in runs])), float(np.mean(["stick" in run.events["kind"] for run in runs]))
 
 
-def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
-    """One row for each variant of one table, SECTION/NAME, with the settings of its entry."""
+def rows_of_table(reference: str, settings: dict, budget: dict, threads: int) -> list[dict]:
+    """One row for each variant of one table, SECTION/NAME, with the settings of its entry.
+
+    What is not timed, the values that are known, is computed on `threads` threads.
+    """
     section = reference.split("/")[0]
     shown = SHOWN[section]
     needs = "vertical" if shown.vertical else settings.get("needs", "feeding")
@@ -125,8 +130,10 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     full_settings = settings | {"needs": "feeding", "tolerance": TIGHT}
     shown.observe(settings)  # loads compiled code
     full_seconds, truth = least_time(lambda: shown.observe(full_settings))
-    alike = [observables.observe_shifted(shown, full_settings, shift) for shift in budget["shifts"]]
-    alike.append(shown.observe(full_settings | {"tolerance": TIGHTER}))
+    others = [partial(observables.observe_shifted, shown, full_settings, shift) for shift in budget["shifts"]]
+    others.append(partial(shown.observe, full_settings | {"tolerance": TIGHTER}))
+    with ThreadPoolExecutor(threads) as pool:
+        alike = list(pool.map(lambda other: other(), others))
     known = observables.known_values(shown, truth, alike, settings["axes"], budget["line"])
 
     def row(variant: str, of: dict, seconds: float, found: pd.DataFrame) -> dict:
@@ -164,7 +171,12 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
 
 
 def make(
-    settings: dict, entries: dict[str, dict], drawn: dict[str, list[str]], *, progress: str | None = None
+    settings: dict,
+    entries: dict[str, dict],
+    drawn: dict[str, list[str]],
+    *,
+    threads: int = 1,
+    progress: str | None = None,
 ) -> dict[str, dict[str, np.ndarray]]:
     """The columns of the table of budgets, rows by figure, table and variant, and of that of their wall times.
 
@@ -173,10 +185,11 @@ def make(
     settings : the section `scene_budget` of the config
     entries : settings of the tables by their names, SECTION/NAME
     drawn : names of the tables that each figure draws
+    threads : of what is not timed
     progress : name of a progress bar, or None
     """
     found = {
-        reference: rows_of_table(reference, of_table, settings)
+        reference: rows_of_table(reference, of_table, settings, threads)
         for reference, of_table in bar(entries.items(), label=progress, unit="tables")
     }
     rows = [
