@@ -9,9 +9,11 @@ from accuracy import throughput
 from conveyor.methods import heyoka_peer
 from figures.plots import scaling as chart
 
-SETTINGS = {
+MAP = {
     "axes": {"psi0": {"start": 0.0, "stop": 4.5, "num": 4}, "z0": [1.0e-4, 3.0e-4]},
     "model": {"acceleration": 35.0},
+}
+SETTINGS = {
     "duration": 0.1,
     "tolerance": 1.0e-10,
     "step": 2.0e-6,
@@ -23,7 +25,7 @@ SETTINGS = {
 
 @pytest.fixture(scope="module")
 def table():
-    found = pd.DataFrame(throughput.make(SETTINGS)).set_index("method")
+    found = pd.DataFrame(throughput.make(SETTINGS, MAP)).set_index("method")
     found.attrs = SETTINGS
     return found
 
@@ -47,7 +49,7 @@ def test_a_peer_that_is_not_installed_has_no_time(table):
 
 def test_starts_that_are_given_up_are_counted():
     some = SETTINGS | {"peers": {"DOP853": 1.0e-10}, "max_evaluations": 100}
-    row = pd.DataFrame(throughput.make(some)).set_index("method").loc["DOP853"]
+    row = pd.DataFrame(throughput.make(some, MAP)).set_index("method").loc["DOP853"]
     assert row.failed == 8
     assert np.isnan(row.velocity_error)
 

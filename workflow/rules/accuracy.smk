@@ -188,8 +188,7 @@ accuracy_rule(
     timed=("throughput",),
     **ALONE,
     params={
-        "settings": case_of_scaling("points", starts_of_scaling(config["throughput"]["starts"]))["settings"]
-        | {name: config["solver"][name] for name in ("duration", "tolerance", "step")}
-        | config["throughput"]
+        "settings": config["throughput"] | {name: config["solver"][name] for name in ("duration", "tolerance", "step")},
+        "map_of_starts": case_of_scaling("points", starts_of_scaling(config["throughput"]["starts"]))["settings"],
     },
 )
