@@ -31,7 +31,7 @@ def over_points(left: Axes, right: Axes, table: pd.DataFrame) -> None:
         axes.set_xlabel("points of the sweep")
     left.set_yscale("log")
     left.set_ylabel("points per second of a job")
-    right.set_ylim(bottom=0.0)
+    right.set_ylim(0.0, 1.1 * max(np.max(line.get_ydata()) for line in right.lines))
     right.set_ylabel("largest memory of a job (MB)")
 
 
@@ -49,7 +49,7 @@ def over_counts(axes: Axes, rows: pd.DataFrame, varied: str, rates: pd.Series) -
     axes.set_xticks(counts, [f"{count}" for count in counts])
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.minorticks_off()
-    axes.set_ylim(bottom=0.0)
+    axes.set_ylim(0.0, 1.1 * max(np.max(line.get_ydata()) for line in axes.lines))
 
 
 def beside_peers(axes: Axes, table: pd.DataFrame) -> None:
