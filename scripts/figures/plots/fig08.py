@@ -9,6 +9,8 @@ from matplotlib.patches import Patch
 from conveyor.solver.model import Conveyor, conveyor_motion
 from figures import style
 
+WIDE = 0.05  # share of the largest velocity by which half of the runs of one motion differ where they have not settled
+
 
 def plate_velocity(sweep: pd.DataFrame) -> tuple[list[float], list[float]]:
     """Ends of the straight line of the plate's largest velocity (m/s) over the amplitude (m/s²)."""
@@ -17,6 +19,17 @@ def plate_velocity(sweep: pd.DataFrame) -> tuple[list[float], list[float]]:
     cycle = np.linspace(0.0, 1.0 / model["frequency"], 721)
     motions = [conveyor_motion(Conveyor(acceleration=end, **model), cycle) for end in ends]
     return ends, [motion["vx"].max() for motion in motions]
+
+
+def unsettled(sweep: pd.DataFrame) -> tuple[float, float] | None:
+    """Middle of the amplitudes (m/s²) at which most runs to the second state scatter, and their low velocity (m/s)."""
+    runs = sweep[sweep.state == "second"].groupby("acceleration").mean_velocity
+    low, high = runs.quantile(0.25), runs.quantile(0.75)
+    wide = low[high - low > WIDE * sweep.mean_velocity.max()]
+    if wide.empty:
+        return None
+    middle = wide.index[len(wide) // 2]
+    return float(middle), float(wide.loc[middle])
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
@@ -32,6 +45,16 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         for state, colour in style.STATE_COLOURS.items():
             rows = sweep[sweep.state == state]
             axes.plot(rows.acceleration, rows.mean_velocity, ".", markersize=2.0, markeredgewidth=0.0, color=colour)
+        if place := unsettled(sweep):
+            axes.annotate(
+                f"not settled\nin {sweep.attrs['duration']:g} s",
+                place,
+                (place[0], 0.15 * sweep.mean_velocity.max()),
+                ha="center",
+                va="center",
+                size=7.0,
+                arrowprops={"arrowstyle": "->", "linewidth": 0.6, "shrinkB": 3.0},
+            )
         axes.set_title(title)
         axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     panels[0].set_ylabel("mean feeding velocity in m/s")

@@ -1,0 +1,29 @@
+"""What plots find in their tables by themselves."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from figures.plots import fig08
+
+
+def sweep(low: float, high: float) -> pd.DataFrame:
+    """Five starts at each of five amplitudes, two of which have velocities between `low` and `high`."""
+    amplitudes = np.repeat([50.0, 51.0, 52.0, 53.0, 54.0], 5)
+    velocity = np.where(amplitudes > 52.5, np.tile(np.linspace(low, high, 5), 5), 0.1)
+    return pd.DataFrame({"acceleration": amplitudes, "mean_velocity": velocity, "state": "second"})
+
+
+def test_runs_that_have_not_settled_are_found_where_most_of_them_scatter():
+    assert fig08.unsettled(sweep(0.1, 0.2)) == pytest.approx((54.0, 0.125))
+
+
+def test_settled_runs_are_not_told_to_scatter():
+    assert fig08.unsettled(sweep(0.1, 0.102)) is None
+    one_aside = sweep(0.1, 0.1)
+    one_aside.loc[24, "mean_velocity"] = 0.2
+    assert fig08.unsettled(one_aside) is None
+
+
+def test_chaos_scatters_by_itself():
+    assert fig08.unsettled(sweep(0.1, 0.2).assign(state="chaos")) is None
