@@ -32,7 +32,7 @@ def lines(rows: pd.DataFrame) -> str:
     )
 
 
-def numbers(table: pd.DataFrame, sharing: dict) -> dict[str, str]:
+def numbers(table: pd.DataFrame, sharing: dict) -> dict[str, str | bool]:
     """All that the template asks for, in words.
 
     Parameters
@@ -47,13 +47,15 @@ def numbers(table: pd.DataFrame, sharing: dict) -> dict[str, str]:
     ratio = long.estimated_seconds * long.measured / long.computing_seconds
     one = table[(table.varied == "threads") & (table.threads == table.threads.min())].iloc[0]
     start = table.shard_seconds.sub(table.computing_seconds).div(table.measured).median()
+    estimated_hours = largest.shards * largest.estimated_seconds * largest.threads / 3600.0
     return {
         "table": lines(rows),
         "points": f"{largest.points:,}",
         "jobs": f"{largest.shards}",
         "core_hours": f"{largest.core_hours:.2g}",
         "limit": f"{sharing['core_hours']:g}",
-        "estimated_hours": f"{largest.shards * largest.estimated_seconds * largest.threads / 3600.0:.2g}",
+        "estimated_hours": f"{estimated_hours:.2g}",
+        "within_limit": estimated_hours <= sharing["core_hours"],
         "wall_minutes": f"{math.ceil(largest.shards / 50) * largest.shard_seconds / 60.0:.2g}",
         "gathering_minutes": f"{largest.minutes:.0f}",
         "gathering_memory": f"{largest.gathering_memory:.0f}",

@@ -73,6 +73,10 @@ def test_what_the_whole_sweep_costs():
     assert rows.minutes.to_dict() == pytest.approx({100: 1.0 / 60.0, 1000: 1000 * 6.0 / 300 / 60.0})
     told = cluster_page.numbers(table(), {"core_hours": 24.0, "most_jobs": 500, "job_seconds": 60.0})
     assert (told["least_ratio"], told["most_ratio"]) == ("0.5", "2")
+    assert told["within_limit"]
+    assert not cluster_page.numbers(table(), {"core_hours": 0.01, "most_jobs": 500, "job_seconds": 60.0})[
+        "within_limit"
+    ]
     assert (told["points"], told["most_memory"], told["start"]) == ("1,000", "305", "1.0")
 
 

@@ -34,6 +34,8 @@ SIGN, FLIGHT, FORWARD, BACKWARD, STICK = range(5)
 # Where "modes" puts the variable of an event that is handled, in units of the plate's motion: a few roundings beside
 # zero. At zero, or on the wrong side, it is found as the same event again, or never again: the part falls through.
 BESIDE = 1e-15
+# heyoka finds the plate in other roundings: nearer to it, a contact begins outside of it, where its force is no number.
+BESIDE_OF_HEYOKA = 1e-13
 
 
 class Summary(NamedTuple):
@@ -135,10 +137,12 @@ def next_mode(parameters: np.ndarray, t: float, state: np.ndarray, ended: Callab
     return FORWARD if (vx - state[1] if slips else ax) > 0.0 else BACKWARD
 
 
-def put_beside(parameters: np.ndarray, t: float, state: np.ndarray, ended: Callable, mode: int) -> None:
+def put_beside(
+    parameters: np.ndarray, t: float, state: np.ndarray, ended: Callable, mode: int, beside: float = BESIDE
+) -> None:
     """Change `state` after the event `ended` to be just on the side of the zero that belongs to the next `mode`."""
     z, _, vx, _ = plate_motion(parameters, t)
-    _, beside_vx, beside_z, _ = BESIDE * scales(parameters)
+    _, beside_vx, beside_z, _ = beside * scales(parameters)
     if ended is gap_of:
         state[2] = z + (beside_z if mode == FLIGHT else -beside_z)
     elif mode == FORWARD:
@@ -225,7 +229,8 @@ def advance(right_side: Counted, begin: float, end: float, state: np.ndarray, tr
     """State at the time `end` (s), or None where the integrator fails; `options` are those of solve_ivp."""
     parameters = right_side.parameters
     t, state = begin, state.copy()
-    follow_leg = leg_of_heyoka if options["method"] == HEYOKA else leg_of_scipy
+    by_heyoka = options["method"] == HEYOKA
+    follow_leg, beside = (leg_of_heyoka, BESIDE_OF_HEYOKA) if by_heyoka else (leg_of_scipy, BESIDE)
     if treatment != "sign" and right_side.mode == SIGN:
         right_side.mode = next_mode(parameters, t, state, None, SIGN)
     while t < end:
@@ -236,7 +241,7 @@ def advance(right_side: Counted, begin: float, end: float, state: np.ndarray, tr
         if ended is not None:
             right_side.mode = next_mode(parameters, t, state, ended, right_side.mode)
             if treatment == "modes":
-                put_beside(parameters, t, state, ended, right_side.mode)
+                put_beside(parameters, t, state, ended, right_side.mode, beside)
     return state
 
 

@@ -63,7 +63,7 @@ def beside_peers(axes: Axes, table: pd.DataFrame) -> None:
         height=0.6,
     )
     for place, (one, row) in enumerate(zip(rates, rows.itertuples(), strict=True)):
-        label = f" {one:.3g}/s, error {row.velocity_error:.0e}".replace("e-0", "e-")
+        label = f" {float(f'{one:.3g}'):g}/s, error {row.velocity_error:.0e}".replace("e-0", "e-")
         axes.annotate(label + (f", {row.failed} given up" if row.failed else ""), (one, place), va="center", size=7.0)
     axes.set_xscale("log")
     axes.set_xlim(0.5 * rates[rates > 0.0].min(), 50.0 * rates.max())
