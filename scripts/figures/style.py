@@ -51,6 +51,8 @@ CURVES = {
 # The plate's own curves, behind those of the part.
 PLATE_CURVE = {"color": "0.8", "linewidth": 2.5, "label": "conveyor"}
 
+# What a page writes: texts, which stay, and numbers with more decimals than a reader sees, 1/72 inch each.
+TEXT_OR_NUMBER = re.compile(rb"\((?:\\.|[^()\\])*\)|-?\d*\.\d{5,}", re.DOTALL)
 NEGATIVE_ZERO = re.compile(rb"(?<![\w.+-])-0(?:\.0*)?(?![\w.])")
 RESOLUTION = 600  # dpi of rasterised parts and of PNG files
 PARAMETERS = {
@@ -145,11 +147,17 @@ def legend_above(figure: Figure, axes: Axes, **options) -> None:
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", **options)
 
 
+def rounded(match: re.Match[bytes]) -> bytes:
+    """A match of TEXT_OR_NUMBER as a page keeps it: numbers to 1e-4, which is 35 nm."""
+    found = match.group()
+    return found if found.startswith(b"(") else b"%.4f" % float(found)
+
+
 class Page(PdfFile):
-    """A PDF without negative zeros: the sign of a rounded coordinate is that of an error in its last digit."""
+    """A PDF without the last digits of coordinates, and without negative zeros: both are errors of their rounding."""
 
     def write(self, data: bytes) -> None:
-        super().write(NEGATIVE_ZERO.sub(b"0", data))
+        super().write(NEGATIVE_ZERO.sub(b"0", TEXT_OR_NUMBER.sub(rounded, data)))
 
 
 class Pages(PdfPages):

@@ -41,3 +41,15 @@ def test_negative_numbers_stay(tmp_path):
     text = b"\n".join(streams(line(-0.5, tmp_path / "line.pdf")))
     assert b" -1 m" in text  # clipped just outside the page
     assert style.NEGATIVE_ZERO.sub(b"0", b"-0 -0.5 1e-0 -0.0 10 -0\n") == b"0 -0.5 1e-0 0 10 0\n"
+
+
+def test_pages_keep_no_digit_that_rounding_decides():
+    """A coordinate that is off in its tenth decimal gives the same page; texts stay as they are."""
+    one, other = (
+        rf"1 0 0 1 {x} 247.5 cm (62.70\(89722\) 1.23456789) Tj -.12345678 0.00000001 l".encode()
+        for x in ("342.4895041521", "342.4895041520")
+    )
+    assert style.TEXT_OR_NUMBER.sub(style.rounded, one) == style.TEXT_OR_NUMBER.sub(style.rounded, other)
+    assert style.TEXT_OR_NUMBER.sub(style.rounded, one) == (
+        rb"1 0 0 1 342.4895 247.5 cm (62.70\(89722\) 1.23456789) Tj -0.1235 0.0000 l"
+    )
