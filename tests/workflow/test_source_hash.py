@@ -20,6 +20,7 @@ CALLS = {
         "sweeps/shards",
     },
     "accuracy/wall_times": {"accuracy/precision"},
+    "accuracy/throughput": {"accuracy/precision", "accuracy/wall_times"},
     "accuracy/label_checks": {"accuracy/settling_times"},
     "accuracy/scaling": {"sweeps/shards"},
     "operating/shares": {"operating/regimes"},
