@@ -124,3 +124,12 @@ def test_estimates_do_not_depend_on_units():
 def test_points_are_checked(points):
     with pytest.raises(ValueError, match="points must be finite"):
         dimension.box_dimension(points)
+
+
+def test_points_along_boxes_are_the_same_points_and_lie_box_by_box():
+    points = np.random.default_rng(1).random((4096, 2))
+    found = dimension.along_boxes(points)
+    assert np.array_equal(np.sort(found.view("f8,f8"), axis=0), np.sort(points.view("f8,f8"), axis=0))
+    # In a grid of 16 by 16, each box is entered once.
+    boxes = (16 * found).astype(int) @ [16, 1]
+    assert np.count_nonzero(np.diff(boxes)) + 1 == len(np.unique(boxes)) == 256
