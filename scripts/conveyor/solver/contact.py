@@ -214,7 +214,7 @@ def step(c, series, at, w0, v0, sine0, cosine0, pulled):
         for n in range(SIZE):
             series[SCRATCH, n] = -series[at + W, n]
         series[SCRATCH, 0] += c.edge_w * (1.0 + 1e-9)
-        length = min(length, polynomial.first_root(series, SCRATCH, 0.0, length))
+        length = min(length, polynomial.first_root(series, SCRATCH, 0.0, length, polynomial.LEAVE))
         shortened = True
     elif w <= 0.0:
         # w starts upwards at an impact and falls through zero once: w'' has the sign of w where the plate presses on.
@@ -222,7 +222,7 @@ def step(c, series, at, w0, v0, sine0, cosine0, pulled):
         event = SEPARATION
         shortened = True
     elif v0 < 0.0 and v > 0.0:
-        root = polynomial.first_root(series, at + W, 0.0, length)
+        root = polynomial.first_root(series, at + W, 0.0, length, polynomial.LEAVE)
         if root <= length:
             length = root
             event = SEPARATION
@@ -231,7 +231,7 @@ def step(c, series, at, w0, v0, sine0, cosine0, pulled):
         expand_force(c, series, at, -1.0 if pulled else 1.0, 0.0, 0.0)
         # The series has the factor w, and so a root of its own at a separation.
         end = length * (1.0 - LEAVE_IMPACT) if event == SEPARATION else length
-        root = polynomial.first_root(series, SCRATCH, 0.0, end)
+        root = polynomial.first_root(series, SCRATCH, 0.0, end, polynomial.LEAVE)
         if root < end:
             length = root
             event = FORCE_SIGN

@@ -43,11 +43,11 @@ def keeps_slipping(c, slip, plate, gain, lapse, cosine, cosine_end, fastest, mu)
 
 
 @spliced
-def slip_end(c, series, at, start, length, slip, sigma, mu):
+def slip_end(c, series, at, start, length, slip, sigma, mu, leave):
     """Where, in (start, length] of a contact step, the slip velocity reaches zero; infinity if it does not.
 
     `at` is the first row of the step, `slip` the slip velocity at `start` (m/s), `sigma` its sign (±1), `mu` the
-    friction coefficient that acts.
+    friction coefficient that acts, `leave` as in polynomial.first_root.
     """
     plate = sigma * c.a_x / c.omega - mu * c.a_z / c.omega
     fall = mu * c.gravity
@@ -55,7 +55,7 @@ def slip_end(c, series, at, start, length, slip, sigma, mu):
         series[SCRATCH, n] = plate * series[at + SINE, n] + mu * series[at + V, n] - fall * series[at + T, n]
     series[SCRATCH, 0] = 0.0
     series[SCRATCH, 0] = sigma * slip - polynomial.value(series, SCRATCH, start)
-    return polynomial.first_root(series, SCRATCH, start, length)
+    return polynomial.first_root(series, SCRATCH, start, length, leave)
 
 
 @spliced
@@ -69,11 +69,12 @@ def stick_end(c, series, at, start, length, cosine, cosine_end):
     for direction in (-1.0, 1.0):
         if direction * cosine <= 0.0 or direction * cosine_end <= 0.0:
             expand_force(c, series, at, c.friction, direction * c.a_x, c.friction * c.rest_force)
-            root = polynomial.first_root(series, SCRATCH, start, length)
+            root = polynomial.first_root(series, SCRATCH, start, length, polynomial.LEAVE)
             if root < end:
                 for n in range(ORDER):
                     series[SCRATCH, n] *= -1.0
-                end, lasting = root, polynomial.first_root(series, SCRATCH, root, length) == math.inf
+                end = root
+                lasting = polynomial.first_root(series, SCRATCH, root, length, polynomial.LEAVE) == math.inf
     return end, lasting
 
 

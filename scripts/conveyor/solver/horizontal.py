@@ -9,7 +9,7 @@ from collections import namedtuple
 from . import contact, friction
 from .jit import inlined, spliced
 from .model import TENSION_CLIP
-from .polynomial import value
+from .polynomial import LEAVE, value
 from .vertical import invert_time
 
 # Columns of a sample.
@@ -58,8 +58,11 @@ def moved(c, segment, tau, sine, cosine, z, vz):
 
 
 @spliced
-def segment_end(c, series, at, segment, piece, released, fastest):
-    """Where in s a segment ends (infinity: not in this step), and whether slip that follows lasts to its end."""
+def segment_end(c, series, at, segment, piece, released, fastest, leave):
+    """Where in s a segment ends (infinity: not in this step), and whether slip that follows lasts to its end.
+
+    A slip that begins at rest is left behind by the part `leave` of the step.
+    """
     if released:
         return math.inf, True
     if segment.sigma == 0.0:
@@ -73,7 +76,7 @@ def segment_end(c, series, at, segment, piece, released, fastest):
         c, sigma * slip, sigma * speed_x * turn, gain, ahead, segment.cosine, piece.cosine, fastest, segment.mu
     ):
         return math.inf, False
-    return friction.slip_end(c, series, at, segment.s, piece.length, slip, sigma, segment.mu), False
+    return friction.slip_end(c, series, at, segment.s, piece.length, slip, sigma, segment.mu, leave), False
 
 
 @spliced
@@ -134,10 +137,10 @@ def feed(
     segment = Segment(sigma, mu, x, vx, 0.0, 0.0, motion.sine, motion.cosine, z, vz, motion.w, motion.v)
     fastest = max(-motion.v, -piece.v, 0.0)
     released = not feeding
-    segments = 0
+    segments, leave = 0, LEAVE
     while True:
         segments += 1
-        change, released = segment_end(c, series, at, segment, piece, released, fastest)
+        change, released = segment_end(c, series, at, segment, piece, released, fastest, leave)
         s, t, w, v, sine, cosine = piece.length, piece.duration, piece.w, piece.v, piece.sine, piece.cosine
         changed = change < piece.length
         if changed:
@@ -161,7 +164,12 @@ def feed(
         else:
             sigma = friction.direction_at_rest(c, c.a_x * cosine, contact.force(c, w, v), mu)
             kind = STICK if sigma == 0.0 else SLIP_REVERSAL
-        events = note(event_times, event_kinds, events, begin + t, kind)
+        if sigma == segment.sigma:
+            # No reversal: the slip cannot be told from zero here, and leaves it further on.
+            leave *= 2.0
+        else:
+            leave = LEAVE
+            events = note(event_times, event_kinds, events, begin + t, kind)
         # The part has the velocity of the plate here, exactly.
         vx = speed_x * sine
         segment = Segment(sigma, mu, x, vx, s, t, sine, cosine, z, vz, w, v)

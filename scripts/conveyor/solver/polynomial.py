@@ -142,8 +142,11 @@ def search(series, row, start, end, shortest, noise):
 
 
 @kernel
-def first_root(series, row, start, end):
-    """First root of a polynomial in (start, end] that is positive just behind `start`; infinity if there is none."""
+def first_root(series, row, start, end, leave):
+    """First root of a polynomial in (start, end] that is positive just behind `start`; infinity if there is none.
+
+    A root at `start` itself is left behind by the part `leave` of `end` at least.
+    """
     reach = 0.0
     power = end
     for n in range(1, ORDER + 1):
@@ -152,7 +155,7 @@ def first_root(series, row, start, end):
     if series[row, 0] > reach or reach == 0.0:
         return math.inf
     noise = NOISE * (abs(series[row, 0]) + reach)
-    answer, s, shortest = search(series, row, start, end, LEAVE * end, noise)
+    answer, s, shortest = search(series, row, start, end, leave * end, noise)
     piece = end - s
     for _ in range(MAX_PIECES):
         if answer == FOUND:

@@ -23,7 +23,7 @@ def test_no_pair_of_roots_is_passed(distance):
     """Between two roots a polynomial is below zero, and above it at both ends of the search."""
     for first in np.linspace(0.05, 0.65, 25):
         for others in ((), (1.2,), (-0.5, -0.7), (3.0, -2.0)):
-            found = polynomial.first_root(series_of([first, first + distance, *others]), 1, 0.0, 1.0)
+            found = polynomial.first_root(series_of([first, first + distance, *others]), 1, 0.0, 1.0, polynomial.LEAVE)
             # Where the first step lands on the root, it is taken for a start on it, and left by two smallest steps.
             assert found == pytest.approx(first, abs=3.0 * polynomial.LEAVE)
 
@@ -35,7 +35,7 @@ def test_first_root_is_the_least_of_all():
         roots = generator.uniform(0.0, 1.5, 6) * generator.choice([-1.0, 1.0], 6)
         pair = generator.uniform(-1.0, 1.0) + 1j * generator.uniform(0.1, 1.0)
         ahead = roots[(roots > 0.0) & (roots <= 1.0)]
-        found = polynomial.first_root(series_of([*roots, pair, np.conj(pair)]), 1, 0.0, 1.0)
+        found = polynomial.first_root(series_of([*roots, pair, np.conj(pair)]), 1, 0.0, 1.0, polynomial.LEAVE)
         if len(ahead):
             assert found == pytest.approx(ahead.min(), rel=1e-6)
             inside += 1
