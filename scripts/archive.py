@@ -50,6 +50,18 @@ def sums(folder: Path) -> str:
     )
 
 
+def check_size(folder: Path, limit: float) -> None:
+    """Raise ValueError if a folder has more than `limit` MB; it names the largest files and the key of the limit."""
+    sizes = sorted(((path.stat().st_size, path) for path in folder.rglob("*") if path.is_file()), reverse=True)
+    megabytes = sum(size for size, _ in sizes) / 1e6
+    if megabytes > limit:
+        largest = ", ".join(f"{path.relative_to(folder).as_posix()} ({size / 1e6:.3g})" for size, path in sizes[:3])
+        raise ValueError(
+            f"the archive has {megabytes:.3g} MB, more than archive.megabytes = {limit:g}, most of all {largest}; "
+            "raise that key, or give the sweeps fewer points"
+        )
+
+
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         archive = Path(snakemake.output[0])
@@ -58,3 +70,4 @@ if __name__ == "__main__":
         shutil.copyfile(snakemake.input.readme, archive / "ARCHIVE.md")
         (archive / DRAWN).write_text(json.dumps(snakemake.params.figures, indent=1) + "\n", encoding="utf-8")
         (archive / SUMS).write_text(sums(archive), encoding="utf-8")
+        check_size(archive, snakemake.params.megabytes)

@@ -40,6 +40,7 @@ SINGLE = (
     "scaling",
     "throughput",
     "companion",
+    "archive",
     "sensitivity",
     "operating",
     "identification",

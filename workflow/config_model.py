@@ -595,6 +595,10 @@ class Companion(TypedDict):
     separation: positive(1, "m")
 
 
+class Archive(TypedDict):
+    megabytes: positive(1e6, "MB")
+
+
 @with_config(ConfigDict(extra="forbid", strict=True))
 class Config(TypedDict):
     prefix: text(rf"|{NAME}", f"a folder name of at most {LONGEST_NAME} letters, digits, - and _, or nothing")
@@ -634,6 +638,7 @@ class Config(TypedDict):
     figures: dict[Name, Figure]
     figures_on_request: dict[Name, Figure]
     companion: Companion
+    archive: Archive
 
 
 MODEL = TypeAdapter(Config)

@@ -15,6 +15,7 @@ A template is Markdown (or YAML) with Jinja's fields. What it may ask for: the f
     entries           entries of a section of the paper's config, with the comments above them
     modules           modules of the library, by the rooms they stand in
     proved            the page of what is proved
+    findings          the page of what was found beyond the paper
     figure(name)      a figure with its caption, as the medium wants it
     cell(text)        a text for a cell of a table
 """
@@ -150,6 +151,7 @@ def context(
     costs: str,
     uncertainty: str,
     proved: str,
+    findings: str,
     medium: str,
     folder: str,
     written: list[dict],
@@ -171,6 +173,7 @@ def context(
         "verdicts": Counter(claim["verdict"] for claim in claims.values()),
         "costs": json.loads(costs) if costs else {},
         "proved": proved,
+        "findings": findings,
         "gaps": of_gaps(written),
         "keys": of_keys(keys, written),
         "entries": of_entries(keys, written),
@@ -194,6 +197,7 @@ def make(
     costs: str = "",
     uncertainty: str = "",
     proved: str = "",
+    findings: str = "",
     medium: str = "site",
     folder: str = "",
     written: list[dict] = (),
@@ -211,6 +215,7 @@ def make(
     costs : of figures and claims, as JSON
     uncertainty : by how much tighter tolerances change the claims, as JSON
     proved : the page of what is proved
+    findings : the page of what was found beyond the paper
     medium : print or site
     folder : where the figures are, as the page says it
     written, known : keys of the paper's config, and those that a config may have (workflow.config_keys)
@@ -218,7 +223,7 @@ def make(
     tables : those that docs.facts asks for
     """
     asked = context(
-        tables, figures, values, captions, costs, uncertainty, proved, medium, folder, written, known, library
+        tables, figures, values, captions, costs, uncertainty, proved, findings, medium, folder, written, known, library
     )
     pages = [filled(template, asked) for template in templates]
     return pages if len(pages) > 1 else pages[0]

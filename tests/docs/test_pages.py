@@ -20,7 +20,12 @@ from workflow.config_model import MODEL
 TEMPLATES = ROOT / "workflow/templates"
 FRAME = (TEMPLATES / "article.typ").read_text(encoding="utf-8")
 # Pages with results; what a user may write, as an example, is no result.
-PROSE = [TEMPLATES / "README.md", TEMPLATES / "article.md", *sorted((TEMPLATES / "site").glob("*.md"))]
+PROSE = [
+    TEMPLATES / "README.md",
+    TEMPLATES / "findings.md",
+    TEMPLATES / "article.md",
+    *sorted((TEMPLATES / "site").glob("*.md")),
+]
 KEPT = ("README.md", "metadata.yaml", "codecheck.yml")
 FIGURES = read_config()["figures"]
 CONFIG = [str(file) for file in sorted((ROOT / "config").glob("*.yaml")) if file.stem != "reduced"]
@@ -65,7 +70,9 @@ def test_a_number_that_nobody_gives_is_an_error():
 @pytest.mark.parametrize("name", KEPT)
 def test_kept_pages_are_their_templates_filled(name):
     """What the rule made last: all of the template but its fields, word by word."""
-    parts = re.split(r"(\{\{.*?\}\}|\{%.*?%\})", (TEMPLATES / name).read_text(encoding="utf-8"), flags=re.DOTALL)
+    findings, template = ((TEMPLATES / file).read_text(encoding="utf-8") for file in ("findings.md", name))
+    template = template.replace("{{ findings }}", findings)
+    parts = re.split(r"(\{\{.*?\}\}|\{%.*?%\})", template, flags=re.DOTALL)
     pattern = "".join(
         ".*?" if part[:2] in ("{{", "{%") else r"\s*".join(map(re.escape, part.split())) for part in parts
     )

@@ -42,6 +42,7 @@ ORIGIN = {
 PAGES = [
     {"heading": "Section 3", "file": "a.html", "figures": [{"name": "fig03", "number": "Fig. 3", "title": "A"}]},
 ]
+FINDINGS = "- **Two exist**, &\n  low (`figures/fig03.pdf`, [C02](docs/claims.md)).\n- None (`figures/fig99.pdf`).\n"
 TOLD = {"heading": "Made with my.yaml.", "text": "Coarse."}
 
 
@@ -54,7 +55,7 @@ def of_claims() -> pd.DataFrame:
 @pytest.fixture(scope="module")
 def pages() -> dict[str, str]:
     files = {name: f"{name}.html" for name in ("claims", "provenance")}
-    return summary.make(of_claims(), json.dumps(ORIGIN), 5e-7, PAGES, files, TOLD)
+    return summary.make(of_claims(), json.dumps(ORIGIN), 5e-7, PAGES, files, TOLD, FINDINGS)
 
 
 def cells(page: str, place: str) -> list[str]:
@@ -84,6 +85,19 @@ def test_the_start_page_counts_the_verdicts_and_says_on_top_what_they_are_of(pag
     assert "0.5 µs" in start
     for name in ("claims", "provenance"):
         assert pages[name].index("Made with my.yaml.") < pages[name].index("<table")
+
+
+def test_findings_lead_to_their_figures_and_claims(pages):
+    start = pages["summary"]
+    view = "javascript:app.setView({content: 'html', contentPath: results['%s'].data_uri + '#%s'})"
+    assert "<strong>Two exist</strong>, &amp;\nlow (" in start
+    assert (
+        f'(<a href="{view % ("a.html", "fig03")}">fig03</a>, <a href="{view % ("claims.html", "C02")}">C02</a>)'
+        in start
+    )
+    # This one is not in the report.
+    assert "<li>None (<code>figures/fig99.pdf</code>).</li>" in start
+    assert start.index("Two exist") < start.index("3 statements of the paper")
 
 
 def test_the_provenance_is_told(pages):

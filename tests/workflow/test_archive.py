@@ -65,6 +65,14 @@ def test_a_figure_that_differs_is_named(copy):
     assert "1 of 3 figures differ from those of the archive: figures/fig03.pdf" in run.stderr
 
 
+def test_a_large_archive_is_refused(built, tmp_path):
+    project = Project(shutil.copytree(built.folder, tmp_path / "copy", symlinks=True), {"archive": {"megabytes": 0.5}})
+    run = project.snakemake("archive")
+    assert run.returncode == 1
+    assert "MB, more than archive.megabytes = 0.5, most of all" in run.stdout
+    assert not (project.folder / "archive/paper").exists()
+
+
 def test_nothing_but_the_ends_of_runs_is_left_out(archive, built):
     ends = {field.name for field in fields.ENDS}
     for path in archive.rglob("*.parquet"):

@@ -124,6 +124,7 @@ rule archive:
             }
             for figure, entry in config["figures"].items()
         },
+        megabytes=config["archive"]["megabytes"],
         code=hash_of_sources,
     message:
         "An archive of the figures and what they are made from"

@@ -103,9 +103,18 @@ def pages_rule(name, message, templates, outputs, **rest):
     }
 
 
+# What the paper does not say, for README and report.
+pages_rule("findings", "What was found beyond the paper", [template("findings.md")], [result("findings.md")])
+
 # The README, and the form of the journal ReScience and the manifest of CODECHECK, which name this project's files.
 KEPT = ("README.md", "metadata.yaml", "codecheck.yml")
-pages_rule("kept_pages", "README and metadata", [*map(template, KEPT)], [*map(beside_the_sources, KEPT)])
+pages_rule(
+    "kept_pages",
+    "README and metadata",
+    [*map(template, KEPT)],
+    [*map(beside_the_sources, KEPT)],
+    input={"findings": result("findings.md")},
+)
 
 CLAIMED = {
     name: [table(*reference.split("/")) for reference in claim["tables"].values()]

@@ -62,6 +62,12 @@ def told_of_the_config():
     }
 
 
+def findings():
+    """The page of what was found beyond the paper, where all the paper's statements are checked."""
+    checked = config["claims"].keys()
+    return {"findings": result("findings.md")} if checked and checked >= PAPER["claims"].keys() else {}
+
+
 BEYOND = "beyond the paper"
 PAGES = {
     f"figures_{place}": {
@@ -100,7 +106,11 @@ RULES["report_summary"] = {
     "stage": "report.summary",
     "message": "The start page of the report",
     "depends": sorted(glob.glob("scripts/report/*.html")) + ["scripts/report/page.css"],
-    "input": {"claims": result("claims.parquet"), "provenance": result("provenance.json")},
+    "input": {
+        "claims": result("claims.parquet"),
+        "provenance": result("provenance.json"),
+        **findings(),
+    },
     "output": {
         "summary": report_file("summary"),
         "claims": shown_page("claims", "Claims", {"page": "The paper's statements"}),
