@@ -42,10 +42,14 @@ def sets_of_conveyor(parameters: np.ndarray, probed: Probes, cycles: int, tolera
     None if a start settles late: then chaos is a transient, and every start has to be followed to its own end.
     """
     nothing = known = chaotic_sets_of(parameters, [])
-    starts = probed.states[probed.outcomes == OPEN]
-    stretching = exponents(parameters, starts, probes.SETTLING, tolerance).lambda_1 if len(starts) else np.empty(0)
-    order = np.argsort(-stretching, kind="stable")
-    for start in starts[order[stretching[order] > 0.0]]:
+    for start in probed.states[probed.outcomes == OPEN]:
+        # What is told in few cycles comes first: motions that stay in a set that is known, or do not stretch.
+        soon = probes.follow(parameters, start[None], probes.SETTLING, tolerance, NOTHING._replace(chaotic=known))
+        if (
+            soon.outcomes[0] != OPEN
+            or exponents(parameters, start[None], probes.SETTLING, tolerance).lambda_1[0] <= 0.0
+        ):
+            continue
         state = start[None]
         for strobes in (None, np.empty((cycles, 2))):
             motion = probes.follow(parameters, state, cycles, tolerance, NOTHING._replace(chaotic=known), strobes)

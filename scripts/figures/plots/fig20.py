@@ -21,11 +21,11 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
             axes.axvspan(between.min(), between.max(), color="0.88", linewidth=0.0, zorder=0)
             axes.annotate(
                 "two basins",
-                (between.mean(), 0.25),
+                (between.max(), 0.08),
                 xycoords=("data", "axes fraction"),
-                ha="center",
+                xytext=(3, 0),
+                textcoords="offset points",
                 va="center",
-                rotation=90,
                 size=7.0,
             )
         if "first_positive" in settings:
