@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..solver.jit import kernel
+from ..solver.jit import inlined, kernel
 
 COARSEST_SCALE = 0.25  # of the set's extent
 FINEST_SCALE = 2.0**-20  # of the set's extent; samples closer than this count as one: a settled orbit repeats itself
@@ -64,12 +64,11 @@ def box_dimension(points: np.ndarray) -> Dimension:
     Samples that repeat resolve nothing: sample a periodic orbit at times incommensurate with its period.
     """
     points = normalise(points)
-    order = np.random.default_rng(0).permutation(len(points))
+    points = points[np.random.default_rng(0).permutation(len(points))]
+    order = along_boxes(points)
+    halvings = np.sum([order < len(points) // part for part in (2, 4)], axis=0)
     shifts = np.modf(np.arange(1, SHIFTS + 1)[:, None] * np.array([0.7548776662466927, 0.5698402909980532]))[0]
-    counts, half, quarter = (
-        box_counts(along_boxes(points[order[: len(points) // part]]), SCALES, shifts, SAMPLES_PER_BOX / part)
-        for part in (1, 2, 4)
-    )
+    counts, half, quarter = box_counts(points[order], halvings, SCALES, shifts, SAMPLES_PER_BOX)
     resolved = (counts > 0.0) & (half > 0.0) & (quarter > 0.0)
     scales, counts, half, quarter = (column[resolved] for column in (SCALES, counts, half, quarter))
     last, before = counts - half, half - quarter
@@ -85,7 +84,7 @@ def box_dimension_of_paper(points: np.ndarray, sizes: Iterable[float] = tuple(0.
     The error is twice the standard error of the slope, as if the counts scattered independently.
     """
     scales = np.sort(np.asarray(sizes, dtype=np.float64))[::-1]
-    counts = box_counts(normalise(points), scales, np.zeros((1, 2)), 0.0)
+    counts = box_counts(normalise(points), np.zeros(len(points), np.int64), scales, np.zeros((1, 2)), 0.0)[0]
     (slope, _), covariance = np.polyfit(np.log(scales), np.log(counts), 1, cov=True)
     return Dimension(-slope, 2.0 * np.sqrt(covariance[0, 0]), scales[-1], scales[0], scales, counts)
 
@@ -124,7 +123,7 @@ def normalise(points: np.ndarray) -> np.ndarray:
 
 
 def along_boxes(points: np.ndarray) -> np.ndarray:
-    """Points of the unit square, shape (n, 2), along a Z-curve (Morton order): those of a box follow each other.
+    """The order of points of the unit square, shape (n, 2), along a Z-curve (Morton): those of a box follow each other.
 
     Counts do not depend on the order. Their time does: what is looked up again and again stays in the cache.
     """
@@ -132,7 +131,7 @@ def along_boxes(points: np.ndarray) -> np.ndarray:
     # The bits of a coordinate, each with a gap behind it for one of the other.
     for shift, mask in zip((16, 8, 4, 2, 1), SPREAD, strict=True):
         places = (places | (places << np.uint64(shift))) & mask
-    return points[np.argsort(places[:, 0] | (places[:, 1] << np.uint64(1)), kind="stable")]
+    return np.argsort(places[:, 0] | (places[:, 1] << np.uint64(1)), kind="stable")
 
 
 def scaling_region(scales: np.ndarray, values: np.ndarray, uncertain: np.ndarray) -> tuple[float, float, float, float]:
@@ -198,72 +197,93 @@ def fit_stretches(columns: list[np.ndarray], inside: np.ndarray, values: np.ndar
     return coefficients, np.sqrt(variance[:, None] * np.diagonal(inverse, axis1=1, axis2=2))
 
 
+# A set of points has parts, each in the one before: all, half, a quarter. A point of h halvings is in the first h + 1.
+PARTS = 3
+
+
+@inlined
+def mark(stamps, place, stamp, halvings, counts):
+    """Note a point in a box, and count the box for those of its parts that had none there.
+
+    stamps : PARTS times the number of a grid, and the most halvings of a point that was found there
+    """
+    before = stamps[place] - PARTS * stamp
+    if before < halvings:
+        for part in range(max(before, -1) + 1, halvings + 1):
+            counts[part] += 1
+        stamps[place] = PARTS * stamp + halvings
+
+
 @kernel
-def occupied_by_place(points, size, shift, stamps, stamp):
-    """Number of boxes of a shifted grid that hold a point; `stamps` has a place for each of them."""
+def occupied_by_place(points, halvings, size, shift, stamps, stamp, counts):
+    """Add the numbers of boxes of a shifted grid that hold a point to `counts`, shape (PARTS,).
+
+    stamps : with a place for each box
+    """
     inverse = 1.0 / size
     width = np.int64(inverse) + 2
-    count = 0
     for i in range(len(points)):
         place = np.int64(points[i, 0] * inverse + shift[0]) * width + np.int64(points[i, 1] * inverse + shift[1])
-        if stamps[place] != stamp:
-            stamps[place] = stamp
-            count += 1
-    return count
+        mark(stamps, place, stamp, halvings[i], counts)
 
 
 @kernel
-def occupied_by_key(points, size, shift, keys, stamps, stamp):
+def occupied_by_key(points, halvings, size, shift, keys, stamps, stamp, counts):
     """The same for boxes without number; `keys` and `stamps` are a hash table of length 2^k > n."""
     mask = np.uint64(len(keys) - 1)
     inverse = 1.0 / size
-    count = 0
-    previous = np.uint64(0xFFFFFFFFFFFFFFFF)
+    previous, slot = np.uint64(0xFFFFFFFFFFFFFFFF), np.uint64(0)
     for i in range(len(points)):
         # By way of int64, for which processors have an instruction.
         across, along = np.int64(points[i, 0] * inverse + shift[0]), np.int64(points[i, 1] * inverse + shift[1])
         key = np.uint64((across << 32) | along)
-        if key == previous:
-            continue
-        previous = key
-        mixed = key * np.uint64(0x9E3779B97F4A7C15)
-        slot = (mixed ^ (mixed >> np.uint64(32))) & mask
-        while stamps[slot] == stamp and keys[slot] != key:
-            slot = (slot + np.uint64(1)) & mask
-        if stamps[slot] != stamp:
-            stamps[slot] = stamp
+        if key != previous:
+            previous = key
+            mixed = key * np.uint64(0x9E3779B97F4A7C15)
+            slot = (mixed ^ (mixed >> np.uint64(32))) & mask
+            while stamps[slot] >= PARTS * stamp and keys[slot] != key:
+                slot = (slot + np.uint64(1)) & mask
             keys[slot] = key
-            count += 1
-    return count
+        mark(stamps, slot, stamp, halvings[i], counts)
 
 
 @kernel
-def box_counts(points, scales, shifts, samples_per_box):
-    """Mean numbers of occupied boxes over shifted grids, shape of `scales` (descending).
+def box_counts(points, halvings, scales, shifts, samples_per_box):
+    """Mean numbers of occupied boxes over shifted grids for all points and their parts, shape (PARTS, k).
+
+    points : shape (n, 2), in the unit square
+    halvings : of each point, int64, shape (n,)
+    scales : descending, shape (k,)
 
     Zero from the first scale on whose boxes hold fewer than `samples_per_box` samples that the finest scale tells
-    apart.
+    apart; in a part as many fewer as it is smaller.
     """
     length = 1
     while length < max(2 * len(points), PLACES):
         length *= 2
     keys = np.empty(length, np.uint64)
     stamps = np.full(length, -1, np.int32)
-    distinct = occupied_by_key(points, scales[-1], shifts[0], keys, stamps, 0)
-    counts = np.zeros(len(scales))
+    distinct = np.zeros(PARTS, np.int64)
+    occupied_by_key(points, halvings, scales[-1], shifts[0], keys, stamps, 0, distinct)
+    counts = np.zeros((PARTS, len(scales)))
+    resolved = np.full(PARTS, True)
     stamp = 0
     for k in range(len(scales)):
-        total = 0
+        totals = np.zeros(PARTS, np.int64)
         by_place = (1.0 / scales[k] + 3.0) ** 2 <= PLACES
         for s in range(len(shifts)):
             stamp += 1
             if by_place:
-                total += occupied_by_place(points, scales[k], shifts[s], stamps, stamp)
+                occupied_by_place(points, halvings, scales[k], shifts[s], stamps, stamp, totals)
             else:
-                total += occupied_by_key(points, scales[k], shifts[s], keys, stamps, stamp)
-        if total * samples_per_box > distinct * len(shifts):
+                occupied_by_key(points, halvings, scales[k], shifts[s], keys, stamps, stamp, totals)
+        for part in range(PARTS):
+            enough = totals[part] * samples_per_box <= distinct[part] * len(shifts) * (1 << part)
+            resolved[part] = resolved[part] and enough
+            if resolved[part]:
+                counts[part, k] = totals[part] / len(shifts)
+        if not resolved[0]:
             break
-        counts[k] = total / len(shifts)
     return counts
 
 

@@ -45,6 +45,11 @@ def test_henon_correlation_dimension_lies_in_the_literature_band(seed):
     assert found.error <= 0.06
 
 
+def box_counts(points, *arguments):
+    """Box counts of points without parts."""
+    return dimension.box_counts(points, np.zeros(len(points), np.int64), *arguments)[0]
+
+
 def test_box_counts_are_exact():
     """Boxes of 1/3^k hold the Cantor set's 2^k intervals, boxes of 1/2^k all of a square's 4^k."""
     unshifted = np.zeros((1, 2))
@@ -52,12 +57,12 @@ def test_box_counts_are_exact():
     for k in range(1, 9):
         left_ends = np.concatenate([left_ends, left_ends + 2.0 / 3.0**k])
     inside = np.column_stack([left_ends + 0.5 / 3.0**8, np.zeros(2**8)])
-    counts = dimension.box_counts(inside, 1.0 / 3.0 ** np.arange(1, 9), unshifted, 0.0)
+    counts = box_counts(inside, 1.0 / 3.0 ** np.arange(1, 9), unshifted, 0.0)
     assert counts.tolist() == [2.0**k for k in range(1, 9)]
 
     middles = (np.arange(64) + 0.5) / 64
     grid = np.column_stack([np.repeat(middles, 64), np.tile(middles, 64)])
-    counts = dimension.box_counts(grid, 0.5 ** np.arange(1, 7), unshifted, 0.0)
+    counts = box_counts(grid, 0.5 ** np.arange(1, 7), unshifted, 0.0)
     assert counts.tolist() == [4.0**k for k in range(1, 7)]
 
 
@@ -65,7 +70,23 @@ def test_box_counts_agree_with_sets_of_boxes():
     rng = np.random.default_rng(3)
     points, scales, shifts = rng.random((500, 2)) ** 2, np.array([0.3, 0.1, 0.01, 1e-6]), rng.random((3, 2))
     expected = [np.mean([len(np.unique(np.floor(points / e + s), axis=0)) for s in shifts]) for e in scales]
-    assert dimension.box_counts(points, scales, shifts, 0.0) == pytest.approx(expected, abs=1e-12)
+    assert box_counts(points, scales, shifts, 0.0) == pytest.approx(expected, abs=1e-12)
+
+
+def test_parts_are_counted_as_if_alone():
+    rng = np.random.default_rng(4)
+    points, shifts = rng.random((3000, 2)) ** 2, rng.random((3, 2))
+    halvings = rng.integers(0, 3, 3000)
+    scales = np.array([0.3, 0.1, 0.05, 0.02, 0.01, 1e-3, 1e-6])
+    found = dimension.box_counts(points, halvings, scales, shifts, 5.0)
+    for part in range(3):
+        alone = box_counts(points[halvings >= part], scales, shifts, 5.0 / 2**part)
+        resolved = found[part] > 0.0
+        assert resolved.any()
+        assert not resolved.all()
+        assert found[part, resolved].tolist() == alone[resolved].tolist()
+        # The search ends where boxes of the whole set are empty by chance.
+        assert (alone[~resolved] == 0.0).all() or (found[0, ~resolved] == 0.0).all()
 
 
 def test_pair_counts_agree_with_all_distances():
@@ -128,7 +149,7 @@ def test_points_are_checked(points):
 
 def test_points_along_boxes_are_the_same_points_and_lie_box_by_box():
     points = np.random.default_rng(1).random((4096, 2))
-    found = dimension.along_boxes(points)
+    found = points[dimension.along_boxes(points)]
     assert np.array_equal(np.sort(found.view("f8,f8"), axis=0), np.sort(points.view("f8,f8"), axis=0))
     # In a grid of 16 by 16, each box is entered once.
     boxes = (16 * found).astype(int) @ [16, 1]
