@@ -6,8 +6,11 @@ import numpy as np
 
 from conveyor.analysis import dimension
 from conveyor.analysis.dimension import Dimension
-from conveyor.simulation import simulate
-from conveyor.solver.model import unpack
+from conveyor.methods import fixed_step
+from conveyor.simulation import DEFAULT_STEP, DEFAULT_TOLERANCE
+from conveyor.solver import trajectory
+from conveyor.solver.horizontal import VZ, Z
+from conveyor.solver.model import FREQUENCY
 from conveyor.solver.parallel import for_each_chunk
 from pipeline import fields, grid
 
@@ -28,11 +31,13 @@ TABLES = {
 
 def portrait(parameters: np.ndarray, settings: dict) -> np.ndarray:
     """Consecutive points (z_p in m, ż_p in m/s) of one trajectory, shape (samples, 2)."""
-    conveyor, start = unpack(parameters)
-    cycles = settings["interval"] * np.arange(settings["samples"])
-    times = settings["begin"] + cycles / conveyor.frequency
-    options = {name: settings[name] for name in ("method", "tolerance", "step") if name in settings}
-    motion = simulate(conveyor, start, duration=times[-1], **options).sample(times)
+    times = settings["begin"] + settings["interval"] * np.arange(settings["samples"]) / parameters[FREQUENCY]
+    if settings["method"] == "event":
+        # The vertical motion alone, once, and without its results.
+        tolerance = settings.get("tolerance", DEFAULT_TOLERANCE)
+        (motion,), _ = trajectory.integrate(parameters[None], times[None], tolerance=tolerance, feeding=False)
+        return motion[:, [Z, VZ]]
+    motion = fixed_step.sample(parameters, times, settings.get("step", DEFAULT_STEP), settings["method"])
     return np.stack([motion["z"], motion["vz"]], axis=1)
 
 
