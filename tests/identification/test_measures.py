@@ -9,7 +9,7 @@ from project import read_config
 
 from claims import about_states
 from conveyor import ensemble
-from conveyor.analysis.regression import Hyperbola, mean_squared_error
+from conveyor.analysis.regression import Hyperbola, critical_height, mean_squared_error
 from conveyor.analysis.states import classify
 from identification import edges, measures, printed
 from identification.search_space import PARAMETERS, packed
@@ -159,6 +159,39 @@ def test_velocities_scale_with_friction_and_the_slope_of_the_excitation(interpol
     rows[:, 0] = 8.0 / np.sin(values[:, 3])
     velocities = measures.by_events()(rows) / values[:, 0]
     assert velocities[0] == pytest.approx(velocities[1], rel=1e-6)
+
+
+def test_each_reading_of_tension_has_its_own_edges():
+    """Frictionless tension those of `allow`, as the vertical motion knows no friction."""
+    columns = pd.MultiIndex.from_product(
+        [[0.2, 0.24, 0.26, 0.3], [4e5, 5e5, 6e5, 7e5], ["allow", "clip"], [0.0, 1e-4]],
+        names=["loss", "stiffness", "tension", "z0"],
+    ).to_frame(index=False)
+    table = columns.assign(vertical_acceleration=np.where(columns.tension == "clip", 9.0, 8.0) + 1e4 * columns.z0)
+    found = measures.edges_of(table, MODEL)
+    rows = packed(PRINTED[None], "allow", MODEL)
+    for reading, lowest in (("allow", 8.0), ("frictionless", 8.0), ("clip", 9.0)):
+        assert measures.vertical_edges(found, rows, reading)[0] == pytest.approx([lowest, lowest + 1.0])
+
+
+def test_the_critical_height_is_the_lowest_that_leaves_the_first_state():
+    """Behind a hump of the edge as well: what leaves before it leaves first."""
+    heights = np.linspace(0.0, 4.0, 4001)
+    found = measures.Curve(heights, np.interp(heights, range(5), [50.0, 40.0, 45.0, 30.0, 60.0])[None])
+    wanted = np.array([[55.0, 42.0, 41.0, 35.0, 30.0, 20.0]])
+    assert found.critical_height(wanted)[0] == pytest.approx([0.0, 0.8, 0.9, 8.0 / 3.0, 3.0, 3.0], abs=2e-3)
+
+
+def test_the_largest_critical_height_is_led_down_to_the_lower_end():
+    """Where the second state begins above it, by the slope of Eq. 13 there: heights of two conveyors 1 m/s² apart."""
+    heights = np.linspace(0.0, 5e-4, 501)
+    falling = 50.0 - 4e4 * heights
+    found = measures.Curve(heights, np.stack([np.maximum(falling, edge) for edge in (30.0, 31.0)]))
+    one, other = measures.places(found, MEASURED)["C04.largest_height"]
+    below, above = critical_height(29.0 + np.array([-1e-4, 1e-4]), Hyperbola(**TRIPLE))
+    slope = (above - below) / 2e-4
+    assert one == pytest.approx(1e3 * (5e-4 - slope), rel=1e-3)
+    assert other == pytest.approx(1e3 * (4.75e-4 - 2.0 * slope), rel=1e-3)
 
 
 def test_a_table_with_a_gap_is_refused(interpolated):

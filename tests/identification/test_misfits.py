@@ -1,10 +1,14 @@
 """Distances from the paper's numbers, in half accepted intervals."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from identification import findings
+from identification.fronts import distance
 from identification.misfits import Number, Numbers, misfit, root_mean_square, smallest_widening
+from identification.profiles import shifts_of
+from identification.search_space import PARAMETERS
 
 
 def test_the_ends_of_the_accepted_interval_are_one_apart_from_its_middle():
@@ -37,3 +41,73 @@ def test_two_numbers_of_one_quantity():
         findings.DOWN_ALONE: {"low": other.low, "high": other.high},
     }
     assert findings.contradiction(told) == factor
+
+
+def test_intervals_end_where_the_lowest_profile_has_risen():
+    """Parabolas about 1 under two readings, of which the lower one counts; the best lies between two values."""
+    x = np.array([0.4, 0.7, 1.2, 1.5])
+    profiles = pd.concat(
+        (
+            pd.DataFrame(
+                {"evidence": "all", "parameter": name, "tension": tension, "total": 5.0 + above + k * (x - 1.0) ** 2}
+                | dict.fromkeys(PARAMETERS, 1.0)
+                | {name: x, "status": "ok"}
+            )
+            for k, name in enumerate(PARAMETERS, start=50)
+            for tension, above in (("allow", 0.0), ("clip", 100.0))
+        ),
+        ignore_index=True,
+    )
+    optima = pd.DataFrame(
+        {"evidence": "all", "tension": ["allow", "clip"], "total": [5.0, 105.0], "rise": 3.0, "status": "ok"}
+        | dict.fromkeys(PARAMETERS, 1.0)
+    )
+    found = findings.intervals(profiles, optima, "all")
+    assert list(found) == list(PARAMETERS)
+    for k, name in enumerate(PARAMETERS, start=50):
+        low, high = found[name]
+        # By straight lines between (1, 5) or (0.7, 5 + 0.09 k) and the next value.
+        assert low.value == pytest.approx(1.0 - 0.3 * 3.0 / (0.09 * k))
+        at, there = (1.2, 0.04 * k) if 0.04 * k <= 3.0 else (1.0, 0.0)
+        ahead, beyond = (1.5, 0.25 * k) if at == 1.2 else (1.2, 0.04 * k)
+        assert high.value == pytest.approx(at + (ahead - at) * (3.0 - there) / (beyond - there))
+        assert (low.held, high.held) == (False, False)
+
+
+NUMBERS = {
+    "C05.velocity_at_lower_end": {"low": 1.0, "high": 1.2},
+    "C05.velocity_at_upper_end": {"low": 1.9, "high": 2.1},
+    "C06.fall": {"low": 0.3, "high": 0.5},
+}
+
+
+@pytest.mark.parametrize(
+    ("fall", "words"),
+    [
+        (2.0, "the fall from 0.150 to 0.250, all three from 0.200 to 0.210"),
+        (1.5, "the fall from 0.200 to 0.333, all three from 0.200 to 0.210"),
+        (4.0, "the fall from 0.075 to 0.125, all three at no friction"),
+    ],
+)
+def test_frictions_that_are_accepted(fall, words):
+    """Velocities that grow in proportion to friction."""
+    friction = np.linspace(0.0, 0.4, 41)
+    grown = {"friction": friction, "first_low": 5.0 * friction, "first_high": 10.0 * friction, "fall": fall * friction}
+    told = findings.friction_alone(pd.DataFrame(grown), NUMBERS)
+    assert told.startswith("the lower end is accepted from 0.200 to 0.240, the upper end from 0.190 to 0.210, ")
+    assert told.endswith(words)
+
+
+def test_few_contacts_are_a_coarse_table():
+    assert findings.coarse({"contacts": {"loss": 4, "stiffness": 4}})
+    assert not findings.coarse({"contacts": {"loss": 9, "stiffness": 9}})
+
+
+def test_the_distance_of_fronts_counts_members_of_both():
+    one, other = np.zeros((1, 2)), np.array([[0.0, 0.0], [1.0, 0.5]])
+    assert distance(one, other) == distance(other, one) == 0.25
+
+
+def test_shifts_are_what_the_paper_method_adds():
+    rows = [("printed", "euler", "a", 3.0), ("printed", "converged", "a", 1.0), ("other", "euler", "a", 9.0)]
+    assert shifts_of(pd.DataFrame(rows, columns=["set", "method", "number", "value"])) == {"a": 2.0}

@@ -26,10 +26,42 @@ def test_values_and_what_is_searched_are_inverse():
 
 def test_least_squares_finds_the_bottom_and_stops_at_bounds():
     target = np.array([0.3, 2.0])
-    found = fit(lambda x: (x - target) * [1.0, 10.0], np.zeros((1, 2)), np.array([[-1.0, -1.0], [1.0, 1.0]]))
+    bounds = np.array([[-1.0, -1.0], [1.0, 1.0]])
+
+    def residuals(x):
+        assert ((x >= bounds[0]) & (x <= bounds[1])).all()
+        return (x - target) * [1.0, 10.0]
+
+    found = fit(residuals, np.zeros((1, 2)), bounds)
     assert found.x == pytest.approx([0.3, 1.0], abs=1e-6)
     assert found.total == pytest.approx(100.0)
     assert found.settled
+
+
+def test_least_squares_takes_the_lowest_of_its_ends_and_says_if_it_gave_up(monkeypatch):
+    """Two valleys, of which the one on the right is deeper; and a search that is stopped after a step."""
+
+    def residuals(x):
+        return np.hstack([3.0 * (x**2 - 1.0), x - 2.0])
+
+    bounds = np.array([[-3.0], [3.0]])
+    for starts in ([[-0.9], [0.9]], [[0.9], [-0.9]]):
+        assert fit(residuals, np.array(starts), bounds).x[0] > 0.9
+    monkeypatch.setattr("identification.fits.EVALUATIONS", 1)
+    assert not fit(residuals, np.array([[-0.9]]), bounds).settled
+
+
+@pytest.mark.parametrize("parameter", PARAMETERS)
+def test_the_values_of_a_profile_ascend_within_what_is_searched(parameter):
+    grid = profiles.grid_of(parameter, 9, BOUNDS, MODEL)
+    assert (np.diff(grid) > 0.0).all()
+    column = list(PARAMETERS).index(parameter)
+    low, high = values_of(BOUNDS, MODEL)[:, column]
+    assert low <= grid[0] * (1.0 + 1e-9) and grid[-1] <= high * (1.0 + 1e-9)
+    assert np.log(grid[-1] / grid[0]) > 0.8 * np.log(high / low)
+    for value in grid:
+        left = profiles.holding(parameter, value, BOUNDS, MODEL).bounds
+        assert (np.ptp(left, axis=0) > 0.0).all()
 
 
 @pytest.mark.parametrize("parameter", PARAMETERS)
@@ -56,6 +88,26 @@ def test_the_profile_of_a_linear_problem_is_a_parabola():
     found = profiles.profile(misfits, "friction", grid, CENTRE, pool, BOUNDS, MODEL)
     assert [total for _, total, _ in found] == pytest.approx((3.0 * np.log(grid / grid[1]) - 1.0) ** 2, abs=1e-6)
     assert {status for *_, status in found} == {"ok"}
+
+
+def test_a_profile_takes_a_better_valley_back_to_where_it_was_not_seen():
+    """Two valleys over the angle. The search begins in the shallow one; a point near the last value is in the other."""
+    column, other = SEARCHED.index("friction"), SEARCHED.index("angle")
+    reach = np.ptp(BOUNDS[:, other])
+
+    def misfits(x):
+        t = (x[:, other] - CENTRE[other]) / reach
+        shallow, deep = 50.0 * (t + 0.3) ** 2 + 1.0, 50.0 * (t - 0.3) ** 2 + 0.1
+        return np.sqrt(np.minimum(shallow, deep))[:, None]
+
+    grid = np.exp(CENTRE[column] + np.array([-0.3, 0.0, 0.3, 0.6]))
+    begin, seen = CENTRE.copy(), CENTRE.copy()
+    begin[other] -= 0.3 * reach
+    seen[other] += 0.25 * reach
+    seen[column] += 0.6
+    pool = profiles.Pool(seen[None], misfits(seen[None]))
+    found = profiles.profile(misfits, "friction", grid, begin, pool, BOUNDS, MODEL)
+    assert [total for _, total, _ in found] == pytest.approx([0.1] * 4, abs=1e-5)
 
 
 def test_status_tells_a_bound_and_a_search_that_gave_up():

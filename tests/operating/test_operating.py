@@ -9,7 +9,7 @@ from project import ROOT, read_config
 
 from conveyor import Start, simulate
 from conveyor.analysis.states import Motions
-from conveyor.solver.model import Conveyor, conveyor_motion
+from conveyor.solver.model import Conveyor, conveyor_motion, pack
 from operating import chart, regimes, shares
 from pipeline.motions import motions
 
@@ -80,7 +80,66 @@ def test_velocities_are_means_over_whole_cycles(table):
         assert row.mean_velocity == pytest.approx(x[1] - x[0], rel=1e-6)
     assert (table.status == "ok").all()
     assert (table.velocity_stderr < 1e-6).all()
+    assert table.vertical.tolist() == pytest.approx(table.acceleration * math.sin(math.radians(12.0)) / 9.81)
+    assert table.stderr.tolist() == pytest.approx(np.sqrt(table.share * (1.0 - table.share) / BOX["starts"]))
     assert (table.motion == table.groupby("acceleration").mean_velocity.rank(ascending=False)).all()
+
+
+def velocity(conveyor: Conveyor, start: Start, period: int, **settings) -> tuple[float, str]:
+    """The mean velocity of one start that has settled vertically after twenty cycles, and its status."""
+    (found,), (status,) = shares.velocities(
+        pack(conveyor, start)[None], np.array([period]), np.array([20]), {**BOX, **settings}
+    )
+    return found, status
+
+
+def test_velocities_wait_for_a_slow_horizontal_motion():
+    """With little friction the part gains speed for thousands of cycles, long after it has settled vertically."""
+    conveyor = Conveyor(friction=1e-3)
+    found, status = velocity(conveyor, Start(3e-4), 1, cycles=20)
+    x = simulate(conveyor, Start(3e-4), duration=100.0).sample(np.array([99.0, 100.0]))["x"]
+    assert status == "ok"
+    plate = 40.0 * math.cos(conveyor.angle) / (100.0 * math.pi)
+    assert found == pytest.approx(x[1] - x[0], abs=2.0 * shares.SETTLED * plate)
+    # With less still it is not known within six doublings.
+    found, status = velocity(Conveyor(friction=1e-5), Start(3e-4), 1, cycles=20)
+    assert np.isnan(found)
+    assert status == "mean velocity not settled"
+
+
+def test_velocities_are_means_over_whole_periods():
+    """Of a motion of two cycles, looked at over an odd number of them."""
+    conveyor = Conveyor(acceleration=53.0)
+    found, status = velocity(conveyor, Start(3e-4), 2, cycles=251)
+    x = simulate(conveyor, Start(3e-4), duration=40.0).sample(np.array([36.0, 40.0]))["x"]
+    assert status == "ok"
+    assert found == pytest.approx((x[1] - x[0]) / 4.0, rel=1e-7)
+
+
+def test_a_run_that_fails_says_why_there_is_no_velocity():
+    found, status = velocity(Conveyor(damping=1e6, mass=1e-6), Start(3e-4), 1)
+    assert np.isnan(found)
+    assert status == "contact too stiff"
+
+
+@pytest.mark.parametrize(
+    ("states", "statuses", "wanted"),
+    [
+        ("first", ["ok", "ok"], (2.0, 1.0, "ok")),  # 1 and 3 m/s: a standard error of 1
+        ("first", ["ok", "mean velocity not settled"], (np.nan, np.nan, "mean velocity not settled")),
+        ("undecided", ["ok", "ok"], (np.nan, np.nan, "state not decided")),
+    ],
+)
+def test_velocities_of_a_motion_are_put_together(monkeypatch, states, statuses, wanted):
+    def motions_found(parameters, *_, **__):
+        n = len(parameters)
+        return Motions(np.full(n, states), np.ones(n, np.int64), np.zeros(n), np.arange(n))
+
+    monkeypatch.setattr(shares, "motions_of_starts", motions_found)
+    monkeypatch.setattr(shares, "velocities", lambda *_, **__: (np.array([1.0, 3.0]), np.array(statuses, dtype=object)))
+    row = pd.DataFrame(shares.motions_at(np.array([40.0]), BOX)).iloc[0]
+    assert (row.mean_velocity, row.velocity_stderr, row.status) == pytest.approx(wanted, nan_ok=True)
+    assert row.starts == BOX["starts"]
 
 
 def test_the_standard_error_is_that_of_repeated_draws():
@@ -114,14 +173,19 @@ def test_machines_with_equal_dimensionless_groups_have_equal_shares(table):
 
 
 def rows_at(acceleration: float) -> dict[str, list]:
-    """Made-up motions: one velocity below 31.4 m/s², two up to 50, chaos beside a jump beyond."""
+    """Made-up motions: one velocity below 31.4 m/s², two up to 50, of one of which there are two kinds; chaos beside a
+    jump beyond, and alone above 56.
+    """
     common = {"period": 1, "longest_flight": 0.0, "velocity_stderr": 0.0, "status": "ok", "stderr": 0.05}
     common |= {"acceleration": acceleration, "vertical": acceleration / 47.0}
     motions = [("first", 100, 0.01)]
     if acceleration > 31.4:
-        motions = [("second", 30, 0.06), ("first", 70, 0.01)]
+        jump = 30 if acceleration < 40.0 else 34
+        motions = [("second", jump - 10, 0.06), ("second", 10, 0.0595), ("first", 100 - jump, 0.01)]
     if acceleration > 50.0:
         motions = [("second", 20, 0.07), ("chaos", 80, 0.05)]
+    if acceleration > 56.0:
+        motions = [("chaos", 100, 0.05)]
     return [
         {**common, "motion": k, "state": state, "starts": starts, "share": starts / 100.0, "mean_velocity": velocity}
         for k, (state, starts, velocity) in enumerate(motions, start=1)
@@ -133,7 +197,7 @@ def made_up(amplitudes, settings, **options):
     return {name: rows[name].to_numpy() for name in rows}
 
 
-SETTINGS = {**BOX, "acceleration": {"start": 20.0, "stop": 60.0, "num": 9}, "resolution": 0.1, "starts": 100}
+SETTINGS = {**BOX, "acceleration": {"start": 20.0, "stop": 60.0, "num": 9}, "resolution": 0.2, "starts": 100}
 
 
 @pytest.fixture
@@ -153,18 +217,44 @@ def test_amplitudes_are_halved_where_the_answer_changes(refined):
     assert len(places) < 30
 
 
+@pytest.mark.parametrize(
+    ("ends", "words"),
+    [((0.0648, 0.141), "0.0648 to 0.141"), ((0.1, 0.10001), "0.1"), ((np.nan, np.nan), "not known")],
+)
+def test_numbers_in_words(ends, words):
+    assert chart.numbers(*ends) == words
+
+
+def test_chaos_begins_where_it_is_first_seen():
+    """Whatever is in between later on."""
+    found = pd.DataFrame(
+        {
+            "regime": [regimes.ONE, regimes.BESIDE, regimes.ONE, regimes.CHAOS],
+            "states": ["first", "chaos, first", "second", "chaos"],
+            "begin": [20.0, 30.0, 40.0, 50.0],
+            "end": [29.0, 39.0, 49.0, 60.0],
+        }
+    )
+    assert chart.irregular(found, 0.2) == {"chaos": "30.0", "only": "50.0 to 60.0", "unknown": ""}
+
+
 def test_regimes_and_their_words(refined):
     found = pd.DataFrame(regimes.make(refined))
-    assert list(found.regime) == [regimes.ONE, regimes.SEVERAL, regimes.BESIDE]
-    assert list(found.best_share_low) == [1.0, 0.3, 0.2]
-    assert list(found.velocity_low) == [0.01, 0.01, 0.05]
-    assert found.best_share_stderr[1] == pytest.approx(math.sqrt(0.3 * 0.7 / 100))
+    assert list(found.regime) == [regimes.ONE, regimes.SEVERAL, regimes.BESIDE, regimes.CHAOS]
+    assert list(found.best_share_low) == pytest.approx([1.0, 0.3, 0.2, 1.0])
+    assert list(found.best_share_high) == pytest.approx([1.0, 0.34, 0.2, 1.0])
+    assert list(found.velocity_low) == [0.01, 0.01, 0.05, 0.05]
+    assert list(found.states) == ["first", "first, second", "chaos, second", "chaos"]
+    assert found.best_share_stderr[1] == pytest.approx(math.sqrt(0.34 * 0.66 / 100))
+    # The config's own amplitudes lie 5 m/s² apart; nearer ones were looked at where the answer changes.
+    assert list(found.step[:2]) == [5.0, 5.0]
     template = (ROOT / "workflow/templates/operating_chart.md").read_text()
     page = chart.make(template, refined, found)
-    assert "Every start of the box ends in one velocity at 20.0 to 31.3 m/s² (first state, 0.01 m/s)." in page
+    assert "Every start of the box ends in one velocity at 20.0 to 31.2 m/s² (first state, 0.01 m/s)." in page
     assert "Several velocities exist side by side, without chaos, at 31.4 to 50.0 m/s²" in page
-    assert "30 % of the starts get, most of them (30.0 ± 4.6 %)" in page
-    assert "Chaos begins at 50.1 m/s²; nowhere is it all that the starts end in." in page
+    assert "30 to 34 % of the starts get, most of them (34.0 ± 4.7 %) at 40 m/s² with 0.06 m/s" in page
+    assert "Chaos begins at 50.2 m/s²; it is all that the starts end in at 56.1 to 60.0 m/s²." in page
+    assert "from the box of heights 0 to 0.5 mm above" in page
     assert "fewer than 3 % of the box do, at 95 %\nconfidence" in page
     assert "could not be decided" not in page
 
@@ -173,7 +263,7 @@ def test_regimes_and_their_words(refined):
     ("states", "velocities", "regime"),
     [
         (["first"], [0.01], regimes.ONE),
-        (["second", "second"], [0.1, 0.0985], regimes.ONE),
+        (["second", "second"], [0.1, 0.09802], regimes.ONE),
         (["second", "second"], [0.1, 0.0975], regimes.SEVERAL),
         (["first", "first"], [0.01, -0.01], regimes.SEVERAL),
         (["chaos", "chaos"], [0.1, 0.1], regimes.CHAOS),
