@@ -108,9 +108,9 @@ def test_velocities_wait_for_a_slow_horizontal_motion():
 
 
 def test_velocities_are_means_over_whole_periods():
-    """Of a motion of two cycles, looked at over an odd number of them."""
+    """Of a motion of two cycles, where a mean over half as many would be one over an odd number."""
     conveyor = Conveyor(acceleration=53.0)
-    found, status = velocity(conveyor, Start(3e-4), 2, cycles=251)
+    found, status = velocity(conveyor, Start(3e-4), 2, cycles=250)
     x = simulate(conveyor, Start(3e-4), duration=40.0).sample(np.array([36.0, 40.0]))["x"]
     assert status == "ok"
     assert found == pytest.approx((x[1] - x[0]) / 4.0, rel=1e-7)
