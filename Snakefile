@@ -4,11 +4,13 @@ from snakemake.utils import min_version
 from workflow.config_files import as_first_written, merged, read, refusal
 from workflow.configuration import by_methods, canonical, problems, with_tighter
 from workflow.interruptions import end_with_the_terminal, name_commands_at_a_lock
+from workflow.job_lines import show_a_line_per_job
 from workflow.own_machine import fitted, is_own, model_problems, refusals
 
 min_version("9.27")
 end_with_the_terminal()
 name_commands_at_a_lock()
+show_a_line_per_job()
 
 # The config of the paper, one file for each stage; overlays of the command line are merged over it.
 STAGES = (
