@@ -42,7 +42,8 @@ if OWN_MACHINE:
         raise WorkflowError(refusal(errors))
     contents = [fitted(PAPER, config), *contents[len(STAGES) + 1 :]]
 whole = as_first_written(merged(*contents, config), contents)
-if errors := problems(whole):
+# Snakemake reads all this again for each job: the config has been checked by then.
+if workflow.is_main_process and (errors := problems(whole)):
     raise WorkflowError(refusal(errors))
 
 # Nothing that follows from the config may depend on the order of keys or the spelling of numbers in overlays. It is the same

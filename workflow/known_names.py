@@ -92,15 +92,22 @@ def stored(name: ast.expr) -> str:
     return ast.dump(ast.Name(name.id, ast.Store())) if isinstance(name, ast.Name) else ""
 
 
+@cache
+def nodes_of(definition: ast.stmt) -> list[ast.AST]:
+    """All nodes of a definition: each is looked through for many mappings."""
+    return list(ast.walk(definition))
+
+
 def keys_of_loops(module: str, function: ast.stmt, mapping: str) -> Iterator[str]:
     """The keys that loops `for key in …: mapping[key]` of a function need."""
-    for node in ast.walk(function):
+    for node in nodes_of(function):
         heads = [node] if isinstance(node, ast.For) else getattr(node, "generators", [])
+        if not heads:
+            continue
         asked = [
             part.slice.id
             for part in ast.walk(node)
-            if heads
-            and isinstance(part, ast.Subscript)
+            if isinstance(part, ast.Subscript)
             and isinstance(part.slice, ast.Name)
             and getattr(part.value, "id", None) == mapping
         ]
@@ -121,7 +128,7 @@ def names_asked(module: str, function: str, mapping: str) -> Names:
             continue
         seen.add(place)
         needed.update(keys_of_loops(place[0], read(place[0]).definitions[place[1]], mapping))
-        for node in ast.walk(read(place[0]).definitions[place[1]]):
+        for node in nodes_of(read(place[0]).definitions[place[1]]):
             todo += used(place[0], node)
             match node:
                 case ast.Subscript(ast.Name(id=name), ast.Constant(value=str(key))) if name == mapping:

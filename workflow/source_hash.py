@@ -10,7 +10,7 @@ import platform
 import sys
 from collections.abc import Iterable, Iterator
 from functools import cache
-from importlib.metadata import packages_distributions, version
+from importlib import metadata
 from pathlib import Path
 
 SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
@@ -81,7 +81,19 @@ def closure(*scripts: str) -> tuple[list[Path], list[str]]:
 @cache
 def distributions() -> dict[str, list[str]]:
     """Names of the distributions that provide each importable top-level name."""
-    return packages_distributions()
+    return metadata.packages_distributions()
+
+
+@cache
+def version(distribution: str) -> str:
+    """The version of an installed distribution; to look it up takes a millisecond."""
+    return metadata.version(distribution)
+
+
+@cache
+def content(file: Path) -> bytes:
+    """What a file holds: a process reads it once, for all rules that depend on it."""
+    return file.read_bytes()
 
 
 def versions(packages: Iterable[str]) -> list[str]:
@@ -107,7 +119,7 @@ def source_hash(*scripts: str) -> str:
     files, packages = closure(*scripts)
     digest = hashlib.sha256()
     for file in files:
-        digest.update(f"{file.relative_to(SCRIPTS)}\0".encode() + file.read_bytes() + b"\0")
+        digest.update(f"{file.relative_to(SCRIPTS)}\0".encode() + content(file) + b"\0")
     for package in versions(packages):
         digest.update(f"{package}\0".encode())
     return digest.hexdigest()[:16]
