@@ -138,16 +138,16 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     named = {label: rows for label, rows in chosen(table).items() if len(rows)}
     dots(amplitudes, named, [name for name in NAMES if name != "acceleration"], "elasticity", POINTS)
     amplitudes.set_xlabel("change of the amplitude $\\hat{a}$ in % for 1 % more")
-    amplitudes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, columnspacing=1.0, handletextpad=0.2)
+    amplitudes.legend(loc="lower left", bbox_to_anchor=(-0.19, 1.0), ncols=2, columnspacing=0.6, handletextpad=0.2)
 
     rows = table[(table.kind == "critical_height") & (table.status == "ok")]
     rows = rows.assign(per_percent=1e4 * rows.derivative * rows.value)
-    of_amplitudes = {f"{a:g} m/s²": one for a, one in rows.groupby("acceleration")}
+    of_amplitudes = {f"{a:.4g} m/s²": one for a, one in rows.groupby("acceleration")}
     shades = colormaps["viridis"](np.linspace(0.0, 0.85, max(len(of_amplitudes), 1)))
     looks = {label: {"marker": "o", "color": shade} for label, shade in zip(of_amplitudes, shades, strict=False)}
     dots(heights, of_amplitudes, list(NAMES), "per_percent", looks)
     heights.set_xlabel("change of the critical height in µm for 1 % more")
-    heights.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, columnspacing=1.0, handletextpad=0.1)
+    heights.legend(loc="lower left", bbox_to_anchor=(-0.15, 1.0), ncols=4, columnspacing=1.0, handletextpad=0.1)
 
     chart(damping, tables, "damping", "damping_group", "damping group $D = d_c/(m\\omega)$")
     chart(stiffness, tables, "stiffness", "stiffness_group", "stiffness group $K = k_c g^{p-1}/(m\\omega^{2p})$")
@@ -156,5 +156,5 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
     figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4)
     for axes, letter in zip((amplitudes, heights, damping, stiffness), "abcd", strict=True):
-        axes.set_title(letter, loc="left", x=-0.24, fontweight="bold")
+        axes.set_title(letter, loc="left", x=-0.22, fontweight="bold")
     return figure
