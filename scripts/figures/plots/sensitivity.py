@@ -147,7 +147,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     looks = {label: {"marker": "o", "color": shade} for label, shade in zip(of_amplitudes, shades, strict=False)}
     dots(heights, of_amplitudes, list(NAMES), "per_percent", looks)
     heights.set_xlabel("change of the critical height in µm for 1 % more")
-    heights.legend(loc="lower left", bbox_to_anchor=(-0.15, 1.0), ncols=4, columnspacing=1.0, handletextpad=0.1)
+    heights.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, columnspacing=0.7, handletextpad=0.0)
 
     chart(damping, tables, "damping", "damping_group", "damping group $D = d_c/(m\\omega)$")
     chart(stiffness, tables, "stiffness", "stiffness_group", "stiffness group $K = k_c g^{p-1}/(m\\omega^{2p})$")
