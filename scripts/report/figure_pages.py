@@ -14,6 +14,8 @@ from report.page import render
 COLOURS = 256
 # Of the pixels of a PNG file one in so many, in each direction: 300 dpi are enough for a screen.
 REDUCED = 2
+# Bytes of a page: the report holds it as an address, of which Chromium takes 2 MiB, four letters for three bytes.
+LARGEST = 1_500_000
 # Pixels of a browser in an inch; a figure is shown half as large again as in print.
 SHOWN = 1.5 * 96
 
@@ -50,10 +52,23 @@ def make(pages: dict[str, dict], told: dict[str, str]) -> dict[str, str]:
     ----------
     pages : by their names, with `heading` and `figures`: name, number, title, section, file, png and rst of each
     told : what stands on top, heading and text; nothing for the paper's config
+
+    Raises
+    ------
+    ValueError
+        names a page that is too large for a browser
     """
-    return {
+    made = {
         name: render(
             "figures.html", title=page["heading"], told=told, figures=[of_figure(figure) for figure in page["figures"]]
         )
         for name, page in pages.items()
     }
+    for name, page in made.items():
+        size = len(page.encode())
+        if size > LARGEST:
+            raise ValueError(
+                f"{pages[name]['heading']}: its page of the report has {size / 1e6:.2f} MB, and a browser shows none "
+                f"above {LARGEST / 1e6:g} MB; put fewer figures on it"
+            )
+    return made

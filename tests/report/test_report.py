@@ -126,6 +126,18 @@ def test_white_stays_white_among_many_colours(tmp_path):
         assert found.getpixel((150, 100)) == (255, 255, 255)
 
 
+def test_a_page_that_no_browser_shows_is_refused(tmp_path):
+    pixels = np.random.default_rng(1).integers(0, 256, (1800, 1800, 3), dtype=np.uint8)
+    Image.fromarray(pixels).save(tmp_path / "noise.png")
+    (tmp_path / "noise.rst").write_text("Noise.\n")
+    noise = {"name": "noise", "number": "noise", "title": "N", "section": "", "file": "noise.pdf"}
+    noise |= {kind: str(tmp_path / f"noise.{kind}") for kind in ("png", "rst")}
+    one = {"heading": "Noise", "figures": [noise]}
+    assert figure_pages.make({"one": one}, {})["one"].count("<figure") == 1
+    with pytest.raises(ValueError, match=r"Noise: its page of the report has \d\.\d\d MB"):
+        figure_pages.make({"two": one | {"figures": [noise, noise]}}, {})
+
+
 def test_a_caption_with_a_mistake_is_an_error():
     assert figure_pages.html("m\\ :sub:`p`\n") == "<p>m<sub>p</sub></p>\n"
     with pytest.raises(Exception, match="Unknown interpreted text role"):

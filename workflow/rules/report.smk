@@ -1,8 +1,12 @@
 # What `snakemake --report` shows: a start page, the figures of each section beside their captions, the claims, the provenance.
 
 
+# Figures on a page beyond the paper: a browser shows no page of the report above two megabytes (see report.figure_pages).
+AT_ONCE = 5
+
+
 def section_pages():
-    """The figures by the sections of the paper, in its order, and on the last page those that the paper does not have."""
+    """The figures by the sections of the paper, in its order, and on the last pages those that the paper does not have."""
     sections = {}
     for figure, entry in sorted(config["figures"].items(), key=lambda item: item[1]["section"]):
         number = re.fullmatch(r"fig(\d+)", figure)
@@ -17,8 +21,9 @@ def section_pages():
                 "rst": result(f"captions/{figure}.rst"),
             }
         )
-    beyond = sections.pop(BEYOND, None)
-    return sections | ({BEYOND: beyond} if beyond else {})
+    beyond = sections.pop(BEYOND, [])
+    parts = [beyond[first : first + AT_ONCE] for first in range(0, len(beyond), AT_ONCE)]
+    return sections | {f"{BEYOND}, {place} of {len(parts)}": part for place, part in enumerate(parts, start=1)}
 
 
 def in_label(text):
@@ -39,7 +44,7 @@ def shown_page(name, category, labels):
 def numbers_of(page):
     """Which figures are on a page, in few words."""
     first, *_, last = [figure["number"] for figure in page["figures"]] * 2
-    if page["section"] == BEYOND:
+    if page["section"].startswith(BEYOND):
         return f"{len(page['figures'])} figures"
     return first if first == last else f"{first} to {last.removeprefix('Fig. ')}"
 
@@ -71,7 +76,7 @@ def findings():
 BEYOND = "beyond the paper"
 PAGES = {
     f"figures_{place}": {
-        "heading": section.capitalize() if section == BEYOND else f"Section {section}",
+        "heading": section.capitalize() if section.startswith(BEYOND) else f"Section {section}",
         "section": section,
         "figures": figures,
     }
