@@ -8,7 +8,7 @@ import pytest
 from project import ROOT, read_config
 
 from conveyor import Start, simulate
-from conveyor.analysis.states import Motions
+from conveyor.analysis.states import Motions, classify
 from conveyor.solver.model import Conveyor, conveyor_motion, pack
 from operating import chart, regimes, shares
 from pipeline.motions import motions
@@ -108,12 +108,13 @@ def test_velocities_wait_for_a_slow_horizontal_motion():
 
 
 def test_velocities_are_means_over_whole_periods():
-    """Of a motion of two cycles, where a mean over half as many would be one over an odd number."""
-    conveyor = Conveyor(acceleration=53.0)
-    found, status = velocity(conveyor, Start(3e-4), 2, cycles=250)
-    x = simulate(conveyor, Start(3e-4), duration=40.0).sample(np.array([36.0, 40.0]))["x"]
+    """Of a motion of four cycles, behind the second doubling, asked for over a number of cycles that is no multiple."""
+    conveyor = Conveyor(acceleration=61.8)
+    assert classify(pack(conveyor, Start(3e-4))[None]).period.tolist() == [4]
+    found, status = velocity(conveyor, Start(3e-4), 4, cycles=251)
+    x = simulate(conveyor, Start(3e-4), duration=40.0).sample(np.array([32.0, 40.0]))["x"]
     assert status == "ok"
-    assert found == pytest.approx((x[1] - x[0]) / 4.0, rel=1e-7)
+    assert found == pytest.approx((x[1] - x[0]) / 8.0, rel=1e-7)
 
 
 def test_a_run_that_fails_says_why_there_is_no_velocity():
