@@ -14,8 +14,7 @@ from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from pathlib import Path
 
-from tqdm import tqdm
-
+from conveyor.solver.progress import bar
 from draw import draw
 from figures import style
 
@@ -50,7 +49,7 @@ def main(archive: Path) -> str | None:
     drawn = json.loads((archive / "figures.json").read_text(encoding="utf-8"))
     with ProcessPoolExecutor(os.cpu_count()) as pool:
         digests = pool.map(partial(redraw, archive), drawn, drawn.values())
-        found = dict(zip(drawn, tqdm(digests, total=len(drawn), desc="figures"), strict=True))
+        found = dict(zip(drawn, bar(digests, total=len(drawn), label="drawn", unit="figures"), strict=True))
     if different := [file for file, digest in found.items() if digest != known[file]]:
         return f"{len(different)} of {len(drawn)} figures differ from those of the archive: {', '.join(different)}"
     print(f"{len(drawn)} figures drawn in {time.perf_counter() - begin:.0f} s, equal to those of the archive")

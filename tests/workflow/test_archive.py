@@ -51,6 +51,9 @@ def test_figures_drawn_again_are_equal_to_the_byte(archive):
     run = redraw(archive)
     assert run.returncode == 0, run.stderr
     assert f"{len(FIGURES)} figures drawn" in run.stdout
+    # No terminal: lines in place of a bar.
+    assert "\r" not in run.stderr
+    assert run.stderr.splitlines()[-1].startswith(f"drawn: {len(FIGURES)} of {len(FIGURES)} figures")
     for figure in FIGURES:
         again = (archive / f"redrawn/figures/{figure}.pdf").read_bytes()
         assert again == (archive / f"figures/{figure}.pdf").read_bytes()
