@@ -42,7 +42,7 @@ if OWN_MACHINE:
         raise WorkflowError(refusal(errors))
     contents = [fitted(PAPER, config), *contents[len(STAGES) + 1 :]]
 whole = as_first_written(merged(*contents, config), contents)
-# Snakemake reads all this again for each job: the config has been checked by then.
+# A job on a cluster starts Snakemake again: the config has been checked by then.
 if workflow.is_main_process and (errors := problems(whole)):
     raise WorkflowError(refusal(errors))
 

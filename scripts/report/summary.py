@@ -49,7 +49,6 @@ def linked(findings: str, pages: list[dict], claims_page: str) -> Markup:
 
     A figure that the report does not have stays the name of a file.
     """
-
     files = {figure["name"]: page["file"] for page in pages for figure in page["figures"]}
 
     def figure(found: re.Match) -> str:
