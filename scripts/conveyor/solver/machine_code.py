@@ -39,6 +39,12 @@ def imported(module: Path) -> tuple[Path, ...]:
 
 
 @cache
+def said(module: Path) -> bytes:
+    """The name of a module and what Python reads there; it takes milliseconds, and many modules import the same one."""
+    return f"{module.relative_to(LIBRARY)}\0{ast.dump(parsed(module))}\0".encode()
+
+
+@cache
 def content(module: Path) -> str:
     """First 16 hexadecimal digits of the SHA-256 of a module, all that it imports at any depth, and the compilers.
 
@@ -52,7 +58,7 @@ def content(module: Path) -> str:
             waiting += imported(file)
     digest = hashlib.sha256(f"{platform.python_version()} {numba.__version__} {llvmlite.__version__}".encode())
     for file in sorted(files):
-        digest.update(f"{file.relative_to(LIBRARY)}\0".encode() + ast.dump(parsed(file)).encode() + b"\0")
+        digest.update(said(file))
     return digest.hexdigest()[:16]
 
 

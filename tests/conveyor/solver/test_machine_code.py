@@ -8,6 +8,8 @@ import pytest
 
 from conveyor.solver import machine_code
 
+CACHED = (machine_code.parsed, machine_code.imported, machine_code.said, machine_code.content)
+
 
 @pytest.fixture
 def library(tmp_path, monkeypatch):
@@ -26,12 +28,12 @@ def library(tmp_path, monkeypatch):
     def content(module, **texts):
         for name, text in texts.items():
             (tmp_path / f"{name.replace('__', '/')}.py").write_text(text)
-        for cached in (machine_code.parsed, machine_code.imported, machine_code.content):
+        for cached in CACHED:
             cached.cache_clear()
         return machine_code.content(tmp_path / f"{module}.py")
 
     yield content
-    for cached in (machine_code.parsed, machine_code.imported, machine_code.content):
+    for cached in CACHED:
         cached.cache_clear()
 
 
