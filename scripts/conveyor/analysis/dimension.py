@@ -17,12 +17,11 @@ COARSEST_SCALE = 0.25  # of the set's extent
 FINEST_SCALE = 2.0**-20  # of the set's extent; samples closer than this count as one: a settled orbit repeats itself
 SCALES_PER_OCTAVE = 4
 SCALES = np.geomspace(COARSEST_SCALE, FINEST_SCALE, 18 * SCALES_PER_OCTAVE + 1)
-# Masks that keep groups of 16, 8, 4, 2 and 1 bits with as many zeros between them.
-SPREAD = np.array(
-    [0x0000FFFF0000FFFF, 0x00FF00FF00FF00FF, 0x0F0F0F0F0F0F0F0F, 0x3333333333333333, 0x5555555555555555], np.uint64
-)
-PLACES = 1 << 21  # boxes of a grid up to which each has a place in memory
-SHIFTS = 12  # positions of each grid over which box counts are averaged
+NEIGHBOURS = 64  # boxes along a Z-curve that lie side by side in a hash table
+FRESH = 1 << 30  # numbers of boxes after which a hash table is cleared, as they have 32 bits
+# Positions of each grid over which box counts are averaged, in boxes: a Fibonacci lattice. As 13 is odd, doubling only
+# changes their order: grids within each other have the same positions at each scale.
+SHIFTS = np.modf(np.arange(13)[:, None] * np.array([1.0, 8.0]) / 13.0)[0]
 SAMPLES_PER_BOX = 5.0  # with fewer, too many boxes stay empty by chance (e^-5 of them in a uniform set)
 MINIMUM_PAIRS = 1000  # closer than the smallest radius: 3 % noise
 MAXIMUM_PAIRS = 6e7  # distances to compute; larger sets are seen from fewer reference points
@@ -67,8 +66,7 @@ def box_dimension(points: np.ndarray) -> Dimension:
     points = points[np.random.default_rng(0).permutation(len(points))]
     order = along_boxes(points)
     halvings = np.sum([order < len(points) // part for part in (2, 4)], axis=0)
-    shifts = np.modf(np.arange(1, SHIFTS + 1)[:, None] * np.array([0.7548776662466927, 0.5698402909980532]))[0]
-    counts, half, quarter = box_counts(points[order], halvings, SCALES, shifts, SAMPLES_PER_BOX)
+    counts, half, quarter = box_counts(points[order], halvings, SCALES, SCALES_PER_OCTAVE, SHIFTS, SAMPLES_PER_BOX)
     resolved = (counts > 0.0) & (half > 0.0) & (quarter > 0.0)
     scales, counts, half, quarter = (column[resolved] for column in (SCALES, counts, half, quarter))
     last, before = counts - half, half - quarter
@@ -84,7 +82,8 @@ def box_dimension_of_paper(points: np.ndarray, sizes: Iterable[float] = tuple(0.
     The error is twice the standard error of the slope, as if the counts scattered independently.
     """
     scales = np.sort(np.asarray(sizes, dtype=np.float64))[::-1]
-    counts = box_counts(normalise(points), np.zeros(len(points), np.int64), scales, np.zeros((1, 2)), 0.0)[0]
+    unshifted = np.zeros((1, 2))
+    counts = box_counts(normalise(points), np.zeros(len(points), np.int64), scales, len(scales), unshifted, 0.0)[0]
     (slope, _), covariance = np.polyfit(np.log(scales), np.log(counts), 1, cov=True)
     return Dimension(-slope, 2.0 * np.sqrt(covariance[0, 0]), scales[-1], scales[0], scales, counts)
 
@@ -127,11 +126,9 @@ def along_boxes(points: np.ndarray) -> np.ndarray:
 
     Counts do not depend on the order. Their time does: what is looked up again and again stays in the cache.
     """
-    places = (points / FINEST_SCALE).astype(np.uint64)
-    # The bits of a coordinate, each with a gap behind it for one of the other.
-    for shift, mask in zip((16, 8, 4, 2, 1), SPREAD, strict=True):
-        places = (places | (places << np.uint64(shift))) & mask
-    return np.argsort(places[:, 0] | (places[:, 1] << np.uint64(1)), kind="stable")
+    boxes = np.empty(len(points), np.int64)
+    boxes_of(points, FINEST_SCALE, np.zeros(2), boxes)
+    return np.argsort(boxes, kind="stable")
 
 
 def scaling_region(scales: np.ndarray, values: np.ndarray, uncertain: np.ndarray) -> tuple[float, float, float, float]:
@@ -202,86 +199,122 @@ PARTS = 3
 
 
 @inlined
-def mark(stamps, place, stamp, halvings, counts):
-    """Note a point in a box, and count the box for those of its parts that had none there.
-
-    stamps : PARTS times the number of a grid, and the most halvings of a point that was found there
-    """
-    before = stamps[place] - PARTS * stamp
-    if before < halvings:
-        for part in range(max(before, -1) + 1, halvings + 1):
-            counts[part] += 1
-        stamps[place] = PARTS * stamp + halvings
+def spread(number):
+    """The lower 32 bits of an integer with a gap behind each."""
+    number = (number | (number << 16)) & 0x0000FFFF0000FFFF
+    number = (number | (number << 8)) & 0x00FF00FF00FF00FF
+    number = (number | (number << 4)) & 0x0F0F0F0F0F0F0F0F
+    number = (number | (number << 2)) & 0x3333333333333333
+    return (number | (number << 1)) & 0x5555555555555555
 
 
 @kernel
-def occupied_by_place(points, halvings, size, shift, stamps, stamp, counts):
-    """Add the numbers of boxes of a shifted grid that hold a point to `counts`, shape (PARTS,).
+def boxes_of(points, size, shift, boxes):
+    """Fill `boxes`, int64, with the numbers of the boxes of a shifted grid that the points lie in, along a Z-curve.
 
-    stamps : with a place for each box
+    Four boxes that make one of twice the size follow each other (Morton).
     """
     inverse = 1.0 / size
-    width = np.int64(inverse) + 2
     for i in range(len(points)):
-        place = np.int64(points[i, 0] * inverse + shift[0]) * width + np.int64(points[i, 1] * inverse + shift[1])
-        mark(stamps, place, stamp, halvings[i], counts)
-
-
-@kernel
-def occupied_by_key(points, halvings, size, shift, keys, stamps, stamp, counts):
-    """The same for boxes without number; `keys` and `stamps` are a hash table of length 2^k > n."""
-    mask = np.uint64(len(keys) - 1)
-    inverse = 1.0 / size
-    previous, slot = np.uint64(0xFFFFFFFFFFFFFFFF), np.uint64(0)
-    for i in range(len(points)):
-        # By way of int64, for which processors have an instruction.
         across, along = np.int64(points[i, 0] * inverse + shift[0]), np.int64(points[i, 1] * inverse + shift[1])
-        key = np.uint64((across << 32) | along)
-        if key != previous:
-            previous = key
-            mixed = key * np.uint64(0x9E3779B97F4A7C15)
-            slot = (mixed ^ (mixed >> np.uint64(32))) & mask
-            while stamps[slot] >= PARTS * stamp and keys[slot] != key:
-                slot = (slot + np.uint64(1)) & mask
-            keys[slot] = key
-        mark(stamps, slot, stamp, halvings[i], counts)
+        boxes[i] = spread(across) | (spread(along) << 1)
 
 
 @kernel
-def box_counts(points, halvings, scales, shifts, samples_per_box):
+def merge(boxes, deepest, n, owners, first):
+    """Keep each of the first n boxes once, with the most halvings of all that lies in it; return how many they are.
+
+    boxes, deepest : int64 and int8, replaced from their beginnings on
+    owners : int32, a hash table of a length 2^k ≥ 2 n: the number of a box that is kept, counted from `first`; a place
+        is free whose number is smaller
+    """
+    # A part of the table that is as long as needed stays in a cache, and so do boxes that follow each other.
+    length = NEIGHBOURS
+    while length < 2 * n:
+        length *= 2
+    mask = np.uint64(length - 1)
+    kept = number = 0
+    previous = np.int64(-1)
+    for i in range(n):
+        box, halvings = boxes[i], deepest[i]
+        if box != previous:
+            previous = box
+            mixed = np.uint64(box // NEIGHBOURS) * np.uint64(0x9E3779B97F4A7C15)
+            slot = ((mixed >> np.uint64(32)) * np.uint64(NEIGHBOURS) + np.uint64(box % NEIGHBOURS)) & mask
+            while owners[slot] >= first and boxes[owners[slot] - first] != box:
+                slot = (slot + np.uint64(1)) & mask
+            if owners[slot] < first:
+                owners[slot] = first + kept
+                boxes[kept], deepest[kept] = box, halvings
+                kept += 1
+            number = owners[slot] - first
+        deepest[number] = max(deepest[number], halvings)
+    return kept
+
+
+@kernel
+def count_chain(points, halvings, scales, finest, step, shift, owners, first, boxes, deepest, totals):
+    """Add the numbers of boxes that hold a point of each part to `totals`, shape (PARTS, k), for a chain of grids.
+
+    Its scales are number `finest`, the one `step` before it, of twice the size, and so on; of the last and largest one
+    the grid is shifted by `shift` boxes. What each grid holds is found from the boxes of the one before.
+
+    first : as in `merge`; that of the next chain is returned
+    """
+    n = len(points)
+    if first > FRESH:
+        owners[:] = -1
+        first = 0
+    boxes_of(points, scales[finest], shift * 2.0 ** (finest // step), boxes)
+    deepest[:] = halvings
+    for k in range(finest, -1, -step):
+        kept = merge(boxes, deepest, n, owners, first)
+        first += n
+        n = kept
+        for i in range(n):
+            for part in range(deepest[i] + 1):
+                totals[part, k] += 1
+            boxes[i] >>= 2
+    return first
+
+
+@kernel
+def box_counts(points, halvings, scales, step, shifts, samples_per_box):
     """Mean numbers of occupied boxes over shifted grids for all points and their parts, shape (PARTS, k).
 
     points : shape (n, 2), in the unit square
     halvings : of each point, int64, shape (n,)
-    scales : descending, shape (k,)
+    scales, step : descending, shape (k,), each half of the one `step` before it; a step of k relates none to another
 
     Zero from the first scale on whose boxes hold fewer than `samples_per_box` samples that the finest scale tells
     apart; in a part as many fewer as it is smaller.
     """
-    length = 1
-    while length < max(2 * len(points), PLACES):
+    length = NEIGHBOURS
+    while length < 2 * len(points):
         length *= 2
-    keys = np.empty(length, np.uint64)
-    stamps = np.full(length, -1, np.int32)
-    distinct = np.zeros(PARTS, np.int64)
-    occupied_by_key(points, halvings, scales[-1], shifts[0], keys, stamps, 0, distinct)
+    owners = np.full(length, -1, np.int32)
+    boxes, deepest = np.empty(len(points), np.int64), np.empty(len(points), np.int8)
+    # One chain tells which scales may be resolved: none behind the one that is an octave finer than its last that is.
+    totals = np.zeros((PARTS, len(scales)), np.int64)
+    finest = len(scales) - 1
+    first = count_chain(points, halvings, scales, finest, step, shifts[0], owners, 0, boxes, deepest, totals)
+    distinct = totals[:, finest].copy()
+    end = finest
+    while end >= step and totals[0, end] * samples_per_box > distinct[0]:
+        end -= step
+    end = min(end + step, finest) + 1
+    totals[:] = 0
+    for shift in shifts:
+        for k in range(max(end - step, 0), end):
+            first = count_chain(points, halvings, scales, k, step, shift, owners, first, boxes, deepest, totals)
     counts = np.zeros((PARTS, len(scales)))
     resolved = np.full(PARTS, True)
-    stamp = 0
-    for k in range(len(scales)):
-        totals = np.zeros(PARTS, np.int64)
-        by_place = (1.0 / scales[k] + 3.0) ** 2 <= PLACES
-        for s in range(len(shifts)):
-            stamp += 1
-            if by_place:
-                occupied_by_place(points, halvings, scales[k], shifts[s], stamps, stamp, totals)
-            else:
-                occupied_by_key(points, halvings, scales[k], shifts[s], keys, stamps, stamp, totals)
+    for k in range(end):
         for part in range(PARTS):
-            enough = totals[part] * samples_per_box <= distinct[part] * len(shifts) * (1 << part)
+            enough = totals[part, k] * samples_per_box <= distinct[part] * len(shifts) * (1 << part)
             resolved[part] = resolved[part] and enough
             if resolved[part]:
-                counts[part, k] = totals[part] / len(shifts)
+                counts[part, k] = totals[part, k] / len(shifts)
         if not resolved[0]:
             break
     return counts

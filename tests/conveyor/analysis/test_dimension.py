@@ -45,9 +45,9 @@ def test_henon_correlation_dimension_lies_in_the_literature_band(seed):
     assert found.error <= 0.06
 
 
-def box_counts(points, *arguments):
-    """Box counts of points without parts."""
-    return dimension.box_counts(points, np.zeros(len(points), np.int64), *arguments)[0]
+def box_counts(points, scales, *arguments, step=None):
+    """Box counts of points without parts, of scales that need not be related."""
+    return dimension.box_counts(points, np.zeros(len(points), np.int64), scales, step or len(scales), *arguments)[0]
 
 
 def test_box_counts_are_exact():
@@ -73,12 +73,42 @@ def test_box_counts_agree_with_sets_of_boxes():
     assert box_counts(points, scales, shifts, 0.0) == pytest.approx(expected, abs=1e-12)
 
 
+def test_grids_within_each_other_agree_with_sets_of_boxes():
+    """The coarsest grid of an octave chain is shifted as asked for; the finer ones are its halves."""
+    rng = np.random.default_rng(5)
+    points, shifts, step = rng.random((500, 2)) ** 2, rng.random((3, 2)), 2
+    scales = 0.3 * 0.5 ** (np.arange(9) / step)
+    expected = [
+        np.mean([len(np.unique(np.floor(points / e + s * 2.0 ** (k // step)), axis=0)) for s in shifts])
+        for k, e in enumerate(scales)
+    ]
+    assert box_counts(points, scales, shifts, 0.0, step=step) == pytest.approx(expected, abs=1e-12)
+
+
+def test_positions_of_grids_are_the_same_at_each_scale():
+    doubled = np.round(np.modf(2.0 * dimension.SHIFTS)[0] * 13) % 13
+    assert {tuple(one) for one in doubled} == {tuple(one) for one in np.round(dimension.SHIFTS * 13)}
+
+
+def test_a_hash_table_is_cleared_before_its_numbers_end():
+    rng = np.random.default_rng(6)
+    points, scales = rng.random((200, 2)), np.array([0.2, 0.1, 0.05])
+    found = []
+    for first in (0, dimension.FRESH + 1):
+        owners = np.full(512, np.iinfo(np.int32).max, np.int32) if first else np.full(512, -1, np.int32)
+        totals, boxes, deepest = np.zeros((3, 3), np.int64), np.empty(200, np.int64), np.empty(200, np.int8)
+        halvings, shift = np.zeros(200, np.int64), np.zeros(2)
+        after = dimension.count_chain(points, halvings, scales, 2, 1, shift, owners, first, boxes, deepest, totals)
+        found.append((after, totals.tolist()))
+    assert found[0] == found[1]
+
+
 def test_parts_are_counted_as_if_alone():
     rng = np.random.default_rng(4)
     points, shifts = rng.random((3000, 2)) ** 2, rng.random((3, 2))
     halvings = rng.integers(0, 3, 3000)
     scales = np.array([0.3, 0.1, 0.05, 0.02, 0.01, 1e-3, 1e-6])
-    found = dimension.box_counts(points, halvings, scales, shifts, 5.0)
+    found = dimension.box_counts(points, halvings, scales, len(scales), shifts, 5.0)
     for part in range(3):
         alone = box_counts(points[halvings >= part], scales, shifts, 5.0 / 2**part)
         resolved = found[part] > 0.0
