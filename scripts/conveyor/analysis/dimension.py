@@ -11,14 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..solver.jit import inlined, kernel
+from .box_counts import along_boxes, box_counts
+from .pair_counts import pair_counts
 
 COARSEST_SCALE = 0.25  # of the set's extent
 FINEST_SCALE = 2.0**-20  # of the set's extent; samples closer than this count as one: a settled orbit repeats itself
 SCALES_PER_OCTAVE = 4
 SCALES = np.geomspace(COARSEST_SCALE, FINEST_SCALE, 18 * SCALES_PER_OCTAVE + 1)
-NEIGHBOURS = 64  # boxes along a Z-curve that lie side by side in a hash table
-FRESH = 1 << 30  # numbers of boxes after which a hash table is cleared, as they have 32 bits
 # Positions of each grid over which box counts are averaged, in boxes: a Fibonacci lattice. As 13 is odd, doubling only
 # changes their order: grids within each other have the same positions at each scale.
 SHIFTS = np.modf(np.arange(13)[:, None] * np.array([1.0, 8.0]) / 13.0)[0]
@@ -121,16 +120,6 @@ def normalise(points: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray((points - low) / np.where(extent > 0.0, extent, 1.0))
 
 
-def along_boxes(points: np.ndarray) -> np.ndarray:
-    """The order of points of the unit square, shape (n, 2), along a Z-curve (Morton): those of a box follow each other.
-
-    Counts do not depend on the order. Their time does: what is looked up again and again stays in the cache.
-    """
-    boxes = np.empty(len(points), np.int64)
-    boxes_of(points, FINEST_SCALE, np.zeros(2), boxes)
-    return np.argsort(boxes, kind="stable")
-
-
 def scaling_region(scales: np.ndarray, values: np.ndarray, uncertain: np.ndarray) -> tuple[float, float, float, float]:
     """Slope of `values` over log(scales), its error and the limits of the longest straight stretch.
 
@@ -192,152 +181,3 @@ def fit_stretches(columns: list[np.ndarray], inside: np.ndarray, values: np.ndar
     freedom = np.maximum(inside.sum(axis=1) - len(columns), 1.0)
     variance = SCALES_PER_OCTAVE * np.sum(residuals**2, axis=1) / freedom
     return coefficients, np.sqrt(variance[:, None] * np.diagonal(inverse, axis1=1, axis2=2))
-
-
-# A set of points has parts, each in the one before: all, half, a quarter. A point of h halvings is in the first h + 1.
-PARTS = 3
-
-
-@inlined
-def spread(number):
-    """The lower 32 bits of an integer with a gap behind each."""
-    number = (number | (number << 16)) & 0x0000FFFF0000FFFF
-    number = (number | (number << 8)) & 0x00FF00FF00FF00FF
-    number = (number | (number << 4)) & 0x0F0F0F0F0F0F0F0F
-    number = (number | (number << 2)) & 0x3333333333333333
-    return (number | (number << 1)) & 0x5555555555555555
-
-
-@kernel
-def boxes_of(points, size, shift, boxes):
-    """Fill `boxes`, int64, with the numbers of the boxes of a shifted grid that the points lie in, along a Z-curve.
-
-    Four boxes that make one of twice the size follow each other (Morton).
-    """
-    inverse = 1.0 / size
-    for i in range(len(points)):
-        across, along = np.int64(points[i, 0] * inverse + shift[0]), np.int64(points[i, 1] * inverse + shift[1])
-        boxes[i] = spread(across) | (spread(along) << 1)
-
-
-@kernel
-def merge(boxes, deepest, n, owners, first):
-    """Keep each of the first n boxes once, with the most halvings of all that lies in it; return how many they are.
-
-    boxes, deepest : int64 and int8, replaced from their beginnings on
-    owners : int32, a hash table of a length 2^k ≥ 2 n: the number of a box that is kept, counted from `first`; a place
-        is free whose number is smaller
-    """
-    # A part of the table that is as long as needed stays in a cache, and so do boxes that follow each other.
-    length = NEIGHBOURS
-    while length < 2 * n:
-        length *= 2
-    mask = np.uint64(length - 1)
-    kept = number = 0
-    previous = np.int64(-1)
-    for i in range(n):
-        box, halvings = boxes[i], deepest[i]
-        if box != previous:
-            previous = box
-            mixed = np.uint64(box // NEIGHBOURS) * np.uint64(0x9E3779B97F4A7C15)
-            slot = ((mixed >> np.uint64(32)) * np.uint64(NEIGHBOURS) + np.uint64(box % NEIGHBOURS)) & mask
-            while owners[slot] >= first and boxes[owners[slot] - first] != box:
-                slot = (slot + np.uint64(1)) & mask
-            if owners[slot] < first:
-                owners[slot] = first + kept
-                boxes[kept], deepest[kept] = box, halvings
-                kept += 1
-            number = owners[slot] - first
-        deepest[number] = max(deepest[number], halvings)
-    return kept
-
-
-@kernel
-def count_chain(points, halvings, scales, finest, step, shift, owners, first, boxes, deepest, totals):
-    """Add the numbers of boxes that hold a point of each part to `totals`, shape (PARTS, k), for a chain of grids.
-
-    Its scales are number `finest`, the one `step` before it, of twice the size, and so on; of the last and largest one
-    the grid is shifted by `shift` boxes. What each grid holds is found from the boxes of the one before.
-
-    first : as in `merge`; that of the next chain is returned
-    """
-    n = len(points)
-    if first > FRESH:
-        owners[:] = -1
-        first = 0
-    boxes_of(points, scales[finest], shift * 2.0 ** (finest // step), boxes)
-    deepest[:] = halvings
-    for k in range(finest, -1, -step):
-        kept = merge(boxes, deepest, n, owners, first)
-        first += n
-        n = kept
-        for i in range(n):
-            for part in range(deepest[i] + 1):
-                totals[part, k] += 1
-            boxes[i] >>= 2
-    return first
-
-
-@kernel
-def box_counts(points, halvings, scales, step, shifts, samples_per_box):
-    """Mean numbers of occupied boxes over shifted grids for all points and their parts, shape (PARTS, k).
-
-    points : shape (n, 2), in the unit square
-    halvings : of each point, int64, shape (n,)
-    scales, step : descending, shape (k,), each half of the one `step` before it; a step of k relates none to another
-
-    Zero from the first scale on whose boxes hold fewer than `samples_per_box` samples that the finest scale tells
-    apart; in a part as many fewer as it is smaller.
-    """
-    length = NEIGHBOURS
-    while length < 2 * len(points):
-        length *= 2
-    owners = np.full(length, -1, np.int32)
-    boxes, deepest = np.empty(len(points), np.int64), np.empty(len(points), np.int8)
-    # One chain tells which scales may be resolved: none behind the one that is an octave finer than its last that is.
-    totals = np.zeros((PARTS, len(scales)), np.int64)
-    finest = len(scales) - 1
-    first = count_chain(points, halvings, scales, finest, step, shifts[0], owners, 0, boxes, deepest, totals)
-    distinct = totals[:, finest].copy()
-    end = finest
-    while end >= step and totals[0, end] * samples_per_box > distinct[0]:
-        end -= step
-    end = min(end + step, finest) + 1
-    totals[:] = 0
-    for shift in shifts:
-        for k in range(max(end - step, 0), end):
-            first = count_chain(points, halvings, scales, k, step, shift, owners, first, boxes, deepest, totals)
-    counts = np.zeros((PARTS, len(scales)))
-    resolved = np.full(PARTS, True)
-    for k in range(end):
-        for part in range(PARTS):
-            enough = totals[part, k] * samples_per_box <= distinct[part] * len(shifts) * (1 << part)
-            resolved[part] = resolved[part] and enough
-            if resolved[part]:
-                counts[part, k] = totals[part, k] / len(shifts)
-        if not resolved[0]:
-            break
-    return counts
-
-
-@kernel
-def pair_counts(points, references, theiler, squares):
-    """Numbers of pairs by squared distance, and of all pairs; shell k lies between squares[k] and squares[k + 1].
-
-    Each reference (an index) is paired with all points that are more than `theiler` samples away.
-    """
-    shells = np.zeros(len(squares), np.int64)
-    pairs = 0
-    for i in references:
-        x = points[i, 0]
-        y = points[i, 1]
-        for begin, end in ((0, i - theiler), (i + theiler + 1, len(points))):
-            for j in range(begin, end):
-                square = (points[j, 0] - x) ** 2 + (points[j, 1] - y) ** 2
-                k = 0
-                while k < len(squares) and square < squares[k]:
-                    k += 1
-                if k > 0:
-                    shells[k - 1] += 1
-            pairs += max(end - begin, 0)
-    return shells, pairs

@@ -54,6 +54,16 @@ def fused(typing_context, a, b, c):
 
 
 @intrinsic
+def float_bits(typing_context, value):
+    """The 64 bits of a float as an integer, which grows with a value that is not negative."""
+
+    def code(context, builder, signature, arguments):
+        return builder.bitcast(arguments[0], context.get_value_type(types.int64))
+
+    return types.int64(types.float64), code
+
+
+@intrinsic
 def borrowed(typing_context, array):
     """The same array without its own count of references, for a kernel whose caller holds it until the kernel returns.
 
