@@ -26,14 +26,14 @@ def spread(number):
 
 
 @kernel
-def boxes_of(points, size, shift, boxes):
+def boxes_of(points, size, across_shift, along_shift, boxes):
     """Fill `boxes`, int64, with the numbers of the boxes of a shifted grid that the points lie in, along a Z-curve.
 
     Four boxes that make one of twice the size follow each other (Morton).
     """
     inverse = 1.0 / size
     for i in range(len(points)):
-        across, along = np.int64(points[i, 0] * inverse + shift[0]), np.int64(points[i, 1] * inverse + shift[1])
+        across, along = np.int64(points[i, 0] * inverse + across_shift), np.int64(points[i, 1] * inverse + along_shift)
         boxes[i] = spread(across) | (spread(along) << 1)
 
 
@@ -43,7 +43,7 @@ def along_boxes(points: np.ndarray) -> np.ndarray:
     Counts do not depend on the order. Their time does: what is looked up again and again stays in the cache.
     """
     boxes = np.empty(len(points), np.int64)
-    boxes_of(points, FINEST, np.zeros(2), boxes)
+    boxes_of(points, FINEST, 0.0, 0.0, boxes)
     return np.argsort(boxes, kind="stable")
 
 
@@ -89,11 +89,15 @@ def count_chain(points, halvings, scales, finest, step, shift, owners, first, bo
     first : as in `merge`; that of the next chain is returned
     """
     n = len(points)
+    # Slices would bring in the text functions of their errors, which take long to compile.
     if first > FRESH:
-        owners[:] = -1
+        for i in range(len(owners)):
+            owners[i] = -1
         first = 0
-    boxes_of(points, scales[finest], shift * 2.0 ** (finest // step), boxes)
-    deepest[:] = halvings
+    positions = 2.0 ** (finest // step)
+    boxes_of(points, scales[finest], shift[0] * positions, shift[1] * positions, boxes)
+    for i in range(n):
+        deepest[i] = halvings[i]
     for k in range(finest, -1, -step):
         kept = merge(boxes, deepest, n, owners, first)
         first += n
@@ -119,23 +123,25 @@ def box_counts(points, halvings, scales, step, shifts, samples_per_box):
     length = NEIGHBOURS
     while length < 2 * len(points):
         length *= 2
-    owners = np.full(length, -1, np.int32)
+    owners = np.empty(length, np.int32)
     boxes, deepest = np.empty(len(points), np.int64), np.empty(len(points), np.int8)
     # One chain tells which scales may be resolved: none behind the one that is an octave finer than its last that is.
     totals = np.zeros((PARTS, len(scales)), np.int64)
     finest = len(scales) - 1
-    first = count_chain(points, halvings, scales, finest, step, shifts[0], owners, 0, boxes, deepest, totals)
-    distinct = totals[:, finest].copy()
+    first = count_chain(points, halvings, scales, finest, step, shifts[0], owners, FRESH + 1, boxes, deepest, totals)
+    distinct = np.zeros(PARTS, np.int64)
+    for part in range(PARTS):
+        distinct[part] = totals[part, finest]
     end = finest
     while end >= step and totals[0, end] * samples_per_box > distinct[0]:
         end -= step
     end = min(end + step, finest) + 1
-    totals[:] = 0
-    for shift in shifts:
+    totals = np.zeros((PARTS, len(scales)), np.int64)
+    for s in range(len(shifts)):
         for k in range(max(end - step, 0), end):
-            first = count_chain(points, halvings, scales, k, step, shift, owners, first, boxes, deepest, totals)
+            first = count_chain(points, halvings, scales, k, step, shifts[s], owners, first, boxes, deepest, totals)
     counts = np.zeros((PARTS, len(scales)))
-    resolved = np.full(PARTS, True)
+    resolved = np.ones(PARTS, np.bool_)
     for k in range(end):
         for part in range(PARTS):
             enough = totals[part, k] * samples_per_box <= distinct[part] * len(shifts) * (1 << part)

@@ -17,17 +17,24 @@ def pair_counts(points, references, theiler, squares):
     references : each (an index) is paired with all points that are more than `theiler` samples away
     squares : descending, shape (k,), no two of them within 6 % of each other
     """
-    limits = np.append(squares, -1.0)
+    # Slices would bring in the text functions of their errors, which take long to compile.
+    shells = len(squares)
+    limits = np.empty(shells + 1)
+    for shell in range(shells):
+        limits[shell] = squares[shell]
+    limits[shells] = -1.0
     # The first bits of a squared distance tell its shell but for one limit, with which it is compared.
     lowest = float_bits(squares[-1]) >> FRACTION
     shells_of = np.empty((float_bits(squares[0]) >> FRACTION) - lowest + 1, np.int64)
-    shell = len(squares)
+    shell = shells
     for step in range(len(shells_of)):
         while shell > 0 and (float_bits(squares[shell - 1]) >> FRACTION) - lowest <= step:
             shell -= 1
         shells_of[step] = shell
-    x, y = points[:, 0].copy(), points[:, 1].copy()
-    counts = np.zeros((TABLES, len(limits)), np.int64)
+    x, y = np.empty(len(points)), np.empty(len(points))
+    for j in range(len(points)):
+        x[j], y[j] = points[j, 0], points[j, 1]
+    counts = np.zeros((TABLES, shells + 1), np.int64)
     near = np.empty(STRETCH)
     pairs = 0
     for i in references:
@@ -41,4 +48,8 @@ def pair_counts(points, references, theiler, squares):
                     shell = shells_of[max((float_bits(near[j]) >> FRACTION) - lowest, 0)]
                     counts[j % TABLES, shell + (near[j] < limits[shell])] += 1
             pairs += max(end - begin, 0)
-    return counts.sum(axis=0)[1:], pairs
+    totals = np.zeros(shells, np.int64)
+    for table in range(TABLES):
+        for shell in range(shells):
+            totals[shell] += counts[table, shell + 1]
+    return totals, pairs
