@@ -7,9 +7,7 @@ tighter tolerance, as in chaos and in long transients, do not count: there the m
 """
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
-from functools import partial
-from time import perf_counter
+from time import thread_time
 from typing import Any
 
 import numpy as np
@@ -19,7 +17,7 @@ from accuracy import observables, rigid_part
 from accuracy.observables import SHOWN
 from conveyor.simulation import simulate
 from conveyor.solver.model import unpack
-from conveyor.solver.progress import bar
+from conveyor.solver.parallel import for_each_chunk
 from pipeline import fields, grid
 
 TABLES = {
@@ -47,8 +45,8 @@ TABLES = {
         fields.text("table", "table that a figure draws, SECTION/NAME"),
         fields.text("variant", "as in the table of budgets"),
         fields.number("tolerance", "1", "relative error of a step; null where there is none"),
-        fields.number("seconds", "s", "wall time of a point on one core"),
-        fields.number("full_seconds", "s", "wall time of a point of the full model at tight tolerance"),
+        fields.number("seconds", "s", "processor time of a point"),
+        fields.number("full_seconds", "s", "processor time of a point of the full model at tight tolerance"),
         fields.number("ratio", "1", "the latter over the former"),
     ),
 }
@@ -74,20 +72,20 @@ NOTHING = {
     "reason": None,
 }
 
-# Columns of the table of wall times, which differ from run to run.
+# Columns of the table of processor times, which differ from run to run.
 TIMES = ("table", "variant", "tolerance", "seconds", "full_seconds", "ratio")
 
 
 def least_time(work: Callable[[], Any]) -> tuple[float, Any]:
-    """Least wall time (s) of repeated rounds, and what `work` returns.
+    """Least processor time (s) of repeated rounds in this thread, and what `work` returns.
 
     Other load on the machine only adds to a time.
     """
     times = []
     while not times or (len(times) < ROUNDS and sum(times) < ENOUGH):
-        begin = perf_counter()
+        begin = thread_time()
         result = work()
-        times.append(perf_counter() - begin)
+        times.append(thread_time() - begin)
     return min(times), result
 
 
@@ -114,11 +112,8 @@ def work_of(parameters: np.ndarray, tolerance: float) -> tuple[float, float]:
     return float(np.mean([run.work for run in runs])), float(np.mean(["stick" in run.events["kind"] for run in runs]))
 
 
-def rows_of_table(reference: str, settings: dict, budget: dict, threads: int) -> list[dict]:
-    """One row for each variant of one table, SECTION/NAME, with the settings of its entry.
-
-    What is not timed, the values that are known, is computed on `threads` threads.
-    """
+def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
+    """One row for each variant of one table, SECTION/NAME, with the settings of its entry."""
     section = reference.split("/")[0]
     shown = SHOWN[section]
     needs = "vertical" if shown.vertical else settings.get("needs", "feeding")
@@ -130,10 +125,8 @@ def rows_of_table(reference: str, settings: dict, budget: dict, threads: int) ->
     full_settings = settings | {"needs": "feeding", "tolerance": TIGHT}
     shown.observe(settings)  # loads compiled code
     full_seconds, truth = least_time(lambda: shown.observe(full_settings))
-    others = [partial(observables.observe_shifted, shown, full_settings, shift) for shift in budget["shifts"]]
-    others.append(partial(shown.observe, full_settings | {"tolerance": TIGHTER}))
-    with ThreadPoolExecutor(threads) as pool:
-        alike = list(pool.map(lambda other: other(), others))
+    alike = [observables.observe_shifted(shown, full_settings, shift) for shift in budget["shifts"]]
+    alike.append(shown.observe(full_settings | {"tolerance": TIGHTER}))
     known = observables.known_values(shown, truth, alike, settings["axes"], budget["line"])
 
     def row(variant: str, of: dict, seconds: float, found: pd.DataFrame) -> dict:
@@ -178,26 +171,30 @@ def make(
     threads: int = 1,
     progress: str | None = None,
 ) -> dict[str, dict[str, np.ndarray]]:
-    """The columns of the table of budgets, rows by figure, table and variant, and of that of their wall times.
+    """The columns of the table of budgets, rows by figure, table and variant, and of that of their processor times.
 
     Parameters
     ----------
     settings : the section `scene_budget` of the config
     entries : settings of the tables by their names, SECTION/NAME
     drawn : names of the tables that each figure draws
-    threads : of what is not timed
+    threads : on which tables are looked at
     progress : name of a progress bar, or None
     """
-    found = {
-        reference: rows_of_table(reference, of_table, settings, threads)
-        for reference, of_table in bar(entries.items(), label=progress, unit="tables")
-    }
+    found: dict[str, list[dict]] = {}
+    listed = list(entries.items())
+
+    def work(begin: int, end: int) -> None:
+        for reference, of_table in listed[begin:end]:
+            found[reference] = rows_of_table(reference, of_table, settings)
+
+    for_each_chunk(work, len(listed), threads=threads, chunk=1, progress=progress)
     rows = [
         {"figure": figure, **row}
         for figure, references in drawn.items()
         for row in ([one for reference in references for one in found[reference]] if references else [NOTHING])
     ]
-    times = [row for of_table in found.values() for row in of_table]
+    times = [row for reference in entries for row in found[reference]]
     return {
         "scene_budget": {column: np.array([row[column] for row in rows]) for column in ("figure", *NOTHING)},
         "budget_times": {column: np.array([row[column] for row in times]) for column in TIMES},

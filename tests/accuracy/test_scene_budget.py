@@ -1,4 +1,4 @@
-"""The budget of a table: threads share what is not timed, and change nothing."""
+"""The budget of tables: threads share them, and change nothing."""
 
 import pandas as pd
 
@@ -23,11 +23,23 @@ BUDGET = {
 }
 
 
-def test_values_are_known_whatever_the_threads():
-    one, four = (pd.DataFrame(scene_budget.rows_of_table("sweeps/some", SETTINGS, BUDGET, n)) for n in (1, 4))
-    untimed = [name for name in one if name not in ("seconds", "full_seconds", "ratio")]
-    pd.testing.assert_frame_equal(one[untimed], four[untimed])
-    # Every start is looked at, in every variant.
+ENTRIES = {"sweeps/some": SETTINGS, "sweeps/other": SETTINGS | {"duration": 0.2}, "sweeps/third": SETTINGS}
+
+
+def test_budgets_do_not_depend_on_threads():
+    drawn = {"fig": ["sweeps/other", "sweeps/some"], "schematic": [], "last": ["sweeps/third"]}
+    one, three = (scene_budget.make(BUDGET, ENTRIES, drawn, threads=n) for n in (1, 3))
+    pd.testing.assert_frame_equal(pd.DataFrame(one["scene_budget"]), pd.DataFrame(three["scene_budget"]))
+    times, others = (pd.DataFrame(made["budget_times"]) for made in (one, three))
+    assert times.table.unique().tolist() == list(ENTRIES)
+    pd.testing.assert_frame_equal(times[["table", "variant"]], others[["table", "variant"]])
+    # A thread's own time, whatever the other ones do.
+    assert (times.seconds > 0.0).all()
+    assert 0.3 < (others.seconds / times.seconds).median() < 3.0
+
+
+def test_every_start_is_looked_at_in_every_variant():
+    one = pd.DataFrame(scene_budget.rows_of_table("sweeps/some", SETTINGS, BUDGET))
     assert (one.points == 6).all()
     assert 0.0 < one.known.iloc[0] <= 1.0
     assert set(one.variant) >= {"full model", "feeding", "half the time", "rigid part"}

@@ -121,7 +121,8 @@ accuracy_rule(
     "What the data of each figure need",
     output=tables_of("results", "scene_budget", "budget_times"),
     timed=("budget_times",),
-    **ALONE,
+    threads=2,  # of processor times, which do not need a machine alone
+    mem_mb=2000,
     params={
         "settings": config["scene_budget"],
         "entries": {name: converged_entry(name) for names in DRAWN.values() for name in names},

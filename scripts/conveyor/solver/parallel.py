@@ -1,6 +1,6 @@
 """Many independent points in threads: compiled kernels release the GIL, each point writes only its own rows."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
 
 from .progress import bar
@@ -21,18 +21,25 @@ def for_each_chunk(
     what is shown on stderr: rate, time left and failed points; None shows nothing.
     """
     ranges = [(begin, min(begin + chunk, count)) for begin in range(0, count, chunk)]
-    with (
-        bar(total=count, label=progress) as shown,
-        ThreadPoolExecutor(threads) as pool,
-    ):
-        failed = 0
-        futures = {pool.submit(work, begin, end): end - begin for begin, end in ranges}
-        try:
-            for future in as_completed(futures):
-                failed += future.result() or 0
-                if failed:
-                    shown.set_postfix_str(f"{failed} failed", refresh=False)
-                shown.update(futures[future])
-        except BaseException:
-            pool.shutdown(cancel_futures=True)
-            raise
+
+    def done() -> Iterator[tuple[int, int]]:
+        """Number of points, and of those that have failed, of each range."""
+        if threads == 1:
+            # Not in a thread of its own: who asks for the processor time of the present one gets it all.
+            yield from ((end - begin, work(begin, end) or 0) for begin, end in ranges)
+            return
+        with ThreadPoolExecutor(threads) as pool:
+            futures = {pool.submit(work, begin, end): end - begin for begin, end in ranges}
+            try:
+                yield from ((futures[future], future.result() or 0) for future in as_completed(futures))
+            except BaseException:
+                pool.shutdown(cancel_futures=True)
+                raise
+
+    failed = 0
+    with bar(total=count, label=progress) as shown:
+        for points, of_them in done():
+            failed += of_them
+            if failed:
+                shown.set_postfix_str(f"{failed} failed", refresh=False)
+            shown.update(points)

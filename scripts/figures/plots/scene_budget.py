@@ -29,7 +29,7 @@ def in_words(figure: str) -> str:
 
 
 def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the table `budget` and its wall `times`."""
+    """From the table `budget` and its processor `times`."""
     table = tables["budget"].merge(tables["times"], on=["table", "variant", "tolerance"], how="left")
     table.attrs = tables["budget"].attrs
     drawn = table[table.table != "none"]
@@ -68,7 +68,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         axes.set_xscale("log")
         axes.xaxis.set_minor_formatter(NullFormatter())
         axes.grid(axis="y", linewidth=0.3)
-    cost.set_xlabel("wall time of a point in ms")
+    cost.set_xlabel("processor time of a point in ms")
     seen.set_xticks([NONE, 1e-3, 1e-2, 1e-1, 1.0], ["none", "0.001", "0.01", "0.1", "1"])
     seen.set_xlabel("share of drawn values that change visibly")
     handles = [
