@@ -422,6 +422,7 @@ class LabelChecks(TypedDict):
 
 class Scaling(TypedDict):
     points: many(whole(1000, 10**10))
+    made_whole: whole(1000, 10**9)
     conveyors: many(whole(10, 10**6))
     threads: many(whole(1, 256))
     shards: many(whole(1, 1000))

@@ -1,7 +1,8 @@
 """What the jobs of sweeps take over points, threads, shards and conveyors: wall times, and the most memory they have.
 
-Every job is measured in a process of its own, from its start on, as a cluster starts it. Of a large sweep one shard is
-made; what puts the shards together is measured on copies of it, of which more change nothing but the time.
+Every job is measured in a process of its own, from its start on, as a cluster starts it. A shard's first point is
+computed twice: the first time loads the compiled code, which can so be told from computing. Of the largest sweeps one
+shard is made; what puts the shards together is measured on copies of it, of which more change nothing but the time.
 """
 
 import json
@@ -25,7 +26,7 @@ from pipeline import fields, tables
 from sweeps import shards
 
 SCRIPTS = Path(__file__).resolve().parents[1]
-MOST_GATHERED = 3  # shards of which a measured table is put together
+MOST_GATHERED = 3  # copies of a shard of which a measured table is put together
 
 TABLES = {
     "scaling": (
@@ -35,10 +36,14 @@ TABLES = {
         fields.count("shards", "of the sweep"),
         fields.count("rows", "of a shard"),
         fields.count("threads", "of a shard"),
-        fields.count("measured", "shards that were made; the largest one counts below"),
+        fields.count("measured", "shards that were made; of their memory the most counts below"),
+        fields.count("computed", "points of these shards"),
         fields.number("shard_seconds", "s", "wall time of a shard, from the start of Python; of several the sum"),
         fields.number(
-            "computing_seconds", "s", "of it without the start of Python and its imports; of several the sum"
+            "loading_seconds", "s", "of it the first point alone, which loads the compiled code; of several the sum"
+        ),
+        fields.number(
+            "computing_seconds", "s", "of it all points after that, with the writing of them; of several the sum"
         ),
         fields.number("shard_memory", "MB", "most resident memory of a shard"),
         fields.number(
@@ -58,23 +63,31 @@ def peak_memory() -> float:
     return int(re.search(r"VmHWM:\s+(\d+) kB", Path("/proc/self/status").read_text())[1]) * 1024 / 1e6
 
 
+def make_shard(path: str, settings: dict, rows: tuple[int, int], threads: int) -> float:
+    """Write some rows of a sweep to `path`; the wall time (s) of that."""
+    begin = perf_counter()
+    schema = [*(fields.AXES[axis] for axis in settings["axes"]), *shards.TABLES["sweeps"]]
+    blocks = shards.make(settings, rows, threads=threads)
+    tables.write_blocks(path, (tables.make("sweeps", schema, block, settings) for block in blocks))
+    return perf_counter() - begin
+
+
 def job() -> None:
     """What a measured process does: as the task on stdin says; it answers on stdout."""
     task = json.load(sys.stdin)
-    begin = perf_counter()
+    times = {}
     if "shards" in task:
         # Copies of shards do not hold the rows that their places ask for.
         tables.gather(task["path"], task["shards"], "sweeps", task["settings"], task["rows"], lambda rows: {})
     else:
-        settings = task["settings"]
-        schema = [*(fields.AXES[axis] for axis in settings["axes"]), *shards.TABLES["sweeps"]]
-        blocks = shards.make(settings, task["rows"], threads=task["threads"])
-        tables.write_blocks(task["path"], (tables.make("sweeps", schema, block, settings) for block in blocks))
-    json.dump({"seconds": perf_counter() - begin, "memory": peak_memory()}, sys.stdout)
+        begin, end = task["rows"]
+        one_point, all_points = task | {"rows": (begin, begin + 1)}, task | {"rows": (begin, end)}
+        times = {"loading": make_shard(**one_point), "computing": make_shard(**all_points)}
+    json.dump(times | {"memory": peak_memory()}, sys.stdout)
 
 
 def run(**task: Any) -> dict[str, float]:
-    """Wall times (s) with and without the start of Python, and most memory (MB), of one job."""
+    """Most memory (MB) and wall times (s) of one job: the whole from the start of Python, and what a shard's is of."""
     begin = perf_counter()
     done = subprocess.run(
         [sys.executable, "-c", "from accuracy import scaling; scaling.job()"],
@@ -88,16 +101,19 @@ def run(**task: Any) -> dict[str, float]:
 
 
 def measured(case: dict, folder: Path) -> dict[str, Any]:
-    """A row of the table for one `case`: what is varied, the settings of its sweep, its plan and its threads."""
+    """A row of the table for one `case`.
+
+    It says what is varied, the settings of its sweep, its plan, its threads, and how many shards are to be measured.
+    """
     plan, settings = case["plan"], case["settings"]
     points, rows = plan["points"], plan["rows"]
-    wanted = range(plan["shards"]) if case["varied"] == "shards" else [0]
+    wanted = range(case["measured"])
     paths = [str(folder / f"{number}.parquet") for number in wanted]
     made = [
         run(settings=settings, threads=case["threads"], path=path, rows=[k * rows, min((k + 1) * rows, points)])
         for k, path in zip(wanted, paths, strict=True)
     ]
-    copies = paths if len(paths) > 1 else paths * min(plan["shards"], MOST_GATHERED)
+    copies = paths if len(paths) == plan["shards"] else paths * min(plan["shards"], MOST_GATHERED)
     gathered = sum(pq.read_metadata(path).num_rows for path in copies)
     whole = folder / "all.parquet"
     together = run(settings=settings, shards=copies, rows=gathered, path=str(whole))
@@ -109,8 +125,10 @@ def measured(case: dict, folder: Path) -> dict[str, Any]:
         "rows": rows,
         "threads": case["threads"],
         "measured": len(made),
+        "computed": min(len(made) * rows, points),
         "shard_seconds": math.fsum(one["whole"] for one in made),
-        "computing_seconds": math.fsum(one["seconds"] for one in made),
+        "loading_seconds": math.fsum(one["loading"] for one in made),
+        "computing_seconds": math.fsum(one["computing"] for one in made),
         "shard_memory": max(one["memory"] for one in made),
         "estimated_seconds": plan["seconds"] / case["threads"],
         "estimated_memory": plan["memory"],

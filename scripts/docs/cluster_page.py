@@ -7,17 +7,20 @@ import pandas as pd
 from jinja2 import Environment, StrictUndefined
 
 HEAD = (
-    "| Points | Jobs | Points of a job | Time of a job, s | Estimated, s | Memory of a job, MB | Core hours "
-    "| Putting together, min | Its memory, MB | File, GB |\n|---|---|---|---|---|---|---|---|---|---|\n"
+    "| Points | Jobs | Made | Points of a job | Computing, µs a point | Time of a job, s | Estimated, s "
+    "| Memory of a job, MB | Core hours | Putting together, min | Its memory, MB | File, GB |\n"
+    f"{12 * '|---'}|\n"
 )
 
 
 def costs(table: pd.DataFrame) -> pd.DataFrame:
-    """What each sweep of the table takes as a whole, its shards taken for equal."""
+    """What each sweep of the table takes as a whole: in proportion to its points where not all shards were made."""
     rows = table[table.varied == "points"].sort_values("points")
     seconds_of_row = (rows.gathering_seconds / rows.gathered).iloc[-1]
     return rows.assign(
-        core_hours=rows.shards * rows.shard_seconds * rows.threads / 3600.0,
+        microseconds=1e6 * rows.computing_seconds / rows.computed,
+        core_hours=rows.points / rows.computed * rows.shard_seconds * rows.threads / 3600.0,
+        job_seconds=rows.shard_seconds / rows.measured,
         minutes=np.where(rows.gathered == rows.points, rows.gathering_seconds, rows.points * seconds_of_row) / 60.0,
         gigabytes=rows.points * rows.bytes / 1e9,
     )
@@ -25,9 +28,9 @@ def costs(table: pd.DataFrame) -> pd.DataFrame:
 
 def lines(rows: pd.DataFrame) -> str:
     return HEAD + "".join(
-        f"| {row.points:,} | {row.shards} | {row.rows:,} | {row.shard_seconds:.0f} | {row.estimated_seconds:.0f} "
-        f"| {row.shard_memory:.0f} | {row.core_hours:.2g} | {row.minutes:.2g} | {row.gathering_memory:.0f} "
-        f"| {row.gigabytes:.2g} |\n"
+        f"| {row.points:,} | {row.shards} | {row.measured} | {row.rows:,} | {row.microseconds:.1f} "
+        f"| {row.job_seconds:.0f} | {row.estimated_seconds:.0f} | {row.shard_memory:.0f} | {row.core_hours:.2g} "
+        f"| {row.minutes:.2g} | {row.gathering_memory:.0f} | {row.gigabytes:.2g} |\n"
         for row in rows.itertuples()
     )
 
@@ -44,9 +47,10 @@ def numbers(table: pd.DataFrame, sharing: dict) -> dict[str, str | bool]:
     largest = rows.iloc[-1]
     conveyors = table[table.varied == "conveyors"].sort_values("points").iloc[-1]
     long = table[table.computing_seconds > 1.0]
-    ratio = long.estimated_seconds * long.measured / long.computing_seconds
+    ratio = long.estimated_seconds * long.computed / long.rows / long.computing_seconds
     one = table[(table.varied == "threads") & (table.threads == table.threads.min())].iloc[0]
-    start = table.shard_seconds.sub(table.computing_seconds).div(table.measured).median()
+    loading = table.loading_seconds.div(table.measured).median()
+    start = table.shard_seconds.sub(table.computing_seconds).div(table.measured).median() - loading
     estimated_hours = largest.shards * largest.estimated_seconds * largest.threads / 3600.0
     return {
         "table": lines(rows),
@@ -56,7 +60,7 @@ def numbers(table: pd.DataFrame, sharing: dict) -> dict[str, str | bool]:
         "limit": f"{sharing['core_hours']:g}",
         "estimated_hours": f"{estimated_hours:.2g}",
         "within_limit": estimated_hours <= sharing["core_hours"],
-        "wall_minutes": f"{math.ceil(largest.shards / 50) * largest.shard_seconds / 60.0:.2g}",
+        "wall_minutes": f"{math.ceil(largest.shards / 50) * largest.job_seconds / 60.0:.2g}",
         "gathering_minutes": f"{largest.minutes:.0f}",
         "gathering_memory": f"{largest.gathering_memory:.0f}",
         "gigabytes": f"{largest.gigabytes:.2g}",
@@ -65,8 +69,13 @@ def numbers(table: pd.DataFrame, sharing: dict) -> dict[str, str | bool]:
         "conveyors_memory": f"{conveyors.shard_memory:.0f}",
         "least_ratio": f"{ratio.min():.2g}",
         "most_ratio": f"{ratio.max():.2g}",
-        "microseconds": f"{1e6 * one.computing_seconds / one.points:.0f}",
+        "microseconds": f"{1e6 * one.computing_seconds / one.computed:.0f}",
+        "threads": f"{largest.threads}",
+        "least_microseconds": f"{rows.microseconds.min():.1f}",
+        "most_microseconds": f"{rows.microseconds.max():.1f}",
+        "made_whole": f"{rows.points[rows.measured == rows.shards].max():,}",
         "start": f"{start:.1f}",
+        "loading": f"{loading:.1f}",
         "most_jobs": f"{sharing['most_jobs']}",
         "job_seconds": f"{sharing['job_seconds']:g}",
     }

@@ -178,8 +178,11 @@ def settling(tables: Tables, settings: dict) -> dict[str, str]:
 
 def scaling(tables: Tables, settings: dict) -> dict[str, str]:
     table = tables["scaling"]
+    start = table.shard_seconds.sub(table.computing_seconds).div(table.measured)
     return {
         "threads": str(table[table.varied == "points"].threads.iloc[0]),
+        "start": f"{start.median():.1f}",
+        "made_whole": f"{table.points[(table.varied == 'points') & (table.measured == table.shards)].max():,}",
         "shared_points": f"{table[table.varied == 'shards'].points.iloc[0]:,}",
         "gathered": f"{table.gathered.max():,}",
         "starts": str(tables["throughput"].starts.iloc[0]),

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
+from project import ROOT
 
 from accuracy import scaling
 from docs import cluster_page
@@ -17,6 +18,7 @@ SETTINGS = {
     "settling": 1000,
 }
 PLAN = {"points": 20, "rows": 7, "shards": 3, "seconds": 1.0, "memory": 300.0, "gathering": 300.0}
+CASE = {"varied": "points", "settings": SETTINGS, "plan": PLAN, "threads": 1, "conveyors": 1, "measured": 3}
 
 
 @pytest.fixture(scope="module")
@@ -25,14 +27,29 @@ def folder(tmp_path_factory):
 
 
 def test_all_shards_are_made_and_put_together(folder):
-    case = {"varied": "shards", "settings": SETTINGS, "plan": PLAN, "threads": 1, "conveyors": 1}
-    row = scaling.measured(case, folder)
+    row = scaling.measured(CASE, folder)
     assert set(row) == {field.name for field in scaling.TABLES["scaling"]}
     assert [pq.read_metadata(folder / f"{k}.parquet").num_rows for k in range(3)] == [7, 7, 6]
     assert pq.read_metadata(folder / "all.parquet").num_rows == row["gathered"] == 20
-    assert 0.0 < row["computing_seconds"] < row["shard_seconds"]
+    assert (row["measured"], row["computed"]) == (3, 20)
+    begin = row["shard_seconds"] - row["loading_seconds"] - row["computing_seconds"]
+    assert begin > 0.0 and row["computing_seconds"] > 0.0
     # The program with its libraries.
     assert 100.0 < row["gathering_memory"] < row["shard_memory"] < 1000.0
+
+
+def test_shards_that_are_not_made_are_copied(tmp_path):
+    row = scaling.measured(CASE | {"measured": 1}, tmp_path)
+    assert [path.name for path in sorted(tmp_path.iterdir())] == ["0.parquet", "all.parquet"]
+    assert (row["measured"], row["computed"], row["gathered"]) == (1, 7, 21)
+
+
+def test_loading_of_compiled_code_is_no_computing(tmp_path):
+    """Six points take a millisecond or so, the loading some hundred."""
+    scaling.run(settings=SETTINGS, threads=1, rows=[0, 1], path=str(tmp_path / "compiled.parquet"))
+    made = scaling.run(settings=SETTINGS, threads=1, rows=[7, 13], path=str(tmp_path / "six.parquet"))
+    assert made["computing"] < 0.5 * made["loading"] < 0.5 * made["whole"]
+    assert pq.read_table(tmp_path / "six.parquet")["z0"].to_pylist() == [1.0e-4, 0.0] * 3
 
 
 def test_memory_is_that_of_the_process_itself(tmp_path):
@@ -45,41 +62,54 @@ def test_memory_is_that_of_the_process_itself(tmp_path):
 
 
 def table() -> pd.DataFrame:
-    """One job of 100 points in 2 s on two threads; of the larger sweep one of ten."""
+    """One job of 100 points in 2 s on two threads; of the largest sweep one of ten, of that of 250 points all three."""
     columns = {
-        "varied": ["points", "points", "conveyors", "threads", "threads", "shards"],
-        "points": [100, 1000, 100, 100, 100, 100],
-        "conveyors": [1, 1, 100, 1, 1, 1],
-        "shards": [1, 10, 1, 1, 1, 2],
-        "rows": [100, 100, 100, 100, 100, 50],
-        "threads": [2, 2, 2, 1, 2, 2],
-        "measured": [1, 1, 1, 1, 1, 2],
-        "shard_seconds": [3.0, 3.0, 3.0, 5.0, 3.0, 4.0],
-        "computing_seconds": [2.0, 2.0, 2.0, 4.0, 2.0, 2.0],
-        "shard_memory": [300.0, 301.0, 302.0, 303.0, 304.0, 305.0],
-        "estimated_seconds": [1.0, 4.0, 2.0, 4.0, 2.0, 1.0],
-        "estimated_memory": [400.0] * 6,
-        "gathered": [100, 300, 100, 100, 100, 100],
-        "gathering_seconds": [1.0, 6.0, 1.0, 1.0, 1.0, 1.0],
-        "gathering_memory": [200.0] * 6,
-        "bytes": [30.0] * 6,
+        "varied": ["points", "points", "points", "conveyors", "threads", "threads", "shards"],
+        "points": [100, 250, 1000, 100, 100, 100, 100],
+        "conveyors": [1, 1, 1, 100, 1, 1, 1],
+        "shards": [1, 3, 10, 1, 1, 1, 2],
+        "rows": [100, 100, 100, 100, 100, 100, 50],
+        "threads": [2, 2, 2, 2, 1, 2, 2],
+        "measured": [1, 3, 1, 1, 1, 1, 2],
+        "computed": [100, 250, 100, 100, 100, 100, 100],
+        "shard_seconds": [3.0, 8.0, 3.0, 3.0, 5.0, 3.0, 4.0],
+        "loading_seconds": [0.25, 0.75, 0.25, 0.25, 0.25, 0.25, 0.5],
+        "computing_seconds": [2.0, 5.0, 2.0, 2.0, 4.0, 2.0, 2.0],
+        "shard_memory": [300.0, 300.0, 301.0, 302.0, 303.0, 304.0, 305.0],
+        "estimated_seconds": [1.0, 2.0, 4.0, 2.0, 4.0, 2.0, 1.0],
+        "estimated_memory": [400.0] * 7,
+        "gathered": [100, 250, 300, 100, 100, 100, 100],
+        "gathering_seconds": [1.0, 2.0, 6.0, 1.0, 1.0, 1.0, 1.0],
+        "gathering_memory": [200.0] * 7,
+        "bytes": [30.0] * 7,
     }
     return pd.DataFrame(columns)
 
 
 def test_what_the_whole_sweep_costs():
     rows = cluster_page.costs(table()).set_index("points")
-    assert rows.core_hours[1000] == pytest.approx(10 * 3.0 * 2 / 3600.0)
-    assert rows.minutes.to_dict() == pytest.approx({100: 1.0 / 60.0, 1000: 1000 * 6.0 / 300 / 60.0})
-    told = cluster_page.numbers(table(), {"core_hours": 24.0, "most_jobs": 500, "job_seconds": 60.0})
+    assert rows.core_hours.to_dict() == pytest.approx(
+        {100: 3.0 * 2 / 3600.0, 250: 8.0 * 2 / 3600.0, 1000: 10 * 3.0 * 2 / 3600.0}
+    )
+    assert rows.microseconds.tolist() == pytest.approx([2e4, 2e4, 2e4])
+    assert rows.minutes.to_dict() == pytest.approx({100: 1.0 / 60.0, 250: 2.0 / 60.0, 1000: 1000 * 6.0 / 300 / 60.0})
+    sharing = {"core_hours": 24.0, "most_jobs": 500, "job_seconds": 60.0}
+    told = cluster_page.numbers(table(), sharing)
     assert (told["least_ratio"], told["most_ratio"]) == ("0.5", "2")
     assert told["within_limit"]
-    assert not cluster_page.numbers(table(), {"core_hours": 0.01, "most_jobs": 500, "job_seconds": 60.0})[
-        "within_limit"
-    ]
-    assert (told["points"], told["most_memory"], told["start"]) == ("1,000", "305", "1.0")
+    assert not cluster_page.numbers(table(), sharing | {"core_hours": 0.01})["within_limit"]
+    assert (told["points"], told["most_memory"], told["made_whole"]) == ("1,000", "305", "250")
+    assert (told["start"], told["loading"]) == ("0.8", "0.2")
 
 
-def test_rates_count_the_points_that_were_made():
-    rates = chart.rate(table())
-    assert rates.tolist() == pytest.approx([100 / 3, 100 / 3, 100 / 3, 20, 100 / 3, 25])
+def test_cost_of_a_point_is_told_without_and_with_the_start_of_the_job():
+    computing, whole = chart.costs(table())
+    assert computing.tolist() == pytest.approx([2e4, 2e4, 2e4, 2e4, 4e4, 2e4, 2e4])
+    assert whole.tolist() == pytest.approx([3e4, 3.2e4, 3e4, 3e4, 5e4, 3e4, 4e4])
+
+
+def test_the_page_of_clusters_says_both():
+    template = (ROOT / "workflow/templates/cluster.md").read_text()
+    page = cluster_page.make(table(), template, {"core_hours": 24.0, "most_jobs": 500, "job_seconds": 60.0})
+    assert "| 250 | 3 | 3 | 100 | 20000.0 |" in page
+    assert "0.8 s for Python and its imports, and 0.2 s for its first point" in " ".join(page.split())

@@ -148,7 +148,15 @@ def case_of_scaling(varied, axes, *, shards=None, threads=THREADS, conveyors=1):
         rows = math.ceil(shared.points / shards)
         seconds = seconds_of(entry, config["sharing"]["seconds"], rows)
         shared = shared._replace(rows=rows, shards=math.ceil(shared.points / rows), seconds=seconds)
-    return {"varied": varied, "settings": entry, "plan": shared._asdict(), "threads": threads, "conveyors": conveyors}
+    whole = shards or shared.points <= config["scaling"]["made_whole"]
+    return {
+        "varied": varied,
+        "settings": entry,
+        "plan": shared._asdict(),
+        "threads": threads,
+        "conveyors": conveyors,
+        "measured": shared.shards if whole else 1,
+    }
 
 
 def starts_of_scaling(points):

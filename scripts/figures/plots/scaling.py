@@ -1,4 +1,4 @@
-"""What sweeps take: points in a second and memory of jobs, over points, threads and shards, and beside peers."""
+"""What sweeps take: cost of a point, points in a second and memory of jobs, over points, threads and shards; peers."""
 
 import numpy as np
 import pandas as pd
@@ -9,11 +9,13 @@ from matplotlib.ticker import NullFormatter
 from figures import style
 
 MAPS, CONVEYORS, GATHERING = "#0072B2", "#D55E00", "#CC79A7"
+MICROSECONDS = 1e6
+WITH_START = {"points": "with the start of the job", "conveyors": None}  # one entry of the legend for both
 
 
-def rate(rows: pd.DataFrame) -> pd.Series:
-    """Points that a job follows in a second, its start included."""
-    return np.minimum(rows.rows * rows.measured, rows.points) / rows.shard_seconds
+def costs(rows: pd.DataFrame) -> tuple[pd.Series, pd.Series]:
+    """Wall time of jobs for each point, µs: once they have started, and from their start on."""
+    return tuple(MICROSECONDS * seconds / rows.computed for seconds in (rows.computing_seconds, rows.shard_seconds))
 
 
 def over_points(left: Axes, right: Axes, table: pd.DataFrame) -> None:
@@ -22,7 +24,9 @@ def over_points(left: Axes, right: Axes, table: pd.DataFrame) -> None:
         ("conveyors", CONVEYORS, "conveyors of one start"),
     ):
         rows = table[table.varied == varied].sort_values("points")
-        left.plot(rows.points, rate(rows), "o-", color=colour, label=name)
+        computing, whole = costs(rows)
+        left.plot(rows.points, computing, "o-", color=colour, label=name)
+        left.plot(rows.points, whole, "o:", color=colour, markerfacecolor="white", label=WITH_START[varied])
         right.plot(rows.points, rows.shard_memory, "o-", color=colour)
         if varied == "points":
             right.plot(rows.points, rows.gathering_memory, "s--", color=GATHERING, label="shards put together")
@@ -30,7 +34,7 @@ def over_points(left: Axes, right: Axes, table: pd.DataFrame) -> None:
         axes.set_xscale("log")
         axes.set_xlabel("points of the sweep")
     left.set_yscale("log")
-    left.set_ylabel("points per second of a job")
+    left.set_ylabel("wall time of a job for each point (µs)")
     right.set_ylim(0.0, 1.1 * max(np.max(line.get_ydata()) for line in right.lines))
     right.set_ylabel("largest memory of a job (MB)")
 
@@ -79,11 +83,11 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     beside_peers(figure.add_subplot(rows[2, :]), tables["throughput"])
     over_points(left, right, table)
     rows = table[table.varied == "threads"].sort_values("threads")
-    over_counts(threads, rows, "threads", rows.points / rows.computing_seconds)
+    over_counts(threads, rows, "threads", rows.computed / rows.computing_seconds)
     threads.set_xlabel("threads of a job")
     threads.set_ylabel("points per second of a job,\nonce it has started")
     rows = table[table.varied == "shards"].sort_values("shards")
-    over_counts(shards, rows, "shards", rate(rows))
+    over_counts(shards, rows, "shards", rows.computed / rows.shard_seconds)
     shards.set_xlabel("shards of a sweep")
     shards.set_ylabel("points per second of all jobs,\none after the other")
     handles = [handle for axes in (left, right) for handle in axes.get_legend_handles_labels()[0]]
