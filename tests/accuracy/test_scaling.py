@@ -1,5 +1,8 @@
 """Jobs of sweeps in processes of their own: what is measured of them, and the page that says what it means."""
 
+import io
+import json
+
 import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
@@ -44,6 +47,15 @@ def test_shards_that_are_not_made_are_copied(tmp_path):
     assert (row["measured"], row["computed"], row["gathered"]) == (1, 7, 21)
 
 
+def test_the_first_point_is_computed_alone_before_all(monkeypatch):
+    made = []
+    monkeypatch.setattr(scaling, "make_shard", lambda rows, **others: made.append(rows))
+    task = {"path": "", "settings": {}, "rows": [7, 13], "threads": 1}
+    monkeypatch.setattr("sys.stdin", io.StringIO(json.dumps(task)))
+    scaling.job()
+    assert made == [(7, 8), (7, 13)]
+
+
 def test_loading_of_compiled_code_is_no_computing(tmp_path):
     """Six points take a millisecond or so, the loading some hundred."""
     scaling.run(settings=SETTINGS, threads=1, rows=[0, 1], path=str(tmp_path / "compiled.parquet"))
@@ -76,7 +88,7 @@ def table() -> pd.DataFrame:
         "loading_seconds": [0.25, 0.75, 0.25, 0.25, 0.25, 0.25, 0.5],
         "computing_seconds": [2.0, 5.0, 2.0, 2.0, 4.0, 2.0, 2.0],
         "shard_memory": [300.0, 300.0, 301.0, 302.0, 303.0, 304.0, 305.0],
-        "estimated_seconds": [1.0, 2.0, 4.0, 2.0, 4.0, 2.0, 1.0],
+        "estimated_seconds": [1.0, 4.0, 4.0, 2.0, 4.0, 2.0, 1.0],
         "estimated_memory": [400.0] * 7,
         "gathered": [100, 250, 300, 100, 100, 100, 100],
         "gathering_seconds": [1.0, 2.0, 6.0, 1.0, 1.0, 1.0, 1.0],
