@@ -432,6 +432,7 @@ class Scaling(TypedDict):
 class Throughput(TypedDict):
     starts: whole(4, 10**6)
     peers: TypedDict("TimedPeers", dict.fromkeys(INTEGRATORS, Tolerance), total=False)
+    batch: whole(1, 64)
     max_evaluations: Count
     repeats: Count
 

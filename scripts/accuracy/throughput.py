@@ -1,7 +1,8 @@
 """Starts that one thread follows in a second: by the solver, by the paper's method, and by peers.
 
 All follow the same starts for the same time, the methods in turns; what has to be compiled is compiled before. The
-solver and the paper's method take all starts in one call, as sweeps do; peers take one after the other.
+solver and the paper's method take all starts in one call, as sweeps do; peers take one after the other, heyoka in
+batches as well.
 """
 
 from collections.abc import Callable
@@ -14,14 +15,14 @@ import numpy as np
 from accuracy.precision import EXACT, TRUTH
 from accuracy.wall_times import TURN
 from conveyor import ensemble
-from conveyor.methods import peers
+from conveyor.methods import heyoka_batch, heyoka_peer, peers
 from conveyor.solver.progress import bar
 from pipeline import fields, grid
 
 TABLES = {
     "throughput": (
         fields.text("method", "event, euler, or a peer"),
-        fields.text("treatment", "of impacts and slip reversals: exact, fixed step, or modes"),
+        fields.text("treatment", "of impacts and slip reversals: exact, fixed step, or modes; in batches or not"),
         fields.number("tolerance", "1", "relative tolerance; null for fixed steps"),
         fields.number("step", "s", "step; null for tolerances"),
         fields.count("starts", "that are followed, on one thread"),
@@ -58,6 +59,7 @@ def one_by_one(rows: np.ndarray, name: str, duration: float, tolerance: float, l
 def ways(settings: dict) -> list[Way]:
     """All rows of the table, in their order."""
     duration, limit, tolerance, step = (settings[name] for name in ("duration", "max_evaluations", "tolerance", "step"))
+    lanes = settings["batch"]
     exact = partial(together, duration=duration, tolerance=tolerance)
     fixed = partial(together, duration=duration, method="euler", step=step)
     return [
@@ -72,6 +74,17 @@ def ways(settings: dict) -> list[Way]:
                 partial(one_by_one, name=name, limit=limit, duration=duration, tolerance=wanted),
             )
             for name, wanted in settings["peers"].items()
+        ),
+        *(
+            Way(
+                peers.HEYOKA,
+                f"modes, in batches of {lanes}",
+                wanted,
+                np.nan,
+                partial(heyoka_batch.mean_velocities, duration=duration, tolerance=wanted, lanes=lanes, limit=limit),
+            )
+            for name, wanted in settings["peers"].items()
+            if name == peers.HEYOKA
         ),
     ]
 
@@ -88,14 +101,17 @@ def make(settings: dict, map_of_starts: dict, *, progress: str | None = None) ->
     Parameters
     ----------
     settings : the section of the config with the `duration` (s) of all runs, and the `tolerance` and the `step` (s) of
-        the solver and of the paper's method
+        the solver and of the paper's method, the `peers` with their tolerances and the `batch` of heyoka
     map_of_starts : its `axes` and its `model`
     """
     _, rows = grid.product(map_of_starts["axes"], map_of_starts["model"])
     listed = ways(settings)
     truth = together(rows, duration=settings["duration"], tolerance=TRUTH)
-    velocities = [way.follow(rows) for way in listed]
-    there = [way.method != peers.HEYOKA or peers.heyoka_peer.installed() for way in listed]
+    there = [way.method != peers.HEYOKA or heyoka_peer.installed() for way in listed]
+    velocities = [
+        way.follow(rows) if is_there else np.full(len(rows), np.nan)
+        for way, is_there in zip(listed, there, strict=True)
+    ]
     times: list[list[float]] = [[] for _ in listed]
     for _ in bar(range(settings["repeats"]), label=progress, unit="rounds"):
         for way, spent, is_there in zip(listed, times, there, strict=True):

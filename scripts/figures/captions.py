@@ -186,7 +186,7 @@ def scaling(tables: Tables, settings: dict) -> dict[str, str]:
         "shared_points": f"{table[table.varied == 'shards'].points.iloc[0]:,}",
         "gathered": f"{table.gathered.max():,}",
         "starts": str(tables["throughput"].starts.iloc[0]),
-        "lacking": ", ".join(tables["throughput"].method[tables["throughput"].outcome != "ok"]),
+        "lacking": ", ".join(tables["throughput"].method[tables["throughput"].outcome != "ok"].unique()),
     }
 
 

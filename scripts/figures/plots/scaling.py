@@ -56,12 +56,17 @@ def over_counts(axes: Axes, rows: pd.DataFrame, varied: str, rates: pd.Series) -
     axes.set_ylim(0.0, 1.1 * max(np.max(line.get_ydata()) for line in axes.lines))
 
 
+def name_of(method: str, treatment: str) -> str:
+    """The name of a bar: that of the method, and what its treatment says behind a comma."""
+    return ",\n".join([style.METHODS[method][1], *treatment.split(", ")[1:]])
+
+
 def beside_peers(axes: Axes, table: pd.DataFrame) -> None:
     """Starts that a thread follows to their end in a second by each method, with the error of what it finds."""
     rows = table[table.outcome == "ok"].iloc[::-1]
     rates = ((rows.starts - rows.failed) / rows.seconds).to_numpy()
     axes.barh(
-        [style.METHODS[method][1] for method in rows.method],
+        [name_of(row.method, row.treatment) for row in rows.itertuples()],
         rates,
         color=[style.METHODS[method][0] for method in rows.method],
         height=0.6,
