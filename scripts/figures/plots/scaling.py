@@ -34,7 +34,8 @@ def over_points(left: Axes, right: Axes, table: pd.DataFrame) -> None:
         axes.set_xscale("log")
         axes.set_xlabel("points of the sweep")
     left.set_yscale("log")
-    left.set_ylabel("wall time of a job for each point (µs)")
+    left.set_ylim(bottom=0.5 * min(np.min(line.get_ydata()) for line in left.lines))
+    left.set_ylabel("wall time of a job\nfor each point (µs)")
     right.set_ylim(0.0, 1.1 * max(np.max(line.get_ydata()) for line in right.lines))
     right.set_ylabel("largest memory of a job (MB)")
 
@@ -96,5 +97,5 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     shards.set_xlabel("shards of a sweep")
     shards.set_ylabel("points per second of all jobs,\none after the other")
     handles = [handle for axes in (left, right) for handle in axes.get_legend_handles_labels()[0]]
-    figure.legend(handles=handles, loc="outside upper center", ncols=3)
+    figure.legend(handles=handles, loc="outside upper center", ncols=4)
     return figure
