@@ -14,6 +14,8 @@ from made import FIGURES, RESULTS, entries
 from workflow.tables_of_config import kind_of
 
 ENTRIES = entries()
+# One process looks at all of a figure, which it draws once.
+FIGURE = [pytest.param(name, marks=pytest.mark.xdist_group(name)) for name in ENTRIES]
 PAGE_HEIGHT = 234.0  # mm, of the journal's page
 MAPS = ("fig12", "fig13", "fig14", "fig18", "fig19")
 UNITS = {
@@ -76,7 +78,7 @@ def drawn(name):
     return figure
 
 
-@pytest.mark.parametrize("name", ENTRIES)
+@pytest.mark.parametrize("name", FIGURE)
 def test_size_and_type_are_the_journal_s(name):
     figure = drawn(name)
     assert round(figure.get_figwidth() / style.MM, 6) in (style.COLUMN, style.PAGE)
@@ -85,7 +87,7 @@ def test_size_and_type_are_the_journal_s(name):
     assert min(text.get_fontsize() for text in texts) >= 7.0
 
 
-@pytest.mark.parametrize("name", ENTRIES)
+@pytest.mark.parametrize("name", FIGURE)
 def test_legends_and_labels_are_not_cut(name):
     figure = drawn_afresh(name)
     canvas = FigureCanvasAgg(figure)
@@ -98,7 +100,7 @@ def test_legends_and_labels_are_not_cut(name):
             assert whole.contains(extent.x0, extent.y0) and whole.contains(extent.x1, extent.y1), artist
 
 
-@pytest.mark.parametrize("name", ENTRIES)
+@pytest.mark.parametrize("name", FIGURE)
 def test_axes_have_units(name):
     """An axis, or one that shares its scale, names a quantity with its unit, unless its ticks are words."""
     for axes in drawn(name).axes:
@@ -119,7 +121,7 @@ def in_words(axis):
     return not texts or any(re.search("[a-z]{3}", text) for text in texts)
 
 
-@pytest.mark.parametrize("name", ENTRIES)
+@pytest.mark.parametrize("name", FIGURE)
 def test_pages_are_equal_vectors_with_embedded_fonts(name, tmp_path):
     """Equal to the byte to those of another process, which has drawn nothing else."""
     copy = tmp_path / f"{name}.pdf"
