@@ -15,12 +15,12 @@ import math
 
 import numpy as np
 from llvmlite import ir
-from llvmlite.binding import get_host_cpu_features
 from numba.core import cgutils, types
 from numba.extending import intrinsic
 
 from ..solver import model
 from ..solver.jit import kernel
+from ..solver.vectors import BIT, FLOAT, INTEGER, Memory, Vector, anywhere, call, fused, lanes_of_processor, where
 
 CHECK = 256  # steps between checks that the state is finite
 STATUSES = ("ok", "not finite")
@@ -63,99 +63,6 @@ COSINE = (
     4.16666666666666019037e-02,
 )
 
-BIT, INTEGER, FLOAT = ir.IntType(1), ir.IntType(64), ir.DoubleType()
-
-
-class Vector:
-    """The numbers in one register while a kernel is being written: operators append an LLVM instruction to it.
-
-    A plain number stands for itself in every lane. Comparisons give a Vector of bits.
-    """
-
-    def __init__(self, builder: ir.IRBuilder, value: ir.Value):
-        self.builder, self.value, self.lanes = builder, value, value.type.count
-
-    def like(self, number):
-        """`number` as a Vector of the same kind."""
-        if isinstance(number, Vector):
-            return number
-        return Vector(self.builder, ir.Constant(self.value.type, [number] * self.lanes))
-
-    def cast(self, instruction, element):
-        """The lanes converted to another type of element by an instruction of the builder."""
-        return Vector(self.builder, instruction(self.value, ir.VectorType(element, self.lanes)))
-
-    def apply(self, instruction, other):
-        return Vector(self.builder, instruction(self.value, self.like(other).value))
-
-    def compare(self, sign, other):
-        """False where a number is NaN."""
-        return Vector(self.builder, self.builder.fcmp_ordered(sign, self.value, self.like(other).value))
-
-    def __neg__(self):
-        return Vector(self.builder, self.builder.fneg(self.value))
-
-    def __add__(self, other):
-        return self.apply(self.builder.fadd, other)
-
-    def __sub__(self, other):
-        return self.apply(self.builder.fsub, other)
-
-    def __mul__(self, other):
-        return self.apply(self.builder.fmul, other)
-
-    def __lt__(self, other):
-        return self.compare("<", other)
-
-    def __le__(self, other):
-        return self.compare("<=", other)
-
-    def __gt__(self, other):
-        return self.compare(">", other)
-
-    def __eq__(self, other):
-        return self.compare("==", other)
-
-    def __and__(self, other):
-        return self.apply(self.builder.and_, other)
-
-    def __or__(self, other):
-        return self.apply(self.builder.or_, other)
-
-    def __xor__(self, other):
-        return self.apply(self.builder.xor, other)
-
-    def __invert__(self):
-        return Vector(self.builder, self.builder.not_(self.value))
-
-    def __lshift__(self, count):
-        return self.apply(self.builder.shl, count)
-
-
-def where(condition: Vector, yes: Vector, no: Vector | float) -> Vector:
-    """In each lane `yes` if its bit is set, else `no`."""
-    return Vector(yes.builder, yes.builder.select(condition.value, yes.value, yes.like(no).value))
-
-
-def anywhere(condition: Vector) -> ir.Value:
-    """One bit: whether a lane's bit is set."""
-    every = ir.IntType(condition.lanes)
-    return condition.builder.icmp_unsigned("!=", condition.builder.bitcast(condition.value, every), every(0))
-
-
-def call(name: str, first: Vector, *others: Vector | float) -> Vector:
-    """An LLVM function that works on whole registers."""
-    type_, builder = first.value.type, first.builder
-    values = [first.like(operand).value for operand in (first, *others)]
-    signature = ir.FunctionType(type_, [type_] * len(values))
-    function = cgutils.get_or_insert_function(builder.module, signature, f"llvm.{name}.v{first.lanes}f64")
-    return Vector(builder, builder.call(function, values))
-
-
-def fused(a: Vector, b: Vector | float, c: Vector | float) -> Vector:
-    """The product and sum a b + c, rounded once."""
-    return call("fma", a, b, c)
-
 
 def polynomial(coefficients: tuple[float, ...], x: Vector) -> Vector:
     value = x.like(coefficients[0])
@@ -189,25 +96,6 @@ def sine_and_cosine(phase: Vector) -> tuple[Vector, Vector]:
 
     # The sine is negative in the quarters 2 and 3, the cosine in 1 and 2.
     return signed(where(odd, cosine, sine), bits << 62), signed(where(odd, sine, cosine), (bits << 62) ^ (bits << 63))
-
-
-class Memory:
-    """The rows of an array of shape (ROWS, lanes), each a Vector."""
-
-    def __init__(self, context, builder, signature, arguments):
-        lanes, array = signature.args
-        data = context.make_array(array)(context, builder, arguments[1]).data
-        self.builder = builder
-        self.start = builder.bitcast(data, ir.VectorType(FLOAT, lanes.literal_value).as_pointer())
-
-    def at(self, row):
-        return self.builder.gep(self.start, [INTEGER(row)], inbounds=True)
-
-    def __getitem__(self, row):
-        return Vector(self.builder, self.builder.load(self.at(row), align=8))
-
-    def __setitem__(self, row, vector):
-        self.builder.store(vector.value, self.at(row), align=8)
 
 
 def spring_length(depth: Vector, exponent: Vector, flying: Vector) -> Vector:
@@ -376,13 +264,6 @@ def in_lanes(lanes: int):
                     stop = min(stop, sample_indices[n_sampled])
 
     return integrate
-
-
-def lanes_of_processor() -> int:
-    """How many float64 the widest vector register of this machine holds; 1 if it is not known."""
-    present = get_host_cpu_features()
-    widths = {"avx512f": 8, "avx": 4, "sse2": 2, "neon": 2}
-    return max((lanes for name, lanes in widths.items() if present.get(name)), default=1)
 
 
 alone = in_lanes(1)
