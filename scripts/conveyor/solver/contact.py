@@ -190,23 +190,15 @@ def step_length(c, series, at, w0, v0):
 
 
 @spliced
-def step(c, series, at, w0, v0, sine0, cosine0, pulled):
-    """Expand the motion from w0 ≥ 0, v0 and find where its step ends.
-
-    Parameters
-    ----------
-    c, series, at : Constants, a workspace, and the first row of this step in it
-    w0, v0 : √penetration (√m) and speed of approach (m/s)
-    sine0, cosine0 : of the excitation's phase
-    pulled : True while the contact force is negative; looked at for `frictionless` and `clip` only
-
-    Returns
-    -------
-    length, w, v, lapse, event : length of the step in s; w, v at its end and the time it takes (s); what ends it:
-        NOTHING, SEPARATION or FORCE_SIGN (the contact force passes zero)
-    """
+def begin_step(c, series, at, w0, v0, sine0, cosine0, pulled):
+    """Expand the motion from w0 ≥ 0, v0: the length in s up to which its series is good, see `step`."""
     expand(c, series, at, w0, v0, sine0, cosine0, pulled and c.tension == model.TENSION_CLIP)
-    length = step_length(c, series, at, w0, v0)
+    return step_length(c, series, at, w0, v0)
+
+
+@spliced
+def end_step(c, series, at, w0, v0, pulled, length):
+    """Where a step ends whose series is good up to `length`; what it returns is told by `step`."""
     event = NOTHING
     w, v = polynomial.value(series, at + W, length), polynomial.value(series, at + V, length)
     shortened = False
@@ -241,3 +233,23 @@ def step(c, series, at, w0, v0, sine0, cosine0, pulled):
     if event == SEPARATION:
         w = 0.0
     return length, w, v, polynomial.value(series, at + T, length), event
+
+
+@spliced
+def step(c, series, at, w0, v0, sine0, cosine0, pulled):
+    """Expand the motion from w0 ≥ 0, v0 and find where its step ends.
+
+    Parameters
+    ----------
+    c, series, at : Constants, a workspace, and the first row of this step in it
+    w0, v0 : √penetration (√m) and speed of approach (m/s)
+    sine0, cosine0 : of the excitation's phase
+    pulled : True while the contact force is negative; looked at for `frictionless` and `clip` only
+
+    Returns
+    -------
+    length, w, v, lapse, event : length of the step in s; w, v at its end and the time it takes (s); what ends it:
+        NOTHING, SEPARATION or FORCE_SIGN (the contact force passes zero)
+    """
+    length = begin_step(c, series, at, w0, v0, sine0, cosine0, pulled)
+    return end_step(c, series, at, w0, v0, pulled, length)

@@ -106,35 +106,54 @@ def shortened(series, at, length, duration, end):
 
 
 @spliced
+def fly(c, motion, limit):
+    """The Piece that is a flight from `motion`, of at most `limit` (s)."""
+    tau, speed = next_impact(motion.z, motion.vz, motion.q, motion.rate, motion.theta, c.gravity, c.a_z, c.omega, limit)
+    end = IMPACT
+    if not tau < math.inf:
+        end, tau = (LIMIT, limit) if tau == math.inf else (LOST, tau)
+    phase = motion.theta + c.omega * tau
+    return Piece(FLIGHT, tau, 0.0, end, 0.0, speed, math.sin(phase), math.cos(phase))
+
+
+@inlined
+def grazing(c, motion):
+    """Whether a part in contact only touches, with no speed: it is either pressed on or left behind by the plate."""
+    return motion.w == 0.0 and motion.v <= c.rest_speed and (motion.v <= 0.0 or c.gravity + c.a_z * motion.cosine > 0.0)
+
+
+@spliced
+def graze(c, motion):
+    """The Piece of a part that is `grazing`."""
+    if c.gravity + c.a_z * motion.cosine > 0.0:
+        w, v, lapse = press_on(c, motion.cosine)
+        return Piece(GRAZE, lapse, 0.0, NOTHING, w, v, motion.sine, motion.cosine)
+    return Piece(GRAZE, 0.0, 0.0, SEPARATION, 0.0, 0.0, motion.sine, motion.cosine)
+
+
+@spliced
+def press(c, series, at, motion, length, limit):
+    """The Piece that is a contact step from `motion`, of at most `limit` (s); its series is good up to `length`."""
+    length, w, v, lapse, end = contact.end_step(c, series, at, motion.w, motion.v, motion.pulled, length)
+    if lapse > limit:
+        return shortened(series, at, invert_time(series, at, length, limit), limit, LIMIT)
+    sine = polynomial.value(series, at + contact.SINE, length)
+    cosine = polynomial.value(series, at + contact.COSINE, length)
+    return Piece(CONTACT, lapse, length, end, w, v, sine, cosine)
+
+
+@spliced
 def next_piece(c, series, at, motion, limit):
     """The Piece that begins with a Motion and takes at most `limit` (s).
 
     c, series, at : contact.Constants, a contact.workspace, and the row in it at which a contact step begins
     """
     if not motion.touching:
-        tau, speed = next_impact(
-            motion.z, motion.vz, motion.q, motion.rate, motion.theta, c.gravity, c.a_z, c.omega, limit
-        )
-        end = IMPACT
-        if not tau < math.inf:
-            end, tau = (LIMIT, limit) if tau == math.inf else (LOST, tau)
-        phase = motion.theta + c.omega * tau
-        return Piece(FLIGHT, tau, 0.0, end, 0.0, speed, math.sin(phase), math.cos(phase))
-    if motion.w == 0.0 and motion.v <= c.rest_speed:
-        # Grazing: the part touches with no speed and is either pressed on or left behind by the plate.
-        if c.gravity + c.a_z * motion.cosine > 0.0:
-            w, v, lapse = press_on(c, motion.cosine)
-            return Piece(GRAZE, lapse, 0.0, NOTHING, w, v, motion.sine, motion.cosine)
-        if motion.v <= 0.0:
-            return Piece(GRAZE, 0.0, 0.0, SEPARATION, 0.0, 0.0, motion.sine, motion.cosine)
-    length, w, v, lapse, end = contact.step(
-        c, series, at, motion.w, motion.v, motion.sine, motion.cosine, motion.pulled
-    )
-    if lapse > limit:
-        return shortened(series, at, invert_time(series, at, length, limit), limit, LIMIT)
-    sine = polynomial.value(series, at + contact.SINE, length)
-    cosine = polynomial.value(series, at + contact.COSINE, length)
-    return Piece(CONTACT, lapse, length, end, w, v, sine, cosine)
+        return fly(c, motion, limit)
+    if grazing(c, motion):
+        return graze(c, motion)
+    length = contact.begin_step(c, series, at, motion.w, motion.v, motion.sine, motion.cosine, motion.pulled)
+    return press(c, series, at, motion, length, limit)
 
 
 @inlined

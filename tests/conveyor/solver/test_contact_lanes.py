@@ -1,0 +1,110 @@
+"""Contact steps in lanes: the bits of those that are taken one by one, and no event passed over."""
+
+import functools
+
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start
+from conveyor.solver import contact, contact_lanes, model, polynomial
+from conveyor.solver.contact_lanes import COSINE, END, LENGTH, ROWS, SERIES, SINE, STEPS, TIME, V, W
+from conveyor.solver.jit import kernel
+
+TOLERANCES = (1e-6, 1e-8, 1e-12)
+
+
+@functools.cache
+def in_lanes(lanes):
+    @kernel
+    def take(memory):
+        return contact_lanes.step(lanes, memory)
+
+    return take
+
+
+@kernel
+def take_one(c, series, w, v, sine, cosine):
+    return contact.step(c, series, contact.FIRST, w, v, sine, cosine, False)
+
+
+@kernel
+def fill(memory, lane, c, most):
+    contact_lanes.enter(memory, lane, c, most)
+
+
+def random_contacts(count, seed):
+    """Constants of conveyors, and √penetration in units of that at rest, speed in that of a fall, phase: of impacts,
+    deep in the plate, on the way out."""
+    rng = np.random.default_rng(seed)
+    conveyors = [
+        Conveyor(
+            acceleration=rng.uniform(0.0, 90.0) * (rng.random() < 0.9),
+            frequency=rng.uniform(20.0, 100.0),
+            stiffness=10.0 ** rng.uniform(3.5, 7.0),
+            damping=rng.uniform(0.0, 1.0) * (rng.random() < 0.8),
+        )
+        for _ in range(count)
+    ]
+    tolerances = rng.choice(TOLERANCES, count)
+    constants = [
+        contact.constants(model.pack(conveyor, Start()), tolerance)
+        for conveyor, tolerance in zip(conveyors, tolerances, strict=True)
+    ]
+    w = rng.uniform(0.0, 3.0, count) * (rng.random(count) < 0.8)
+    v = np.where(w > 0.0, rng.uniform(-5.0, 5.0, count), rng.uniform(0.0, 5.0, count))
+    w *= [c.scale_w for c in constants]
+    v *= [c.scale_v for c in constants]
+    return constants, w, v, rng.uniform(0.0, 2.0 * np.pi, count)
+
+
+@pytest.mark.parametrize("lanes", [1, 2, 4, 8])
+def test_steps_have_the_bits_of_single_ones(lanes):
+    constants, w, v, phase = random_contacts(400, seed=lanes)
+    series = contact.workspace()
+    taken = 0
+    for first in range(0, 400, lanes):
+        memory = contact_lanes.room(lanes)
+        assert memory.shape == (ROWS, lanes)
+        rows = range(first, first + lanes)
+        for lane, k in enumerate(rows):
+            fill(memory, lane, constants[k], 10)
+            start = w[k], v[k], np.sin(phase[k]), np.cos(phase[k])
+            memory[[W, V, SINE, COSINE], lane] = start
+            memory[[TIME, END], lane] = 0.001, 1.0
+        before = memory.copy()
+        stays = in_lanes(lanes)(memory)
+        for lane, k in enumerate(rows):
+            length, new_w, new_v, lapse, event = take_one(constants[k], series, *before[[W, V, SINE, COSINE], lane])
+            coefficients = memory[SERIES:, lane].reshape(-1, polynomial.SIZE)
+            np.testing.assert_array_equal(coefficients, series[contact.FIRST :][list(contact_lanes.KEPT)])
+            if stays >> lane & 1:
+                rows_of_motion = [W, V, SINE, COSINE, TIME, STEPS]
+                assert (memory[rows_of_motion, lane] == before[rows_of_motion, lane]).all()
+                continue
+            taken += 1
+            assert event == contact.NOTHING
+            assert memory[[W, V, TIME, LENGTH, STEPS], lane].tolist() == [new_w, new_v, 0.001 + lapse, length, 1.0]
+    assert 300 < taken < 390
+
+
+def test_a_step_stays_where_no_time_or_no_step_is_left_or_what_is_not_a_number():
+    constants, *_ = random_contacts(1, seed=0)
+    c = constants[0]
+    memory = contact_lanes.room(4)
+    for lane in range(4):
+        fill(memory, lane, c, 10)
+        memory[[W, V, SINE, COSINE, TIME, END], lane] = c.scale_w, 0.0, 0.0, 1.0, 0.0, 1.0
+    memory[END, 1] = 0.0
+    memory[STEPS, 2] = 10
+    memory[V, 3] = np.nan
+    assert in_lanes(4)(memory) == 0b1110
+
+
+def test_what_can_be_followed_in_lanes():
+    for conveyor, expected in (
+        (Conveyor(), True),
+        (Conveyor(exponent=1.0), False),
+        (Conveyor(tension="clip"), False),
+        (Conveyor(tension="frictionless"), False),
+    ):
+        assert contact_lanes.possible(contact.constants(model.pack(conveyor, Start()), 1e-8)) == expected
