@@ -16,8 +16,14 @@ SAME = 1e-4
 # Cycles in a row within chaotic sets after which a start has come there to stay.
 STAY = 64
 
-# What a search for a period ends with.
-SETTLED, STAYS, OPEN, FAILED = range(4)
+# What a search for a period ends with; GOES_ON is none of them.
+SETTLED, STAYS, OPEN, FAILED, GOES_ON = range(5)
+
+# What a search remembers are the last PAST cycles, δ (m) and v (m/s) at their ends and the longest flights in them (s);
+# and numbers of cycles: those followed, the period that was last seen and since when, those in a row within chaos.
+PAST = 2 * MAX_PERIOD
+DELTA, V, FLIGHTS = range(3)
+FOLLOWED, CANDIDATE, REPEATS, STAYED = range(4)
 
 
 @inlined
@@ -51,10 +57,88 @@ def inside(state, chaotic, first, behind):
 
 
 @kernel
-def near(state, history, lag, n, scale_0, scale_1):
+def memory(searches):
+    """Memories of a number of searches: float64, shape (searches, 3, PAST), and int64, shape (searches, 4)."""
+    return np.empty((searches, 3, PAST)), np.empty((searches, 4), np.int64)
+
+
+@inlined
+def forget(past, counts):
+    """Begin a search with the memory of one that is over."""
+    for k in range(PAST):
+        past[DELTA, k] = past[V, k] = math.inf
+        past[FLIGHTS, k] = 0.0
+    for k in range(4):
+        counts[k] = 0
+
+
+@inlined
+def near(state, past, lag, n, scale_0, scale_1):
     """Distance of `state`, number n, from the one `lag` cycles before, in units of the part at rest."""
-    past = (n - lag) % len(history)
-    return max(abs(state[0] - history[past, 0]) / scale_0, abs(state[1] - history[past, 1]) / scale_1)
+    then = (n - lag) % PAST
+    return max(abs(state[0] - past[DELTA, then]) / scale_0, abs(state[1] - past[V, then]) / scale_1)
+
+
+@inlined
+def last_period(state, past, n, scale_0, scale_1):
+    """The least number of cycles, up to MAX_PERIOD, after which a motion has come back to `state`, number n, or 0."""
+    some = 0
+    # Mostly it has not: all distances at a time, without division, tell so.
+    reach_0, reach_1 = 2.0 * CLOSE * scale_0, 2.0 * CLOSE * scale_1
+    for k in range(PAST):
+        some += (abs(state[0] - past[DELTA, k]) <= reach_0) & (abs(state[1] - past[V, k]) <= reach_1)
+    if some > 0:
+        for period in range(1, min(n, MAX_PERIOD) + 1):
+            if near(state, past, period, n, scale_0, scale_1) <= CLOSE:
+                return period
+    return 0
+
+
+@inlined
+def longest_flight(past, n, cycles):
+    """The longest flight (s) in the last of n `cycles`."""
+    longest = 0.0
+    for k in range(1, cycles + 1):
+        longest = max(longest, past[FLIGHTS, (n - k) % PAST])
+    return longest
+
+
+@kernel
+def look(c, state, flight, max_cycles, known, mine, past, counts):
+    """Whether a search is over after one more cycle.
+
+    Parameters
+    ----------
+    c, state, max_cycles, known, mine : as in `settle`; `state` is that at the end of the cycle
+    flight : longest flight (s) of those that ended in the cycle or go on
+    past, counts : the search's `memory`
+
+    Returns
+    -------
+    outcome, period, longest_flight : as in `settle`, or GOES_ON
+    """
+    n = counts[FOLLOWED]
+    counts[FOLLOWED] += 1
+    orbit = reached(c, state, known.orbits, mine[0], mine[1])
+    if orbit >= 0:
+        return SETTLED, known.orbits.periods[orbit], known.orbits.flights[orbit]
+    scale_0, scale_1 = c.scale_w * c.scale_w, c.scale_v
+    found = last_period(state, past, n, scale_0, scale_1)
+    past[DELTA, n % PAST], past[V, n % PAST], past[FLIGHTS, n % PAST] = state[0], state[1], flight
+    counts[REPEATS] = counts[REPEATS] + 1 if found > 0 and found == counts[CANDIDATE] else 0
+    counts[CANDIDATE] = found
+    if found > 0 and counts[REPEATS] >= found:
+        for period in range(1, found + 1):
+            if found % period == 0 and near(state, past, period, n, scale_0, scale_1) <= SAME:
+                found = period
+                break
+        return SETTLED, found, longest_flight(past, n + 1, found)
+    counts[STAYED] = counts[STAYED] + 1 if inside(state, known.chaotic, mine[2], mine[3]) else 0
+    if counts[STAYED] >= STAY:
+        return STAYS, 0, math.nan
+    if n + 1 >= max_cycles:
+        return OPEN, 0, longest_flight(past, n + 1, min(MAX_PERIOD, n + 1))
+    return GOES_ON, 0, math.nan
 
 
 @kernel
@@ -75,45 +159,16 @@ def settle(c, series, state, max_cycles, known, mine, strobes):
     """
     no_tangent = np.empty((0, 2))
     features = np.zeros(stroboscope.FEATURES)
-    history = np.full((2 * MAX_PERIOD, 2), np.inf)
-    flights = np.zeros(2 * MAX_PERIOD)
-    scale_0, scale_1 = c.scale_w * c.scale_w, c.scale_v
-    candidate = repeats = stays = 0
+    histories, numbers = memory(1)
+    past, counts = histories[0], numbers[0]
+    forget(past, counts)
     for n in range(max_cycles):
         if stroboscope.advance(c, series, state, BEGIN_OF_CYCLE, c.period, no_tangent, features) != OK:
             return FAILED, 0, math.nan, n
-        orbit = reached(c, state, known.orbits, mine[0], mine[1])
-        if orbit >= 0:
-            return SETTLED, known.orbits.periods[orbit], known.orbits.flights[orbit], n + 1
-        flights[n % (2 * MAX_PERIOD)] = max(features[stroboscope.LONGEST_FLIGHT], features[stroboscope.AIRBORNE])
-        found = 0
-        for period in range(1, min(n, MAX_PERIOD) + 1):
-            if near(state, history, period, n, scale_0, scale_1) <= CLOSE:
-                found = period
-                break
-        # Slices would bring in the text functions of their errors, which take long to compile.
-        for k in range(2):
-            history[n % (2 * MAX_PERIOD), k] = state[k]
-            if n < strobes.shape[0]:
-                strobes[n, k] = state[k]
-        if found > 0 and found == candidate:
-            repeats += 1
-        else:
-            candidate = found
-            repeats = 0
-        if candidate > 0 and repeats >= candidate:
-            for period in range(1, candidate + 1):
-                if candidate % period == 0 and near(state, history, period, n, scale_0, scale_1) <= SAME:
-                    candidate = period
-                    break
-            longest = 0.0
-            for k in range(candidate):
-                longest = max(longest, flights[(n - k) % (2 * MAX_PERIOD)])
-            return SETTLED, candidate, longest, n + 1
-        stays = stays + 1 if inside(state, known.chaotic, mine[2], mine[3]) else 0
-        if stays >= STAY:
-            return STAYS, 0, math.nan, n + 1
-    longest = 0.0
-    for k in range(min(MAX_PERIOD, max_cycles)):
-        longest = max(longest, flights[(max_cycles - 1 - k) % (2 * MAX_PERIOD)])
-    return OPEN, 0, longest, max_cycles
+        if n < strobes.shape[0]:
+            strobes[n, 0], strobes[n, 1] = state[0], state[1]
+        flight = max(features[stroboscope.LONGEST_FLIGHT], features[stroboscope.AIRBORNE])
+        outcome, period, longest = look(c, state, flight, max_cycles, known, mine, past, counts)
+        if outcome != GOES_ON:
+            return outcome, period, longest, n + 1
+    return OPEN, 0, 0.0, 0

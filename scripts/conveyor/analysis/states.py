@@ -18,7 +18,7 @@ from ..solver import contact
 from ..solver.jit import kernel
 from ..solver.model import FREQUENCY, PSI0, VZ0, Z0
 from ..solver.parallel import for_each_chunk
-from . import lyapunov, stroboscope
+from . import lyapunov, settling_lanes, stroboscope
 from .known import NOTHING, KnownAttractors
 from .settling import FAILED, OPEN, SETTLED, STAYS, settle
 
@@ -29,6 +29,10 @@ FIRST, SECOND, CHAOS, UNDECIDED = range(len(STATES))
 LONG_FLIGHT = 0.5
 # Excitation cycles after which a start that has not settled is followed no further.
 CYCLES = 20_000
+# Fewer starts are followed one after the other: most lanes would stand idle.
+SIDE_BY_SIDE = 8
+# Starts that are followed side by side, the least and the most, and how often each thread comes for some.
+FEWEST, MOST, ROUNDS = 64, 512, 16
 # An exponent is positive if it exceeds zero by this many standard errors.
 SIGNIFICANT = 3.0
 
@@ -43,11 +47,11 @@ class Motions(NamedTuple):
 
 
 @kernel
-def settle_points(parameters, points, tolerance, cycles, known, places, outcomes, periods, flights, followed):
+def settle_points(parameters, tolerance, cycles, known, places, points, outcomes, periods, flights, followed):
     """`settle` for rows of `parameters`, shape (n, 13).
 
-    points : float64, shape (n, 2), filled with the states (δ in m, v in m/s) at the end of the search
     known, places : attractors, and what `of` them says of each point, shape (n, 4)
+    points : float64, shape (n, 2), filled with the states (δ in m, v in m/s) at the end of the search
     outcomes, periods, flights (in excitation cycles), followed : shape (n,), filled
     """
     series = contact.workspace()
@@ -99,20 +103,18 @@ def classify(
 
     def work(begin, end):
         rows = slice(begin, end)
-        settle_points(
-            parameters[rows],
-            points[rows],
-            tolerance,
-            cycles,
-            known,
-            places[rows],
-            outcomes[rows],
-            periods[rows],
-            flights[rows],
-            followed[rows],
-        )
+        found = points[rows], outcomes[rows], periods[rows], flights[rows], followed[rows]
+        left = np.ones(end - begin, dtype=np.bool_)
+        if end - begin >= SIDE_BY_SIDE:
+            settling_lanes.settle_points(parameters[rows], tolerance, cycles, known, places[rows], found, left)
+        if left.any():
+            alone = tuple(column[left] for column in found)
+            settle_points(parameters[rows][left], tolerance, cycles, known, places[rows][left], *alone)
+            for column, values in zip(found, alone, strict=True):
+                column[left] = values
 
-    for_each_chunk(work, n, threads=threads, progress=progress)
+    chunk = min(max(n // (ROUNDS * threads), FEWEST), MOST)
+    for_each_chunk(work, n, threads=threads, chunk=chunk, progress=progress)
     codes = np.full(n, UNDECIDED)
     regular = np.where(flights >= LONG_FLIGHT, SECOND, FIRST)
     codes[outcomes == SETTLED] = regular[outcomes == SETTLED]

@@ -129,6 +129,15 @@ def switch_damping(c, tangent, pulled):
             tangent[i, 1] += sign * c.damping * tangent[i, 0]
 
 
+@inlined
+def delta_and_v(motion):
+    """The state, δ (m) and v (m/s), of a Motion."""
+    if motion.touching:
+        return motion.w * motion.w, motion.v
+    # A flight that goes on has been proved to be above the plate, up to rounding.
+    return -max(motion.q, 0.0), -motion.rate
+
+
 @kernel
 def advance(c, series, state, phase, duration, tangent, features):
     """Advance `state` from a phase of the excitation by a time of at most one cycle, exactly.
@@ -176,9 +185,7 @@ def advance(c, series, state, phase, duration, tangent, features):
         if piece.end == LIMIT:
             if motion.pulled:
                 switch_damping(c, tangent, False)
-            # A flight that goes on has been proved to be above the plate, up to rounding.
-            state[0] = motion.w * motion.w if motion.touching else -max(motion.q, 0.0)
-            state[1] = motion.v if motion.touching else -motion.rate
+            state[0], state[1] = delta_and_v(motion)
             return OK
     return TOO_STIFF
 

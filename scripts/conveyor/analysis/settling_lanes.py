@@ -1,0 +1,242 @@
+"""`settling.settle` for many starts at once, one in each lane of the processor's vector registers.
+
+Lanes in contact take their steps together, see contact_lanes. One with an event leaves them for scalar code until it is
+in contact again: it flies, comes to the end of a cycle, is found to have settled, makes room for the next start. What a
+start gives depends neither on its lane nor on its neighbours nor on the number of lanes: it is what `settle` gives, to
+the last bit.
+"""
+
+import functools
+import math
+
+import numpy as np
+
+from ..solver import contact
+from ..solver.contact import FIRST
+from ..solver.contact_lanes import (
+    COSINE,
+    END,
+    LENGTH,
+    MOST,
+    SINE,
+    STEPS,
+    TIME,
+    V,
+    W,
+    enter,
+    fetch,
+    possible,
+    room,
+    step,
+)
+from ..solver.jit import borrowed, kernel, spliced
+from ..solver.model import VZ0, Z0
+from ..solver.trajectory import BEGIN_OF_CYCLE, patience
+from ..solver.vertical import (
+    FLIGHT,
+    GRAZE,
+    IMPACT,
+    LIMIT,
+    LOST,
+    Motion,
+    Piece,
+    arrive,
+    begin,
+    fly,
+    graze,
+    grazing,
+    motion_at,
+    press,
+)
+from .known import AttractingOrbits, ChaoticSets, KnownAttractors
+from .settling import FOLLOWED, GOES_ON, forget, look, memory
+from .stroboscope import delta_and_v
+
+# Eight lanes take the contact steps in less time, but wait longer for those with an event: no gain where they were
+# measured, and twice the time for the last starts, which have most lanes for themselves.
+LANES = 4
+
+# What is known of a lane's present cycle: time since the last separation (s), longest flight that ended in it (s), the
+# excitation's phase at its beginning (rad).
+AIRBORNE, LONGEST, ORIGIN = range(3)
+# Cycles that a search has followed while its start is on the way to the first one.
+ON_THE_WAY = -1
+# The row of a lane without a start.
+NONE = -1
+
+
+@spliced
+def uncounted(known):
+    """The same attractors, see jit.borrowed."""
+    orbits, chaotic = known.orbits, known.chaotic
+    return KnownAttractors(
+        AttractingOrbits(
+            borrowed(orbits.conveyors),
+            borrowed(orbits.centres),
+            borrowed(orbits.factors),
+            borrowed(orbits.periods),
+            borrowed(orbits.flights),
+        ),
+        ChaoticSets(
+            borrowed(chaotic.conveyors), borrowed(chaotic.low), borrowed(chaotic.size), borrowed(chaotic.cells)
+        ),
+    )
+
+
+@spliced
+def first_from(row, parameters, tolerance, left):
+    """The first row, from number `row` on, that lanes can follow, or the number of rows; those before are `left`."""
+    while row < len(parameters) and not possible(contact.constants(parameters[row], tolerance)):
+        left[row] = True
+        row += 1
+    return row
+
+
+@spliced
+def load(c, start, lane, steps, cycle, past, counts):
+    """The Motion at the beginning of a start, shape (13,), that comes into a lane with nothing left of others in it."""
+    enter(steps, lane, c, patience(c))
+    forget(past, counts)
+    counts[FOLLOWED] = ON_THE_WAY
+    # At most one cycle is left to the first one that is a whole one.
+    steps[END, lane] = ((BEGIN_OF_CYCLE - c.psi0) % (2.0 * math.pi)) / c.omega
+    steps[STEPS, lane] = cycle[LONGEST, lane] = cycle[AIRBORNE, lane] = 0.0
+    cycle[ORIGIN, lane] = c.psi0
+    q, rate = begin(c, start[Z0], start[VZ0], c.psi0)
+    return motion_at(c, q, rate, 0.0, c.psi0)
+
+
+@spliced
+def stopped_motion(lane, steps):
+    """The Motion in contact, without what only flights need, at which a lane left the others."""
+    t, w, v = steps[TIME, lane], steps[W, lane], steps[V, lane]
+    return Motion(t, 0.0, steps[SINE, lane], steps[COSINE, lane], True, w, v, False, 0.0, 0.0, 0.0, 0.0)
+
+
+@spliced
+def return_to_lane(motion, lane, steps):
+    """Let a Motion in contact go on with the others."""
+    steps[TIME, lane], steps[W, lane], steps[V, lane] = motion.t, motion.w, motion.v
+    steps[SINE, lane], steps[COSINE, lane] = motion.sine, motion.cosine
+
+
+@spliced
+def count(piece, lane, steps, cycle):
+    """Count a piece, and its flight, as stroboscope.advance does."""
+    steps[STEPS, lane] += 1.0
+    if piece.kind == FLIGHT:
+        cycle[AIRBORNE, lane] += piece.duration
+        if piece.end == IMPACT:
+            cycle[LONGEST, lane] = max(cycle[LONGEST, lane], cycle[AIRBORNE, lane])
+            cycle[AIRBORNE, lane] = 0.0
+
+
+@spliced
+def failed(motion, piece, lane, steps):
+    """Whether stroboscope.advance may fail here: it follows such a start once more, and tells."""
+    finite = math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)
+    return piece.end == LOST or not finite or steps[STEPS, lane] > steps[MOST, lane]
+
+
+@spliced
+def next_cycle(c, state, lane, steps, cycle):
+    """The Motion at the beginning of a cycle from `state`, δ (m) and v (m/s)."""
+    steps[STEPS, lane] = cycle[LONGEST, lane] = 0.0
+    steps[END, lane] = c.period
+    cycle[ORIGIN, lane] = BEGIN_OF_CYCLE
+    return motion_at(c, -state[0], -state[1], 0.0, BEGIN_OF_CYCLE)
+
+
+@functools.cache
+def in_lanes(lanes: int):
+    """`settle_points` with a given number of lanes, a power of two. Every one gives the same bits."""
+
+    @kernel
+    def follow(parameters, tolerance, max_cycles, known, places, found, left, work):
+        parameters, known, places, left = borrowed(parameters), uncounted(known), borrowed(places), borrowed(left)
+        points, outcomes, periods = borrowed(found[0]), borrowed(found[1]), borrowed(found[2])
+        flights, followed = borrowed(found[3]), borrowed(found[4])
+        steps, cycle, rows, state = borrowed(work[0]), borrowed(work[1]), borrowed(work[2]), borrowed(work[3])
+        series, pasts, numbers = borrowed(work[4]), borrowed(work[5]), borrowed(work[6])
+        constants = [contact.constants(parameters[0], tolerance)] * lanes
+        waiting = running = 0
+        stopped = (1 << lanes) - 1  # a bit for each lane
+        while True:
+            for lane in range(lanes):
+                if not (stopped >> lane) & 1:
+                    continue
+                i, c, past, counts = rows[lane], constants[lane], pasts[lane], numbers[lane]
+                motion = stopped_motion(lane, steps)
+                piece = Piece(GRAZE, 0.0, 0.0, LIMIT, 0.0, 0.0, 0.0, 0.0)
+                if i != NONE:
+                    fetch(steps, lane, series, FIRST)
+                    piece = press(c, series, FIRST, motion, steps[LENGTH, lane], steps[END, lane] - motion.t)
+                while True:
+                    over = i == NONE
+                    if not over:
+                        count(piece, lane, steps, cycle)
+                        motion = arrive(c, motion, piece, cycle[ORIGIN, lane])
+                        if failed(motion, piece, lane, steps):
+                            left[i] = over = True
+                        elif piece.end == LIMIT:
+                            state[0], state[1] = delta_and_v(motion)
+                            if counts[FOLLOWED] == ON_THE_WAY:
+                                counts[FOLLOWED] = 0
+                                cycle[AIRBORNE, lane] = 0.0
+                            else:
+                                flight = max(cycle[LONGEST, lane], cycle[AIRBORNE, lane])
+                                outcome, period, longest = look(
+                                    c, state, flight, max_cycles, known, places[i], past, counts
+                                )
+                                if outcome != GOES_ON:
+                                    over = True
+                                    points[i, 0], points[i, 1] = state[0], state[1]
+                                    outcomes[i], periods[i], followed[i] = outcome, period, counts[FOLLOWED]
+                                    flights[i] = longest / c.period
+                            motion = next_cycle(c, state, lane, steps, cycle)
+                    if over:
+                        waiting = first_from(waiting, parameters, tolerance, left)
+                        if waiting == len(parameters):
+                            rows[lane] = NONE
+                            running &= ~(1 << lane)
+                            break
+                        i = rows[lane] = waiting
+                        waiting += 1
+                        running |= 1 << lane
+                        c = constants[lane] = contact.constants(parameters[i], tolerance)
+                        motion = load(c, parameters[i], lane, steps, cycle, past, counts)
+                    if motion.touching and not grazing(c, motion):
+                        return_to_lane(motion, lane, steps)
+                        break
+                    piece = graze(c, motion) if motion.touching else fly(c, motion, steps[END, lane] - motion.t)
+            if running == 0:
+                return
+            stopped = 0
+            while stopped == 0:
+                stopped = step(lanes, steps) & running
+
+    @kernel
+    def settle_points(parameters, tolerance, cycles, known, places, found, left):
+        left[:] = cycles < 1
+        if len(parameters) > 0 and cycles > 0:
+            rows, state = np.full(lanes, NONE), np.empty(2)
+            work = (room(lanes), np.zeros((3, lanes)), rows, state, contact.workspace(), *memory(lanes))
+            follow(parameters, tolerance, cycles, known, places, found, left, work)
+
+    return settle_points
+
+
+side_by_side = in_lanes(LANES)
+
+
+def settle_points(parameters, tolerance, cycles, known, places, found, left):
+    """`settle` for rows of `parameters`, shape (n, 13), from their starts on, but for the rows that are `left`.
+
+    Parameters
+    ----------
+    tolerance, cycles, known, places : as in states.settle_points
+    found : points, outcomes, periods, flights and followed, as there; filled
+    left : bool, shape (n,), set to True for starts that cannot be followed in lanes, or not to the end: what was found
+        of them says nothing
+    """
+    side_by_side(parameters, tolerance, cycles, known, places, found, left)

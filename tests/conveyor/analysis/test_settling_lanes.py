@@ -1,0 +1,137 @@
+"""Starts that settle side by side: the bits of those that are followed one by one, whoever their neighbours are."""
+
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start
+from conveyor.analysis import known_attractors, settling, settling_lanes, states
+from conveyor.analysis.known import NOTHING
+from conveyor.solver.model import PSI0, STIFFNESS, TENSION_MODES, Z0, pack
+
+TOLERANCE = 1e-7
+
+
+def room(n):
+    """Points, outcomes, periods, flights and followed of n starts."""
+    kinds = (np.int64, np.int64, np.float64, np.int64)
+    return np.full((n, 2), np.nan), *(np.zeros(n, kind) for kind in kinds)
+
+
+def one_by_one(parameters, cycles, known=NOTHING):
+    found = room(len(parameters))
+    states.settle_points(parameters, TOLERANCE, cycles, known, known.of(parameters), *found)
+    return found
+
+
+def together(parameters, cycles, known=NOTHING, lanes=settling_lanes.LANES):
+    found, left = room(len(parameters)), np.ones(len(parameters), dtype=np.bool_)
+    follow = settling_lanes.in_lanes(lanes)
+    follow(parameters, TOLERANCE, cycles, known, known.of(parameters), found, left)
+    return found, left
+
+
+def assert_same(found, wanted, rows=slice(None)):
+    for column, expected in zip(found, wanted, strict=True):
+        np.testing.assert_array_equal(column[rows], expected[rows])
+
+
+def random_starts(count, seed):
+    """Starts on conveyors of all kinds, each its own: in the plate, on it, above it; every fourth not for lanes."""
+    rng = np.random.default_rng(seed)
+    rows = []
+    for k in range(count):
+        conveyor = Conveyor(
+            acceleration=rng.uniform(0.0, 90.0) * (rng.random() < 0.9),
+            angle=rng.uniform(0.05, 0.5),
+            frequency=rng.uniform(20.0, 100.0),
+            psi0=rng.choice([rng.uniform(-12.0, 12.0), -np.pi, 0.0]),
+            stiffness=10.0 ** rng.uniform(4.0, 6.5),
+            damping=rng.uniform(0.0, 1.0),
+            exponent=1.0 if k % 8 == 3 else 1.5,
+            tension=TENSION_MODES[1 + rng.integers(2)] if k % 8 == 7 else "allow",
+        )
+        height = [rng.uniform(-1e-4, 0.0), rng.uniform(0.0, 1e-3), "conveyor"][rng.integers(3)]
+        rows.append(pack(conveyor, Start(height, rng.uniform(-0.2, 0.2))))
+    return np.array(rows)
+
+
+def map_of(acceleration, count=40):
+    """Starts of one conveyor as on the maps."""
+    rng = np.random.default_rng(int(acceleration))
+    rows = np.tile(pack(Conveyor(acceleration=acceleration), Start()), (count, 1))
+    rows[:, Z0], rows[:, PSI0] = rng.uniform(0.0, 5e-4, count), rng.uniform(0.0, 2.0 * np.pi, count)
+    return rows
+
+
+@pytest.mark.parametrize("lanes", [1, 2, 4, 8])
+def test_bits_do_not_depend_on_lanes(lanes):
+    parameters = random_starts(60, seed=1)
+    wanted = one_by_one(parameters, 150)
+    found, left = together(parameters, 150, lanes=lanes)
+    assert left.tolist() == [k % 4 == 3 for k in range(60)]
+    assert_same(found, wanted, ~left)
+    assert {settling.SETTLED, settling.OPEN} <= set(found[1])
+
+
+@pytest.mark.parametrize("acceleration", [40.0, 50.5, 53.0, 80.0])
+def test_bits_of_maps_with_known_attractors(acceleration):
+    parameters = map_of(acceleration)
+    known = known_attractors.known_attractors(parameters, cycles=4000, tolerance=TOLERANCE)
+    assert len(known.orbits.periods) + len(known.chaotic.low) > 0
+    found, left = together(parameters, 4000, known)
+    assert not left.any()
+    assert_same(found, one_by_one(parameters, 4000, known))
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 9])
+def test_lanes_may_be_more_than_starts_and_starts_in_any_order(count):
+    parameters = map_of(53.0, count)
+    wanted, _ = together(parameters, 300)
+    backwards, _ = together(parameters[::-1].copy(), 300)
+    assert_same([column[::-1] for column in backwards], wanted)
+    assert_same(wanted, one_by_one(parameters, 300))
+
+
+def test_no_start_or_no_cycle_is_left_to_others():
+    assert together(np.empty((0, 13)), 10)[1].tolist() == []
+    assert together(map_of(40.0, 3), 0)[1].tolist() == [True] * 3
+
+
+def test_failures_keep_their_row_and_disturb_nobody():
+    calm = map_of(40.0, 24)
+    parameters = calm.copy()
+    parameters[[0, 5, 23], 0] = np.nan
+    parameters[7, STIFFNESS] = np.inf
+    parameters[8, STIFFNESS] = 1e300
+    parameters[9, Z0] = np.inf
+    bad = [0, 5, 7, 8, 9, 23]
+    good = np.setdiff1d(np.arange(24), bad)
+    found, left = together(parameters, 200)
+    assert set(np.flatnonzero(left)) <= set(bad)
+    assert_same(found, one_by_one(parameters, 200), ~left)
+    assert_same(found, one_by_one(calm, 200), good)
+    labels = states.classify(parameters, cycles=200, tolerance=TOLERANCE)
+    assert set(labels.state[good]) <= {"first", "second"}
+    assert_same([labels.period, labels.cycles], [one_by_one(parameters, 200)[2], one_by_one(parameters, 200)[4]])
+
+
+def test_a_contact_too_stiff_to_be_followed_ends(monkeypatch):
+    """A heavily damped contact takes too many steps in a cycle: the lane gives it up as the scalar code does."""
+    parameters = map_of(40.0, 8)
+    parameters[3] = pack(Conveyor(damping=1e6, stiffness=1e15), Start())
+    found, left = together(parameters, 50)
+    wanted = one_by_one(parameters, 50)
+    assert wanted[1][3] == settling.FAILED
+    assert left.tolist() == [k == 3 for k in range(8)]
+    assert_same(found, wanted, ~left)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_labels_do_not_depend_on_threads_or_chunks(threads, monkeypatch):
+    parameters = np.concatenate([random_starts(70, seed=2), map_of(80.0, 30)])
+    monkeypatch.setattr(states, "SIDE_BY_SIDE", 1000)
+    wanted = states.classify(parameters, cycles=300, tolerance=TOLERANCE)
+    monkeypatch.undo()
+    for fewest in (16, 64):
+        monkeypatch.setattr(states, "FEWEST", fewest)
+        assert_same(states.classify(parameters, cycles=300, tolerance=TOLERANCE, threads=threads), wanted)
