@@ -92,6 +92,15 @@ def test_lanes_may_be_more_than_starts_and_starts_in_any_order(count):
     assert_same(wanted, one_by_one(parameters, 300))
 
 
+@pytest.mark.parametrize("cycles", [1, 2])
+def test_flights_count_from_the_first_whole_cycle_on(cycles):
+    parameters = map_of(80.0)
+    found, left = together(parameters, cycles)
+    assert not left.any()
+    assert found[3].max() > 0.5
+    assert_same(found, one_by_one(parameters, cycles))
+
+
 def test_no_start_or_no_cycle_is_left_to_others():
     assert together(np.empty((0, 13)), 10)[1].tolist() == []
     assert together(map_of(40.0, 3), 0)[1].tolist() == [True] * 3

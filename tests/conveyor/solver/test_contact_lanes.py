@@ -2,39 +2,40 @@
 
 import functools
 
+import numba
 import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start
 from conveyor.solver import contact, contact_lanes, model, polynomial
 from conveyor.solver.contact_lanes import COSINE, END, LENGTH, ROWS, SERIES, SINE, STEPS, TIME, V, W
-from conveyor.solver.jit import kernel
 
 TOLERANCES = (1e-6, 1e-8, 1e-12)
 
 
 @functools.cache
 def in_lanes(lanes):
-    @kernel
+    # Not cached: a kernel of a test would be taken for current when the library has changed.
+    @numba.njit
     def take(memory):
         return contact_lanes.step(lanes, memory)
 
     return take
 
 
-@kernel
+@numba.njit(error_model="numpy")
 def take_one(c, series, w, v, sine, cosine):
     return contact.step(c, series, contact.FIRST, w, v, sine, cosine, False)
 
 
-@kernel
+@numba.njit(error_model="numpy")
 def fill(memory, lane, c, most):
     contact_lanes.enter(memory, lane, c, most)
 
 
 def random_contacts(count, seed):
     """Constants of conveyors, and √penetration in units of that at rest, speed in that of a fall, phase: of impacts,
-    deep in the plate, on the way out."""
+    deep in the plate, on the way out, about to turn round."""
     rng = np.random.default_rng(seed)
     conveyors = [
         Conveyor(
@@ -52,6 +53,8 @@ def random_contacts(count, seed):
     ]
     w = rng.uniform(0.0, 3.0, count) * (rng.random(count) < 0.8)
     v = np.where(w > 0.0, rng.uniform(-5.0, 5.0, count), rng.uniform(0.0, 5.0, count))
+    turning = rng.random(count) < 0.2
+    w[turning], v[turning] = rng.uniform(0.3, 0.9, turning.sum()), rng.uniform(-0.2, 0.0, turning.sum())
     w *= [c.scale_w for c in constants]
     v *= [c.scale_v for c in constants]
     return constants, w, v, rng.uniform(0.0, 2.0 * np.pi, count)
@@ -83,8 +86,9 @@ def test_steps_have_the_bits_of_single_ones(lanes):
                 continue
             taken += 1
             assert event == contact.NOTHING
+            assert not v[k] < 0.0 < new_v  # a part that turns round may have left the plate in between
             assert memory[[W, V, TIME, LENGTH, STEPS], lane].tolist() == [new_w, new_v, 0.001 + lapse, length, 1.0]
-    assert 300 < taken < 390
+    assert 200 < taken < 390
 
 
 def test_a_step_stays_where_no_time_or_no_step_is_left_or_what_is_not_a_number():
