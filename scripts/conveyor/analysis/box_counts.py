@@ -51,6 +51,8 @@ def along_boxes(points: np.ndarray) -> np.ndarray:
 def merge(boxes, deepest, n, owners, first):
     """Keep each of the first n boxes once, with the most halvings of all that lies in it; return how many they are.
 
+    Parameters
+    ----------
     boxes, deepest : int64 and int8, replaced from their beginnings on
     owners : int32, a hash table of a length 2^k ≥ 2 n: the number of a box that is kept, counted from `first`; a place
         is free whose number is smaller
@@ -86,6 +88,8 @@ def count_chain(points, halvings, scales, finest, step, shift, owners, first, bo
     Its scales are number `finest`, the one `step` before it, of twice the size, and so on; of the last and largest one
     the grid is shifted by `shift` boxes. What each grid holds is found from the boxes of the one before.
 
+    Parameters
+    ----------
     first : as in `merge`; that of the next chain is returned
     """
     n = len(points)
@@ -113,6 +117,8 @@ def count_chain(points, halvings, scales, finest, step, shift, owners, first, bo
 def box_counts(points, halvings, scales, step, shifts, samples_per_box):
     """Mean numbers of occupied boxes over shifted grids for all points and their parts, shape (PARTS, k).
 
+    Parameters
+    ----------
     points : shape (n, 2), in the unit square
     halvings : of each point, int64, shape (n,)
     scales, step : descending, shape (k,), each half of the one `step` before it; a step of k relates none to another

@@ -13,6 +13,8 @@ TABLES = 4  # of counts, in turn: to add to a number that was just changed takes
 def pair_counts(points, references, theiler, squares):
     """Numbers of pairs by squared distance, and of all pairs; shell k lies between squares[k] and squares[k + 1].
 
+    Parameters
+    ----------
     points : shape (n, 2)
     references : each (an index) is paired with all points that are more than `theiler` samples away
     squares : descending, shape (k,), no two of them within 6 % of each other
