@@ -50,16 +50,16 @@ def sets_of_conveyor(parameters: np.ndarray, probed: Probes, cycles: int, tolera
             or exponents(parameters, start[None], probes.SETTLING, tolerance).lambda_1[0] <= 0.0
         ):
             continue
-        state = start[None]
+        state, followed = start[None], 0
         for strobes in (None, np.empty((cycles, 2))):
             motion = probes.follow(parameters, state, cycles, tolerance, NOTHING._replace(chaotic=known), strobes)
-            state = motion.states
+            state, followed = motion.states, followed + motion.followed[0]
             if motion.outcomes[0] != OPEN:
                 break
-        if motion.outcomes[0] == SETTLED and motion.followed[0] > LATE * cycles:
+        if motion.outcomes[0] == SETTLED and followed > LATE * cycles:
             return nothing
         if motion.outcomes[0] == OPEN:
-            last = exponents(parameters, state, 2000, tolerance)
+            last = exponents(parameters, state, probes.SETTLING, tolerance)
             if last.lambda_1[0] > SIGNIFICANT * last.stderr[0] and len(known.low) < MOST:
                 known = chaotic_sets_of(
                     parameters, [*zip(known.low, known.size, known.cells, strict=True), boxes_of(strobes)]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start, ensemble
-from conveyor.analysis import attractors, known, known_attractors, settling, states, stroboscope
+from conveyor.analysis import attractors, chaotic_set, known, known_attractors, probes, settling, states, stroboscope
 from conveyor.solver import contact
 from conveyor.solver.model import PSI0, Z0, pack
 from pipeline import grid
@@ -135,6 +135,26 @@ def test_a_conveyor_may_have_two_chaotic_attractors():
 def test_chaos_that_some_starts_leave_late_is_no_attractor(cycles):
     """At 73 m/s² all starts settle in the end: those that do late show it, though others have not settled by then."""
     assert len(known_attractors.known_attractors(random_starts(73.0, 1), cycles=cycles).chaotic.low) == 0
+
+
+@pytest.mark.parametrize("settles_after", [None, 3])
+def test_a_start_that_settles_in_the_second_half_settles_late(monkeypatch, settles_after):
+    """A start at 80 m/s², where chaos is known; it is made to settle some cycles after the first half of the search."""
+    row, cycles = random_starts(80.0, 1)[0], 2000
+    follow, halves = probes.follow, []
+
+    def interrupted(parameters, states, count, *rest):
+        found = follow(parameters, states, count, *rest)
+        if count == cycles:
+            halves.append(count)
+            if len(halves) == 2 and settles_after:
+                found.outcomes[0], found.followed[0] = settling.SETTLED, settles_after
+        return found
+
+    probed = follow(row, probes.starts(row), probes.SETTLING, 1e-8)
+    monkeypatch.setattr(probes, "follow", interrupted)
+    found = len(chaotic_set.sets_of_conveyor(row, probed, cycles, 1e-8).low)
+    assert (found == 0 and len(halves) == 2) if settles_after else found > 0
 
 
 def test_a_period_is_the_shortest():
