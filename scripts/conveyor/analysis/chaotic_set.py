@@ -15,6 +15,7 @@ from .settling import OPEN, SETTLED
 LATE = 0.1  # of the time: a start that settles later shows that chaos is a long transient here
 MOST = 4  # chaotic sets of one conveyor
 SIGNIFICANT = 3.0  # standard errors by which the exponent of chaos exceeds zero
+LENGTHS = (probes.SETTLING, 2000)  # excitation cycles over which an exponent is found: where chaos is weak, the longer
 
 
 def boxes_of(strobes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -58,9 +59,9 @@ def sets_of_conveyor(parameters: np.ndarray, probed: Probes, cycles: int, tolera
                 break
         if motion.outcomes[0] == SETTLED and followed > LATE * cycles:
             return nothing
-        if motion.outcomes[0] == OPEN:
-            last = exponents(parameters, state, probes.SETTLING, tolerance)
-            if last.lambda_1[0] > SIGNIFICANT * last.stderr[0] and len(known.low) < MOST:
+        if motion.outcomes[0] == OPEN and len(known.low) < MOST:
+            last = (exponents(parameters, state, length, tolerance) for length in LENGTHS)
+            if any(one.lambda_1[0] > SIGNIFICANT * one.stderr[0] for one in last):
                 known = chaotic_sets_of(
                     parameters, [*zip(known.low, known.size, known.cells, strict=True), boxes_of(strobes)]
                 )

@@ -125,7 +125,9 @@ def test_long_transients_are_not_chaos():
 
 def test_a_conveyor_may_have_two_chaotic_attractors():
     rows = random_starts(53.0, 1)
-    assert len(known_attractors.known_attractors(rows, cycles=states.CYCLES).chaotic.low) == 2
+    for tolerance in (1e-6, 1e-8):  # the exponent of one of them is small, and needs time to be told from zero
+        found = known_attractors.known_attractors(rows, cycles=states.CYCLES, tolerance=tolerance)
+        assert len(found.chaotic.low) == 2
     assert len(known_attractors.known_attractors(random_starts(40.0, 1), cycles=states.CYCLES).chaotic.low) == 0
     # At 72.97 m/s² chaos is a long transient: no start may be called chaos before its time is over.
     assert len(known_attractors.known_attractors(random_starts(72.97, 1), cycles=states.CYCLES).chaotic.low) == 0
