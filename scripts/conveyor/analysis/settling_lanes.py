@@ -148,8 +148,11 @@ def next_cycle(c, state, lane, steps, cycle):
 
 
 @functools.cache
-def in_lanes(lanes: int):
-    """`settle_points` with a given number of lanes, a power of two. Every one gives the same bits."""
+def side_by_side(lanes: int):
+    """The kernel of `settle_points` for a number of lanes.
+
+    It has nothing but that number from around it: with another kernel there, numba would find no compiled code again.
+    """
 
     @kernel
     def follow(parameters, tolerance, max_cycles, known, places, found, left, work):
@@ -215,18 +218,16 @@ def in_lanes(lanes: int):
             while stopped == 0:
                 stopped = step(lanes, steps) & running
 
-    @kernel
-    def settle_points(parameters, tolerance, cycles, known, places, found, left):
-        left[:] = cycles < 1
-        if len(parameters) > 0 and cycles > 0:
-            rows, state = np.full(lanes, NONE), np.empty(2)
-            work = (room(lanes), np.zeros((3, lanes)), rows, state, contact.workspace(), *memory(lanes))
-            follow(parameters, tolerance, cycles, known, places, found, left, work)
-
-    return settle_points
+    return follow
 
 
-side_by_side = in_lanes(LANES)
+def in_lanes(parameters, tolerance, cycles, known, places, found, left, lanes):
+    """`settle_points` with a given number of lanes, a power of two. Every one gives the same bits."""
+    left[:] = cycles < 1
+    if len(parameters) > 0 and cycles > 0:
+        rows, state = np.full(lanes, NONE), np.empty(2)
+        work = (room(lanes), np.zeros((3, lanes)), rows, state, contact.workspace(), *memory(lanes))
+        side_by_side(lanes)(parameters, tolerance, cycles, known, places, found, left, work)
 
 
 def settle_points(parameters, tolerance, cycles, known, places, found, left):
@@ -239,4 +240,4 @@ def settle_points(parameters, tolerance, cycles, known, places, found, left):
     left : bool, shape (n,), set to True for starts that cannot be followed in lanes, or not to the end: what was found
         of them says nothing
     """
-    side_by_side(parameters, tolerance, cycles, known, places, found, left)
+    in_lanes(parameters, tolerance, cycles, known, places, found, left, LANES)

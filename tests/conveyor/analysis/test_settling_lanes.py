@@ -1,5 +1,9 @@
 """Starts that settle side by side: the bits of those that are followed one by one, whoever their neighbours are."""
 
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -25,8 +29,7 @@ def one_by_one(parameters, cycles, known=NOTHING):
 
 def together(parameters, cycles, known=NOTHING, lanes=settling_lanes.LANES):
     found, left = room(len(parameters)), np.ones(len(parameters), dtype=np.bool_)
-    follow = settling_lanes.in_lanes(lanes)
-    follow(parameters, TOLERANCE, cycles, known, known.of(parameters), found, left)
+    settling_lanes.in_lanes(parameters, TOLERANCE, cycles, known, known.of(parameters), found, left, lanes)
     return found, left
 
 
@@ -144,3 +147,34 @@ def test_labels_do_not_depend_on_threads_or_chunks(threads, monkeypatch):
     for fewest in (16, 64):
         monkeypatch.setattr(states, "FEWEST", fewest)
         assert_same(states.classify(parameters, cycles=300, tolerance=TOLERANCE, threads=threads), wanted)
+
+
+# Says what it has to compile.
+LABELS = """
+import numpy as np
+from numba.core import event
+
+compiled = []
+event.register("numba:compile", type("Listener", (event.Listener,), {
+    "on_start": lambda self, told: compiled.append(told.data["dispatcher"].py_func.__qualname__),
+    "on_end": lambda self, told: None,
+})())
+
+from conveyor import Conveyor, Start
+from conveyor.analysis import states
+from conveyor.solver.model import pack
+
+states.classify(np.array([pack(Conveyor(), Start(1e-6 * k)) for k in range(8)]), cycles=3)
+print(*compiled)
+"""
+
+
+def test_a_process_finds_what_another_one_compiled(tmp_path):
+    environment = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
+    environment |= {"XDG_CACHE_HOME": str(tmp_path), "PYTHONPATH": os.pathsep.join(sys.path)}
+    first, second = (
+        subprocess.run([sys.executable, "-c", LABELS], env=environment, check=True, capture_output=True, text=True)
+        for _ in range(2)
+    )
+    assert "follow" in first.stdout
+    assert second.stdout.split() == []
