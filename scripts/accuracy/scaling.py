@@ -1,6 +1,6 @@
 """What the jobs of sweeps take over points, threads, shards and conveyors: wall times, and the most memory they have.
 
-Every job is measured in a process of its own, from its start on, as a cluster starts it. A shard's first point is
+Every job is measured in a process of its own, from its start on, as a cluster starts it. A shard's first points are
 computed twice: the first time loads the compiled code, which can so be told from computing. Of the largest sweeps one
 shard is made; what puts the shards together is measured on copies of it, of which more change nothing but the time.
 """
@@ -21,6 +21,7 @@ import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 
+from conveyor.analysis import states
 from conveyor.solver.progress import bar
 from pipeline import fields, tables
 from sweeps import shards
@@ -40,7 +41,7 @@ TABLES = {
         fields.count("computed", "points of these shards"),
         fields.number("shard_seconds", "s", "wall time of a shard, from the start of Python; of several the sum"),
         fields.number(
-            "loading_seconds", "s", "of it the first point alone, which loads the compiled code; of several the sum"
+            "loading_seconds", "s", "of it the first points alone, which load the compiled code; of several the sum"
         ),
         fields.number(
             "computing_seconds", "s", "of it all points after that, with the writing of them; of several the sum"
@@ -81,8 +82,9 @@ def job() -> None:
         tables.gather(task["path"], task["shards"], "sweeps", task["settings"], task["rows"], lambda rows: {})
     else:
         begin, end = task["rows"]
-        one_point, all_points = task | {"rows": (begin, begin + 1)}, task | {"rows": (begin, end)}
-        times = {"loading": make_shard(**one_point), "computing": make_shard(**all_points)}
+        # Fewer would not load the code of starts that are followed side by side.
+        first_points = task | {"rows": (begin, min(begin + states.SIDE_BY_SIDE, end))}
+        times = {"loading": make_shard(**first_points), "computing": make_shard(**task)}
     json.dump(times | {"memory": peak_memory()}, sys.stdout)
 
 
@@ -149,5 +151,6 @@ def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> d
 
     with tempfile.TemporaryDirectory() as folder:
         for one in cases:
-            run(settings=one["settings"], threads=1, rows=[0, 1], path=f"{folder}/one.parquet")
+            rows = [0, min(states.SIDE_BY_SIDE, one["plan"]["points"])]
+            run(settings=one["settings"], threads=1, rows=rows, path=f"{folder}/one.parquet")
     return {name: column.to_numpy() for name, column in pd.DataFrame(rows()).items()}

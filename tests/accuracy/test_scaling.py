@@ -47,21 +47,23 @@ def test_shards_that_are_not_made_are_copied(tmp_path):
     assert (row["measured"], row["computed"], row["gathered"]) == (1, 7, 21)
 
 
-def test_the_first_point_is_computed_alone_before_all(monkeypatch):
+@pytest.mark.parametrize(("end", "first"), [(13, 13), (40, 15)])
+def test_the_first_points_are_computed_alone_before_all(monkeypatch, end, first):
     made = []
-    monkeypatch.setattr(scaling, "make_shard", lambda rows, **others: made.append(rows))
-    task = {"path": "", "settings": {}, "rows": [7, 13], "threads": 1}
+    monkeypatch.setattr(scaling, "make_shard", lambda rows, **others: made.append(tuple(rows)))
+    task = {"path": "", "settings": {}, "rows": [7, end], "threads": 1}
     monkeypatch.setattr("sys.stdin", io.StringIO(json.dumps(task)))
     scaling.job()
-    assert made == [(7, 8), (7, 13)]
+    assert made == [(7, first), (7, end)]
 
 
-def test_loading_of_compiled_code_is_no_computing(tmp_path):
-    """Six points take a millisecond or so, the loading some hundred."""
-    scaling.run(settings=SETTINGS, threads=1, rows=[0, 1], path=str(tmp_path / "compiled.parquet"))
-    made = scaling.run(settings=SETTINGS, threads=1, rows=[7, 13], path=str(tmp_path / "six.parquet"))
+@pytest.mark.parametrize("rows", [[7, 13], [0, 20]])
+def test_loading_of_compiled_code_is_no_computing(tmp_path, rows):
+    """Some points take a millisecond or so, the loading some hundred, also of code for many that few do not run."""
+    for name in ("compiled", "some"):
+        made = scaling.run(settings=SETTINGS, threads=1, rows=rows, path=str(tmp_path / f"{name}.parquet"))
     assert made["computing"] < 0.5 * made["loading"] < 0.5 * made["whole"]
-    assert pq.read_table(tmp_path / "six.parquet")["z0"].to_pylist() == [1.0e-4, 0.0] * 3
+    assert pq.read_table(tmp_path / "some.parquet")["z0"].to_pylist() == ([0.0, 1.0e-4] * 10)[slice(*rows)]
 
 
 def test_memory_is_that_of_the_process_itself(tmp_path):
@@ -124,4 +126,4 @@ def test_the_page_of_clusters_says_both():
     template = (ROOT / "workflow/templates/cluster.md").read_text()
     page = cluster_page.make(table(), template, {"core_hours": 24.0, "most_jobs": 500, "job_seconds": 60.0})
     assert "| 250 | 3 | 3 | 100 | 20000.0 |" in page
-    assert "0.8 s for Python and its imports, and 0.2 s for its first point" in " ".join(page.split())
+    assert "0.8 s for Python and its imports, and 0.2 s for its first points" in " ".join(page.split())

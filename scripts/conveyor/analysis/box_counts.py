@@ -8,7 +8,6 @@ import numpy as np
 
 from ..solver.jit import inlined, kernel
 
-FINEST = 2.0**-20  # of the set's extent; the order of points within a box of this size does not matter
 NEIGHBOURS = 64  # boxes along a Z-curve that lie side by side in a hash table
 FRESH = 1 << 30  # numbers of boxes after which a hash table is cleared, as they have 32 bits
 # A set of points has parts, each in the one before: all, half, a quarter. A point of h halvings is in the first h + 1.
@@ -37,13 +36,14 @@ def boxes_of(points, size, across_shift, along_shift, boxes):
         boxes[i] = spread(across) | (spread(along) << 1)
 
 
-def along_boxes(points: np.ndarray) -> np.ndarray:
+def along_boxes(points: np.ndarray, size: float) -> np.ndarray:
     """The order of points of the unit square, shape (n, 2), along a Z-curve (Morton): those of a box follow each other.
 
-    Counts do not depend on the order. Their time does: what is looked up again and again stays in the cache.
+    `size` is that of the smallest boxes. Counts do not depend on the order. Their time does: what is looked up again
+    and again stays in the cache.
     """
     boxes = np.empty(len(points), np.int64)
-    boxes_of(points, FINEST, 0.0, 0.0, boxes)
+    boxes_of(points, size, 0.0, 0.0, boxes)
     return np.argsort(boxes, kind="stable")
 
 

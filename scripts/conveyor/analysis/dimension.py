@@ -63,7 +63,7 @@ def box_dimension(points: np.ndarray) -> Dimension:
     """
     points = normalise(points)
     points = points[np.random.default_rng(0).permutation(len(points))]
-    order = along_boxes(points)
+    order = along_boxes(points, FINEST_SCALE)
     halvings = np.sum([order < len(points) // part for part in (2, 4)], axis=0)
     counts, half, quarter = box_counts(points[order], halvings, SCALES, SCALES_PER_OCTAVE, SHIFTS, SAMPLES_PER_BOX)
     resolved = (counts > 0.0) & (half > 0.0) & (quarter > 0.0)

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..solver.jit import kernel
 from ..solver.model import EXPONENT, PARAMETERS, TENSION, TENSION_ALLOW, VZ0, Z0
-from . import peers
+from . import heyoka_peer, peers
 
 # Events, by the places of their functions.
 GAP, SLIP, GRIP_BACKWARD, GRIP_FORWARD = range(4)
@@ -65,16 +65,10 @@ def system(exponent: float, tolerance: float, lanes: int) -> Any:
     """The compiled integrator; its parameters and switches are set when it is used."""
     import heyoka as hy
 
-    x, vx, z, vz = hy.make_vars("x", "vx", "z", "vz")
-    p = {name: hy.par[k] for k, name in enumerate(PARAMETERS)}
+    state = hy.make_vars("x", "vx", "z", "vz")
+    x, vx, z, vz = state
+    p, gap, rate, slip, pull = heyoka_peer.quantities(state)
     contact, slides, sticks = (hy.par[place] for place in (CONTACT, SLIDES, STICKS))
-    omega = 2.0 * np.pi * p["frequency"]
-    phase = omega * hy.time + p["psi0"]
-    a_x, a_z = p["acceleration"] * hy.cos(p["angle"]), p["acceleration"] * hy.sin(p["angle"])
-    gap = z + a_z / omega**2 * hy.cos(phase)
-    rate = vz - a_z / omega * hy.sin(phase)
-    slip = a_x / omega * hy.sin(phase) - vx
-    pull = a_x * hy.cos(phase)
     # A power of a negative depth is no number, and no switch makes one of it.
     depth = hy.select(hy.gt(contact, 0.5), -gap, 1.0)
     push = contact * (p["stiffness"] * depth**exponent - p["damping"] * rate) / p["mass"]

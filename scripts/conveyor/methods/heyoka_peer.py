@@ -31,20 +31,34 @@ def installed() -> bool:
     return find_spec("heyoka") is not None
 
 
-@lru_cache(maxsize=64)
-def systems(exponent: float, tolerance: float) -> dict[str, Any]:
-    """Compiled integrators by mode; their parameters are set when they are used."""
+def quantities(state: tuple) -> tuple[dict[str, Any], Any, Any, Any, Any]:
+    """Expressions of the model in those of x, ẋ, z, ż.
+
+    Returns
+    -------
+    p, gap, rate, slip, pull : the parameters by their names; gap (m), its rate (m/s), velocity of the plate along x
+        against the part (m/s) and acceleration of the plate along x (m/s²)
+    """
     import heyoka as hy
 
-    x, vx, z, vz = hy.make_vars("x", "vx", "z", "vz")
+    _, vx, z, vz = state
     p = {name: hy.par[k] for k, name in enumerate(PARAMETERS)}
     omega = 2.0 * np.pi * p["frequency"]
     phase = omega * hy.time + p["psi0"]
     a_x, a_z = p["acceleration"] * hy.cos(p["angle"]), p["acceleration"] * hy.sin(p["angle"])
     gap = z + a_z / omega**2 * hy.cos(phase)
     rate = vz - a_z / omega * hy.sin(phase)
-    slip = a_x / omega * hy.sin(phase) - vx
-    pull = a_x * hy.cos(phase)
+    return p, gap, rate, a_x / omega * hy.sin(phase) - vx, a_x * hy.cos(phase)
+
+
+@lru_cache(maxsize=64)
+def systems(exponent: float, tolerance: float) -> dict[str, Any]:
+    """Compiled integrators by mode; their parameters are set when they are used."""
+    import heyoka as hy
+
+    state = hy.make_vars("x", "vx", "z", "vz")
+    x, vx, z, vz = state
+    p, gap, rate, slip, pull = quantities(state)
     push = (p["stiffness"] * (-gap) ** exponent - p["damping"] * rate) / p["mass"]
     rub = p["friction"] * push
     up, down = hy.event_direction.positive, hy.event_direction.negative

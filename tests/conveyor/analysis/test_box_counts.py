@@ -79,7 +79,7 @@ def test_parts_are_counted_as_if_alone(scales, step):
 
 def test_points_along_boxes_are_the_same_points_and_lie_box_by_box():
     points = np.random.default_rng(1).random((4096, 2))
-    found = points[box_counts.along_boxes(points)]
+    found = points[box_counts.along_boxes(points, 2.0**-20)]
     assert np.array_equal(np.sort(found.view("f8,f8"), axis=0), np.sort(points.view("f8,f8"), axis=0))
     # In a grid of 16 by 16, each box is entered once.
     boxes = (16 * found).astype(int) @ [16, 1]
