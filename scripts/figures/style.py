@@ -180,3 +180,4 @@ def save(figure: Figure, paths: Iterable[str]) -> None:
             else:
                 figure.savefig(part, format="png")
             os.replace(part, path)
+            figure.set_layout_engine("none")  # the other files keep the layout of the first

@@ -72,9 +72,9 @@ def drawn_afresh(name):
 
 @cache
 def drawn(name):
-    """The same with its layout made, for tests that look at it."""
+    """The same as it is on a screen, for tests that look at it."""
     figure = drawn_afresh(name)
-    figure.draw_without_rendering()
+    FigureCanvasAgg(figure).draw()
     return figure
 
 
@@ -89,14 +89,12 @@ def test_size_and_type_are_the_journal_s(name):
 
 @pytest.mark.parametrize("name", FIGURE)
 def test_legends_and_labels_are_not_cut(name):
-    figure = drawn_afresh(name)
-    canvas = FigureCanvasAgg(figure)
-    canvas.draw()
+    figure = drawn(name)
     whole = figure.bbox.padded(1.0)  # pixel
     named = [label for axes in figure.axes for label in (axes.title, axes.xaxis.label, axes.yaxis.label)]
     for artist in [*figure.findobj(matplotlib.legend.Legend), *(one for one in named if one.get_text())]:
         if artist.get_visible() and (artist.axes is None or artist.axes.axison):
-            extent = artist.get_window_extent(canvas.get_renderer())
+            extent = artist.get_window_extent(figure.canvas.get_renderer())
             assert whole.contains(extent.x0, extent.y0) and whole.contains(extent.x1, extent.y1), artist
 
 
