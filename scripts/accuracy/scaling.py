@@ -21,7 +21,7 @@ import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 
-from conveyor.analysis import states
+from conveyor.analysis import settling_lanes
 from conveyor.solver.progress import bar
 from pipeline import fields, tables
 from sweeps import shards
@@ -83,7 +83,7 @@ def job() -> None:
     else:
         begin, end = task["rows"]
         # Fewer would not load the code of starts that are followed side by side.
-        first_points = task | {"rows": (begin, min(begin + states.SIDE_BY_SIDE, end))}
+        first_points = task | {"rows": (begin, min(begin + settling_lanes.SIDE_BY_SIDE, end))}
         times = {"loading": make_shard(**first_points), "computing": make_shard(**task)}
     json.dump(times | {"memory": peak_memory()}, sys.stdout)
 
@@ -151,6 +151,6 @@ def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> d
 
     with tempfile.TemporaryDirectory() as folder:
         for one in cases:
-            rows = [0, min(states.SIDE_BY_SIDE, one["plan"]["points"])]
+            rows = [0, min(settling_lanes.SIDE_BY_SIDE, one["plan"]["points"])]
             run(settings=one["settings"], threads=1, rows=rows, path=f"{folder}/one.parquet")
     return {name: column.to_numpy() for name, column in pd.DataFrame(rows()).items()}

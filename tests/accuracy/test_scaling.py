@@ -47,7 +47,7 @@ def test_shards_that_are_not_made_are_copied(tmp_path):
     assert (row["measured"], row["computed"], row["gathered"]) == (1, 7, 21)
 
 
-@pytest.mark.parametrize(("end", "first"), [(13, 13), (40, 15)])
+@pytest.mark.parametrize(("end", "first"), [(9, 9), (40, 11)])
 def test_the_first_points_are_computed_alone_before_all(monkeypatch, end, first):
     made = []
     monkeypatch.setattr(scaling, "make_shard", lambda rows, **others: made.append(tuple(rows)))

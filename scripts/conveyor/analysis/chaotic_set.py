@@ -8,7 +8,7 @@ import numpy as np
 from scipy.ndimage import binary_dilation
 
 from . import lyapunov, probes
-from .known import BOXES, NOTHING, ChaoticSets, chaotic_sets_of
+from .known import BOXES, NOTHING, ChaoticSets, chaotic_sets_of, together
 from .probes import Probes
 from .settling import OPEN, SETTLED
 
@@ -30,39 +30,50 @@ def boxes_of(strobes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def exponents(parameters: np.ndarray, states: np.ndarray, cycles: int, tolerance: float) -> lyapunov.Spectrum:
-    """Exponents of trajectories of one conveyor, shape (13,), from `states`, shape (n, 2), at the plate's top."""
-    rows = np.repeat(parameters[None], len(states), axis=0)
+    """Exponents of trajectories of conveyors, shape (n, 13), from `states`, shape (n, 2), at the plate's top."""
     return lyapunov.spectrum(
-        rows, states, begin_of_cycle=True, transient=0, cycles=cycles // 20, blocks=20, tolerance=tolerance
+        parameters, states, begin_of_cycle=True, transient=0, cycles=cycles // 20, blocks=20, tolerance=tolerance
     )
 
 
-def sets_of_conveyor(parameters: np.ndarray, probed: Probes, cycles: int, tolerance: float) -> ChaoticSets:
-    """The chaotic sets of one conveyor, shape (13,): of motions that do not settle within twice `cycles`.
+def stretches(parameters: np.ndarray, state: np.ndarray, tolerance: float) -> bool:
+    """Whether the exponent of a trajectory of one conveyor, shape (13,), from `state`, shape (2,), is that of chaos."""
+    found = (exponents(parameters[None], state[None], length, tolerance) for length in LENGTHS)
+    return any(one.lambda_1[0] > SIGNIFICANT * one.stderr[0] for one in found)
 
-    None if a start settles late: then chaos is a transient, and every start has to be followed to its own end.
+
+def sets_of_conveyors(conveyors: np.ndarray, probed: list[Probes], cycles: int, tolerance: float) -> list[ChaoticSets]:
+    """The chaotic sets of conveyors, shape (n, 13): of motions that do not settle within twice `cycles`.
+
+    None of a conveyor on which a start settles late: then chaos is a transient, and every start has to be followed to
+    its own end. Probes of a conveyor are looked at one after the other, those of several conveyors side by side.
     """
-    nothing = known = chaotic_sets_of(parameters, [])
-    for start in probed.states[probed.outcomes == OPEN]:
+    candidates = [list(probes_of_it.states[probes_of_it.outcomes == OPEN]) for probes_of_it in probed]
+    nothing = [chaotic_sets_of(row, []) for row in conveyors]
+    found = list(nothing)
+
+    def search(rows: list[int], states: np.ndarray, length: int, strobes: np.ndarray | None = None) -> Probes:
+        known = together([NOTHING, *(NOTHING._replace(chaotic=found[k]) for k in rows)])
+        return probes.follow(conveyors[rows], states, length, tolerance, known, strobes)
+
+    while any(candidates):
+        rows = np.array([k for k, states in enumerate(candidates) if states])
+        states = np.array([candidates[k].pop(0) for k in rows])
         # What is told in few cycles comes first: motions that stay in a set that is known, or do not stretch.
-        soon = probes.follow(parameters, start[None], probes.SETTLING, tolerance, NOTHING._replace(chaotic=known))
-        if (
-            soon.outcomes[0] != OPEN
-            or exponents(parameters, start[None], probes.SETTLING, tolerance).lambda_1[0] <= 0.0
-        ):
-            continue
-        state, followed = start[None], 0
-        for strobes in (None, np.empty((cycles, 2))):
-            motion = probes.follow(parameters, state, cycles, tolerance, NOTHING._replace(chaotic=known), strobes)
-            state, followed = motion.states, followed + motion.followed[0]
-            if motion.outcomes[0] != OPEN:
-                break
-        if motion.outcomes[0] == SETTLED and followed > LATE * cycles:
-            return nothing
-        if motion.outcomes[0] == OPEN and len(known.low) < MOST:
-            last = (exponents(parameters, state, length, tolerance) for length in LENGTHS)
-            if any(one.lambda_1[0] > SIGNIFICANT * one.stderr[0] for one in last):
-                known = chaotic_sets_of(
-                    parameters, [*zip(known.low, known.size, known.cells, strict=True), boxes_of(strobes)]
-                )
-    return known
+        goes_on = search(rows, states, probes.SETTLING).outcomes == OPEN
+        rows, states = rows[goes_on], states[goes_on]
+        goes_on = exponents(conveyors[rows], states, probes.SETTLING, tolerance).lambda_1 > 0.0
+        rows, states, followed = rows[goes_on], states[goes_on], 0
+        for record in (False, True):
+            strobes = np.empty((len(rows), cycles, 2)) if record else None
+            motions = search(rows, states, cycles, strobes)
+            for k in rows[(motions.outcomes == SETTLED) & (followed + motions.followed > LATE * cycles)]:
+                found[k], candidates[k] = nothing[k], []
+            goes_on = motions.outcomes == OPEN
+            rows, states, followed = rows[goes_on], motions.states[goes_on], cycles
+        for k, state, visited in zip(rows, states, strobes[goes_on], strict=True):
+            known = found[k]
+            if len(known.low) < MOST and stretches(conveyors[k], state, tolerance):
+                sets = [*zip(known.low, known.size, known.cells, strict=True), boxes_of(visited)]
+                found[k] = chaotic_sets_of(conveyors[k], sets)
+    return found

@@ -5,9 +5,12 @@ import numpy as np
 from ..solver.parallel import for_each_chunk
 from . import probes
 from .attracting_orbits import orbits_of_conveyor
-from .chaotic_set import sets_of_conveyor
+from .chaotic_set import sets_of_conveyors
 from .conveyors import distinct
 from .known import NOTHING, KnownAttractors, together
+
+# Conveyors whose probes are followed side by side.
+TOGETHER = 16
 
 
 def known_attractors(
@@ -31,13 +34,12 @@ def known_attractors(
     found = [NOTHING] * len(conveyors)
 
     def work(begin, end):
-        for k in range(begin, end):
-            row = conveyors[k]
-            probed = probes.follow(row, probes.starts(row), min(probes.SETTLING, cycles), tolerance)
-            found[k] = KnownAttractors(
-                orbits_of_conveyor(row, probed, tolerance) if orbits else NOTHING.orbits,
-                sets_of_conveyor(row, probed, cycles, tolerance),
-            )
+        some = conveyors[begin:end]
+        probed = probes.of_conveyors(some, min(probes.SETTLING, cycles), tolerance)
+        chaotic = sets_of_conveyors(some, probed, cycles, tolerance)
+        for k, (row, of_row, sets) in enumerate(zip(some, probed, chaotic, strict=True), start=begin):
+            found[k] = KnownAttractors(orbits_of_conveyor(row, of_row, tolerance) if orbits else NOTHING.orbits, sets)
 
-    for_each_chunk(work, len(conveyors), threads=threads, chunk=1, progress=progress)
+    chunk = TOGETHER if len(conveyors) >= TOGETHER * threads else 1
+    for_each_chunk(work, len(conveyors), threads=threads, chunk=chunk, progress=progress)
     return together([NOTHING, *found])

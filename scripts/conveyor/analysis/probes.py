@@ -9,16 +9,17 @@ from typing import NamedTuple
 import numpy as np
 
 from ..solver import contact
-from ..solver.jit import kernel
+from ..solver.model import PSI0
+from ..solver.trajectory import BEGIN_OF_CYCLE
+from . import settling_lanes, stroboscope
 from .known import NOTHING, KnownAttractors
-from .settling import settle
 
 STARTS = 32
 SETTLING = 400  # cycles within which a start that leads elsewhere than to chaos has mostly settled
 
 
 class Probes(NamedTuple):
-    """Motions of one conveyor; every field is of length n."""
+    """Motions of conveyors; every field is of length n."""
 
     states: np.ndarray  # float64, shape (n, 2), δ (m), v (m/s) at trajectory.BEGIN_OF_CYCLE, at the end of the search
     outcomes: np.ndarray  # int64, what ended it: settling.SETTLED, …
@@ -41,15 +42,6 @@ def starts(parameters: np.ndarray) -> np.ndarray:
     return np.column_stack([-highest * share[:, 0], fastest * (2.0 * share[:, 1] - 1.0)])
 
 
-@kernel
-def settle_all(parameters, tolerance, cycles, known, mine, strobes, states, outcomes, periods, flights, followed):
-    """`settle` from each of `states`, shape (n, 2), on one conveyor; the other fields of Probes are filled."""
-    series = contact.workspace()
-    c = contact.constants(parameters, tolerance)
-    for i in range(states.shape[0]):
-        outcomes[i], periods[i], flights[i], followed[i] = settle(c, series, states[i], cycles, known, mine, strobes)
-
-
 def follow(
     parameters: np.ndarray,
     states: np.ndarray,
@@ -58,14 +50,23 @@ def follow(
     known: KnownAttractors = NOTHING,
     strobes: np.ndarray | None = None,
 ) -> Probes:
-    """Follow motions of one conveyor, shape (13,), from `states`, shape (n, 2), until they settle, at most `cycles`.
+    """Follow a motion of each of n conveyors, shape (n, 13), until it settles, at most `cycles`.
 
-    known : of this conveyor alone
-    strobes : float64, shape (cycles, 2), filled with the states of the last motion after each cycle
+    states : float64, shape (n, 2), δ (m), v (m/s) at trajectory.BEGIN_OF_CYCLE
+    strobes : float64, shape (n, cycles, 2), filled with the states after each cycle
     """
     n = len(states)
-    found = Probes(np.array(states), *(np.zeros(n, kind) for kind in (np.int64, np.int64, np.float64, np.int64)))
-    mine = np.array([0, len(known.orbits.periods), 0, len(known.chaotic.low)])
-    strobes = np.empty((0, 2)) if strobes is None else strobes
-    settle_all(parameters, tolerance, cycles, known, mine, strobes, *found)
+    at_top = np.array(parameters)
+    at_top[:, PSI0] = BEGIN_OF_CYCLE
+    starts = stroboscope.starts_of_states(at_top, states, tolerance)
+    found = Probes(np.empty((n, 2)), *(np.empty(n, kind) for kind in (np.int64, np.int64, np.float64, np.int64)))
+    strobes = np.empty((n, 0, 2)) if strobes is None else strobes
+    settling_lanes.settle_points(starts, tolerance, cycles, known, known.of(starts), tuple(found), strobes)
     return found
+
+
+def of_conveyors(conveyors: np.ndarray, cycles: int, tolerance: float) -> list[Probes]:
+    """The motions of each of some conveyors, shape (n, 13), that their `starts` settle to in at most `cycles`."""
+    states = np.concatenate([starts(row) for row in conveyors])
+    found = follow(np.repeat(conveyors, STARTS, axis=0), states, cycles, tolerance)
+    return [Probes(*(column[begin : begin + STARTS] for column in found)) for begin in range(0, len(states), STARTS)]

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from ..solver import contact
 from ..solver.jit import inlined, kernel
 from ..solver.trajectory import BEGIN_OF_CYCLE, OK
 from . import stroboscope
@@ -172,3 +173,28 @@ def settle(c, series, state, max_cycles, known, mine, strobes):
         if outcome != GOES_ON:
             return outcome, period, longest, n + 1
     return OPEN, 0, 0.0, 0
+
+
+@kernel
+def settle_points(parameters, tolerance, cycles, known, places, found, strobes):
+    """`settle` for rows of `parameters`, shape (n, 13), from their starts on.
+
+    Parameters
+    ----------
+    tolerance : of the contact steps
+    cycles : after which a search ends
+    known, places : attractors, and what `of` them says of each row, shape (n, 4)
+    found : filled: points, float64, shape (n, 2), states (δ in m, v in m/s) at the end of the search; outcomes and
+        periods, int64, flights, float64, in s, and followed, int64, shape (n,), as in `settle`
+    strobes : float64, shape (n, m, 2), filled with the states after each of the first m cycles
+    """
+    points, outcomes, periods, flights, followed = found
+    series = contact.workspace()
+    stroboscope.to_begin_of_cycle(parameters, tolerance, points)
+    for i in range(parameters.shape[0]):
+        outcomes[i], periods[i], flights[i], followed[i] = FAILED, 0, math.nan, 0
+        c = contact.constants(parameters[i], tolerance)
+        if math.isfinite(points[i, 0]) and math.isfinite(points[i, 1]):
+            outcomes[i], periods[i], flights[i], followed[i] = settle(
+                c, series, points[i], cycles, known, places[i], strobes[i]
+            )

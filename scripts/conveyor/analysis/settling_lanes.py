@@ -48,6 +48,7 @@ from ..solver.vertical import (
     motion_at,
     press,
 )
+from . import settling
 from .known import AttractingOrbits, ChaoticSets, KnownAttractors
 from .settling import FOLLOWED, GOES_ON, forget, look, memory
 from .stroboscope import delta_and_v
@@ -55,6 +56,9 @@ from .stroboscope import delta_and_v
 # Eight lanes take the contact steps in less time, but wait longer for those with an event: no gain where they were
 # measured, and twice the time for the last starts, which have most lanes for themselves.
 LANES = 4
+
+# Fewer starts are followed one after the other.
+SIDE_BY_SIDE = LANES
 
 # What is known of a lane's present cycle: time since the last separation (s), longest flight that ended in it (s), the
 # excitation's phase at its beginning (rad).
@@ -155,10 +159,10 @@ def side_by_side(lanes: int):
     """
 
     @kernel
-    def follow(parameters, tolerance, max_cycles, known, places, found, left, work):
+    def follow(parameters, tolerance, max_cycles, known, places, found, strobes, left, work):
         parameters, known, places, left = borrowed(parameters), uncounted(known), borrowed(places), borrowed(left)
         points, outcomes, periods = borrowed(found[0]), borrowed(found[1]), borrowed(found[2])
-        flights, followed = borrowed(found[3]), borrowed(found[4])
+        flights, followed, strobes = borrowed(found[3]), borrowed(found[4]), borrowed(strobes)
         steps, cycle, rows, state = borrowed(work[0]), borrowed(work[1]), borrowed(work[2]), borrowed(work[3])
         series, pasts, numbers = borrowed(work[4]), borrowed(work[5]), borrowed(work[6])
         constants = [contact.constants(parameters[0], tolerance)] * lanes
@@ -187,6 +191,9 @@ def side_by_side(lanes: int):
                                 counts[FOLLOWED] = 0
                                 cycle[AIRBORNE, lane] = 0.0
                             else:
+                                if counts[FOLLOWED] < strobes.shape[1]:
+                                    strobes[i, counts[FOLLOWED], 0] = state[0]
+                                    strobes[i, counts[FOLLOWED], 1] = state[1]
                                 flight = max(cycle[LONGEST, lane], cycle[AIRBORNE, lane])
                                 outcome, period, longest = look(
                                     c, state, flight, max_cycles, known, places[i], past, counts
@@ -194,8 +201,8 @@ def side_by_side(lanes: int):
                                 if outcome != GOES_ON:
                                     over = True
                                     points[i, 0], points[i, 1] = state[0], state[1]
-                                    outcomes[i], periods[i], followed[i] = outcome, period, counts[FOLLOWED]
-                                    flights[i] = longest / c.period
+                                    outcomes[i], periods[i], flights[i] = outcome, period, longest
+                                    followed[i] = counts[FOLLOWED]
                             motion = next_cycle(c, state, lane, steps, cycle)
                     if over:
                         waiting = first_from(waiting, parameters, tolerance, left)
@@ -221,23 +228,26 @@ def side_by_side(lanes: int):
     return follow
 
 
-def in_lanes(parameters, tolerance, cycles, known, places, found, left, lanes):
-    """`settle_points` with a given number of lanes, a power of two. Every one gives the same bits."""
+def in_lanes(parameters, tolerance, cycles, known, places, found, strobes, left, lanes):
+    """`settle_points` with a given number of lanes, a power of two. Every one gives the same bits.
+
+    left : bool, shape (n,), filled: starts that cannot be followed in lanes, or not to the end; what was found of them
+        says nothing
+    """
     left[:] = cycles < 1
     if len(parameters) > 0 and cycles > 0:
         rows, state = np.full(lanes, NONE), np.empty(2)
         work = (room(lanes), np.zeros((3, lanes)), rows, state, contact.workspace(), *memory(lanes))
-        side_by_side(lanes)(parameters, tolerance, cycles, known, places, found, left, work)
+        side_by_side(lanes)(parameters, tolerance, cycles, known, places, found, strobes, left, work)
 
 
-def settle_points(parameters, tolerance, cycles, known, places, found, left):
-    """`settle` for rows of `parameters`, shape (n, 13), from their starts on, but for the rows that are `left`.
-
-    Parameters
-    ----------
-    tolerance, cycles, known, places : as in states.settle_points
-    found : points, outcomes, periods, flights and followed, as there; filled
-    left : bool, shape (n,), set to True for starts that cannot be followed in lanes, or not to the end: what was found
-        of them says nothing
-    """
-    in_lanes(parameters, tolerance, cycles, known, places, found, left, LANES)
+def settle_points(parameters, tolerance, cycles, known, places, found, strobes):
+    """What settling.settle_points finds, which has the same parameters, in lanes where these do not stand idle."""
+    left = np.ones(len(parameters), dtype=np.bool_)
+    if len(parameters) >= SIDE_BY_SIDE:
+        in_lanes(parameters, tolerance, cycles, known, places, found, strobes, left, LANES)
+    if left.any():
+        *alone, their_strobes = (column[left] for column in (*found, strobes))
+        settling.settle_points(parameters[left], tolerance, cycles, known, places[left], tuple(alone), their_strobes)
+        for column, values in zip((*found, strobes), (*alone, their_strobes), strict=True):
+            column[left] = values

@@ -14,13 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..solver import contact
-from ..solver.jit import kernel
 from ..solver.model import FREQUENCY, PSI0, VZ0, Z0
 from ..solver.parallel import for_each_chunk
-from . import lyapunov, settling_lanes, stroboscope
+from . import lyapunov, settling_lanes
 from .known import NOTHING, KnownAttractors
-from .settling import FAILED, OPEN, SETTLED, STAYS, settle
+from .settling import OPEN, SETTLED, STAYS
 
 STATES = ("first", "second", "chaos", "undecided")
 FIRST, SECOND, CHAOS, UNDECIDED = range(len(STATES))
@@ -29,8 +27,6 @@ FIRST, SECOND, CHAOS, UNDECIDED = range(len(STATES))
 LONG_FLIGHT = 0.5
 # Excitation cycles after which a start that has not settled is followed no further.
 CYCLES = 20_000
-# Fewer starts are followed one after the other: most lanes would stand idle.
-SIDE_BY_SIDE = 8
 # Starts that are followed side by side, the least and the most, and how often each thread comes for some.
 FEWEST, MOST, ROUNDS = 64, 512, 16
 # An exponent is positive if it exceeds zero by this many standard errors.
@@ -44,27 +40,6 @@ class Motions(NamedTuple):
     period: np.ndarray  # int64, excitation cycles; 0 for none, or none of up to settling.MAX_PERIOD
     longest_flight: np.ndarray  # excitation cycles, of the settled motion; NaN for none
     cycles: np.ndarray  # int64, excitation cycles that the start was followed for
-
-
-@kernel
-def settle_points(parameters, tolerance, cycles, known, places, points, outcomes, periods, flights, followed):
-    """`settle` for rows of `parameters`, shape (n, 13).
-
-    known, places : attractors, and what `of` them says of each point, shape (n, 4)
-    points : float64, shape (n, 2), filled with the states (δ in m, v in m/s) at the end of the search
-    outcomes, periods, flights (in excitation cycles), followed : shape (n,), filled
-    """
-    series = contact.workspace()
-    no_strobes = np.empty((0, 2))
-    stroboscope.to_begin_of_cycle(parameters, tolerance, points)
-    for i in range(parameters.shape[0]):
-        outcomes[i], periods[i], longest, followed[i] = FAILED, 0, math.nan, 0
-        c = contact.constants(parameters[i], tolerance)
-        if math.isfinite(points[i, 0]) and math.isfinite(points[i, 1]):
-            outcomes[i], periods[i], longest, followed[i] = settle(
-                c, series, points[i], cycles, known, places[i], no_strobes
-            )
-        flights[i] = longest / c.period
 
 
 def continued(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, duration: float) -> np.ndarray:
@@ -98,23 +73,17 @@ def classify(
     """
     parameters = np.ascontiguousarray(parameters, dtype=np.float64)
     n = len(parameters)
-    points, places = np.empty((n, 2)), known.of(parameters)
+    points, places, no_strobes = np.empty((n, 2)), known.of(parameters), np.empty((n, 0, 2))
     outcomes, periods, flights, followed = (np.empty(n, kind) for kind in (np.int64, np.int64, np.float64, np.int64))
 
     def work(begin, end):
         rows = slice(begin, end)
         found = points[rows], outcomes[rows], periods[rows], flights[rows], followed[rows]
-        left = np.ones(end - begin, dtype=np.bool_)
-        if end - begin >= SIDE_BY_SIDE:
-            settling_lanes.settle_points(parameters[rows], tolerance, cycles, known, places[rows], found, left)
-        if left.any():
-            alone = tuple(column[left] for column in found)
-            settle_points(parameters[rows][left], tolerance, cycles, known, places[rows][left], *alone)
-            for column, values in zip(found, alone, strict=True):
-                column[left] = values
+        settling_lanes.settle_points(parameters[rows], tolerance, cycles, known, places[rows], found, no_strobes[rows])
 
     chunk = min(max(n // (ROUNDS * threads), FEWEST), MOST)
     for_each_chunk(work, n, threads=threads, chunk=chunk, progress=progress)
+    flights /= 1.0 / parameters[:, FREQUENCY]
     codes = np.full(n, UNDECIDED)
     regular = np.where(flights >= LONG_FLIGHT, SECOND, FIRST)
     codes[outcomes == SETTLED] = regular[outcomes == SETTLED]

@@ -38,7 +38,8 @@ def found(request):
 
 def share_that_ends_there(row, orbits, k, scale):
     """Of starts in the neighbourhood of orbit k, enlarged, that are followed in full."""
-    motions = probes.follow(row, inside(row, orbits.centres[k], orbits.factors[k] / scale, 60), 1000, TOLERANCE)
+    starts = inside(row, orbits.centres[k], orbits.factors[k] / scale, 60)
+    motions = probes.follow(np.tile(row, (60, 1)), starts, 1000, TOLERANCE)
     same = (motions.outcomes == settling.SETTLED) & (motions.periods == orbits.periods[k])
     return np.mean(same & (np.abs(motions.flights - orbits.flights[k]) < 1e-8))
 
@@ -58,7 +59,7 @@ def test_neighbourhoods_are_not_much_smaller_than_basins(found):
 
 def test_a_curve_far_out_does_not_come_inside():
     row = conveyor_of(40.0)
-    motions = probes.follow(row, probes.starts(row), 400, TOLERANCE)
+    (motions,) = probes.of_conveyors(row[None], 400, TOLERANCE)
     k = int(np.argmax(motions.flights))
     centre, factor = attracting_orbits.neighbourhood(row, TOLERANCE, motions.states[k], 1)
     assert attracting_orbits.comes_inside(row, TOLERANCE, centre, factor, 1, 1.0)

@@ -21,15 +21,19 @@ def room(n):
     return np.full((n, 2), np.nan), *(np.zeros(n, kind) for kind in kinds)
 
 
+def no_strobes(parameters):
+    return np.empty((len(parameters), 0, 2))
+
+
 def one_by_one(parameters, cycles, known=NOTHING):
-    found = room(len(parameters))
-    states.settle_points(parameters, TOLERANCE, cycles, known, known.of(parameters), *found)
+    found, strobes = room(len(parameters)), no_strobes(parameters)
+    settling.settle_points(parameters, TOLERANCE, cycles, known, known.of(parameters), found, strobes)
     return found
 
 
 def together(parameters, cycles, known=NOTHING, lanes=settling_lanes.LANES):
-    found, left = room(len(parameters)), np.ones(len(parameters), dtype=np.bool_)
-    settling_lanes.in_lanes(parameters, TOLERANCE, cycles, known, known.of(parameters), found, left, lanes)
+    found, left, strobes = room(len(parameters)), np.ones(len(parameters), dtype=np.bool_), no_strobes(parameters)
+    settling_lanes.in_lanes(parameters, TOLERANCE, cycles, known, known.of(parameters), found, strobes, left, lanes)
     return found, left
 
 
@@ -95,12 +99,31 @@ def test_lanes_may_be_more_than_starts_and_starts_in_any_order(count):
     assert_same(wanted, one_by_one(parameters, 300))
 
 
+@pytest.mark.parametrize("side_by_side", [4, 1000])
+def test_strobes_are_the_states_after_the_first_cycles(monkeypatch, side_by_side):
+    """At 56 m/s² some starts settle soon; what follows then stays as it was."""
+    monkeypatch.setattr(settling_lanes, "SIDE_BY_SIDE", side_by_side)
+    parameters = map_of(56.0, 10)
+    parameters[3] = random_starts(8, seed=3)[7]  # not for lanes
+    found, strobes = room(10), np.full((10, 70, 2), np.nan)
+    places = NOTHING.of(parameters)
+    settling_lanes.settle_points(parameters, TOLERANCE, 90, NOTHING, places, found, strobes)
+    followed = found[4]
+    assert followed.min() < 70 < followed.max()
+    for k in range(10):
+        assert np.isnan(strobes[k, followed[k] :]).all()
+        for cycles in (1, 2, 40, 70):
+            if cycles <= followed[k]:
+                shorter = one_by_one(parameters[k : k + 1], cycles)
+                np.testing.assert_array_equal(strobes[k, cycles - 1], shorter[0][0])
+
+
 @pytest.mark.parametrize("cycles", [1, 2])
 def test_flights_count_from_the_first_whole_cycle_on(cycles):
     parameters = map_of(80.0)
     found, left = together(parameters, cycles)
     assert not left.any()
-    assert found[3].max() > 0.5
+    assert found[3].max() > 0.5 / 50.0
     assert_same(found, one_by_one(parameters, cycles))
 
 
@@ -141,7 +164,7 @@ def test_a_contact_too_stiff_to_be_followed_ends(monkeypatch):
 @pytest.mark.parametrize("threads", [1, 2])
 def test_labels_do_not_depend_on_threads_or_chunks(threads, monkeypatch):
     parameters = np.concatenate([random_starts(70, seed=2), map_of(80.0, 30)])
-    monkeypatch.setattr(states, "SIDE_BY_SIDE", 1000)
+    monkeypatch.setattr(settling_lanes, "SIDE_BY_SIDE", 1000)
     wanted = states.classify(parameters, cycles=300, tolerance=TOLERANCE)
     monkeypatch.undo()
     for fewest in (16, 64):

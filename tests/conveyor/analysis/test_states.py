@@ -4,7 +4,17 @@ import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start, ensemble
-from conveyor.analysis import attractors, chaotic_set, known, known_attractors, probes, settling, states, stroboscope
+from conveyor.analysis import (
+    attractors,
+    chaotic_set,
+    conveyors,
+    known,
+    known_attractors,
+    probes,
+    settling,
+    states,
+    stroboscope,
+)
 from conveyor.solver import contact
 from conveyor.solver.model import PSI0, Z0, pack
 from pipeline import grid
@@ -142,7 +152,7 @@ def test_chaos_that_some_starts_leave_late_is_no_attractor(cycles):
 @pytest.mark.parametrize("settles_after", [None, 3])
 def test_a_start_that_settles_in_the_second_half_settles_late(monkeypatch, settles_after):
     """A start at 80 m/s², where chaos is known; it is made to settle some cycles after the first half of the search."""
-    row, cycles = random_starts(80.0, 1)[0], 2000
+    row, cycles = conveyors.without_starts(random_starts(80.0, 1)), 2000
     follow, halves = probes.follow, []
 
     def interrupted(parameters, states, count, *rest):
@@ -153,10 +163,25 @@ def test_a_start_that_settles_in_the_second_half_settles_late(monkeypatch, settl
                 found.outcomes[0], found.followed[0] = settling.SETTLED, settles_after
         return found
 
-    probed = follow(row, probes.starts(row), probes.SETTLING, 1e-8)
+    probed = probes.of_conveyors(row, probes.SETTLING, 1e-8)
     monkeypatch.setattr(probes, "follow", interrupted)
-    found = len(chaotic_set.sets_of_conveyor(row, probed, cycles, 1e-8).low)
-    assert (found == 0 and len(halves) == 2) if settles_after else found > 0
+    (found,) = chaotic_set.sets_of_conveyors(row, probed, cycles, 1e-8)
+    assert (len(found.low) == 0 and len(halves) == 2) if settles_after else len(found.low) > 0
+
+
+@pytest.mark.parametrize("together", [1, 3, 16])
+def test_conveyors_that_are_probed_side_by_side_do_not_disturb_each_other(monkeypatch, together):
+    """Some have chaotic sets, one or two, some have none, some would not do in lanes."""
+    monkeypatch.setattr(known_attractors, "TOGETHER", together)
+    alike = [Conveyor(acceleration=a) for a in (40.0, 53.0, 65.0, 73.0, 80.0, 89.0)]
+    rows = np.array([pack(one, Start()) for one in (*alike, Conveyor(acceleration=80.0, tension="clip"))])
+    options = {"cycles": 2000, "tolerance": 1e-6}
+    found = known_attractors.known_attractors(rows, **options)
+    assert len(found.chaotic.low) >= 4
+    alone = [known_attractors.known_attractors(row[None], **options) for row in conveyors.distinct(rows)[0]]
+    for table, wanted in zip(found, known.together(alone), strict=True):
+        for column, expected in zip(table, wanted, strict=True):
+            np.testing.assert_array_equal(column, expected)
 
 
 def test_a_period_is_the_shortest():
