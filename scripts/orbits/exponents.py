@@ -1,4 +1,4 @@
-"""Exponents on the attractors over the amplitude, from the variational equation."""
+"""Exponents on the attractors over the amplitude, from multipliers of what repeats itself, else from stretching."""
 
 import numpy as np
 import pandas as pd
@@ -13,7 +13,11 @@ TABLES = {
         fields.text("branch", "up or down, see the strobes"),
         fields.number("lambda_1", "1/s", "larger vertical Lyapunov exponent"),
         fields.number("lambda_2", "1/s", "smaller vertical Lyapunov exponent"),
-        fields.number("stderr", "1/s", "standard error of lambda_1, from means over blocks"),
+        fields.number(
+            "stderr",
+            "1/s",
+            "standard error of lambda_1, from means over blocks; 0 for that of a periodic orbit's multipliers",
+        ),
         fields.number("contact_fraction", "1", "share of the time with contact force; λ1 + λ2 = -(d_c/m) times it"),
         fields.text("status", "ok, or why there is no result"),
     ),
@@ -25,9 +29,7 @@ def make(
 ) -> dict[str, np.ndarray]:
     """The columns of the table of spectra from the table of strobes."""
     last, parameters = starts_on_attractors(strobes, settings)
-    options = {"tolerance": settings["tolerance"], "threads": threads}
-    vertical = lyapunov.spectrum(
-        parameters, transient=0, cycles=settings["cycles"], blocks=settings["blocks"], progress=progress, **options
-    )
+    options = {name: settings[name] for name in ("cycles", "blocks", "tolerance")}
+    vertical = lyapunov.spectrum_on_attractors(parameters, **options, threads=threads, progress=progress)
     found = {name: getattr(vertical, name) for name in vertical._fields}
     return {"acceleration": last.acceleration, "branch": last.branch, **found}

@@ -3,6 +3,7 @@
 import numpy as np
 
 from conveyor.analysis import attractors, states, stroboscope
+from conveyor.solver.parallel import for_each_chunk
 from pipeline import fields, grid
 
 TABLES = {
@@ -22,31 +23,32 @@ BRANCHES = ("up", "down")
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table for the settings of the config; rows by branch, amplitude, cycle."""
     amplitudes = grid.axis_values("acceleration", settings["acceleration"])
-    parts = []
-    for branch, order in zip(BRANCHES, (slice(None), slice(None, None, -1)), strict=True):
-        _, parameters = grid.product({"acceleration": list(amplitudes[order])}, settings["model"])
-        points, status = attractors.sweep(
-            parameters, transient=settings["transient"], strobes=settings["strobes"], tolerance=settings["tolerance"]
-        )
-        starts = stroboscope.starts_of_states(parameters, points[:, -1], settings["tolerance"])
-        found = states.classify(
-            starts,
-            cycles=settings["settling"],
-            tolerance=settings["tolerance"],
-            threads=threads,
-            progress=progress and f"{progress}, {branch}",
-        )
-        count = settings["strobes"]
-        parts.append(
-            {
-                "branch": np.full(points[order].shape[:2], branch).ravel(),
-                "acceleration": np.repeat(amplitudes, count),
-                "cycle": np.tile(np.arange(count), len(amplitudes)),
-                "delta": points[order, :, 0].ravel(),
-                "v": points[order, :, 1].ravel(),
-                "state": np.repeat(found.state[order], count),
-                "period": np.repeat(found.period[order], count),
-                "status": np.repeat(status[order], count),
-            }
-        )
-    return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    _, upwards = grid.product({"acceleration": list(amplitudes)}, settings["model"])
+    count, tolerance = settings["strobes"], settings["tolerance"]
+    orders = slice(None), slice(None, None, -1)
+    swept = [None] * len(BRANCHES)
+
+    def work(begin, end):
+        for k in range(begin, end):
+            found = attractors.sweep(
+                upwards[orders[k]], transient=settings["transient"], strobes=count, tolerance=tolerance
+            )
+            swept[k] = [column[orders[k]] for column in found]
+
+    for_each_chunk(work, len(BRANCHES), threads=threads, chunk=1)
+    points, status = (np.stack(columns) for columns in zip(*swept, strict=True))
+    rows = len(BRANCHES) * len(amplitudes)
+    starts = stroboscope.starts_of_states(np.tile(upwards, (2, 1)), points[:, :, -1].reshape(rows, 2), tolerance)
+    found = states.classify(
+        starts, cycles=settings["settling"], tolerance=tolerance, threads=threads, progress=progress
+    )
+    return {
+        "branch": np.repeat(BRANCHES, len(amplitudes) * count),
+        "acceleration": np.tile(np.repeat(amplitudes, count), 2),
+        "cycle": np.tile(np.arange(count), rows),
+        "delta": points[..., 0].ravel(),
+        "v": points[..., 1].ravel(),
+        "state": np.repeat(found.state, count),
+        "period": np.repeat(found.period, count),
+        "status": np.repeat(status.ravel(), count),
+    }

@@ -2,26 +2,23 @@
 
 import numpy as np
 
-from ..solver import contact, trajectory
+from ..solver import trajectory
 from ..solver.jit import kernel
+from ..solver.trajectory import OK
 from . import stroboscope
 
 
 @kernel
 def follow_change(parameters, tolerance, state, transient, strobes, codes):
     """Fill `strobes`, shape (n, m, 2), and the status `codes`, shape (n,); see `sweep`. `state` is advanced."""
-    series = contact.workspace()
-    no_tangent = np.empty((0, 2))
-    features = np.zeros(stroboscope.FEATURES)
+    cycles = transient + strobes.shape[1]
+    visited, features = np.empty((cycles, 2)), np.empty((cycles, stroboscope.FEATURES))
     strobes[:] = np.nan
     for i in range(parameters.shape[0]):
-        c = contact.constants(parameters[i], tolerance)
-        for n in range(transient + strobes.shape[1]):
-            codes[i] = stroboscope.cycle(c, series, state, no_tangent, features)
-            if codes[i] != trajectory.OK:
-                return
-            if n >= transient:
-                strobes[i, n - transient, :] = state
+        codes[i] = stroboscope.follow(parameters[i], tolerance, state, cycles, visited, features)
+        strobes[i] = visited[transient:]
+        if codes[i] != OK:
+            return
 
 
 def sweep(parameters: np.ndarray, *, transient: int, strobes: int, tolerance: float) -> tuple[np.ndarray, np.ndarray]:

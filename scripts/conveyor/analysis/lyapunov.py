@@ -19,13 +19,16 @@ from ..solver.model import FREQUENCY
 from ..solver.parallel import for_each_chunk
 from . import stretching, stroboscope
 
+# Cycles within which a motion near its attractor repeats itself bit for bit, if it ever does.
+SETTLING = 400
+
 
 class Spectrum(NamedTuple):
     """Vertical exponents of n trajectories; every field has the shape (n,)."""
 
     lambda_1: np.ndarray  # 1/s, the larger one
     lambda_2: np.ndarray  # 1/s
-    stderr: np.ndarray  # 1/s, standard error of lambda_1 from means over blocks of cycles
+    stderr: np.ndarray  # 1/s, standard error of lambda_1 from means over blocks of cycles; 0 from Floquet multipliers
     contact_fraction: np.ndarray  # share of the time with contact force
     status: np.ndarray  # "ok", or why there is no result
 
@@ -109,6 +112,71 @@ def spectrum(
     lambda_1, lambda_2 = (values / period[:, None]).T
     contact_fraction = contact_times.mean(axis=1) / period
     return Spectrum(lambda_1, lambda_2, errors[:, 0] / period, contact_fraction, np.array(trajectory.STATUS)[codes])
+
+
+@kernel
+def multipliers_of_points(parameters, states, tolerance, logarithms, contact_times, periods):
+    """Where motions from `states`, shape (n, 2), at ψ0 repeat themselves bit for bit; rows of the others say nothing.
+
+    logarithms : float64, shape (n, 2), filled with those of the moduli of the Floquet multipliers, the larger one first
+    contact_times : float64, shape (n,), filled: s, in one period
+    periods : int64, shape (n,), filled with cycles after which a motion repeats itself, or 0
+    """
+    strobes, features = np.empty((SETTLING, 2)), np.empty((SETTLING, stroboscope.FEATURES))
+    for i in range(parameters.shape[0]):
+        periods[i] = 0
+        if stroboscope.follow(parameters[i], tolerance, states[i], SETTLING, strobes, features) != trajectory.OK:
+            continue
+        period = stroboscope.repeated(strobes)
+        matrices = np.empty((period, 2, 2))
+        if stroboscope.monodromy(parameters[i], tolerance, states[i], matrices, features[:period]) != trajectory.OK:
+            continue
+        logarithms[i, 0], logarithms[i, 1] = stretching.of_repeated(matrices)
+        contact_times[i] = features[:period, stroboscope.CONTACT_TIME].sum()
+        if math.isfinite(logarithms[i, 0]):
+            periods[i] = period
+
+
+def spectrum_on_attractors(
+    parameters: np.ndarray,
+    *,
+    cycles: int,
+    blocks: int,
+    tolerance: float = DEFAULT_TOLERANCE,
+    threads: int = 1,
+    progress: str | None = None,
+) -> Spectrum:
+    """Both vertical Lyapunov exponents of motions that begin on their attractors, or close to them.
+
+    Those of a motion that repeats itself within SETTLING cycles, bit for bit, are told by its Floquet multipliers, and
+    their standard error is 0. The others are followed: see `spectrum`, with the same arguments.
+    """
+    states = stroboscope.initial_states(parameters, tolerance)
+    logarithms, contact_times = np.empty((len(parameters), 2)), np.empty(len(parameters))
+    periods = np.zeros(len(parameters), dtype=np.int64)
+
+    def work(begin, end):
+        rows = slice(begin, end)
+        found = logarithms[rows], contact_times[rows], periods[rows]
+        multipliers_of_points(parameters[rows], states[rows], tolerance, *found)
+
+    for_each_chunk(work, len(parameters), threads=threads, chunk=4)
+    followed = spectrum(
+        parameters[periods == 0],
+        transient=0,
+        cycles=cycles,
+        blocks=blocks,
+        tolerance=tolerance,
+        threads=threads,
+        progress=progress,
+    )
+    time = np.maximum(periods, 1) / parameters[:, FREQUENCY]
+    lambda_1, lambda_2 = (logarithms / time[:, None]).T
+    status = np.full(len(time), trajectory.STATUS[trajectory.OK], followed.status.dtype)
+    found = Spectrum(lambda_1, lambda_2, np.zeros(len(time)), contact_times / time, status)
+    for column, values in zip(found, followed, strict=True):
+        column[periods == 0] = values
+    return found
 
 
 def renormalised_pair(

@@ -30,6 +30,33 @@ def orthonormalise(tangent, stretches):
             tangent[i, k] /= length
 
 
+@kernel
+def of_repeated(matrices):
+    """Logarithms of the moduli of both eigenvalues of a product, the larger first; NaN where rounding hides them.
+
+    matrices : float64, shape (n, 2, 2), of positive determinants; the last one stands leftmost
+    """
+    a, b, c, d = 1.0, 0.0, 0.0, 1.0
+    size = both = 0.0  # logarithms of the product's size and determinant, either of which may be too small for a float
+    for k in range(matrices.shape[0]):
+        m = matrices[k]
+        a, b, c, d = (
+            m[0, 0] * a + m[0, 1] * c,
+            m[0, 0] * b + m[0, 1] * d,
+            m[1, 0] * a + m[1, 1] * c,
+            m[1, 0] * b + m[1, 1] * d,
+        )
+        largest = max(abs(a), abs(b), abs(c), abs(d))
+        a, b, c, d = a / largest, b / largest, c / largest, d / largest
+        size += math.log(largest)
+        determinant = m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0]
+        both += math.log(determinant) if determinant > 0.0 else math.nan
+    half = 0.5 * (a + d)
+    square = half * half - math.exp(both - 2.0 * size)
+    larger = size + math.log(abs(half) + math.sqrt(square)) if square > 0.0 else 0.5 * both
+    return larger, both - larger
+
+
 def exponents(stretches: np.ndarray, blocks: int) -> tuple[np.ndarray, np.ndarray]:
     """All exponents, the largest first, and their standard errors.
 

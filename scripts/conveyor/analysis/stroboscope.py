@@ -214,6 +214,8 @@ def to_begin_of_cycle(parameters, tolerance, states):
 def follow(parameters, tolerance, state, cycles, strobes, features):
     """Advance `state` by a number of cycles.
 
+    What has come back to a state bit for bit repeats itself from then on, and is copied. Settled motions mostly do.
+
     strobes : float64, shape (cycles, 2), filled with δ and v after each cycle
     features : float64, shape (cycles, 4), filled with the features of each cycle
     Returns the status code; rows behind a failure are NaN.
@@ -224,13 +226,42 @@ def follow(parameters, tolerance, state, cycles, strobes, features):
     found = np.zeros(FEATURES)
     strobes[:] = np.nan
     features[:] = np.nan
+    mark = 0  # 0, 1, 3, 7, …: one of them lies in the repeated part and as long before n as it lasts (Brent 1980)
     for n in range(cycles):
         status = cycle(c, series, state, no_tangent, found)
         if status != OK:
             return status
         strobes[n, :] = state
         features[n, :] = found
+        if mark < n and same(strobes, features, n, mark):
+            for later in range(n + 1, cycles):
+                strobes[later, :] = strobes[later - n + mark]
+                features[later, :] = features[later - n + mark]
+            state[:] = strobes[cycles - 1]
+            return OK
+        if n == 2 * mark + 1:
+            mark = n
     return OK
+
+
+@inlined
+def same(strobes, features, n, mark):
+    """Whether what follows two cycles is the same, bit for bit: the motion, and the time since the last separation."""
+    return (
+        strobes[n, 0] == strobes[mark, 0]
+        and strobes[n, 1] == strobes[mark, 1]
+        and features[n, AIRBORNE] == features[mark, AIRBORNE]
+    )
+
+
+@kernel
+def repeated(strobes):
+    """After how many cycles the motion of `follow` comes back to its last state, bit for bit; 0 for never so far."""
+    last = strobes.shape[0] - 1
+    for cycles in range(1, last + 1):
+        if strobes[last, 0] == strobes[last - cycles, 0] and strobes[last, 1] == strobes[last - cycles, 1]:
+            return cycles
+    return 0
 
 
 @kernel

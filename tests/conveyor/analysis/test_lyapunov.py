@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start
-from conveyor.analysis import lyapunov, stroboscope
-from conveyor.solver.model import VZ0, pack
+from conveyor.analysis import lyapunov, orbits, stroboscope
+from conveyor.solver.model import ACCELERATION, FREQUENCY, VZ0, pack
 
 DECAY = Conveyor().damping / Conveyor().mass
 
@@ -45,6 +45,31 @@ def test_rider_is_a_damped_oscillator():
     found = lyapunov.spectrum(rows, transient=20, cycles=100, tolerance=1e-13)
     assert found.lambda_1 == pytest.approx(-0.5 * DECAY, abs=1.0)
     assert found.lambda_1 + found.lambda_2 == pytest.approx(-DECAY, abs=1e-7)
+
+
+def test_what_repeats_itself_has_the_exponents_of_its_multipliers():
+    """Against Newton's orbit, and chaos bit for bit as it is followed. Riding, d_c/(2m) is lost in either direction."""
+    rows = points((25.0, 0.0), (40.0, 3e-4), (62.0, 0.0), (80.0, 0.0))
+    begun, periods = rows.copy(), (1, 1, 4)
+    wanted = []
+    for row, (acceleration, period) in zip(begun, zip(rows[:3, ACCELERATION], periods, strict=True), strict=False):
+        start = stroboscope.initial_states(row[None], 1e-12)[0]
+        orbit, end = orbits.settled_orbit(row, acceleration, start, (period,), 400)
+        row[:] = stroboscope.starts_of_states(row[None], end[None], 1e-12)
+        wanted.append(np.log(np.abs(orbit.multipliers)) * row[FREQUENCY] / period)
+    options = {"cycles": 20, "blocks": 5, "tolerance": 1e-12}
+    found = lyapunov.spectrum_on_attractors(begun, **options, threads=2)
+    assert np.transpose(found[:2])[:3] == pytest.approx(np.array(wanted), rel=1e-6)
+    assert found.lambda_1[0] == found.lambda_2[0] == pytest.approx(-0.5 * DECAY, rel=1e-9)
+    assert found.lambda_1 + found.lambda_2 == pytest.approx(-DECAY * found.contact_fraction, abs=1e-8)
+    assert (found.stderr[:3] == 0.0).all()
+    followed = lyapunov.spectrum(begun, transient=0, **options)
+    assert [column[3] for column in found] == [column[3] for column in followed]
+    assert followed.stderr[3] > 0.0
+    # With nothing to follow.
+    assert (lyapunov.spectrum_on_attractors(begun[:3], **options).lambda_1 == found.lambda_1[:3]).all()
+    # A perturbation that turns is as long as its direction lets it be at the end of a run.
+    assert found.lambda_1[:3] == pytest.approx(followed.lambda_1[:3], abs=5.0)
 
 
 def test_standard_error_shrinks_with_the_run():

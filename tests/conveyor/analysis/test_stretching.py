@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from conveyor.analysis.stretching import exponents, orthonormalise
+from conveyor.analysis.stretching import exponents, of_repeated, orthonormalise
 
 BLOCKS = 20
 
@@ -90,3 +90,21 @@ def test_linear_maps(turn):
     values, _ = exponents(stretches_of(lambda _: (0.0, matrix), 0.0, 2, 2_000), BLOCKS)
     assert values == pytest.approx(truth, abs=2e-3)
     assert values.sum() == pytest.approx(math.log(np.linalg.det(matrix)), abs=1e-12)
+
+
+@pytest.mark.parametrize("size", [1e-4, 1.0, 1e4])
+@pytest.mark.parametrize("turn", [0.0, 0.7])
+def test_eigenvalues_of_a_product(size, turn):
+    """In their order from right to left, real and complex, also where the product is too small or large for a float."""
+    basis = np.array([[1.0, 0.4], [0.3, 1.0]])
+    core = np.diag([0.5, 1.0]) if not turn else np.array([[0.6, -math.sin(turn)], [math.sin(turn), 0.6]])
+    one = size * basis @ core @ np.linalg.inv(basis)
+    other = np.array([[1.0, 2.0], [-0.5, 1.0]])
+    modulus = math.log(abs(np.linalg.eigvals(core)[0])) + math.log(size) if turn else None
+    truth = [modulus, modulus] if turn else [math.log(size), math.log(0.5 * size)]
+    many = np.array([other, *[one] * 200, np.linalg.inv(other)])
+    assert of_repeated(many) == pytest.approx(200.0 * np.array(truth), abs=1e-9)
+
+
+def test_eigenvalues_that_rounding_hides():
+    assert all(math.isnan(value) for value in of_repeated(np.ones((1, 2, 2))))

@@ -7,7 +7,7 @@ import pytest
 
 from conveyor import Conveyor, Start, simulate
 from conveyor.analysis import stroboscope
-from conveyor.solver import trajectory
+from conveyor.solver import contact, trajectory
 from conveyor.solver.model import TENSION_MODES, conveyor_motion, pack
 
 CYCLES = 6
@@ -80,6 +80,28 @@ def test_linearised_map_is_the_derivative_of_the_map(tension, exponent):
         ahead[column] = step
         slope = (advanced(*(here + ahead)) - advanced(*(here - ahead))) / (2.0 * step)
         assert matrices[0][:, column] == pytest.approx(slope, rel=2e-5)
+
+
+@pytest.mark.parametrize(
+    ("acceleration", "z0", "period"), [(30.0, 0.0, 1), (40.0, 3e-4, 1), (55.0, 3e-4, 2), (62.0, 0.0, 4), (80.0, 0.0, 0)]
+)
+def test_what_repeats_itself_is_copied_bit_for_bit(acceleration, z0, period):
+    """Riding, jumping with one, two and four cycles, and chaos, against each cycle followed."""
+    parameters, tolerance, cycles = pack(Conveyor(acceleration=acceleration), Start(z0)), 1e-10, 500
+    state, found = np.empty(2), np.zeros(stroboscope.FEATURES)
+    strobes, features = np.empty((cycles, 2)), np.empty((cycles, stroboscope.FEATURES))
+    stroboscope.initial_state(parameters, tolerance, state)
+    end = state.copy()
+    assert stroboscope.follow(parameters, tolerance, end, cycles, strobes, features) == trajectory.OK
+    c, series = contact.constants(parameters, tolerance), contact.workspace()
+    for n in range(cycles):
+        stroboscope.cycle(c, series, state, np.empty((0, 2)), found)
+        np.testing.assert_array_equal(strobes[n], state)
+        np.testing.assert_array_equal(features[n], found)
+    np.testing.assert_array_equal(end, state)
+    repeated = stroboscope.repeated(strobes)
+    assert repeated % period == 0 < repeated if period else repeated == 0
+    assert stroboscope.repeated(strobes[:1]) == 0
 
 
 def test_time_in_the_air_goes_on_over_cycles():
