@@ -3,7 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy import fft
+
+from ..solver.jit import kernel
 
 FREQUENCIES = 100  # random c; the median over them ignores the few that resonate with the series
 LARGEST_LAG = 0.1  # share of the series over which the mean square displacement is taken
@@ -49,8 +50,7 @@ def zero_one(series: np.ndarray, seed: int, resolution: float = 0.0) -> ZeroOne:
         return ZeroOne(0.0, 0.0, np.zeros(FREQUENCIES))
     c = np.random.default_rng(seed).uniform(np.pi / 5, 4 * np.pi / 5, FREQUENCIES)
     centred = (series - series.mean()) / series.std()
-    path = np.cumsum(centred * np.exp(1j * c[:, None] * np.arange(1, len(series) + 1)), axis=1)
-    displacement = mean_square_displacement(path, int(LARGEST_LAG * len(series)))
+    displacement = mean_square_displacement(centred, c, int(LARGEST_LAG * len(series)))
     displacement -= displacement.mean(axis=1, keepdims=True)
     lags = np.arange(displacement.shape[1]) - 0.5 * (displacement.shape[1] - 1)
     growth = displacement @ lags / np.sqrt(np.sum(displacement**2, axis=1) * np.sum(lags**2))
@@ -58,15 +58,25 @@ def zero_one(series: np.ndarray, seed: int, resolution: float = 0.0) -> ZeroOne:
     return ZeroOne(float(median), float(0.5 * (upper - lower)), growth)
 
 
-def mean_square_displacement(path: np.ndarray, lags: int) -> np.ndarray:
-    """Mean over j < n - lags of |path[:, j + k] - path[:, j]|² for k = 1 … lags; complex (c, n) → float64 (c, lags).
+@kernel
+def mean_square_displacement(series, c, lags):
+    """Mean over j < n - lags of |z(j + k) - z(j)|² for k = 1 … lags and each c, float64, shape (len(c), lags).
 
-    The mixed terms are a correlation, computed by fast Fourier transform.
+    Each square is the sum of cos(c l) φ(i) φ(i + l) over all pairs of samples on the way, whose products all c share.
     """
-    n = path.shape[1]
-    length = fft.next_fast_len(n + lags)
-    head = fft.fft(path[:, : n - lags], length, axis=1)
-    mixed = fft.ifft(fft.fft(path, length, axis=1) * head.conj(), axis=1)[:, 1 : lags + 1].real
-    total = np.cumsum(np.abs(path) ** 2, axis=1)
-    moved = total[:, n - lags :] - total[:, :lags]
-    return (moved + total[:, n - lags - 1, None] - 2.0 * mixed) / (n - lags)
+    windows = len(series) - lags
+    found = np.zeros((lags, len(c)))
+    for lag in range(lags):
+        weights = (2.0 if lag > 0 else 1.0) * np.cos(lag * c)
+        # Sums over j: of the pairs that begin with the sample number `first` of the way, and of all up to that one.
+        products = pairs = 0.0
+        for j in range(windows):
+            products += series[j + 1] * series[j + 1 + lag]
+        for first in range(lags - lag):
+            if first > 0:
+                old, new = first, first + windows
+                products += series[new] * series[new + lag] - series[old] * series[old + lag]
+            pairs += products
+            for i in range(len(c)):
+                found[first + lag, i] += weights[i] * pairs
+    return found.T / windows

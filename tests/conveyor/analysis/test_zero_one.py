@@ -68,9 +68,10 @@ def test_same_seed_same_result():
 
 def test_mean_square_displacement_agrees_with_its_definition():
     rng = np.random.default_rng(0)
-    path = np.cumsum(rng.standard_normal((3, 200)) + 1j * rng.standard_normal((3, 200)), axis=1)
+    series, c = rng.standard_normal(200), np.array([0.7, 1.1, 2.4])
+    path = np.cumsum(series * np.exp(1j * c[:, None] * np.arange(200)), axis=1)
     expected = [np.mean(np.abs(path[:, k : k + 180] - path[:, :180]) ** 2, axis=1) for k in range(1, 21)]
-    assert mean_square_displacement(path, 20) == pytest.approx(np.array(expected).T, rel=1e-10)
+    assert mean_square_displacement(series, c, 20) == pytest.approx(np.array(expected).T, rel=1e-10)
 
 
 @pytest.mark.parametrize("series", [np.zeros(99), np.zeros((2, 200)), np.full(200, np.nan)])
