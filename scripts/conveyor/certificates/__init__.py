@@ -10,6 +10,7 @@ no bound depends on it.
     taylor    one Taylor step of the contact with a proved remainder, and its derivative
     flight    parabola and harmonic plate, in closed form
     motion    the motion from one phase to another through flights and contacts, and its derivative
+    guess     an orbit in floating point, where proofs begin
     newton    Krawczyk's operator
     orbit     a periodic orbit: existence, uniqueness, least period, stability
     brackets  amplitudes between which an orbit folds or doubles

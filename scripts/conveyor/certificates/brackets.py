@@ -8,6 +8,7 @@ import numpy as np
 from flint import arb, arb_mat
 
 from .balls import Refused, between, exactly, middle
+from .guess import Motion, guess
 from .newton import Zero, corrected, exact, floats, prove
 from .orbit import ProvedOrbit, linearised, prove_orbit
 from .shooting import OnArc, Shooting
@@ -69,9 +70,9 @@ def bracket_doubling(shooting: Shooting, acceleration: float, strobes: np.ndarra
         return prove_orbit(shooting, law.gamma(exactly(amplitude)), strobes)
 
     def test(amplitude: float) -> float:
-        return float(middle(orbit_at(amplitude).doubling_test))
+        return guess(law, float(law.gamma(exactly(amplitude))), shooting.nodes, strobes).doubling_test
 
-    # Where to look: nothing is proved by the secant.
+    # Where to look, in floating point: nothing is proved by the secant.
     before, here = acceleration, acceleration + APART
     last, now = test(before), test(here)
     for _ in range(SECANT_STEPS):
@@ -108,8 +109,10 @@ def bracket_fold(shooting: Shooting, acceleration: float, strobes: np.ndarray, h
     Refused
         with the reason
     """
-    point = middle(shooting.law.gamma(exactly(acceleration)))
-    origin = arb_mat([*shooting.launch(point, strobes).tolist(), [point]])
+    gamma = float(shooting.law.gamma(exactly(acceleration)))
+    # Newton's iteration at one amplitude would diverge here.
+    states = Motion(shooting.law, gamma, shooting.nodes).launch(strobes)
+    origin = exact(np.append(states, gamma)[:, None])
     # The direction of the branch: what the equations, without the last one, leave free.
     flat = OnArc(shooting, origin, arb_mat([[0] * (2 * shooting.count) + [1]]), arb(0))
     _, slope, _ = flat(origin, True)
@@ -117,9 +120,10 @@ def bracket_fold(shooting: Shooting, acceleration: float, strobes: np.ndarray, h
 
     def at(place: arb) -> Zero:
         equations = OnArc(shooting, origin, direction, place)
-        point = equations._replace(place=middle(place))
-        centre, inverse = corrected(point, origin + direction.transpose() * point.place, shooting.least)
-        return prove(equations, centre, inverse, shooting.least, "arc of the branch")
+        start = origin + direction.transpose() * middle(place)
+        _, slope, _ = equations(start, True)
+        near = corrected(equations, floats(start).ravel(), floats(slope), shooting.least)
+        return prove(equations, near, shooting.least, "arc of the branch")
 
     def tests(zero: Zero) -> tuple[arb, arb]:
         trace, determinant, _ = linearised(shooting, zero.evidence)

@@ -18,6 +18,14 @@ FARTHEST = 1.0
 Equations = Callable[[arb_mat, bool], tuple[arb_mat, arb_mat | None, Any]]
 
 
+class Approximation(NamedTuple):
+    """Near a zero."""
+
+    centre: arb_mat  # exact, shape (n, 1)
+    value: arb_mat  # f there
+    inverse: arb_mat  # of f' there, about, exact
+
+
 class Zero(NamedTuple):
     """Exactly one zero in a box, shape (n, 1)."""
 
@@ -36,8 +44,8 @@ def exact(values: np.ndarray) -> arb_mat:
     return arb_mat([[arb(float(value)) for value in row] for row in values])
 
 
-def inverse_of(slope: arb_mat) -> arb_mat:
-    """An approximate inverse of the centre of a matrix, exact floats: a preconditioner need not be right.
+def inverse_of(slope: np.ndarray) -> np.ndarray:
+    """An approximate inverse of a matrix: a preconditioner need not be right.
 
     Raises
     ------
@@ -45,42 +53,41 @@ def inverse_of(slope: arb_mat) -> arb_mat:
         if the matrix is singular in floating point
     """
     try:
-        inverse = np.linalg.inv(floats(slope))
+        inverse = np.linalg.inv(slope)
     except np.linalg.LinAlgError:
         raise Refused("the linearisation is singular") from None
     if not np.isfinite(inverse).all():
         raise Refused("the linearisation is singular")
-    return exact(inverse)
+    return inverse
 
 
-def corrected(equations: Equations, start: arb_mat, close: float) -> tuple[arb_mat, arb_mat]:
-    """An approximate zero, exact, and an approximate inverse of the slope there; nothing is proved here.
+def corrected(equations: Equations, start: np.ndarray, slope: np.ndarray, least: float) -> Approximation:
+    """An approximate zero; nothing is proved here.
 
-    close : size of a correction after which no further one is made
+    It is corrected until what remains of a correction is less than its own width and `least`.
+
+    Parameters
+    ----------
+    equations, least : the equations, and the least radius of a box around the zero
+    start, slope : a point near it, and the derivative there, in floating point, shapes (n,) and (n, n)
 
     Raises
     ------
     Refused
         if there is none nearby
     """
-    centre = start
-    value, slope, _ = equations(centre, True)
-    inverse = inverse_of(slope)
-    last = math.inf
+    centre, inverse, last = exact(start[:, None]), exact(inverse_of(slope)), math.inf
     for _ in range(CORRECTIONS):
-        step = inverse * value
-        size = float(max(abs(middle(entry)) for entry in step.entries()))
+        found = Approximation(centre, equations(centre, False)[0], inverse)
+        step = (inverse * found.value).entries()
+        size = max(float(abs(middle(entry))) for entry in step)
         if not size < FARTHEST:
-            raise Refused("Newton's iteration finds nothing nearby")
-        if not size < 0.5 * last:
             break
+        if not size < 0.5 * last or all(abs(middle(entry)) <= entry.rad() + least for entry in step):
+            return found
         last = size
-        pairs = zip(centre.entries(), step.entries(), strict=True)
-        centre = arb_mat([[middle(entry - middle(change))] for entry, change in pairs])
-        if size < close:
-            break
-        value, _, _ = equations(centre, False)
-    return centre, inverse
+        centre = arb_mat([[middle(entry - change)] for entry, change in zip(centre.entries(), step, strict=True)])
+    raise Refused("Newton's iteration finds nothing nearby")
 
 
 def krawczyk(value: arb_mat, slope: arb_mat, inverse: arb_mat, deviation: arb_mat) -> arb_mat:
@@ -102,10 +109,8 @@ def krawczyk(value: arb_mat, slope: arb_mat, inverse: arb_mat, deviation: arb_ma
     return (identity - inverse * slope) * deviation - inverse * value
 
 
-def prove(
-    equations: Equations, centre: arb_mat, inverse: arb_mat, least: float, what: str, radius: float | None = None
-) -> Zero:
-    """Exactly one zero in a box around an exact centre.
+def prove(equations: Equations, near: Approximation, least: float, what: str, radius: float | None = None) -> Zero:
+    """Exactly one zero in a box around the centre of an approximation.
 
     The box is twice as wide as Newton's correction, whose width a parameter with a wide ball makes, and at least as
     wide as `least`; a box that proves nothing is enlarged where its image sticks out. With a `radius` this box alone
@@ -116,7 +121,7 @@ def prove(
     Refused
         with the reason
     """
-    value, _, _ = equations(centre, False)
+    centre, value, inverse = near
     radii = [2 * abs(step).upper() + least if radius is None else arb(radius) for step in (inverse * value).entries()]
     for _ in range(INFLATIONS if radius is None else 1):
         deviation = arb_mat([[arb(0, size)] for size in radii])

@@ -6,7 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, arb_mat
 
-from .balls import Refused, bounds, middle
+from .balls import Refused, bounds
+from .guess import guess
 from .motion import Arrival, Impact
 from .newton import Zero, corrected, exact, floats, prove
 from .shooting import AtAmplitude, Shooting
@@ -131,9 +132,10 @@ def prove_orbit(shooting: Shooting, gamma: arb, strobes: np.ndarray) -> ProvedOr
     Refused
         with the reason
     """
-    point = middle(gamma)
-    centre, inverse = corrected(AtAmplitude(shooting, point), shooting.launch(point, strobes), shooting.least)
-    return proved(shooting, gamma, prove(AtAmplitude(shooting, gamma), centre, inverse, shooting.least, "orbit"))
+    found = guess(shooting.law, float(gamma), shooting.nodes, strobes)
+    equations = AtAmplitude(shooting, gamma)
+    near = corrected(equations, found.states.ravel(), found.slope, shooting.least)
+    return proved(shooting, gamma, prove(equations, near, shooting.least, "orbit"))
 
 
 def check_period(orbit: ProvedOrbit) -> None:

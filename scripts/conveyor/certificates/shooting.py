@@ -7,10 +7,8 @@ where the contact's ringing would blow up their boxes, but are joined by one lin
 
 from typing import NamedTuple
 
-import numpy as np
 from flint import arb, arb_mat
 
-from .balls import middle
 from .law import Law
 from .motion import Accuracy, Arrival, follow
 
@@ -48,17 +46,6 @@ class Shooting(NamedTuple):
             self.arrival(gamma, node, states[2 * node, 0], states[2 * node + 1, 0], columns)
             for node in range(self.count)
         ]
-
-    def launch(self, gamma: arb, strobes: np.ndarray) -> arb_mat:
-        """States of all nodes from approximate ones at the beginnings of the cycles, shape (period, 2)."""
-        states = []
-        for node in range(self.count):
-            if node % self.nodes == 0:
-                state = [arb(float(value)) for value in strobes[node // self.nodes]]
-            states += [[value] for value in state]
-            end = self.arrival(gamma, node, *state, columns=0)
-            state = [middle(end.delta), middle(end.y)]
-        return arb_mat(states)
 
     def residual(self, states: arb_mat, arrivals: list[Arrival]) -> arb_mat:
         """By what each motion misses the next node, shape (2 count, 1)."""

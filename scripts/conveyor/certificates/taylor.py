@@ -5,7 +5,7 @@ The equations are polynomial in (w, Y, cos φ, sin φ), and so are those of pert
     η' = w (ζ - β η),   ζ' = -p κ w^(2p-1) η,   and for the derivative by γ, ζ' = … + w cos φ.
 
 `rates` writes them once; it is evaluated in three arithmetics, each with one purpose: on truncated series it gives the
-coefficients, on whole polynomials the terms that the coefficients leave over, and on norms the bound of the remainder.
+coefficients, on bounds of terms what the coefficients leave over, and on norms the bound of the remainder.
 
 The remainder. Let ‖f‖ = Σ |f_n| hⁿ, so that ‖f g‖ ≤ ‖f‖ ‖g‖ and |f(s)| ≤ ‖f‖ for |s| ≤ h. Let x̄ be the exact solution's
 series up to order N, and T(x) = x0 + ∫ rates(x) ds. If
@@ -20,6 +20,7 @@ on Σ |f_n| hⁿ survives the limit of the coefficients.
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import numpy as np
 from flint import arb, arb_mat, arb_poly, arb_series, ctx
 
 from .balls import Refused
@@ -30,6 +31,8 @@ W, Y, COSINE, SINE, PHASE = range(5)
 MOTION = 5
 # How often a bound that does not hold is doubled, and a step that has none is halved.
 DOUBLINGS, HALVINGS = 4, 20
+# What makes up for the rounding of floats in a bound, and for what vanishes in it.
+SLACK, TINY = 1.0 + 1e-9, 1e-300
 
 
 def rates(law: Law, gamma: arb, x: Sequence, columns: int) -> list:
@@ -57,11 +60,36 @@ def rates(law: Law, gamma: arb, x: Sequence, columns: int) -> list:
     return found
 
 
+def size(number: arb) -> float:
+    """An upper bound of |number| but for half a unit of the last digit."""
+    return float(number.abs_upper())
+
+
+class Terms:
+    """Bounds on the terms |f_n| hⁿ of a polynomial, shape (k,), and on those of sums and products."""
+
+    def __init__(self, bounds: np.ndarray):
+        self.bounds = bounds
+
+    def __add__(self, other: "Terms") -> "Terms":
+        short, long = sorted((self.bounds, other.bounds), key=len)
+        total = long.copy()
+        total[: len(short)] += short
+        return Terms(total)
+
+    __sub__ = __add__
+
+    def __mul__(self, other: "Terms | arb") -> "Terms":
+        if isinstance(other, arb):
+            return Terms(self.bounds * size(other))
+        return Terms(np.convolve(self.bounds, other.bounds))
+
+
 class Norm(NamedTuple):
     """Bounds on a polynomial part and on a deviation from it: ‖f‖ and ‖e‖ of f + e."""
 
-    part: arb
-    deviation: arb
+    part: float
+    deviation: float
 
     def __add__(self, other: "Norm") -> "Norm":
         return Norm(self.part + other.part, self.deviation + other.deviation)
@@ -70,8 +98,8 @@ class Norm(NamedTuple):
 
     def __mul__(self, other: "Norm | arb") -> "Norm":
         if isinstance(other, arb):
-            size = abs(other)
-            return Norm(self.part * size, self.deviation * size)
+            factor = size(other)
+            return Norm(self.part * factor, self.deviation * factor)
         # (f + e)(g + d) - f g = e (g + d) + f d.
         deviation = self.deviation * (other.part + other.deviation) + self.part * other.deviation
         return Norm(self.part * other.part, deviation)
@@ -82,7 +110,7 @@ class Step(NamedTuple):
 
     length: arb
     parts: list[arb_poly]
-    remainders: list[arb]
+    remainders: list[float]
 
     def value(self, component: int, s: arb) -> arb:
         """A component over a ball of s within the step."""
@@ -105,11 +133,6 @@ class Step(NamedTuple):
         return moved
 
 
-def norm(coefficients: Sequence[arb], powers: Sequence[arb]) -> arb:
-    """An upper bound of Σ |c_n| hⁿ over the given coefficients and powers of h, exact."""
-    return sum((c.abs_upper() * power for c, power in zip(coefficients, powers, strict=False)), arb(0)).upper()
-
-
 def expand(law: Law, gamma: arb, start: Sequence[arb], columns: int, order: int) -> list[arb_poly]:
     """The exact series of the solutions from all points of `start`, up to an order, in balls.
 
@@ -129,43 +152,42 @@ def expand(law: Law, gamma: arb, start: Sequence[arb], columns: int, order: int)
     return [arb_poly(part.coeffs()) for part in series]
 
 
-def length_of(parts: Sequence[arb_poly], order: int, tolerance: float) -> arb:
-    """A step, exact, whose last terms of w and Y are about `tolerance`; nothing is proved here."""
-    length = 1.0
-    for part in parts[:COSINE]:
+def length_of(sizes: np.ndarray, tolerance: float) -> float:
+    """A step whose last terms of w and Y are about `tolerance`; nothing is proved here."""
+    length, order = 1.0, sizes.shape[1] - 1
+    for part in sizes[:COSINE]:
         for n in (order - 1, order):
-            last = float(abs(part[n]).upper())
-            if last > 0.0:
-                length = min(length, (tolerance / last) ** (1.0 / n))
-    return arb(length)
+            if part[n] > 0.0:
+                length = min(length, (tolerance / part[n]) ** (1.0 / n))
+    return float(length)
 
 
-def remainders(
-    law: Law, gamma: arb, parts: Sequence[arb_poly], left_over: Sequence[arb_poly], order: int, length: arb
-) -> list[arb] | None:
-    """Bounds on what the series up to an order leave out on [-length, length], or None if none is found.
+def remainders(law: Law, gamma: arb, sizes: np.ndarray, length: float) -> list[float] | None:
+    """Bounds on what series up to an order leave out on [-length, length], or None if none is found.
 
-    left_over : the rates of the polynomials `parts`
+    All numbers here are floats, none is negative, and none is subtracted: rounded to the nearest, each of some hundred
+    operations errs by half a unit of the last digit, which SLACK makes up for, or by the least float, which TINY does.
+
+    sizes : of the coefficients of the series, as from `size`, shape (number of components, order + 1)
     """
-    powers = [arb(1)]
-    for _ in range(max(len(rate) for rate in left_over)):
-        powers.append(powers[-1] * length)
-    norms = [norm(part.coeffs(), powers) for part in parts]
-    defects = []
-    for rate in left_over:
-        coefficients = rate.coeffs()[order:]
-        # The integral of the term of order n has the order n + 1.
-        integrated = [c / (n + 1) for n, c in enumerate(coefficients, start=order)]
-        defects.append(norm(integrated, powers[order + 1 :]))
+    columns, order = (len(sizes) - MOTION) // 2, sizes.shape[1] - 1
+    terms = sizes * length ** np.arange(order + 1.0)
+    # The integral of the term of order n has the order n + 1.
+    defects = [
+        length * float((rate.bounds[order:] / np.arange(order + 1.0, len(rate.bounds) + 1.0)).sum())
+        for rate in rates(law, gamma, [Terms(row) for row in terms], columns)
+    ]
+    norms = terms.sum(axis=1).tolist()
     gain = length / (order + 2)
-    columns = (len(parts) - MOTION) // 2
-    bound = [2 * defect for defect in defects]
+    bound = [2.0 * defect for defect in defects]
     for _ in range(DOUBLINGS):
         changed = rates(law, gamma, [Norm(*pair) for pair in zip(norms, bound, strict=True)], columns)
-        reached = [(defect + gain * rate.deviation).upper() for defect, rate in zip(defects, changed, strict=True)]
+        reached = [
+            SLACK * (defect + gain * rate.deviation) + TINY for defect, rate in zip(defects, changed, strict=True)
+        ]
         if all(there <= here for there, here in zip(reached, bound, strict=True)):
             return reached
-        bound = [2 * there for there in reached]
+        bound = [2.0 * there for there in reached]
     return None
 
 
@@ -188,11 +210,12 @@ def step(law: Law, gamma: arb, start: Sequence[arb], columns: int, order: int, t
     sine, cosine = phase.sin_cos()
     identity = [arb(1), arb(0), arb(0), arb(1), arb(0), arb(0)][: 2 * columns]
     parts = expand(law, gamma, [w, y, cosine, sine, phase, *identity], columns, order)
-    left_over = rates(law, gamma, parts, columns)
-    length = length_of(parts, order, tolerance)
+    sizes = np.array([[size(part[n]) for n in range(order + 1)] for part in parts])
+    # Bounds of a product's terms are up to twice the terms.
+    length = length_of(sizes, 0.5 * tolerance)
     for _ in range(HALVINGS):
-        found = remainders(law, gamma, parts, left_over, order, length)
+        found = remainders(law, gamma, sizes, length)
         if found is not None:
-            return Step(length, parts, found)
-        length = length / 2
+            return Step(arb(length), parts, found)
+        length = 0.5 * length
     raise Refused("no step of the contact has a bounded remainder")
