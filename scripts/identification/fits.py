@@ -32,16 +32,22 @@ def fit(residuals: Callable[[np.ndarray], np.ndarray], starts: np.ndarray, bound
     low, high = bounds
     inner = 1e-9 * (high - low)
 
+    values: dict[bytes, np.ndarray] = {}
+
+    def value(x: np.ndarray) -> np.ndarray:
+        if x.tobytes() not in values:
+            values[x.tobytes()] = residuals(x[None])[0]
+        return values[x.tobytes()]
+
     def slope(x: np.ndarray) -> np.ndarray:
         # Away from the upper bounds.
         steps = np.where(x + STEP <= high, STEP, -STEP)
-        found = residuals(np.vstack([x, x + np.diag(steps)]))
-        return ((found[1:] - found[0]) / steps[:, None]).T
+        return ((residuals(x + np.diag(steps)) - value(x)) / steps[:, None]).T
 
     found = []
     for start in starts:
         solution = least_squares(
-            lambda x: residuals(x[None])[0],
+            value,
             np.clip(start, low + inner, high - inner),
             jac=slope,
             bounds=bounds,

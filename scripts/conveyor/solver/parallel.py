@@ -24,7 +24,7 @@ def for_each_chunk(
 
     def done() -> Iterator[tuple[int, int]]:
         """Number of points, and of those that have failed, of each range."""
-        if threads == 1:
+        if threads == 1 or len(ranges) == 1:
             # Not in a thread of its own: who asks for the processor time of the present one gets it all.
             yield from ((end - begin, work(begin, end) or 0) for begin, end in ranges)
             return
