@@ -6,6 +6,7 @@ which the paper tells its velocity.
 """
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -89,10 +90,18 @@ class Curve(NamedTuple):
         return heights
 
 
+@lru_cache
+def to_fine(heights: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Heights in between, shape (k,), and the weights of a spline's values at `heights` there, shape (h, k)."""
+    fine = np.linspace(heights[0], heights[-1], FINE)
+    return fine, CubicSpline(heights, np.eye(len(heights)), axis=1)(fine)
+
+
 def curve(heights: np.ndarray, edges: np.ndarray, angle: np.ndarray) -> Curve:
     """The Curve of conveyors with the given angles (rad, shape (n,)) from vertical edges of shape (n, h)."""
-    fine = np.linspace(heights[0], heights[-1], FINE)
-    return Curve(fine, CubicSpline(heights, edges, axis=1)(fine) / np.sin(angle)[:, None])
+    fine, weights = to_fine(tuple(heights))
+    # Not by @, whose sums may depend on how many conveyors there are.
+    return Curve(fine, np.einsum("nh,hk->nk", edges, weights) / np.sin(angle)[:, None])
 
 
 def by_events(threads: int = 1) -> Follow:
@@ -134,15 +143,15 @@ def places(found: Curve, measured: dict) -> dict[str, np.ndarray]:
     lowest = np.maximum(low, found.amplitudes.min(axis=1))
     triple = Hyperbola(**measured["triple"])
     missing = triple.A / (triple.B + low) ** 2 * (lowest - low)
-    heights = {name: found.critical_height(np.full((n, 1), a))[:, 0] for name, a in measured["critical"].items()}
-    fitted = fitted_amplitudes(measured)
-    deviations = mean_squared_error(fitted, found.critical_height(np.tile(fitted, (n, 1))), triple)
+    given, fitted = list(measured["critical"].values()), fitted_amplitudes(measured)
+    heights = found.critical_height(np.column_stack([lowest, np.tile([*given, *fitted], (n, 1))]))
+    deviations = mean_squared_error(fitted, heights[:, 1 + len(given) :], triple)
     return {
         "C01.critical_amplitude": fig_8[:, 0],
         "C02.lower_end": fig_8.min(axis=1),
         "C02.upper_end": fig_8.max(axis=1),
-        "C04.largest_height": MM * (found.critical_height(lowest[:, None])[:, 0] + missing),
-        **{f"{name}.height": MM * height for name, height in heights.items()},
+        "C04.largest_height": MM * (heights[:, 0] + missing),
+        **{f"{name}.height": MM * heights[:, 1 + k] for k, name in enumerate(measured["critical"])},
         "C09.error": deviations,
         "C10.lower_end": fig_11.min(axis=1),
         "C10.upper_end": fig_11.max(axis=1),

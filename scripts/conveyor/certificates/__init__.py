@@ -8,6 +8,7 @@ no bound depends on it.
     balls     conversions, rounded outwards
     roots     the first zero of a function: existence, uniqueness, and nothing before it
     taylor    one Taylor step of the contact with a proved remainder, and its derivative
+    suggestion  its coefficients in compiled arithmetic, which `taylor` proves
     flight    parabola and harmonic plate, in closed form
     motion    the motion from one phase to another through flights and contacts, and its derivative
     guess     an orbit in floating point, where proofs begin

@@ -25,14 +25,15 @@ from flint import arb, arb_mat, arb_poly, arb_series, ctx
 
 from .balls import Refused
 from .law import Law
+from .suggestion import parts_of, suggest
 
 # Components of a step; the columns of perturbations follow, two components each.
 W, Y, COSINE, SINE, PHASE = range(5)
 MOTION = 5
 # How often a bound that does not hold is doubled, and a step that has none is halved.
 DOUBLINGS, HALVINGS = 4, 20
-# What makes up for the rounding of floats in a bound, and for what vanishes in it.
-SLACK, TINY = 1.0 + 1e-9, 1e-300
+# What makes up for the rounding of a sum of three floats.
+SLACK = 1.0 + 1e-15
 
 
 def rates(law: Law, gamma: arb, x: Sequence, columns: int) -> list:
@@ -60,49 +61,13 @@ def rates(law: Law, gamma: arb, x: Sequence, columns: int) -> list:
     return found
 
 
-def size(number: arb) -> float:
-    """An upper bound of |number| but for half a unit of the last digit."""
-    return float(number.abs_upper())
+def bounding(law: Law) -> Law:
+    """Bounds on a law's numbers, exact, with signs such that in `rates` nothing is subtracted.
 
-
-class Terms:
-    """Bounds on the terms |f_n| hⁿ of a polynomial, shape (k,), and on those of sums and products."""
-
-    def __init__(self, bounds: np.ndarray):
-        self.bounds = bounds
-
-    def __add__(self, other: "Terms") -> "Terms":
-        short, long = sorted((self.bounds, other.bounds), key=len)
-        total = long.copy()
-        total[: len(short)] += short
-        return Terms(total)
-
-    __sub__ = __add__
-
-    def __mul__(self, other: "Terms | arb") -> "Terms":
-        if isinstance(other, arb):
-            return Terms(self.bounds * size(other))
-        return Terms(np.convolve(self.bounds, other.bounds))
-
-
-class Norm(NamedTuple):
-    """Bounds on a polynomial part and on a deviation from it: ‖f‖ and ‖e‖ of f + e."""
-
-    part: float
-    deviation: float
-
-    def __add__(self, other: "Norm") -> "Norm":
-        return Norm(self.part + other.part, self.deviation + other.deviation)
-
-    __sub__ = __add__
-
-    def __mul__(self, other: "Norm | arb") -> "Norm":
-        if isinstance(other, arb):
-            factor = size(other)
-            return Norm(self.part * factor, self.deviation * factor)
-        # (f + e)(g + d) - f g = e (g + d) + f d.
-        deviation = self.deviation * (other.part + other.deviation) + self.part * other.deviation
-        return Norm(self.part * other.part, deviation)
+    The rates of bounds on ‖f‖ are then bounds on ‖rates(f)‖ (that of cos φ with a minus), and so is what they grow by
+    with bounds on ‖f + e‖ on what f + e adds: Σ |(f + e)^k - f^k| ≤ (‖f‖ + ‖e‖)^k - ‖f‖^k for every product.
+    """
+    return law._replace(beta=-law.beta.abs_upper(), kappa=-law.kappa.abs_upper())
 
 
 class Step(NamedTuple):
@@ -110,7 +75,7 @@ class Step(NamedTuple):
 
     length: arb
     parts: list[arb_poly]
-    remainders: list[float]
+    remainders: list[arb]
 
     def value(self, component: int, s: arb) -> arb:
         """A component over a ball of s within the step."""
@@ -133,61 +98,78 @@ class Step(NamedTuple):
         return moved
 
 
-def expand(law: Law, gamma: arb, start: Sequence[arb], columns: int, order: int) -> list[arb_poly]:
+def expand(law: Law, gamma: arb, start: Sequence[arb], columns: int, order: int) -> tuple[list[arb_poly], np.ndarray]:
     """The exact series of the solutions from all points of `start`, up to an order, in balls.
 
-    Each of Picard's iterations makes one more coefficient exact, and computes the earlier ones as before.
+    Suggested balls are put into Picard's operator T(x) = x0 + ∫ rates(x) ds once. If they hold what comes out, they
+    hold the exact coefficients: the first one is given, and that of order n + 1 of T follows from those up to order n.
+    What comes out holds them, too.
+
+    Returns
+    -------
+    series, and bounds on the moduli of their coefficients, float64, shape (components, order + 1)
 
     Raises
     ------
     ValueError
         where the context (see balls.precision) cuts series off before the order: the remainder would be wrong
+    Refused
+        if what was suggested does not hold the series
     """
     if ctx.cap <= order:
         raise ValueError(f"series of order {order} in a context for {ctx.cap - 1}")
-    series = [arb_series([value], prec=1) for value in start]
-    constants = [arb_series([value], prec=order + 1) for value in start]
-    for _ in range(order):
-        series = [c + rate.integral() for c, rate in zip(constants, rates(law, gamma, series, columns), strict=True)]
-    return [arb_poly(part.coeffs()) for part in series]
+    rows = np.zeros((len(start), 3, order + 1))
+    rows[:, :, 0] = [parts_of(value) for value in start]
+    minus_p = arb(law.twice_exponent) / -2
+    numbers = gamma, -law.beta, -law.kappa, minus_p * law.kappa
+    suggest(rows, law.twice_exponent, *map(parts_of, numbers), ctx.prec)
+    sizes = SLACK * np.abs(rows).sum(axis=1)
+    wide = [
+        arb_series([value, *centre[1:]]) + arb_series([0, *rest[1:]]) + arb_series([0, *radius[1:]]) * arb(0, 1)
+        for value, (centre, rest, radius) in zip(start, rows.tolist(), strict=True)
+    ]
+    found = []
+    for value, series, rate in zip(start, wide, rates(law, gamma, wide, columns), strict=True):
+        narrow = [value, *rate.integral().coeffs()[1 : order + 1]]
+        if not all(map(arb.contains, series.coeffs(), narrow)):
+            raise Refused("the series of a step is not proved")
+        found.append(arb_poly(narrow))
+    return found, sizes
 
 
-def length_of(sizes: np.ndarray, tolerance: float) -> float:
-    """A step whose last terms of w and Y are about `tolerance`; nothing is proved here."""
+def length_of(sizes: np.ndarray, tolerance: float) -> arb:
+    """A step, exact, whose last terms of w and Y are about `tolerance`; nothing is proved here."""
     length, order = 1.0, sizes.shape[1] - 1
     for part in sizes[:COSINE]:
         for n in (order - 1, order):
             if part[n] > 0.0:
                 length = min(length, (tolerance / part[n]) ** (1.0 / n))
-    return float(length)
+    return arb(length)
 
 
-def remainders(law: Law, gamma: arb, sizes: np.ndarray, length: float) -> list[float] | None:
+def remainders(law: Law, gamma: arb, sizes: np.ndarray, left_over: Sequence[arb_poly], length: arb) -> list[arb] | None:
     """Bounds on what series up to an order leave out on [-length, length], or None if none is found.
 
-    All numbers here are floats, none is negative, and none is subtracted: rounded to the nearest, each of some hundred
-    operations errs by half a unit of the last digit, which SLACK makes up for, or by the least float, which TINY does.
-
-    sizes : of the coefficients of the series, as from `size`, shape (number of components, order + 1)
+    law, gamma : as from `bounding`
+    sizes : bounds on the terms of the series, shape (components, order + 1)
+    left_over : the rates of polynomials with these terms
     """
     columns, order = (len(sizes) - MOTION) // 2, sizes.shape[1] - 1
-    terms = sizes * length ** np.arange(order + 1.0)
-    # The integral of the term of order n has the order n + 1.
-    defects = [
-        length * float((rate.bounds[order:] / np.arange(order + 1.0, len(rate.bounds) + 1.0)).sum())
-        for rate in rates(law, gamma, [Terms(row) for row in terms], columns)
-    ]
-    norms = terms.sum(axis=1).tolist()
+    # The integral of a term of order n is length/(n + 1) of it.
+    gain = length ** (order + 1) / (order + 1)
+    defects = [gain * abs(rate.right_shift(order)(length)) for rate in left_over]
+    norms = [arb_poly(row)(length) for row in sizes.tolist()]
+    before = rates(law, gamma, norms, columns)
     gain = length / (order + 2)
-    bound = [2.0 * defect for defect in defects]
+    bound = [2 * defect for defect in defects]
     for _ in range(DOUBLINGS):
-        changed = rates(law, gamma, [Norm(*pair) for pair in zip(norms, bound, strict=True)], columns)
+        after = rates(law, gamma, [part + deviation for part, deviation in zip(norms, bound, strict=True)], columns)
         reached = [
-            SLACK * (defect + gain * rate.deviation) + TINY for defect, rate in zip(defects, changed, strict=True)
+            (defect + gain * abs(new - old)).upper() for defect, new, old in zip(defects, after, before, strict=True)
         ]
         if all(there <= here for there, here in zip(reached, bound, strict=True)):
             return reached
-        bound = [2.0 * there for there in reached]
+        bound = [2 * there for there in reached]
     return None
 
 
@@ -209,13 +191,14 @@ def step(law: Law, gamma: arb, start: Sequence[arb], columns: int, order: int, t
     w, y, phase = start
     sine, cosine = phase.sin_cos()
     identity = [arb(1), arb(0), arb(0), arb(1), arb(0), arb(0)][: 2 * columns]
-    parts = expand(law, gamma, [w, y, cosine, sine, phase, *identity], columns, order)
-    sizes = np.array([[size(part[n]) for n in range(order + 1)] for part in parts])
-    # Bounds of a product's terms are up to twice the terms.
+    parts, sizes = expand(law, gamma, [w, y, cosine, sine, phase, *identity], columns, order)
+    bounded = bounding(law), gamma.abs_upper()
+    left_over = rates(*bounded, [arb_poly(row) for row in sizes.tolist()], columns)
+    # Bounds on the terms of a product are up to twice as large as they are.
     length = length_of(sizes, 0.5 * tolerance)
     for _ in range(HALVINGS):
-        found = remainders(law, gamma, sizes, length)
+        found = remainders(*bounded, sizes, left_over, length)
         if found is not None:
-            return Step(arb(length), parts, found)
-        length = 0.5 * length
+            return Step(length, parts, found)
+        length = length / 2
     raise Refused("no step of the contact has a bounded remainder")

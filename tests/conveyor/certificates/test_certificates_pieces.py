@@ -8,7 +8,7 @@ from flint import arb, arb_mat
 
 from conveyor.analysis import stroboscope
 from conveyor.analysis.orbits import ReturnMap
-from conveyor.certificates import taylor
+from conveyor.certificates import suggestion, taylor
 from conveyor.certificates.balls import Refused, between, bounds, exactly, precision
 from conveyor.certificates.flight import Flight
 from conveyor.certificates.law import law_of
@@ -173,6 +173,37 @@ def test_remainder_holds_what_a_short_series_leaves_out():
     left_out = short.parts[taylor.Y](s) - long.value(taylor.Y, s)
     assert not left_out.contains(0)
     assert abs(left_out) <= short.remainders[taylor.Y]
+
+
+@pytest.mark.parametrize("change", [(slice(None), 0, 3, 1e-24), (slice(None), 2, slice(None), -1e-31)])
+def test_a_false_suggestion_of_a_series_is_refused(monkeypatch, change):
+    """Centres that are moved by more than their radii, and radii that are too small."""
+    component, part, order, by = change
+
+    def suggest(rows, *rest):
+        suggestion.suggest(rows, *rest)
+        rows[component, part, order] += by
+
+    law = law_of(Conveyor())
+    start = [arb(0), arb(3.6), arb(2.26)]
+    taylor.step(law, law.gamma(arb(40)), start, 2, 24, 1e-22)
+    monkeypatch.setattr(taylor, "suggest", suggest)
+    with pytest.raises(Refused, match="the series of a step is not proved"):
+        taylor.step(law, law.gamma(arb(40)), start, 2, 24, 1e-22)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0, 2.5])
+@pytest.mark.parametrize("bits", [64, 128])
+def test_suggestions_of_series_are_narrow(exponent, bits):
+    """To the digits of their arithmetic, for all exponents, starts with and without penetration, points and boxes."""
+    law = law_of(Conveyor(exponent=exponent, stiffness=5e5 * 1e4 ** (2 * (exponent - 1.5))))
+    with precision(bits, 24):
+        for start in ([arb(0), arb(3.6), arb(2.26)], [arb(0.3), arb(-0.7), arb(1)]):
+            for radius in (0.0, 1e-9):
+                wide = [value + arb(0, radius) for value in start[1:]]
+                made = taylor.step(law, law.gamma(arb(40)), [start[0], *wide], 3, 24, 1e-14)
+                widths = [float(made.value(i, made.length).rad()) for i in range(len(made.parts))]
+                assert max(widths) < 1e-12 + 100.0 * radius
 
 
 def test_series_are_not_cut_off_unseen():
