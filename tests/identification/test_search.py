@@ -51,6 +51,17 @@ def test_least_squares_takes_the_lowest_of_its_ends_and_says_if_it_gave_up(monke
     assert not fit(residuals, np.array([[-0.9]]), bounds).settled
 
 
+def test_least_squares_take_no_misfit_twice():
+    seen = []
+
+    def residuals(x):
+        seen.extend(map(tuple, x))
+        return np.hstack([3.0 * (x**2 - 1.0), x - 2.0])
+
+    fit(residuals, np.array([[-0.9, 0.5]]), np.array([[-3.0, -3.0], [3.0, 3.0]]))
+    assert len(set(seen)) == len(seen) > 10
+
+
 @pytest.mark.parametrize("parameter", PARAMETERS)
 def test_the_values_of_a_profile_ascend_within_what_is_searched(parameter):
     grid = profiles.grid_of(parameter, 9, BOUNDS, MODEL)

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 from project import ROOT, read_config
 
-from conveyor import Start, simulate
+from conveyor import Start, ensemble, simulate
 from conveyor.analysis.states import Motions, classify
 from conveyor.solver.model import Conveyor, conveyor_motion, pack
 from operating import chart, regimes, shares
@@ -115,6 +115,23 @@ def test_velocities_are_means_over_whole_periods():
     x = simulate(conveyor, Start(3e-4), duration=40.0).sample(np.array([32.0, 40.0]))["x"]
     assert status == "ok"
     assert found == pytest.approx((x[1] - x[0]) / 8.0, rel=1e-7)
+
+
+def test_runs_that_begin_alike_are_followed_once():
+    """The means of a run's beginning and of all of it are those of two runs."""
+    rows = np.array([pack(Conveyor(acceleration=a), Start(z0)) for a in (40.0, 80.0) for z0 in (0.0, 3e-4)])
+    durations = np.array([[0.4, 0.6], [0.4, 0.8], [0.2, 0.8], [0.4, 0.9]])
+    means, status = shares.last_quarters(rows, durations, 1e-9, 1)
+    for mean, duration in zip(means.T, durations.T, strict=True):
+        alone = ensemble.run(rows, duration=duration, tolerance=1e-9)
+        assert mean.tolist() == alone["mean_velocity"].tolist()
+    assert (status == "ok").all()
+
+
+def test_a_period_longer_than_the_mean_is_one_mean():
+    found, status = velocity(Conveyor(acceleration=61.8), Start(3e-4), 400, cycles=1)
+    assert status == "ok"
+    assert np.isfinite(found)
 
 
 def test_a_run_that_fails_says_why_there_is_no_velocity():
