@@ -4,8 +4,9 @@ The equations are polynomial in (w, Y, cos φ, sin φ), and so are those of pert
 
     η' = w (ζ - β η),   ζ' = -p κ w^(2p-1) η,   and for the derivative by γ, ζ' = … + w cos φ.
 
-`rates` writes them once; it is evaluated in three arithmetics, each with one purpose: on truncated series it gives the
-coefficients, on bounds of terms what the coefficients leave over, and on norms the bound of the remainder.
+`rates` writes them once; it is evaluated in three arithmetics, each with one purpose: on truncated series it proves the
+coefficients that `suggestion` finds, on bounds of terms it gives what the coefficients leave over, and on norms the
+bound of the remainder.
 
 The remainder. Let ‖f‖ = Σ |f_n| hⁿ, so that ‖f g‖ ≤ ‖f‖ ‖g‖ and |f(s)| ≤ ‖f‖ for |s| ≤ h. Let x̄ be the exact solution's
 series up to order N, and T(x) = x0 + ∫ rates(x) ds. If
