@@ -83,6 +83,7 @@ class Solver(TypedDict):
 
 
 Seconds = positive(1e6, "s")
+ProcessorTime = positive(3600, "s of processor time")
 Megabytes = positive(1e6, "MB")
 QuietOrRestless = interval(Seconds, point=True)
 
@@ -290,7 +291,7 @@ class Precision(TypedDict):
     peers: TypedDict("Peers", dict.fromkeys(("sign", "events", "modes"), Integrators), total=False)
     max_evaluations: Count
     repeats: Count
-    seconds: positive(3600, "s of wall time")
+    seconds: ProcessorTime
 
 
 class PairOfExponent(TypedDict):
@@ -435,6 +436,7 @@ class Throughput(TypedDict):
     batch: whole(1, 64)
     max_evaluations: Count
     repeats: Count
+    seconds: ProcessorTime
 
 
 class RandomPoints(TypedDict):

@@ -54,7 +54,7 @@ def entry_of(config: dict, reference: str) -> dict | None:
     section, name = reference.split("/")
     if name in TABLES.get(section, ()):
         return config[SECTION_OF.get(name, name) if section == "results" else section]
-    if section in ("precision", "wall_times"):
+    if section in ("precision", "precision_times"):
         return config["precision"] if name in config["precision"]["scenes"] else None
     return config[section].get(name) if section in ENTRIES else None
 
@@ -118,7 +118,7 @@ def with_tighter(config: dict) -> dict:
 def references(config: dict) -> list[str]:
     """All tables, as SECTION/NAME."""
     names = {section: config[section] for section in ENTRIES} | TABLES
-    names |= dict.fromkeys(("precision", "wall_times"), config["precision"]["scenes"])
+    names |= dict.fromkeys(("precision", "precision_times"), config["precision"]["scenes"])
     return [f"{section}/{name}" for section, of_section in names.items() for name in of_section]
 
 

@@ -1,19 +1,23 @@
-"""Error and force evaluations of every method over its tolerances or steps, in one scene.
+"""Error, force evaluations and processor time of every method over its tolerances or steps, in one scene.
 
 The truth is the solver at its tightest tolerance. It is not its own judge: an independent integration, scipy's DOP853
 from event to event at its tightest tolerance, is among the rows, and its error is the difference of the two.
+
+Times differ from run to run and from machine to machine. They have a table of their own, so that what does not stays as
+it is.
 """
 
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
+from accuracy.timing import in_turns
 from conveyor.analysis import states
 from conveyor.methods import fixed_step, peers
 from conveyor.simulation import simulate
 from conveyor.solver.model import Conveyor, Start, conveyor_motion, pack
 from conveyor.solver.polynomial import ORDER
-from conveyor.solver.progress import bar
 from pipeline import fields
 
 RUN = (
@@ -36,9 +40,15 @@ TABLES = {
         fields.number("state_error", "1", "largest error of ẋ, z, ż at the end, in units of the plate's motion"),
         fields.text("outcome", "ok, or what is wrong, whatever the run itself reports"),
     ),
+    "precision_times": (
+        *RUN,
+        fields.number("seconds", "s", "median processor time; every method runs in one thread"),
+        fields.count("repeats", "timed runs"),
+    ),
 }
 
 TRUTH = 1e-14  # tolerance
+SHORT = {"duration": 1e-3, "max_evaluations": 1000}  # of runs that only load or compile what the method needs
 # Treatments of the event-driven solver: as it is, and with every step of a settled motion computed.
 EXACT, ANEW = "exact", "exact, nothing repeated"
 # Where a run ends in another state of motion, and where its part is deeper in the plate than the plate moves.
@@ -124,25 +134,44 @@ def outcome(result: Result, error: float, settings: dict, state: str) -> str:
     return "ok"
 
 
-def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
-    """The columns of a table of work and precision for the `settings` of one scene with its model."""
+def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[str, dict[str, np.ndarray]]:
+    """The columns of the tables of work and precision and of processor times, rows by method, tolerance and step.
+
+    Parameters
+    ----------
+    settings : of one scene with its model
+    timing : `repeats` and `seconds`, see `timing.in_turns`
+    progress : name of a progress bar, or None
+    """
     truth = follow(Method("event", ANEW, TRUTH, None), settings)
     state = leads_to(settings, truth.end)
     _, *scale = peers.scales(pack(*scene(settings)))
     listed = methods(settings)
-    results = [follow(method, settings) for method in bar(listed, label=progress, unit="runs")]
+    for method in listed:
+        follow(method, settings | SHORT)
+    results, times = in_turns([partial(follow, method, settings) for method in listed], **timing, progress=progress)
     velocity = np.array([result.mean_velocity for result in results])
     velocity_error = np.abs(velocity / truth.mean_velocity - 1.0)
     outcomes = [outcome(result, error, settings, state) for result, error in zip(results, velocity_error, strict=True)]
-    return {
+    run = {
         "method": np.array([method.method for method in listed]),
         "treatment": np.array([method.treatment for method in listed]),
         "tolerance": np.array([method.tolerance for method in listed], dtype=np.float64),
         "step": np.array([method.step for method in listed], dtype=np.float64),
-        "evaluations": np.array([result.evaluations for result in results]),
-        "repeated_evaluations": np.array([result.repeated for result in results]),
-        "mean_velocity": velocity,
-        "velocity_error": velocity_error,
-        "state_error": np.array([np.abs((result.end - truth.end) / scale).max() for result in results]),
-        "outcome": np.array(outcomes),
+    }
+    return {
+        "precision": {
+            **run,
+            "evaluations": np.array([result.evaluations for result in results]),
+            "repeated_evaluations": np.array([result.repeated for result in results]),
+            "mean_velocity": velocity,
+            "velocity_error": velocity_error,
+            "state_error": np.array([np.abs((result.end - truth.end) / scale).max() for result in results]),
+            "outcome": np.array(outcomes),
+        },
+        "precision_times": {
+            **run,
+            "seconds": np.array([np.median(spent) for spent in times]),
+            "repeats": np.array([len(spent) for spent in times]),
+        },
     }

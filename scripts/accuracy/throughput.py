@@ -7,16 +7,14 @@ batches as well.
 
 from collections.abc import Callable
 from functools import partial
-from time import perf_counter
 from typing import NamedTuple
 
 import numpy as np
 
 from accuracy.precision import EXACT, TRUTH
-from accuracy.wall_times import TURN
+from accuracy.timing import in_turns
 from conveyor import ensemble
 from conveyor.methods import heyoka_batch, heyoka_peer, peers
-from conveyor.solver.progress import bar
 from pipeline import fields, grid
 
 TABLES = {
@@ -26,7 +24,7 @@ TABLES = {
         fields.number("tolerance", "1", "relative tolerance; null for fixed steps"),
         fields.number("step", "s", "step; null for tolerances"),
         fields.count("starts", "that are followed, on one thread"),
-        fields.number("seconds", "s", "median wall time of all of them"),
+        fields.number("seconds", "s", "median processor time of all of them"),
         fields.count("repeats", "timed turns"),
         fields.number("velocity_error", "1", "median of the relative errors of the mean feeding velocity"),
         fields.count("failed", "starts that are given up"),
@@ -108,29 +106,26 @@ def make(settings: dict, map_of_starts: dict, *, progress: str | None = None) ->
     listed = ways(settings)
     truth = together(rows, duration=settings["duration"], tolerance=TRUTH)
     there = [way.method != peers.HEYOKA or heyoka_peer.installed() for way in listed]
-    velocities = [
-        way.follow(rows) if is_there else np.full(len(rows), np.nan)
+    follow = [
+        way.follow if is_there else lambda some: np.full(len(some), np.nan)
         for way, is_there in zip(listed, there, strict=True)
     ]
-    times: list[list[float]] = [[] for _ in listed]
-    for _ in bar(range(settings["repeats"]), label=progress, unit="rounds"):
-        for way, spent, is_there in zip(listed, times, there, strict=True):
-            turn_ends = perf_counter() + TURN
-            while is_there:
-                begin = perf_counter()
-                way.follow(rows)
-                end = perf_counter()
-                spent.append(end - begin)
-                if end > turn_ends:
-                    break
+    for one in follow:
+        one(rows[:2])  # a single one is followed by other code than several
+    velocities, times = in_turns(
+        [partial(one, rows) for one in follow],
+        repeats=settings["repeats"],
+        seconds=settings["seconds"],
+        progress=progress,
+    )
     return {
         **{
             name: np.array([getattr(way, name) for way in listed])
             for name in ("method", "treatment", "tolerance", "step")
         },
         "starts": np.full(len(listed), len(rows)),
-        "seconds": np.array([np.median(spent) if spent else np.nan for spent in times]),
-        "repeats": np.array([len(spent) for spent in times]),
+        "seconds": np.where(there, [np.median(spent) for spent in times], np.nan),
+        "repeats": np.where(there, [len(spent) for spent in times], 0),
         "velocity_error": np.array([error_of(found, truth) for found in velocities]),
         "failed": np.array([np.count_nonzero(np.isnan(found)) for found in velocities]),
         "outcome": np.array([peers.OK if is_there else peers.NOT_INSTALLED for is_there in there]),

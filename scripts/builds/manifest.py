@@ -1,4 +1,4 @@
-"""Every result and figure with its SHA-256, or that it may differ as wall times stand in it.
+"""Every result and figure with its SHA-256, or that it may differ as measured times stand in it.
 
 The manifest itself is equal in every build of a config, so that two builds are compared by their manifests.
 """
@@ -12,7 +12,7 @@ HEAD = """\
 # Whether the files are those that were made: sha256sum --quiet --check MANIFEST
 # In what two builds differ: diff MANIFEST OTHER_MANIFEST
 """
-MAY_DIFFER = "# may differ, as wall times stand in it: "
+MAY_DIFFER = "# may differ, as measured times stand in it: "
 
 
 def line(file: str, timed: bool) -> str:

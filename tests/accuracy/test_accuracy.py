@@ -5,10 +5,11 @@ import pandas as pd
 import pytest
 from project import merged, read_config
 
-from accuracy import benchmark, precision, random_points, wall_times
+from accuracy import benchmark, precision, random_points, timing
 from conveyor.methods import heyoka_peer
 
 CONFIG = read_config()
+ONCE = {"repeats": 1, "seconds": 1e-9}
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +43,7 @@ def test_benchmark_is_as_accurate_as_wanted(cases):
 
 @pytest.fixture(scope="module", params=["jumping", "riding", "bouncing"])
 def compared(request):
-    """Work and precision of the solver and of two peers, as a table with its settings."""
+    """Work and precision of the solver and of two peers, and the settings."""
     settings = {
         "duration": 1.0,
         "model": CONFIG["model"] | CONFIG["precision"]["scenes"][request.param],
@@ -51,7 +52,7 @@ def compared(request):
         "peers": {"modes": {"DOP853": [1e-4, 1e-13], "heyoka": [1e-10]}},
         "max_evaluations": CONFIG["precision"]["max_evaluations"],
     }
-    table = pd.DataFrame(precision.make(settings))
+    table = pd.DataFrame(precision.make(settings, ONCE)["precision"])
     table.attrs = settings
     return table
 
@@ -69,15 +70,40 @@ def test_heyoka_need_not_be_installed(compared):
     assert heyoka.velocity_error < 1e-8 or not heyoka_peer.installed()
 
 
-def test_times_belong_to_the_same_runs(compared):
-    few = compared[compared.tolerance.isin([1e-4, 1e-8])]
-    few.attrs = compared.attrs
-    found = wall_times.make(few, {"repeats": 2, "seconds": 0.05})
-    for name in precision.Method._fields:
-        np.testing.assert_array_equal(found[name], few[name])
-    assert (found["repeats"] >= 1).all()
-    solver = found["method"] == "event"
-    assert 0.0 < found["seconds"][solver].max() < found["seconds"][~solver].min()
+def test_times_are_those_of_the_same_runs_and_change_nothing(compared):
+    tables = precision.make(compared.attrs, {"repeats": 2, "seconds": 0.02})
+    pd.testing.assert_frame_equal(pd.DataFrame(tables["precision"]), compared, check_exact=True)
+    times = pd.DataFrame(tables["precision_times"])
+    run = list(precision.Method._fields)
+    pd.testing.assert_frame_equal(times[run], compared[run])
+    solver = times.method == "event"
+    # A fast run is repeated until a turn is over, a slow one is made once.
+    assert times.repeats[solver].min() > 2
+    assert (times.repeats[times.seconds > 0.02] == 1).all()
+    others = ~solver & (compared.outcome != "not installed")
+    assert 0.0 < times.seconds[solver].max() < times.seconds[others].min()
+
+
+def test_runs_take_turns_until_enough_time_is_spent_on_them(monkeypatch):
+    clock, made = 0.0, []
+
+    def lasting(name, seconds):
+        def run():
+            nonlocal clock
+            clock += seconds
+            made.append(name)
+            return name
+
+        return run
+
+    monkeypatch.setattr(timing, "thread_time", lambda: clock)
+    monkeypatch.setattr(timing, "TURN", 0.25)
+    runs = [lasting("fast", 0.125), lasting("slow", 0.5), lasting("slowest", 2.0)]
+    found, times = timing.in_turns(runs, repeats=3, seconds=1.0)
+    assert found == ["fast", "slow", "slowest"]
+    fast = ["fast"] * 2
+    assert made == [*fast, "slow", "slowest", *fast, "slow", *fast]
+    assert times == [[0.125] * 6, [0.5] * 2, [2.0]]
 
 
 def test_random_points_know_how_deep_they_get():

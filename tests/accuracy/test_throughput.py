@@ -21,6 +21,7 @@ SETTINGS = {
     "batch": 3,
     "max_evaluations": 100_000,
     "repeats": 1,
+    "seconds": 0.01,
 }
 
 

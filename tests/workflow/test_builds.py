@@ -11,7 +11,7 @@ from project import Project, copy_project, read_config
 from builds import provenance
 from builds.manifest import MAY_DIFFER
 
-# Of the figures that are drawn from wall times the one that is made fastest.
+# Of the figures that are drawn from measured times the one that is made fastest.
 TIMED = {
     "figures": {"scene_budget": read_config("figures")["figures"]["scene_budget"]},
     "scene_budget": {"points": {"sweeps": 1, "estimates": 1, "lyapunov": 1, "attractors": 1}},

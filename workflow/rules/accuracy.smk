@@ -1,5 +1,6 @@
 # How accurate, how fast, how robust: the solver against other methods. Rules that take wall times get the machine to
-# themselves; such a time changes whenever it is taken, so that nothing which must have equal bytes is made from it.
+# themselves, those that take processor times do not need it. A time changes whenever it is taken, so that nothing which
+# must have equal bytes is made from it.
 from workflow.sharing import THREADS, plan, seconds_of
 
 
@@ -28,12 +29,6 @@ def accuracy_rule(name, message, **rest):
         **({} if "params" in rest else {"params": {"settings": config[name]}}),
         **rest,
     }
-
-
-def scene_rule(name, message, **rest):
-    """The rule of a table for each scene of the section `precision`."""
-    scenes = {"names": {"name": one_of(config["precision"]["scenes"])}, "place": f"{name}/{{name}}"}
-    accuracy_rule(name, f"{message}, {{wildcards.name}}", output={name: table(name)}, **scenes, **rest)
 
 
 def converged_entry(reference):
@@ -73,14 +68,14 @@ accuracy_rule(
     },
 )
 accuracy_rule("random_points", "Random conveyors and starts", threads=2, mem_mb=2000)
-scene_rule("precision", "Error against work", params={"settings": scene})
-scene_rule(
-    "wall_times",
-    "Wall times",
-    input={"precision": table("precision")},
-    timed=("wall_times",),
-    **ALONE,
-    params={"settings": {name: config["precision"][name] for name in ("repeats", "seconds")}},
+accuracy_rule(
+    "precision",
+    "Error against work, {wildcards.name}",
+    output={name: table(name) for name in ("precision", "precision_times")},
+    timed=("precision_times",),
+    names={"name": one_of(config["precision"]["scenes"])},
+    place="precision/{name}",
+    params={"settings": scene, "timing": {name: config["precision"][name] for name in ("repeats", "seconds")}},
 )
 accuracy_rule(
     "precision_estimates",
@@ -195,7 +190,6 @@ accuracy_rule(
     "throughput",
     "Starts that a thread follows in a second",
     timed=("throughput",),
-    **ALONE,
     params={
         "settings": config["throughput"] | {name: config["solver"][name] for name in ("duration", "tolerance", "step")},
         "map_of_starts": case_of_scaling("points", starts_of_scaling(config["throughput"]["starts"]))["settings"],

@@ -18,17 +18,17 @@ def built_files():
     return sorted(files)
 
 
-# Outputs that hold wall times, as their rules say.
+# Outputs that hold measured times, as their rules say.
 TIMED = [one["output"][name] for one in RULES.values() for name in one.get("timed", ())]
 
 
 def is_timed(file):
-    """Whether wall times stand in a result."""
+    """Whether measured times stand in a result."""
     return any(re.fullmatch(pattern_of(output), file) for output in TIMED)
 
 
 def timed_files():
-    """The results and figures that may differ from run to run: with wall times, or made from a table of them."""
+    """The results and figures that may differ from run to run: with measured times, or made from a table of them."""
     claimed = [reference for claim in config["claims"].values() for reference in claim["tables"].values()]
     read = dict.fromkeys(RULES["claims"]["output"].values(), claimed)
     for figure, entry in config["figures"].items():

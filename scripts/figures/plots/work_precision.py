@@ -33,9 +33,9 @@ MEANINGS = (
 MISSING = "not installed"
 # Work, error, and their names.
 PANELS = (
-    ("milliseconds", "velocity_error", "wall time in ms", "mean velocity"),
+    ("milliseconds", "velocity_error", "processor time in ms", "mean velocity"),
     ("evaluations", "velocity_error", "force evaluations", "mean velocity"),
-    ("milliseconds", "state_error", "wall time in ms", "state at the end"),
+    ("milliseconds", "state_error", "processor time in ms", "state at the end"),
     ("evaluations", "state_error", "force evaluations", "state at the end"),
 )
 # Above this error there is a band of failures, with a line for each method and treatment that has some.
