@@ -103,19 +103,20 @@ def thinned(axes: dict, points: int) -> dict:
     return values
 
 
-def observe_shifted(shown: Shown, settings: dict, shift: float) -> pd.DataFrame:
-    """The table of parts that start higher by `shift` (m); on the conveyor, faster by as much in a radian."""
+def observe_shifted(shown: Shown, settings: dict, shifts: list[float]) -> list[pd.DataFrame]:
+    """The tables of parts that start higher by each of `shifts` (m); on the conveyor, faster by as much in a radian.
+
+    If there is an axis of what is moved, all are observed at once: they share what is found of their conveyors.
+    """
     axes, model = settings["axes"], settings["model"]
-    speed = 2.0 * math.pi * model.get("frequency", Conveyor().frequency) * shift
-    if "z0" in axes:
-        name, change = "z0", shift
-    else:
-        name, change = ("vz0", speed) if model["z0"] == "conveyor" else ("z0", shift)
+    name, unit = "z0", 1.0
+    if "z0" not in axes and model["z0"] == "conveyor":
+        name, unit = "vz0", 2.0 * math.pi * model.get("frequency", Conveyor().frequency)
     if name not in axes:
-        return shown.observe(settings | {"model": model | {name: model[name] + change}})
-    moved = [value + change for value in axes[name]]
-    table = shown.observe(settings | {"axes": axes | {name: moved}})
-    return table.assign(**{name: table[name].map(dict(zip(moved, axes[name], strict=True)))})
+        return [shown.observe(settings | {"model": model | {name: model[name] + unit * shift}}) for shift in shifts]
+    moved = [{value + unit * shift: value for value in axes[name]} for shift in shifts]
+    table = shown.observe(settings | {"axes": axes | {name: [value for one in moved for value in one]}})
+    return [table[table[name].isin(one)].assign(**{name: table[name].map(one)}) for one in moved]
 
 
 def differences(shown: Shown, truth: pd.DataFrame, found: pd.DataFrame, axes: dict, line: float) -> pd.DataFrame:

@@ -18,6 +18,7 @@ from conveyor.solver.model import (
     ACCELERATION,
     DAMPING,
     EXPONENT,
+    FREQUENCY,
     MASS,
     STIFFNESS,
     TENSION,
@@ -45,6 +46,7 @@ TABLES = {
 
 SPEEDS = np.geomspace(1e-3, 1.0, 64)  # m/s, of approach, at which the contact's restitution is tabulated
 MAX_PERIOD = 64  # excitation cycles, of the motions that count as settled, as for the contact
+OF_LAST_CYCLE = 50  # heights that tell how high a part jumps
 CLOSE = 1e-2  # of the height of a jump: nearer than that, a motion has come back
 CYCLES = 2000  # after which a rigid part has found its motion, or is called undecided
 CONTACT_PARAMETERS = [STIFFNESS, DAMPING, MASS, EXPONENT, TENSION]  # on which restitution depends
@@ -61,22 +63,27 @@ def state_of(row: np.ndarray, restitution: tuple[np.ndarray, np.ndarray], cycles
 
     What does not is `undecided`: chaos is a matter of exponents, which a rigid part has not been asked for.
     """
-    conveyor, _ = unpack(row)
-    duration, cycle = cycles / conveyor.frequency, 1.0 / conveyor.frequency
-    hits = rigid_part_motion.impacts(row, duration, restitution)
+    duration, cycle = cycles / row[FREQUENCY], 1.0 / row[FREQUENCY]
+    times = times_of_periods(row, duration, MAX_PERIOD)
+    samples, hits = rigid_part_motion.samples_and_impacts(row, times, restitution)
     flights = np.diff(hits[hits["time"] > duration - 2.0 * MAX_PERIOD * cycle]["time"])
     if len(flights) == 0 or flights.max() < states.LONG_FLIGHT * cycle:
         return "first"
-    return "second" if period_of(row, duration, restitution, range(1, MAX_PERIOD + 1)) else "undecided"
+    return "second" if period_of(samples["z"], range(1, MAX_PERIOD + 1)) else "undecided"
 
 
-def period_of(row: np.ndarray, duration: float, restitution, periods: Sequence[int], close: float = CLOSE) -> int:
-    """First of some periods (cycles) with which a rigid part repeats itself at the end of a run; 0 for none."""
-    conveyor, _ = unpack(row)
-    strobes = duration - np.arange(2 * max(periods)) / conveyor.frequency
-    last_cycle = duration - np.linspace(0.0, 1.0, 50) / conveyor.frequency
-    height = rigid_part_motion.sample(row, np.concatenate([strobes, last_cycle]), restitution)["z"]
-    strobed, jump = height[: len(strobes)], np.ptp(height[len(strobes) :])
+def times_of_periods(row: np.ndarray, duration: float, longest: int) -> np.ndarray:
+    """Times (s) of the heights that `period_of` looks at: strobes of twice the `longest` period, and the last cycle."""
+    cycles = np.concatenate([np.arange(2 * longest), np.linspace(0.0, 1.0, OF_LAST_CYCLE)])
+    return duration - cycles / row[FREQUENCY]
+
+
+def period_of(height: np.ndarray, periods: Sequence[int], close: float = CLOSE) -> int:
+    """First of some periods (cycles) with which a rigid part repeats itself at the end of a run; 0 for none.
+
+    height : m, at the `times_of_periods` of the longest of them
+    """
+    strobed, jump = height[:-OF_LAST_CYCLE], np.ptp(height[-OF_LAST_CYCLE:])
     for period in periods:
         if np.abs(strobed[period:] - strobed[:-period]).max() < close * jump:
             return period
@@ -110,7 +117,9 @@ def doubling(conveyor: Conveyor, restitution, period: int, low: float, settings:
     def repeats(acceleration: float) -> bool:
         row = pack(conveyor, Start(settings["z0"]))
         row[ACCELERATION] = acceleration
-        return period_of(row, settings["duration"], restitution, (period,), settings["close"]) > 0
+        times = times_of_periods(row, settings["duration"], period)
+        height = rigid_part_motion.sample(row, times, restitution)["z"]
+        return period_of(height, (period,), settings["close"]) > 0
 
     low += settings["margin"]
     high = low

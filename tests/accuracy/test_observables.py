@@ -63,13 +63,24 @@ def test_shifted_starts_move_what_can_be_moved(z0, vz0):
     seen = []
     shown = Shown(lambda settings: seen.append(settings["model"]) or curve(), (), ("value",), "a curve")
     model = {"frequency": 50.0, "z0": z0, "vz0": vz0}
-    observables.observe_shifted(shown, {"axes": AXES, "model": model}, 1e-11)
+    observables.observe_shifted(shown, {"axes": AXES, "model": model}, [1e-11])
     changed = "vz0" if z0 == "conveyor" else "z0"
     assert {name for name in model if seen[0][name] != model[name]} == {changed}
 
 
-def test_shifted_axes_keep_their_names():
-    axes = {"z0": [0.0, 1e-4]}
-    shown = Shown(lambda settings: pd.DataFrame({"z0": settings["axes"]["z0"]}), (), (), "heights")
-    found = observables.observe_shifted(shown, {"axes": axes, "model": {}}, 1e-11)
-    assert list(found.z0) == axes["z0"]
+@pytest.mark.parametrize(("name", "unit"), [("z0", 1.0), ("vz0", 100.0 * np.pi)])
+def test_shifts_along_an_axis_are_observed_at_once_and_told_apart(name, unit):
+    calls = []
+
+    def observe(settings):
+        calls.append(settings)
+        return pd.DataFrame({name: settings["axes"][name], "value": settings["axes"][name]})
+
+    shown = Shown(observe, (), ("value",), "starts")
+    axes, model = {name: [0.0, 1e-4]}, {"frequency": 50.0, "z0": "conveyor", "vz0": 0.0}
+    shifts = [1e-11, -1e-11, 2e-11]
+    tables = observables.observe_shifted(shown, {"axes": axes, "model": model}, shifts)
+    assert len(calls) == 1
+    for shift, table in zip(shifts, tables, strict=True):
+        assert list(table[name]) == axes[name]
+        assert list(table.value) == pytest.approx([value + unit * shift for value in axes[name]], abs=1e-18)

@@ -24,6 +24,7 @@ IMPACT_DTYPE = np.dtype([("time", np.float64), ("speed", np.float64)])
 TURN = 2.0 * math.pi
 COLLAPSE = 1e-6  # rad: a bounce shorter than this is the last one
 MAX_EVENTS = 100_000  # within one excitation cycle
+IMPACTS_OF_CYCLE = 100  # on the average, for which there is room at first: one jump ends in some dozens
 CONTACT_TOLERANCE = 1e-14  # of the contact steps that follow an impact
 MAX_CONTACT_STEPS = 10_000  # of one impact; an undamped one takes about ten
 OVERDAMPED = 40.0  # d_c/m times the duration of an undamped impact: over six times critical for a linear contact
@@ -408,18 +409,29 @@ def run(parameters: np.ndarray, duration: float, restitution, last: float = 0.25
 
 def sample(parameters: np.ndarray, times: np.ndarray, restitution) -> dict[str, np.ndarray]:
     """States x, z (m), vx, vz (m/s) at `times` (s, not negative, any shape and order); else as `run`."""
-    times = np.asarray(times, dtype=np.float64)
-    if not (np.isfinite(times) & (times >= 0.0)).all():
-        raise ValueError("times must be finite and not negative")
-    moments, place = np.unique(times, return_inverse=True)
-    samples = _follow(parameters, restitution, moments)[1] if moments.size else np.empty((0, len(SAMPLE_COLUMNS)))
-    return {name: samples[place, k].reshape(times.shape) for k, name in enumerate(SAMPLE_COLUMNS)}
+    return samples_and_impacts(parameters, times, restitution)[0]
 
 
 def impacts(parameters: np.ndarray, duration: float, restitution) -> np.ndarray:
     """Impacts in order of time, an array of IMPACT_DTYPE: time (s) and speed of approach (m/s); else as `run`."""
     _check_duration(duration)
-    times = np.array([duration])
-    (n_impacts, *_), _, _ = _follow(parameters, restitution, times)
-    _, _, rows = _follow(parameters, restitution, times, n_impacts)
-    return rows.view(IMPACT_DTYPE)[:, 0]
+    return samples_and_impacts(parameters, np.array([duration]), restitution)[1]
+
+
+def samples_and_impacts(
+    parameters: np.ndarray, times: np.ndarray, restitution
+) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    """What `sample` and `impacts` give of one run, up to the last of `times`."""
+    times = np.asarray(times, dtype=np.float64)
+    if not (np.isfinite(times) & (times >= 0.0)).all():
+        raise ValueError("times must be finite and not negative")
+    moments, place = np.unique(times, return_inverse=True)
+    samples, hits = np.empty((0, len(SAMPLE_COLUMNS))), np.empty((0, 2))
+    if moments.size:
+        room = math.ceil(IMPACTS_OF_CYCLE * (1.0 + parameters[model.FREQUENCY] * moments[-1]))
+        (n_impacts, *_), samples, hits = _follow(parameters, restitution, moments, room)
+        if n_impacts > room:
+            _, samples, hits = _follow(parameters, restitution, moments, n_impacts)
+        hits = hits[:n_impacts]
+    sampled = {name: samples[place, k].reshape(times.shape) for k, name in enumerate(SAMPLE_COLUMNS)}
+    return sampled, hits.view(IMPACT_DTYPE)[:, 0]

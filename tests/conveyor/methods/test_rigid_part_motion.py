@@ -122,6 +122,19 @@ def test_plastic_part_leaves_the_plate_when_it_falls_faster_than_g():
     np.testing.assert_allclose(samples["z"] - plate["z"], gap(times - leave / OMEGA), rtol=1e-6, atol=1e-18)
 
 
+@pytest.mark.parametrize("room", [0, 100])
+def test_samples_and_impacts_of_one_run_are_those_of_two(room, monkeypatch):
+    parameters = pack(Conveyor(acceleration=50.0), Start(z=1e-3))
+    times = np.array([0.7, 0.2, 0.7])
+    samples, impacts = rigid_part_motion.sample(parameters, times, 0.5), rigid_part_motion.impacts(parameters, 0.7, 0.5)
+    assert len(impacts) > 70
+    monkeypatch.setattr(rigid_part_motion, "IMPACTS_OF_CYCLE", room)
+    found, hits = rigid_part_motion.samples_and_impacts(parameters, times, 0.5)
+    np.testing.assert_array_equal(hits, impacts)
+    for name, values in samples.items():
+        np.testing.assert_array_equal(found[name], values)
+
+
 def test_friction_impulse_is_bounded():
     """An impact changes ẋ by at most μ (1 + e) u towards the plate, and by no more than the slip."""
     e, height = 0.5, 1e-3
