@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 from scipy.optimize import brentq
@@ -155,11 +156,9 @@ def outcome_of_impact(method: str, step: float, speed: float, conveyor: Conveyor
     return RIGHT if abs(found - truth) < RESTITUTION else WRONG
 
 
-def outcome_on_conveyor(method: str, step: float, conveyor: Conveyor, start: Start, duration: float) -> str:
-    """What becomes of a part on the vibrating plate, against the event-driven solver."""
-    duration = whole(duration, step)
+def outcome_on_conveyor(found: fixed_step.Summary, conveyor: Conveyor, start: Start, duration: float) -> str:
+    """What becomes of a part on the vibrating plate by a fixed-step method, against the event-driven solver."""
     truth = simulate(conveyor, start, duration=duration)
-    found = fixed_step.run(pack(conveyor, start), duration, step, method)
     if found.status != "ok" or max(abs(found.z), found.max_gap) > FAR:
         return BLOWS_UP
     if found.max_gap > 2.0 * truth.max_gap:
@@ -175,22 +174,41 @@ def deepest_on_conveyor(conveyor: Conveyor, start: Start, duration: float) -> fl
     return (force / conveyor.stiffness) ** (1.0 / conveyor.exponent)
 
 
+def experiments(
+    panel: str, method: str, values: np.ndarray, settings: dict
+) -> list[tuple[Callable[[float], str], float]]:
+    """For each value the outcome as a function of the step (s), and the largest stable step (s) in theory."""
+    if panel == "conveyor":
+        return on_conveyors(method, values, **{name: settings[panel][name] for name in ("z0", "duration")})
+    return [experiment(panel, method, value, settings) for value in values]
+
+
+def on_conveyors(
+    method: str, values: np.ndarray, z0: float, duration: float
+) -> list[tuple[Callable[[float], str], float]]:
+    """`experiments` on the vibrating plate: with each step, parts at all amplitudes are followed side by side."""
+    conveyors, start = [Conveyor(acceleration=value) for value in values], Start(z0)
+    parameters = np.array([pack(conveyor, start) for conveyor in conveyors])
+    runs = cache(lambda step: fixed_step.run_all(parameters, whole(duration, step), step, method))
+
+    def one(place: int, conveyor: Conveyor) -> tuple[Callable[[float], str], float]:
+        stiffness = 1.5 * conveyor.stiffness * math.sqrt(deepest_on_conveyor(conveyor, start, duration))
+        theory = limit(method, stiffness, conveyor.damping, conveyor.mass)
+        return lambda step: outcome_on_conveyor(runs(step)[place], conveyor, start, whole(duration, step)), theory
+
+    return [one(place, conveyor) for place, conveyor in enumerate(conveyors)]
+
+
 def experiment(panel: str, method: str, value: float, settings: dict) -> tuple[Callable[[float], str], float]:
-    """The outcome as a function of the step (s), and the largest stable step (s) in theory."""
+    """One of the `experiments` with a plate at rest."""
     contact, mass = settings["contact"], Conveyor().mass
     if panel in ("stiffness", "damping"):
         stiffness, damping = (contact | {panel: value}).values()
         theory = limit(method, stiffness, damping, mass)
         return lambda step: outcome_at_rest(method, step, stiffness, damping), theory
-    if panel == "impact velocity":
-        conveyor = Conveyor(acceleration=0.0, gravity=1e-3, damping=contact["damping"])
-        theory = impact_limit(method, conveyor, value)
-        return lambda step: outcome_of_impact(method, step, value, conveyor), theory
-    conveyor, start = Conveyor(acceleration=value), Start(settings["conveyor"]["z0"])
-    duration = settings["conveyor"]["duration"]
-    stiffness = 1.5 * conveyor.stiffness * math.sqrt(deepest_on_conveyor(conveyor, start, duration))
-    theory = limit(method, stiffness, conveyor.damping, mass)
-    return lambda step: outcome_on_conveyor(method, step, conveyor, start, duration), theory
+    conveyor = Conveyor(acceleration=0.0, gravity=1e-3, damping=contact["damping"])
+    theory = impact_limit(method, conveyor, value)
+    return lambda step: outcome_of_impact(method, step, value, conveyor), theory
 
 
 def has_edge(panel: str, method: str) -> bool:
@@ -210,15 +228,14 @@ def edge(outcome: Callable[[float], str], theory: float) -> float:
 def region_rows(settings: dict, progress: str | None) -> list[dict]:
     """Outcomes over the steps and one other quantity, and the measured edges where there is a theory."""
     steps = np.geomspace(*(settings["step"][name] for name in ("start", "stop", "num")))
-    lines = [
-        (panel, method, value)
-        for panel, spaced in PANELS.items()
-        for method in settings["methods"]
-        for value in spaced(*(settings[panel.replace(" ", "_")][name] for name in ("start", "stop", "num")))
-    ]
+    lines = []
+    for panel, spaced in PANELS.items():
+        values = spaced(*(settings[panel.replace(" ", "_")][name] for name in ("start", "stop", "num")))
+        for method in settings["methods"]:
+            found = experiments(panel, method, values, settings)
+            lines += [(panel, method, value, *one) for value, one in zip(values, found, strict=True)]
     rows = []
-    for panel, method, value in bar(lines, label=progress, unit="lines"):
-        outcome, theory = experiment(panel, method, value, settings)
+    for panel, method, value, outcome, theory in bar(lines, label=progress, unit="lines"):
         rows += [row(panel, method, step, value, outcome(step), theory) for step in steps]
         if has_edge(panel, method):
             rows.append(row(f"edge: {panel}", method, edge(outcome, theory), value, RIGHT, theory))

@@ -9,7 +9,7 @@ from scipy.special import gamma
 
 from conveyor import Conveyor, Start, ensemble, simulate
 from conveyor.methods import fixed_step
-from conveyor.solver.model import pack
+from conveyor.solver.model import PSI0, STIFFNESS, pack
 
 # A contact that stays closed (p = 1, a_z < g), smooth in time.
 LINEAR = Conveyor(acceleration=30.0, exponent=1.0, stiffness=3e3, psi0=0.4)
@@ -80,7 +80,7 @@ def test_compiled_loop_is_the_plain_loop(method, tension, exponent):
     assert run.contact_fraction == pytest.approx(np.count_nonzero(slow[:-1, 4]) / n_steps, rel=1e-14)
     assert run.max_gap == pytest.approx(gap.max(), rel=1e-10)
     assert run.mean_velocity == pytest.approx((slow[-1, 0] - slow[1125, 0]) / (375 * step), rel=1e-9)
-    assert run.evaluations == n_steps * fixed_step.EVALUATIONS[fixed_step.METHODS.index(method)]
+    assert run.evaluations == n_steps * fixed_step.EVALUATIONS_OF_STEP[fixed_step.METHODS.index(method)]
 
 
 def test_the_paper_s_numbers():
@@ -198,13 +198,26 @@ def test_sampling_does_not_disturb_the_run():
     n_steps, step = 20_000, 2e-6
     indices = np.sort(np.append(np.arange(0, n_steps + 1, 100), [1, 1, 255, 256, 257]))
     for method in fixed_step.METHODS:
-        watched, samples, events = fixed_step._integrate(parameters, step, n_steps, method, indices, 4)
-        alone, _, same_events = fixed_step._integrate(parameters, step, n_steps, method, [], 4)
+        (watched,), (samples,), (events,) = fixed_step._integrate(parameters[None], step, n_steps, method, indices, 4)
+        (alone,), _, (same_events,) = fixed_step._integrate(parameters[None], step, n_steps, method, [], 4)
         assert watched == alone
         assert events[1, 0] > 0.0
         np.testing.assert_array_equal(events, same_events)
         assert samples[-1, :4].tolist() == watched[:4]
         np.testing.assert_array_equal(samples[1], samples[2])  # one step, asked for twice
+
+
+@pytest.mark.parametrize("method", fixed_step.METHODS)
+def test_runs_side_by_side_are_those_of_one_after_the_other(method):
+    """On plates that move alike and on others; one is no number once it has touched its plate."""
+    machines = [{"acceleration": 30.0}, {"angle": 0.7}, {}, {"frequency": 60.0}, {"frequency": 60.0, "mass": 0.03}, {}]
+    rows = np.array([pack(Conveyor(**machine), Start(1e-4)) for machine in machines])
+    rows[2, STIFFNESS], rows[5, PSI0] = 1e308, 1.0
+    found = fixed_step.run_all(rows, 0.05, 1e-5, method)
+    assert [run.status for run in found] == ["ok", "ok", "not finite", "ok", "ok", "ok"]
+    assert found[2].evaluations < 0.5 * found[0].evaluations
+    assert repr(found) == repr([fixed_step.run(row, 0.05, 1e-5, method) for row in rows])
+    assert len({run.x for run in found[:2] + found[3:]}) == 5
 
 
 @pytest.mark.parametrize("method", fixed_step.METHODS)
@@ -236,7 +249,7 @@ def test_an_unknown_method_is_never_run_as_another_one(code):
     with pytest.raises(ValueError, match="method"):
         fixed_step.integrate_all(parameters, 1e-5, 10, code, indices, samples, events, results)
     with pytest.raises(ValueError, match="method"):
-        fixed_step.integrate(parameters[0], 1e-5, 10, fixed_step.EULER, indices, samples[0], events[0])
+        fixed_step.integrate(parameters, 1e-5, 10, fixed_step.EULER, indices, samples, events, results)
     with pytest.raises(ValueError):
         ensemble.run(parameters, method="unheard")
 
@@ -357,7 +370,9 @@ def test_a_run_ends_where_it_is_said_to_end():
         lambda: ensemble.run(pack(Conveyor(), Start())[None], duration=0.01, method="unheard"),
         lambda: simulate(Conveyor(), duration=0.01, method="unheard"),
         lambda: fixed_step.integrate(
-            pack(Conveyor(), Start()), 1e-5, 10, 7, np.empty(0, int), np.empty((0, 6)), np.empty((0, 2))
+            pack(Conveyor(), Start())[None],
+            *(1e-5, 10, 7, np.empty(0, int)),
+            *(np.empty((1, 0, 6)), np.empty((1, 0, 2)), np.empty((1, 10))),
         ),
     ],
 )
