@@ -19,7 +19,6 @@ from . import euler_lanes
 from .euler_lanes import (
     CHECK,
     CONTACT_TIME,
-    EVALUATIONS,
     EVENT_KINDS,
     EVENTS,
     IMPACT,
@@ -40,7 +39,7 @@ from .force_law import contact_acceleration, friction_acceleration
 METHODS = ("euler", "semi_implicit_euler", "rk4")
 EULER, SEMI_IMPLICIT_EULER, RK4 = range(len(METHODS))
 # Evaluations of the forces in a step of each.
-EVALUATIONS_OF_STEP = (1, 1, 4)
+EVALUATIONS = (1, 1, 4)
 # What a step h multiplies a decay exp(λt) by, as coefficients of the powers of hλ; None where a step does not.
 GROWTH = {"euler": (1.0, 1.0), "semi_implicit_euler": None, "rk4": (1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0)}
 LAST_CODE = len(METHODS) - 1
@@ -196,7 +195,7 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
             if i == n_steps or not finite:
                 running[row] = False
                 found[CONTACT_TIME] *= step
-                found[EVALUATIONS] = i * EVALUATIONS_OF_STEP[method]
+                found[euler_lanes.EVALUATIONS] = i * EVALUATIONS[method]
                 found[STATUS] = OK if math.isfinite(x + vx + z + vz) else NOT_FINITE
         while n_before < len(sample_indices) and sample_indices[n_before] < behind:
             n_before += 1
