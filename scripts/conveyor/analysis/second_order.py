@@ -17,7 +17,7 @@ import numpy as np
 
 from ..solver import contact, polynomial
 from ..solver.contact import FIRST, FORCE_SIGN, SEPARATION
-from ..solver.jit import borrowed, inlined, kernel
+from ..solver.jit import borrowed, inlined, kernel, spliced
 from ..solver.model import TENSION_CLIP
 from ..solver.polynomial import ORDER, SIZE
 from ..solver.trajectory import IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, patience
@@ -44,7 +44,8 @@ def power_series(c, series, exponent, out):
         series[contact.SCRATCH, 0] = series[w, 0] ** exponent
         for n in range(1, ORDER):
             series[contact.SCRATCH, n] = contact.power_term(series, w, contact.SCRATCH, exponent, n)
-    out[:] = series[contact.SCRATCH]
+    for n in range(SIZE):  # to copy a slice takes seconds to compile: it would check the shapes, and word the error
+        out[n] = series[contact.SCRATCH, n]
 
 
 @kernel
@@ -59,7 +60,8 @@ def log_series(c, series, out):
             for k in range(1, n):
                 total -= k * out[k] * w[n - k]
             out[n] = total / (n * w[0])
-        out *= 2.0
+        for n in range(ORDER):
+            out[n] *= 2.0
 
 
 @inlined
@@ -94,9 +96,9 @@ def expand(c, series, first, second, free, count):
     # w^(2p-1) and w^(2p-3), the first and second derivatives of the spring times w.
     slope, bend = np.zeros(SIZE), np.zeros(SIZE)
     if c.exponent == 1.5:
-        slope[:] = square  # and w^(2p-3) is 1
+        slope = square  # and w^(2p-3) is 1
     elif c.exponent == 1.0:
-        slope[:] = w
+        slope = w
     else:
         power_series(c, series, 2.0 * c.exponent - 1.0, slope)
         power_series(c, series, 2.0 * c.exponent - 3.0, bend)
@@ -138,7 +140,7 @@ def expand(c, series, first, second, free, count):
                 of_both[0, n + 1] = drift_of_both / (n + 1)
                 of_both[1, n + 1] = -c.exponent * pull / (n + 1)
                 if i < j < 2:
-                    second[j, i, :, n + 1] = of_both[:, n + 1]
+                    second[j, i, 0, n + 1], second[j, i, 1, n + 1] = of_both[0, n + 1], of_both[1, n + 1]
             delta[n + 1] = drift / (n + 1)
             y[n + 1] = push / (n + 1)
 
@@ -201,7 +203,7 @@ def fly(c, first, second, motion, piece):
     first[AMPLITUDE, 1, 0] += (piece.sine - motion.sine) / c.omega
 
 
-@inlined
+@spliced
 def press(c, series, first, second, motion, piece, count):
     """Advance the perturbations along a contact step; return the piece up to where they could go."""
     expand(c, series, first, second, motion.pulled and c.tension == TENSION_CLIP, count)
@@ -227,13 +229,22 @@ def press(c, series, first, second, motion, piece, count):
 
 
 @kernel
-def cycle(c, series, state, first, second, count):
+def cycle(parameters, tolerance, state, first, second, count):
     """Advance `state` by one excitation cycle, and fill the first coefficients of `first` and `second`.
 
+    Parameters
+    ----------
+    parameters, tolerance, state : see `cycles`
+    first : float64, shape (6, 2, SIZE), filled with the derivatives of δ and Y by each quantity
+    second : float64, shape (2, 6, 2, SIZE), filled with those by a state and a quantity
     count : how many of the quantities are wanted; the one by p, the last, takes several times as long as the others
-    Returns the status code and the number of impacts.
+
+    Returns
+    -------
+    status code of trajectory.STATUS, number of impacts
     """
-    series, state, first, second = borrowed(series), borrowed(state), borrowed(first), borrowed(second)
+    c = contact.constants(parameters, tolerance)
+    series = contact.workspace()
     first[:] = 0.0
     second[:] = 0.0
     first[DELTA, 0, 0] = first[Y, 1, 0] = 1.0
@@ -280,7 +291,6 @@ def cycle(c, series, state, first, second, count):
     return TOO_STIFF, impacts
 
 
-@kernel
 def cycles(parameters, tolerance, state, first, second, states, impacts):
     """Advance `state` by n cycles, with the derivatives of each.
 
@@ -298,18 +308,14 @@ def cycles(parameters, tolerance, state, first, second, states, impacts):
     -------
     status code of trajectory.STATUS
     """
-    c = contact.constants(parameters, tolerance)
-    series = contact.workspace()
+    # Not a kernel: it would compile all of `cycle` once more.
     of_one = np.empty((QUANTITIES, 2, SIZE))
     of_two = np.empty((2, QUANTITIES, 2, SIZE))
     for n in range(first.shape[0]):
-        status, impacts[n] = cycle(c, series, state, of_one, of_two, first.shape[2])
-        states[n, :] = state
-        for of in range(2):
-            for j in range(first.shape[2]):
-                first[n, of, j] = of_one[j, of, 0]
-                for i in range(2):
-                    second[n, of, i, j] = of_two[i, j, of, 0]
+        status, impacts[n] = cycle(parameters, tolerance, state, of_one, of_two, first.shape[2])
+        states[n] = state
+        first[n] = of_one[: first.shape[2], :, 0].T
+        second[n] = of_two[:, : first.shape[2], :, 0].transpose(2, 0, 1)
         if status != OK:
             return status
     return OK
