@@ -22,6 +22,7 @@ for name, one in RULES.items():
             benchmark_file(one["place"])
         wildcard_constraints:
             **one.get("names", {}),
+        priority: one.get("priority", 0)
         threads: one.get("threads", 1)
         resources:
             **one.get("resources", {}),

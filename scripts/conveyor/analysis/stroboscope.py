@@ -222,9 +222,12 @@ def follow(parameters, tolerance, state, cycles, strobes, features):
         features[n, :] = found
         if mark < n and same(strobes, features, n, mark):
             for later in range(n + 1, cycles):
-                strobes[later, :] = strobes[later - n + mark]
-                features[later, :] = features[later - n + mark]
-            state[:] = strobes[cycles - 1]
+                before = later - n + mark
+                for k in range(2):
+                    strobes[later, k] = strobes[before, k]
+                for k in range(FEATURES):
+                    features[later, k] = features[before, k]
+            state[0], state[1] = strobes[cycles - 1, 0], strobes[cycles - 1, 1]
             return OK
         if n == 2 * mark + 1:
             mark = n
