@@ -16,7 +16,7 @@ import math
 
 import numpy as np
 
-from ..solver import contact, polynomial, unrolled
+from ..solver import contact, polynomial
 from ..solver.contact import FIRST
 from ..solver.jit import borrowed, inlined, kernel
 from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
@@ -38,30 +38,43 @@ def initial_state(parameters, tolerance, state):
     state[1] = -rate
 
 
-expand_perturbations = kernel(unrolled.expand_perturbations)
-
-
 @kernel
-def expand_tangents(c, series, tangents, free):
-    """Taylor coefficients of two perturbations along a contact step, rows η, ζ of each, from their values at s = 0.
+def expand_tangent(c, series, tangent, free):
+    """Taylor coefficients of a perturbation along a contact step: rows η, ζ of `tangent`, from their values at s = 0.
 
     With the derivative in s, η' = w (ζ - (d_c/m) η) and ζ' = -p (k_c/m) w^(2p-1) η. `free` leaves the force out.
     """
     w, square, stiff = series[FIRST + contact.W], series[FIRST + contact.SQUARE], series[contact.SCRATCH]
+    eta, zeta = tangent[0], tangent[1]
     damping = 0.0 if free else c.damping
     stiffness = 0.0 if free else c.exponent * c.stiffness
-    if c.exponent == 1.5:
-        stiff = square
-    elif c.exponent == 1.0:
-        stiff = w
-    else:
+    hertz = c.exponent == 1.5
+    hooke = c.exponent == 1.0
+    if not hertz and not hooke:
         power = 2.0 * c.exponent - 1.0
+        general = w[0] > c.edge_w
         stiff[:] = 0.0
-        if w[0] > c.edge_w:
+        if general:
             stiff[0] = w[0] ** power
             for n in range(1, ORDER):
                 stiff[n] = contact.power_term(series, FIRST + contact.W, contact.SCRATCH, power, n)
-    expand_perturbations(damping, stiffness, w, stiff, tangents)
+    for n in range(ORDER):
+        drift = 0.0
+        pull = 0.0
+        if hertz:
+            for k in range(n + 1):
+                drift += w[k] * (zeta[n - k] - damping * eta[n - k])
+                pull += square[k] * eta[n - k]
+        elif hooke:
+            for k in range(n + 1):
+                drift += w[k] * (zeta[n - k] - damping * eta[n - k])
+                pull += w[k] * eta[n - k]
+        else:
+            for k in range(n + 1):
+                drift += w[k] * (zeta[n - k] - damping * eta[n - k])
+                pull += stiff[k] * eta[n - k]
+        eta[n + 1] = drift / (n + 1)
+        zeta[n + 1] = -stiffness * pull / (n + 1)
 
 
 @kernel
@@ -91,10 +104,10 @@ def advance_tangent(c, series, tangent, expansions, motion, piece):
             tangent[i, 0] += tangent[i, 1] * piece.duration
         return piece
     longest = piece.length
-    if tangent.shape[0] > 0:
-        expansions[:, :, 0] = tangent
-        expand_tangents(c, series, expansions, motion.pulled and c.tension == TENSION_CLIP)
+    free = motion.pulled and c.tension == TENSION_CLIP
     for i in range(tangent.shape[0]):
+        expansions[i, 0, 0], expansions[i, 1, 0] = tangent[i, 0], tangent[i, 1]
+        expand_tangent(c, series, expansions[i], free)
         longest = min(longest, tangent_length(c, expansions[i]))
     if longest < piece.length:
         duration = polynomial.value(series, FIRST + contact.T, longest)
@@ -134,7 +147,7 @@ def advance(c, series, state, phase, duration, tangent, features):
     c, series : contact.Constants and a contact.workspace to work in
     state : float64, shape (2,), δ (m) and v (m/s) at `phase` (rad); replaced
     duration : s
-    tangent : float64, shape (2, 2), two perturbations of (δ, Y), replaced; shape (0, 2) where none are wanted
+    tangent : float64, shape (n, 2), n perturbations of (δ, Y); replaced; n = 0 where none are wanted
     features : float64, shape (4,), replaced but for AIRBORNE, the time (s) since the last separation, which goes on:
         number of impacts, time with contact force (s), longest flight that ended (s)
 

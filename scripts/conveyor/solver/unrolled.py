@@ -1,4 +1,4 @@
-"""Straight-line code for the Taylor series of a Hertz contact, and of perturbations along any contact.
+"""Straight-line code for the Taylor series of a Hertz contact.
 
 The recurrences are short loops of varying length, which a processor predicts badly: written out they take less than
 half the time. Writing them out is left to this module.
@@ -72,30 +72,5 @@ def hertz_source() -> str:
     return "\n    ".join(lines) + "\n"
 
 
-def perturbations_source() -> str:
-    """Source of `expand_perturbations`, which fills the series η, ζ of two perturbations along a contact step.
-
-    It takes damping and stiffness per mass, then the step's series of w and of the factor of η in ζ', then the array of
-    the perturbations, shape (2, 2, SIZE), with their values at s = 0. Equations are those of
-    stroboscope.expand_tangents. Each sum waits for its first term, the newest, but four of them do so at a time.
-    """
-    lines = ["def expand_perturbations(damping, stiffness, w, q, tangents):"]
-    lines += [f"{letter}{n} = {letter}[{n}]" for letter in "wq" for n in range(ORDER)]
-    lines += [f"{letter}{i}_0 = tangents[{i}, {row}, 0]" for i in range(2) for row, letter in enumerate("ez")]
-    for n in range(ORDER):
-        lines += [f"y{i}_{n} = z{i}_{n} - damping * e{i}_{n}" for i in range(2)]
-        for left, right in ("wy", "qe"):
-            for i in range(2):
-                terms = " + ".join(f"{left}{k} * {right}{i}_{n - k}" for k in range(n + 1))
-                lines += [f"{left}_sum{i} = {terms}"]
-        lines += [f"e{i}_{n + 1} = w_sum{i} / {n + 1}.0" for i in range(2)]
-        lines += [f"z{i}_{n + 1} = -stiffness * q_sum{i} / {n + 1}.0" for i in range(2)]
-    for i in range(2):
-        for row, letter in enumerate("ez"):
-            lines += [f"tangents[{i}, {row}, {n}] = {letter}{i}_{n}" for n in range(1, ORDER + 1)]
-    return "\n    ".join(lines) + "\n"
-
-
 # Compiled under this file's name, so that its machine code is cached with that of the other kernels.
-for source in (hertz_source(), perturbations_source()):
-    exec(compile(source, __file__, "exec"))
+exec(compile(hertz_source(), __file__, "exec"))
