@@ -183,7 +183,8 @@ def make(
     progress : name of a progress bar, or None
     """
     found: dict[str, list[dict]] = {}
-    listed = list(entries.items())
+    # The longest ones come last: they begin first, so that the threads end together.
+    listed = list(entries.items())[::-1]
 
     def work(begin: int, end: int) -> None:
         for reference, of_table in listed[begin:end]:

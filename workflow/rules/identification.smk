@@ -76,7 +76,6 @@ identification_rule(
     ["printed"],
     ["edges"],
     ("heights", "edges", "told", "numbers", "measured", "euler"),
-    threads=2,
 )
 identification_rule(
     "fronts",
