@@ -144,7 +144,7 @@ def measured(case: dict, folder: Path) -> dict[str, Any]:
 def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table for `cases`, one row each; what has to be compiled is compiled before."""
 
-    def rows() -> Iterator[dict[str, Any]]:
+    def one_by_one() -> Iterator[dict[str, Any]]:
         for case in bar(cases, label=progress, unit="sweeps"):
             with tempfile.TemporaryDirectory() as folder:
                 yield measured(case, Path(folder))
@@ -153,4 +153,4 @@ def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> d
         for one in cases:
             rows = [0, min(settling_lanes.SIDE_BY_SIDE, one["plan"]["points"])]
             run(settings=one["settings"], threads=1, rows=rows, path=f"{folder}/one.parquet")
-    return {name: column.to_numpy() for name, column in pd.DataFrame(rows()).items()}
+    return {name: column.to_numpy() for name, column in pd.DataFrame(one_by_one()).items()}

@@ -47,6 +47,14 @@ def test_shards_that_are_not_made_are_copied(tmp_path):
     assert (row["measured"], row["computed"], row["gathered"]) == (1, 7, 21)
 
 
+def test_each_case_is_a_row():
+    few = CASE | {"plan": PLAN | {"points": 2, "rows": 2, "shards": 1}, "measured": 1}
+    few["settings"] = SETTINGS | {"axes": {"z0": [0.0, 1.0e-4]}}
+    found = scaling.make({}, [CASE, few])
+    assert list(found) == [field.name for field in scaling.TABLES["scaling"]]
+    assert found["computed"].tolist() == [20, 2]
+
+
 @pytest.mark.parametrize(("end", "first"), [(9, 9), (40, 11)])
 def test_the_first_points_are_computed_alone_before_all(monkeypatch, end, first):
     made = []
