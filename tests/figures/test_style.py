@@ -53,3 +53,20 @@ def test_pages_keep_no_digit_that_rounding_decides():
     assert style.TEXT_OR_NUMBER.sub(style.rounded, one) == (
         rb"1 0 0 1 342.4895 247.5 cm (62.70\(89722\) 1.23456789) Tj -0.1235 0.0000 l"
     )
+
+
+def test_files_of_a_figure_have_one_layout(tmp_path):
+    """That of the first one, to the digit: a layout depends a little on what it is made for."""
+
+    def position(*names):
+        with style.applied():
+            figure = style.figure(50.0, 40.0)
+            axes = figure.subplots()
+            axes.set(xlabel="time in s", ylabel="height in mm")
+            style.save(figure, [str(tmp_path / name) for name in names])
+        return axes.get_position().bounds
+
+    page, picture = position("a.pdf"), position("a.png")
+    assert page != picture
+    assert position("b.pdf", "b.png") == page
+    assert position("c.png", "c.pdf") == picture
