@@ -195,7 +195,7 @@ def test_a_false_suggestion_of_a_series_is_refused(monkeypatch, change):
 @pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0, 2.5])
 @pytest.mark.parametrize("bits", [64, 128])
 def test_suggestions_of_series_are_narrow(exponent, bits):
-    """Below 1e-12 and in proportion to their boxes, for all exponents, starts with and without penetration, points and boxes."""
+    """Below 1e-12 and in proportion to their boxes, for all exponents, with and without penetration at the start."""
     law = law_of(Conveyor(exponent=exponent, stiffness=5e5 * 1e4 ** (2 * (exponent - 1.5))))
     with precision(bits, 24):
         for start in ([arb(0), arb(3.6), arb(2.26)], [arb(0.3), arb(-0.7), arb(1)]):
