@@ -1,4 +1,8 @@
-"""What plots find in their tables by themselves."""
+"""What plots find in their tables by themselves, and what they load."""
+
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -27,3 +31,14 @@ def test_settled_runs_are_not_told_to_scatter():
 
 def test_chaos_scatters_by_itself():
     assert fig08.unsettled(sweep(0.1, 0.2).assign(state="chaos")) is None
+
+
+def test_a_picture_does_not_wait_for_the_compiler():
+    """What a plot takes from the solver are names and closed forms; `simulate` loads the rest when it is asked for."""
+    code = (
+        "import sys, make, draw, conveyor; from figures.plots import fig13; before = 'numba' in sys.modules; "
+        "from conveyor import simulate; print(before, 'numba' in sys.modules, hasattr(conveyor, 'nothing'))"
+    )
+    scripts = Path(__file__).resolve().parents[2] / "scripts"
+    run = subprocess.run([sys.executable, "-c", code], cwd=scripts, capture_output=True, text=True, check=True)
+    assert run.stdout.split() == ["False", "True", "False"]

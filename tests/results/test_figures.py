@@ -2,6 +2,8 @@
 
 import re
 from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import matplotlib.legend
 import matplotlib.text
@@ -14,10 +16,16 @@ from made import FIGURES, RESULTS, entries
 from workflow.tables_of_config import kind_of
 
 ENTRIES = entries()
-# One process looks at all of a figure, which it draws once.
-FIGURE = [pytest.param(name, marks=pytest.mark.xdist_group(name)) for name in ENTRIES]
+
+
+def in_one_process(names):
+    """Parameters: one process looks at all of a figure, which it draws once."""
+    return [pytest.param(name, marks=pytest.mark.xdist_group(name)) for name in names]
+
+
+FIGURE = in_one_process(ENTRIES)
+MAP = in_one_process(("fig12", "fig13", "fig14", "fig18", "fig19"))
 PAGE_HEIGHT = 234.0  # mm, of the journal's page
-MAPS = ("fig12", "fig13", "fig14", "fig18", "fig19")
 UNITS = {
     "m/s²",
     "$g/\\omega^2$ and $g/\\omega$",
@@ -59,28 +67,27 @@ NO_UNIT = (
 )
 
 
-def drawn_afresh(name):
-    """A figure, once more from its tables."""
+@cache
+def drawn(name):
+    """A figure once more from its tables, and the page that it is saved as; its layout is the one of that page."""
     entry = ENTRIES[name]
     paths, kinds = {}, {}
     for role, reference in entry["tables"].items():
         section, table = reference.split("/")
         paths[role] = RESULTS / (f"{table}.parquet" if section == "results" else f"{reference}.parquet")
         kinds[role] = kind_of(reference)
-    return draw(name, paths, kinds, entry.get("settings", {}), asked={})
-
-
-@cache
-def drawn(name):
-    """The same as it is on a screen, for tests that look at it."""
-    figure = drawn_afresh(name)
+    figure = draw(name, paths, kinds, entry.get("settings", {}), asked={})
+    with TemporaryDirectory() as folder:
+        copy = Path(folder, f"{name}.pdf")
+        style.save(figure, [str(copy)])
+        page = copy.read_bytes()
     FigureCanvasAgg(figure).draw()
-    return figure
+    return figure, page
 
 
 @pytest.mark.parametrize("name", FIGURE)
 def test_size_and_type_are_the_journal_s(name):
-    figure = drawn(name)
+    figure, _ = drawn(name)
     assert round(figure.get_figwidth() / style.MM, 6) in (style.COLUMN, style.PAGE)
     assert figure.get_figheight() / style.MM <= PAGE_HEIGHT
     texts = [text for text in figure.findobj(matplotlib.text.Text) if text.get_text() and text.get_visible()]
@@ -89,7 +96,7 @@ def test_size_and_type_are_the_journal_s(name):
 
 @pytest.mark.parametrize("name", FIGURE)
 def test_legends_and_labels_are_not_cut(name):
-    figure = drawn(name)
+    figure, _ = drawn(name)
     whole = figure.bbox.padded(1.0)  # pixel
     named = [label for axes in figure.axes for label in (axes.title, axes.xaxis.label, axes.yaxis.label)]
     for artist in [*figure.findobj(matplotlib.legend.Legend), *(one for one in named if one.get_text())]:
@@ -101,7 +108,7 @@ def test_legends_and_labels_are_not_cut(name):
 @pytest.mark.parametrize("name", FIGURE)
 def test_axes_have_units(name):
     """An axis, or one that shares its scale, names a quantity with its unit, unless its ticks are words."""
-    for axes in drawn(name).axes:
+    for axes in drawn(name)[0].axes:
         if not axes.axison:
             continue
         for axis, shared in (("xaxis", axes.get_shared_x_axes()), ("yaxis", axes.get_shared_y_axes())):
@@ -120,20 +127,17 @@ def in_words(axis):
 
 
 @pytest.mark.parametrize("name", FIGURE)
-def test_pages_are_equal_vectors_with_embedded_fonts(name, tmp_path):
+def test_pages_are_equal_vectors_with_embedded_fonts(name):
     """Equal to the byte to those of another process, which has drawn nothing else."""
-    copy = tmp_path / f"{name}.pdf"
-    style.save(drawn_afresh(name), [str(copy)])
-    content = (FIGURES / copy.name).read_bytes()
-    assert content == copy.read_bytes()
-    assert b"/FontFile2" in content
-    assert b"/Type3" not in content
+    _, page = drawn(name)
+    assert (FIGURES / f"{name}.pdf").read_bytes() == page
+    assert b"/FontFile2" in page
+    assert b"/Type3" not in page
 
 
-@pytest.mark.parametrize("name", MAPS)
-def test_maps_are_rasterised_finely(name, tmp_path):
-    width = max(map(int, re.findall(rb"/Width (\d+)", (FIGURES / f"{name}.pdf").read_bytes())))
-    figure = drawn_afresh(name)
-    style.save(figure, [str(tmp_path / f"{name}.pdf")])  # the layout depends a little on what it is made for
+@pytest.mark.parametrize("name", MAP)
+def test_maps_are_rasterised_finely(name):
+    figure, page = drawn(name)
+    width = max(map(int, re.findall(rb"/Width (\d+)", page)))
     wanted = figure.axes[0].get_position().width * figure.get_figwidth() * style.RESOLUTION
     assert width == pytest.approx(wanted, rel=0.02)

@@ -14,8 +14,6 @@ from .settling import OPEN, SETTLED
 
 LATE = 0.1  # of the time: a start that settles later shows that chaos is a long transient here
 MOST = 4  # chaotic sets of one conveyor
-SIGNIFICANT = 3.0  # standard errors by which the exponent of chaos exceeds zero
-LENGTHS = (probes.SETTLING, 2000)  # excitation cycles over which an exponent is found: where chaos is weak, the longer
 
 
 def boxes_of(strobes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -27,19 +25,6 @@ def boxes_of(strobes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     visited = np.zeros((BOXES, BOXES), dtype=np.bool_)
     visited[places[:, 0], places[:, 1]] = True
     return low, size, binary_dilation(visited, np.ones((3, 3), dtype=np.bool_))
-
-
-def exponents(parameters: np.ndarray, states: np.ndarray, cycles: int, tolerance: float) -> lyapunov.Spectrum:
-    """Exponents of trajectories of conveyors, shape (n, 13), from `states`, shape (n, 2), at the plate's top."""
-    return lyapunov.spectrum(
-        parameters, states, begin_of_cycle=True, transient=0, cycles=cycles // 20, blocks=20, tolerance=tolerance
-    )
-
-
-def stretches(parameters: np.ndarray, state: np.ndarray, tolerance: float) -> bool:
-    """Whether the exponent of a trajectory of one conveyor, shape (13,), from `state`, shape (2,), is that of chaos."""
-    found = (exponents(parameters[None], state[None], length, tolerance) for length in LENGTHS)
-    return any(one.lambda_1[0] > SIGNIFICANT * one.stderr[0] for one in found)
 
 
 def sets_of_conveyors(conveyors: np.ndarray, probed: list[Probes], cycles: int, tolerance: float) -> list[ChaoticSets]:
@@ -62,7 +47,8 @@ def sets_of_conveyors(conveyors: np.ndarray, probed: list[Probes], cycles: int, 
         # What is told in few cycles comes first: motions that stay in a set that is known, or do not stretch.
         goes_on = search(rows, states, probes.SETTLING).outcomes == OPEN
         rows, states = rows[goes_on], states[goes_on]
-        goes_on = exponents(conveyors[rows], states, probes.SETTLING, tolerance).lambda_1 > 0.0
+        early = lyapunov.spectrum_from(conveyors[rows], states, probes.SETTLING, tolerance=tolerance)
+        goes_on = early.lambda_1 > 0.0
         rows, states, followed = rows[goes_on], states[goes_on], 0
         for record in (False, True):
             strobes = np.empty((len(rows), cycles, 2)) if record else None
@@ -71,9 +57,10 @@ def sets_of_conveyors(conveyors: np.ndarray, probed: list[Probes], cycles: int, 
                 found[k], candidates[k] = nothing[k], []
             goes_on = motions.outcomes == OPEN
             rows, states, followed = rows[goes_on], motions.states[goes_on], cycles
-        for k, state, visited in zip(rows, states, strobes[goes_on], strict=True):
+        stretches = lyapunov.signs(conveyors[rows], states, tolerance=tolerance) > 0
+        for k, visited in zip(rows[stretches], strobes[goes_on][stretches], strict=True):
             known = found[k]
-            if len(known.low) < MOST and stretches(conveyors[k], state, tolerance):
+            if len(known.low) < MOST:
                 sets = [*zip(known.low, known.size, known.cells, strict=True), boxes_of(visited)]
                 found[k] = chaotic_sets_of(conveyors[k], sets)
     return found

@@ -21,6 +21,10 @@ from . import stretching, stroboscope
 
 # Cycles within which a motion near its attractor repeats itself bit for bit, if it ever does.
 SETTLING = 400
+# Excitation cycles after which a sign is looked for: chaos mostly shows in the first look, weak chaos in the second.
+LOOKS = (400, 2000)
+BLOCKS = 20
+SIGNIFICANT = 3.0  # standard errors by which an exponent with a sign differs from zero
 
 
 class Spectrum(NamedTuple):
@@ -112,6 +116,33 @@ def spectrum(
     lambda_1, lambda_2 = (values / period[:, None]).T
     contact_fraction = contact_times.mean(axis=1) / period
     return Spectrum(lambda_1, lambda_2, errors[:, 0] / period, contact_fraction, np.array(trajectory.STATUS)[codes])
+
+
+def spectrum_from(
+    parameters: np.ndarray, states: np.ndarray, cycles: int, *, tolerance: float, threads: int = 1
+) -> Spectrum:
+    """Exponents of motions over so many cycles from `states`, shape (n, 2), at trajectory.BEGIN_OF_CYCLE, on."""
+    counted = {"transient": 0, "cycles": cycles // BLOCKS, "blocks": BLOCKS}
+    return spectrum(parameters, states, begin_of_cycle=True, **counted, tolerance=tolerance, threads=threads)
+
+
+def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threads: int = 1) -> np.ndarray:
+    """Whether the larger exponents of motions are positive, 1, or negative, -1, int64, shape (n,); 0 where none shows.
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 13), rows as from model.pack
+    states : float64, shape (n, 2), stroboscopic states at trajectory.BEGIN_OF_CYCLE
+    tolerance, threads : as in sweep.run
+    """
+    found = np.zeros(len(parameters), dtype=np.int64)
+    for cycles in LOOKS:
+        rows = np.flatnonzero(found < 1)
+        of_them = spectrum_from(parameters[rows], states[rows], cycles, tolerance=tolerance, threads=threads)
+        # A motion without a sign has a bad status, and NaN here; what a short look calls regular is looked at again.
+        different = np.abs(of_them.lambda_1) > SIGNIFICANT * of_them.stderr
+        found[rows] = np.where(different, np.sign(of_them.lambda_1), 0.0)
+    return found
 
 
 @kernel

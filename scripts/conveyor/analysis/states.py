@@ -29,8 +29,6 @@ LONG_FLIGHT = 0.5
 CYCLES = 20_000
 # Starts that are followed side by side, the least and the most, and how often each thread comes for some.
 FEWEST, MOST, ROUNDS = 64, 512, 16
-# An exponent is positive if it exceeds zero by this many standard errors.
-SIGNIFICANT = 3.0
 
 
 class Motions(NamedTuple):
@@ -90,16 +88,9 @@ def classify(
     codes[outcomes == STAYS] = CHAOS
     still = np.flatnonzero(outcomes == OPEN)
     if len(still):
-        exponent = lyapunov.spectrum(
-            parameters[still],
-            points[still],
-            begin_of_cycle=True,
-            transient=0,
-            tolerance=tolerance,
-            threads=threads,
-        )
-        codes[still[exponent.lambda_1 > SIGNIFICANT * exponent.stderr]] = CHAOS
-        longer = still[exponent.lambda_1 < -SIGNIFICANT * exponent.stderr]
+        signs = lyapunov.signs(parameters[still], points[still], tolerance=tolerance, threads=threads)
+        codes[still[signs > 0]] = CHAOS
+        longer = still[signs < 0]
         codes[longer] = regular[longer]
     flights[(codes == CHAOS) | (codes == UNDECIDED)] = math.nan
     return Motions(np.array(STATES)[codes], periods, flights, followed)

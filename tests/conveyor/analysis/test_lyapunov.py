@@ -39,6 +39,27 @@ def test_chaos_regular_motion_and_a_pair_of_trajectories():
     assert found.lambda_1[0] < 0.0 < found.lambda_1[1]
 
 
+def test_signs(monkeypatch):
+    """Of chaos, of what settles, of an undamped swing, for which none shows, and of what cannot be followed."""
+    spring = Conveyor(acceleration=0.0, damping=0.0, exponent=1.0, stiffness=3e3)
+    rest = spring.mass * spring.gravity / spring.stiffness
+    rows = np.array([*points((80.0, 0.0), (40.0, 3e-4)), pack(spring, Start()), pack(spring, Start())])
+    states = np.array([[-1e-4, -0.05], [-1e-4, -0.05], [0.5 * rest, 0.0], [np.nan, 0.0]])
+    assert lyapunov.signs(rows, states, tolerance=1e-8, threads=2).tolist() == [1, -1, 0, 0]
+    looks, spectrum = [], lyapunov.spectrum_from
+
+    def seen(parameters, states, cycles, **options):
+        """Weak chaos, which does not show in the first look; and a start that leaves the regular one."""
+        looks.append((cycles, len(parameters)))
+        found = spectrum(parameters, states, cycles, **options)
+        values = [1.0, -10.0, 10.0] if len(looks) == 1 else [10.0, 10.0]
+        return found._replace(lambda_1=np.array(values), stderr=np.ones(len(values)))
+
+    monkeypatch.setattr(lyapunov, "spectrum_from", seen)
+    assert lyapunov.signs(rows[:3], states[:3], tolerance=1e-8).tolist() == [1, 1, 1]
+    assert looks == [(400, 3), (2000, 2)]
+
+
 def test_rider_is_a_damped_oscillator():
     """A part on a plate at rest: both exponents have the real part -d_c/(2m), whatever the stiffness."""
     rows = points((0.0, 0.0), exponent=1.0, stiffness=1e4)
