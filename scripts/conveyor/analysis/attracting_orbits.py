@@ -13,9 +13,8 @@ import numpy as np
 from scipy.linalg import cholesky, solve_discrete_lyapunov
 
 from ..solver import contact
-from ..solver.jit import kernel, spliced
+from ..solver.jit import kernel
 from ..solver.model import PSI0
-from ..solver.parallel import for_each_chunk
 from ..solver.trajectory import BEGIN_OF_CYCLE, OK
 from . import stroboscope
 from .known import AttractingOrbits, orbits_of
@@ -24,8 +23,6 @@ from .settling import SETTLED, measure
 
 POINTS = 32  # of a curve
 PERIODS = 32  # within which a curve has to come into the one before
-# How often as many periods as the one before: most curves that take longer lie outside the basin and never come.
-PATIENCE = 4
 # Lengths of the longer half-axes of the ellipses, in g/ω² and g/ω.
 SMALLEST, LARGEST = 1e-3, 64.0
 # Spectral radii of a linearisation: a smaller one counts as this one, and with a larger one no curve halves in time.
@@ -33,13 +30,12 @@ FASTEST, SLOWEST = 1e-4, 0.98
 LONGEST = 8  # excitation cycles: around longer orbits nothing is looked for
 
 
-@spliced
-def comes_inside(parameters, tolerance, centre, factor, period, radius, most):
-    """After how many periods the ellipse of a `radius` about a point of an orbit lies in that of half the radius.
+@kernel
+def comes_inside(parameters, tolerance, centre, factor, period, radius):
+    """Whether the ellipse of a `radius` about a point of an orbit comes into that of half the radius, all at once.
 
     centre, factor : see AttractingOrbits
     period : excitation cycles, of the orbit
-    most : periods within which that has to be; 0 is returned where it is not
 
     Neighbouring points have to be closer to each other then than any is to the ellipse that they have come into.
     """
@@ -51,32 +47,25 @@ def comes_inside(parameters, tolerance, centre, factor, period, radius, most):
         across = radius * math.sin(angle) / factor[2]
         states[i, 0] = centre[0] + (radius * math.cos(angle) - factor[1] * across) / factor[0]
         states[i, 1] = centre[1] + across - c.damping * max(states[i, 0], 0.0)
-    for periods in range(1, most + 1):
+    before = math.inf
+    for _ in range(PERIODS):
         size = gap = 0.0
         for i in range(POINTS):
             for _ in range(period):
                 status = stroboscope.advance(c, series, states[i], BEGIN_OF_CYCLE, c.period, no_tangent, features)
                 if status != OK:
-                    return 0
+                    return False
             images[i, 0], images[i, 1] = measure(c, centre, factor, states[i])
             size = max(size, math.hypot(images[i, 0], images[i, 1]))
         for i in range(POINTS):
             gap = max(gap, math.hypot(images[i, 0] - images[i - 1, 0], images[i, 1] - images[i - 1, 1]))
         if size + gap <= 0.5 * radius:
-            return periods
-    return 0
-
-
-@kernel
-def largest_radius(parameters, tolerance, centre, factor, period):
-    """That of the ellipses about a point of an orbit that come each into the one before; 0 if the first does not."""
-    radius, largest, most = SMALLEST, 0.0, PERIODS
-    while radius <= LARGEST:
-        took = comes_inside(parameters, tolerance, centre, factor, period, radius, most)
-        if took == 0:
-            break
-        largest, radius, most = radius, 2.0 * radius, min(PERIODS, PATIENCE * took)
-    return largest
+            return True
+        # A curve that has left itself and does not come back is mostly out of the basin: it is not waited for.
+        if size > radius and size >= before:
+            return False
+        before = size
+    return False
 
 
 def contracting_norm(matrix: np.ndarray) -> np.ndarray | None:
@@ -111,17 +100,19 @@ def neighbourhood(
         return None
     centre = np.array([state[0], state[1] + c.damping * max(state[0], 0.0)])
     factor = (norm / unit)[np.triu_indices(2)]
-    radius = largest_radius(parameters, tolerance, centre, factor, period)
-    return (centre, factor / radius) if radius > 0.0 else None
+    radius = SMALLEST
+    while radius <= LARGEST and comes_inside(parameters, tolerance, centre, factor, period, radius):
+        radius *= 2.0
+    return (centre, factor / (0.5 * radius)) if radius > SMALLEST else None
 
 
-def orbits_of_conveyor(parameters: np.ndarray, probes: Probes, tolerance: float, threads: int = 1) -> AttractingOrbits:
+def orbits_of_conveyor(parameters: np.ndarray, probes: Probes, tolerance: float) -> AttractingOrbits:
     """The attracting orbits of one conveyor, shape (13,), that probes have settled to, each with a neighbourhood."""
     c = contact.constants(parameters, tolerance)
     unit = np.array([c.gravity / c.omega**2, c.gravity / c.omega])
     at_top = parameters.copy()
     at_top[PSI0] = BEGIN_OF_CYCLE
-    seen, different = np.empty((0, 2)), []
+    seen, found = np.empty((0, 2)), []
     for k in np.flatnonzero((probes.outcomes == SETTLED) & (probes.periods <= LONGEST)):
         state, period = probes.states[k], int(probes.periods[k])
         if (np.abs((seen - state) / unit).max(axis=1) < SMALLEST).any():
@@ -130,16 +121,7 @@ def orbits_of_conveyor(parameters: np.ndarray, probes: Probes, tolerance: float,
         if stroboscope.follow(at_top, tolerance, state.copy(), period, strobes, features) != OK:
             continue
         seen = np.concatenate([seen, strobes])
-        different.append((state, period, float(probes.flights[k])))
-    around = [None] * len(different)
-
-    def work(begin, end):
-        for k in range(begin, end):
-            state, period, _ = different[k]
-            around[k] = neighbourhood(parameters, tolerance, state, period)
-
-    for_each_chunk(work, len(different), threads=threads, chunk=1)
-    found = [
-        (*its, period, flight) for its, (_, period, flight) in zip(around, different, strict=True) if its is not None
-    ]
+        around = neighbourhood(parameters, tolerance, state, period)
+        if around is not None:
+            found.append((*around, period, float(probes.flights[k])))
     return orbits_of(parameters, found)

@@ -32,15 +32,13 @@ def known_attractors(
     """
     conveyors, _ = distinct(parameters)
     found = [NOTHING] * len(conveyors)
-    inside = threads if len(conveyors) == 1 else 1  # one conveyor alone has its probes and orbits shared
 
     def work(begin, end):
         some = conveyors[begin:end]
-        probed = probes.of_conveyors(some, min(probes.SETTLING, cycles), tolerance, inside)
+        probed = probes.of_conveyors(some, min(probes.SETTLING, cycles), tolerance)
         chaotic = sets_of_conveyors(some, probed, cycles, tolerance)
         for k, (row, of_row, sets) in enumerate(zip(some, probed, chaotic, strict=True), start=begin):
-            of_it = orbits_of_conveyor(row, of_row, tolerance, inside) if orbits else NOTHING.orbits
-            found[k] = KnownAttractors(of_it, sets)
+            found[k] = KnownAttractors(orbits_of_conveyor(row, of_row, tolerance) if orbits else NOTHING.orbits, sets)
 
     chunk = TOGETHER if len(conveyors) >= TOGETHER * threads else 1
     for_each_chunk(work, len(conveyors), threads=threads, chunk=chunk, progress=progress)

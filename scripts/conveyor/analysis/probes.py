@@ -10,7 +10,6 @@ import numpy as np
 
 from ..solver import contact
 from ..solver.model import PSI0
-from ..solver.parallel import for_each_chunk
 from ..solver.trajectory import BEGIN_OF_CYCLE
 from . import settling_lanes, stroboscope
 from .known import NOTHING, KnownAttractors
@@ -66,15 +65,8 @@ def follow(
     return found
 
 
-def of_conveyors(conveyors: np.ndarray, cycles: int, tolerance: float, threads: int = 1) -> list[Probes]:
+def of_conveyors(conveyors: np.ndarray, cycles: int, tolerance: float) -> list[Probes]:
     """The motions of each of some conveyors, shape (n, 13), that their `starts` settle to in at most `cycles`."""
     states = np.concatenate([starts(row) for row in conveyors])
-    rows = np.repeat(conveyors, STARTS, axis=0)
-    parts: dict[int, Probes] = {}
-
-    def work(begin, end):
-        parts[begin] = follow(rows[begin:end], states[begin:end], cycles, tolerance)
-
-    for_each_chunk(work, len(states), threads=threads, chunk=-(-len(states) // threads))
-    found = [np.concatenate(column) for column in zip(*(parts[begin] for begin in sorted(parts)), strict=True)]
+    found = follow(np.repeat(conveyors, STARTS, axis=0), states, cycles, tolerance)
     return [Probes(*(column[begin : begin + STARTS] for column in found)) for begin in range(0, len(states), STARTS)]

@@ -62,8 +62,8 @@ def test_a_curve_far_out_does_not_come_inside():
     (motions,) = probes.of_conveyors(row[None], 400, TOLERANCE)
     k = int(np.argmax(motions.flights))
     centre, factor = attracting_orbits.neighbourhood(row, TOLERANCE, motions.states[k], 1)
-    assert attracting_orbits.comes_inside(row, TOLERANCE, centre, factor, 1, 1.0, attracting_orbits.PERIODS)
-    assert not attracting_orbits.comes_inside(row, TOLERANCE, centre, factor, 1, 8.0, attracting_orbits.PERIODS)
+    assert attracting_orbits.comes_inside(row, TOLERANCE, centre, factor, 1, 1.0)
+    assert not attracting_orbits.comes_inside(row, TOLERANCE, centre, factor, 1, 8.0)
 
 
 def test_an_orbit_that_does_not_attract_has_no_neighbourhood():
