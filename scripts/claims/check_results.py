@@ -23,7 +23,7 @@ def make(results: str, figures: dict) -> str:
     environment = {"CONVEYOR_RESULTS": results, "CONVEYOR_FIGURES": json.dumps(figures)}
     run = subprocess.run(
         # The interpreter that runs this: another one on PATH, or none, is no concern of ours.
-        [sys.executable, "-m", "pytest", "tests/results", "--dist=loadgroup"],
+        [sys.executable, "-m", "pytest", "tests/results", "--dist=worksteal"],
         env={**os.environ, **environment},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

@@ -1,14 +1,12 @@
 """All figures as they have been made: the journal's size, units on every axis, fonts, equal bytes, fine maps."""
 
 import re
-from functools import cache
-from pathlib import Path
-from tempfile import TemporaryDirectory
+from typing import NamedTuple
 
 import matplotlib.legend
 import matplotlib.text
 import pytest
-from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
 from draw import draw
 from figures import style
@@ -16,16 +14,9 @@ from made import FIGURES, RESULTS, entries
 from workflow.tables_of_config import kind_of
 
 ENTRIES = entries()
-
-
-def in_one_process(names):
-    """Parameters: one process looks at all of a figure, which it draws once."""
-    return [pytest.param(name, marks=pytest.mark.xdist_group(name)) for name in names]
-
-
-FIGURE = in_one_process(ENTRIES)
-MAP = in_one_process(("fig12", "fig13", "fig14", "fig18", "fig19"))
+MAPS = ("fig12", "fig13", "fig14", "fig18", "fig19")
 PAGE_HEIGHT = 234.0  # mm, of the journal's page
+ABOVE_LETTERS = 0.02  # inch, of the height of a line of text
 UNITS = {
     "m/s²",
     "$g/\\omega^2$ and $g/\\omega$",
@@ -67,48 +58,51 @@ NO_UNIT = (
 )
 
 
-@cache
-def drawn(name):
-    """A figure once more from its tables, and the page that it is saved as; its layout is the one of that page."""
-    entry = ENTRIES[name]
+class Drawn(NamedTuple):
+    """A figure drawn once more from its tables, and the page that it is saved as, with whose layout it stays."""
+
+    name: str
+    figure: Figure
+    page: bytes
+
+
+@pytest.fixture(scope="module", params=ENTRIES)
+def drawn(request, tmp_path_factory):
+    """Each figure in turn: pytest puts the tests of a figure behind each other."""
+    entry = ENTRIES[request.param]
     paths, kinds = {}, {}
     for role, reference in entry["tables"].items():
         section, table = reference.split("/")
         paths[role] = RESULTS / (f"{table}.parquet" if section == "results" else f"{reference}.parquet")
         kinds[role] = kind_of(reference)
-    figure = draw(name, paths, kinds, entry.get("settings", {}), asked={})
-    with TemporaryDirectory() as folder:
-        copy = Path(folder, f"{name}.pdf")
-        style.save(figure, [str(copy)])
-        page = copy.read_bytes()
-    FigureCanvasAgg(figure).draw()
-    return figure, page
+    figure = draw(request.param, paths, kinds, entry.get("settings", {}), asked={})
+    copy = tmp_path_factory.mktemp("page") / "page.pdf"
+    style.save(figure, [str(copy)])
+    figure.draw_without_rendering()
+    return Drawn(request.param, figure, copy.read_bytes())
 
 
-@pytest.mark.parametrize("name", FIGURE)
-def test_size_and_type_are_the_journal_s(name):
-    figure, _ = drawn(name)
+def test_size_and_type_are_the_journal_s(drawn):
+    figure = drawn.figure
     assert round(figure.get_figwidth() / style.MM, 6) in (style.COLUMN, style.PAGE)
     assert figure.get_figheight() / style.MM <= PAGE_HEIGHT
     texts = [text for text in figure.findobj(matplotlib.text.Text) if text.get_text() and text.get_visible()]
     assert min(text.get_fontsize() for text in texts) >= 7.0
 
 
-@pytest.mark.parametrize("name", FIGURE)
-def test_legends_and_labels_are_not_cut(name):
-    figure, _ = drawn(name)
-    whole = figure.bbox.padded(1.0)  # pixel
+def test_legends_and_labels_are_not_cut(drawn):
+    figure = drawn.figure
+    whole = figure.bbox.padded(ABOVE_LETTERS * figure.dpi)
     named = [label for axes in figure.axes for label in (axes.title, axes.xaxis.label, axes.yaxis.label)]
     for artist in [*figure.findobj(matplotlib.legend.Legend), *(one for one in named if one.get_text())]:
         if artist.get_visible() and (artist.axes is None or artist.axes.axison):
-            extent = artist.get_window_extent(figure.canvas.get_renderer())
+            extent = artist.get_window_extent()
             assert whole.contains(extent.x0, extent.y0) and whole.contains(extent.x1, extent.y1), artist
 
 
-@pytest.mark.parametrize("name", FIGURE)
-def test_axes_have_units(name):
+def test_axes_have_units(drawn):
     """An axis, or one that shares its scale, names a quantity with its unit, unless its ticks are words."""
-    for axes in drawn(name)[0].axes:
+    for axes in drawn.figure.axes:
         if not axes.axison:
             continue
         for axis, shared in (("xaxis", axes.get_shared_x_axes()), ("yaxis", axes.get_shared_y_axes())):
@@ -126,18 +120,13 @@ def in_words(axis):
     return not texts or any(re.search("[a-z]{3}", text) for text in texts)
 
 
-@pytest.mark.parametrize("name", FIGURE)
-def test_pages_are_equal_vectors_with_embedded_fonts(name):
+def test_pages_are_equal_vectors_with_embedded_fonts_and_fine_maps(drawn):
     """Equal to the byte to those of another process, which has drawn nothing else."""
-    _, page = drawn(name)
-    assert (FIGURES / f"{name}.pdf").read_bytes() == page
+    page = drawn.page
+    assert (FIGURES / f"{drawn.name}.pdf").read_bytes() == page
     assert b"/FontFile2" in page
     assert b"/Type3" not in page
-
-
-@pytest.mark.parametrize("name", MAP)
-def test_maps_are_rasterised_finely(name):
-    figure, page = drawn(name)
-    width = max(map(int, re.findall(rb"/Width (\d+)", page)))
-    wanted = figure.axes[0].get_position().width * figure.get_figwidth() * style.RESOLUTION
-    assert width == pytest.approx(wanted, rel=0.02)
+    if drawn.name in MAPS:
+        width = max(map(int, re.findall(rb"/Width (\d+)", page)))
+        wanted = drawn.figure.axes[0].get_position().width * drawn.figure.get_figwidth() * style.RESOLUTION
+        assert width == pytest.approx(wanted, rel=0.02)
