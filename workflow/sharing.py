@@ -13,7 +13,7 @@ from workflow.tables_of_config import count_points, count_values, ends, values_o
 
 THREADS = 2  # of a job
 STARTS = ("psi0", "z0", "vz0")  # what belongs to a start; all other parameters are those of its conveyor
-SHARED = constants("pipeline/motions.py", "CHAOS_SHARED", "ORBITS_SHARED")
+SHARED = constants("pipeline/motions.py", "CHAOS_SHARED", "ORBITS_SHARED", "CYCLES_SHARED")
 ROW_GROUP = constants("pipeline/tables.py", "ROW_GROUP")["ROW_GROUP"]
 BLOCK = constants("sweeps/shards.py", "BLOCK")["BLOCK"]
 
@@ -54,10 +54,10 @@ def conveyors_of(axes: dict, rows: int) -> int:
     return found
 
 
-def known_of(axes: dict) -> str:
+def known_of(entry: dict) -> str:
     """What is found of the attractors of each conveyor before its starts are followed."""
-    starts = math.prod(count_values(axis) for name, axis in axes.items() if name in STARTS)
-    if starts < SHARED["CHAOS_SHARED"]:
+    starts = math.prod(count_values(axis) for name, axis in entry["axes"].items() if name in STARTS)
+    if starts < SHARED["CHAOS_SHARED"] or starts * entry["settling"] < SHARED["CYCLES_SHARED"]:
         return "alone"
     return "chaos" if starts < SHARED["ORBITS_SHARED"] else "orbits"
 
@@ -69,7 +69,7 @@ def seconds_of(entry: dict, costs: dict, rows: int) -> float:
     else:
         frequencies = values_of(entry, "frequency")
         run = costs["cycle"] * entry["duration"] * sum(frequencies) / len(frequencies)
-    known, share = known_of(entry["axes"]), restless(entry)
+    known, share = known_of(entry), restless(entry)
     start, conveyor = (
         quiet + share * (thrown - quiet)
         for quiet, thrown in (costs["start"][known], costs["conveyor"].get(known, (0, 0)))

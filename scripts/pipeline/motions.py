@@ -15,6 +15,8 @@ from pipeline import grid
 # From so many starts of a conveyor on it costs less to find its chaotic sets first, and neighbourhoods of its orbits.
 CHAOS_SHARED = 8
 ORBITS_SHARED = 200
+# If they are followed for fewer excitation cycles than these altogether, the search itself takes longer.
+CYCLES_SHARED = 32_000
 # So many conveyors have their attractors in memory at a time, some 30 kB each.
 CONVEYORS = 2000
 
@@ -35,7 +37,7 @@ def known_of(
     parameters: np.ndarray, starts: int, settings: dict, *, threads: int = 1, progress: str | None = None
 ) -> KnownAttractors:
     """The attractors of conveyors, shape (n, 13), that are worth finding for so many starts of each of them."""
-    if starts < CHAOS_SHARED:
+    if starts < CHAOS_SHARED or starts * settings["settling"] < CYCLES_SHARED:
         return NOTHING
     options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
     progress = progress and f"{progress}: attractors"

@@ -7,7 +7,7 @@ from pipeline import grid, motions
 
 SETTINGS = {
     "axes": {"acceleration": [40.0, 53.0, 80.0], "z0": {"start": 0.0, "stop": 4e-4, "num": 9}},
-    "settling": 1000,
+    "settling": 4000,
     "tolerance": 1e-8,
 }
 
@@ -42,3 +42,11 @@ def test_labels_do_not_depend_on_the_order_of_starts(monkeypatch, starts, labels
     order = np.random.default_rng(1).permutation(len(starts))
     found = motions.motions(starts[order], SETTINGS)
     assert equal(found, [column[order] for column in labels])
+
+
+@pytest.mark.parametrize(("count", "settling", "sets"), [(9, 4000, 1), (9, 1000, 0), (33, 1000, 1), (7, 20_000, 0)])
+def test_attractors_are_looked_for_where_starts_are_followed_long_enough(count, settling, sets):
+    """One conveyor in chaos: with few starts, or short searches, each is followed by itself."""
+    row = grid.product({"acceleration": [80.0]}, {})[1]
+    found = motions.known_of(row, count, {"settling": settling, "tolerance": 1e-8})
+    assert (len(found.chaotic.low), len(found.orbits.periods)) == (sets, 0)
