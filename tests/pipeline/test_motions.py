@@ -44,7 +44,7 @@ def test_labels_do_not_depend_on_the_order_of_starts(monkeypatch, starts, labels
     assert equal(found, [column[order] for column in labels])
 
 
-@pytest.mark.parametrize(("count", "settling", "sets"), [(9, 4000, 1), (9, 1000, 0), (33, 1000, 1), (7, 20_000, 0)])
+@pytest.mark.parametrize(("count", "settling", "sets"), [(9, 4000, 1), (9, 3000, 0), (7, 20_000, 0)])
 def test_attractors_are_looked_for_where_starts_are_followed_long_enough(count, settling, sets):
     """One conveyor in chaos: with few starts, or short searches, each is followed by itself."""
     row = grid.product({"acceleration": [80.0]}, {})[1]

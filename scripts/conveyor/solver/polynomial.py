@@ -70,7 +70,9 @@ def root_of_crossing(series, row, low, high):
             low = s
         following = s - f / gradient if gradient != 0.0 else low
         if abs(following - s) <= close:
-            return min(max(following, low), high)
+            if abs(following) >= close:
+                return min(max(following, low), high)
+            close = CLOSE * abs(following)  # so near to zero a root is told by its own size
         s = following if low < following < high else 0.5 * (low + high)
     return s
 

@@ -106,7 +106,7 @@ def test_any_run_within_the_ranges_ends_with_a_motion_or_a_reason(conveyor, star
 @settings(max_examples=300, deadline=None, phases=NO_SHRINKING, suppress_health_check=[HealthCheck.too_slow])
 @given(conveyors, starts)
 # Found by this test: a root lost to cancellation, slip reversals without end, a stick that outlived its friction,
-# a force whose series did not converge, sticking and slipping at rest without end.
+# a force whose series did not converge, sticking and slipping at rest without end, a separation next to the start.
 @example(
     Conveyor(acceleration=2.2e-16, angle=0.75, frequency=124.0, psi0=1e-15, damping=0.0, mass=1.6e-4),
     Start("conveyor", vz=-0.07),
@@ -142,6 +142,21 @@ def test_any_run_within_the_ranges_ends_with_a_motion_or_a_reason(conveyor, star
     Start("conveyor", vz=0.412),
 )
 @example(Conveyor(acceleration=0.0, angle=0.0, frequency=7.39, damping=0.0, exponent=1.0), Start("conveyor"))
+@example(
+    Conveyor(
+        acceleration=5e-324,
+        angle=0.10073910016816946,
+        frequency=6.2835071969381815,
+        psi0=5.16947249338495,
+        stiffness=492463.4220389999,
+        damping=3.0,
+        friction=0.15,
+        mass=0.0007000000000093406,
+        exponent=2.057880883881108,
+        tension="frictionless",
+    ),
+    Start(z=-1.8827764430134195e-65, vz=0.4113990765231621),
+)
 @example(
     Conveyor(
         acceleration=79.4690520074417,
