@@ -7,6 +7,7 @@ tighter tolerance, as in chaos and in long transients, do not count: there the m
 """
 
 from collections.abc import Callable
+from functools import cache, partial
 from time import thread_time
 from typing import Any
 
@@ -128,11 +129,12 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     alike.append(shown.observe(full_settings | {"tolerance": TIGHTER}))
     full_seconds, truth = least_time(lambda: shown.observe(full_settings))
     known = observables.known_values(shown, truth, alike, settings["axes"], budget["line"])
+    work_at = cache(partial(work_of, parameters[:: max(1, len(parameters) // 50)]))
 
     def row(variant: str, of: dict, seconds: float, found: pd.DataFrame) -> dict:
         seen = observables.differences(shown, truth, found, settings["axes"], budget["line"])
         shares = [seen[name][known[name]].mean() for name in shown.drawn if known[name].any()]
-        steps, sticks = work_of(parameters[:: max(1, len(parameters) // 50)], of["tolerance"])
+        steps, sticks = work_at(of["tolerance"])
         return {
             "table": reference,
             "needs": needs,

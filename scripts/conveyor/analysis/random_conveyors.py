@@ -4,10 +4,9 @@ import math
 
 import numpy as np
 
-from ..ensemble import samples_by_events
-from ..solver import model
-from ..solver.horizontal import SAMPLES
-from ..solver.model import RANGES, Conveyor, conveyor_motion, unpack
+from ..solver import model, trajectory
+from ..solver.horizontal import Z
+from ..solver.model import RANGES, Conveyor
 from ..solver.parallel import for_each_chunk
 
 # Moments of a run at which the penetration is looked at.
@@ -92,13 +91,13 @@ def deepest(
     depths = np.empty(len(parameters))
 
     def work(begin, end):
-        for n in range(begin, end):
-            rows = parameters[n : n + 1]
-            heights = np.empty((1, MOMENTS))
-            times = np.linspace(0.0, durations[n], MOMENTS)
-            samples_by_events(rows, times, tolerance, SAMPLES.index("z"), False, heights)
-            conveyor, _ = unpack(rows[0])
-            depths[n] = np.max(conveyor_motion(conveyor, times)["z"] - heights[0])
+        rows = parameters[begin:end]
+        times = np.linspace(0.0, durations[begin:end], MOMENTS, axis=1)
+        samples, _ = trajectory.integrate(rows, times, tolerance=tolerance, feeding=False)
+        omega = 2.0 * math.pi * rows[:, model.FREQUENCY, None]
+        stroke = rows[:, model.ACCELERATION, None] * np.sin(rows[:, model.ANGLE, None]) / omega**2
+        plate = -stroke * np.cos(omega * times + rows[:, model.PSI0, None])  # Eq. 4
+        depths[begin:end] = np.max(plate - samples[:, :, Z], axis=1)
 
     for_each_chunk(work, len(parameters), threads=threads, progress=progress)
     return depths
