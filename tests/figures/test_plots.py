@@ -34,7 +34,7 @@ def test_chaos_scatters_by_itself():
 
 
 def test_a_picture_does_not_wait_for_the_compiler():
-    """What a plot takes from the solver are names and closed forms; `simulate` loads the rest when it is asked for."""
+    """What most plots take from the solver are names and closed forms; `simulate` loads the rest when asked for."""
     code = (
         "import sys, make, draw, conveyor; from figures.plots import fig13; before = 'numba' in sys.modules; "
         "from conveyor import simulate; print(before, 'numba' in sys.modules, hasattr(conveyor, 'nothing'))"

@@ -121,7 +121,7 @@ def spectrum(
 def spectrum_from(
     parameters: np.ndarray, states: np.ndarray, cycles: int, *, tolerance: float, threads: int = 1
 ) -> Spectrum:
-    """Exponents of motions over so many cycles from `states`, shape (n, 2), at trajectory.BEGIN_OF_CYCLE, on."""
+    """Exponents of motions over a number of cycles, from `states`, shape (n, 2), at trajectory.BEGIN_OF_CYCLE."""
     counted = {"transient": 0, "cycles": cycles // BLOCKS, "blocks": BLOCKS}
     return spectrum(parameters, states, begin_of_cycle=True, **counted, tolerance=tolerance, threads=threads)
 

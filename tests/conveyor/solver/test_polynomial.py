@@ -42,3 +42,15 @@ def test_first_root_is_the_least_of_all():
         else:
             assert found == math.inf
     assert 200 < inside < 400
+
+
+@pytest.mark.parametrize("exponent", [-60, -50, -40, -30, -20])
+def test_a_root_next_to_zero_is_found_relative_to_itself(exponent):
+    """A separation from within the plate by next to nothing, in steps of usual lengths."""
+    generator = np.random.default_rng(1)
+    for _ in range(50):
+        root, length = 10.0 ** generator.uniform(exponent, exponent + 1), generator.uniform(0.01, 1.0)
+        series = series_of([root])
+        series[1] *= root  # as √penetration is: small, with a speed of usual size
+        series[1, 3] = -30.0
+        assert polynomial.root_of_crossing(series, 1, 0.0, length) == pytest.approx(root, rel=1e-9, abs=0.0)
