@@ -27,8 +27,8 @@ from .force_law import contact_acceleration, friction_acceleration
 HEYOKA = "heyoka"
 INTEGRATORS = ("RK45", "DOP853", "Radau", "LSODA", HEYOKA)
 TREATMENTS = ("sign", "events", "modes")
-STATUSES = ("ok", "gave up", "step too small", "event lost", "not finite", "not installed")
-OK, GAVE_UP, STEP_TOO_SMALL, EVENT_LOST, NOT_FINITE, NOT_INSTALLED = STATUSES
+STATUSES = ("ok", "gave up", "stuck at an event", "step too small", "event lost", "not finite", "not installed")
+OK, GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST, NOT_FINITE, NOT_INSTALLED = STATUSES
 
 SIGN, FLIGHT, FORWARD, BACKWARD, STICK = range(5)
 # Where "modes" puts the variable of an event that is handled, in units of the plate's motion: a few roundings beside
@@ -165,6 +165,10 @@ class GaveUp(Exception):
     """More evaluations than allowed."""
 
 
+class Stuck(Exception):
+    """The same mode and state at the same time again: the run would find these events for ever."""
+
+
 class EventLost(Exception):
     """The search for an event finds no change of sign: LSODA's interpolant does not meet its own steps."""
 
@@ -233,15 +237,22 @@ def advance(right_side: Counted, begin: float, end: float, state: np.ndarray, tr
     follow_leg, beside = (leg_of_heyoka, BESIDE_OF_HEYOKA) if by_heyoka else (leg_of_scipy, BESIDE)
     if treatment != "sign" and right_side.mode == SIGN:
         right_side.mode = next_mode(parameters, t, state, None, SIGN)
+    met = set()  # modes and states at the time t
     while t < end:
         leg = follow_leg(right_side, t, end, state, options)
         if leg is None:
             return None
+        if leg[0] > t:
+            met.clear()
         t, state, ended = leg
         if ended is not None:
             right_side.mode = next_mode(parameters, t, state, ended, right_side.mode)
             if treatment == "modes":
                 put_beside(parameters, t, state, ended, right_side.mode, beside)
+        here = right_side.mode, state.tobytes()
+        if here in met:
+            raise Stuck
+        met.add(here)
     return state
 
 
@@ -296,6 +307,8 @@ def run(
         after = None if before is None else advance(right_side, middle, duration, before, treatment, options)
     except GaveUp:
         return Summary(*lost, right_side.limit, GAVE_UP)
+    except Stuck:
+        return Summary(*lost, right_side.count, STUCK)
     except EventLost:
         return Summary(*lost, right_side.count, EVENT_LOST)
     if after is None:

@@ -20,6 +20,7 @@ TREATMENTS = {
 }
 FAILURES = {
     "gave up": "T",
+    "stuck at an event": "R",
     "step too small": "S",
     "event lost": "E",
     "not finite": "N",
@@ -28,7 +29,7 @@ FAILURES = {
 }
 MEANINGS = (
     "T: gave up at the limit of evaluations · W: wrong state of motion · P: fell through the plate, reported success\n"
-    "S: step too small · E: event lost · N: not finite"
+    "R: finds the same events for ever · S: step too small · E: event lost · N: not finite"
 )
 MISSING = "not installed"
 # Work, error, and their names.
