@@ -6,11 +6,13 @@ from workflow.configuration import by_methods, canonical, problems, with_tighter
 from workflow.interruptions import end_with_the_terminal, name_commands_at_a_lock
 from workflow.job_lines import show_a_line_per_job
 from workflow.own_machine import fitted, is_own, model_problems, refusals
+from workflow.scheduling import look_for_jobs_when_one_ends
 
 min_version("9.27")
 end_with_the_terminal()
 name_commands_at_a_lock()
 show_a_line_per_job()
+look_for_jobs_when_one_ends()
 
 # The config of the paper, one file for each stage; overlays of the command line are merged over it.
 STAGES = (
