@@ -67,7 +67,7 @@ accuracy_rule(
         }
     },
 )
-accuracy_rule("random_points", "Random conveyors and starts", threads=2, mem_mb=2000)
+accuracy_rule("random_points", "Random conveyors and starts", mem_mb=2000)
 accuracy_rule(
     "precision",
     "Error against work, {wildcards.name}",
@@ -92,7 +92,6 @@ accuracy_rule(
 accuracy_rule(
     "settling_times",
     "After how many cycles starts have settled",
-    threads=2,
     params={
         "settings": {**config["settling_times"], "settling": config["solver"]["settling"]},
         "model": MODEL_OF_ANY_AMPLITUDE,
@@ -116,7 +115,7 @@ accuracy_rule(
     "What the data of each figure need",
     output=tables_of("results", "scene_budget", "budget_times"),
     timed=("budget_times",),
-    threads=2,  # of processor times, which do not need a machine alone
+    priority=1,
     mem_mb=2000,
     params={
         "settings": config["scene_budget"],

@@ -19,6 +19,5 @@ RULES["curves"] = {
     "input": tables_of("orbits", "folds_and_doublings", "cascade"),
     "output": tables_of("sensitivity", "continued", "meetings"),
     "place": "sensitivity/curves",
-    "threads": 2,
     "params": {"settings": {name: SENSITIVITY[name] for name in ("longest_period", "curves", "model")}},
 }
