@@ -207,7 +207,7 @@ def fly(c, first, second, motion, piece):
 def press(c, series, first, second, motion, piece, count):
     """Advance the perturbations along a contact step; return the piece up to where they could go."""
     expand(c, series, first, second, motion.pulled and c.tension == TENSION_CLIP, count)
-    longest = PART * min(tangent_length(c, first[DELTA]), tangent_length(c, first[Y]))
+    longest = PART * tangent_length(c, first[: Y + 1])
     edge = branch_edge(c)
     if c.edge_w == 0.0 and count <= EXPONENT:
         pass  # nothing has a branch point

@@ -27,6 +27,8 @@ from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, begi
 # What a cycle is characterised by.
 IMPACTS, CONTACT_TIME, LONGEST_FLIGHT, AIRBORNE = range(4)
 FEATURES = 4
+# Rows of a perturbation's expansion.
+ETA, ZETA, RATE = range(3)
 
 
 @kernel
@@ -39,56 +41,66 @@ def initial_state(parameters, tolerance, state):
 
 
 @kernel
-def expand_tangent(c, series, tangent, free):
-    """Taylor coefficients of a perturbation along a contact step: rows η, ζ of `tangent`, from their values at s = 0.
+def expand_tangents(c, series, expansions, free):
+    """Fill the Taylor coefficients of two perturbations along a contact step from η and ζ at s = 0.
 
-    With the derivative in s, η' = w (ζ - (d_c/m) η) and ζ' = -p (k_c/m) w^(2p-1) η. `free` leaves the force out.
+    With the derivative in s, η' = w (ζ - (d_c/m) η) and ζ' = -p (k_c/m) w^(2p-1) η.
+
+    Parameters
+    ----------
+    c, series : contact.Constants, and the workspace with the step's series
+    expansions : float64, shape (2, 3, SIZE), for each perturbation the rows ETA, ZETA, and RATE, ζ - (d_c/m) η
+    free : leaves the contact force out
     """
-    w, square, stiff = series[FIRST + contact.W], series[FIRST + contact.SQUARE], series[contact.SCRATCH]
-    eta, zeta = tangent[0], tangent[1]
+    w, stiff = series[FIRST + contact.W], series[contact.SCRATCH]
     damping = 0.0 if free else c.damping
     stiffness = 0.0 if free else c.exponent * c.stiffness
-    hertz = c.exponent == 1.5
-    hooke = c.exponent == 1.0
-    if not hertz and not hooke:
+    if c.exponent == 1.5:
+        stiff = series[FIRST + contact.SQUARE]
+    elif c.exponent == 1.0:
+        stiff = w
+    else:
         power = 2.0 * c.exponent - 1.0
-        general = w[0] > c.edge_w
         stiff[:] = 0.0
-        if general:
+        if w[0] > c.edge_w:
             stiff[0] = w[0] ** power
             for n in range(1, ORDER):
                 stiff[n] = contact.power_term(series, FIRST + contact.W, contact.SCRATCH, power, n)
+    w_0, stiff_0 = w[0], stiff[0]
+    eta_1, eta_2 = expansions[0, ETA, 0], expansions[1, ETA, 0]
+    zeta_1, zeta_2 = expansions[0, ZETA, 0], expansions[1, ZETA, 0]
     for n in range(ORDER):
-        drift = 0.0
-        pull = 0.0
-        if hertz:
-            for k in range(n + 1):
-                drift += w[k] * (zeta[n - k] - damping * eta[n - k])
-                pull += square[k] * eta[n - k]
-        elif hooke:
-            for k in range(n + 1):
-                drift += w[k] * (zeta[n - k] - damping * eta[n - k])
-                pull += w[k] * eta[n - k]
-        else:
-            for k in range(n + 1):
-                drift += w[k] * (zeta[n - k] - damping * eta[n - k])
-                pull += stiff[k] * eta[n - k]
-        eta[n + 1] = drift / (n + 1)
-        zeta[n + 1] = -stiffness * pull / (n + 1)
+        rate_1, rate_2 = zeta_1 - damping * eta_1, zeta_2 - damping * eta_2
+        expansions[0, RATE, n], expansions[1, RATE, n] = rate_1, rate_2
+        # The newest coefficients are still in registers. The sums of both perturbations do not wait for each other.
+        drift_1, drift_2 = w_0 * rate_1, w_0 * rate_2
+        pull_1, pull_2 = stiff_0 * eta_1, stiff_0 * eta_2
+        for k in range(1, n + 1):
+            drift_1 += w[k] * expansions[0, RATE, n - k]
+            drift_2 += w[k] * expansions[1, RATE, n - k]
+            pull_1 += stiff[k] * expansions[0, ETA, n - k]
+            pull_2 += stiff[k] * expansions[1, ETA, n - k]
+        eta_1, eta_2 = drift_1 / (n + 1), drift_2 / (n + 1)
+        zeta_1, zeta_2 = -stiffness * pull_1 / (n + 1), -stiffness * pull_2 / (n + 1)
+        expansions[0, ETA, n + 1], expansions[1, ETA, n + 1] = eta_1, eta_2
+        expansions[0, ZETA, n + 1], expansions[1, ZETA, n + 1] = zeta_1, zeta_2
 
 
 @kernel
-def tangent_length(c, expansion):
-    """Length in s at which the last two terms of a perturbation's expansion are below the tolerance.
+def tangent_length(c, expansions):
+    """Length in s at which the last two terms of all perturbations' expansions, rows η and ζ, are below the tolerance.
 
     A perturbation rings at the frequency of the contact, also where the motion itself is slow or at rest.
     """
-    scale = c.omega * abs(expansion[0, 0]) + abs(expansion[1, 0])
     length = 1e300
     for order in (ORDER - 1, ORDER):
-        last = max(c.omega * abs(expansion[0, order]), abs(expansion[1, order]))
-        if last > 0.0:
-            length = min(length, (c.tolerance * scale / last) ** (1.0 / order))
+        allowed = math.inf
+        for i in range(expansions.shape[0]):
+            scale = c.omega * abs(expansions[i, ETA, 0]) + abs(expansions[i, ZETA, 0])
+            last = max(c.omega * abs(expansions[i, ETA, order]), abs(expansions[i, ZETA, order]))
+            if last > 0.0:
+                allowed = min(allowed, c.tolerance * scale / last)
+        length = min(length, allowed ** (1.0 / order))
     return length
 
 
@@ -103,18 +115,18 @@ def advance_tangent(c, series, tangent, expansions, motion, piece):
         for i in range(tangent.shape[0]):
             tangent[i, 0] += tangent[i, 1] * piece.duration
         return piece
-    longest = piece.length
-    free = motion.pulled and c.tension == TENSION_CLIP
+    if tangent.shape[0] == 0:
+        return piece
     for i in range(tangent.shape[0]):
-        expansions[i, 0, 0], expansions[i, 1, 0] = tangent[i, 0], tangent[i, 1]
-        expand_tangent(c, series, expansions[i], free)
-        longest = min(longest, tangent_length(c, expansions[i]))
+        expansions[i, ETA, 0], expansions[i, ZETA, 0] = tangent[i, 0], tangent[i, 1]
+    expand_tangents(c, series, expansions, motion.pulled and c.tension == TENSION_CLIP)
+    longest = tangent_length(c, expansions)
     if longest < piece.length:
         duration = polynomial.value(series, FIRST + contact.T, longest)
         piece = shortened(series, FIRST, longest, duration, contact.NOTHING)
     for i in range(tangent.shape[0]):
-        tangent[i, 0] = polynomial.value(expansions[i], 0, piece.length)
-        tangent[i, 1] = polynomial.value(expansions[i], 1, piece.length)
+        tangent[i, 0] = polynomial.value(expansions[i], ETA, piece.length)
+        tangent[i, 1] = polynomial.value(expansions[i], ZETA, piece.length)
     if piece.end == contact.FORCE_SIGN:
         switch_damping(c, tangent, not motion.pulled)
     return piece
@@ -147,7 +159,7 @@ def advance(c, series, state, phase, duration, tangent, features):
     c, series : contact.Constants and a contact.workspace to work in
     state : float64, shape (2,), δ (m) and v (m/s) at `phase` (rad); replaced
     duration : s
-    tangent : float64, shape (n, 2), n perturbations of (δ, Y); replaced; n = 0 where none are wanted
+    tangent : float64, shape (2, 2), two perturbations of (δ, Y), replaced; shape (0, 2) where none are wanted
     features : float64, shape (4,), replaced but for AIRBORNE, the time (s) since the last separation, which goes on:
         number of impacts, time with contact force (s), longest flight that ended (s)
 
@@ -156,7 +168,8 @@ def advance(c, series, state, phase, duration, tangent, features):
     status code of trajectory.STATUS
     """
     series, state, tangent, features = borrowed(series), borrowed(state), borrowed(tangent), borrowed(features)
-    expansions = np.zeros((tangent.shape[0], 2, SIZE))
+    # Numbers of both perturbations lie side by side: one instruction works on both.
+    expansions = np.zeros((SIZE, 3, tangent.shape[0])).T
     features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = 0.0
     motion = motion_at(c, -state[0], -state[1], 0.0, phase)
     if motion.pulled:
