@@ -7,6 +7,7 @@ by more than these errors allow, all errors are taken to be larger by one factor
 """
 
 from collections.abc import Callable
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -141,11 +142,15 @@ def profile(
     spaces = [holding(parameter, value, bounds, model) for value in grid]
     found: dict[int, Fit] = {}
 
-    def improve(place: int, starts: np.ndarray) -> None:
+    # Starts come again: where a profile rises, a value is worse than the neighbour from whose result it has started.
+    @cache
+    def searched_from(place: int, *start: float) -> Fit:
         space = spaces[place]
-        one = fit(lambda rest: misfits(space.whole(rest)), space.rest(starts), space.bounds)
-        if place not in found or one.total < found[place].total:
-            found[place] = one
+        return fit(lambda rest: misfits(space.whole(rest)), np.array([start]), space.bounds)
+
+    def improve(place: int, starts: np.ndarray) -> None:
+        fits = [searched_from(place, *start) for start in spaces[place].rest(starts)]
+        found[place] = min([found[place], *fits] if place in found else fits, key=lambda one: one.total)
 
     def whole(place: int) -> np.ndarray:
         return spaces[place].whole(found[place].x[None])

@@ -121,6 +121,21 @@ def test_a_profile_takes_a_better_valley_back_to_where_it_was_not_seen():
     assert [total for _, total, _ in found] == pytest.approx([0.1] * 4, abs=1e-5)
 
 
+def test_a_profile_starts_nowhere_twice(monkeypatch):
+    """Its totals rise on either side of the optimum, and each value has started from its better neighbour before."""
+    column, starts_of = SEARCHED.index("friction"), []
+
+    def watched(residuals, starts, bounds):
+        starts_of.extend(map(tuple, residuals(starts)))
+        return fit(residuals, starts, bounds)
+
+    monkeypatch.setattr(profiles, "fit", watched)
+    grid = np.exp(CENTRE[column] + np.array([-0.3, 0.0, 0.3, 0.6]))
+    pool = profiles.Pool(CENTRE[None] + 0.01, np.zeros((1, 1)))
+    profiles.profile(lambda x: x - CENTRE, "friction", grid, CENTRE, pool, BOUNDS, MODEL)
+    assert len(set(starts_of)) == len(starts_of) > len(grid)
+
+
 def test_status_tells_a_bound_and_a_search_that_gave_up():
     bounds = np.array([[0.0], [1.0]])
     assert profiles.status_of(profiles.Fit(np.array([1.0]), 0.0, True), bounds) == "at a bound"
