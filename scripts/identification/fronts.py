@@ -155,7 +155,7 @@ def status(fronts: list[np.ndarray], volumes: list[list[float]], settings: dict)
     return "converged"
 
 
-def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, dict]:
+def make(edges: pd.DataFrame, settings: dict) -> dict[str, dict]:
     """The columns of the tables of fronts and of generations."""
     model, options = settings["model"], settings["search"]
     interpolated = measures.edges_of(edges, model)
@@ -165,13 +165,13 @@ def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, 
         numbers_of(settings, [name for group in groups for name in group]),
         [len(group) for group in groups],
     )
-    follow = measures.by_events(threads)
     drawn = np.random.default_rng(options["seeds"][0]).uniform(*bounds, (options["drawn"], len(SEARCHED)))
     members, history = [], []
     for reading in settings["readings"]:
 
         def misfits(x, reading=reading):
-            return numbers.misfits(measures.at(interpolated, values_of(x, model), reading, settings, follow))
+            found = measures.at(interpolated, values_of(x, model), reading, settings, measures.by_events)
+            return numbers.misfits(found)
 
         first = compromises(misfits, sizes, drawn, bounds, options)
         found = [

@@ -53,7 +53,7 @@ def edges_at(values: np.ndarray, reading: str, method: str, settings: dict, thre
 def followed(method: str, settings: dict, threads: int) -> measures.Follow:
     """Mean feeding velocities (m/s) by one of both methods."""
     if method == CONVERGED:
-        return measures.by_events(threads)
+        return measures.by_events
     run = {name: settings["euler"][name] for name in ("duration", "method", "step")}
     return lambda rows: ensemble.run(rows, chunk=1, threads=threads, **run)["mean_velocity"]
 
@@ -79,7 +79,7 @@ def rows(
     direct = measured(values, reading, method, settings, threads)
     quick = {}
     if method == CONVERGED:
-        quick = measures.at(edges, values[None], reading, settings, measures.by_events(threads))
+        quick = measures.at(edges, values[None], reading, settings, measures.by_events)
     numbers = settings["numbers"]
     table = pd.DataFrame(
         {

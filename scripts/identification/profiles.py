@@ -205,7 +205,7 @@ def make(
 ) -> dict[str, dict]:
     """The columns of the tables of profiles, optima, frictions, and of the numbers at the optima."""
     model, bounds, options = settings["model"], bounds_of(settings), settings["profiles"]
-    interpolated, follow = measures.edges_of(edges, model), measures.by_events(threads)
+    interpolated, follow = measures.edges_of(edges, model), measures.by_events
     names = [name for group in settings["objectives"].values() for name in group]
     shifts = shifts_of(printed)
     sets = {

@@ -128,7 +128,7 @@ def interpolated() -> measures.Edges:
 
 
 def test_interpolated_edges_are_those_of_the_contact(interpolated, direct):
-    found = measures.at(interpolated, PRINTED[None], "allow", NEAR, measures.by_events())
+    found = measures.at(interpolated, PRINTED[None], "allow", NEAR, measures.by_events)
     for name, value in found.items():
         assert value[0] == pytest.approx(direct[name], rel=2e-3), name
 
@@ -141,7 +141,7 @@ def test_the_config_knows_what_is_measured(direct):
 def test_friction_moves_velocities_alone(interpolated):
     values = np.tile(PRINTED, (3, 1))
     values[:, 0] = 0.15, 0.20, 0.25
-    found = measures.at(interpolated, values, "allow", NEAR, measures.by_events())
+    found = measures.at(interpolated, values, "allow", NEAR, measures.by_events)
     for name, value in found.items():
         if name[:3] in ("C05", "C06"):
             assert (np.diff(value) > 0.05).all(), name
@@ -157,8 +157,15 @@ def test_velocities_scale_with_friction_and_the_slope_of_the_excitation(interpol
     values[1, 0] = values[0, 0] * np.tan(values[0, 3]) / np.tan(angle)
     rows = packed(values, "allow", MODEL)
     rows[:, 0] = 8.0 / np.sin(values[:, 3])
-    velocities = measures.by_events()(rows) / values[:, 0]
+    velocities = measures.by_events(rows) / values[:, 0]
     assert velocities[0] == pytest.approx(velocities[1], rel=1e-6)
+
+
+def test_velocities_are_those_of_runs():
+    rows = np.repeat(packed(PRINTED[None], "clip", MODEL), 3, axis=0)
+    rows[:, 0], rows[:, 11] = 40.0, [0.0, 1e-4, 3e-4]
+    runs = ensemble.run(rows, tolerance=measures.TOLERANCE)
+    assert measures.by_events(rows).tolist() == runs["mean_velocity"].tolist()
 
 
 def test_each_reading_of_tension_has_its_own_edges():
