@@ -11,10 +11,12 @@ import pandas as pd
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.backends.backend_pdf import PdfFile, PdfPages
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import FigureCanvasPdf, PdfFile, PdfPages
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from PIL import Image
 
 mpl.use("Agg")
 
@@ -73,7 +75,6 @@ PARAMETERS = {
     "lines.linewidth": 1.0,
     "lines.markersize": 3.0,
     "figure.constrained_layout.use": True,
-    "savefig.dpi": RESOLUTION,
     "pdf.fonttype": 42,  # embedded as TrueType: text stays text
 }
 
@@ -161,7 +162,7 @@ class Page(PdfFile):
 
 
 class Pages(PdfPages):
-    """Where savefig puts a PDF: a Page without a date."""
+    """Where a PDF goes: a Page without a date."""
 
     def _ensure_file(self) -> PdfFile:
         if self._file is None:
@@ -170,14 +171,21 @@ class Pages(PdfPages):
 
 
 def save(figure: Figure, paths: Iterable[str]) -> None:
-    """Write a figure to PDF or PNG files; equal figures give equal bytes."""
+    """Write a figure to PDF or PNG files; equal figures give equal bytes.
+
+    Each is drawn once: savefig would draw it twice, the first time for the layout alone.
+    """
     with applied():
         for path in paths:
             part = f"{path}.part"
+            figure.dpi = RESOLUTION
             if path.endswith(".pdf"):
                 with Pages(part) as pages:
-                    figure.savefig(pages, format="pdf")
+                    FigureCanvasPdf(figure).print_pdf(pages)
             else:
-                figure.savefig(part, format="png")
+                canvas = FigureCanvasAgg(figure)
+                canvas.draw()
+                opaque = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
+                opaque.save(part, "PNG", dpi=(RESOLUTION, RESOLUTION))
             os.replace(part, path)
             figure.set_layout_engine("none")  # the other files keep the layout of the first

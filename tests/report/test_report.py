@@ -112,8 +112,9 @@ def test_pictures_keep_white_and_colours_in_few_bytes(tmp_path):
     uri, width = figure_pages.picture(tmp_path / "figure.png")
     assert width == 144  # 1 inch of print, half as large again on the screen
     assert uri.startswith("data:image/webp;base64,")
-    found = np.asarray(Image.open(io.BytesIO(base64.b64decode(uri.split(",")[1]))).convert("RGB"))
-    assert np.array_equal(found, pixels[::2, ::2])
+    found = np.asarray(Image.open(io.BytesIO(base64.b64decode(uri.split(",")[1]))).convert("RGB"), dtype=np.int64)
+    assert np.abs(found - pixels[::2, ::2]).max() <= 2  # of 255
+    assert (found[pixels[::2, ::2, 0] == 255] == 255).all()
 
 
 def test_white_stays_white_among_many_colours(tmp_path):
@@ -127,7 +128,7 @@ def test_white_stays_white_among_many_colours(tmp_path):
 
 
 def test_a_page_that_no_browser_shows_is_refused(tmp_path):
-    pixels = np.random.default_rng(1).integers(0, 256, (1800, 1800, 3), dtype=np.uint8)
+    pixels = np.random.default_rng(1).integers(0, 256, (1400, 1400, 3), dtype=np.uint8)
     Image.fromarray(pixels).save(tmp_path / "noise.png")
     (tmp_path / "noise.rst").write_text("Noise.\n")
     noise = {"name": "noise", "number": "noise", "title": "N", "section": "", "file": "noise.pdf"}
