@@ -7,7 +7,7 @@ import pandas as pd
 from jinja2 import Environment, StrictUndefined
 
 from identification import findings
-from identification.fronts import OBJECTIVES
+from identification.misfits import OBJECTIVES
 from identification.printed import CONVERGED, EULER
 from identification.search_space import PARAMETERS
 

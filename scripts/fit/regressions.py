@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor.analysis import regression
-from conveyor.analysis.regression import Hyperbola
+from conveyor.analysis.hyperbola import Hyperbola, mean_squared_error
 from pipeline import fields
 
 TABLES = {
@@ -47,7 +47,7 @@ def make(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
     rows.append(("least_squares", *least_squares.parameters, least_squares.error, least_squares.evaluations))
     if "paper" in settings:
         paper = Hyperbola(**settings["paper"])
-        rows.append(("paper", *paper, regression.mean_squared_error(*data, paper), 0))
+        rows.append(("paper", *paper, mean_squared_error(*data, paper), 0))
     rows += [("valley", *triple, error, 1) for triple, error in zip(valley, errors, strict=True)]
     return {
         column.name: list(values) for column, values in zip(TABLES["regressions"], zip(*rows, strict=True), strict=True)

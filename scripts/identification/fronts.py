@@ -15,11 +15,10 @@ from pymoo.util.ref_dirs import get_reference_directions
 
 from identification import measures
 from identification.fits import fit
-from identification.misfits import numbers_of, root_mean_square
+from identification.misfits import OBJECTIVES, numbers_of, root_mean_square
 from identification.search_space import PARAMETERS, SEARCHED, bounds_of, values_of
 from pipeline import fields
 
-OBJECTIVES = ("places", "first_velocity", "second_velocity")
 SEARCH = (
     fields.text("tension", "reading of a contact force that pulls"),
     fields.count("seed", "of the search"),

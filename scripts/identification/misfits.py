@@ -4,6 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+# Groups of numbers whose misfits are made small at once.
+OBJECTIVES = ("places", "first_velocity", "second_velocity")
+
 
 class Number(NamedTuple):
     """The interval that is accepted for a number of the paper; `low` is None for a mean squared error."""

@@ -9,7 +9,7 @@ from project import read_config
 
 from claims import about_states
 from conveyor import ensemble
-from conveyor.analysis.regression import Hyperbola, critical_height, mean_squared_error
+from conveyor.analysis.hyperbola import Hyperbola, critical_height, mean_squared_error
 from conveyor.analysis.states import classify
 from identification import edges, measures, printed
 from identification.search_space import PARAMETERS, packed

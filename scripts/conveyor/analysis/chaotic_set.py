@@ -5,7 +5,7 @@ come to the same attractor.
 """
 
 import numpy as np
-from scipy.ndimage import binary_dilation
+from numpy.lib.stride_tricks import sliding_window_view
 
 from . import lyapunov, probes
 from .known import BOXES, NOTHING, ChaoticSets, chaotic_sets_of, together
@@ -24,7 +24,7 @@ def boxes_of(strobes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     places = ((strobes - low) / size).astype(np.int64)
     visited = np.zeros((BOXES, BOXES), dtype=np.bool_)
     visited[places[:, 0], places[:, 1]] = True
-    return low, size, binary_dilation(visited, np.ones((3, 3), dtype=np.bool_))
+    return low, size, sliding_window_view(np.pad(visited, 1), (3, 3)).any(axis=(2, 3))
 
 
 def sets_of_conveyors(conveyors: np.ndarray, probed: list[Probes], cycles: int, tolerance: float) -> list[ChaoticSets]:

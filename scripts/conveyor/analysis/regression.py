@@ -14,15 +14,9 @@ from pymoo.core.problem import Problem
 from pymoo.optimize import minimize
 from scipy.optimize import least_squares
 
+from .hyperbola import Hyperbola, critical_height, mean_squared_error
+
 STARTS = 100  # values of B at which the valley is searched for its minima
-
-
-class Hyperbola(NamedTuple):
-    """Parameters of Eq. 13: A (m²/s²), B (m/s²), C (m)."""
-
-    A: float
-    B: float
-    C: float
 
 
 class Fit(NamedTuple):
@@ -40,20 +34,6 @@ class Fit(NamedTuple):
     error: float
     evaluations: int
     history: np.ndarray
-
-
-def critical_height(acceleration: np.ndarray, parameters: Hyperbola | np.ndarray) -> np.ndarray:
-    """z0 in m by Eq. 13 at `acceleration` (m/s², shape (n,)); `parameters` of shape (…, 3) give shape (…, n)."""
-    a, b, c = np.moveaxis(np.asarray(parameters, dtype=np.float64)[..., None], -2, 0)
-    return a / (b + acceleration) + c
-
-
-def mean_squared_error(acceleration: np.ndarray, height: np.ndarray, parameters: Hyperbola | np.ndarray) -> np.ndarray:
-    """Mean squared error of Eq. 13 in m², shape (…) for `parameters` of shape (…, 3).
-
-    The unit is that of a squared height; the paper states it so, and 4.14e-11 m² means deviations of 6.4 µm.
-    """
-    return np.mean((critical_height(acceleration, parameters) - height) ** 2, axis=-1)
 
 
 def profile(acceleration: np.ndarray, height: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

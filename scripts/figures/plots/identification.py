@@ -7,8 +7,7 @@ from matplotlib.figure import Figure
 
 from figures import style
 from identification.findings import VELOCITIES, lowest_profile
-from identification.fronts import OBJECTIVES
-from identification.misfits import root_mean_square
+from identification.misfits import OBJECTIVES, root_mean_square
 from identification.search_space import PARAMETERS
 
 EVIDENCE = {
