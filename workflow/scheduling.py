@@ -6,7 +6,10 @@ look_again = JobScheduler._schedule_reevalutation
 
 
 def look_again_at_the_limit(scheduler: JobScheduler, delay: int) -> None:
-    """Look for jobs again after a delay (s) if as many have begun as may at once; else there is nothing to wait for."""
+    """Look for jobs again after a delay (s) if as many have begun as may at once; else there is nothing to wait for.
+
+    Not for a workflow with inputs from a queue, which Snakemake looks at by the same way.
+    """
     if not scheduler.job_rate_limiter.get_free_jobs():
         look_again(scheduler, delay)
 

@@ -44,8 +44,8 @@ MODEL_OF_ANY_AMPLITUDE = {name: value for name, value in config["model"].items()
 #   message   what it makes, in words
 #   output    one file, or files by their names
 # and, where they differ from those in make.smk, the others; and
-#   priority  of long jobs, or a chain of them, that each keep one processor busy: before the others, which then run beside them
-#   threads   of tables that a figure of the paper waits for: two jobs side by side use a machine better than two threads
+#   priority  of long jobs, or a chain of them, that each keep one processor busy: before others, which then run beside them
+#   threads   of jobs that are asked for by themselves: two jobs side by side use a machine better than two threads of one
 #   timed     names of the outputs that hold measured times, which may differ from run to run
 RULES = {}
 
