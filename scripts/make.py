@@ -78,7 +78,7 @@ def run(job: Any) -> None:
     stage = importlib.import_module(params[STAGE])
     arguments = read_inputs(dict(job.input.items()), params.get(KINDS, {}), params[ASKED])
     arguments |= {name: value for name, value in params.items() if name not in NOT_FOR_THE_STAGE}
-    offered = {"threads": job.threads, "progress": " ".join([job.rule, *job.wildcards])}
+    offered = {"threads": job.resources.cpus_per_task, "progress": " ".join([job.rule, *job.wildcards])}
     wanted = inspect.signature(stage.make).parameters
     arguments |= {name: value for name, value in offered.items() if name in wanted}
     for name, path, content in contents(job.output, stage.make(**arguments)):

@@ -5,8 +5,9 @@ import json
 HEAD = (
     "# What each figure costs\n\n"
     "Sum of the wall times of all jobs that a figure needs, one by one, on the machine where this was made "
-    "(`snakemake docs/figures.md`); jobs that several figures share count in each. On several cores jobs run "
-    "side by side.\n\n| Command | Wall time, s | Largest memory, MiB | Jobs |\n|---|---|---|---|\n"
+    "(`snakemake docs/figures.md`); jobs that several figures share count in each. Other jobs ran "
+    "beside them, on the same cores: a figure that is made alone takes less.\n\n"
+    "| Command | Wall time, s | Largest memory, MiB | Jobs |\n|---|---|---|---|\n"
 )
 
 

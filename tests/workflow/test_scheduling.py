@@ -1,8 +1,9 @@
-"""When Snakemake looks for jobs: once for each that ends."""
+"""When Snakemake looks for jobs: once for each that ends; and how many of them share a machine."""
 
 import subprocess
 import sys
 
+import pytest
 from project import ROOT
 
 SHORT = 6
@@ -40,3 +41,19 @@ def test_waiting_jobs_are_looked_at_when_one_ends_and_at_no_other_time(tmp_path)
     assert run.returncode == 0, run.stderr
     # At the beginning, and after each short job, the long one and the wide one.
     assert (run.stdout + run.stderr).count("Ready jobs:") <= 1 + SHORT + 2
+
+
+@pytest.mark.parametrize(
+    ("target", "cores", "kept", "used"),
+    [
+        ("results/estimates/phase.parquet", 2, 1, 2),
+        ("results/estimates/phase.parquet", 1, 1, 1),
+        ("results/benchmark.md", 4, 4, 4),
+    ],
+)
+def test_a_job_keeps_one_core_and_computes_on_two(edited, target, cores, kept, used):
+    """But it takes no more than there are; one that takes wall times keeps all."""
+    told = "raise RuntimeError(f'keeps {job.threads}, computes on {offered}')"
+    project = edited("scripts/make.py", "wanted = inspect", f"{told}\n    wanted = inspect")
+    run = project.snakemake("--cores", str(cores), target)
+    assert f"keeps {kept}, computes on {{'threads': {used}," in run.stdout

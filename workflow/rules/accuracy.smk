@@ -1,7 +1,7 @@
 # How accurate, how fast, how robust: the solver against other methods. Rules that take wall times get the machine to
 # themselves, those that take processor times do not need it. A time changes whenever it is taken, so that nothing which
 # must have equal bytes is made from it.
-from workflow.sharing import THREADS, plan, seconds_of
+from workflow.sharing import plan, seconds_of
 
 
 def benchmark_cases():
@@ -67,7 +67,7 @@ accuracy_rule(
         }
     },
 )
-accuracy_rule("random_points", "Random conveyors and starts", mem_mb=2000)
+accuracy_rule("random_points", "Random conveyors and starts", threads=THREADS, mem_mb=2000)
 accuracy_rule(
     "precision",
     "Error against work, {wildcards.name}",
@@ -92,6 +92,7 @@ accuracy_rule(
 accuracy_rule(
     "settling_times",
     "After how many cycles starts have settled",
+    threads=THREADS,
     params={
         "settings": {**config["settling_times"], "settling": config["solver"]["settling"]},
         "model": MODEL_OF_ANY_AMPLITUDE,
@@ -102,7 +103,7 @@ accuracy_rule(
 accuracy_rule(
     "label_checks",
     "Labels of starts, alone and together",
-    threads=2,
+    threads=THREADS,
     runtime=60,
     params={
         "settings": {**config["label_checks"], "settling": config["solver"]["settling"]},
@@ -116,6 +117,7 @@ accuracy_rule(
     output=tables_of("results", "scene_budget", "budget_times"),
     timed=("budget_times",),
     priority=1,
+    threads=THREADS,
     mem_mb=2000,
     params={
         "settings": config["scene_budget"],

@@ -58,7 +58,7 @@ RULES["provenance"] = {
     "depends": [result("manifest.sha256"), *checked_files()],
     "output": {"provenance": result("provenance.json")},
     "place": "builds/provenance",
-    "threads": WHOLE_MACHINE,
+    "cores": WHOLE_MACHINE,
     "runtime": 10,
     "params": {
         "config": hashlib.sha256(json.dumps(config).encode()).hexdigest(),

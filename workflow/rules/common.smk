@@ -24,6 +24,7 @@ from workflow.configuration import (
     tighter_reference,
 )
 from workflow.known_names import has_make
+from workflow.sharing import THREADS
 from workflow.source_hash import SCRIPTS, closure, source_hash, versions
 from workflow.tables_of_config import ON_REQUEST
 
@@ -33,7 +34,7 @@ PREFIX = config["prefix"] and f"{config['prefix']}/"
 # Jobs that take wall times run alone, on a cluster with a node to themselves. Snakemake does not say how many cores a node
 # has: there a profile does.
 WHOLE_MACHINE = workflow.cores or 1
-ALONE = {"threads": WHOLE_MACHINE, "resources": {"slurm_extra": "--exclusive"}}
+ALONE = {"cores": WHOLE_MACHINE, "resources": {"slurm_extra": "--exclusive"}}
 
 # The model for sections that name their amplitudes themselves: the default one must not make them run again.
 MODEL_OF_ANY_AMPLITUDE = {name: value for name, value in config["model"].items() if name != "acceleration"}
@@ -45,7 +46,9 @@ MODEL_OF_ANY_AMPLITUDE = {name: value for name, value in config["model"].items()
 #   output    one file, or files by their names
 # and, where they differ from those in make.smk, the others; and
 #   priority  of long jobs, or a chain of them, that each keep one processor busy: before others, which then run beside them
-#   threads   of jobs that are asked for by themselves: two jobs side by side use a machine better than two threads of one
+#   cores     of the machine that a job keeps from others
+#   threads   that it computes on, if those are more: two jobs beside each other use two cores better than one after the
+#             other, as each has parts that keep one of them busy only; a job that is alone has both
 #   timed     names of the outputs that hold measured times, which may differ from run to run
 RULES = {}
 

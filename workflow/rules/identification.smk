@@ -69,7 +69,7 @@ def identification_rule(stage, message, outputs, inputs, names, **rest):
     }
 
 
-identification_rule("edges", "Edges of the first state over the contact", ["edges"], [], EDGES)
+identification_rule("edges", "Edges of the first state over the contact", ["edges"], [], EDGES, threads=THREADS)
 identification_rule(
     "printed",
     "The paper's numbers at its parameters",

@@ -23,9 +23,11 @@ for name, one in RULES.items():
         wildcard_constraints:
             **one.get("names", {}),
         priority: one.get("priority", 0)
-        threads: one.get("threads", 1)
+        threads: one.get("cores", 1)
         resources:
             **one.get("resources", {}),
+            # What a cluster gives a job, and the threads of make.py. Here another job shares its second core (common.smk).
+            cpus_per_task=min(one.get("threads", one.get("cores", 1)), WHOLE_MACHINE),
             mem_mb=one.get("mem_mb", 1000),
             runtime=one.get("runtime", 30),
         params:

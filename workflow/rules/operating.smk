@@ -5,7 +5,7 @@ RULES["operating"] = {
     "message": "Shares of the starts that end in each motion",
     "output": tables_of("operating", "shares"),
     "place": "operating/shares",
-    "threads": 2,
+    "threads": THREADS,
     "params": {
         "settings": {
             **config["operating"],

@@ -14,7 +14,7 @@ def of_sections(*sections):
     return {**merged, "model": {**MODEL_OF_ANY_AMPLITUDE, **merged.get("model", {})}}
 
 
-entry_rule("estimates", "orbits.estimates", "Lyapunov exponents by finite differences", threads=2, mem_mb=2000)
+entry_rule("estimates", "orbits.estimates", "Lyapunov exponents by finite differences", threads=THREADS, mem_mb=2000)
 
 RULES["orbits"] = {
     "stage": "orbits.branches",
@@ -24,7 +24,7 @@ RULES["orbits"] = {
     "params": {"settings": of_sections("orbits")},
 }
 
-# Wall times differ from run to run and have a table of their own; the others have equal bytes every time.
+# Times differ from run to run and have a table of their own; the others have equal bytes every time.
 RULES["certificates"] = {
     "stage": "orbits.certified",
     "message": "Orbits, bifurcations and chaos, proved",
@@ -32,7 +32,7 @@ RULES["certificates"] = {
     "output": tables_of("orbits", "certificates", "certified_bifurcations", "certified_chaos", "certificate_times"),
     "timed": ("certificate_times",),
     "place": "orbits/certificates",
-    "threads": 2,
+    "threads": THREADS,
     "mem_mb": 1500,
     "runtime": 60,
     "params": {"settings": {**config["certificates"], "model": of_sections("orbits")["model"]}},
@@ -43,7 +43,7 @@ RULES["attractors"] = {
     "message": "Attractors over the amplitude",
     "output": tables_of("attractors", "strobes"),
     "place": "attractors/strobes",
-    "threads": 2,
+    "threads": THREADS,
     "params": {"settings": of_sections("attractors")},
 }
 
@@ -53,7 +53,7 @@ RULES["lyapunov"] = {
     "input": tables_of("attractors", "strobes"),
     "output": tables_of("lyapunov", "spectrum"),
     "place": "lyapunov/spectrum",
-    "threads": 2,
+    "threads": THREADS,
     "params": {"settings": of_sections("attractors", "lyapunov")},
 }
 
@@ -63,6 +63,6 @@ RULES["witnesses"] = {
     "input": tables_of("attractors", "strobes") | tables_of("lyapunov", "spectrum"),
     "output": tables_of("lyapunov", "witnesses"),
     "place": "lyapunov/witnesses",
-    "threads": 2,
+    "threads": THREADS,
     "params": {"settings": of_sections("attractors", "witnesses")},
 }

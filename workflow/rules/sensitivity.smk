@@ -19,5 +19,6 @@ RULES["curves"] = {
     "input": tables_of("orbits", "folds_and_doublings", "cascade"),
     "output": tables_of("sensitivity", "continued", "meetings"),
     "place": "sensitivity/curves",
+    "threads": THREADS,
     "params": {"settings": {name: SENSITIVITY[name] for name in ("longest_period", "curves", "model")}},
 }
