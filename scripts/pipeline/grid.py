@@ -10,6 +10,11 @@ from conveyor.solver.model import PARAMETERS, TENSION, TENSION_MODES, Z0, Convey
 Axis = Sequence[float | str] | Mapping[str, float]
 
 
+def count_values(axis: Axis) -> int:
+    """Number of values of an axis."""
+    return int(axis["num"]) if isinstance(axis, Mapping) else len(axis)
+
+
 def axis_values(name: str, axis: Axis) -> np.ndarray:
     """Values of one axis in SI units, shape (n,): float64, or str for tension; z0 is NaN for a start on the conveyor.
 

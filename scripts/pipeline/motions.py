@@ -1,6 +1,9 @@
 """Which motions starts end in, for the stages whose entries of the config say how to find that out."""
 
 import math
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 
 import numpy as np
 
@@ -12,6 +15,7 @@ from conveyor.simulation import DEFAULT_TOLERANCE
 from conveyor.solver.model import PARAMETERS, PSI0, VZ0, Z0
 from pipeline import grid
 
+STARTS = {PARAMETERS[k] for k in (PSI0, Z0, VZ0)}
 # From so many starts of a conveyor on it costs less to find its chaotic sets first, and neighbourhoods of its orbits.
 CHAOS_SHARED = 8
 ORBITS_SHARED = 200
@@ -23,9 +27,7 @@ CONVEYORS = 2000
 
 def starts_per_conveyor(axes: dict) -> int:
     """Number of starts of each conveyor in the product of some axes."""
-    return math.prod(
-        len(grid.axis_values(PARAMETERS[k], axes[PARAMETERS[k]])) for k in (PSI0, Z0, VZ0) if PARAMETERS[k] in axes
-    )
+    return math.prod(grid.count_values(axis) for name, axis in axes.items() if name in STARTS)
 
 
 def tolerance_of(settings: dict) -> float:
@@ -44,6 +46,21 @@ def known_of(
     return known_attractors(parameters, orbits=starts >= ORBITS_SHARED, **options, progress=progress)
 
 
+@contextmanager
+def known_meanwhile(
+    parameters: np.ndarray, settings: dict, threads: int
+) -> Iterator[Callable[[], KnownAttractors | None]]:
+    """Finds the attractors of one conveyor while the body runs its starts: a search that takes one thread.
+
+    The function for the body gives them, when they are found; None of several conveyors, whose searches share threads.
+    """
+    if threads == 1 or not set(settings["axes"]) <= STARTS:
+        yield lambda: None
+        return
+    with ThreadPoolExecutor(1) as beside:
+        yield beside.submit(known_of, parameters[:1], starts_per_conveyor(settings["axes"]), settings).result
+
+
 def of_conveyors(parameters: np.ndarray) -> list[np.ndarray]:
     """Rows of `parameters`, shape (n, 13), in batches that hold all starts of their conveyors."""
     _, conveyor = distinct(parameters)
@@ -53,7 +70,13 @@ def of_conveyors(parameters: np.ndarray) -> list[np.ndarray]:
 
 
 def motions_of_starts(
-    parameters: np.ndarray, settings: dict, *, starts: int, threads: int = 1, progress: str | None = None
+    parameters: np.ndarray,
+    settings: dict,
+    *,
+    starts: int,
+    known: KnownAttractors | None = None,
+    threads: int = 1,
+    progress: str | None = None,
 ) -> Motions:
     """The motions that starts end in; what those of a conveyor share is found first if they are many.
 
@@ -62,8 +85,11 @@ def motions_of_starts(
     parameters : float64, shape (n, 13)
     settings : `settling`, and `tolerance` if it is not the default
     starts : of each conveyor, in all batches and shards
+    known : the attractors of all conveyors, if they have been found
     """
     options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
+    if known is not None:
+        return classify(parameters, known=known, **options, progress=progress)
     batches = of_conveyors(parameters)
     parts = []
     for number, rows in enumerate(batches, start=1):
@@ -74,21 +100,14 @@ def motions_of_starts(
     return Motions(*(np.concatenate(column)[order] for column in zip(*parts, strict=True)))
 
 
-def motions(parameters: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> Motions:
-    """The motions that the starts of `parameters`, shape (n, 13), end in; `settings` are those of their entry."""
-    starts = starts_per_conveyor(settings["axes"])
-    return motions_of_starts(parameters, settings, starts=starts, threads=threads, progress=progress)
+def motions(parameters: np.ndarray, settings: dict, **options) -> Motions:
+    """The motions that the starts of `parameters`, shape (n, 13), end in; `settings` are those of their entry.
+
+    options : `known`, `threads` and `progress`, as in motions_of_starts
+    """
+    return motions_of_starts(parameters, settings, starts=starts_per_conveyor(settings["axes"]), **options)
 
 
-def motions_after(
-    parameters: np.ndarray,
-    z_end: np.ndarray,
-    vz_end: np.ndarray,
-    settings: dict,
-    *,
-    threads: int = 1,
-    progress: str | None = None,
-) -> Motions:
+def motions_after(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, settings: dict, **options) -> Motions:
     """The motions that runs of `parameters` with these ends (m, m/s) go on to, by whichever method they were made."""
-    later = continued(parameters, z_end, vz_end, settings["duration"])
-    return motions(later, settings, threads=threads, progress=progress)
+    return motions(continued(parameters, z_end, vz_end, settings["duration"]), settings, **options)

@@ -21,7 +21,7 @@ import pyarrow.parquet as pq
 # Rows of a row group: fixed, so that a table's bytes do not depend on how it was computed.
 ROW_GROUP = 1 << 20
 REMEDY = "delete it, and the next run makes it again"
-LEVEL = 12  # of zstd: higher ones take longer and save little
+LEVEL = 3  # of zstd: higher ones take longer and save little
 KIND = b"kind"
 UNIT, UNITS = b"unit", b"units"
 # What a key has that is not there.

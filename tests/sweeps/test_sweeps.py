@@ -1,5 +1,6 @@
 """Sweeps from the config: columns and rows of an own one, and independence of how it is cut and shared."""
 
+import threading
 from functools import partial
 from itertools import pairwise
 
@@ -8,6 +9,7 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
+import pipeline.motions
 from conveyor import Conveyor, Start, ensemble, simulate
 from conveyor.solver.model import UNITS
 from pipeline import fields, grid, tables
@@ -157,6 +159,24 @@ def test_rows_do_not_depend_on_their_order(in_one):
     pd.testing.assert_frame_equal(
         found[list(expected)].sort_values(axes, ignore_index=True), expected, check_dtype=False, check_exact=True
     )
+
+
+def test_attractors_of_one_conveyor_are_found_while_its_starts_run(monkeypatch):
+    """Once, in a thread of its own; what is found does not depend on it."""
+    axes = {"psi0": {"start": 0.0, "stop": 6.0, "num": 15}, "z0": {"start": 0.0, "stop": 0.5e-3, "num": 15}}
+    settings = {"axes": axes, "model": {"acceleration": 60.0}, "duration": 0.02, "settling": 500}
+    one = shards.columns(settings, threads=1)
+    assert set(one["state"]) == {"second", "chaos"}
+    true, threads = pipeline.motions.known_of, []
+
+    def known_of(*arguments, **options):
+        threads.append(threading.current_thread())
+        return true(*arguments, **options)
+
+    monkeypatch.setattr(pipeline.motions, "known_of", known_of)
+    two = shards.columns(settings, threads=2)
+    assert threads != [threading.current_thread()] and len(threads) == 1
+    pd.testing.assert_frame_equal(pd.DataFrame(two), pd.DataFrame(one), check_exact=True)
 
 
 def test_a_run_that_failed_has_no_state(monkeypatch):

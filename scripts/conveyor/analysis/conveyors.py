@@ -21,8 +21,8 @@ def distinct(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return conveyors, np.repeat(index, np.diff(np.append(first, len(rows))))
 
 
-def places(conveyors: np.ndarray, parameters: np.ndarray) -> np.ndarray:
-    """Where each row of `parameters`, shape (n, 13), finds what is known of its conveyor: int64, shape (n, 2).
+def places(conveyors: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Where each of the `wanted` conveyors, shape (n, 13), finds what is known of it: int64, shape (n, 2).
 
     conveyors : float64, shape (m, 13), of what is known, equal ones side by side
     Returns the first place, and the one behind the last; 0, 0 where nothing is known.
@@ -31,5 +31,4 @@ def places(conveyors: np.ndarray, parameters: np.ndarray) -> np.ndarray:
     for k, row in enumerate(conveyors):
         first, _ = found.get(row.tobytes(), (k, k))
         found[row.tobytes()] = first, k + 1
-    rows, index = distinct(parameters)
-    return np.array([found.get(row.tobytes(), (0, 0)) for row in rows], dtype=np.int64).reshape(-1, 2)[index]
+    return np.array([found.get(row.tobytes(), (0, 0)) for row in wanted], dtype=np.int64).reshape(-1, 2)

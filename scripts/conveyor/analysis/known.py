@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..solver.model import PARAMETERS
-from .conveyors import places
+from .conveyors import distinct, places
 
 BOXES = 256  # of a chaotic set, along each axis
 
@@ -45,7 +45,8 @@ class KnownAttractors(NamedTuple):
 
         First orbit and the one behind the last one, first chaotic set and the one behind the last one.
         """
-        return np.hstack([places(table.conveyors, parameters) for table in self])
+        conveyors, index = distinct(parameters)
+        return np.hstack([places(table.conveyors, conveyors) for table in self])[index]
 
 
 def orbits_of(conveyor: np.ndarray, found: list[tuple[np.ndarray, np.ndarray, int, float]]) -> AttractingOrbits:

@@ -99,6 +99,8 @@ def test_places_of_conveyors_in_any_order():
     assert sorted_rows[:, 0].tolist() == [30.0, 40.0, 50.0]
     np.testing.assert_array_equal(sorted_rows[numbers], conveyors.without_starts(rows))
     table = known.orbits_of(of_each[2], [(np.zeros(2), np.ones(3), 1, 0.0)] * 2)
-    places = conveyors.places(np.concatenate([of_each[:1], table.conveyors]), rows)
-    assert [tuple(places[k]) for k in range(40)] == [{0: (0, 1), 1: (0, 0), 2: (1, 3)}[k] for k in index]
+    places = conveyors.places(np.concatenate([of_each[:1], table.conveyors]), sorted_rows)
+    assert places.tolist() == [[0, 0], [1, 3], [0, 1]]
+    places = known.KnownAttractors(table, known.NOTHING.chaotic).of(rows)
+    assert [tuple(places[k]) for k in range(40)] == [{0: (0, 0), 1: (0, 0), 2: (0, 2)}[k] + (0, 0) for k in index]
     assert conveyors.distinct(rows[:0])[0].shape == (0, 13)
