@@ -48,7 +48,8 @@ MODEL_OF_ANY_AMPLITUDE = {name: value for name, value in config["model"].items()
 #   priority  of long jobs, or a chain of them, that each keep one processor busy: before others, which then run beside them
 #   cores     of the machine that a job keeps from others
 #   threads   that it computes on, if those are more: two jobs beside each other use two cores better than one after the
-#             other, as each has parts that keep one of them busy only; a job that is alone has both
+#             other, as each has parts that keep one of them busy only; a job that is alone has both. Snakemake gives
+#             linear algebra as many threads as a job keeps cores, and last digits depend on that: one, on any machine.
 #   timed     names of the outputs that hold measured times, which may differ from run to run
 RULES = {}
 
