@@ -37,15 +37,22 @@ def pair_counts(points, references, theiler, squares):
     for j in range(len(points)):
         x[j], y[j] = points[j, 0], points[j, 1]
     counts = np.zeros((TABLES, shells + 1), np.int64)
-    near = np.empty(STRETCH)
+    apart, near = np.empty(STRETCH), np.empty(STRETCH)
+    largest = squares[0]
     pairs = 0
     for i in references:
+        x_i, y_i = x[i], y[i]
         for begin, end in ((0, i - theiler), (i + theiler + 1, len(x))):
             for at in range(begin, end, STRETCH):
+                count = min(STRETCH, end - at)
+                # By itself, as the processor then finds several at a time.
+                for j in range(count):
+                    apart[j] = (x[at + j] - x_i) ** 2 + (y[at + j] - y_i) ** 2
                 found = 0
-                for j in range(at, min(at + STRETCH, end)):
-                    near[found] = (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2
-                    found += near[found] < squares[0]
+                for j in range(count):
+                    square = apart[j]
+                    near[found] = square
+                    found += square < largest
                 for j in range(found):
                     shell = shells_of[max((float_bits(near[j]) >> FRACTION) - lowest, 0)]
                     counts[j % TABLES, shell + (near[j] < limits[shell])] += 1
