@@ -144,12 +144,12 @@ def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[s
     progress : name of a progress bar, or None
     """
     truth = follow(Method("event", ANEW, TRUTH, None), settings)
-    state = leads_to(settings, truth.end)
     _, *scale = peers.scales(pack(*scene(settings)))
     listed = methods(settings)
     for method in listed:
         follow(method, settings | SHORT)
     results, times = in_turns([partial(follow, method, settings) for method in listed], **timing, progress=progress)
+    state = leads_to(settings, truth.end)
     velocity = np.array([result.mean_velocity for result in results])
     velocity_error = np.abs(velocity / truth.mean_velocity - 1.0)
     outcomes = [outcome(result, error, settings, state) for result, error in zip(results, velocity_error, strict=True)]

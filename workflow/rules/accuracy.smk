@@ -71,6 +71,7 @@ accuracy_rule("random_points", "Random conveyors and starts", threads=THREADS, m
 accuracy_rule(
     "precision",
     "Error against work, {wildcards.name}",
+    priority=2,
     output={name: table(name) for name in ("precision", "precision_times")},
     timed=("precision_times",),
     names={"name": one_of(config["precision"]["scenes"])},

@@ -64,7 +64,7 @@ def identification_rule(stage, message, outputs, inputs, names, **rest):
         "output": tables_of("identification", *outputs),
         "place": f"identification/{stage}",
         "params": {"settings": needed(*dict.fromkeys(names))},
-        "priority": 1,
+        "priority": 2,
         **rest,
     }
 
