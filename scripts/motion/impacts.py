@@ -26,10 +26,12 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     axes, parameters = grid.product(settings["axes"], settings["model"])
     impacts = first_impacts(parameters)
     mapped = np.isfinite(impacts.time)
-    state = motions(parameters, settings, threads=threads).state
-    mapped_state = np.full(len(parameters), None, dtype=object)
     images = on_conveyor(parameters, impacts)[mapped]
-    mapped_state[mapped] = motions(images, settings, threads=threads).state
+    # Together: what the starts of a conveyor share is found once.
+    states = motions(np.concatenate([parameters, images]), settings, threads=threads).state
+    state, of_images = np.split(states, [len(parameters)])
+    mapped_state = np.full(len(parameters), None, dtype=object)
+    mapped_state[mapped] = of_images
     return {
         **axes,
         "impact_time": impacts.time,
