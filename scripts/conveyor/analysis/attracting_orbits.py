@@ -22,7 +22,6 @@ from .settling import SETTLED, measure
 
 POINTS = 32  # of a curve
 PERIODS = 32  # within which a curve has to come into the one before
-AT_REST = 1e-6  # of its radius: a curve whose farthest point moves less in a period has it on another attractor
 # Lengths of the longer half-axes of the ellipses, in g/ω² and g/ω.
 SMALLEST, LARGEST = 1e-3, 64.0
 # Spectral radii of a linearisation: a smaller one counts as this one, and with a larger one no curve halves in time.
@@ -62,7 +61,7 @@ def comes_inside(parameters, tolerance, centre, factor, period, radius):
         if size + gap <= 0.5 * radius:
             return True
         # A curve that has left itself and does not come back is mostly out of the basin: it is not waited for.
-        if (size > radius and size >= before) or abs(size - before) <= AT_REST * radius:
+        if size > radius and size >= before:
             return False
         before = size
     return False
