@@ -160,7 +160,7 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     for variant, of in variants_of(section, settings, budget["tolerances"]):
         rows.append(row(variant, of, *least_time(lambda of=of: shown.observe(of))))
     if section == "sweeps" and "tension" not in settings["axes"]:
-        # As long as starts on the contact are followed.
+        # As long as starts on the contact are followed, and no shorter than what tells whether a motion repeats itself.
         swept = partial(rigid_part.swept, cycles=max(settings["settling"], 2 * rigid_part.MAX_PERIOD))
         swept(settings | {"axes": observables.thinned(thinned, 1)})
         seconds, found = least_time(lambda: swept(settings))

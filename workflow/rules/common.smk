@@ -46,6 +46,7 @@ MODEL_OF_ANY_AMPLITUDE = {name: value for name, value in config["model"].items()
 #   output    one file, or files by their names
 # and, where they differ from those in make.smk, the others; and
 #   priority  of long jobs, or a chain of them, that each keep one processor busy: before others, which then run beside them
+#             (2: first of all; what begins together where nothing is compiled yet should share little compiled code)
 #   cores     of the machine that a job keeps from others
 #   threads   that it computes on, if those are more: two jobs beside each other use two cores better than one after the
 #             other, as each has parts that keep one of them busy only; a job that is alone has both. Snakemake gives

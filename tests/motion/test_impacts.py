@@ -1,0 +1,28 @@
+"""Impacts: starts and their images on the plate lead where they lead by themselves."""
+
+import numpy as np
+
+from conveyor.analysis.first_impact import first_impacts, on_conveyor
+from motion import impacts
+from pipeline import grid
+from pipeline.motions import motions
+
+SETTINGS = {
+    "axes": {"acceleration": [40.0, 53.0], "z0": [-1.0e-3, 0.5e-4, 1.0e-4, 2.0e-4, 3.0e-4]},
+    "model": {},
+    "settling": 1000,
+}
+
+
+def test_states_of_starts_and_images_are_those_that_each_leads_to():
+    made = impacts.make(SETTINGS, threads=2)
+    _, parameters = grid.product(SETTINGS["axes"], SETTINGS["model"])
+    found = first_impacts(parameters)
+    mapped = np.isfinite(found.time)
+    assert 0 < np.count_nonzero(mapped) < len(parameters)
+    alone = motions(parameters, SETTINGS).state
+    images = motions(on_conveyor(parameters, found)[mapped], SETTINGS).state
+    assert made["state"].tolist() == alone.tolist()
+    assert made["mapped_state"][mapped].tolist() == images.tolist()
+    assert made["mapped_state"][~mapped].tolist() == [None] * np.count_nonzero(~mapped)
+    assert len(set(alone)) > 1
