@@ -2,7 +2,6 @@
 
 import io
 import sys
-import threading
 
 import pytest
 
@@ -69,9 +68,3 @@ def test_a_log_has_the_traceback(monkeypatch, tmp_path):
         raise ValueError("wrong")
     assert "ValueError: wrong" in (tmp_path / "log").read_text()
     assert isinstance(sys.stderr, io.StringIO)
-
-
-def test_a_single_range_needs_no_thread():
-    ran = []
-    for_each_chunk(lambda begin, end: ran.append((begin, end, threading.get_ident())), 5, threads=2, chunk=8)
-    assert ran == [(0, 5, threading.get_ident())]

@@ -27,8 +27,8 @@ FIRST, SECOND, CHAOS, UNDECIDED = range(len(STATES))
 LONG_FLIGHT = 0.5
 # Excitation cycles after which a start that has not settled is followed no further.
 CYCLES = 20_000
-# Starts that are followed side by side, the least and the most, and how often each thread comes for some.
-FEWEST, MOST, ROUNDS = 64, 512, 16
+# Starts that a thread takes at a time: the last of them leave lanes idle.
+TOGETHER = 2048
 
 
 class Motions(NamedTuple):
@@ -79,8 +79,7 @@ def classify(
         found = points[rows], outcomes[rows], periods[rows], flights[rows], followed[rows]
         settling_lanes.settle_points(parameters[rows], tolerance, cycles, known, places[rows], found, no_strobes[rows])
 
-    chunk = min(max(n // (ROUNDS * threads), FEWEST), MOST)
-    for_each_chunk(work, n, threads=threads, chunk=chunk, progress=progress)
+    for_each_chunk(work, n, threads=threads, chunk=TOGETHER, progress=progress)
     flights /= 1.0 / parameters[:, FREQUENCY]
     codes = np.full(n, UNDECIDED)
     regular = np.where(flights >= LONG_FLIGHT, SECOND, FIRST)

@@ -1,9 +1,24 @@
 """Many independent points in threads: compiled kernels release the GIL, each point writes only its own rows."""
 
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import ThreadPoolExecutor
+from threading import Lock
 
 from .progress import bar
+
+# Towards the end ranges get shorter: this share of what is left for each thread, but not below this one of a chunk.
+OF_THE_REST, OF_A_CHUNK = 0.5, 0.03
+
+
+def ranges_of(count: int, threads: int, chunk: int) -> Iterator[tuple[int, int]]:
+    """Consecutive ranges that cover range(count), see `for_each_chunk`."""
+    least = max(int(OF_A_CHUNK * chunk), 1)
+    begin = 0
+    while begin < count:
+        share = int(OF_THE_REST * (count - begin) / threads) if threads > 1 else chunk
+        end = min(begin + min(max(share, least), chunk), count)
+        yield begin, end
+        begin = end
 
 
 def for_each_chunk(
@@ -16,30 +31,41 @@ def for_each_chunk(
 ) -> None:
     """Call `work(begin, end)` for consecutive ranges that cover range(count), on `threads` threads.
 
-    `work` must write only what belongs to its range, so that the result depends neither on `threads` nor on `chunk`; it
-    may return how many of its points have failed. An exception in it ends the loop and is raised here. `progress` names
-    what is shown on stderr: rate, time left and failed points; None shows nothing.
+    Ranges have the length `chunk`; those of several threads get shorter towards the end, so that none waits long for
+    another. `work` must write only what belongs to its range, so that the result depends neither on `threads` nor on
+    `chunk`; it may return how many of its points have failed. An exception in it ends the loop and is raised here.
+    `progress` names what is shown on stderr: rate, time left and failed points; None shows nothing.
     """
-    ranges = [(begin, min(begin + chunk, count)) for begin in range(0, count, chunk)]
+    ranges = list(ranges_of(count, threads, chunk))
+    # Every thread takes the next range by itself: to be given each by this one would cost as much as a few points.
+    waiting = iter(ranges)
+    at_a_time, failed = Lock(), 0
 
-    def done() -> Iterator[tuple[int, int]]:
-        """Number of points, and of those that have failed, of each range."""
-        if threads == 1 or len(ranges) == 1:
-            # Not in a thread of its own: who asks for the processor time of the present one gets it all.
-            yield from ((end - begin, work(begin, end) or 0) for begin, end in ranges)
-            return
-        with ThreadPoolExecutor(threads) as pool:
-            futures = {pool.submit(work, begin, end): end - begin for begin, end in ranges}
+    with bar(total=count, label=progress) as shown:
+
+        def take() -> None:
+            nonlocal failed
             try:
-                yield from ((futures[future], future.result() or 0) for future in as_completed(futures))
+                for begin, end in waiting:
+                    of_them = work(begin, end) or 0
+                    with at_a_time:
+                        failed += of_them
+                        if failed:
+                            shown.set_postfix_str(f"{failed} failed", refresh=False)
+                        shown.update(end - begin)
             except BaseException:
-                pool.shutdown(cancel_futures=True)
+                ranges.clear()  # nothing is left for the others
                 raise
 
-    failed = 0
-    with bar(total=count, label=progress) as shown:
-        for points, of_them in done():
-            failed += of_them
-            if failed:
-                shown.set_postfix_str(f"{failed} failed", refresh=False)
-            shown.update(points)
+        if threads == 1 or len(ranges) == 1:
+            # Not in a thread of its own: who asks for the processor time of the present one gets it all.
+            take()
+            return
+        with ThreadPoolExecutor(threads) as pool:
+            taking = [pool.submit(take) for _ in range(min(threads, len(ranges)))]
+            try:
+                for one in taking:
+                    one.result()
+            except BaseException:
+                ranges.clear()
+                raise
