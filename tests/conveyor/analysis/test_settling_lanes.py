@@ -167,8 +167,8 @@ def test_labels_do_not_depend_on_threads_or_chunks(threads, monkeypatch):
     monkeypatch.setattr(settling_lanes, "SIDE_BY_SIDE", 1000)
     wanted = states.classify(parameters, cycles=300, tolerance=TOLERANCE)
     monkeypatch.undo()
-    for fewest in (16, 64):
-        monkeypatch.setattr(states, "FEWEST", fewest)
+    for length in (16, 64, 2048):
+        monkeypatch.setattr(states, "TOGETHER", length)
         assert_same(states.classify(parameters, cycles=300, tolerance=TOLERANCE, threads=threads), wanted)
 
 
