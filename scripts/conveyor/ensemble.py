@@ -69,7 +69,7 @@ def run(
     step: float = DEFAULT_STEP,
     needs: str = "feeding",
     threads: int = 1,
-    chunk: int = 128,
+    chunk: int = 1024,
     progress: str | None = None,
 ) -> dict[str, np.ndarray]:
     """Follow every point for `duration` (s); the event-driven method takes one for each point, too, shape (n,).

@@ -7,7 +7,7 @@ from threading import Lock
 from .progress import bar
 
 # Towards the end ranges get shorter: this share of what is left for each thread, but not below this one of a chunk.
-OF_THE_REST, OF_A_CHUNK = 0.5, 0.03
+OF_THE_REST, OF_A_CHUNK = 0.5, 0.01
 
 
 def ranges_of(count: int, threads: int, chunk: int) -> Iterator[tuple[int, int]]:
@@ -15,8 +15,10 @@ def ranges_of(count: int, threads: int, chunk: int) -> Iterator[tuple[int, int]]
     least = max(int(OF_A_CHUNK * chunk), 1)
     begin = 0
     while begin < count:
-        share = int(OF_THE_REST * (count - begin) / threads) if threads > 1 else chunk
-        end = min(begin + min(max(share, least), chunk), count)
+        left = count - begin
+        length = min(max(int(OF_THE_REST * left / threads), least), chunk) if threads > 1 else chunk
+        # What would be left alone belongs to the last one: a few points may cost as much as many.
+        end = begin + (left if left - length < least and left <= chunk else min(length, left))
         yield begin, end
         begin = end
 
@@ -37,7 +39,7 @@ def for_each_chunk(
     `progress` names what is shown on stderr: rate, time left and failed points; None shows nothing.
     """
     ranges = list(ranges_of(count, threads, chunk))
-    # Every thread takes the next range by itself: to be given each by this one would cost as much as a few points.
+    # Every thread takes the next range by itself: to be given each by one of them would cost as much as a few points.
     waiting = iter(ranges)
     at_a_time, failed = Lock(), 0
 
@@ -57,15 +59,9 @@ def for_each_chunk(
                 ranges.clear()  # nothing is left for the others
                 raise
 
-        if threads == 1 or len(ranges) == 1:
-            # Not in a thread of its own: who asks for the processor time of the present one gets it all.
+        # The present thread works, too: who asks for its processor time gets it all where it is the only one.
+        with ThreadPoolExecutor(max(threads - 1, 1)) as pool:
+            others = [pool.submit(take) for _ in range(min(threads, len(ranges)) - 1)]
             take()
-            return
-        with ThreadPoolExecutor(threads) as pool:
-            taking = [pool.submit(take) for _ in range(min(threads, len(ranges)))]
-            try:
-                for one in taking:
-                    one.result()
-            except BaseException:
-                ranges.clear()
-                raise
+            for other in others:
+                other.result()
