@@ -1,5 +1,7 @@
 """Many trajectories: one row per point, in the order of the points, whatever fails and however the work is shared."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from .methods import euler_lanes, fixed_step
@@ -70,6 +72,7 @@ def run(
     needs: str = "feeding",
     threads: int = 1,
     chunk: int = 1024,
+    beside: Callable[[], object] | None = None,
     progress: str | None = None,
 ) -> dict[str, np.ndarray]:
     """Follow every point for `duration` (s); the event-driven method takes one for each point, too, shape (n,).
@@ -80,6 +83,7 @@ def run(
     duration, method, tolerance, step : as in simulation.simulate
     needs : "feeding", or "vertical" where nothing horizontal is wanted (event-driven method: its columns are NaN)
     threads, chunk : how the work is shared; the result does not depend on them
+    beside : a function that one of the threads calls before it follows points, or None
     progress : name of a progress bar on stderr, or None
 
     Returns
@@ -107,7 +111,7 @@ def run(
             follow_by_steps(parameters[begin:end], duration, step, fixed_step.METHODS.index(method), out[begin:end])
         return np.count_nonzero(out[begin:end, CODE] != trajectory.OK)
 
-    for_each_chunk(work, len(parameters), threads=threads, chunk=chunk, progress=progress)
+    for_each_chunk(work, len(parameters), threads=threads, chunk=chunk, beside=beside, progress=progress)
     columns = {name: np.ascontiguousarray(out[:, k]) for k, name in enumerate(COLUMNS)}
     if not feeding:
         for name in ("mean_velocity", "x_end", "vx_end"):

@@ -1,9 +1,8 @@
 """Which motions starts end in, for the stages whose entries of the config say how to find that out."""
 
 import math
-from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Callable
+from functools import cache, partial
 
 import numpy as np
 
@@ -46,19 +45,14 @@ def known_of(
     return known_attractors(parameters, orbits=starts >= ORBITS_SHARED, **options, progress=progress)
 
 
-@contextmanager
-def known_meanwhile(
-    parameters: np.ndarray, settings: dict, threads: int
-) -> Iterator[Callable[[], KnownAttractors | None]]:
-    """Finds the attractors of one conveyor while the body runs its starts: a search that takes one thread.
+def search_beside(parameters: np.ndarray, settings: dict, threads: int) -> Callable[[], KnownAttractors] | None:
+    """Finds the attractors of one conveyor, the first time it is called: it takes one thread while others run starts.
 
-    The function for the body gives them, when they are found; None of several conveyors, whose searches share threads.
+    None where there is no other thread, or for several conveyors, whose searches share threads.
     """
     if threads == 1 or not set(settings["axes"]) <= STARTS:
-        yield lambda: None
-        return
-    with ThreadPoolExecutor(1) as beside:
-        yield beside.submit(known_of, parameters[:1], starts_per_conveyor(settings["axes"]), settings).result
+        return None
+    return cache(partial(known_of, parameters[:1], starts_per_conveyor(settings["axes"]), settings))
 
 
 def of_conveyors(parameters: np.ndarray) -> list[np.ndarray]:

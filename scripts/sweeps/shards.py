@@ -6,7 +6,7 @@ import numpy as np
 
 from conveyor import ensemble
 from pipeline import fields, grid
-from pipeline.motions import known_meanwhile, motions_after
+from pipeline.motions import motions_after, search_beside
 
 TABLES = {
     "sweeps": (
@@ -49,13 +49,13 @@ def columns(
         name: settings[name] for name in ("duration", "method", "tolerance", "step", "needs") if name in settings
     }
     axes, parameters = grid.product(settings["axes"], settings["model"], rows)
-    with known_meanwhile(parameters, settings, threads) as known:
-        runs = ensemble.run(parameters, **options, threads=threads, progress=progress)
-        shared = known()
+    search = search_beside(parameters, settings, threads)
+    runs = ensemble.run(parameters, **options, threads=threads, beside=search, progress=progress)
+    known = search and search()
     ok = runs["status"] == "ok"
     state = np.full(len(ok), "undecided")
     period, flight = np.zeros(len(ok), dtype=np.int64), np.full(len(ok), np.nan)
     ends = runs["z_end"][ok], runs["vz_end"][ok]
-    found = motions_after(parameters[ok], *ends, settings, known=shared, threads=threads, progress=progress)
+    found = motions_after(parameters[ok], *ends, settings, known=known, threads=threads, progress=progress)
     state[ok], period[ok], flight[ok] = found.state, found.period, found.longest_flight
     return axes | runs | {"state": state, "period": period, "longest_flight": flight}

@@ -1,7 +1,8 @@
 """Many independent points in threads: compiled kernels release the GIL, each point writes only its own rows."""
 
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
+from functools import cache
 from threading import Lock
 
 from .progress import bar
@@ -23,12 +24,22 @@ def ranges_of(count: int, threads: int, chunk: int) -> Iterator[tuple[int, int]]
         begin = end
 
 
+@cache
+def other_threads(count: int) -> ThreadPoolExecutor:
+    """Threads that wait for work as long as the process lasts: new ones share a processor for their first milliseconds.
+
+    What none of them comes to, as they are busy or left behind by a fork, the one that asks does itself.
+    """
+    return ThreadPoolExecutor(count)
+
+
 def for_each_chunk(
     work: Callable[[int, int], int | None],
     count: int,
     *,
     threads: int = 1,
     chunk: int = 64,
+    beside: Callable[[], object] | None = None,
     progress: str | None = None,
 ) -> None:
     """Call `work(begin, end)` for consecutive ranges that cover range(count), on `threads` threads.
@@ -36,6 +47,7 @@ def for_each_chunk(
     Ranges have the length `chunk`; those of several threads get shorter towards the end, so that none waits long for
     another. `work` must write only what belongs to its range, so that the result depends neither on `threads` nor on
     `chunk`; it may return how many of its points have failed. An exception in it ends the loop and is raised here.
+    `beside` is what another thread begins with; where none comes to it, it is not called.
     `progress` names what is shown on stderr: rate, time left and failed points; None shows nothing.
     """
     ranges = list(ranges_of(count, threads, chunk))
@@ -59,9 +71,15 @@ def for_each_chunk(
                 ranges.clear()  # nothing is left for the others
                 raise
 
-        # The present thread works, too: who asks for its processor time gets it all where it is the only one.
-        with ThreadPoolExecutor(max(threads - 1, 1)) as pool:
-            others = [pool.submit(take) for _ in range(min(threads, len(ranges)) - 1)]
+        jobs = [take] * (min(threads, len(ranges)) - 1)
+        if beside is not None and threads > 1:
+            jobs.insert(0, beside)
+        asked = [other_threads(threads - 1).submit(job) for job in jobs]
+        try:
+            # The present thread works, too: who asks for its processor time gets it all where it is the only one.
             take()
-            for other in others:
-                other.result()
+        finally:
+            begun = [one for one in asked if not one.cancel()]
+            wait(begun)
+        for one in begun:
+            one.result()
