@@ -1,8 +1,9 @@
 """What the jobs of sweeps take over points, threads, shards and conveyors: wall times, and the most memory they have.
 
 Every job is measured in a process of its own, from its start on, as a cluster starts it. A shard's first points are
-computed twice: the first time loads the compiled code, which can so be told from computing. Of the largest sweeps one
-shard is made; what puts the shards together is measured on copies of it, of which more change nothing but the time.
+computed twice: the first time loads the compiled code, which can so be told from computing. What a few seconds take
+depends on what else the machine does: such shards are measured several times, and medians count. Of the largest sweeps
+one shard is made; what puts the shards together is measured on copies of it, of which more change nothing but the time.
 """
 
 import json
@@ -14,6 +15,7 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from statistics import median
 from time import perf_counter
 from typing import Any
 
@@ -27,6 +29,8 @@ from pipeline import fields, tables
 from sweeps import shards
 
 SCRIPTS = Path(__file__).resolve().parents[1]
+# A shard is made up to so many times, all of a sweep together, until it has computed for so many seconds.
+AGAIN, ENOUGH = 9, 5.0
 MOST_GATHERED = 3  # copies of a shard of which a measured table is put together
 
 TABLES = {
@@ -37,7 +41,9 @@ TABLES = {
         fields.count("shards", "of the sweep"),
         fields.count("rows", "of a shard"),
         fields.count("threads", "of a shard"),
-        fields.count("measured", "shards that were made; of their memory the most counts below"),
+        fields.count(
+            "measured", "shards that were made; of their memory the most counts below, of short times the median"
+        ),
         fields.count("computed", "points of these shards"),
         fields.number("shard_seconds", "s", "wall time of a shard, from the start of Python; of several the sum"),
         fields.number(
@@ -102,6 +108,14 @@ def run(**task: Any) -> dict[str, float]:
     return json.loads(done.stdout) | {"whole": perf_counter() - begin}
 
 
+def repeated(times: int, **task: Any) -> dict[str, float]:
+    """`run`, up to so many times until it has computed for long ENOUGH: the medians of its times, its most memory."""
+    done = [run(**task)]
+    while len(done) < times and math.fsum(one["computing"] for one in done) < ENOUGH:
+        done.append(run(**task))
+    return {name: (max if name == "memory" else median)(one[name] for one in done) for name in done[0]}
+
+
 def measured(case: dict, folder: Path) -> dict[str, Any]:
     """A row of the table for one `case`.
 
@@ -111,8 +125,10 @@ def measured(case: dict, folder: Path) -> dict[str, Any]:
     points, rows = plan["points"], plan["rows"]
     wanted = range(case["measured"])
     paths = [str(folder / f"{number}.parquet") for number in wanted]
+    times = max(AGAIN // case["measured"], 1)
+    options = {"settings": settings, "threads": case["threads"]}
     made = [
-        run(settings=settings, threads=case["threads"], path=path, rows=[k * rows, min((k + 1) * rows, points)])
+        repeated(times, **options, path=path, rows=[k * rows, min((k + 1) * rows, points)])
         for k, path in zip(wanted, paths, strict=True)
     ]
     copies = paths if len(paths) == plan["shards"] else paths * min(plan["shards"], MOST_GATHERED)

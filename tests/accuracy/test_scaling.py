@@ -24,6 +24,12 @@ PLAN = {"points": 20, "rows": 7, "shards": 3, "seconds": 1.0, "memory": 300.0, "
 CASE = {"varied": "points", "settings": SETTINGS, "plan": PLAN, "threads": 1, "conveyors": 1, "measured": 3}
 
 
+@pytest.fixture(autouse=True)
+def once(monkeypatch):
+    """Nothing is measured again, but where a test asks for it."""
+    monkeypatch.setattr(scaling, "AGAIN", 1)
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("scaling")
@@ -45,6 +51,22 @@ def test_shards_that_are_not_made_are_copied(tmp_path):
     row = scaling.measured(CASE | {"measured": 1}, tmp_path)
     assert [path.name for path in sorted(tmp_path.iterdir())] == ["0.parquet", "all.parquet"]
     assert (row["measured"], row["computed"], row["gathered"]) == (1, 7, 21)
+
+
+@pytest.mark.parametrize(("seconds", "times"), [(0.1, 5), (2.0, 3), (7.0, 1)])
+def test_short_shards_are_made_again_and_medians_count(monkeypatch, seconds, times):
+    done = []
+
+    def run(rows):
+        done.append(rows)
+        late = (len(done) % 2) * 0.01 * seconds
+        return {"loading": 1.0, "computing": seconds + late, "memory": 100.0 + len(done), "whole": 3.0}
+
+    monkeypatch.setattr(scaling, "run", run)
+    found = scaling.repeated(5, rows=(0, 7))
+    assert done == [(0, 7)] * times
+    # One more late one than early ones.
+    assert found == {"loading": 1.0, "computing": 1.01 * seconds, "memory": 100.0 + times, "whole": 3.0}
 
 
 def test_each_case_is_a_row():
