@@ -55,6 +55,8 @@ def columns(
     ok = runs["status"] == "ok"
     state = np.full(len(ok), "undecided")
     period, flight = np.zeros(len(ok), dtype=np.int64), np.full(len(ok), np.nan)
+    if ok.all():
+        ok = slice(None)  # no copies
     ends = runs["z_end"][ok], runs["vz_end"][ok]
     found = motions_after(parameters[ok], *ends, settings, known=known, threads=threads, progress=progress)
     state[ok], period[ok], flight[ok] = found.state, found.period, found.longest_flight

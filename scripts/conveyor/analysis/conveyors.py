@@ -2,23 +2,29 @@
 
 import numpy as np
 
-from ..solver.model import PSI0, VZ0, Z0
+from ..solver.model import PARAMETERS, PSI0, VZ0, Z0
+
+# ψ0 only shifts the phase at which one looks, the start is no part of a conveyor.
+START = (PSI0, Z0, VZ0)
+CONVEYOR = [place for place in range(len(PARAMETERS)) if place not in START]
 
 
 def without_starts(parameters: np.ndarray) -> np.ndarray:
-    """The conveyors of rows, shape (n, 13): ψ0 only shifts the phase at which one looks, the start is no part of it."""
+    """The conveyors of rows, shape (n, 13): their phases and starts are zero."""
     conveyors = np.array(parameters, dtype=np.float64)
-    conveyors[:, [PSI0, Z0, VZ0]] = 0.0
+    conveyors[:, START] = 0.0
     return conveyors
 
 
 def distinct(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The conveyors of rows, shape (n, 13), sorted, shape (m, 13), and the number of each row's, int64, shape (n,)."""
-    rows = without_starts(parameters)
-    # In most ensembles the starts of a conveyor follow each other; rows are slow to sort.
-    first = np.flatnonzero(np.concatenate([np.ones(len(rows[:1]), bool), (rows[1:] != rows[:-1]).any(axis=1)]))
-    conveyors, index = np.unique(rows[first], axis=0, return_inverse=True)
-    return conveyors, np.repeat(index, np.diff(np.append(first, len(rows))))
+    # In most ensembles the starts of a conveyor follow each other; rows are slow to sort, and to copy.
+    follows = np.arange(len(parameters)) > 0
+    for column in CONVEYOR:
+        follows[1:] &= parameters[1:, column] == parameters[:-1, column]
+    first = np.flatnonzero(~follows)
+    conveyors, index = np.unique(without_starts(parameters[first]), axis=0, return_inverse=True)
+    return conveyors, np.repeat(index, np.diff(np.append(first, len(parameters))))
 
 
 def places(conveyors: np.ndarray, wanted: np.ndarray) -> np.ndarray:

@@ -8,7 +8,7 @@ from threading import Lock
 from .progress import bar
 
 # Towards the end ranges get shorter: this share of what is left for each thread, but not below this one of a chunk.
-OF_THE_REST, OF_A_CHUNK = 0.5, 0.01
+OF_THE_REST, OF_A_CHUNK = 0.5, 0.03
 
 
 def ranges_of(count: int, threads: int, chunk: int) -> Iterator[tuple[int, int]]:
