@@ -26,7 +26,7 @@ def ranges_of(count: int, threads: int, chunk: int) -> Iterator[tuple[int, int]]
 
 @cache
 def other_threads(count: int) -> ThreadPoolExecutor:
-    """Threads that wait for work as long as the process lasts: new ones share a processor for their first milliseconds.
+    """Threads that wait for work as long as the process lasts: one that begins may share a processor for milliseconds.
 
     What none of them comes to, as they are busy or left behind by a fork, the one that asks does itself.
     """
