@@ -83,7 +83,7 @@ def run(
     duration, method, tolerance, step : as in simulation.simulate
     needs : "feeding", or "vertical" where nothing horizontal is wanted (event-driven method: its columns are NaN)
     threads, chunk : how the work is shared; the result does not depend on them
-    beside : a function that one of the threads calls before it follows points, or None
+    beside : what another thread begins with, if one comes to it, as in solver.parallel.for_each_chunk; or None
     progress : name of a progress bar on stderr, or None
 
     Returns
