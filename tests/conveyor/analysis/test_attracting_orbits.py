@@ -7,7 +7,7 @@ from conveyor import Conveyor, Start
 from conveyor.analysis import attracting_orbits, conveyors, known, probes, settling
 from conveyor.analysis.known_attractors import known_attractors
 from conveyor.solver import contact
-from conveyor.solver.model import PSI0, pack
+from conveyor.solver.model import PARAMETERS, PSI0, pack
 
 TOLERANCE = 1e-6
 
@@ -104,3 +104,12 @@ def test_places_of_conveyors_in_any_order():
     places = known.KnownAttractors(table, known.NOTHING.chaotic).of(rows)
     assert [tuple(places[k]) for k in range(40)] == [{0: (0, 0), 1: (0, 0), 2: (0, 2)}[k] + (0, 0) for k in index]
     assert conveyors.distinct(rows[:0])[0].shape == (0, 13)
+
+
+@pytest.mark.parametrize("name", [name for name in PARAMETERS if name not in ("psi0", "z0", "vz0")])
+def test_a_conveyor_is_another_one_if_any_parameter_is(name):
+    rows = np.tile(conveyor_of(40.0), (4, 1))
+    rows[2:, PARAMETERS.index(name)] += 1.0
+    sorted_rows, numbers = conveyors.distinct(rows)
+    assert numbers.tolist() == [0, 0, 1, 1]
+    np.testing.assert_array_equal(sorted_rows, conveyors.without_starts(rows[::2]))
