@@ -87,6 +87,7 @@ def integrate(
     -------
     samples, results : float64, shape (n, k, 6), the columns horizontal.SAMPLES (m, m/s, N); shape (n, 7), see above
     """
+    times = np.ascontiguousarray(times)  # `follow` would be compiled, for seconds, for every other layout
     n, k = times.shape
     samples, results = np.empty((n, k, len(SAMPLES))), np.empty((n, REPEATS + 1))
     if event_times is None or event_kinds is None:

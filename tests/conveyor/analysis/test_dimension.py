@@ -63,6 +63,14 @@ def test_the_paper_s_way_misses_the_dimension_of_a_square_by_more_than_its_error
     assert found.value + found.error < 1.9
 
 
+def test_boxes_are_counted_by_one_kernel_for_both_ways():
+    """Numba compiles it for each layout of its arrays."""
+    points = square(np.random.default_rng(1), 1000)
+    dimension.box_dimension(points)
+    dimension.box_dimension_of_paper(points)
+    assert len(dimension.box_counts.signatures) == 1
+
+
 def test_more_points_narrow_the_error():
     points = np.random.default_rng(0).permutation(sierpinski(np.random.default_rng(6), 100_000))
     found = [dimension.box_dimension(points[:number]) for number in (3_000, 10_000, 100_000)]

@@ -12,7 +12,7 @@ from scipy.linalg import expm
 
 from conveyor import Conveyor, Start, simulate
 from conveyor.solver import trajectory as trajectory_module
-from conveyor.solver.model import conveyor_motion
+from conveyor.solver.model import conveyor_motion, pack
 
 AT_REST = Conveyor(acceleration=0.0)
 REFERENCE = {
@@ -281,3 +281,14 @@ def test_steps_of_a_settled_motion_are_used_again(acceleration):
     assert (long.z_end, long.vz_end) == pytest.approx((tight.z_end, tight.vz_end), rel=1e-7)
     assert long.impacts == tight.impacts
     assert len(long.events) == len(tight.events)
+
+
+def test_runs_are_compiled_once_however_their_times_lie_in_memory():
+    """Numba compiles a kernel for each layout of an array, this one for seconds."""
+    parameters = np.tile(pack(Conveyor(acceleration=40.0), Start()), (2, 1))
+    by_columns = np.linspace(0.0, [0.01, 0.02], 3, axis=1)
+    assert not by_columns.flags.c_contiguous
+    by_rows = np.ascontiguousarray(by_columns)
+    samples, _ = trajectory_module.integrate(parameters, by_columns, tolerance=1e-6)
+    np.testing.assert_array_equal(samples, trajectory_module.integrate(parameters, by_rows, tolerance=1e-6)[0])
+    assert len(trajectory_module.follow.signatures) == 1
