@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from ..solver import contact
-from ..solver.jit import inlined, kernel
+from ..solver.jit import inlined, kernel, spliced
 from ..solver.trajectory import BEGIN_OF_CYCLE, OK
 from . import stroboscope
 
@@ -142,7 +142,7 @@ def look(c, state, flight, max_cycles, known, mine, past, counts):
     return GOES_ON, 0, math.nan
 
 
-@kernel
+@spliced
 def settle(c, series, state, max_cycles, known, mine, strobes):
     """Follow `state`, at the phase BEGIN_OF_CYCLE, until it is periodic or at a known attractor.
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..solver import contact, polynomial
 from ..solver.contact import FIRST
-from ..solver.jit import borrowed, inlined, kernel
+from ..solver.jit import borrowed, inlined, kernel, spliced
 from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
 from ..solver.polynomial import ORDER, SIZE
 from ..solver.trajectory import BEGIN_OF_CYCLE, IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, patience
@@ -203,7 +203,7 @@ def advance(c, series, state, phase, duration, tangent, features):
     return TOO_STIFF
 
 
-@kernel
+@spliced
 def cycle(c, series, state, tangent, features):
     """Advance `state`, at the phase ψ0, by one excitation cycle: see `advance`."""
     return advance(c, series, state, c.psi0, c.period, tangent, features)

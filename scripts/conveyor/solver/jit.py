@@ -39,7 +39,7 @@ def inlined(function):
 
 
 def spliced(function):
-    """A `kernel` for a long function that is called from one place: it is compiled there, not by itself as well."""
+    """A `kernel` that one or two others call, and hardly Python: it is compiled there, not by itself as well."""
     return kernel(function, inline="always")
 
 
