@@ -17,7 +17,6 @@ from workflow.tables_of_config import kind_of
 ENTRIES = entries()
 MAPS = ("fig12", "fig13", "fig14", "fig18", "fig19")
 PAGE_HEIGHT = 234.0  # mm, of the journal's page
-SCREEN = 100.0  # dpi, at which extents are measured
 ABOVE_LETTERS = 0.02  # inch, of the height of a line of text
 UNITS = {
     "m/s²",
@@ -80,8 +79,7 @@ def drawn(request, tmp_path_factory):
     figure = draw(request.param, paths, kinds, entry.get("settings", {}), asked={})
     copy = tmp_path_factory.mktemp("page") / "page.pdf"
     style.save(figure, [str(copy)])
-    figure.dpi = SCREEN
-    FigureCanvasAgg(figure).figure.draw_without_rendering()
+    FigureCanvasAgg(figure)  # measures texts
     return Drawn(request.param, figure, copy.read_bytes())
 
 
