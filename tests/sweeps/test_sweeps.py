@@ -177,7 +177,12 @@ def test_attractors_of_one_conveyor_are_found_while_its_starts_run(monkeypatch):
 
     def for_each_chunk(work, *arguments, **options):
         """Starts wait for the search: which of the two is done first would else be an accident of the machine."""
-        true_chunks(lambda begin, end: work(begin, end) if found.wait(120.0) else None, *arguments, **options)
+
+        def after_the_search(begin, end):
+            assert found.wait(60.0), "no other thread has begun with the search"
+            return work(begin, end)
+
+        true_chunks(after_the_search, *arguments, **options)
 
     monkeypatch.setattr(pipeline.motions, "known_of", known_of)
     monkeypatch.setattr(ensemble, "for_each_chunk", for_each_chunk)

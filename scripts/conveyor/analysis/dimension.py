@@ -80,7 +80,8 @@ def box_dimension_of_paper(points: np.ndarray, sizes: Iterable[float] = tuple(0.
 
     The error is twice the standard error of the slope, as if the counts scattered independently.
     """
-    scales = np.ascontiguousarray(np.sort(np.asarray(sizes, dtype=np.float64))[::-1])  # no kernel for another layout
+    # A copy lies in memory in its own order: `box_counts` would be compiled once more for a reversed view.
+    scales = np.sort(np.asarray(sizes, dtype=np.float64))[::-1].copy()
     unshifted = np.zeros((1, 2))
     counts = box_counts(normalise(points), np.zeros(len(points), np.int64), scales, len(scales), unshifted, 0.0)[0]
     (slope, _), covariance = np.polyfit(np.log(scales), np.log(counts), 1, cov=True)

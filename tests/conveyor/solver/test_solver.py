@@ -288,7 +288,7 @@ def test_runs_are_compiled_once_however_their_times_lie_in_memory():
     parameters = np.tile(pack(Conveyor(acceleration=40.0), Start()), (2, 1))
     by_columns = np.linspace(0.0, [0.01, 0.02], 3, axis=1)
     assert not by_columns.flags.c_contiguous
-    by_rows = np.ascontiguousarray(by_columns)
-    samples, _ = trajectory_module.integrate(parameters, by_columns, tolerance=1e-6)
-    np.testing.assert_array_equal(samples, trajectory_module.integrate(parameters, by_rows, tolerance=1e-6)[0])
-    assert len(trajectory_module.follow.signatures) == 1
+    by_rows, _ = trajectory_module.integrate(parameters, np.ascontiguousarray(by_columns), tolerance=1e-6)
+    compiled = list(trajectory_module.follow.signatures)
+    np.testing.assert_array_equal(trajectory_module.integrate(parameters, by_columns, tolerance=1e-6)[0], by_rows)
+    assert trajectory_module.follow.signatures == compiled
