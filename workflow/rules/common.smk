@@ -28,6 +28,10 @@ from workflow.sharing import THREADS
 from workflow.source_hash import SCRIPTS, closure, source_hash, versions
 from workflow.tables_of_config import ON_REQUEST
 
+# Jobs take the memory of tables from where all other comes from. Arrow's own pool asks for huge pages: on a machine where
+# these are slow to clear, the first small table of a job waited for that longer than all its writing took.
+os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
+
 # "" or "NAME/": a config with a prefix keeps its results apart.
 PREFIX = config["prefix"] and f"{config['prefix']}/"
 
