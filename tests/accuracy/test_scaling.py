@@ -78,10 +78,16 @@ def test_each_case_is_a_row():
 
 
 @pytest.mark.parametrize(("end", "first"), [(9, 9), (40, 11)])
-def test_the_first_points_are_computed_alone_before_all(monkeypatch, end, first):
-    made = []
-    monkeypatch.setattr(scaling, "make_shard", lambda rows, **others: made.append(tuple(rows)))
-    task = {"path": "", "settings": {}, "rows": [7, end], "threads": 1}
+def test_the_first_points_are_computed_alone_before_all(monkeypatch, tmp_path, end, first):
+    path, made = tmp_path / "some.parquet", []
+
+    def make_shard(rows, **others):
+        made.append(tuple(rows))
+        assert not path.exists()  # no job writes over a file
+        path.touch()
+
+    monkeypatch.setattr(scaling, "make_shard", make_shard)
+    task = {"path": str(path), "settings": {}, "rows": [7, end], "threads": 1}
     monkeypatch.setattr("sys.stdin", io.StringIO(json.dumps(task)))
     scaling.job()
     assert made == [(7, first), (7, end)]
