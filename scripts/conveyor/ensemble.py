@@ -17,20 +17,20 @@ COLUMNS = ("mean_velocity", "z_end", "vz_end", "x_end", "vx_end", "max_gap", "im
 
 
 def follow_by_events(parameters, durations, tolerance, feeding, out):
-    """Fill the rows of `out`, shape (n, 9), for `parameters`, shape (n, 13), and `durations` (s), by events."""
+    """Fill `out`, shape (9, n), for `parameters`, shape (n, 13), and `durations` (s), by events."""
     times = np.column_stack([(1.0 - LAST) * durations, durations])
     samples, results = trajectory.integrate(parameters, times, tolerance=tolerance, feeding=feeding)
-    out[:, MEAN_VELOCITY] = (samples[:, 1, 0] - samples[:, 0, 0]) / (LAST * durations)
+    out[MEAN_VELOCITY] = (samples[:, 1, 0] - samples[:, 0, 0]) / (LAST * durations)
     for column, place in enumerate((X_END, VX_END, Z_END, VZ_END)):
-        out[:, place] = samples[:, 1, column]
-    out[:, MAX_GAP] = results[:, trajectory.MAX_GAP]
-    out[:, IMPACTS] = results[:, trajectory.IMPACTS]
-    out[:, CONTACT_FRACTION] = results[:, trajectory.CONTACT_TIME] / durations
-    out[:, CODE] = results[:, trajectory.CODE]
+        out[place] = samples[:, 1, column]
+    out[MAX_GAP] = results[:, trajectory.MAX_GAP]
+    out[IMPACTS] = results[:, trajectory.IMPACTS]
+    out[CONTACT_FRACTION] = results[:, trajectory.CONTACT_TIME] / durations
+    out[CODE] = results[:, trajectory.CODE]
 
 
 def follow_by_steps(parameters, duration, step, method, out):
-    """Fill the rows of `out`, shape (n, 9), for `parameters`, shape (n, 13), with a fixed-step method."""
+    """Fill `out`, shape (9, n), for `parameters`, shape (n, 13), with a fixed-step method."""
     count = fixed_step.step_count(duration, step)
     first = min(round((1.0 - LAST) * count), count - 1)
     n = parameters.shape[0]
@@ -39,12 +39,12 @@ def follow_by_steps(parameters, duration, step, method, out):
     fixed_step.integrate_all(parameters, step, count, method, np.array([first]), samples, np.empty((n, 0, 2)), results)
     for i in range(n):
         x, vx, z, vz, _, impacts, contact_time, max_gap, _, status = results[i]
-        out[i, MEAN_VELOCITY] = (x - samples[i, 0, 0]) / ((count - first) * step)
-        out[i, X_END], out[i, VX_END], out[i, Z_END], out[i, VZ_END] = x, vx, z, vz
-        out[i, MAX_GAP] = max_gap
-        out[i, IMPACTS] = impacts
-        out[i, CONTACT_FRACTION] = contact_time / (count * step)
-        out[i, CODE] = trajectory.OK if status == fixed_step.OK else trajectory.NOT_FINITE
+        out[MEAN_VELOCITY, i] = (x - samples[i, 0, 0]) / ((count - first) * step)
+        out[X_END, i], out[VX_END, i], out[Z_END, i], out[VZ_END, i] = x, vx, z, vz
+        out[MAX_GAP, i] = max_gap
+        out[IMPACTS, i] = impacts
+        out[CONTACT_FRACTION, i] = contact_time / (count * step)
+        out[CODE, i] = trajectory.OK if status == fixed_step.OK else trajectory.NOT_FINITE
 
 
 def samples_by_events(parameters, times, tolerance, column, feeding, out):
@@ -99,23 +99,23 @@ def run(
     if method != "event" and np.ndim(duration) > 0:
         raise ValueError("only the event-driven method takes a duration for each point")
     parameters = np.ascontiguousarray(parameters, dtype=np.float64)
-    out = np.empty((len(parameters), CODE + 1))
+    out = np.empty((CODE + 1, len(parameters)))
     feeding = needs == "feeding"
     durations = np.broadcast_to(np.asarray(duration, dtype=np.float64), len(parameters)).copy()
 
     def work(begin, end):
         if method == "event":
             rows = slice(begin, end)
-            follow_by_events(parameters[rows], durations[rows], tolerance, feeding, out[rows])
+            follow_by_events(parameters[rows], durations[rows], tolerance, feeding, out[:, rows])
         else:
-            follow_by_steps(parameters[begin:end], duration, step, fixed_step.METHODS.index(method), out[begin:end])
-        return np.count_nonzero(out[begin:end, CODE] != trajectory.OK)
+            follow_by_steps(parameters[begin:end], duration, step, fixed_step.METHODS.index(method), out[:, begin:end])
+        return np.count_nonzero(out[CODE, begin:end] != trajectory.OK)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=chunk, beside=beside, progress=progress)
-    columns = {name: np.ascontiguousarray(out[:, k]) for k, name in enumerate(COLUMNS)}
+    columns = dict(zip(COLUMNS, out, strict=False))
     if not feeding:
         for name in ("mean_velocity", "x_end", "vx_end"):
             columns[name] = np.full(len(parameters), np.nan)
     columns["impacts"] = columns["impacts"].astype(np.int64)
-    columns["status"] = np.array(STATUS)[out[:, CODE].astype(np.int64)]
+    columns["status"] = np.array(STATUS, dtype=object)[out[CODE].astype(np.int64)]
     return columns

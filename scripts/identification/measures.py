@@ -107,9 +107,9 @@ def curve(heights: np.ndarray, edges: np.ndarray, angle: np.ndarray) -> Curve:
 def by_events(rows: np.ndarray) -> np.ndarray:
     """Mean feeding velocities (m/s), shape (n,), of conveyors and starts, shape (n, 13), converged."""
     # What ensemble.run does for many would cost a search, which asks for four at a time, a seventh of their time.
-    found = np.empty((len(rows), ensemble.CODE + 1))
+    found = np.empty((ensemble.CODE + 1, len(rows)))
     ensemble.follow_by_events(rows, np.full(len(rows), DURATION), TOLERANCE, True, found)
-    return found[:, ensemble.MEAN_VELOCITY]
+    return found[ensemble.MEAN_VELOCITY]
 
 
 def starts_of_both_states(parameters: np.ndarray, found: Curve, measured: dict) -> np.ndarray:

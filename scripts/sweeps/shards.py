@@ -5,8 +5,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from conveyor import ensemble
+from conveyor.analysis.states import continued
 from pipeline import fields, grid
-from pipeline.motions import motions_after, search_beside
+from pipeline.motions import motions, search_beside
 
 TABLES = {
     "sweeps": (
@@ -53,11 +54,21 @@ def columns(
     runs = ensemble.run(parameters, **options, threads=threads, beside=search, progress=progress)
     known = search and search()
     ok = runs["status"] == "ok"
-    state = np.full(len(ok), "undecided")
-    period, flight = np.zeros(len(ok), dtype=np.int64), np.full(len(ok), np.nan)
-    if ok.all():
-        ok = slice(None)  # no copies
-    ends = runs["z_end"][ok], runs["vz_end"][ok]
-    found = motions_after(parameters[ok], *ends, settings, known=known, threads=threads, progress=progress)
-    state[ok], period[ok], flight[ok] = found.state, found.period, found.longest_flight
+    those = slice(None) if ok.all() else ok  # no copies
+    starts = parameters[those]
+    continued(starts, runs["z_end"][those], runs["vz_end"][those], settings["duration"], out=starts)
+    found = motions(starts, settings, known=known, threads=threads, progress=progress)
+    state, period, flight = (
+        everywhere(ok, values, missing)
+        for values, missing in ((found.state, "undecided"), (found.period, 0), (found.longest_flight, np.nan))
+    )
     return axes | runs | {"state": state, "period": period, "longest_flight": flight}
+
+
+def everywhere(ok: np.ndarray, values: np.ndarray, missing: str | float) -> np.ndarray:
+    """The `values` in the places where `ok`, of shape (n,), is true, and what is `missing` in the others."""
+    if len(values) == len(ok):
+        return values
+    whole = np.full(len(ok), missing, dtype=values.dtype)
+    whole[ok] = values
+    return whole

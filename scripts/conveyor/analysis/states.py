@@ -40,9 +40,16 @@ class Motions(NamedTuple):
     cycles: np.ndarray  # int64, excitation cycles that the start was followed for
 
 
-def continued(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, duration: float) -> np.ndarray:
-    """Parameter vectors, shape (n, 13), whose starts are the ends of runs of `duration` (s) of `parameters`."""
-    later = np.array(parameters, dtype=np.float64)
+def continued(
+    parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, duration: float, *, out: np.ndarray | None = None
+) -> np.ndarray:
+    """Parameter vectors, shape (n, 13), whose starts are the ends of runs of `duration` (s) of `parameters`.
+
+    out : where they are written, which may be `parameters`; None for a new array
+    """
+    later = np.empty(parameters.shape) if out is None else out
+    if later is not parameters:
+        later[:] = parameters
     cycles = parameters[:, FREQUENCY] * duration
     later[:, PSI0] = (parameters[:, PSI0] + 2.0 * math.pi * (cycles - np.floor(cycles))) % (2.0 * math.pi)
     later[:, Z0] = z_end
@@ -92,4 +99,4 @@ def classify(
         longer = still[signs < 0]
         codes[longer] = regular[longer]
     flights[(codes == CHAOS) | (codes == UNDECIDED)] = math.nan
-    return Motions(np.array(STATES)[codes], periods, flights, followed)
+    return Motions(np.array(STATES, dtype=object)[codes], periods, flights, followed)

@@ -47,6 +47,20 @@ def test_state_does_not_depend_on_when_the_run_is_cut():
         assert list(states.classify(later).state) == [state for state, _ in KNOWN.values()]
 
 
+def test_a_run_goes_on_in_place_or_elsewhere():
+    true = points()
+    runs = ensemble.run(true, duration=0.013)
+    ends = runs["z_end"], runs["vz_end"], 0.013
+    later = states.continued(true, *ends)
+    np.testing.assert_array_equal(true, points())
+    assert (later != true).any(axis=1).all()
+    there = np.zeros_like(true)
+    assert states.continued(true, *ends, out=there) is there
+    assert states.continued(true, *ends, out=true) is true
+    np.testing.assert_array_equal(there, later)
+    np.testing.assert_array_equal(true, later)
+
+
 def test_slow_transients_are_followed():
     """Just above the doubling a period of two is approached very slowly; it is neither chaos nor undecided."""
     state, period, *_ = states.classify(np.array([pack(Conveyor(acceleration=54.25), Start(3e-4))]))
