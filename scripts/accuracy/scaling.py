@@ -2,8 +2,9 @@
 
 Every job is measured in a process of its own, from its start on, as a cluster starts it. A shard's first points are
 computed twice: the first time loads the compiled code, which can so be told from computing. What a few seconds take
-depends on what else the machine does: such shards are measured several times, and medians count. Of the largest sweeps
-one shard is made; what puts the shards together is measured on copies of it, of which more change nothing but the time.
+depends on what else the machine does: such shards are made several times, in turns with those of other sweeps, and
+medians count. Of the largest sweeps one shard is made; what puts the shards together is measured on copies of it, of
+which more change nothing but the time.
 """
 
 import json
@@ -13,7 +14,7 @@ import re
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from itertools import product
 from pathlib import Path
 from statistics import median
 from time import perf_counter
@@ -29,8 +30,8 @@ from pipeline import fields, tables
 from sweeps import shards
 
 SCRIPTS = Path(__file__).resolve().parents[1]
-# A shard is made up to so many times, all of a sweep together, until it has computed for so many seconds.
-AGAIN, ENOUGH = 9, 5.0
+# Rounds in which the shards of each sweep are made again, until those of it have taken so many seconds.
+ROUNDS, ENOUGH = 5, 30.0
 MOST_GATHERED = 3  # copies of a shard of which a measured table is put together
 
 TABLES = {
@@ -110,65 +111,80 @@ def run(**task: Any) -> dict[str, float]:
     return json.loads(done.stdout) | {"whole": perf_counter() - begin}
 
 
-def repeated(times: int, **task: Any) -> dict[str, float]:
-    """`run`, up to so many times until it has computed for long ENOUGH: the medians of its times, its most memory."""
-    done = [run(**task)]
-    while len(done) < times and math.fsum(one["computing"] for one in done) < ENOUGH:
-        done.append(run(**task))
-    return {name: (max if name == "memory" else median)(one[name] for one in done) for name in done[0]}
-
-
-def measured(case: dict, folder: Path) -> dict[str, Any]:
-    """A row of the table for one `case`.
-
-    It says what is varied, the settings of its sweep, its plan, its threads, and how many shards are to be measured.
-    """
-    plan, settings = case["plan"], case["settings"]
-    points, rows = plan["points"], plan["rows"]
-    wanted = range(case["measured"])
-    paths = [str(folder / f"{number}.parquet") for number in wanted]
-    times = max(AGAIN // case["measured"], 1)
-    options = {"settings": settings, "threads": case["threads"]}
-    made = [
-        repeated(times, **options, path=path, rows=[k * rows, min((k + 1) * rows, points)])
-        for k, path in zip(wanted, paths, strict=True)
+def shards_of(case: dict, folder: Path) -> list[dict[str, float]]:
+    """`run` for each shard of a case that is to be made."""
+    rows, points = case["plan"]["rows"], case["plan"]["points"]
+    return [
+        run(
+            settings=case["settings"],
+            threads=case["threads"],
+            path=str(folder / f"{k}.parquet"),
+            rows=[k * rows, min((k + 1) * rows, points)],
+        )
+        for k in range(case["measured"])
     ]
-    copies = paths if len(paths) == plan["shards"] else paths * min(plan["shards"], MOST_GATHERED)
-    gathered = sum(pq.read_metadata(path).num_rows for path in copies)
+
+
+def put_together(case: dict, folder: Path) -> dict[str, float]:
+    """`run` for what puts the shards of a case together, how many rows it has, and the size (B) of the file."""
+    paths, shards_of_all = [str(folder / f"{k}.parquet") for k in range(case["measured"])], case["plan"]["shards"]
+    copies = paths if len(paths) == shards_of_all else paths * min(shards_of_all, MOST_GATHERED)
+    rows = sum(pq.read_metadata(path).num_rows for path in copies)
     whole = folder / "all.parquet"
-    together = run(settings=settings, shards=copies, rows=gathered, path=str(whole))
+    found = run(settings=case["settings"], shards=copies, rows=rows, path=str(whole))
+    return found | {"rows": rows, "bytes": whole.stat().st_size}
+
+
+def medians(rounds: list[list[dict[str, float]]]) -> list[dict[str, float]]:
+    """Of each shard over rounds the medians of its times, and its most memory."""
+    return [
+        {name: (max if name == "memory" else median)(one[name] for one in of_one) for name in of_one[0]}
+        for of_one in zip(*rounds, strict=True)
+    ]
+
+
+def row(case: dict, made: list[dict[str, float]], together: dict[str, float]) -> dict[str, Any]:
+    """A row of the table for one `case`, from `medians` of its shards and what `put_together` says.
+
+    A case says what is varied, the settings of its sweep, its plan, its threads, and how many shards are to be made.
+    """
+    plan = case["plan"]
     return {
         "varied": case["varied"],
-        "points": points,
+        "points": plan["points"],
         "conveyors": case["conveyors"],
         "shards": plan["shards"],
-        "rows": rows,
+        "rows": plan["rows"],
         "threads": case["threads"],
         "measured": len(made),
-        "computed": min(len(made) * rows, points),
+        "computed": min(len(made) * plan["rows"], plan["points"]),
         "shard_seconds": math.fsum(one["whole"] for one in made),
         "loading_seconds": math.fsum(one["loading"] for one in made),
         "computing_seconds": math.fsum(one["computing"] for one in made),
         "shard_memory": max(one["memory"] for one in made),
         "estimated_seconds": plan["seconds"] / case["threads"],
         "estimated_memory": plan["memory"],
-        "gathered": gathered,
+        "gathered": together["rows"],
         "gathering_seconds": together["whole"],
         "gathering_memory": together["memory"],
-        "bytes": whole.stat().st_size / gathered,
+        "bytes": together["bytes"] / together["rows"],
     }
 
 
 def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table for `cases`, one row each; what has to be compiled is compiled before."""
 
-    def one_by_one() -> Iterator[dict[str, Any]]:
-        for case in bar(cases, label=progress, unit="sweeps"):
-            with tempfile.TemporaryDirectory() as folder:
-                yield measured(case, Path(folder))
-
     with tempfile.TemporaryDirectory() as folder:
         for one in cases:
             rows = [0, min(settling_lanes.SIDE_BY_SIDE, one["plan"]["points"])]
             run(settings=one["settings"], threads=1, rows=rows, path=f"{folder}/one.parquet")
-    return {name: column.to_numpy() for name, column in pd.DataFrame(one_by_one()).items()}
+    times, together = [[] for _ in cases], {}
+    for number, k in bar(list(product(range(ROUNDS), range(len(cases)))), label=progress, unit="sweeps"):
+        if math.fsum(one["whole"] for shards in times[k] for one in shards) >= ENOUGH:
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            times[k].append(shards_of(cases[k], Path(folder)))
+            if number == 0:
+                together[k] = put_together(cases[k], Path(folder))
+    rows = (row(case, medians(times[k]), together[k]) for k, case in enumerate(cases))
+    return {name: column.to_numpy() for name, column in pd.DataFrame(rows).items()}

@@ -24,19 +24,18 @@ PLAN = {"points": 20, "rows": 7, "shards": 3, "seconds": 1.0, "memory": 300.0, "
 CASE = {"varied": "points", "settings": SETTINGS, "plan": PLAN, "threads": 1, "conveyors": 1, "measured": 3}
 
 
-@pytest.fixture(autouse=True)
-def once(monkeypatch):
-    """Nothing is measured again, but where a test asks for it."""
-    monkeypatch.setattr(scaling, "AGAIN", 1)
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("scaling")
 
 
+def measured(case, folder):
+    made = scaling.shards_of(case, folder)
+    return scaling.row(case, made, scaling.put_together(case, folder))
+
+
 def test_all_shards_are_made_and_put_together(folder):
-    row = scaling.measured(CASE, folder)
+    row = measured(CASE, folder)
     assert set(row) == {field.name for field in scaling.TABLES["scaling"]}
     assert [pq.read_metadata(folder / f"{k}.parquet").num_rows for k in range(3)] == [7, 7, 6]
     assert pq.read_metadata(folder / "all.parquet").num_rows == row["gathered"] == 20
@@ -48,28 +47,46 @@ def test_all_shards_are_made_and_put_together(folder):
 
 
 def test_shards_that_are_not_made_are_copied(tmp_path):
-    row = scaling.measured(CASE | {"measured": 1}, tmp_path)
+    row = measured(CASE | {"measured": 1}, tmp_path)
     assert [path.name for path in sorted(tmp_path.iterdir())] == ["0.parquet", "all.parquet"]
     assert (row["measured"], row["computed"], row["gathered"]) == (1, 7, 21)
 
 
-@pytest.mark.parametrize(("seconds", "times"), [(0.1, 5), (2.0, 3), (7.0, 1)])
-def test_short_shards_are_made_again_and_medians_count(monkeypatch, seconds, times):
-    done = []
+def test_of_several_rounds_medians_count_and_the_most_memory():
+    def shard(whole, memory):
+        return {"loading": 1.0, "computing": whole - 2.0, "memory": memory, "whole": whole}
 
-    def run(rows):
-        done.append(rows)
-        late = (len(done) % 2) * 0.01 * seconds
-        return {"loading": 1.0, "computing": seconds + late, "memory": 100.0 + len(done), "whole": 3.0}
-
-    monkeypatch.setattr(scaling, "run", run)
-    found = scaling.repeated(5, rows=(0, 7))
-    assert done == [(0, 7)] * times
-    # One more late one than early ones.
-    assert found == {"loading": 1.0, "computing": 1.01 * seconds, "memory": 100.0 + times, "whole": 3.0}
+    rounds = [[shard(3.0, 100.0), shard(9.0, 70.0)], [shard(7.0, 90.0), shard(4.0, 60.0)]]
+    rounds.append([shard(4.0, 80.0), shard(5.0, 50.0)])
+    assert scaling.medians(rounds) == [shard(4.0, 100.0), shard(5.0, 70.0)]
 
 
-def test_each_case_is_a_row():
+def test_sweeps_are_made_in_turns_until_they_have_taken_long_enough(monkeypatch):
+    """The first one so for all rounds, the second one for two, the third one once; each is put together once."""
+    done, together = [], []
+    cases = [CASE | {"conveyors": k, "whole": whole} for k, whole in enumerate((1.0, 20.0, 31.0))]
+
+    def shards_of(case, _):
+        done.append(case["conveyors"])
+        late = 0.1 * done.count(case["conveyors"])
+        return [{"loading": 0.5, "computing": late, "memory": 100.0, "whole": case["whole"]}]
+
+    def put_together(case, _):
+        together.append(case["conveyors"])
+        return {"whole": 2.0, "memory": 50.0, "rows": 20, "bytes": 400}
+
+    monkeypatch.setattr(scaling, "run", lambda **_: None)
+    monkeypatch.setattr(scaling, "shards_of", shards_of)
+    monkeypatch.setattr(scaling, "put_together", put_together)
+    found = scaling.make({}, cases)
+    assert done == [0, 1, 2, 0, 1, 0, 0, 0]
+    assert together == [0, 1, 2]
+    assert found["computing_seconds"] == pytest.approx([0.3, 0.15, 0.1])
+    assert found["shard_seconds"].tolist() == [1.0, 20.0, 31.0]
+
+
+def test_each_case_is_a_row(monkeypatch):
+    monkeypatch.setattr(scaling, "ROUNDS", 1)
     few = CASE | {"plan": PLAN | {"points": 2, "rows": 2, "shards": 1}, "measured": 1}
     few["settings"] = SETTINGS | {"axes": {"z0": [0.0, 1.0e-4]}}
     found = scaling.make({}, [CASE, few])
