@@ -1,15 +1,16 @@
 """What jobs find in their environment."""
 
-POOL = """
+STATUS = """
     import pyarrow
     from pathlib import Path
 
-    Path("pool.txt").write_text(pyarrow.default_memory_pool().backend_name)
+    pyarrow.array([1.0])
+    Path("status.txt").write_text(Path("/proc/self/status").read_text())
     return figure"""
 
 
-def test_tables_have_the_memory_that_all_else_has(edited, monkeypatch):
-    monkeypatch.delenv("ARROW_DEFAULT_MEMORY_POOL", raising=False)
-    project = edited("scripts/figures/plots/fig03.py", "\n    return figure", POOL)
+def test_tables_ask_for_no_huge_pages(edited, monkeypatch):
+    monkeypatch.delenv("MIMALLOC_ALLOW_THP", raising=False)
+    project = edited("scripts/figures/plots/fig03.py", "\n    return figure", STATUS)
     project.make("figures/fig03.pdf")
-    assert (project.folder / "pool.txt").read_text() == "system"
+    assert "THP_enabled:\t0" in (project.folder / "status.txt").read_text()

@@ -28,9 +28,9 @@ from workflow.sharing import THREADS
 from workflow.source_hash import SCRIPTS, closure, source_hash, versions
 from workflow.tables_of_config import ON_REQUEST
 
-# Jobs take the memory of tables from where all other comes from. Arrow's own pool asks for huge pages: on a machine where
-# these are slow to clear, the first small table of a job waited for that longer than all its writing took.
-os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
+# The memory of tables comes without huge pages: on a machine where these are slow to clear, the first small table of a job
+# waited for that longer than all its writing took. Nor does what puts shards together take as much of it then.
+os.environ.setdefault("MIMALLOC_ALLOW_THP", "0")
 
 # "" or "NAME/": a config with a prefix keeps its results apart.
 PREFIX = config["prefix"] and f"{config['prefix']}/"
