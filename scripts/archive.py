@@ -7,6 +7,7 @@ these columns, which are half of their bytes.
 
 import hashlib
 import json
+import os
 import shutil
 from collections.abc import Iterable
 from pathlib import Path
@@ -20,7 +21,6 @@ SUMS = "SHA256SUMS"
 # What scripts/redraw.py draws: the tables of each figure by their names in its plot, their kinds, and its settings.
 DRAWN = "figures.json"
 ENDS = {field.name for field in fields.ENDS}
-NOT_SOURCES = shutil.ignore_patterns("__pycache__", ".*")
 
 
 def copy_table(source: Path, target: Path) -> None:
@@ -29,14 +29,12 @@ def copy_table(source: Path, target: Path) -> None:
     tables.write(target, table.drop_columns([name for name in table.column_names if name in ENDS]))
 
 
-def copy(names: Iterable[str], folder: Path) -> None:
-    """Copy files and folders to the same places below a folder."""
+def copy(names: Iterable[str], base: str | Path, folder: Path) -> None:
+    """Copy files from below a base folder to the same places below another one."""
     for name in names:
-        source, target = Path(name), folder / name
+        source, target = Path(name), folder / os.path.relpath(name, base)
         target.parent.mkdir(parents=True, exist_ok=True)
-        if source.is_dir():
-            shutil.copytree(source, target, ignore=NOT_SOURCES)
-        elif source.suffix == ".parquet":
+        if source.suffix == ".parquet":
             copy_table(source, target)
         else:
             shutil.copyfile(source, target)
@@ -66,7 +64,8 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]):
         archive = Path(snakemake.output[0])
         archive.mkdir(parents=True)
-        copy([*snakemake.params.sources, *snakemake.params.results], archive)
+        copy(snakemake.input.results, os.curdir, archive)
+        copy(snakemake.input.sources, Path(snakemake.scriptdir).parent, archive)
         shutil.copyfile(snakemake.input.readme, archive / "ARCHIVE.md")
         (archive / DRAWN).write_text(json.dumps(snakemake.params.figures, indent=1) + "\n", encoding="utf-8")
         (archive / SUMS).write_text(sums(archive), encoding="utf-8")

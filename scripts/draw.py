@@ -10,29 +10,27 @@ from pipeline import tables
 from pipeline.rule_log import logged
 
 
-def draw(
-    name: str, paths: Mapping[str, str], kinds: Mapping[str, str], settings: dict, asked: Mapping[str, dict]
-) -> Figure:
-    """Figure `name` from tables; their settings are in `attrs`.
+def draw(name: str, paths: Mapping[str, str], expected: Mapping[str, list], settings: dict) -> Figure:
+    """Figure `name` from its tables.
 
     Parameters
     ----------
-    paths, kinds : of the tables, by their names in the plot script
+    paths : of the tables, by their roles in the plot
+    expected : kind and settings that each table must have, by its path
     settings : of the figure
-    asked : the settings that tables must have been made from, by their paths
 
     Raises
     ------
     pipeline.tables.TableError
-        names a file that is not the table that is asked for, and the remedy
+        names a file that is not the expected table, and the remedy
     """
     plot = importlib.import_module(f"figures.plots.{name}").plot
     with style.applied():
-        return plot({role: tables.read(path, kinds[role], asked.get(path)) for role, path in paths.items()}, settings)
+        return plot({role: tables.read(path, *expected[path]) for role, path in paths.items()}, settings)
 
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        params = snakemake.params
-        figure = draw(params.figure, dict(snakemake.input.items()), params.kinds, params.settings, params.asked)
+        name, params = snakemake.wildcards.figure, snakemake.params
+        figure = draw(name, dict(snakemake.input.items()), params.expected, params.settings)
         style.save(figure, snakemake.output)

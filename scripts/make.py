@@ -1,10 +1,10 @@
 """The script of every rule that makes tables or pages: read its inputs, call one function, write what that returns.
 
 A module of a stage has such a function, `make`, and TABLES, the schemas of the tables that it makes, by their kinds.
-Its arguments are the named inputs of the rule (tables or texts, lists of them where the rule has lists), the params
-beside those NOT_FOR_THE_STAGE, and, where it takes them, `threads` and `progress`. It returns what the one output
-holds: the columns of a table (an iterator: of blocks of its rows), a text, bytes or a picture; of several outputs a
-mapping by their names, or a list without names.
+Its arguments are the named inputs of the rule (tables, texts, or paths of pictures; lists where the rule has lists),
+its params other than NOT_FOR_THE_STAGE, and, if it has such arguments, `threads` and `progress`. It returns the content
+of the output: the columns of a table (an iterator: of blocks of its rows), a text, bytes or a picture. For several
+outputs it returns a mapping by their names, or a list if they have no names.
 """
 
 import importlib
@@ -17,29 +17,23 @@ from typing import Any
 from pipeline import fields, tables
 from pipeline.rule_log import logged
 
-# Its module, the hash of its sources, the kinds of its input tables by their names where a table's kind is not its
-# name, and the settings that each of them must have been made from, by its path.
-NOT_FOR_THE_STAGE = STAGE, CODE, KINDS, ASKED = "stage", "code", "kinds", "asked"
+# The module of the stage, the hash of its sources, and kind and settings that each input table must have, by its path.
+NOT_FOR_THE_STAGE = STAGE, CODE, EXPECTED = "stage", "code", "expected"
 
 
-def read(path: str, kind: str, asked: dict[str, Any]) -> Any:
-    """An input: a table, or a text."""
+def read(path: str, expected: dict[str, list]) -> Any:
+    """An input: a table, a text, or the path of a picture."""
     if path.endswith(".parquet"):
-        return tables.read(path, kind, asked[path])
-    return Path(path).read_text(encoding="utf-8")
+        return tables.read(path, *expected[path])
+    return path if path.endswith(".png") else Path(path).read_text(encoding="utf-8")
 
 
-def read_inputs(paths: dict[str, Any], kinds: dict[str, Any], asked: dict[str, Any]) -> dict[str, Any]:
+def read_inputs(paths: dict[str, Any], expected: dict[str, list]) -> dict[str, Any]:
     """The contents of inputs by their names."""
-    found = {}
-    for name, path in paths.items():
-        kind = kinds.get(name, name)
-        if isinstance(path, str):
-            found[name] = read(path, kind, asked)
-        else:
-            of_each = [kind] * len(path) if isinstance(kind, str) else kind
-            found[name] = [read(one, its_kind, asked) for one, its_kind in zip(path, of_each, strict=True)]
-    return found
+    return {
+        name: read(path, expected) if isinstance(path, str) else [read(one, expected) for one in path]
+        for name, path in paths.items()
+    }
 
 
 def contents(outputs: Any, made: Any) -> Iterator[tuple[str, str, Any]]:
@@ -51,7 +45,7 @@ def contents(outputs: Any, made: Any) -> Iterator[tuple[str, str, Any]]:
         yield next(iter(names), ""), outputs[0], made
     else:
         if set(names) != set(made):
-            raise ValueError(f"outputs {', '.join(names)} of the rule, but {', '.join(made)} of the stage")
+            raise ValueError(f"the rule has outputs {', '.join(names)}, but its stage returns {', '.join(made)}")
         yield from ((name, path, made[name]) for name, path in names.items())
 
 
@@ -73,12 +67,13 @@ def write(stage: ModuleType, name: str, path: str, content: Any, settings: dict)
 
 
 def run(job: Any) -> None:
-    """What a job of Snakemake does."""
+    """Run one job of Snakemake."""
     params = dict(job.params.items())
     stage = importlib.import_module(params[STAGE])
-    arguments = read_inputs(dict(job.input.items()), params.get(KINDS, {}), params[ASKED])
+    arguments = read_inputs(dict(job.input.items()), params.get(EXPECTED, {}))
     arguments |= {name: value for name, value in params.items() if name not in NOT_FOR_THE_STAGE}
-    offered = {"threads": job.resources.cpus_per_task, "progress": " ".join([job.rule, *job.wildcards])}
+    threads = job.resources.get("cpus_per_task", job.threads)
+    offered = {"threads": threads, "progress": " ".join([job.rule, *job.wildcards])}
     wanted = inspect.signature(stage.make).parameters
     arguments |= {name: value for name, value in offered.items() if name in wanted}
     for name, path, content in contents(job.output, stage.make(**arguments)):

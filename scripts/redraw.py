@@ -39,7 +39,8 @@ def redraw(archive: Path, file: str, entry: dict) -> str:
     target = archive / REDRAWN / file
     target.parent.mkdir(parents=True, exist_ok=True)
     paths = {role: str(archive / path) for role, path in entry["tables"].items()}
-    style.save(draw(entry["name"], paths, entry["kinds"], entry["settings"], {}), [str(target)])
+    expected = {path: [entry["kinds"][role]] for role, path in paths.items()}
+    style.save(draw(entry["name"], paths, expected, entry["settings"]), [str(target)])
     return hashlib.sha256(target.read_bytes()).hexdigest()
 
 

@@ -54,13 +54,11 @@ def row(acceleration: float, settings: dict, model: dict, options: dict) -> dict
     }
 
 
-def make(
-    settings: dict, model: dict, tolerance: float, *, threads: int = 1, progress: str | None = None
-) -> dict[str, np.ndarray]:
-    """The columns of the table of comparisons for the section of the config of that name."""
-    options = {"cycles": settings["settling"], "tolerance": tolerance, "threads": threads}
+def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
+    """The columns of the table of comparisons, from the section of the config with model and tolerance."""
+    options = {"cycles": settings["settling"], "tolerance": settings["tolerance"], "threads": threads}
     rows = [
-        row(acceleration, settings, model, options)
+        row(acceleration, settings, settings["model"], options)
         for acceleration in bar(settings["acceleration"], label=progress, unit="amplitudes")
     ]
     return {name: np.array([one[name] for one in rows]) for name in rows[0]}

@@ -31,14 +31,12 @@ def starts(acceleration: float, settings: dict, model: dict) -> np.ndarray:
     return rows
 
 
-def make(
-    settings: dict, model: dict, tolerance: float, *, threads: int = 1, progress: str | None = None
-) -> dict[str, np.ndarray]:
-    """The columns of the table of settling times for the section of the config of that name."""
+def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
+    """The columns of the table of settling times, from the section of the config with model and tolerance."""
     amplitudes = settings["acceleration"]
-    parameters = np.concatenate([starts(acceleration, settings, model) for acceleration in amplitudes])
+    parameters = np.concatenate([starts(acceleration, settings, settings["model"]) for acceleration in amplitudes])
     found = states.classify(
-        parameters, cycles=settings["cycles"], tolerance=tolerance, threads=threads, progress=progress
+        parameters, cycles=settings["cycles"], tolerance=settings["tolerance"], threads=threads, progress=progress
     )
     return {
         "acceleration": np.repeat(amplitudes, settings["starts"]),

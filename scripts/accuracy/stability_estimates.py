@@ -144,8 +144,9 @@ def dimension_rows(settings: dict, model: dict, seed: int, progress: str | None)
     return rows
 
 
-def make(settings: dict, model: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
-    """The columns of the table of estimates."""
+def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
+    """The columns of the table of estimates, from the section of the config of that name with the model."""
+    model = settings["model"]
     rows = exponent_rows(settings["exponent"], model, progress)
     rows += dimension_rows(settings["dimension"], model, settings["seed"], progress)
     return {name: np.array([one[name] for one in rows]) for name in rows[0]}

@@ -93,16 +93,16 @@ def error_of(found: np.ndarray, truth: np.ndarray) -> float:
     return float(np.median(errors[~np.isnan(errors)])) if (~np.isnan(errors)).any() else np.nan
 
 
-def make(settings: dict, map_of_starts: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
+def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table.
 
     Parameters
     ----------
     settings : the section of the config with the `duration` (s) of all runs, and the `tolerance` and the `step` (s) of
-        the solver and of the paper's method, the `peers` with their tolerances and the `batch` of heyoka
-    map_of_starts : its `axes` and its `model`
+        the solver and of the paper's method, the `peers` with their tolerances and the `batch` of heyoka, and the `map`
+        of initial conditions, with its `axes` and its `model`
     """
-    _, rows = grid.product(map_of_starts["axes"], map_of_starts["model"])
+    _, rows = grid.product(settings["map"]["axes"], settings["map"]["model"])
     listed = ways(settings)
     truth = together(rows, duration=settings["duration"], tolerance=TRUTH)
     there = [way.method != peers.HEYOKA or heyoka_peer.installed() for way in listed]

@@ -16,6 +16,6 @@ def for_screens(path: str) -> Image.Image:
     return small.quantize(COLOURS, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
 
 
-def make(file: str) -> Image.Image:
+def make(png: str) -> Image.Image:
     """The picture of a figure, a PNG file."""
-    return for_screens(file)
+    return for_screens(png)

@@ -11,12 +11,14 @@ SETTINGS = {
     "acceleration": [53.0, 61.0, 73.0],
     "starts": 8,
     "unshared": 2,
+    "model": CONFIG["model"],
     "settling": CONFIG["solver"]["settling"],
+    "tolerance": CONFIG["solver"]["tolerance"],
 }
 
 
 def test_each_start_earns_its_own_label():
-    table = pd.DataFrame(label_checks.make(SETTINGS, CONFIG["model"], CONFIG["solver"]["tolerance"], threads=2))
+    table = pd.DataFrame(label_checks.make(SETTINGS, threads=2))
     assert table.starts.tolist() == [8, 8, 8]
     assert 0 < table.chaotic.sum() < 24
     assert table[["reversed", "alone", "unshared"]].eq(0).all(axis=None)
@@ -32,5 +34,5 @@ def test_a_label_that_depends_on_the_order_is_seen(monkeypatch):
 
     monkeypatch.setattr(label_checks.states, "classify", by_place)
     few = SETTINGS | {"acceleration": [40.0]}
-    table = pd.DataFrame(label_checks.make(few, CONFIG["model"], CONFIG["solver"]["tolerance"]))
+    table = pd.DataFrame(label_checks.make(few))
     assert table.reversed.tolist() == [8]

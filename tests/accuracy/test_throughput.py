@@ -14,6 +14,7 @@ MAP = {
     "model": {"acceleration": 35.0},
 }
 SETTINGS = {
+    "map": MAP,
     "duration": 0.1,
     "tolerance": 1.0e-10,
     "step": 2.0e-6,
@@ -27,7 +28,7 @@ SETTINGS = {
 
 @pytest.fixture(scope="module")
 def table():
-    found = pd.DataFrame(throughput.make(SETTINGS, MAP)).set_index("treatment")
+    found = pd.DataFrame(throughput.make(SETTINGS)).set_index("treatment")
     found.attrs = SETTINGS
     return found
 
@@ -71,7 +72,7 @@ def test_what_heyoka_cannot_follow_in_a_batch_is_refused():
 @pytest.mark.parametrize("name", ["DOP853", "heyoka"])
 def test_starts_that_are_given_up_are_counted(name):
     some = SETTINGS | {"peers": {name: 1.0e-10}, "max_evaluations": 100}
-    rows = pd.DataFrame(throughput.make(some, MAP)).set_index("method").loc[[name]]
+    rows = pd.DataFrame(throughput.make(some)).set_index("method").loc[[name]]
     assert (rows.failed == 8).all()
     assert rows.velocity_error.isna().all()
 

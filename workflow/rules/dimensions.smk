@@ -1,2 +1,22 @@
 # Fractal dimensions of phase portraits.
-entry_rule("dimensions", "dimensions.portraits", "Fractal dimensions", threads=THREADS, mem_mb=2000)
+
+
+rule dimensions:
+    output:
+        dimensions=table("dimensions/{name}"),
+    log:
+        log_file("dimensions/{name}"),
+    benchmark:
+        benchmark_file("dimensions/{name}")
+    wildcard_constraints:
+        name=one_of(config["dimensions"]),
+    resources:
+        cpus_per_task=JOB_THREADS,
+        mem_mb=2000,
+    params:
+        **stage("dimensions.portraits"),
+        settings=settings("dimensions"),
+    message:
+        "Fractal dimensions, {wildcards.name}"
+    script:
+        "../../scripts/make.py"

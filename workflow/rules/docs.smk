@@ -1,210 +1,250 @@
-# Pages of the documentation, made from results.
-RULES["certificates_page"] = {
-    "stage": "docs.certificates_page",
-    "message": "What is proved, in words",
-    "input": tables_of("orbits", "certificates", "certified_bifurcations", "certified_chaos"),
-    "output": {"page": page("certificates.md")},
-    "place": "docs/certificates",
-}
-
-RULES["identification_page"] = {
-    "stage": "docs.identification_page",
-    "message": "What the paper's numbers say of its parameters, in words",
-    "input": {
-        "template": "workflow/templates/identification.md",
-        **tables_of("identification", *TABLES["identification"][1:]),
-    },
-    "output": {"page": page("identification.md")},
-    "place": "docs/identification",
-}
-
-RULES["claims_page"] = {
-    "stage": "docs.copy_page",
-    "message": "The page of claims that later builds are compared with",
-    "input": {"page": result("claims.md")},
-    "output": {"page": page("claims.md")},
-    "place": "docs/claims",
-}
-
-RULES["cluster_page"] = {
-    "stage": "docs.cluster_page",
-    "message": "What large sweeps cost",
-    "input": {"scaling": table("results", "scaling"), "template": "workflow/templates/cluster.md"},
-    "output": {"page": page("cluster.md")},
-    "place": "docs/cluster",
-    "params": {"settings": config["sharing"]},
-}
-
-RULES["companion"] = {
-    "stage": "docs.companion.build",
-    "message": "The page to play with",
-    # What the page is put together from, as no import leads there.
-    "depends": [f"scripts/docs/companion/{name}" for name in ("page.html", "page.css", "solver.js", "page.js")],
-    "input": {"maps": [table("sweeps", name) for name in config["companion"]["maps"]]},
-    "output": {"page": page("companion.html")},
-    "place": "docs/companion",
-    "params": {
-        "kinds": {"maps": "sweeps"},
-        "settings": {name: config[name] for name in ("model", "solver", "companion")},
-    },
-}
-
-# What the pages tell, from these tables.
-FACTS = {
-    **tables_of("results", "claims", "benchmark"),
-    "edge": table("critical", "edge"),
-    "edge_euler": table("critical", "edge_euler"),
-    "estimate": table("estimates", "phase"),
-    "estimate_euler": table("estimates", "phase_euler"),
-    "fit": table("regressions", "height"),
-    **tables_of("lyapunov", "spectrum"),
-    **tables_of("orbits", "cascade", "certificates", "certified_bifurcations", "certified_chaos"),
-}
-KINDS_OF_FACTS = {
-    "edge": "critical",
-    "edge_euler": "critical",
-    "estimate": "estimates",
-    "estimate_euler": "estimates",
-    "fit": "regressions",
-}
+# Pages of the documentation, the article and the site, made from results.
 
 
-def template(name):
-    return f"workflow/templates/{name}"
+rule certificates_page:
+    input:
+        **tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
+    output:
+        page=page("certificates.md"),
+    log:
+        log_file("docs/certificates"),
+    benchmark:
+        benchmark_file("docs/certificates")
+    params:
+        **stage("docs.certificates_page"),
+    message:
+        "What is proved, in words"
+    script:
+        "../../scripts/make.py"
 
 
-def beside_the_sources(name):
-    """A file in the project's folder if it is made from the paper's config."""
-    return result(f"docs/{name}") if PREFIX else name
+rule identification_page:
+    input:
+        **tables_of(*(f"identification/{name}" for name in TABLES["identification"] if name != "edges")),
+        template=source("workflow/templates/identification.md"),
+    output:
+        page=page("identification.md"),
+    log:
+        log_file("docs/identification"),
+    benchmark:
+        benchmark_file("docs/identification")
+    params:
+        **stage("docs.identification_page"),
+    message:
+        "The parameters that the paper's numbers imply, in words"
+    script:
+        "../../scripts/make.py"
 
 
-def pages_rule(name, message, templates, outputs, **rest):
-    """The rule of pages that are made from templates."""
-    inputs, params = rest.pop("input", {}), rest.pop("params", {})
-    RULES[name] = {
-        "stage": "docs.pages",
-        "message": message,
-        "input": {**FACTS, "templates": templates, **inputs},
-        "outputs": outputs,
-        "place": f"docs/{name}",
-        "params": {
-            "kinds": KINDS_OF_FACTS,
-            "figures": {
-                figure: {key: entry[key] for key in ("title", "section")} for figure, entry in config["figures"].items()
-            },
-            "values": {
-                "prefix": config["prefix"],
-                "step": config["solver"]["step"],
-                "tighter": config["uncertainty"]["tighter"],
-            },
-            **params,
-        },
-        **rest,
-    }
+rule claims_page:
+    input:
+        page=result("claims.md"),
+    output:
+        page=page("claims.md"),
+    log:
+        log_file("docs/claims"),
+    benchmark:
+        benchmark_file("docs/claims")
+    params:
+        **stage("docs.copy_page"),
+    message:
+        "The page of claims that the repository keeps"
+    script:
+        "../../scripts/make.py"
 
 
-# What the paper does not say, for README and report.
-pages_rule("findings", "What was found beyond the paper", [template("findings.md")], [result("findings.md")])
-
-# The README, and the form of the journal ReScience and the manifest of CODECHECK, which name this project's files.
-KEPT = ("README.md", "metadata.yaml", "codecheck.yml")
-pages_rule(
-    "kept_pages",
-    "README and metadata",
-    [*map(template, KEPT)],
-    [*map(beside_the_sources, KEPT)],
-    input={"findings": result("findings.md")},
-)
-
-CLAIMED = {
-    name: [table(*reference.split("/")) for reference in claim["tables"].values()]
-    for name, claim in config["claims"].items()
-}
-
-RULES["costs"] = {
-    "stage": "docs.costs",
-    "message": "What each figure and claim costs",
-    "depends": [*figure_files(), *sorted({file for files in CLAIMED.values() for file in files})],
-    "output": {"costs": result("costs.json")},
-    "place": "docs/costs",
-    "params": {
-        "files": {figure: [figure_file(figure)] for figure in config["figures"]} | CLAIMED,
-        "configfiles": [str(file) for file in workflow.overwrite_configfiles],
-    },
-}
-
-RULES["figure_costs"] = {
-    "stage": "docs.figure_costs",
-    "message": "What each figure costs",
-    "input": {"costs": result("costs.json")},
-    "output": {"page": page("figures.md")},
-    "place": "docs/figures",
-    "params": {"figures": list(config["figures"])},
-}
-
-# The article, and the site, which shows it as well.
-CONFIG_FILES = [f"config/{name}.yaml" for name in ("config", *STAGES)]
-TOLD = {
-    "captions": caption_files(),
-    "costs": result("costs.json"),
-    "uncertainty": result("uncertainty.json"),
-    "proved": page("certificates.md"),
-}
+rule cluster_page:
+    input:
+        scaling=table("results/scaling"),
+        template=source("workflow/templates/cluster.md"),
+    output:
+        page=page("cluster.md"),
+    log:
+        log_file("docs/cluster"),
+    benchmark:
+        benchmark_file("docs/cluster")
+    params:
+        **stage("docs.cluster_page"),
+        settings=config["sharing"],
+    message:
+        "The cost of large sweeps"
+    script:
+        "../../scripts/make.py"
 
 
-def written_keys(wildcards):
-    """The keys of the paper's config, with the comments there."""
-    return [key._asdict() for key in all_written(CONFIG_FILES)]
+rule companion:
+    input:
+        [source(f"scripts/docs/companion/{name}") for name in ("page.html", "page.css", "solver.js", "page.js")],
+        maps=[table(f"sweeps/{name}") for name in config["companion"]["maps"]],
+    output:
+        page=page("companion.html"),
+    log:
+        log_file("docs/companion"),
+    benchmark:
+        benchmark_file("docs/companion")
+    params:
+        **stage("docs.companion.build"),
+        settings={name: config[name] for name in ("model", "solver", "companion")},
+    message:
+        "The interactive page"
+    script:
+        "../../scripts/make.py"
 
 
-def known_keys(wildcards):
-    """All keys that a config may have."""
-    return [key._asdict() for key in config_keys()]
+rule findings:
+    input:
+        **FACTS,
+        templates=[source("workflow/templates/findings.md")],
+    output:
+        result("findings.md"),
+    log:
+        log_file("docs/findings"),
+    benchmark:
+        benchmark_file("docs/findings")
+    params:
+        **stage("docs.pages"),
+        **PAGE_PARAMS,
+    message:
+        "Findings beyond the paper"
+    script:
+        "../../scripts/make.py"
 
 
-pages_rule(
-    "article_text",
-    "The text of the article",
-    [template("article.md")],
-    [result("article/article.md")],
-    input=TOLD,
-    depends=CONFIG_FILES,
-    params={"medium": "print", "folder": f"/figures/{PREFIX}", "written": written_keys},
-)
+# The README, the form of the journal ReScience, and the manifest of CODECHECK.
+rule top_level_pages:
+    input:
+        **FACTS,
+        templates=[source(f"workflow/templates/{name}") for name in ("README.md", "metadata.yaml", "codecheck.yml")],
+        findings=result("findings.md"),
+    output:
+        [top_level_page(name) for name in ("README.md", "metadata.yaml", "codecheck.yml")],
+    log:
+        log_file("docs/kept_pages"),
+    benchmark:
+        benchmark_file("docs/kept_pages")
+    params:
+        **stage("docs.pages"),
+        **PAGE_PARAMS,
+    message:
+        "README and metadata"
+    script:
+        "../../scripts/make.py"
 
-RULES["article"] = {
-    "stage": "docs.article",
-    "message": "The article",
-    "depends": figure_files(),
-    "input": {"text": result("article/article.md"), "frame": template("article.typ")},
-    "output": {"article": result("article.pdf")},
-    "place": "docs/article",
-}
 
-SITE_TEMPLATES = sorted(Path("workflow/templates/site").glob("*.md"))
-LIBRARY = sorted(
-    str(path.relative_to(SCRIPTS).with_suffix(""))
-    for path in (SCRIPTS / "conveyor").rglob("*.py")
-    if path.name != "__init__.py"
-)
+rule costs:
+    input:
+        figure_files(),
+        [table(reference) for reference in references_of_claims(config["claims"])],
+    output:
+        costs=result("costs.json"),
+    log:
+        log_file("docs/costs"),
+    benchmark:
+        benchmark_file("docs/costs")
+    params:
+        **stage("docs.costs"),
+        files=files_of_costs(),
+        snakefile=os.path.relpath(workflow.main_snakefile),
+        configfiles=[os.path.relpath(file) for file in workflow.overwrite_configfiles],
+    message:
+        "The cost of each figure and claim"
+    script:
+        "../../scripts/make.py"
 
-pages_rule(
-    "site_pages",
-    "The pages of the site",
-    [template("article.md"), *(template(f"site/{path.name}") for path in SITE_TEMPLATES)],
-    [result(f"site_pages/{path.name}") for path in (Path("article.md"), *SITE_TEMPLATES)],
-    input=TOLD,
-    depends=CONFIG_FILES,
-    params={"medium": "site", "folder": "figures/", "written": written_keys, "known": known_keys, "library": LIBRARY},
-)
+
+rule figure_costs:
+    input:
+        costs=result("costs.json"),
+    output:
+        page=page("figures.md"),
+    log:
+        log_file("docs/figures"),
+    benchmark:
+        benchmark_file("docs/figures")
+    params:
+        **stage("docs.figure_costs"),
+        figures=list(config["figures"]),
+    message:
+        "The page of costs"
+    script:
+        "../../scripts/make.py"
+
+
+rule article_text:
+    input:
+        CONFIG_FILES,
+        **FACTS,
+        **ARTICLE_PARTS,
+        templates=[source("workflow/templates/article.md")],
+    output:
+        result("article/article.md"),
+    log:
+        log_file("docs/article_text"),
+    benchmark:
+        benchmark_file("docs/article_text")
+    params:
+        **stage("docs.pages"),
+        **PAGE_PARAMS,
+        medium="print",
+        folder=os.sep + figure_file("")[: -len(".pdf")],
+        written=written_keys,
+    message:
+        "The text of the article"
+    script:
+        "../../scripts/make.py"
+
+
+rule article:
+    input:
+        figure_files(),
+        text=result("article/article.md"),
+        frame=source("workflow/templates/article.typ"),
+    output:
+        article=result("article.pdf"),
+    log:
+        log_file("docs/article"),
+    benchmark:
+        benchmark_file("docs/article")
+    params:
+        **stage("docs.article"),
+    message:
+        "The article"
+    script:
+        "../../scripts/make.py"
+
+
+rule site_pages:
+    input:
+        CONFIG_FILES,
+        **FACTS,
+        **ARTICLE_PARTS,
+        templates=[source("workflow/templates/article.md"), *sources("workflow/templates/site/*.md")],
+    output:
+        [result(f"site_pages/{Path(file).name}") for file in ("article.md", *sources("workflow/templates/site/*.md"))],
+    log:
+        log_file("docs/site_pages"),
+    benchmark:
+        benchmark_file("docs/site_pages")
+    params:
+        **stage("docs.pages"),
+        **PAGE_PARAMS,
+        medium="site",
+        folder="figures/",
+        written=written_keys,
+        known=known_keys,
+        library=LIBRARY,
+    message:
+        "The pages of the site"
+    script:
+        "../../scripts/make.py"
 
 
 rule site:
     input:
         article=result("article.pdf"),
         companion=page("companion.html"),
-        pages=RULES["site_pages"]["outputs"],
-        style="scripts/docs/site.css",
+        pages=rules.site_pages.output,
+        style=source("scripts/docs/site.css"),
         pdf=figure_files(),
         png=figure_files("png"),
     output:
@@ -213,10 +253,8 @@ rule site:
         log_file("docs/site"),
     benchmark:
         benchmark_file("docs/site")
-    threads: 1
     resources:
         mem_mb=1500,
-        runtime=10,
     params:
         code=source_hash("build_site", *LIBRARY),
     message:
@@ -225,13 +263,21 @@ rule site:
         "../../scripts/build_site.py"
 
 
-# Pictures of the README.
-for name in ("overview", "work_precision"):
-    RULES[f"{name}_picture"] = {
-        "stage": "docs.pictures",
-        "message": f"The picture {name} of the documentation",
-        "depends": [figure_file(name, "png")],
-        "output": {"picture": page(f"{name}.png")},
-        "place": f"docs/{name}",
-        "params": {"file": figure_file(name, "png")},
-    }
+# The pictures of the README.
+rule picture:
+    input:
+        png=figure_file("{figure}", "png"),
+    output:
+        picture=page("{figure}.png"),
+    log:
+        log_file("docs/{figure}"),
+    benchmark:
+        benchmark_file("docs/{figure}")
+    wildcard_constraints:
+        figure="overview|work_precision",
+    params:
+        **stage("docs.pictures"),
+    message:
+        "The picture {wildcards.figure} of the documentation"
+    script:
+        "../../scripts/make.py"

@@ -1,9 +1,21 @@
 # Eq. 13 fitted to critical initial heights.
-entry_rule(
-    "regressions",
-    "fit.regressions",
-    "Fit of Eq. 13",
-    input={"critical": lambda wildcards: table("critical", config["regressions"][wildcards.name]["critical"])},
-    runtime=10,
-    params={"settings": lambda wildcards: config["regressions"][wildcards.name]},
-)
+
+
+rule regressions:
+    input:
+        critical=lambda wildcards: table(f"critical/{config['regressions'][wildcards.name]['critical']}"),
+    output:
+        regressions=table("regressions/{name}"),
+    log:
+        log_file("regressions/{name}"),
+    benchmark:
+        benchmark_file("regressions/{name}")
+    wildcard_constraints:
+        name=one_of(config["regressions"]),
+    params:
+        **stage("fit.regressions"),
+        settings=settings("regressions"),
+    message:
+        "Fit of Eq. 13, {wildcards.name}"
+    script:
+        "../../scripts/make.py"

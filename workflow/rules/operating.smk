@@ -1,34 +1,54 @@
-# Where to run a conveyor: the motions in which the starts of a box end, and what follows for who runs it.
-# The box says how a part starts, the section at which amplitudes.
-RULES["operating"] = {
-    "stage": "operating.shares",
-    "message": "Shares of the starts that end in each motion",
-    "output": tables_of("operating", "shares"),
-    "place": "operating/shares",
-    "threads": THREADS,
-    "params": {
-        "settings": {
-            **config["operating"],
-            "settling": config["solver"]["settling"],
-            "model": {
-                name: value for name, value in MODEL_OF_ANY_AMPLITUDE.items() if name not in ("psi0", "z0", "vz0")
-            },
-        }
-    },
-}
+# Where to run a conveyor: the attractors that initial conditions in a box reach, and what follows for the operator.
 
-RULES["regimes"] = {
-    "stage": "operating.regimes",
-    "message": "Where one velocity is certain, where several exist, where chaos",
-    "input": tables_of("operating", "shares"),
-    "output": tables_of("operating", "regimes"),
-    "place": "operating/regimes",
-}
 
-RULES["operating_chart"] = {
-    "stage": "operating.chart",
-    "message": "The operating chart in words",
-    "input": {"template": "workflow/templates/operating_chart.md", **tables_of("operating", "shares", "regimes")},
-    "output": {"chart": result("operating/chart.md")},
-    "place": "operating/chart",
-}
+rule operating:
+    output:
+        **tables_of("operating/shares"),
+    log:
+        log_file("operating/shares"),
+    benchmark:
+        benchmark_file("operating/shares")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("operating.shares"),
+        settings=settings_of(config, "operating/shares"),
+    message:
+        "Share of initial conditions that reach each attractor"
+    script:
+        "../../scripts/make.py"
+
+
+rule regimes:
+    input:
+        **tables_of("operating/shares"),
+    output:
+        **tables_of("operating/regimes"),
+    log:
+        log_file("operating/regimes"),
+    benchmark:
+        benchmark_file("operating/regimes")
+    params:
+        **stage("operating.regimes"),
+    message:
+        "Amplitudes with one velocity, with several velocities, and with chaos"
+    script:
+        "../../scripts/make.py"
+
+
+rule operating_chart:
+    input:
+        **tables_of("operating/shares", "operating/regimes"),
+        template=source("workflow/templates/operating_chart.md"),
+    output:
+        chart=result("operating/chart.md"),
+    log:
+        log_file("operating/chart"),
+    benchmark:
+        benchmark_file("operating/chart")
+    params:
+        **stage("operating.chart"),
+    message:
+        "The operating chart in words"
+    script:
+        "../../scripts/make.py"

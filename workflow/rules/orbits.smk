@@ -1,68 +1,120 @@
-# Periodic orbits, attractors over the amplitude, their exponents, whether they are chaotic, and what is proved of them.
+# Periodic orbits, attractors over the amplitude, their Lyapunov exponents, whether they are chaotic, and what is proved.
 
 
-def of_sections(*sections):
-    """A param: these sections of the config with the model and the tolerance, overrides included, later ones first.
+rule estimates:
+    output:
+        estimates=table("estimates/{name}"),
+    log:
+        log_file("estimates/{name}"),
+    benchmark:
+        benchmark_file("estimates/{name}")
+    wildcard_constraints:
+        name=one_of(config["estimates"]),
+    resources:
+        cpus_per_task=JOB_THREADS,
+        mem_mb=2000,
+    params:
+        **stage("orbits.estimates"),
+        settings=settings("estimates"),
+    message:
+        "Lyapunov exponents by finite differences, {wildcards.name}"
+    script:
+        "../../scripts/make.py"
 
-    All of them name their amplitudes themselves.
-    """
-    merged = {"tolerance": config["solver"]["tolerance"]}
-    if "attractors" in sections:
-        merged["settling"] = config["solver"]["settling"]
-    for section in sections:
-        merged.update(config[section])
-    return {**merged, "model": {**MODEL_OF_ANY_AMPLITUDE, **merged.get("model", {})}}
+
+rule orbits:
+    output:
+        **tables_of("orbits/branches", "orbits/folds_and_doublings", "orbits/cascade"),
+    log:
+        log_file("orbits/orbits"),
+    benchmark:
+        benchmark_file("orbits/orbits")
+    params:
+        **stage("orbits.branches"),
+        settings=settings_of(config, "orbits/branches"),
+    message:
+        "Periodic orbits"
+    script:
+        "../../scripts/make.py"
 
 
-entry_rule("estimates", "orbits.estimates", "Lyapunov exponents by finite differences", threads=THREADS, mem_mb=2000)
+rule certificates:
+    input:
+        **tables_of("orbits/branches", "orbits/folds_and_doublings", "orbits/cascade"),
+    output:
+        **tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
+        # Measured times have their own table, so that the other tables have equal bytes in every build.
+        certificate_times=table("orbits/certificate_times"),
+    log:
+        log_file("orbits/certificates"),
+    benchmark:
+        benchmark_file("orbits/certificates")
+    resources:
+        cpus_per_task=JOB_THREADS,
+        mem_mb=1500,
+        runtime=60,
+    params:
+        **stage("orbits.certified"),
+        settings=settings_of(config, "orbits/certificates"),
+    message:
+        "Proofs of orbits, bifurcations and chaos"
+    script:
+        "../../scripts/make.py"
 
-RULES["orbits"] = {
-    "stage": "orbits.branches",
-    "message": "Periodic orbits",
-    "output": tables_of("orbits", "branches", "folds_and_doublings", "cascade"),
-    "place": "orbits/orbits",
-    "params": {"settings": of_sections("orbits")},
-}
 
-# Times differ from run to run and have a table of their own; the others have equal bytes every time.
-RULES["certificates"] = {
-    "stage": "orbits.certified",
-    "message": "Orbits, bifurcations and chaos, proved",
-    "input": tables_of("orbits", "branches", "folds_and_doublings", "cascade"),
-    "output": tables_of("orbits", "certificates", "certified_bifurcations", "certified_chaos", "certificate_times"),
-    "timed": ("certificate_times",),
-    "place": "orbits/certificates",
-    "threads": THREADS,
-    "mem_mb": 1500,
-    "runtime": 60,
-    "params": {"settings": {**config["certificates"], "model": of_sections("orbits")["model"]}},
-}
+rule attractors:
+    output:
+        **tables_of("attractors/strobes"),
+    log:
+        log_file("attractors/strobes"),
+    benchmark:
+        benchmark_file("attractors/strobes")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("orbits.strobes"),
+        settings=settings_of(config, "attractors/strobes"),
+    message:
+        "Attractors over the amplitude"
+    script:
+        "../../scripts/make.py"
 
-RULES["attractors"] = {
-    "stage": "orbits.strobes",
-    "message": "Attractors over the amplitude",
-    "output": tables_of("attractors", "strobes"),
-    "place": "attractors/strobes",
-    "threads": THREADS,
-    "params": {"settings": of_sections("attractors")},
-}
 
-RULES["lyapunov"] = {
-    "stage": "orbits.exponents",
-    "message": "Lyapunov exponents over the amplitude",
-    "input": tables_of("attractors", "strobes"),
-    "output": tables_of("lyapunov", "spectrum"),
-    "place": "lyapunov/spectrum",
-    "threads": THREADS,
-    "params": {"settings": of_sections("attractors", "lyapunov")},
-}
+rule lyapunov:
+    input:
+        **tables_of("attractors/strobes"),
+    output:
+        **tables_of("lyapunov/spectrum"),
+    log:
+        log_file("lyapunov/spectrum"),
+    benchmark:
+        benchmark_file("lyapunov/spectrum")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("orbits.exponents"),
+        settings=settings_of(config, "lyapunov/spectrum"),
+    message:
+        "Lyapunov exponents over the amplitude"
+    script:
+        "../../scripts/make.py"
 
-RULES["witnesses"] = {
-    "stage": "orbits.witnesses",
-    "message": "Chaotic or not, by three witnesses",
-    "input": tables_of("attractors", "strobes") | tables_of("lyapunov", "spectrum"),
-    "output": tables_of("lyapunov", "witnesses"),
-    "place": "lyapunov/witnesses",
-    "threads": THREADS,
-    "params": {"settings": of_sections("attractors", "witnesses")},
-}
+
+rule witnesses:
+    input:
+        **tables_of("attractors/strobes", "lyapunov/spectrum"),
+    output:
+        **tables_of("lyapunov/witnesses"),
+    log:
+        log_file("lyapunov/witnesses"),
+    benchmark:
+        benchmark_file("lyapunov/witnesses")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("orbits.witnesses"),
+        settings=settings_of(config, "lyapunov/witnesses"),
+    message:
+        "Three tests for chaos on each attractor"
+    script:
+        "../../scripts/make.py"

@@ -1,24 +1,40 @@
-# How bifurcations and critical heights move with each parameter, and where folds and doublings go in two of them.
-SENSITIVITY = {**config["sensitivity"], "model": of_sections("orbits")["model"]}
+# How bifurcations and critical heights move with each parameter, and the curves of folds and doublings in two parameters.
 
-RULES["sensitivity"] = {
-    "stage": "sensitivity.derivatives",
-    "message": "Derivatives of bifurcations and critical heights by each parameter",
-    "input": {
-        **tables_of("orbits", "folds_and_doublings", "cascade"),
-        "critical": table("critical", config["sensitivity"]["critical"]),
-    },
-    "output": tables_of("sensitivity", "derivatives", "groups"),
-    "place": "sensitivity/derivatives",
-    "params": {"settings": {name: value for name, value in SENSITIVITY.items() if name != "curves"}},
-}
 
-RULES["curves"] = {
-    "stage": "sensitivity.curves",
-    "message": "Folds and period doublings in two parameters",
-    "input": tables_of("orbits", "folds_and_doublings", "cascade"),
-    "output": tables_of("sensitivity", "continued", "meetings"),
-    "place": "sensitivity/curves",
-    "threads": THREADS,
-    "params": {"settings": {name: SENSITIVITY[name] for name in ("longest_period", "curves", "model")}},
-}
+rule sensitivity:
+    input:
+        **tables_of("orbits/folds_and_doublings", "orbits/cascade"),
+        critical=table(f"critical/{config['sensitivity']['critical']}"),
+    output:
+        **tables_of("sensitivity/derivatives", "sensitivity/groups"),
+    log:
+        log_file("sensitivity/derivatives"),
+    benchmark:
+        benchmark_file("sensitivity/derivatives")
+    params:
+        **stage("sensitivity.derivatives"),
+        settings=settings_of(config, "sensitivity/derivatives"),
+    message:
+        "Derivatives of bifurcations and critical heights"
+    script:
+        "../../scripts/make.py"
+
+
+rule curves:
+    input:
+        **tables_of("orbits/folds_and_doublings", "orbits/cascade"),
+    output:
+        **tables_of("sensitivity/continued", "sensitivity/meetings"),
+    log:
+        log_file("sensitivity/curves"),
+    benchmark:
+        benchmark_file("sensitivity/curves")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("sensitivity.curves"),
+        settings=settings_of(config, "sensitivity/continued"),
+    message:
+        "Folds and period doublings in two parameters"
+    script:
+        "../../scripts/make.py"

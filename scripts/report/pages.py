@@ -1,0 +1,62 @@
+"""Which figures are on which page of the report; imported by the Snakefile, so without slow imports."""
+
+import re
+
+BEYOND = "beyond the paper"
+# Figures on a page beyond the paper, because browsers show no page of the report above two megabytes.
+FIGURES_ON_PAGE = 5
+
+
+def figure_pages(figures: dict[str, dict]) -> dict[str, dict]:
+    """Heading, section, label and figures of each page, by its name.
+
+    Each section of the paper has a page, in its order. The figures beyond the paper come last, on several pages.
+    """
+    sections = {}
+    for name, figure in sorted(figures.items(), key=lambda item: item[1]["section"]):
+        number = re.fullmatch(r"fig(\d+)", name)
+        numbered = {**figure, "number": f"Fig. {int(number[1])}" if number else name}
+        sections.setdefault(figure["section"] if number else BEYOND, []).append(numbered)
+    beyond = sections.pop(BEYOND, [])
+    parts = [beyond[first : first + FIGURES_ON_PAGE] for first in range(0, len(beyond), FIGURES_ON_PAGE)]
+    sections |= {f"{BEYOND}, {place} of {len(parts)}": part for place, part in enumerate(parts, start=1)}
+    return {f"figures_{place}": page(*part) for place, part in enumerate(sections.items(), start=1)}
+
+
+def page(section: str, figures: list[dict]) -> dict:
+    """One page of the report."""
+    first, last = figures[0]["number"], figures[-1]["number"]
+    if section.startswith(BEYOND):
+        heading, label = section.capitalize(), f"{len(figures)} figures"
+    else:
+        heading = f"Section {section}"
+        label = first if first == last else f"{first} to {last.removeprefix('Fig. ')}"
+    return {"heading": heading, "section": section, "label": label, "figures": figures}
+
+
+def escape_label(text: str) -> str:
+    """A label that shows {name} as written, by an invisible character: Snakemake would take it for a wildcard."""
+    return text.replace("{", "{\u2060")
+
+
+def notice(overlays: list[str], sweeps: dict, paper_sweeps: dict) -> dict[str, str]:
+    """Heading and text on top of every page if overlays change the paper's config; empty otherwise."""
+    if not overlays:
+        return {}
+    own, paper = count_points(sweeps), count_points(paper_sweeps)
+    kind = f"coarse axes, {own:,} points of sweeps in place of {paper:,}" if own < paper else "a config of its own"
+    return {
+        "heading": f"Made with {', '.join(overlays)}, on {kind}.",
+        "text": "Verdicts, captions and numbers are those of this config, not those of the paper's.",
+    }
+
+
+def count_points(sweeps: dict[str, dict]) -> int:
+    """Number of points of all sweeps."""
+    total = 0
+    for entry in sweeps.values():
+        points = len(entry.get("methods", [None]))
+        for axis in entry["axes"].values():
+            points *= len(axis) if isinstance(axis, list) else int(axis["num"])
+        total += points
+    return total
