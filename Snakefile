@@ -1,11 +1,10 @@
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
-from workflow.config_files import as_first_written, merged, read, refusal
-from workflow.configuration import by_methods, canonical, problems, with_tighter
+from workflow.config import ConfigError, load_config
+from workflow.config.files import DEFAULT_FILES, STAGES
 from workflow.interruptions import end_with_the_terminal, name_commands_at_a_lock
 from workflow.job_lines import show_a_line_per_job
-from workflow.own_machine import fitted, is_own, model_problems, refusals
 from workflow.scheduling import look_for_jobs_when_one_ends
 
 min_version("9.27")
@@ -14,44 +13,17 @@ name_commands_at_a_lock()
 show_a_line_per_job()
 look_for_jobs_when_one_ends()
 
-# The config of the paper, one file for each stage; overlays of the command line are merged over it.
-STAGES = (
-    "sweeps",
-    "motion",
-    "orbits",
-    "dimensions",
-    "fit",
-    "sensitivity",
-    "operating",
-    "accuracy",
-    "claims",
-    "identification",
-    "figures",
-    "docs",
-)
-files = [f"config/{name}.yaml" for name in ("config", *STAGES)] + [*workflow.overwrite_configfiles]
-read_files = [read(file) for file in files]
-if errors := [fault for faults, _ in read_files for fault in faults]:
-    raise WorkflowError(refusal(errors))
-
-contents = [content for _, content in read_files]
+try:
+    loaded = load_config(DEFAULT_FILES, workflow.overwrite_configfiles, config, check=workflow.is_main_process)
+except ConfigError as error:
+    raise WorkflowError(str(error))
 # What overlays are compared with where the report says what it shows.
-PAPER = merged(*contents[: len(STAGES) + 1])
-# Another machine's config is the paper's in that machine's own scales.
-OWN_MACHINE = is_own(PAPER, config)
-if OWN_MACHINE:
-    if errors := model_problems(PAPER, config):
-        raise WorkflowError(refusal(errors))
-    contents = [fitted(PAPER, config), *contents[len(STAGES) + 1 :]]
-whole = as_first_written(merged(*contents, config), contents)
-# A job on a cluster starts Snakemake again: the config has been checked by then.
-if workflow.is_main_process and (errors := problems(whole)):
-    raise WorkflowError(refusal(errors))
+PAPER, OWN_MACHINE = loaded.paper, loaded.own_machine
 
 # Nothing that follows from the config may depend on the order of keys or the spelling of numbers in overlays. It is the same
 # object that Snakemake hands to the report.
 config.clear()
-config.update(with_tighter(by_methods(canonical(whole))))
+config.update(loaded.config)
 
 
 report: "workflow/report/workflow.rst"

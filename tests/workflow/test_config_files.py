@@ -6,9 +6,9 @@ import pytest
 import yaml
 from project import CONFIG_FILES, ROOT, Project, copy_project, merged, read_config
 
-from workflow.config_files import as_first_written, read
-from workflow.configuration import canonical
-from workflow.tables_of_config import METHODS, by_methods, resolve
+from workflow.config import canonical
+from workflow.config.files import as_first_written, read
+from workflow.config.tables import METHOD_SECTIONS, by_methods, resolve
 
 FAULTS = [
     ("model: {mass: 0.1}\nsolver: {}\nmodel: {angle: 0.1}\n", ":3: model stands in line 1 already"),
@@ -16,7 +16,7 @@ FAULTS = [
     ("model:\n  stiffness: 050\n", ":2: model.stiffness = 050 is read as 40, an octal number"),
     ("model: {stiffness: 1:30}\n", ":1: model.stiffness = 1:30 is read as 90, with base 60"),
     ("sweeps:\n  mine:\n    axes: {z0: [0.0, -1:30.5]}\n", ":3: sweeps.mine.axes.z0[1] = -1:30.5 is read as"),
-    ("model: &m {mass: *m}\n", ":1: model.mass holds itself by its anchor"),
+    ("model: &m {mass: *m}\n", ":1: model.mass contains itself by its anchor"),
     ("model: {mass: 0.1\n", ":2: is not YAML: "),
     ("model:\n\tmass: 0.1\n", ":2: is not YAML: "),
     ("- 1\n", ": holds no mapping"),
@@ -36,7 +36,7 @@ def test_a_fault_names_file_line_and_key(tmp_path, text, message):
 
 
 def test_a_directory_is_no_config(tmp_path):
-    assert read(tmp_path) == ([f"{tmp_path}: Is a directory; give a file of the config"], None)
+    assert read(tmp_path) == ([f"{tmp_path}: Is a directory; give a config file"], None)
 
 
 def test_an_anchor_is_told_once(tmp_path):
@@ -76,10 +76,10 @@ def test_the_config_of_the_paper_is_in_canonical_form():
     config = plain(read_config())
     found = canonical(config)
     assert found == config
-    for section in config.keys() - {*METHODS, "dimensions"}:
+    for section in config.keys() - {*METHOD_SECTIONS, "dimensions"}:
         assert written(found[section]) == written(config[section])
     found, config = by_methods(found), by_methods(config)
-    for section in (*METHODS, "dimensions"):
+    for section in (*METHOD_SECTIONS, "dimensions"):
         for name in config[section]:
             assert written(resolve(found, section, name)) == written(resolve(config, section, name))
 
@@ -110,7 +110,7 @@ def seconds_of_children() -> float:
 REFUSED = [
     ({"sweep": {}}, "sweep is an unknown key; did you mean sweeps?"),
     ({"sweeps": {"amplitudes": {"axes": {"z0": {"num": 1e12}}}}}, "sweeps.amplitudes.axes.z0.num"),
-    ({"prefix": "a\nb"}, "prefix = 'a\\nb' is not a folder name"),
+    ({"prefix": "a\nb"}, "prefix = 'a\\nb' should be a folder name"),
     ({"prefix": "a" * 300}, "prefix"),
     ({1: {}}, "config has a key that YAML reads as 1"),
     ({"figures": {"fig03": {"tables": {"euler": "model/acceleration"}}}}, "figures.fig03.tables.euler"),

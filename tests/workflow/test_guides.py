@@ -21,8 +21,8 @@ def test_names_that_the_guide_tells_to_edit_are_there():
     for file, name in (
         ("scripts/figures/captions.py", "NUMBERS"),
         ("scripts/claims/verdicts.py", "FINDINGS"),
-        ("workflow/config_model.py", "CLAIMS"),
-        ("workflow/tables_of_config.py", "TABLES"),
+        ("workflow/config/model.py", "CLAIMS"),
+        ("workflow/config/tables.py", "TABLES"),
         ("scripts/figures/style.py", "METHODS"),
         *(("scripts/conveyor/methods/fixed_step.py", name) for name in ("METHODS", "EVALUATIONS", "GROWTH")),
     ):

@@ -1,7 +1,7 @@
 # How accurate, how fast, how robust: the solver against other methods. Rules that take wall times get the machine to
 # themselves, those that take processor times do not need it. A time changes whenever it is taken, so that nothing which
 # must have equal bytes is made from it.
-from workflow.sharing import plan, seconds_of
+from workflow.config.sharing import plan, seconds_of
 
 
 def benchmark_cases():

@@ -11,9 +11,12 @@ import re
 from pathlib import Path
 from types import SimpleNamespace
 
-from workflow.config_keys import all_written
-from workflow.config_keys import keys as config_keys
-from workflow.configuration import (
+from scripts.docs.config_keys import all_written
+from scripts.docs.config_keys import keys as config_keys
+from workflow.config.schema import json_schema
+from workflow.config.sharing import THREADS
+from workflow.config.tables import (
+    ON_REQUEST,
     TABLES,
     count_points,
     count_values,
@@ -23,10 +26,7 @@ from workflow.configuration import (
     roles_of_solution,
     tighter_reference,
 )
-from workflow.known_names import has_make
-from workflow.sharing import THREADS
 from workflow.source_hash import SCRIPTS, closure, source_hash, versions
-from workflow.tables_of_config import ON_REQUEST
 
 # The memory of tables comes without huge pages: on a machine where these are slow to clear, the first small table of a job
 # waited for that longer than all its writing took. Nor does what puts shards together take as much of it then.

@@ -159,7 +159,7 @@ def written_keys(wildcards):
 
 def known_keys(wildcards):
     """All keys that a config may have."""
-    return [key._asdict() for key in config_keys()]
+    return [key._asdict() for key in config_keys(json.loads(json_schema()))]
 
 
 pages_rule(

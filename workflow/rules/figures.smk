@@ -80,7 +80,7 @@ for name, figures, message in (
     RULES[name]["params"] |= {"figures": figures, "paper": not OWN_MACHINE}
 
 # Figures that make no sense for this machine.
-for figure, reason in refusals(PAPER, config).items():
+for figure, reason in loaded.refused.items():
 
     rule:
         name:

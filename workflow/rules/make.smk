@@ -2,10 +2,6 @@
 for name, one in RULES.items():
     if "stage" not in one:
         continue
-    if not has_make(one["stage"]):
-        raise WorkflowError(
-            f"scripts/{one['stage'].replace('.', '/')}.py has no function make, which rule {name} calls"
-        )
 
     rule:
         name:

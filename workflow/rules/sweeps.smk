@@ -1,6 +1,6 @@
 # Sweeps: a product of axes, one trajectory per point and the state that it leads to, one table per entry of the config. They
 # are computed in shards, so that a cluster can share a large one; the table does not depend on how it was cut.
-from workflow.sharing import plan
+from workflow.config.sharing import plan
 
 PLANS = {name: plan(config["sharing"], resolve(config, "sweeps", name)) for name in config["sweeps"]}
 LATER = 3  # times what was expected, so long a job may run

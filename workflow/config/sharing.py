@@ -8,14 +8,12 @@ jobs ask a cluster for, and what is refused; no number of a table depends on it.
 import math
 from typing import NamedTuple
 
-from workflow.config_types import constants
-from workflow.tables_of_config import count_points, count_values, ends, values_of
+from scripts.pipeline.sizes import BLOCK, CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED, ROW_GROUP
+
+from .tables import count_points, count_values, ends, values_of
 
 THREADS = 2  # of a job
 STARTS = ("psi0", "z0", "vz0")  # what belongs to a start; all other parameters are those of its conveyor
-SHARED = constants("pipeline/motions.py", "CHAOS_SHARED", "ORBITS_SHARED", "CYCLES_SHARED")
-ROW_GROUP = constants("pipeline/tables.py", "ROW_GROUP")["ROW_GROUP"]
-BLOCK = constants("sweeps/shards.py", "BLOCK")["BLOCK"]
 
 
 class Plan(NamedTuple):
@@ -57,9 +55,9 @@ def conveyors_of(axes: dict, rows: int) -> int:
 def known_of(entry: dict) -> str:
     """What is found of the attractors of each conveyor before its starts are followed."""
     starts = math.prod(count_values(axis) for name, axis in entry["axes"].items() if name in STARTS)
-    if starts < SHARED["CHAOS_SHARED"] or starts * entry["settling"] < SHARED["CYCLES_SHARED"]:
+    if starts < CHAOS_SHARED or starts * entry["settling"] < CYCLES_SHARED:
         return "alone"
-    return "chaos" if starts < SHARED["ORBITS_SHARED"] else "orbits"
+    return "chaos" if starts < ORBITS_SHARED else "orbits"
 
 
 def seconds_of(entry: dict, costs: dict, rows: int) -> float:

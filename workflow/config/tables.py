@@ -42,7 +42,7 @@ SECTION_OF = {"budget_times": "scene_budget"}
 # Sections whose tables say what motion a start ends in.
 SETTLING = ("sweeps", "critical", "impacts", "signals", "spectra")
 # Sections whose entries may be followed by a fixed-step method for their duration.
-METHODS = ("sweeps", "estimates", "critical", "signals", "spectra")
+METHOD_SECTIONS = ("sweeps", "estimates", "critical", "signals", "spectra")
 
 # Sections whose entries have a tolerance, or are made from one that has.
 TIGHTENED = ("sweeps", "estimates", "critical", "dimensions", "signals", "spectra", "regressions")
@@ -68,7 +68,7 @@ def kind_of(reference: str) -> str:
 def by_methods(config: dict) -> dict:
     """A config whose entries have one method each: NAME the first of its `methods`, NAME_METHOD each of the others."""
     found = dict(config)
-    for section in METHODS:
+    for section in METHOD_SECTIONS:
         found[section] = {}
         for name, entry in config[section].items():
             if "methods" not in entry:

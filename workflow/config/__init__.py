@@ -1,0 +1,57 @@
+"""The config: read, checked, scaled to the conveyor, and converted to the one form that rules and hashes depend on."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from .checks import problems
+from .errors import ConfigError
+from .files import as_first_written, merge, read_all
+from .machine import is_own_machine, machine_problems, refused_figures, scale_config
+from .model import MODEL
+from .tables import by_methods, with_tighter
+
+__all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems"]
+
+
+class Loaded(NamedTuple):
+    """A config with everything that the rules need to know about it."""
+
+    config: dict  # canonical, with the tables of all methods and of tighter tolerances
+    paper: dict  # the default config
+    own_machine: bool
+    refused: dict[str, str]  # figures that make no sense for this conveyor, with the reasons
+
+
+def canonical(config: dict) -> dict:
+    """A valid config in its one form: keys in the order of the model, numbers in the types of the model.
+
+    The entries of a section and the axes of an entry keep their order, which has a meaning.
+    """
+    return MODEL.validate_python(config)
+
+
+def load_config(
+    default_files: Sequence[str | Path], overlay_files: Sequence[str | Path], config: dict, check: bool = True
+) -> Loaded:
+    """The config of a run; ConfigError says what is wrong with it in at most six lines.
+
+    Parameters
+    ----------
+    default_files : the config of the paper
+    overlay_files : files that are merged over it, which `config` contains already: they say which file has a key first
+    config : Snakemake's merged config; as a module of another workflow, it is the only overlay
+    check : whether to check it, which jobs of a running workflow need not do
+    """
+    defaults, overlays = read_all(default_files), read_all(overlay_files)
+    paper = merge(*defaults)
+    own_machine = is_own_machine(paper, config)
+    if own_machine:
+        if errors := machine_problems(paper, config):
+            raise ConfigError(errors)
+        defaults = [scale_config(paper, config)]
+    contents = [*defaults, *overlays]
+    whole = as_first_written(merge(*contents, config), contents)
+    if check and (errors := problems(whole, paper)):
+        raise ConfigError(errors)
+    return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_machine, refused_figures(paper, whole))
