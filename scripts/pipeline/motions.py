@@ -13,7 +13,7 @@ from conveyor.analysis.states import Motions, classify, continued
 from conveyor.simulation import DEFAULT_TOLERANCE
 from conveyor.solver.model import PARAMETERS, PSI0, VZ0, Z0
 from pipeline import grid
-from pipeline.sizes import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED
+from pipeline.shared_searches import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED
 
 STARTS = {PARAMETERS[k] for k in (PSI0, Z0, VZ0)}
 # So many conveyors have their attractors in memory at a time, some 30 kB each.

@@ -1,5 +1,7 @@
 """Errors of the config: named, early, readable; its words are those of the library."""
 
+import time
+
 import pytest
 from project import merged, read_config
 
@@ -174,6 +176,50 @@ WRONG = [
         {"sweeps": {"heights": {"axes": {"acceleration": [29.0, 29]}}}},
         "acceleration = [29.0, 29] has 29.0 twice",
     ),
+    # two entries that make the same table
+    (
+        {"sweeps": {"mine": {**MINE, "methods": ["event", "euler"]}, "mine_euler": MINE}},
+        "sweeps.mine_euler is also made by sweeps.mine.methods",
+    ),
+    ({"sweeps": {"amplitudes_euler": MINE}}, "sweeps.amplitudes_euler is also made by sweeps.amplitudes.methods"),
+    (
+        {"sweeps": {"amplitudes_tighter": MINE}},
+        "sweeps.amplitudes_tighter has the name of the tighter twin of sweeps.amplitudes",
+    ),
+    (
+        {"sweeps": {"amplitudes_euler_tighter": MINE}},
+        "sweeps.amplitudes_euler_tighter has the name of the tighter twin of sweeps.amplitudes_euler",
+    ),
+    # settings that exclude each other
+    ({"sweeps": {"amplitudes": {"method": "euler"}}}, "sweeps.amplitudes has both method and methods"),
+    (
+        {"sweeps": {"mine": {**MINE, "method": "event", "step": 1.0e-6}}},
+        "sweeps.mine.step is not used by the method event",
+    ),
+    (
+        {"signals": {"states": {"methods": ["event"], "step": 1.0e-6}}},
+        "signals.states.step is not used by the method event",
+    ),
+    (
+        {"dimensions": {"portrait_euler": {"method": "event", "step": 1.0e-6}}},
+        "dimensions.portrait_euler.step is not used by the method event",
+    ),
+    # folders of the default results
+    *(
+        ({"prefix": name}, f"prefix = '{name}' is a folder of")
+        for name in ("sweeps", "logs", "claims", "shards", "docs")
+    ),
+    # tables and settings that the default config does not have there
+    ({"figures": {"fig03": {"settings": {"acceleration": 40.0}}}}, "figures.fig03.settings.acceleration is an unknown"),
+    (
+        {"claims": {"C01": {"quantities": {"mine": CONFIG["claims"]["C01"]["quantities"]["critical_amplitude"]}}}},
+        "claims.C01.quantities.mine is an unknown key; there are critical_amplitude",
+    ),
+    (
+        {"claims": {"C01": {"finding": "about_states.critical_heigth"}}},
+        "claims.C01.finding = 'about_states.critical_heigth' is no finding of the default config; did you mean about",
+    ),
+    ({"figures_on_request": {"fig98": {**CONFIG["figures"]["fig03"]}}}, "has no workflow/report/fig98.rst"),
     # what crashed the check, or took it for ever
     ({"figures": {"fig03": {"tables": {"euler": "model/acceleration"}}}}, "euler = 'model/acceleration' is no table"),
     ({"figures": {"fig03": {"tables": {"euler": "prefix/x"}}}}, "figures.fig03.tables.euler = 'prefix/x' is no table"),
@@ -205,6 +251,50 @@ def test_configs_are_right():
     assert problems(CONFIG) == []
     assert problems(merged(CONFIG, read_config("reduced"))) == []
     assert problems(merged(CONFIG, {"sweeps": {"mine": MINE}})) == []
+
+
+@pytest.mark.parametrize(
+    "overlay",
+    [
+        {"sweeps": {"mine": {**MINE, "methods": ["event", "euler"], "step": 1.0e-6}}},
+        {"sweeps": {"mine": {**MINE, "methods": ["euler"]}, "mine_event": MINE}},
+        {"sweeps": {"mine": MINE, "mine_euler": MINE}},
+        {"sweeps": {"mine_tighter": MINE}},
+        {"critical": {"edge_euler": {"step": 1.0e-6}}},
+        {
+            "claims": {
+                "C01": {"finding": "about_states.critical_acceleration", "quantities": {"critical_amplitude": {}}}
+            }
+        },
+        {"figures": {"fig03": {"tables": {"euler": "sweeps/amplitudes"}, "settings": {"critical_acceleration": 45}}}},
+        {"prefix": "mine_1"},
+    ],
+    ids=str,
+)
+def test_names_and_methods_that_do_not_clash_are_right(overlay):
+    assert problems(merged(CONFIG, overlay)) == []
+
+
+def test_a_step_of_the_default_config_may_be_left_unused():
+    """An overlay cannot remove a key."""
+    default = merged(CONFIG, {"sweeps": {"mine": {**MINE, "method": "euler", "step": 1.0e-6}}})
+    assert problems(merged(default, {"sweeps": {"mine": {"method": "event"}}}), default) == []
+
+
+@pytest.mark.parametrize(
+    "overlay",
+    [
+        {"sweeps": {"mine": {"axes": {"z0": [1.0e-4] * 300_000}}}},
+        {"sweeps": {"mine": {"axes": {"z0": ["x"] * 300_000}}}},
+        {"certificates": {"also": ["x"] * 300_000}},
+    ],
+    ids=["equal", "words", "proofs"],
+)
+def test_a_long_list_is_rejected_at_once(overlay):
+    begin = time.process_time()
+    (line,) = problems(merged(CONFIG, overlay))
+    assert time.process_time() - begin < 1.0
+    assert len(line) < 300
 
 
 def test_the_words_of_the_config_are_those_of_the_library():

@@ -6,8 +6,8 @@ import pytest
 import yaml
 from project import CONFIG_FILES, ROOT, Project, copy_project, merged, read_config
 
-from workflow.config import canonical
-from workflow.config.files import as_first_written, read
+from workflow.config import ConfigError, canonical, load_config
+from workflow.config.files import DEFAULT_FILES, as_first_written, check_command_line, read
 from workflow.config.tables import METHOD_SECTIONS, by_methods, resolve
 
 FAULTS = [
@@ -23,6 +23,14 @@ FAULTS = [
     ("", ": holds no mapping"),
     (b"model:\n  # \xe4\n", ":2: is not UTF-8 text"),
     (None, ": No such file or directory"),
+    ("sweeps: [" + "1," * 300_000 + "]", ":1: has more than 20,000 values"),
+    ("[" * 100_000, ":1: has more than 50 nested levels"),
+    ("\n".join(" " * level + "a:" for level in range(3000)), ":51: has more than 50 nested levels"),
+    ("- " * 50_000 + "1", ":1: has more than 50 nested levels"),
+    ("a0: &a0 [1, 1]\n" + "".join(f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]\n" for i in range(1, 40)), ": its anchors make"),
+    ("a0: &a0 {x: 1}\n" + "".join(f"a{i}: &a{i} {{x: *a{i - 1}}}\n" for i in range(1, 60)), ": its anchors make"),
+    ("model: {mass: " + "1" * 5000 + "}", ": is not YAML: Exceeds the limit"),
+    ("model: {mass: 2001-13-45}", ": is not YAML: month must be"),
 ]
 
 
@@ -69,6 +77,35 @@ def test_keys_are_in_the_order_of_the_first_file():
     assert ordered == config
     assert list(ordered["sweeps"]["heights"]["axes"]) == ["acceleration", "z0"]
     assert list(ordered["figures"]) == list(read_config()["figures"])
+
+
+def test_a_config_is_loaded_from_any_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    loaded = load_config(DEFAULT_FILES, [], {})
+    assert loaded.paper == read_config()
+    assert not loaded.own_machine
+    assert loaded.refused == {}
+    assert "amplitudes_euler" in loaded.config["sweeps"]
+
+
+def test_a_config_without_files_is_the_overlay_of_a_module(tmp_path):
+    """Another workflow gives its config directly: it has the effect of a file with the same content."""
+    overlay = {"prefix": "mine", "model": {"frequency": 100, "mass": 1.0e-3}, "sweeps": {"one": {"axes": {"z0": [0]}}}}
+    file = tmp_path / "mine.yaml"
+    file.write_text(yaml.safe_dump(overlay))
+    loaded = load_config(DEFAULT_FILES, [], overlay)
+    assert repr(loaded) == repr(load_config(DEFAULT_FILES, [file], overlay))
+    assert loaded.own_machine
+    assert "fig04" in loaded.refused
+    assert loaded.config["sweeps"]["one"] == {"axes": {"z0": [0.0]}}
+
+
+def test_an_error_has_six_lines_and_jobs_are_not_checked_again():
+    overlay = {"sharing": {"core_hours": 1.0e-6}}
+    with pytest.raises(ConfigError, match="The config cannot be used") as error:
+        load_config(DEFAULT_FILES, [], overlay)
+    assert len(str(error.value).splitlines()) <= 6
+    assert load_config(DEFAULT_FILES, [], overlay, check=False).config["sharing"]["core_hours"] == 1.0e-6
 
 
 def test_the_config_of_the_paper_is_in_canonical_form():
@@ -161,6 +198,48 @@ def test_snakemake_names_file_and_line_of_an_overlay(project, tmp_path, content,
         file.write_bytes(content)
     run = project.called("--dry-run", "figures/fig22.pdf", *(part.format(file) for part in option))
     assert_refused(run, f"{file}{message}")
+
+
+BOTH = "is not KEY=VALUE with a top-level KEY"
+COMMANDS = [
+    (["--config", "model.mass=3"], f"--config 'model.mass=3' {BOTH}"),
+    (["--config", "novalue"], f"--config 'novalue' {BOTH}"),
+    (["--config", "prefix=x", "a=3"], f"--config 'a=3' {BOTH}"),
+    (["--config=novalue"], f"--config 'novalue' {BOTH}"),
+    (["-C", "novalue"], f"--config 'novalue' {BOTH}"),
+    (["-Cnovalue"], f"--config 'novalue' {BOTH}"),
+    (["--config", "model={mass: 3}"], "model.mass = '3' is text to YAML"),
+]
+
+
+@pytest.mark.parametrize(("options", "message"), COMMANDS, ids=[" ".join(options) for options, _ in COMMANDS])
+def test_values_of_the_command_line_are_checked_before_snakemake_reads_them(project, options, message):
+    run = project.called("--dry-run", "figures/fig22.pdf", *options)
+    assert "Traceback" not in run.stdout
+    assert_refused(run, message)
+
+
+def test_right_values_of_the_command_line_are_accepted():
+    check_command_line(["snakemake", "--config", "prefix=mine", "-n", "all", "-C", "a_b=1=2", "--cores", "2"])
+
+
+LARGE = {
+    "list": "sweeps: {mine: {axes: {z0: [" + "0.0001," * 300_000 + "]}}}",
+    "anchors": "a0: &a0 [1, 1]\n" + "".join(f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]\n" for i in range(1, 60)),
+    "levels": "{a: " * 100_000,
+    "unknown keys": "".join(f"a{i}: 1\n" for i in range(9_000)),
+}
+
+
+@pytest.mark.parametrize("name", LARGE)
+def test_a_large_file_is_rejected_in_three_seconds(project, tmp_path, name):
+    file = tmp_path / "large.yaml"
+    file.write_text(LARGE[name])
+    begin = seconds_of_children()
+    run = project.called("--dry-run", "figures/fig22.pdf", "--configfile", str(file))
+    assert seconds_of_children() - begin < 3.0
+    assert "Traceback" not in run.stdout
+    assert_refused(run, "The config cannot be used")
 
 
 def test_the_profile_for_slurm_names_them_too(project, tmp_path):

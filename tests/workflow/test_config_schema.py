@@ -89,7 +89,7 @@ def test_every_key_of_the_default_config_is_one_of_the_schema():
 
 def test_the_page_of_keys_has_all_sections_with_values_and_units():
     found = list(keys(SCHEMA))
-    assert [section for section in dict.fromkeys(key.path[0] for key in found)] == list(full_schema()["properties"])
+    assert list(dict.fromkeys(key.path[0] for key in found)) == list(full_schema()["properties"])
     assert {key.path[0] for key in found} == set(read_config())
     assert all(re.search("[a-z]", key.allowed) and key.description for key in found)
     by_name = {".".join(key.path): key[1:] for key in found}

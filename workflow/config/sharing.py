@@ -8,7 +8,8 @@ jobs ask a cluster for, and what is refused; no number of a table depends on it.
 import math
 from typing import NamedTuple
 
-from scripts.pipeline.sizes import BLOCK, CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED, ROW_GROUP
+from scripts.pipeline.shared_searches import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED
+from scripts.pipeline.sizes import BLOCK, ROW_GROUP
 
 from .tables import count_points, count_values, ends, values_of
 
