@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from .errors import format_value, suggest_name, type_problems
+from .errors import suggest_name, type_problems
 from .files import DEFAULT_FILES, merge, read_all
 from .machine import is_own_machine
 from .model import MODEL
@@ -19,7 +19,6 @@ from .tables import (
     METHOD_SECTIONS,
     TABLES,
     TIGHTENED,
-    TIGHTER,
     by_methods,
     count_points,
     count_values,
@@ -28,6 +27,7 @@ from .tables import (
     references,
     resolve,
     values_of,
+    with_tighter,
 )
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -120,30 +120,17 @@ def scans(config: dict) -> Iterator[str]:
         for part in ("axes", "model"):
             if "z0" in entry.get(part, ()):
                 yield f"critical.{name}.{part}.z0 is what is scanned; give its values as critical.{name}.scan"
-        largest = max(map(abs, ends(entry["scan"])))
-        if entry["resolution"] <= 2.0 * math.ulp(largest):
-            yield (
-                f"critical.{name}.resolution = {entry['resolution']!r} m is below the distance of numbers in double "
-                f"precision; take at least {4.0 * math.ulp(largest):g} m"
-            )
-    for name, entry in config["regressions"].items():
-        if entry["critical"] not in config["critical"]:
-            remedy = suggest_name(entry["critical"], config["critical"])
-            yield f"regressions.{name}.critical = {entry['critical']!r} is no entry of critical; {remedy}"
+        spacing = math.ulp(max(map(abs, ends(entry["scan"]))))
+        if entry["resolution"] <= 2.0 * spacing:
+            key = f"critical.{name}.resolution = {entry['resolution']!r} m"
+            yield f"{key} is below the spacing of floating-point numbers; take at least {4.0 * spacing:g} m"
 
 
 def sensitivity(config: dict) -> Iterator[str]:
     name = config["sensitivity"]["critical"]
-    if name not in config["critical"]:
-        remedy = suggest_name(name, config["critical"])
-        yield f"sensitivity.critical = {name!r} is no entry of critical; {remedy}"
-        return
-    entry = resolve(config, "critical", name)
-    if set(entry["axes"]) != {"acceleration"} or entry["method"] != "event":
-        yield (
-            f"sensitivity.critical = {name!r} is not over the acceleration alone, or not by the method event; give "
-            "another entry of critical"
-        )
+    entry = resolve(config, "critical", name) if name in config["critical"] else None
+    if entry and (set(entry["axes"]) != {"acceleration"} or entry["method"] != "event"):
+        yield f"sensitivity.critical = {name!r} is not over the acceleration alone, by the method event; name another"
 
 
 def times(config: dict) -> Iterator[str]:
@@ -203,19 +190,25 @@ def sizes(config: dict) -> Iterator[str]:
         yield f"operating.starts makes {starts:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
 
 
-def unknown_tables(config: dict) -> Iterator[str]:
-    known = references(config)
+def unknown_references(config: dict) -> Iterator[str]:
+    """Names of tables, entries and presets that the config does not have."""
+    tables, critical, companion = references(config), config["critical"], config["companion"]
     used = [
-        (f"{user}.{name}.{key}.{role} = {reference!r}", reference)
+        (f"{user}.{name}.{key}.{role}", table, tables)
         for user in ("figures", "figures_on_request", "claims")
         for name, entry in config[user].items()
         for key in ("tables", "caption_tables")
-        for role, reference in entry.get(key, {}).items()
+        for role, table in entry.get(key, {}).items()
     ]
-    used += [(f"scene_budget.reasons.{reference}", reference) for reference in config["scene_budget"]["reasons"]]
-    for key, reference in used:
-        if reference not in known:
-            yield f"{key} is no table of the config; {suggest_name(reference, known)}"
+    used += [("scene_budget.reasons", table, tables) for table in config["scene_budget"]["reasons"]]
+    used += [(f"regressions.{name}.critical", one["critical"], critical) for name, one in config["regressions"].items()]
+    used += [("sensitivity.critical", config["sensitivity"]["critical"], critical)]
+    used += [(f"companion.maps[{place}]", name, config["sweeps"]) for place, name in enumerate(companion["maps"])]
+    used += [("companion.opening", companion["opening"], companion["presets"])]
+    used += [("uncertainty.claims", name, config["claims"]) for name in config["uncertainty"]["claims"]]
+    for key, name, known in used:
+        if name not in known:
+            yield f"{key} = {name!r} is unknown; {suggest_name(name, known)}"
 
 
 def figures(config: dict) -> Iterator[str]:
@@ -259,22 +252,29 @@ def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
             yield from compare_keys(f"claims.{name}.{key}", entry.get(key, {}), default.get(key, {}), may_lack)
 
 
-def twins(config: dict) -> Iterator[str]:
-    """Entries with the name of a table that another entry makes. The config has `methods` still."""
+def clashes(config: dict) -> Iterator[str]:
+    """Entries that make the same table. The config still has `methods`."""
     for section in METHOD_SECTIONS:
+        makers = {}
         for name, entry in config[section].items():
-            for method in entry.get("methods", ())[1:]:
-                if f"{name}_{method}" in config[section]:
-                    yield f"{section}.{name}_{method} is also made by {section}.{name}.methods; rename one of them"
+            for table in (name, *(f"{name}_{method}" for method in entry.get("methods", ())[1:])):
+                if table in makers:
+                    other = f"{section}.{makers[table]}"
+                    yield f"{section}.{name} and {other} both make the table {section}/{table}; rename one of them"
+                makers[table] = name
+
+
+def tighter_clashes(config: dict) -> Iterator[str]:
+    """Entries with the name of a table of tighter tolerances. The config has no other errors."""
+    tightened = with_tighter(config)
     for section in TIGHTENED:
-        for name in config[section]:
-            base = name.removesuffix(f"_{TIGHTER}")
-            if base != name and base in by_methods(config)[section]:
-                yield f"{section}.{name} has the name of the tighter twin of {section}.{base}; rename it"
+        for name, entry in config[section].items():
+            if tightened[section][name] != entry:
+                yield f"{section}.{name} has the name of a table of tighter tolerances (uncertainty.claims); rename it"
 
 
 def methods(config: dict, defaults: dict) -> Iterator[str]:
-    """Settings of methods that exclude each other. The config has `methods` still."""
+    """Settings of methods that exclude each other. The config still has `methods`."""
     for section in (*METHOD_SECTIONS, "dimensions"):
         for name, entry in config[section].items():
             used = entry.get("methods") or [entry.get("method")]
@@ -287,16 +287,6 @@ def methods(config: dict, defaults: dict) -> Iterator[str]:
 def prefix(config: dict) -> Iterator[str]:
     if config["prefix"] in RESERVED:
         yield f"prefix = {config['prefix']!r} is a folder of the default results; give another name"
-
-
-def companion(config: dict) -> Iterator[str]:
-    own = config["companion"]
-    for index, name in enumerate(own["maps"]):
-        if name not in config["sweeps"]:
-            remedy = suggest_name(name, config["sweeps"])
-            yield f"companion.maps[{index}] = {format_value(name)} is no entry of sweeps; {remedy}"
-    if own["opening"] not in own["presets"]:
-        yield f"companion.opening = {format_value(own['opening'])} is not one of {', '.join(own['presets'])}"
 
 
 def identification(config: dict) -> Iterator[str]:
@@ -330,9 +320,8 @@ CHECKS = (
     orbits,
     dimensions,
     sizes,
-    unknown_tables,
+    unknown_references,
     figures,
-    companion,
     identification,
 )
 
@@ -345,9 +334,9 @@ def default_config() -> dict:
 def contradictions(config: dict, defaults: dict) -> Iterator[str]:
     """One line for each contradiction between values of a config whose types are right."""
     yield from methods(config, defaults)
-    yield from twins(config)
+    yield from clashes(config)
     yield from unused_keys(config, defaults)
-    # Lines about the tables of `methods` name the entry, which stands in the file.
+    # Lines about the tables of `methods` name the entry in the file.
     entries = {
         f"{section}.{name}_{method}": f"{section}.{name}"
         for section in METHOD_SECTIONS
@@ -365,5 +354,6 @@ def problems(config: dict, defaults: dict | None = None) -> list[str]:
     """All errors of a merged config, one line each; empty if there are none."""
     if errors := type_problems(config):
         return errors
-    lines = contradictions(MODEL.validate_python(config), default_config() if defaults is None else defaults)
-    return list(dict.fromkeys(lines))
+    typed = MODEL.validate_python(config)
+    lines = contradictions(typed, default_config() if defaults is None else defaults)
+    return list(dict.fromkeys(lines)) or list(tighter_clashes(by_methods(typed)))
