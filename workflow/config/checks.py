@@ -225,7 +225,7 @@ def figures(config: dict) -> Iterator[str]:
 
 def compare_keys(key: str, given: dict, default: dict, may_lack: bool) -> Iterator[str]:
     """Keys of a mapping that the default config does not have there, and keys that are missing."""
-    for name in given.keys() - default.keys():
+    for name in (name for name in given if name not in default):
         yield f"{key}.{name} is an unknown key; {suggest_name(name, default)}"
     if not may_lack and (missing := [name for name in default if name not in given]):
         yield f"{key} lacks {', '.join(missing)}"

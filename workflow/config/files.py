@@ -20,7 +20,7 @@ STAGES = (
     *("claims", "identification", "figures", "docs"),
 )
 DEFAULT_FILES = tuple(CONFIG / f"{name}.yaml" for name in ("config", *STAGES))
-MOST_VALUES, MOST_LEVELS = 20_000, 50  # of a file, anchors expanded: larger files take seconds to check
+MOST_VALUES, MOST_LEVELS = 12_000, 50  # of a file, anchors expanded: larger files take seconds to check
 OCTAL = re.compile(r"[-+]?0[0-7_]+")
 # Options of Snakemake that name config files and config values.
 FILE_OPTIONS, VALUE_OPTIONS = ("--configfile", "--configfiles"), ("--config", "-C")

@@ -99,11 +99,11 @@ SOLVER = {
     ),
 }
 Seconds = positive("measured time on one core", "s", le=1e6)
-Pair = interval(Seconds, "[where the plate cannot throw parts, where it can]", point=True)
+Pair = interval(Seconds, "[time where the plate cannot throw parts, time where it can]", point=True)
 Megabytes = positive("memory", "MB", le=1e6)
 COSTS = {
-    "cycle": Seconds,
-    "fixed_step": Seconds,
+    "cycle": positive("time per excitation cycle by the method event, on one core", "s", le=1e6),
+    "fixed_step": positive("time per step of a fixed-step method, on one core", "s", le=1e6),
     "start": one_each(
         ("alone", "chaos", "orbits"), Pair, "cost per initial condition, by what is known of its conveyor"
     ),
@@ -138,7 +138,9 @@ CRITICAL = TIMED | {
 REGRESSION = {
     "critical": Annotated[Name, Field(description="entry of `critical` that Eq. 13 is fitted to")],
     "acceleration": NotRequired[interval(Acceleration, "amplitudes of the fitted data")],
-    "bounds": mapping("search interval of each parameter", {name: interval(item) for name, item in FIT.items()}),
+    "bounds": mapping(
+        "search interval of each parameter", {name: interval(item, f"bounds of {name}") for name, item in FIT.items()}
+    ),
     "seed": Seed,
     "evaluations": count("largest number of evaluations"),
     "valley": span(FIT["B"], "values of B along the valley"),
@@ -433,10 +435,10 @@ NUMBERS_OF_CLAIMS = (
 )
 NumberOfClaim = word("quantity of a claim, as CLAIM.QUANTITY", *NUMBERS_OF_CLAIMS)
 SEARCHED = {
-    "friction": interval(number(DESCRIPTIONS["friction"], "1", gt=0, le=10)),
-    "loss": interval(number("damping × contact time / mass", "1", gt=0, le=2)),
-    "stiffness": interval(MODEL_TYPES["stiffness"]),
-    "angle": interval(number(DESCRIPTIONS["angle"], "rad", gt=0, le=1.5707)),
+    "friction": interval(number("friction", "1", gt=0, le=10), DESCRIPTIONS["friction"]),
+    "loss": interval(number("loss", "1", gt=0, le=2), "damping × contact time / mass"),
+    "stiffness": interval(MODEL_TYPES["stiffness"], DESCRIPTIONS["stiffness"]),
+    "angle": interval(number("angle", "rad", gt=0, le=1.5707), DESCRIPTIONS["angle"]),
 }
 EVIDENCE = {
     "without": many(NumberOfClaim, "quantities that are left out", least=0),

@@ -105,7 +105,7 @@ def check_span(values: dict) -> dict:
     return values
 
 
-def interval(item: Any, description: str = "[least, largest]", point: bool = False) -> Any:
+def interval(item: Any, description: str, point: bool = False) -> Any:
     """[least, largest], or null for no bound; `point` says whether both may be equal."""
     check = AfterValidator(partial(check_interval, point=point))
     return Annotated[list[item], Field(min_length=2, max_length=2), check, Field(description=description)]
