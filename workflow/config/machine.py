@@ -31,10 +31,8 @@ def as_mapping(value: Any) -> dict:
 
 def is_own_machine(paper: dict, overlay: dict) -> bool:
     """Whether an overlay has a prefix and another conveyor than the paper."""
-    model = as_mapping(overlay.get("model"))
-    return bool(overlay.get("prefix")) and any(
-        model.get(name, paper["model"][name]) != paper["model"][name] for name in MACHINE
-    )
+    model, papers = as_mapping(overlay.get("model")), as_mapping(paper.get("model"))
+    return bool(overlay.get("prefix")) and any(name in model and model[name] != papers.get(name) for name in MACHINE)
 
 
 def scale_ratios(paper: dict, own: dict) -> dict[str, float]:
