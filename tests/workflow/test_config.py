@@ -106,8 +106,8 @@ WRONG = [
     ({"sweeps": {"heights": {"step": 1.0e-12}}}, "sweeps.heights.step = 1e-12 s makes 1e+12 steps"),
     ({"solver": {"step": 0.1}}, "solver.step (of sweeps.amplitudes_euler) = 0.1 s is too long"),
     ({"dimensions": {"portrait_euler": {"samples": 200000, "step": 3.0e-6}}}, "dimensions.portrait_euler.step = 3e-06"),
-    ({"critical": {"edge": {"axes": {"z0": [0.0]}}}}, "critical.edge.axes.z0 is what is scanned"),
-    ({"critical": {"edge": {"model": {"z0": 0.0}}}}, "critical.edge.model.z0 is what is scanned"),
+    ({"critical": {"edge": {"axes": {"z0": [0.0]}}}}, "critical.edge.axes.z0 is the scanned parameter"),
+    ({"critical": {"edge": {"model": {"z0": 0.0}}}}, "critical.edge.model.z0 is the scanned parameter"),
     (
         {"figures": {"fig06": {"settings": {"higest": 1.0}}}},
         "figures.fig06.settings.higest is an unknown key; did you mean highest?",

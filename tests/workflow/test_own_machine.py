@@ -160,7 +160,7 @@ def test_what_an_overlay_names_is_as_it_says():
     ("model", "told"),
     [
         ({"mass": -1.0}, "model.mass = -1.0 is outside"),
-        ({"angle": 0.0}, "model.angle = 0.0 moves the plate to and fro only"),
+        ({"angle": 0.0}, "model.angle = 0.0 makes the plate move only horizontally"),
         ({"weight": 1.0, "mass": 1.0}, "model.weight is an unknown key"),
     ],
 )

@@ -34,9 +34,9 @@ ROOT = Path(__file__).resolve().parents[2]
 # Folders below results/ and figures/ that a prefix would share with the default config.
 RESERVED = {*ENTRIES, *TABLES, "precision", "precision_times", "article", "benchmarks", "captions", "claims", "docs"}
 RESERVED |= {"logs", "report", "runs", "sections", "shards", "site", "site_pages", "archive", "checks"}
-LARGEST_TABLE = 10_000_000  # rows that one job makes, or states that it finds: some hours of a machine
-MOST_STEPS = 10**9  # of one run by a fixed-step method: some ten seconds
-STEPS_IN_A_CYCLE = 20  # at least: fewer do not show an excitation cycle
+LARGEST_TABLE = 10_000_000  # rows or states of one job, which takes some hours
+MOST_STEPS = 10**9  # of one run with a fixed step, which takes some ten seconds
+STEPS_IN_A_CYCLE = 20  # smallest number of steps that resolves an excitation cycle
 
 
 def whole_steps(duration: float, step: float) -> bool:
@@ -46,7 +46,7 @@ def whole_steps(duration: float, step: float) -> bool:
 
 
 def step_error(step: float, duration: float, frequency: float) -> str | None:
-    """What is wrong with a step (s) of a run (s) at a frequency (Hz), and the remedy."""
+    """The fault of a time step (s) of a run (s) at a frequency (Hz) with its remedy, or None."""
     if step > duration:
         return f"is longer than its duration of {duration!r} s"
     largest = 1.0 / (STEPS_IN_A_CYCLE * frequency)
@@ -119,7 +119,7 @@ def scans(config: dict) -> Iterator[str]:
     for name, entry in config["critical"].items():
         for part in ("axes", "model"):
             if "z0" in entry.get(part, ()):
-                yield f"critical.{name}.{part}.z0 is what is scanned; give its values as critical.{name}.scan"
+                yield f"critical.{name}.{part}.z0 is the scanned parameter; give its values as critical.{name}.scan"
         spacing = math.ulp(max(map(abs, ends(entry["scan"]))))
         if entry["resolution"] <= 2.0 * spacing:
             key = f"critical.{name}.resolution = {entry['resolution']!r} m"
@@ -181,8 +181,8 @@ def sizes(config: dict) -> Iterator[str]:
             rows = points * count_values(entry.get("times") or entry.get("scan") or [None])
             if rows > LARGEST_TABLE:
                 yield (
-                    f"{section}.{name}.axes makes {rows:,} points or rows; at most {LARGEST_TABLE:,} are computed, "
-                    "some hours of a machine: give a smaller num"
+                    f"{section}.{name}.axes makes {rows:,} points or rows; at most {LARGEST_TABLE:,} are computed; "
+                    "give a smaller num"
                 )
     operating = config["operating"]
     starts = count_values(operating["acceleration"]) * operating["starts"]
@@ -232,7 +232,7 @@ def compare_keys(key: str, given: dict, default: dict, may_lack: bool) -> Iterat
 
 
 def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
-    """Tables and settings that no plot script or finding uses: they know those of the default config."""
+    """Tables and settings that the default config does not have: no plot script and no finding uses them."""
     may_lack = is_own_machine(defaults, config)
     for section in ("figures", "figures_on_request"):
         for name, entry in config[section].items():

@@ -21,7 +21,7 @@ FIGURES = ("figures", "figures_on_request")
 MARKS = ("critical_acceleration", "critical_height", "first_positive", "two_states")
 DIGITS = 4  # of scaled amplitudes, heights and velocities, which appear on axes and in titles
 ROUNDED = ("m/s²", "m", "m/s", "m²/s²")
-STEPS = 4000  # of the paper's method per excitation cycle are a multiple of this, so that samples lie on steps
+STEPS = 4000  # the steps per excitation cycle are a multiple of this number, so that samples lie on steps
 
 
 def as_mapping(value: Any) -> dict:
@@ -107,7 +107,9 @@ def machine_problems(paper: dict, overlay: dict) -> list[str]:
     if errors := type_problems(config):
         return errors
     if math.sin(config["model"]["angle"]) == 0.0:
-        return ["model.angle = 0.0 moves the plate to and fro only: no amplitude lifts a part; give a larger one"]
+        return [
+            "model.angle = 0.0 makes the plate move only horizontally: no amplitude lifts a part; give a larger angle"
+        ]
     return []
 
 

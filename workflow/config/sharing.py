@@ -1,8 +1,8 @@
-"""How a sweep is shared between jobs: what it costs, estimated from its entry of the config, and the rows of a job.
+"""Division of a sweep into jobs: the estimated cost of its rows, and the number of rows per job.
 
-The estimate is coarse: it knows no tolerances, no settled motions that are not computed again, no more of chaos than
-whether the plate can throw parts (docs/cluster.md compares it with what jobs took). It decides how a sweep is cut, what
-jobs ask a cluster for, and what is refused; no number of a table depends on it.
+The estimate is coarse: it ignores tolerances and cached motions, and predicts chaos only from whether the plate can
+throw parts (docs/cluster.md compares it with measured jobs). It decides the size of shards, the resources that jobs
+request, and which sweeps are rejected; no number of a table depends on it.
 """
 
 import math
@@ -14,11 +14,11 @@ from scripts.pipeline.sizes import BLOCK, ROW_GROUP
 from .tables import count_points, count_values, ends, values_of
 
 THREADS = 2  # of a job
-STARTS = ("psi0", "z0", "vz0")  # what belongs to a start; all other parameters are those of its conveyor
+STARTS = ("psi0", "z0", "vz0")  # parameters of an initial condition; the others belong to the conveyor
 
 
 class Plan(NamedTuple):
-    """How a sweep is shared, and what is expected of each job; the last shard may be smaller."""
+    """The division of a sweep, and the expected cost of a job; the last shard may be smaller."""
 
     points: int
     rows: int  # of a shard
@@ -33,7 +33,7 @@ class Plan(NamedTuple):
 
 
 def restless(entry: dict) -> float:
-    """The share of conveyors whose plate can throw a part that rests on it: there chaos is found often."""
+    """The share of conveyors whose plate can throw a part that rests on it, where chaos is frequent."""
     lift = math.sin(max(values_of(entry, "angle")))
     limit = min(values_of(entry, "gravity")) / lift if lift > 0.0 else math.inf
     axis = entry["axes"].get("acceleration", [entry["model"].get("acceleration")])
@@ -44,7 +44,7 @@ def restless(entry: dict) -> float:
 
 
 def conveyors_of(axes: dict, rows: int) -> int:
-    """How many conveyors some consecutive rows of a product of axes have, the first axis the slowest."""
+    """Number of conveyors in consecutive rows of a product of axes, of which the first varies slowest."""
     found, stride = min(rows, 1), math.prod(map(count_values, axes.values()))
     for name, axis in axes.items():
         stride //= count_values(axis)
@@ -54,7 +54,7 @@ def conveyors_of(axes: dict, rows: int) -> int:
 
 
 def known_of(entry: dict) -> str:
-    """What is found of the attractors of each conveyor before its starts are followed."""
+    """Which attractors of each conveyor are computed before its initial conditions are followed."""
     starts = math.prod(count_values(axis) for name, axis in entry["axes"].items() if name in STARTS)
     if starts < CHAOS_SHARED or starts * entry["settling"] < CYCLES_SHARED:
         return "alone"
@@ -62,7 +62,7 @@ def known_of(entry: dict) -> str:
 
 
 def seconds_of(entry: dict, costs: dict, rows: int) -> float:
-    """What consecutive rows of a resolved entry take on one core, estimated from measured `costs` (s)."""
+    """Estimated time of consecutive rows of a resolved entry on one core (s), from measured `costs` (s)."""
     if "step" in entry:
         run = costs["fixed_step"] * entry["duration"] / entry["step"]
     else:
@@ -79,7 +79,7 @@ def seconds_of(entry: dict, costs: dict, rows: int) -> float:
 
 
 def most_rows(entry: dict, costs: dict, seconds: float) -> int:
-    """The most rows of a resolved entry that take at most some seconds on one core; at least one."""
+    """Largest number of rows of a resolved entry that take at most `seconds` on one core; at least one."""
     low, high = 1, count_points(entry["axes"])
     while low < high:
         middle = (low + high + 1) // 2
@@ -88,7 +88,7 @@ def most_rows(entry: dict, costs: dict, seconds: float) -> int:
 
 
 def plan(sharing: dict, entry: dict) -> Plan:
-    """How a sweep is shared, by its resolved entry: jobs of the wanted time, unless they were too many."""
+    """The division of a sweep into jobs of the wanted duration, or longer jobs if there were too many."""
     costs, memory = sharing["seconds"], sharing["megabytes"]
     points = count_points(entry["axes"])
     rows = most_rows(entry, costs, THREADS * sharing["job_seconds"])
