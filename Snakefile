@@ -1,24 +1,17 @@
-import os
-
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
-from workflow.config import ROOT, ConfigError, load_config
+from workflow.config import ConfigError, load_config
+from workflow.config.files import DEFAULT_FILES, ROOT, STAGES
 
 min_version("9.27")
 
-STAGES = (
-    *("sweeps", "motion", "orbits", "dimensions", "fit", "sensitivity", "operating"),
-    *("accuracy", "identification", "figures", "claims", "docs"),
-)
-# The config of the paper. Snakemake's `config` holds what --configfile and --config say, which overrides it.
-CONFIG_FILES = [os.path.relpath(ROOT / f"config/{name}.yaml") for name in ("config", *STAGES)]
-
 try:
-    # Jobs start Snakemake again: by then the config has been checked.
-    loaded = load_config(CONFIG_FILES, workflow.overwrite_configfiles, config, check=workflow.is_main_process)
+    # Jobs start Snakemake again; the config has been checked by then.
+    loaded = load_config(DEFAULT_FILES, workflow.overwrite_configfiles, config, check=workflow.is_main_process)
 except ConfigError as error:
-    raise WorkflowError(error)
+    raise WorkflowError(str(error))
+# The same object, because Snakemake hands it to the report.
 config.clear()
 config.update(loaded.config)
 PAPER, OWN_MACHINE, REFUSED = loaded.paper, loaded.own_machine, loaded.refused

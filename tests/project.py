@@ -11,7 +11,7 @@ from pathlib import Path
 
 import yaml
 
-from workflow.config_files import merged
+from workflow.config.files import merge as merged
 
 ROOT = Path(__file__).resolve().parents[1]
 PARTS = ("Snakefile", "workflow", "profiles", "config", "scripts")

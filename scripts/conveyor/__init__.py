@@ -2,18 +2,21 @@
 
 from typing import TYPE_CHECKING, Any
 
-from .solver.model import Conveyor, Start
-
 if TYPE_CHECKING:
     from .simulation import Run, simulate
+    from .solver.model import Conveyor, Start
 
 __all__ = ["Conveyor", "Run", "Start", "simulate"]
 __version__ = "0.1.0"
 
 
 def __getattr__(name: str) -> Any:
-    """`Run` and `simulate` when they are asked for: who only reads tables need not wait for a compiler to load."""
-    if name in __all__:
+    """Import the public names on first use, so that `conveyor.parameters` can be imported without NumPy and Numba."""
+    if name in ("Conveyor", "Start"):
+        from .solver import model
+
+        return getattr(model, name)
+    if name in ("Run", "simulate"):
         from . import simulation
 
         return getattr(simulation, name)

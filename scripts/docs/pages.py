@@ -11,7 +11,7 @@ A template is Markdown (or YAML) with Jinja's fields. What it may ask for: the f
     tightened         how many of them were looked at with tighter tolerances; same_verdicts: how many did not change
     costs             seconds, memory (MiB) and jobs of figures and claims
     gaps              keys of the config whose comment says that the paper leaves them open
-    keys              all keys that a config may have, by their sections, with what the paper's config says
+    keys              all keys of the config, by their sections, with the values of the default config
     entries           entries of a section of the paper's config, with the comments above them
     modules           modules of the library, by the rooms they stand in
     proved            the page of what is proved
@@ -100,14 +100,12 @@ NOT_OF_THE_PAPER = ("companion", "figures", "claims", "benchmark", "stability", 
 
 
 def of_keys(keys: list[dict], written: list[dict]) -> dict[str, list[dict]]:
-    """All keys by their sections, with value and comment of the paper's config where a key has one name only."""
-    said = {tuple(key["path"]): key for key in written}
+    """All keys by their sections, with the value of the default config where a key has one name only."""
+    values = {tuple(key["path"]): key["value"] for key in written}
     found = {}
     for key in keys:
-        there = said.get(tuple(key["path"]), {"value": "", "beside": ""})
-        found.setdefault(key["path"][0], []).append(
-            {**key, "key": readable(key["path"]), "value": there["value"], "comment": there["beside"]}
-        )
+        value = values.get(tuple(key["path"]), "")
+        found.setdefault(key["path"][0], []).append({**key, "key": readable(key["path"]), "value": value})
     return found
 
 
@@ -218,7 +216,7 @@ def make(
     findings : the page of what was found beyond the paper
     medium : print or site
     folder : where the figures are, as the page says it
-    written, known : keys of the paper's config, and those that a config may have (workflow.config_keys)
+    written, known : keys of the default config files, and all keys of the schema (docs.config_keys)
     library : files of the library's modules, without their endings
     tables : those that docs.facts asks for
     """

@@ -13,13 +13,9 @@ from conveyor.analysis.states import Motions, classify, continued
 from conveyor.simulation import DEFAULT_TOLERANCE
 from conveyor.solver.model import PARAMETERS, PSI0, VZ0, Z0
 from pipeline import grid
+from pipeline.shared_searches import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED
 
 STARTS = {PARAMETERS[k] for k in (PSI0, Z0, VZ0)}
-# From so many starts of a conveyor on it costs less to find its chaotic sets first, and neighbourhoods of its orbits.
-CHAOS_SHARED = 8
-ORBITS_SHARED = 200
-# If they are followed for fewer excitation cycles than these altogether, the search itself takes longer.
-CYCLES_SHARED = 32_000
 # So many conveyors have their attractors in memory at a time, some 30 kB each.
 CONVEYORS = 2000
 

@@ -18,8 +18,8 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-# Rows of a row group: fixed, so that a table's bytes do not depend on how it was computed.
-ROW_GROUP = 1 << 20
+from pipeline.sizes import ROW_GROUP
+
 REMEDY = "delete it, and the next run makes it again"
 LEVEL = 3  # of zstd: higher ones take longer and save little
 KIND = b"kind"

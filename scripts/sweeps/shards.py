@@ -8,6 +8,7 @@ from conveyor import ensemble
 from conveyor.analysis.states import continued
 from pipeline import fields, grid
 from pipeline.motions import motions, search_beside
+from pipeline.sizes import BLOCK
 
 TABLES = {
     "sweeps": (
@@ -19,10 +20,6 @@ TABLES = {
         ),
     ),
 }
-
-
-# Rows that are computed at a time: some hundred megabytes.
-BLOCK = 1 << 18
 
 
 def make(

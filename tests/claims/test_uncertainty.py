@@ -9,7 +9,8 @@ from project import merged, read_config
 
 from claims import uncertainty
 from claims.verdicts import REPRODUCED
-from workflow.configuration import by_methods, canonical, problems, tighter_reference, with_tighter
+from workflow.config import canonical, problems
+from workflow.config.tables import by_methods, tighter_reference, with_tighter
 
 CONFIG = read_config()
 
@@ -49,7 +50,7 @@ def test_nobody_looks_where_no_claim_is_named():
     ("overlay", "words"),
     [
         ({"tighter": 1.0}, "uncertainty.tighter = 1.0 is outside (1, 10000]"),
-        ({"claims": ["C99"]}, "uncertainty.claims[0] = 'C99' is no statement of the paper"),
+        ({"claims": ["C99"]}, "uncertainty.claims[0] = 'C99' should be 'C01', "),
     ],
 )
 def test_a_wrong_key_is_named(overlay, words):

@@ -14,8 +14,7 @@ from prose import typed
 
 from claims.verdicts import NOT_REPRODUCED, PAPER_METHOD_ONLY, REPRODUCED
 from docs import article, facts, pages, site
-from workflow.config_keys import all_written, keys, written
-from workflow.config_model import MODEL
+from docs.config_keys import all_written, written
 
 TEMPLATES = ROOT / "workflow/templates"
 FRAME = (TEMPLATES / "article.typ").read_text(encoding="utf-8")
@@ -128,49 +127,6 @@ def test_verdicts_are_counted():
 
 
 # -- the config, key by key --------------------------------------------------------------------------------------------
-
-
-def test_every_key_of_the_paper_s_config_is_one_of_the_model():
-    known = {key.path for key in keys()}
-    parameters = {path for path in known if path[-1] in ("model", "axes")}
-
-    def is_known(path: tuple[str, ...]) -> bool:
-        return any(
-            len(pattern) == len(path) and all(part in (name, "NAME") for part, name in zip(pattern, path, strict=True))
-            for pattern in known | {(*path, "NAME") for path in parameters}
-        )
-
-    lone = [key.path for key in all_written(CONFIG) if key.value and not is_known(key.path)]
-    # Values that are lists or mappings of their own: their keys are those of the model below them.
-    assert all(any(path == one[: len(path)] or "NAME" in one for one in known) for path in lone), lone
-
-
-def test_every_key_says_what_it_may_be():
-    found = list(keys())
-    assert {key.path[0] for key in found} == set(read_config())
-    assert all(re.search("[a-z]", key.allowed) for key in found)
-    by_name = {".".join(key.path): key for key in found}
-    assert by_name["model.mass"] == (("model", "mass"), "number in [1e-12, 1e+06]", "kg", True)
-    assert by_name["solver.duration"][1:] == ("number in (0, 1e+06]", "s", True)
-    assert by_name["sweeps.NAME.needs"][1:] == ("feeding, vertical", "", False)
-
-
-def test_the_ranges_told_are_those_that_are_checked():
-    config = read_config()
-    told = next(key.allowed for key in keys() if key.path == ("model", "friction"))
-    low, high = map(float, re.findall(r"[\d.e+-]+", told.removeprefix("number in ")))
-    for value, right in (
-        (low, True),
-        (high, True),
-        (np.nextafter(low, -1.0), False),
-        (np.nextafter(high, 100.0), False),
-    ):
-        config["model"]["friction"] = float(value)
-        if right:
-            MODEL.validate_python(config)
-        else:
-            with pytest.raises(ValueError, match="outside"):
-                MODEL.validate_python(config)
 
 
 def test_comments_belong_to_their_keys():

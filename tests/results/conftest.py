@@ -4,7 +4,7 @@ import pytest
 
 from made import RESULTS
 from pipeline import tables
-from workflow.tables_of_config import kind_of
+from workflow.config.tables import kind_of
 
 
 @pytest.fixture(scope="session")

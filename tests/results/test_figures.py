@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from draw import draw
 from figures import style
 from made import FIGURES, RESULTS, entries
-from workflow.tables_of_config import kind_of
+from workflow.config.tables import kind_of
 
 ENTRIES = entries()
 MAPS = ("fig12", "fig13", "fig14", "fig18", "fig19")

@@ -6,9 +6,9 @@ import pytest
 import yaml
 from project import CONFIG_FILES, ROOT, Project, copy_project, merged, read_config
 
-from workflow.config_files import as_first_written, read
-from workflow.configuration import canonical
-from workflow.tables_of_config import METHODS, by_methods, resolve
+from workflow.config import ConfigError, canonical, load_config
+from workflow.config.files import DEFAULT_FILES, as_first_written, check_command_line, read
+from workflow.config.tables import METHOD_SECTIONS, by_methods, resolve
 
 FAULTS = [
     ("model: {mass: 0.1}\nsolver: {}\nmodel: {angle: 0.1}\n", ":3: model stands in line 1 already"),
@@ -16,13 +16,21 @@ FAULTS = [
     ("model:\n  stiffness: 050\n", ":2: model.stiffness = 050 is read as 40, an octal number"),
     ("model: {stiffness: 1:30}\n", ":1: model.stiffness = 1:30 is read as 90, with base 60"),
     ("sweeps:\n  mine:\n    axes: {z0: [0.0, -1:30.5]}\n", ":3: sweeps.mine.axes.z0[1] = -1:30.5 is read as"),
-    ("model: &m {mass: *m}\n", ":1: model.mass holds itself by its anchor"),
+    ("model: &m {mass: *m}\n", ":1: model.mass contains itself by its anchor"),
     ("model: {mass: 0.1\n", ":2: is not YAML: "),
     ("model:\n\tmass: 0.1\n", ":2: is not YAML: "),
     ("- 1\n", ": holds no mapping"),
     ("", ": holds no mapping"),
     (b"model:\n  # \xe4\n", ":2: is not UTF-8 text"),
     (None, ": No such file or directory"),
+    ("sweeps: [" + "1," * 300_000 + "]", ":1: has more than 12,000 values"),
+    ("[" * 100_000, ":1: has more than 50 nested levels"),
+    ("\n".join(" " * level + "a:" for level in range(3000)), ":51: has more than 50 nested levels"),
+    ("- " * 50_000 + "1", ":1: has more than 50 nested levels"),
+    ("a0: &a0 [1, 1]\n" + "".join(f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]\n" for i in range(1, 40)), ": its anchors make"),
+    ("a0: &a0 {x: 1}\n" + "".join(f"a{i}: &a{i} {{x: *a{i - 1}}}\n" for i in range(1, 60)), ": its anchors make"),
+    ("model: {mass: " + "1" * 5000 + "}", ": is not YAML: Exceeds the limit"),
+    ("model: {mass: 2001-13-45}", ": is not YAML: month must be"),
 ]
 
 
@@ -36,7 +44,7 @@ def test_a_fault_names_file_line_and_key(tmp_path, text, message):
 
 
 def test_a_directory_is_no_config(tmp_path):
-    assert read(tmp_path) == ([f"{tmp_path}: Is a directory; give a file of the config"], None)
+    assert read(tmp_path) == ([f"{tmp_path}: Is a directory; give a config file"], None)
 
 
 def test_an_anchor_is_told_once(tmp_path):
@@ -71,15 +79,44 @@ def test_keys_are_in_the_order_of_the_first_file():
     assert list(ordered["figures"]) == list(read_config()["figures"])
 
 
+def test_a_config_is_loaded_from_any_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    loaded = load_config(DEFAULT_FILES, [], {})
+    assert loaded.paper == read_config()
+    assert not loaded.own_machine
+    assert loaded.refused == {}
+    assert "amplitudes_euler" in loaded.config["sweeps"]
+
+
+def test_a_config_without_files_is_the_overlay_of_a_module(tmp_path):
+    """Another workflow gives its config directly: it has the effect of a file with the same content."""
+    overlay = {"prefix": "mine", "model": {"frequency": 100, "mass": 1.0e-3}, "sweeps": {"one": {"axes": {"z0": [0]}}}}
+    file = tmp_path / "mine.yaml"
+    file.write_text(yaml.safe_dump(overlay))
+    loaded = load_config(DEFAULT_FILES, [], overlay)
+    assert repr(loaded) == repr(load_config(DEFAULT_FILES, [file], overlay))
+    assert loaded.own_machine
+    assert "fig04" in loaded.refused
+    assert loaded.config["sweeps"]["one"] == {"axes": {"z0": [0.0]}}
+
+
+def test_an_error_has_six_lines_and_jobs_are_not_checked_again():
+    overlay = {"sharing": {"core_hours": 1.0e-6}}
+    with pytest.raises(ConfigError, match="The config cannot be used") as error:
+        load_config(DEFAULT_FILES, [], overlay)
+    assert len(str(error.value).splitlines()) <= 6
+    assert load_config(DEFAULT_FILES, [], overlay, check=False).config["sharing"]["core_hours"] == 1.0e-6
+
+
 def test_the_config_of_the_paper_is_in_canonical_form():
     """So that no table changes: what a rule is given has its keys in this order and its numbers in these types."""
     config = plain(read_config())
     found = canonical(config)
     assert found == config
-    for section in config.keys() - {*METHODS, "dimensions"}:
+    for section in config.keys() - {*METHOD_SECTIONS, "dimensions"}:
         assert written(found[section]) == written(config[section])
     found, config = by_methods(found), by_methods(config)
-    for section in (*METHODS, "dimensions"):
+    for section in (*METHOD_SECTIONS, "dimensions"):
         for name in config[section]:
             assert written(resolve(found, section, name)) == written(resolve(config, section, name))
 
@@ -110,7 +147,7 @@ def seconds_of_children() -> float:
 REFUSED = [
     ({"sweep": {}}, "sweep is an unknown key; did you mean sweeps?"),
     ({"sweeps": {"amplitudes": {"axes": {"z0": {"num": 1e12}}}}}, "sweeps.amplitudes.axes.z0.num"),
-    ({"prefix": "a\nb"}, "prefix = 'a\\nb' is not a folder name"),
+    ({"prefix": "a\nb"}, "prefix = 'a\\nb' should be a folder name"),
     ({"prefix": "a" * 300}, "prefix"),
     ({1: {}}, "config has a key that YAML reads as 1"),
     ({"figures": {"fig03": {"tables": {"euler": "model/acceleration"}}}}, "figures.fig03.tables.euler"),
@@ -161,6 +198,48 @@ def test_snakemake_names_file_and_line_of_an_overlay(project, tmp_path, content,
         file.write_bytes(content)
     run = project.called("--dry-run", "figures/fig22.pdf", *(part.format(file) for part in option))
     assert_refused(run, f"{file}{message}")
+
+
+BOTH = "is not KEY=VALUE with a top-level KEY"
+COMMANDS = [
+    (["--config", "model.mass=3"], f"--config 'model.mass=3' {BOTH}"),
+    (["--config", "novalue"], f"--config 'novalue' {BOTH}"),
+    (["--config", "prefix=x", "a=3"], f"--config 'a=3' {BOTH}"),
+    (["--config=novalue"], f"--config 'novalue' {BOTH}"),
+    (["-C", "novalue"], f"--config 'novalue' {BOTH}"),
+    (["-Cnovalue"], f"--config 'novalue' {BOTH}"),
+    (["--config", "model={mass: 3}"], "model.mass = '3' is text to YAML"),
+]
+
+
+@pytest.mark.parametrize(("options", "message"), COMMANDS, ids=[" ".join(options) for options, _ in COMMANDS])
+def test_values_of_the_command_line_are_checked_before_snakemake_reads_them(project, options, message):
+    run = project.called("--dry-run", "figures/fig22.pdf", *options)
+    assert "Traceback" not in run.stdout
+    assert_refused(run, message)
+
+
+def test_right_values_of_the_command_line_are_accepted():
+    check_command_line(["snakemake", "--config", "prefix=mine", "-n", "all", "-C", "a_b=1=2", "--cores", "2"])
+
+
+LARGE = {
+    "list": "sweeps: {mine: {axes: {z0: [" + "0.0001," * 300_000 + "]}}}",
+    "anchors": "a0: &a0 [1, 1]\n" + "".join(f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]\n" for i in range(1, 60)),
+    "levels": "{a: " * 100_000,
+    "unknown keys": "".join(f"a{i}: 1\n" for i in range(5_500)),
+}
+
+
+@pytest.mark.parametrize("name", LARGE)
+def test_a_large_file_is_rejected_in_three_seconds(project, tmp_path, name):
+    file = tmp_path / "large.yaml"
+    file.write_text(LARGE[name])
+    begin = seconds_of_children()
+    run = project.called("--dry-run", "figures/fig22.pdf", "--configfile", str(file))
+    assert seconds_of_children() - begin < 3.0
+    assert "Traceback" not in run.stdout
+    assert_refused(run, "The config cannot be used")
 
 
 def test_the_profile_for_slurm_names_them_too(project, tmp_path):

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 from project import merged, permuted, read_config
 
-from workflow.configuration import canonical, problems
+from workflow.config import canonical, problems
 
 CONFIG = read_config()
 # Values that are wrong wherever another value of the same type is right.
@@ -180,7 +180,7 @@ def test_what_a_script_needs_is_told(path):
 
 @pytest.mark.parametrize("config", [None, [], "model", 3], ids=repr)
 def test_what_is_no_mapping_is_told(config):
-    assert problems(config) == [f"config = {config!r} is not a mapping of keys to values"]
+    assert problems(config) == [f"config = {config!r} should be a valid mapping"]
 
 
 def test_there_are_enough_mutations():

@@ -21,10 +21,11 @@ def test_names_that_the_guide_tells_to_edit_are_there():
     for file, name in (
         ("scripts/figures/captions.py", "NUMBERS"),
         ("scripts/claims/verdicts.py", "FINDINGS"),
-        ("workflow/config_model.py", "CLAIMS"),
-        ("workflow/tables_of_config.py", "TABLES"),
+        ("workflow/config/model.py", "CLAIMS"),
+        ("workflow/config/tables.py", "TABLES"),
         ("scripts/figures/style.py", "METHODS"),
-        *(("scripts/conveyor/methods/fixed_step.py", name) for name in ("METHODS", "EVALUATIONS", "GROWTH")),
+        ("scripts/conveyor/parameters.py", "FIXED_STEP_METHODS"),
+        *(("scripts/conveyor/methods/fixed_step.py", name) for name in ("EVALUATIONS", "GROWTH")),
     ):
         assert re.search(rf"^{name}\b.*=", (ROOT / file).read_text(), re.MULTILINE), (file, name)
         assert name in (ROOT / "CONTRIBUTING.md").read_text()

@@ -6,13 +6,14 @@ from project import ROOT, STAGES
 from workflow import source_hash
 
 # Rooms of the library, from the ground up; `conveyor` itself has what leads to solver and methods: simulate, ensembles.
+# The module `parameters` imports nothing and stands below them.
 ROOMS = ("conveyor.solver", "conveyor.methods", "conveyor", "conveyor.analysis", "conveyor.certificates")
-FLOORS = (*ROOMS, "pipeline", *STAGES, "builds", "report", "")
+FLOORS = ("conveyor.parameters", *ROOMS, "pipeline", *STAGES, "builds", "report", "")
 
 
 def floor_of(module: str) -> int:
     """The floor on which a module stands; the two scripts stand on top of all."""
-    package = module.rpartition(".")[0]
+    package = module if module in FLOORS else module.rpartition(".")[0]
     while package not in FLOORS:
         package = package.rpartition(".")[0]
     return FLOORS.index(package)

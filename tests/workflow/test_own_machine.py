@@ -7,8 +7,16 @@ import yaml
 from project import ROOT, Project, merged, read_config
 
 from conveyor.solver.model import Conveyor
-from workflow.configuration import by_methods, canonical, problems
-from workflow.own_machine import MARKS, contact_time, fitted, is_own, model_problems, refusals
+from workflow.config import canonical, problems
+from workflow.config.machine import (
+    MARKS,
+    contact_time,
+    is_own_machine,
+    machine_problems,
+    refused_figures,
+    scale_config,
+)
+from workflow.config.tables import by_methods
 
 CONFIG = canonical(read_config())
 EXAMPLES = {path.stem: path for path in sorted((ROOT / "config/examples").glob("*.yaml"))}
@@ -23,7 +31,7 @@ def example(name: str) -> dict:
 
 def config_of(overlay: dict) -> dict:
     """The whole config of an overlay, as the Snakefile makes it."""
-    whole = merged(fitted(CONFIG, overlay), overlay)
+    whole = merged(scale_config(CONFIG, overlay), overlay)
     assert problems(whole) == []
     return by_methods(canonical(whole))
 
@@ -41,12 +49,12 @@ def config_of(overlay: dict) -> dict:
     ],
 )
 def test_a_prefix_and_another_machine_make_a_machine_of_ones_own(overlay, own):
-    assert is_own(CONFIG, overlay) == own
+    assert is_own_machine(CONFIG, overlay) == own
 
 
 def test_overlays_of_the_paper_change_what_they_name_only():
     """The reduced config has a prefix, but the paper's machine: its axes begin and end where the paper's do."""
-    assert not is_own(CONFIG, read_config("reduced"))
+    assert not is_own_machine(CONFIG, read_config("reduced"))
 
 
 def test_numbers_keep_their_values_in_the_scales_of_the_machine():
@@ -77,7 +85,7 @@ def test_amplitudes_are_those_of_the_vertical_motion():
 
 
 def test_a_machine_of_the_same_scales_has_the_same_axes():
-    found = fitted(CONFIG, {"prefix": "mine", "model": {"damping": 0.4, "friction": 0.3}})
+    found = scale_config(CONFIG, {"prefix": "mine", "model": {"damping": 0.4, "friction": 0.3}})
     assert found["operating"] == CONFIG["operating"]
     assert found["attractors"] == CONFIG["attractors"]
     assert found["solver"] == CONFIG["solver"]
@@ -88,7 +96,7 @@ def test_a_machine_of_the_same_scales_has_the_same_axes():
 def test_the_step_is_that_of_the_contact():
     """A contact a hundred times as stiff (p = 1.5: k^(1/3) in the frequency), whole steps in each cycle."""
     assert contact_time(CONFIG["model"]) == pytest.approx(1.0 / (2.0 * math.pi * 255.0), rel=0.01)
-    stiff = fitted(CONFIG, {"prefix": "mine", "model": {"stiffness": 5.0e7}})["solver"]["step"]
+    stiff = scale_config(CONFIG, {"prefix": "mine", "model": {"stiffness": 5.0e7}})["solver"]["step"]
     expected = CONFIG["solver"]["step"] * 100.0 ** (-1.0 / 3.0)
     assert 0.95 * expected < stiff <= expected
     assert (1.0 / (50.0 * stiff)) == pytest.approx(round(1.0 / (50.0 * stiff)), abs=1e-6)
@@ -108,9 +116,9 @@ def test_examples_are_short_and_unlike_the_paper(name):
 def test_what_is_the_papers_own_is_left_out(name):
     found = config_of(example(name))
     assert set(found["figures"]) >= ANY
-    assert not set(found["figures"]) & set(refusals(CONFIG, found))
+    assert not set(found["figures"]) & set(refused_figures(CONFIG, found))
     everything = set(CONFIG["figures"]) | set(CONFIG["figures_on_request"])
-    assert set(found["figures"]) | set(found["figures_on_request"]) | set(refusals(CONFIG, found)) == everything
+    assert set(found["figures"]) | set(found["figures_on_request"]) | set(refused_figures(CONFIG, found)) == everything
     assert found["claims"] == {}
     assert "seeds" not in found["orbits"]
     for entry in found["figures"].values():
@@ -152,12 +160,12 @@ def test_what_an_overlay_names_is_as_it_says():
     ("model", "told"),
     [
         ({"mass": -1.0}, "model.mass = -1.0 is outside"),
-        ({"angle": 0.0}, "model.angle = 0.0 moves the plate to and fro only"),
+        ({"angle": 0.0}, "model.angle = 0.0 makes the plate move only horizontally"),
         ({"weight": 1.0, "mass": 1.0}, "model.weight is an unknown key"),
     ],
 )
 def test_a_machine_that_cannot_be_is_told(model, told):
-    (line,) = model_problems(CONFIG, {"prefix": "mine", "model": model})
+    (line,) = machine_problems(CONFIG, {"prefix": "mine", "model": model})
     assert told in line
 
 

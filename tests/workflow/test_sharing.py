@@ -5,8 +5,9 @@ from project import merged, read_config
 
 from pipeline import grid
 from pipeline.motions import of_conveyors
-from workflow.configuration import problems, resolve
-from workflow.sharing import THREADS, conveyors_of, plan, restless
+from workflow.config import problems
+from workflow.config.sharing import THREADS, conveyors_of, plan, restless
+from workflow.config.tables import resolve
 
 CONFIG = read_config()
 SHARING = CONFIG["sharing"]

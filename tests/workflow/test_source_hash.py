@@ -112,8 +112,9 @@ def test_every_package_behind_a_number_or_a_picture_counts():
 
 
 def test_what_checks_the_config_reruns_nothing():
-    scripts = [str(path.relative_to(source_hash.SCRIPTS).with_suffix("")) for path in source_hash.SCRIPTS.rglob("*.py")]
-    _, packages = source_hash.closure(*scripts)
+    scripts = {str(path.relative_to(source_hash.SCRIPTS).with_suffix("")) for path in source_hash.SCRIPTS.rglob("*.py")}
+    # The Snakefile imports this module, no script does.
+    _, packages = source_hash.closure(*scripts - {"docs/config_keys"})
     assert "numpy" in packages
     assert not {"pydantic", "pydantic_core", "yaml", "snakemake", "workflow"} & set(packages)
 
@@ -123,6 +124,7 @@ def test_plots_depend_on_no_solver():
         assert modules("draw", f"figures/plots/{figure}") == {
             "draw.py",
             "pipeline/rule_log.py",
+            "pipeline/sizes.py",
             "pipeline/tables.py",
             f"figures/plots/{figure}.py",
             "figures/style.py",

@@ -1,39 +1,57 @@
-"""Interim face."""
+"""The config: read, checked, scaled to the conveyor, and converted to the one form that rules and hashes depend on."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
-from workflow.config_files import as_first_written, merged, read, refusal
-from workflow.configuration import by_methods, canonical, problems, with_tighter
-from workflow.own_machine import fitted, is_own, model_problems, refusals
 
-ROOT = Path(__file__).resolve().parents[2]
+from .checks import problems
+from .errors import ConfigError
+from .files import as_first_written, merge, read_all
+from .machine import is_own_machine, machine_problems, refused_figures, scale_config
+from .model import MODEL
+from .tables import by_methods, with_tighter
 
-
-class ConfigError(Exception):
-    pass
+__all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems"]
 
 
 class Loaded(NamedTuple):
-    config: dict
-    paper: dict
+    """A config with everything that the rules need to know about it."""
+
+    config: dict  # canonical, with the tables of all methods and of tighter tolerances
+    paper: dict  # the default config
     own_machine: bool
-    refused: dict
+    refused: dict[str, str]  # figures that make no sense for this conveyor, with the reasons
 
 
-def load_config(default_files, overlay_files, config, check=True):
-    read_files = [read(file) for file in [*default_files, *overlay_files]]
-    if errors := [fault for faults, _ in read_files for fault in faults]:
-        raise ConfigError(refusal(errors))
-    contents = [content for _, content in read_files]
-    n = len(default_files)
-    paper = merged(*contents[:n])
-    own = is_own(paper, config)
-    if own:
-        if errors := model_problems(paper, config):
-            raise ConfigError(refusal(errors))
-        contents = [fitted(paper, config), *contents[n:]]
-    whole = as_first_written(merged(*contents, config), contents)
-    if check and (errors := problems(whole)):
-        raise ConfigError(refusal(errors))
-    final = with_tighter(by_methods(canonical(whole)))
-    return Loaded(final, paper, own, refusals(paper, final))
+def canonical(config: dict) -> dict:
+    """A valid config in its one form: keys in the order of the model, numbers in the types of the model.
+
+    The entries of a section and the axes of an entry keep their order, which has a meaning.
+    """
+    return MODEL.validate_python(config)
+
+
+def load_config(
+    default_files: Sequence[str | Path], overlay_files: Sequence[str | Path], config: dict, check: bool = True
+) -> Loaded:
+    """The config of a run; ConfigError says what is wrong with it in at most six lines.
+
+    Parameters
+    ----------
+    default_files : the config of the paper
+    overlay_files : files that are merged over it, which `config` contains already: they say which file has a key first
+    config : Snakemake's merged config; as a module of another workflow, it is the only overlay
+    check : whether to check it, which jobs of a running workflow need not do
+    """
+    defaults, overlays = read_all(default_files), read_all(overlay_files)
+    paper = merge(*defaults)
+    own_machine = is_own_machine(paper, config)
+    if own_machine:
+        if errors := machine_problems(paper, config):
+            raise ConfigError(errors)
+        defaults = [scale_config(paper, config)]
+    contents = [*defaults, *overlays]
+    whole = as_first_written(merge(*contents, config), contents)
+    if check and (errors := problems(whole, paper)):
+        raise ConfigError(errors)
+    return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_machine, refused_figures(paper, whole))

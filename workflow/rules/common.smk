@@ -7,21 +7,21 @@ import re
 import signal
 from pathlib import Path
 
-from workflow.config_keys import all_written
-from workflow.config_keys import keys as config_keys
+from scripts.docs.config_keys import all_written
+from scripts.docs.config_keys import keys as config_keys
 from scripts.report.pages import escape_label, figure_pages, notice
-from workflow.settings import (
+from workflow.config.schema import json_schema
+from workflow.config.settings import (
     budgeted_entries,
     budgeted_tables,
     model_without_acceleration,
     scaling_cases,
     settings_of,
-    throughput_map,
     tighter_claims,
 )
-from workflow.sharing import THREADS, plan
+from workflow.config.sharing import THREADS, plan
+from workflow.config.tables import ON_REQUEST, TABLES, kind_of, resolve
 from workflow.source_hash import SCRIPTS, closure, source_hash, versions
-from workflow.tables_of_config import ON_REQUEST, TABLES, count_points, kind_of, resolve
 
 # Without huge pages: clearing one takes 5 to 14 ms on a virtual machine, and joining shards takes 8 % more memory with them.
 os.environ.setdefault("MIMALLOC_ALLOW_THP", "0")
@@ -30,6 +30,8 @@ os.environ.setdefault("MIMALLOC_ALLOW_THP", "0")
 if signal.getsignal(signal.SIGHUP) is signal.SIG_DFL:
     signal.signal(signal.SIGHUP, lambda number, frame: signal.raise_signal(signal.SIGTERM))
 
+# The default config files, for pages that show them.
+CONFIG_FILES = [os.path.relpath(file) for file in DEFAULT_FILES]
 # "" or "NAME/": a config with a prefix has its own folder of results and figures.
 PREFIX = config["prefix"] and f"{config['prefix']}/"
 CORES = workflow.cores or 1
@@ -117,7 +119,7 @@ def stage(module):
     """Common params of jobs with the script make.py: the module that it calls, the hash of all code behind it, and
     what each input table must be.
     """
-    return {"stage": module, "code": source_hash("make", module.replace(".", "/"))}
+    return {"stage": module, "code": source_hash("make", module.replace(".", "/")), "expected": expected}
 
 
 def settings(section):
@@ -312,7 +314,6 @@ PAGE_PARAMS = {
         "step": config["solver"]["step"],
         "tighter": config["uncertainty"]["tighter"],
     },
-    "expected": expected,
 }
 ARTICLE_PARTS = {
     "captions": caption_files(),
@@ -341,4 +342,4 @@ def written_keys(wildcards):
 
 def known_keys(wildcards):
     """A param: all keys that a config may have."""
-    return [key._asdict() for key in config_keys()]
+    return [key._asdict() for key in config_keys(json.loads(json_schema()))]

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..parameters import FIXED_STEP_METHODS as METHODS
 from ..solver import model
 from ..solver.jit import kernel
 from . import euler_lanes
@@ -36,7 +37,6 @@ from .euler_lanes import (
 )
 from .force_law import contact_acceleration, friction_acceleration
 
-METHODS = ("euler", "semi_implicit_euler", "rk4")
 EULER, SEMI_IMPLICIT_EULER, RK4 = range(len(METHODS))
 # Evaluations of the forces in a step of each.
 EVALUATIONS = (1, 1, 4)

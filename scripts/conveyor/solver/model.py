@@ -15,24 +15,8 @@ from operator import attrgetter
 
 import numpy as np
 
-TENSION_MODES = ("allow", "frictionless", "clip")
+from ..parameters import PARAMETERS, RANGES, TENSION_MODES, UNITS
 
-# Order of the entries in a packed parameter vector, the form in which compiled kernels receive a conveyor and a start.
-PARAMETERS = (
-    "acceleration",
-    "angle",
-    "frequency",
-    "psi0",
-    "stiffness",
-    "damping",
-    "friction",
-    "mass",
-    "exponent",
-    "gravity",
-    "tension",
-    "z0",
-    "vz0",
-)
 (
     ACCELERATION,
     ANGLE,
@@ -51,38 +35,6 @@ PARAMETERS = (
 # The parameters of a Conveyor that are numbers, in this order.
 numbers_of = attrgetter(*PARAMETERS[:TENSION])
 TENSION_ALLOW, TENSION_FRICTIONLESS, TENSION_CLIP = range(len(TENSION_MODES))
-
-# Unit and admissible closed interval of every parameter. The intervals reject impossible values and the usual
-# mix-ups of units (degrees for radians, grams for kilograms), not unusual conveyors.
-UNITS = {
-    "acceleration": "m/s²",
-    "angle": "rad",
-    "frequency": "Hz",
-    "psi0": "rad",
-    "stiffness": "N/m^p",
-    "damping": "N s/m",
-    "friction": "1",
-    "mass": "kg",
-    "exponent": "1",
-    "gravity": "m/s²",
-    "tension": "",
-    "z0": "m",
-    "vz0": "m/s",
-}
-RANGES = {
-    "acceleration": (0.0, 1e4),
-    "angle": (0.0, 0.5 * math.pi),
-    "frequency": (1e-2, 1e5),
-    "psi0": (-4.0 * math.pi, 4.0 * math.pi),
-    "stiffness": (1.0, 1e15),
-    "damping": (0.0, 1e6),
-    "friction": (0.0, 10.0),
-    "mass": (1e-12, 1e6),
-    "exponent": (1.0, 3.0),
-    "gravity": (1e-3, 1e3),
-    "z0": (-1.0, 10.0),
-    "vz0": (-100.0, 100.0),
-}
 
 
 def check_parameter(name: str, value: float) -> float:

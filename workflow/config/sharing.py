@@ -1,25 +1,24 @@
-"""How a sweep is shared between jobs: what it costs, estimated from its entry of the config, and the rows of a job.
+"""Division of a sweep into jobs: the estimated cost of its rows, and the number of rows per job.
 
-The estimate is coarse: it knows no tolerances, no settled motions that are not computed again, no more of chaos than
-whether the plate can throw parts (docs/cluster.md compares it with what jobs took). It decides how a sweep is cut, what
-jobs ask a cluster for, and what is refused; no number of a table depends on it.
+The estimate is coarse: it ignores tolerances and cached motions, and predicts chaos only from whether the plate can
+throw parts (docs/cluster.md compares it with measured jobs). It decides the size of shards, the resources that jobs
+request, and which sweeps are rejected; no number of a table depends on it.
 """
 
 import math
 from typing import NamedTuple
 
-from workflow.config_types import constants
-from workflow.tables_of_config import count_points, count_values, ends, values_of
+from scripts.pipeline.shared_searches import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED
+from scripts.pipeline.sizes import BLOCK, ROW_GROUP
+
+from .tables import count_points, count_values, ends, values_of
 
 THREADS = 2  # of a job
-STARTS = ("psi0", "z0", "vz0")  # what belongs to a start; all other parameters are those of its conveyor
-SHARED = constants("pipeline/motions.py", "CHAOS_SHARED", "ORBITS_SHARED", "CYCLES_SHARED")
-ROW_GROUP = constants("pipeline/tables.py", "ROW_GROUP")["ROW_GROUP"]
-BLOCK = constants("sweeps/shards.py", "BLOCK")["BLOCK"]
+STARTS = ("psi0", "z0", "vz0")  # parameters of an initial condition; the others belong to the conveyor
 
 
 class Plan(NamedTuple):
-    """How a sweep is shared, and what is expected of each job; the last shard may be smaller."""
+    """The division of a sweep, and the expected cost of a job; the last shard may be smaller."""
 
     points: int
     rows: int  # of a shard
@@ -34,7 +33,7 @@ class Plan(NamedTuple):
 
 
 def restless(entry: dict) -> float:
-    """The share of conveyors whose plate can throw a part that rests on it: there chaos is found often."""
+    """The share of conveyors whose plate can throw a part that rests on it, where chaos is frequent."""
     lift = math.sin(max(values_of(entry, "angle")))
     limit = min(values_of(entry, "gravity")) / lift if lift > 0.0 else math.inf
     axis = entry["axes"].get("acceleration", [entry["model"].get("acceleration")])
@@ -45,7 +44,7 @@ def restless(entry: dict) -> float:
 
 
 def conveyors_of(axes: dict, rows: int) -> int:
-    """How many conveyors some consecutive rows of a product of axes have, the first axis the slowest."""
+    """Number of conveyors in consecutive rows of a product of axes, of which the first varies slowest."""
     found, stride = min(rows, 1), math.prod(map(count_values, axes.values()))
     for name, axis in axes.items():
         stride //= count_values(axis)
@@ -55,15 +54,15 @@ def conveyors_of(axes: dict, rows: int) -> int:
 
 
 def known_of(entry: dict) -> str:
-    """What is found of the attractors of each conveyor before its starts are followed."""
+    """Which attractors of each conveyor are computed before its initial conditions are followed."""
     starts = math.prod(count_values(axis) for name, axis in entry["axes"].items() if name in STARTS)
-    if starts < SHARED["CHAOS_SHARED"] or starts * entry["settling"] < SHARED["CYCLES_SHARED"]:
+    if starts < CHAOS_SHARED or starts * entry["settling"] < CYCLES_SHARED:
         return "alone"
-    return "chaos" if starts < SHARED["ORBITS_SHARED"] else "orbits"
+    return "chaos" if starts < ORBITS_SHARED else "orbits"
 
 
 def seconds_of(entry: dict, costs: dict, rows: int) -> float:
-    """What consecutive rows of a resolved entry take on one core, estimated from measured `costs` (s)."""
+    """Estimated time of consecutive rows of a resolved entry on one core (s), from measured `costs` (s)."""
     if "step" in entry:
         run = costs["fixed_step"] * entry["duration"] / entry["step"]
     else:
@@ -80,7 +79,7 @@ def seconds_of(entry: dict, costs: dict, rows: int) -> float:
 
 
 def most_rows(entry: dict, costs: dict, seconds: float) -> int:
-    """The most rows of a resolved entry that take at most some seconds on one core; at least one."""
+    """Largest number of rows of a resolved entry that take at most `seconds` on one core; at least one."""
     low, high = 1, count_points(entry["axes"])
     while low < high:
         middle = (low + high + 1) // 2
@@ -89,7 +88,7 @@ def most_rows(entry: dict, costs: dict, seconds: float) -> int:
 
 
 def plan(sharing: dict, entry: dict) -> Plan:
-    """How a sweep is shared, by its resolved entry: jobs of the wanted time, unless they were too many."""
+    """The division of a sweep into jobs of the wanted duration, or longer jobs if there were too many."""
     costs, memory = sharing["seconds"], sharing["megabytes"]
     points = count_points(entry["axes"])
     rows = most_rows(entry, costs, THREADS * sharing["job_seconds"])

@@ -1,27 +1,24 @@
-"""What the types of the config cannot say: one line for each contradiction between its parts.
+"""Contradictions between the values of a config: one line each, with the key and the remedy.
 
-Each function takes a config of the right types (see config_model) and gives lines that name the key and the remedy.
+Each check takes a config of the right types with one method per entry, and the default config.
 """
 
 import math
+import re
 from collections.abc import Iterator
+from functools import cache
 
-from workflow.config_types import LIBRARY, ROOT, did_you_mean, shown
-from workflow.known_names import (
-    caption_functions,
-    compared,
-    findings,
-    keys_of,
-    names_asked,
-    names_of_figure,
-    names_of_finding,
-    names_of_template,
-    settings_of_finding,
-)
-from workflow.sharing import plan
-from workflow.tables_of_config import (
+from .errors import suggest_name, type_problems
+from .files import DEFAULT_FILES, ROOT, merge, read_all
+from .machine import is_own_machine
+from .model import MODEL
+from .sharing import plan
+from .tables import (
     ENTRIES,
-    METHODS,
+    METHOD_SECTIONS,
+    TABLES,
+    TIGHTENED,
+    by_methods,
     count_points,
     count_values,
     ends,
@@ -29,11 +26,15 @@ from workflow.tables_of_config import (
     references,
     resolve,
     values_of,
+    with_tighter,
 )
 
-LARGEST_TABLE = 10_000_000  # rows that one job makes, or states that it finds: some hours of a machine
-MOST_STEPS = 10**9  # of one run by a fixed-step method: some ten seconds
-STEPS_IN_A_CYCLE = 20  # at least: fewer do not show an excitation cycle
+# Folders below results/ and figures/ that a prefix would share with the default config.
+RESERVED = {*ENTRIES, *TABLES, "precision", "precision_times", "article", "benchmarks", "captions", "claims", "docs"}
+RESERVED |= {"logs", "report", "runs", "sections", "shards", "site", "site_pages", "archive", "checks"}
+LARGEST_TABLE = 10_000_000  # rows or states of one job, which takes some hours
+MOST_STEPS = 10**9  # of one run with a fixed step, which takes some ten seconds
+STEPS_IN_A_CYCLE = 20  # smallest number of steps that resolves an excitation cycle
 
 
 def whole_steps(duration: float, step: float) -> bool:
@@ -43,7 +44,7 @@ def whole_steps(duration: float, step: float) -> bool:
 
 
 def step_error(step: float, duration: float, frequency: float) -> str | None:
-    """What is wrong with a step (s) of a run (s) at a frequency (Hz), and the remedy."""
+    """The fault of a time step (s) of a run (s) at a frequency (Hz) with its remedy, or None."""
     if step > duration:
         return f"is longer than its duration of {duration!r} s"
     largest = 1.0 / (STEPS_IN_A_CYCLE * frequency)
@@ -64,7 +65,7 @@ def overridden_axes(config: dict) -> Iterator[str]:
 
 
 def steps(config: dict) -> Iterator[str]:
-    for section in (*METHODS, "dimensions"):
+    for section in (*METHOD_SECTIONS, "dimensions"):
         for name, own in config[section].items():
             entry = resolve(config, section, name)
             if "step" not in entry:
@@ -116,31 +117,18 @@ def scans(config: dict) -> Iterator[str]:
     for name, entry in config["critical"].items():
         for part in ("axes", "model"):
             if "z0" in entry.get(part, ()):
-                yield f"critical.{name}.{part}.z0 is what is scanned; give its values as critical.{name}.scan"
-        largest = max(map(abs, ends(entry["scan"])))
-        if entry["resolution"] <= 2.0 * math.ulp(largest):
-            yield (
-                f"critical.{name}.resolution = {entry['resolution']!r} m is below the distance of numbers in double "
-                f"precision; take at least {4.0 * math.ulp(largest):g} m"
-            )
-    for name, entry in config["regressions"].items():
-        if entry["critical"] not in config["critical"]:
-            remedy = did_you_mean(entry["critical"], config["critical"])
-            yield f"regressions.{name}.critical = {entry['critical']!r} is no entry of critical; {remedy}"
+                yield f"critical.{name}.{part}.z0 is the scanned parameter; give its values as critical.{name}.scan"
+        spacing = math.ulp(max(map(abs, ends(entry["scan"]))))
+        if entry["resolution"] <= 2.0 * spacing:
+            key = f"critical.{name}.resolution = {entry['resolution']!r} m"
+            yield f"{key} is below the spacing of floating-point numbers; take at least {4.0 * spacing:g} m"
 
 
 def sensitivity(config: dict) -> Iterator[str]:
     name = config["sensitivity"]["critical"]
-    if name not in config["critical"]:
-        remedy = did_you_mean(name, config["critical"])
-        yield f"sensitivity.critical = {name!r} is no entry of critical; {remedy}"
-        return
-    entry = resolve(config, "critical", name)
-    if set(entry["axes"]) != {"acceleration"} or entry["method"] != "event":
-        yield (
-            f"sensitivity.critical = {name!r} is not over the acceleration alone, or not by the method event; give "
-            "another entry of critical"
-        )
+    entry = resolve(config, "critical", name) if name in config["critical"] else None
+    if entry and (set(entry["axes"]) != {"acceleration"} or entry["method"] != "event"):
+        yield f"sensitivity.critical = {name!r} is not over the acceleration alone, by the method event; name another"
 
 
 def times(config: dict) -> Iterator[str]:
@@ -191,8 +179,8 @@ def sizes(config: dict) -> Iterator[str]:
             rows = points * count_values(entry.get("times") or entry.get("scan") or [None])
             if rows > LARGEST_TABLE:
                 yield (
-                    f"{section}.{name}.axes makes {rows:,} points or rows; at most {LARGEST_TABLE:,} are computed, "
-                    "some hours of a machine: give a smaller num"
+                    f"{section}.{name}.axes makes {rows:,} points or rows; at most {LARGEST_TABLE:,} are computed; "
+                    "give a smaller num"
                 )
     operating = config["operating"]
     starts = count_values(operating["acceleration"]) * operating["starts"]
@@ -200,110 +188,103 @@ def sizes(config: dict) -> Iterator[str]:
         yield f"operating.starts makes {starts:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
 
 
-def tables_of(config: dict) -> Iterator[str]:
-    """References to tables that are none."""
-    known = references(config)
+def unknown_references(config: dict) -> Iterator[str]:
+    """Names of tables, entries and presets that the config does not have."""
+    tables, critical, companion = references(config), config["critical"], config["companion"]
     used = [
-        (f"{user}.{name}.{key}.{role}", reference)
+        (f"{user}.{name}.{key}.{role}", table, tables)
         for user in ("figures", "figures_on_request", "claims")
         for name, entry in config[user].items()
         for key in ("tables", "caption_tables")
-        for role, reference in entry.get(key, {}).items()
+        for role, table in entry.get(key, {}).items()
     ]
-    for key, reference in used:
-        if reference not in known:
-            yield f"{key} = {reference!r} is no entry of the config; {did_you_mean(reference, known)}"
-    for reference in config["scene_budget"]["reasons"]:
-        if reference not in known:
-            yield f"scene_budget.reasons.{reference} is no table of the config; {did_you_mean(reference, known)}"
-
-
-def asked(key: str, given: dict, known: set[str], needed: set[str], user: str) -> Iterator[str]:
-    """Names that `user` does not ask for, and those that it asks for in vain."""
-    for name in given:
+    used += [("scene_budget.reasons", table, tables) for table in config["scene_budget"]["reasons"]]
+    used += [(f"regressions.{name}.critical", one["critical"], critical) for name, one in config["regressions"].items()]
+    used += [("sensitivity.critical", config["sensitivity"]["critical"], critical)]
+    used += [(f"companion.maps[{place}]", name, config["sweeps"]) for place, name in enumerate(companion["maps"])]
+    used += [("companion.opening", companion["opening"], companion["presets"])]
+    used += [("uncertainty.claims", name, config["claims"]) for name in config["uncertainty"]["claims"]]
+    for key, name, known in used:
         if name not in known:
-            yield f"{key}.{name} is an unknown key: {user} does not use it; {did_you_mean(name, sorted(known))}"
-    if missing := sorted(needed - given.keys()):
-        yield f"{key} lacks {', '.join(missing)}, which {user} needs"
+            yield f"{key} = {name!r} is unknown; {suggest_name(name, known)}"
 
 
 def figures(config: dict) -> Iterator[str]:
-    listed = [(section, *one) for section in ("figures", "figures_on_request") for one in config[section].items()]
-    for section, figure, entry in listed:
-        files = [f"scripts/figures/plots/{figure}.py", f"workflow/report/{figure}.rst"]
-        missing = [file for file in files if not (ROOT / file).is_file()]
-        for file in missing:
-            yield f"{section}.{figure} has no {file}; a figure needs a plot script and a caption of its name"
-        for reference in entry["tables"].values():
-            table = entry_of(config, reference)
-            if table and entry["needs"] == "feeding" and table.get("needs") == "vertical":
-                yield f"{section}.{figure} needs feeding, but {reference} is computed for vertical needs only"
-        if missing:
+    for section in ("figures", "figures_on_request"):
+        for figure, entry in config[section].items():
+            for file in (f"scripts/figures/plots/{figure}.py", f"workflow/report/{figure}.rst"):
+                if not (ROOT / file).is_file():
+                    yield f"{section}.{figure} has no {file}; a figure needs a plot script and a caption of its name"
+            for reference in entry["tables"].values():
+                table = entry_of(config, reference)
+                if table and entry["needs"] == "feeding" and table.get("needs") == "vertical":
+                    yield f"{section}.{figure} needs feeding, but {reference} is computed for vertical needs only"
+
+
+def compare_keys(key: str, given: dict, default: dict, may_lack: bool) -> Iterator[str]:
+    """Keys of a mapping that the default config does not have there, and keys that are missing."""
+    for name in (name for name in given if name not in default):
+        yield f"{key}.{name} is an unknown key; {suggest_name(name, default)}"
+    if not may_lack and (missing := [name for name in default if name not in given]):
+        yield f"{key} lacks {', '.join(missing)}"
+
+
+def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
+    """Tables and settings that the default config does not have: no plot script and no finding uses them."""
+    may_lack = is_own_machine(defaults, config)
+    for section in ("figures", "figures_on_request"):
+        for name, entry in config[section].items():
+            default = defaults[section].get(name)
+            for key in ("tables", "caption_tables", "settings") if default else ():
+                yield from compare_keys(f"{section}.{name}.{key}", entry.get(key, {}), default.get(key, {}), may_lack)
+    by_finding = {claim["finding"]: claim for claim in defaults["claims"].values()}
+    for name, entry in config["claims"].items():
+        if entry["finding"] not in by_finding:
+            remedy = suggest_name(entry["finding"], by_finding)
+            yield f"claims.{name}.finding = {entry['finding']!r} is no finding of the default config; {remedy}"
             continue
-        names, user = names_of_figure(figure, "tables"), f"scripts/figures/plots/{figure}.py"
-        given = entry["tables"] | entry.get("caption_tables", {})
-        known = {role for role in given if any(one.knows(role) for one in names)}
-        needed = set().union(*(one.needed for one in names))
-        for key in ("tables", "caption_tables"):
-            yield from asked(f"{section}.{figure}.{key}", entry.get(key, {}), known | needed, set(), user)
-        yield from asked(f"{section}.{figure}.tables", {}, known, needed - given.keys(), user)
-        names, given = names_of_figure(figure, "settings"), entry.get("settings", {})
-        known, needed = (set().union(*(getattr(one, kind) for one in names)) for kind in ("asked", "needed"))
-        yield from asked(f"{section}.{figure}.settings", given, known, needed, user)
-        yield from numbers_of_caption(figure)
+        default = defaults["claims"].get(name, {})
+        if default.get("finding") != entry["finding"]:
+            default = by_finding[entry["finding"]]
+        for key in ("tables", "quantities", "settings"):
+            yield from compare_keys(f"claims.{name}.{key}", entry.get(key, {}), default.get(key, {}), may_lack)
 
 
-def numbers_of_caption(figure: str) -> Iterator[str]:
-    """What the caption of a figure asks for in vain; all are told whether they are about the paper's machine."""
-    wanted, function = names_of_template(ROOT / f"workflow/report/{figure}.rst"), caption_functions().get(figure)
-    given = names_asked("figures.captions", function, "tables") if function else None
-    for name in sorted(name for name in wanted - {"paper"} if not (given and given.knows(name))):
-        lacking = f"{function} does not give it" if function else f"NUMBERS has no function for {figure}"
-        yield f"workflow/report/{figure}.rst asks for {name}, but in scripts/figures/captions.py {lacking}"
+def clashes(config: dict) -> Iterator[str]:
+    """Entries that make the same table. The config still has `methods`."""
+    for section in METHOD_SECTIONS:
+        makers = {}
+        for name, entry in config[section].items():
+            for table in (name, *(f"{name}_{method}" for method in entry.get("methods", ())[1:])):
+                if table in makers:
+                    other = f"{section}.{makers[table]}"
+                    yield f"{section}.{name} and {other} both make the table {section}/{table}; rename one of them"
+                makers[table] = name
 
 
-def claims(config: dict) -> Iterator[str]:
-    for claim, entry in config["claims"].items():
-        finding = entry["finding"]
-        if finding not in findings():
-            remedy = did_you_mean(finding, sorted(findings()))
-            yield f"claims.{claim}.finding = {shown(finding)} is no function of scripts/claims; {remedy}"
-            continue
-        module = finding.split(".")[0]
-        if module not in keys_of("claims.verdicts", "FINDINGS"):
-            yield f"claims.{claim}.finding = {shown(finding)}: add {module} to FINDINGS in scripts/claims/verdicts.py"
-        names = names_of_finding(finding)
-        for key in ("tables", "quantities"):
-            known = {name for name in entry[key] if names.knows(name)}
-            needed = names.needed if key == "tables" else set()
-            yield from asked(f"claims.{claim}.{key}", entry[key], known | needed, set(needed), finding)
-        known, needed = map(set, settings_of_finding(finding))
-        yield from asked(f"claims.{claim}.settings", entry.get("settings", {}), known, needed, finding)
+def tighter_clashes(config: dict) -> Iterator[str]:
+    """Entries with the name of a table of tighter tolerances. The config has no other errors."""
+    tightened = with_tighter(config)
+    for section in TIGHTENED:
+        for name, entry in config[section].items():
+            if tightened[section][name] != entry:
+                yield f"{section}.{name} has the name of a table of tighter tolerances (uncertainty.claims); rename it"
 
 
-def fixed_steps(config: dict) -> Iterator[str]:
-    """Methods of fixed steps that are named and no more."""
-    module, file = "conveyor.methods.fixed_step", "scripts/conveyor/methods/fixed_step.py"
-    stepped, counted = compared(module, "integrate", "integrate_all"), len(LIBRARY["EVALUATIONS"])
-    for place, method in enumerate(LIBRARY["METHODS"]):
-        if method.upper() not in stepped:
-            yield f"method {method}: {file} has no step for it; add one where `integrate` compares `method`"
-        if place >= counted:
-            yield f"method {method}: EVALUATIONS in {file} does not say how often it evaluates the forces; add it"
-        if method not in LIBRARY["GROWTH"]:
-            yield f"method {method}: GROWTH in {file} does not say how it multiplies a decay; add it, or None"
-        if method not in keys_of("figures.style", "METHODS"):
-            yield f"method {method}: METHODS in scripts/figures/style.py has no colour and no name for it; add them"
+def methods(config: dict, defaults: dict) -> Iterator[str]:
+    """Settings of methods that exclude each other. The config still has `methods`."""
+    for section in (*METHOD_SECTIONS, "dimensions"):
+        for name, entry in config[section].items():
+            used = entry.get("methods") or [entry.get("method")]
+            if "method" in entry and "methods" in entry:
+                yield f"{section}.{name} has both method and methods; give methods: [{entry['method']}] alone"
+            elif "step" in entry and used == ["event"] and "step" not in defaults[section].get(name, {}):
+                yield f"{section}.{name}.step is not used by the method event; remove it, or give a fixed-step method"
 
 
-def companion(config: dict) -> Iterator[str]:
-    own = config["companion"]
-    for index, name in enumerate(own["maps"]):
-        if name not in config["sweeps"]:
-            remedy = did_you_mean(name, config["sweeps"])
-            yield f"companion.maps[{index}] = {shown(name)} is no entry of sweeps; {remedy}"
-    if own["opening"] not in own["presets"]:
-        yield f"companion.opening = {shown(own['opening'])} is not one of {', '.join(own['presets'])}"
+def prefix(config: dict) -> Iterator[str]:
+    if config["prefix"] in RESERVED:
+        yield f"prefix = {config['prefix']!r} is a folder of the default results; give another name"
 
 
 def identification(config: dict) -> Iterator[str]:
@@ -314,7 +295,7 @@ def identification(config: dict) -> Iterator[str]:
     for name, evidence in own["evidence"].items():
         for number in evidence["without"]:
             if number not in searched:
-                remedy = did_you_mean(number, searched)
+                remedy = suggest_name(number, searched)
                 yield f"identification.evidence.{name}.without = {number!r} is in no objective; {remedy}"
         left = len(searched) - len(evidence["without"])
         if left <= len(own["bounds"]):
@@ -327,6 +308,7 @@ def identification(config: dict) -> Iterator[str]:
 
 
 CHECKS = (
+    prefix,
     overridden_axes,
     steps,
     perturbations,
@@ -336,15 +318,40 @@ CHECKS = (
     orbits,
     dimensions,
     sizes,
-    tables_of,
+    unknown_references,
     figures,
-    claims,
-    fixed_steps,
-    companion,
     identification,
 )
 
 
-def contradictions(config: dict) -> list[str]:
-    """One line for each contradiction between parts of a config whose types are right."""
-    return [line for check in CHECKS for line in check(config)]
+@cache
+def default_config() -> dict:
+    return merge(*read_all(DEFAULT_FILES))
+
+
+def contradictions(config: dict, defaults: dict) -> Iterator[str]:
+    """One line for each contradiction between values of a config whose types are right."""
+    yield from methods(config, defaults)
+    yield from clashes(config)
+    yield from unused_keys(config, defaults)
+    # Lines about the tables of `methods` name the entry in the file.
+    entries = {
+        f"{section}.{name}_{method}": f"{section}.{name}"
+        for section in METHOD_SECTIONS
+        for name, entry in config[section].items()
+        for method in entry.get("methods", [])[1:]
+    }
+    single = by_methods(config)
+    for line in (line for check in CHECKS for line in check(single)):
+        for table, entry in entries.items():
+            line = re.sub(rf"(?<![\w.]){re.escape(table)}(?=\.)", entry, line)
+        yield line
+
+
+def problems(config: dict, defaults: dict | None = None) -> list[str]:
+    """All errors of a merged config, one line each; empty if there are none."""
+    if errors := type_problems(config):
+        return errors
+    typed = MODEL.validate_python(config)
+    lines = contradictions(typed, default_config() if defaults is None else defaults)
+    return list(dict.fromkeys(lines)) or list(tighter_clashes(by_methods(typed)))

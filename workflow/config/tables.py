@@ -1,10 +1,10 @@
-"""Which tables a config makes, and what each of them depends on."""
+"""The tables of a config, and the settings that each table depends on."""
 
 import math
 
-# Sections that make one table for each of their entries.
+# Sections with one table per entry.
 ENTRIES = ("sweeps", "estimates", "critical", "regressions", "dimensions", "signals", "spectra", "impacts")
-# Sections that make tables of their own, instead of one for each of their entries.
+# Sections with fixed tables.
 TABLES = {
     "orbits": (
         "branches",
@@ -35,22 +35,22 @@ TABLES = {
         "throughput",
     ),
 }
-# Those of them that are made only where they are asked for.
+# Tables that only an explicit target makes.
 ON_REQUEST = ("scaling", "throughput")
-# Tables of the folder of results that another section than that of their name makes.
+# Tables of `results` whose settings stand in a section with another name.
 SECTION_OF = {"budget_times": "scene_budget"}
-# Sections whose tables say what motion a start ends in.
+# Sections that follow initial conditions until the motion settles.
 SETTLING = ("sweeps", "critical", "impacts", "signals", "spectra")
-# Sections whose entries may be followed by a fixed-step method for their duration.
-METHODS = ("sweeps", "estimates", "critical", "signals", "spectra")
+# Sections whose entries may list several methods.
+METHOD_SECTIONS = ("sweeps", "estimates", "critical", "signals", "spectra")
 
-# Sections whose entries have a tolerance, or are made from one that has.
+# Sections whose tables depend on a tolerance, directly or through another table.
 TIGHTENED = ("sweeps", "estimates", "critical", "dimensions", "signals", "spectra", "regressions")
 TIGHTER = "tighter"
 
 
 def entry_of(config: dict, reference: str) -> dict | None:
-    """What the config says about the table SECTION/NAME, or None if there is no such table."""
+    """The settings of the table SECTION/NAME, or None if there is no such table."""
     section, name = reference.split("/")
     if name in TABLES.get(section, ()):
         return config[SECTION_OF.get(name, name) if section == "results" else section]
@@ -60,15 +60,15 @@ def entry_of(config: dict, reference: str) -> dict | None:
 
 
 def kind_of(reference: str) -> str:
-    """The kind of the table SECTION/NAME: sections that make tables of their own have one for each."""
+    """The kind of the table SECTION/NAME: its name in sections with fixed tables, else its section."""
     section, name = reference.split("/")
     return name if section in TABLES else section
 
 
 def by_methods(config: dict) -> dict:
-    """A config whose entries have one method each: NAME the first of its `methods`, NAME_METHOD each of the others."""
+    """A config with one method per entry: NAME has the first of its `methods`, NAME_METHOD each further one."""
     found = dict(config)
-    for section in METHODS:
+    for section in METHOD_SECTIONS:
         found[section] = {}
         for name, entry in config[section].items():
             if "methods" not in entry:
@@ -82,20 +82,20 @@ def by_methods(config: dict) -> dict:
 
 
 def roles_of_solution(tables: dict[str, str]) -> list[str]:
-    """The roles in which a claim reads the converged solution: those that say so, or all of a claim without one."""
+    """The roles of the converged solution among the tables of a claim; all roles if none is named converged."""
     named = [role for role in tables if role.startswith("converged")]
     return named or list(tables)
 
 
 def tighter_reference(config: dict, reference: str) -> str:
-    """The table of tighter tolerances beside a table; the same one if it has no tolerance to be tightened."""
+    """The twin of a table with a tighter tolerance, or the table itself if it has no such twin."""
     section, name = reference.split("/")
     twin = f"{name}_{TIGHTER}"
     return f"{section}/{twin}" if section in ENTRIES and twin in config[section] else reference
 
 
 def with_tighter(config: dict) -> dict:
-    """A config with NAME_tighter beside each entry that says how sure a claim is: the same with a tighter tolerance."""
+    """A config with twins NAME_tighter of the tables behind the claims in `uncertainty`, with a tighter tolerance."""
     found = config | {section: dict(config[section]) for section in TIGHTENED}
 
     def tighten(reference: str) -> None:
@@ -116,14 +116,14 @@ def with_tighter(config: dict) -> dict:
 
 
 def references(config: dict) -> list[str]:
-    """All tables, as SECTION/NAME."""
+    """All tables of a config, as SECTION/NAME."""
     names = {section: config[section] for section in ENTRIES} | TABLES
     names |= dict.fromkeys(("precision", "precision_times"), config["precision"]["scenes"])
     return [f"{section}/{name}" for section, of_section in names.items() for name in of_section]
 
 
 def resolve(config: dict, section: str, name: str) -> dict:
-    """Everything that the table `section`/`name` depends on, defaults filled in, and nothing else."""
+    """All settings that the table `section`/`name` depends on, with the defaults filled in."""
     entry = {
         **{key: config["solver"][key] for key in ("duration", "method", "tolerance", "step")},
         **config[section][name],

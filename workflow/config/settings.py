@@ -8,8 +8,9 @@ import itertools
 import math
 
 from scripts.identification.settings import identification_settings
-from workflow.sharing import THREADS, plan, seconds_of
-from workflow.tables_of_config import ENTRIES, entry_of, kind_of, resolve, roles_of_solution, tighter_reference
+
+from .sharing import THREADS, plan, seconds_of
+from .tables import ENTRIES, entry_of, kind_of, resolve, roles_of_solution, tighter_reference
 
 
 def settings_of(config: dict, reference: str) -> dict | None:

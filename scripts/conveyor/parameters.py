@@ -1,0 +1,60 @@
+"""Names, units and admissible ranges of all parameters, and the words that choose a model or a method.
+
+This module imports nothing slow, so that a program can check its settings without loading NumPy and Numba.
+"""
+
+import math
+
+TENSION_MODES = ("allow", "frictionless", "clip")
+# Compiled kernels receive a conveyor and an initial condition as a vector of parameters in this order.
+DESCRIPTIONS = {
+    "acceleration": "amplitude of the excitation, â",
+    "angle": "angle of throw φ",
+    "frequency": "frequency of the excitation, f",
+    "psi0": "phase of the excitation at t = 0",
+    "stiffness": "contact stiffness k_c",
+    "damping": "contact damping d_c",
+    "friction": "friction coefficient μ",
+    "mass": "mass of the part, m_p",
+    "exponent": "exponent p of the contact law: 1 is Hooke, 1.5 is Hertz",
+    "gravity": "gravitational acceleration g",
+    "tension": "treatment of a contact force that pulls (Eqs. 7 and 11)",
+    "z0": "initial height of the part; the word conveyor puts the part on the plate (Eq. 15)",
+    "vz0": "initial vertical velocity of the part",
+}
+PARAMETERS = tuple(DESCRIPTIONS)
+
+UNITS = {
+    "acceleration": "m/s²",
+    "angle": "rad",
+    "frequency": "Hz",
+    "psi0": "rad",
+    "stiffness": "N/m^p",
+    "damping": "N s/m",
+    "friction": "1",
+    "mass": "kg",
+    "exponent": "1",
+    "gravity": "m/s²",
+    "tension": "",
+    "z0": "m",
+    "vz0": "m/s",
+}
+# Admissible closed intervals. They reject impossible values and common mix-ups of units (degrees for radians, grams for
+# kilograms), not unusual conveyors.
+RANGES = {
+    "acceleration": (0.0, 1e4),
+    "angle": (0.0, 0.5 * math.pi),
+    "frequency": (1e-2, 1e5),
+    "psi0": (-4.0 * math.pi, 4.0 * math.pi),
+    "stiffness": (1.0, 1e15),
+    "damping": (0.0, 1e6),
+    "friction": (0.0, 10.0),
+    "mass": (1e-12, 1e6),
+    "exponent": (1.0, 3.0),
+    "gravity": (1e-3, 1e3),
+    "z0": (-1.0, 10.0),
+    "vz0": (-100.0, 100.0),
+}
+
+# Methods with a fixed step. The position of a name is its code in compiled kernels.
+FIXED_STEP_METHODS = ("euler", "semi_implicit_euler", "rk4")

@@ -1,0 +1,137 @@
+"""The keys of the config for readers: from its JSON Schema, and from the values and comments of the default files."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import yaml
+
+QUOTED = re.compile(r"\"[^\"]*\"|'[^']*'")
+
+
+class Key(NamedTuple):
+    """A key of the schema; NAME stands for a name of the user's choice, [] for a list item."""
+
+    path: tuple[str, ...]
+    allowed: str
+    unit: str
+    description: str
+
+
+class Written(NamedTuple):
+    """A key of a file: its value as written ("" for a block of keys), the comments beside and above it."""
+
+    path: tuple[str, ...]
+    value: str
+    beside: str
+    above: str
+
+
+def options_of(schema: dict, definitions: dict) -> list[dict]:
+    """The alternatives of a part of the schema, with references to shared definitions replaced."""
+    if "$ref" in schema:
+        schema = definitions[schema["$ref"].rpartition("/")[2]] | schema
+    options = schema.get("oneOf") or schema.get("anyOf")
+    return [inner for option in options for inner in options_of(option, definitions)] if options else [schema]
+
+
+def describe_range(schema: dict) -> str:
+    low, high = (schema.get(end, schema.get(f"exclusive{end.capitalize()}")) for end in ("minimum", "maximum"))
+    ends = "[" if "minimum" in schema else "(", "]" if "maximum" in schema else ")"
+    return f"number in {ends[0]}{low:g}, {high:g}{ends[1]}"
+
+
+def describe_values(schema: dict, definitions: dict) -> str:
+    """The admissible values of a key in words."""
+    options = options_of(schema, definitions)
+    if len(options) > 1:
+        return ", or ".join(describe_values(option, definitions) for option in options)
+    match options[0]:
+        case {"patternErrorMessage": expected}:
+            return expected
+        case {"enum": words}:
+            return ", ".join(words)
+        case {"const": word}:
+            return word
+        case {"type": "number"}:
+            return describe_range(options[0])
+        case {"type": "integer"}:
+            return f"whole {describe_range(options[0])}"
+        case {"type": "array", "prefixItems": items}:
+            return f"list of {', '.join(describe_values(item, definitions) for item in items)}"
+        case {"type": "array", "items": item}:
+            return f"list, each {describe_values(item, definitions)}"
+        case {"type": "object", "properties": keys} if keys.keys() == {"start", "stop", "num"}:
+            return "{start, stop, num}"
+        case {"type": "boolean"}:
+            return "true or false"
+        case {"type": "null"}:
+            return "null"
+    return "keys below"
+
+
+def unit_of(schema: dict, definitions: dict) -> str:
+    """The unit of a number, or of the numbers in a list or a span."""
+    for option in options_of(schema, definitions):
+        inner = option.get("items") or option.get("properties", {}).get("start")
+        if unit := option.get("unit") or (unit_of(inner, definitions) if inner else ""):
+            return unit
+    return ""
+
+
+def keys(schema: dict, definitions: dict | None = None, path: tuple[str, ...] = ()) -> Iterator[Key]:
+    """All keys of the schema, in its order."""
+    definitions = schema["$defs"] if definitions is None else definitions
+    (inner, *more), allowed = options_of(schema, definitions), describe_values(schema, definitions)
+    properties = inner.get("properties", {})
+    if path != ("model",) and properties.keys() >= {"acceleration", "mass"}:
+        yield Key(path, "keys of `model`", "", schema["description"])
+    elif properties and allowed == "keys below":
+        for name, item in properties.items():
+            yield from keys(item, definitions, (*path, name))
+    elif allowed == "keys below":
+        of_names = inner.get("additionalProperties") or next(iter(inner["patternProperties"].values()))
+        yield from keys(of_names, definitions, (*path, "NAME"))
+    elif not more and allowed == "list, each keys below":
+        yield from keys(inner["items"], definitions, (*path, "[]"))
+    else:
+        yield Key(path, allowed, unit_of(schema, definitions), schema["description"])
+
+
+def comment_of(line: str) -> str:
+    """The comment at the end of a line, or that which is all of it."""
+    found = re.search(r"(?:^|\s)#\s*(.*)$", QUOTED.sub(lambda quoted: "_" * len(quoted[0]), line))
+    return line[found.start(1) :].strip() if found else ""
+
+
+def above(lines: list[str], line: int) -> str:
+    """The comment on whole lines directly above a line, as deep as it is."""
+    depth = len(lines[line]) - len(lines[line].lstrip())
+    first = line
+    while first and lines[first - 1].startswith(" " * depth + "#"):
+        first -= 1
+    return " ".join(comment_of(text) for text in lines[first:line])
+
+
+def written(text: str) -> Iterator[Written]:
+    """All keys of a file in YAML that begin a line."""
+    lines = text.splitlines()
+
+    def below(node: yaml.Node, path: tuple[str, ...]) -> Iterator[Written]:
+        for key, value in node.value if isinstance(node, yaml.MappingNode) else ():
+            line, column = key.start_mark.line, key.start_mark.column
+            is_block = isinstance(value, yaml.CollectionNode) and not value.flow_style
+            if not lines[line][:column].strip():
+                shown = "" if is_block else " ".join(text[value.start_mark.index : value.end_mark.index].split())
+                yield Written((*path, key.value), shown, comment_of(lines[line]), above(lines, line))
+            # What an alias stands for is written elsewhere.
+            if value.start_mark.index > key.start_mark.index:
+                yield from below(value, (*path, key.value))
+
+    yield from below(yaml.compose(text), ())
+
+
+def all_written(files: list[str]) -> list[Written]:
+    """All keys of some files."""
+    return [key for file in files for key in written(Path(file).read_text(encoding="utf-8"))]
