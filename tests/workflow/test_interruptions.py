@@ -1,4 +1,4 @@
-"""Snakemake ended from outside: a closed terminal leaves nothing behind, a kill a lock of which we name the remedy."""
+"""Snakemake ended from outside: a closed terminal leaves nothing behind; a kill leaves a lock that --unlock removes."""
 
 import os
 import signal
@@ -34,11 +34,10 @@ def test_a_closed_terminal_leaves_no_lock_and_no_process(built, end):
     project.make(target)
 
 
-def test_a_lock_left_behind_is_told_with_the_commands_that_help(built):
+def test_a_killed_run_continues_after_unlock(built):
     project, target, _ = ended(built, "killed", lambda pid: os.killpg(pid, signal.SIGKILL))
     run = project.snakemake(target)
     assert run.returncode != 0
-    assert "snakemake --unlock\n" in run.stdout
-    assert "snakemake --rerun-incomplete" in run.stdout
+    assert "--unlock" in run.stdout
     assert project.snakemake("--unlock").returncode == 0
     project.make(target, "--rerun-incomplete")

@@ -175,7 +175,7 @@ def test_the_named_figures_are_planned(name):
     run = Project(ROOT).called("--dry-run", "--forceall", *targets, "--configfile", str(EXAMPLES[name]))
     assert run.returncode == 0, run.stdout
     for figure in ANY:
-        assert f"plot_{figure} " in run.stdout
+        assert f"Draw {figure}\n" in run.stdout
 
 
 def test_a_figure_that_makes_no_sense_says_so():

@@ -2,7 +2,7 @@
 # shards, so that a cluster can share it; the joined table does not depend on the number of shards.
 
 
-rule shard:
+rule shards:
     output:
         sweeps=table("shards/{name}/{shard}"),
     log:
@@ -26,7 +26,7 @@ rule shard:
         "../../scripts/make.py"
 
 
-rule sweep:
+rule sweeps:
     input:
         shards_of_sweep,
     output:
