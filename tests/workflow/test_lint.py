@@ -7,8 +7,8 @@ import sys
 from project import ROOT
 
 SOURCES = [ROOT / "Snakefile", *(path for path in (ROOT / "workflow").rglob("*") if path.suffix in (".smk", ".py"))]
-# `workflow._x`, `snakemake.x._y`, and imports of modules that Snakemake does not document.
-PRIVATE = re.compile(r"\b(?:workflow|snakemake|scheduler|logger|logging)(?:\.\w+)*\._\w+|\b_\w+ = ")
+# Private names of another object: `workflow._x`, `snakemake.x._y`.
+PRIVATE = re.compile(r"\b\w+\._(?!asdict|replace)[a-z]\w*")  # _asdict and _replace are public, of named tuples
 DOCUMENTED = {"snakemake.exceptions", "snakemake.utils"}
 
 

@@ -72,7 +72,7 @@ rule precision:
 # A machine of the user's own has no fit of the paper's heights unless its config adds one.
 rule precision_estimates:
     input:
-        **tables_of(*(f"critical/{fit['critical']}" for name, fit in config["regressions"].items() if name == "height")),
+        **({"critical": table(f"critical/{PAPER_FIT['critical']}")} if PAPER_FIT else {}),
     output:
         precision_estimates=table("results/precision_estimates"),
     log:
@@ -83,7 +83,7 @@ rule precision_estimates:
         **stage("accuracy.precision_estimates"),
         settings=settings_of(config, "results/precision_estimates"),
         model=model_without_acceleration(config),
-        fit=config["regressions"].get("height"),
+        fit=PAPER_FIT,
     message:
         "Error against work of the estimates"
     script:

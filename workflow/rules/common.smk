@@ -152,6 +152,10 @@ def rows_of_shard(wildcards):
     return [first, min(first + sweep.rows, sweep.points)]
 
 
+# The fit of Eq. 13 as in the paper; None for a machine of the user's own whose config has no such entry.
+PAPER_FIT = config["regressions"].get("height")
+
+
 # -- figures -----------------------------------------------------------------------------------------------------------
 
 FIGURES = config["figures"] | config["figures_on_request"]
