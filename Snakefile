@@ -1,3 +1,6 @@
+import os
+from pathlib import Path
+
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
@@ -6,9 +9,12 @@ from workflow.config.files import DEFAULT_FILES, ROOT, STAGES
 
 min_version("9.27")
 
+# As a module of another workflow, all that counts is the config that the other workflow passes.
+is_module = not Path(workflow.main_snakefile).resolve().is_relative_to(ROOT)
+OVERLAYS = [] if is_module else [os.path.relpath(file) for file in workflow.overwrite_configfiles]
 try:
     # Jobs start Snakemake again; the config has been checked by then.
-    loaded = load_config(DEFAULT_FILES, workflow.overwrite_configfiles, config, check=workflow.is_main_process)
+    loaded = load_config(DEFAULT_FILES, OVERLAYS, config, check=workflow.is_main_process)
 except ConfigError as error:
     raise WorkflowError(str(error))
 # The same object, because Snakemake hands it to the report.

@@ -1,4 +1,4 @@
-"""A made page, kept beside the sources."""
+"""A page or a text that the repository keeps."""
 
 
 def make(page: str) -> str:

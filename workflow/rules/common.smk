@@ -203,9 +203,6 @@ TESTED_TABLES = [
 ]
 
 
-OVERLAYS = [os.path.relpath(file) for file in workflow.overwrite_configfiles]
-
-
 # -- builds ------------------------------------------------------------------------------------------------------------
 
 

@@ -281,3 +281,20 @@ rule picture:
         "The picture {wildcards.figure} of the documentation"
     script:
         "../../scripts/make.py"
+
+
+# The JSON Schema of the config, which the repository keeps for editors: snakemake --force config/schema.json
+rule schema:
+    output:
+        schema="config/schema.json",
+    log:
+        log_file("docs/schema"),
+    benchmark:
+        benchmark_file("docs/schema")
+    params:
+        **stage("docs.copy_page"),
+        page=lambda wildcards: json_schema(),
+    message:
+        "The JSON Schema of the config"
+    script:
+        "../../scripts/make.py"
