@@ -5,6 +5,7 @@ it is and what was computed (model, duration, method, …) stand there, too; pan
 `attrs`. A column of settings, such as an axis, comes first.
 """
 
+import glob
 import json
 import os
 import tempfile
@@ -65,9 +66,11 @@ def make(kind: str, schema: Sequence[pa.Field], columns: Mapping[str, Sequence],
 
 @contextmanager
 def replaced(path: str | Path) -> Iterator[str]:
-    """A file to write in place of `path`, which it replaces at once when all is written, or not at all."""
+    """A file to write in place of `path`, which it replaces at once when all is written, or not at all.
+
+    Every writer has a file of its own. Once a table is complete, files that killed writers left beside it are removed.
+    """
     path = Path(path)
-    # A name of its own, so that two writers of one table cannot hurt each other.
     handle, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
     os.close(handle)
     try:
@@ -77,6 +80,8 @@ def replaced(path: str | Path) -> Iterator[str]:
     except BaseException:
         os.unlink(part)
         raise
+    for left in path.parent.glob(f".{glob.escape(path.name)}.*.part"):
+        left.unlink(missing_ok=True)
 
 
 def encoding(schema: pa.Schema) -> dict[str, Any]:

@@ -1,7 +1,10 @@
 """Tables: kinds, units, equal bytes, all or nothing, errors that name the column or the file."""
 
 import json
+import subprocess
+import sys
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -9,6 +12,7 @@ import pytest
 
 from pipeline import fields, tables
 
+SCRIPTS = Path(tables.__file__).parents[1]
 SETTINGS = {"model": {"mass": 0.7e-3}, "duration": 1.0}
 SCHEMA = [fields.AXES["acceleration"], fields.number("lambda", "1/s", "an exponent")]
 
@@ -106,6 +110,21 @@ def test_two_writers_of_a_table_have_files_of_their_own(path, monkeypatch):
     for _ in range(2):
         tables.write(path, made())
     assert len(set(places)) == 2
+
+
+def test_a_killed_writer_leaves_no_file_behind_for_good(path):
+    """SIGKILL while a table is written, and the table written again."""
+    code = (
+        "import sys, time\nfrom pipeline import tables\n"
+        "with tables.replaced(sys.argv[1]): print(flush=True); time.sleep(60)"
+    )
+    with subprocess.Popen([sys.executable, "-c", code, str(path)], stdout=subprocess.PIPE, cwd=SCRIPTS) as process:
+        process.stdout.readline()
+        process.kill()
+    (left,) = path.parent.iterdir()
+    assert left.name.endswith(".part")
+    tables.write(path, made())
+    assert [file.name for file in path.parent.iterdir()] == ["a.parquet"]
 
 
 def damaged(path):

@@ -1,0 +1,86 @@
+"""The comparison of two builds: exact, within a tolerance, and what it must not miss."""
+
+import subprocess
+import sys
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+from project import ROOT
+
+from builds.manifest import MAY_DIFFER
+
+TABLE = {"x": [1.0, 2.0, None], "state": ["first", "second", None], "list": [[1.0], [], [2.0, None]]}
+
+
+@pytest.fixture
+def folders(tmp_path):
+    """Two folders with the same table below them, and a function that changes the second one."""
+    for name in ("one", "other"):
+        (tmp_path / name / "sweeps").mkdir(parents=True)
+        pq.write_table(pa.table(TABLE), tmp_path / name / "sweeps/a.parquet")
+
+    def change(name="sweeps/a.parquet", **columns):
+        pq.write_table(pa.table(TABLE | columns), tmp_path / "other" / name)
+        return tmp_path
+
+    return change
+
+
+def run(folder, *arguments):
+    command = [sys.executable, str(ROOT / "scripts/compare_builds.py"), "one", "other", *arguments]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+
+
+def test_equal_tables(folders):
+    found = run(folders())
+    assert found.returncode == 0, found.stderr
+    assert found.stdout == "1 tables: 1 equal\n"
+
+
+def test_a_difference_within_the_tolerance(folders):
+    folder = folders(x=[1.0, 2.0 + 1e-12, None])
+    found = run(folder)
+    assert found.returncode == 0
+    assert "sweeps/a.parquet: within tolerance\n    x: 1 of 3 rows, by at most 1e-12 (relative 5e-13)" in found.stdout
+    assert run(folder, "--tolerance", "0").returncode == 1
+
+
+@pytest.mark.parametrize(
+    ("columns", "message"),
+    [
+        ({"x": [1.0, 2.1, None]}, "x: 1 of 3 rows, by at most 0.1 (relative 0.0476), first in row 1, 2 and 2.1"),
+        ({"x": [1.0, 2.0, 0.0]}, "x: 1 of 3 rows, by at most inf"),
+        ({"state": ["first", "chaos", None]}, "state: first in row 1, second and chaos"),
+        ({"list": [[1.0], [], [2.0, 1.0]]}, "list: first in row 2"),
+        ({"more": [1, 2, 3]}, "columns: more: int64"),
+        ({name: values[:2] for name, values in TABLE.items()}, "rows: 3 and 2"),
+    ],
+)
+def test_a_difference_is_named(folders, columns, message):
+    found = run(folders(**columns))
+    assert found.returncode == 1
+    assert "sweeps/a.parquet: DIFFERENT" in found.stdout
+    assert message in found.stdout
+
+
+def test_a_table_of_one_build_only(folders):
+    found = run(folders("sweeps/b.parquet"))
+    assert found.returncode == 1
+    assert "sweeps/b.parquet: DIFFERENT\n    only in other" in found.stdout
+
+
+def test_measured_times_do_not_count(folders):
+    folder = folders(x=[5.0, 2.0, None])
+    (folder / "one/manifest.sha256").write_text(f"{MAY_DIFFER}one/sweeps/a.parquet\n")
+    found = run(folder)
+    assert found.returncode == 0
+    assert "1 tables: 1 measured times" in found.stdout
+
+
+def test_a_folder_without_tables_is_an_error(folders):
+    folder = folders()
+    (folder / "one/sweeps/a.parquet").unlink()
+    found = run(folder)
+    assert found.returncode == 2
+    assert "one has no tables" in found.stderr
