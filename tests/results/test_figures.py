@@ -71,12 +71,12 @@ class Drawn(NamedTuple):
 def drawn(request, tmp_path_factory):
     """Each figure in turn: pytest puts the tests of a figure behind each other."""
     entry = ENTRIES[request.param]
-    paths, kinds = {}, {}
+    paths, expected = {}, {}
     for role, reference in entry["tables"].items():
         section, table = reference.split("/")
         paths[role] = RESULTS / (f"{table}.parquet" if section == "results" else f"{reference}.parquet")
-        kinds[role] = kind_of(reference)
-    figure = draw(request.param, paths, kinds, entry.get("settings", {}), asked={})
+        expected[paths[role]] = [kind_of(reference)]
+    figure = draw(request.param, paths, expected, entry.get("settings", {}))
     copy = tmp_path_factory.mktemp("page") / "page.pdf"
     style.save(figure, [str(copy)])
     FigureCanvasAgg(figure)  # measures texts

@@ -213,12 +213,20 @@ def tables_read():
     }
 
 
+# Files that no figure reads, and the tables that are made with them.
+MADE_WITH = {
+    table("identification/implied"): table("identification/profiles"),
+    table("sensitivity/groups"): table("sensitivity/derivatives"),
+    result("benchmark.md"): table("results/benchmark"),
+}
+
+
 def built_files():
     """All results and figures of the manifest."""
     figures = [*figure_files(), *figure_files("png"), *caption_files()]
     tables = {table("results/claims"), *tables_read(), *TESTED_TABLES}
-    pages = [result("claims.md"), *([result("benchmark.md")] if table("results/benchmark") in tables else [])]
-    return sorted({*figures, *pages, *tables})
+    beside = [file for file, made_with in MADE_WITH.items() if made_with in tables]
+    return sorted({*figures, result("claims.md"), *tables, *beside})
 
 
 def holds_times(reference):
