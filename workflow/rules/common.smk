@@ -253,7 +253,7 @@ def archived_sources():
     """The sources that redraw the figures of an archive and remake its results, and the overlays."""
     top = ["Snakefile", "README.md", "LICENSE", "CITATION.cff", "CONTRIBUTING.md", "CHANGELOG.md", "pyproject.toml"]
     folders = ["config/**/*", "workflow/**/*", "profiles/**/*", "scripts/**/*", "tests/**/*"]
-    files = [file for pattern in (*top, "environment.txt", *folders) for file in sources(pattern)]
+    files = [file for pattern in (*top, "environment.txt", "conveyor.def", *folders) for file in sources(pattern)]
     inside = [file for file in OVERLAYS if not file.startswith("..")]
     return [file for file in dict.fromkeys([*files, *inside]) if Path(file).is_file() and "__pycache__" not in file]
 
