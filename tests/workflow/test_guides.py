@@ -46,9 +46,10 @@ def test_github_runs_the_same_script_with_pinned_actions():
     versions = actions["jobs"]["ci"]["strategy"]["matrix"]["python"]
     readme = (ROOT / "README.md").read_text()
     assert f"Python {', '.join(versions[:-1])} or {versions[-1]}" in readme
-    assert f'requires-python = ">={versions[0]},<3.{int(versions[-1].split(".")[1]) + 1}"' in (
-        ROOT / "pyproject.toml"
-    ).read_text()
+    assert (
+        f'requires-python = ">={versions[0]},<3.{int(versions[-1].split(".")[1]) + 1}"'
+        in (ROOT / "pyproject.toml").read_text()
+    )
 
 
 def test_the_catalogue_finds_what_it_asks_for():

@@ -3,6 +3,7 @@
 import pytest
 from project import ROOT
 
+from scripts.conveyor.solver import imports
 from workflow import source_hash
 
 # Stages that call the functions of others: the budget makes what figures draw once more, in other ways.
@@ -72,7 +73,8 @@ def test_hash_changes_with_what_is_imported_only(scripts):
     def write(file: str, text: str) -> None:
         (scripts / file).write_text(text)
         # A process reads each file once.
-        source_hash.direct_imports.cache_clear()
+        imports.parse.cache_clear()
+        imports.direct_imports.cache_clear()
         source_hash.content.cache_clear()
 
     before = source_hash.source_hash("read")
@@ -147,5 +149,5 @@ def test_only_a_stage_itself_holds_the_columns_of_its_tables(stage):
 
 def test_the_library_knows_nothing_of_snakemake():
     for module in (source_hash.SCRIPTS / "conveyor").rglob("*.py"):
-        imported = {name.split(".")[0] for name, _ in source_hash.imported_names(module)}
+        _, imported = imports.direct_imports(module, source_hash.SCRIPTS)
         assert not imported & {"snakemake", "workflow", "pipeline", "pandas", "pyarrow"}, module

@@ -6,6 +6,7 @@ leaves those of other modules alone; equal sources share one between clones, and
 """
 
 import ast
+import ast
 import hashlib
 import os
 import platform
@@ -19,46 +20,24 @@ import llvmlite
 import numba
 from numba.core.caching import _CacheLocator
 
+from .imports import all_imports, parse
+
 LIBRARY = Path(__file__).resolve().parents[1]
 
 
 @cache
-def parsed(module: Path) -> ast.Module:
-    return ast.parse(module.read_bytes())
-
-
-@cache
-def imported(module: Path) -> tuple[Path, ...]:
-    """The files of the library that a module of it imports itself."""
-    found = set()
-    for node in ast.walk(parsed(module)):
-        if isinstance(node, ast.ImportFrom) and node.level:
-            base = module.parents[node.level - 1].joinpath(*(node.module or "").split("."))
-            found |= {base / f"{alias.name}.py" for alias in node.names} | {base.with_suffix(".py")}
-    return tuple(sorted(path for path in found if path.is_file()))
-
-
-@cache
-def said(module: Path) -> bytes:
-    """The name of a module and what Python reads there; it takes milliseconds, and many modules import the same one."""
-    return f"{module.relative_to(LIBRARY)}\0{ast.dump(parsed(module))}\0".encode()
+def syntax(module: Path) -> bytes:
+    """The name of a module and its syntax tree, which comments and the places of lines do not change."""
+    return f"{module.relative_to(LIBRARY)}\0{ast.dump(parse(module))}\0".encode()
 
 
 @cache
 def content(module: Path) -> str:
-    """First 16 hexadecimal digits of the SHA-256 of a module, all that it imports at any depth, and the compilers.
-
-    What is hashed is what Python reads: comments and the places of lines do not count.
-    """
-    files, waiting = set(), [module]
-    while waiting:
-        file = waiting.pop()
-        if file not in files:
-            files.add(file)
-            waiting += imported(file)
+    """First 16 hexadecimal digits of the SHA-256 of a module, all that it imports at any depth, and the compilers."""
+    files, _ = all_imports([module], LIBRARY.parent, LIBRARY.name)
     digest = hashlib.sha256(f"{platform.python_version()} {numba.__version__} {llvmlite.__version__}".encode())
-    for file in sorted(files):
-        digest.update(said(file))
+    for file in files:
+        digest.update(syntax(file))
     return digest.hexdigest()[:16]
 
 

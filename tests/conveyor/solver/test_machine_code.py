@@ -6,9 +6,9 @@ import tempfile
 
 import pytest
 
-from conveyor.solver import machine_code
+from conveyor.solver import imports, machine_code
 
-CACHED = (machine_code.parsed, machine_code.imported, machine_code.said, machine_code.content)
+CACHED = (imports.parse, imports.direct_imports, machine_code.syntax, machine_code.content)
 
 
 @pytest.fixture
