@@ -6,7 +6,6 @@ leaves those of other modules alone; equal sources share one between clones, and
 """
 
 import ast
-import ast
 import hashlib
 import os
 import platform
