@@ -7,13 +7,14 @@ import subprocess
 import sys
 
 
-def make(results: str, figures: dict) -> str:
+def make(results: str, figures: dict, tests: str) -> str:
     """How many tests passed, in pytest's words.
 
     Parameters
     ----------
     results : folder of the results
     figures : the section `figures` of the config
+    tests : folder of the tests
 
     Raises
     ------
@@ -23,7 +24,7 @@ def make(results: str, figures: dict) -> str:
     environment = {"CONVEYOR_RESULTS": results, "CONVEYOR_FIGURES": json.dumps(figures)}
     run = subprocess.run(
         # The interpreter that runs this: another one on PATH, or none, is no concern of ours.
-        [sys.executable, "-m", "pytest", "tests/results", "--dist=worksteal"],
+        [sys.executable, "-m", "pytest", tests, "--dist=worksteal"],
         env={**os.environ, **environment},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

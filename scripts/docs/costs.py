@@ -10,11 +10,21 @@ import pandas as pd
 EVERYTHING = "everything"
 
 
-def summary(targets: list[str], configfiles: list[str]) -> pd.DataFrame:
+def summary(targets: list[str], snakefile: str, configfiles: list[str]) -> pd.DataFrame:
     """Snakemake's own account of all files behind some targets: output_file, rule, log-file(s), input-file(s), …"""
     options = ["--configfile", *configfiles] if configfiles else []
     run = subprocess.run(
-        [sys.executable, "-m", "snakemake", "--nolock", "--detailed-summary", *targets, *options],
+        [
+            sys.executable,
+            "-m",
+            "snakemake",
+            "--snakefile",
+            snakefile,
+            "--nolock",
+            "--detailed-summary",
+            *targets,
+            *options,
+        ],
         stdout=subprocess.PIPE,
         text=True,
         check=True,
@@ -43,9 +53,9 @@ def cost(files: set[str]) -> tuple[float, float]:
     return float(rows["s"].sum()), float(rows["max_rss"].max())
 
 
-def make(files: dict[str, list[str]], configfiles: list[str]) -> str:
+def make(files: dict[str, list[str]], snakefile: str, configfiles: list[str]) -> str:
     """What some things cost, by the files that each is made from: seconds, MiB and the number of jobs, as JSON."""
-    table = summary(sorted({file for of_one in files.values() for file in of_one}), configfiles)
+    table = summary(sorted({file for of_one in files.values() for file in of_one}), snakefile, configfiles)
     jobs = {name: set().union(*(jobs_of(file, table) for file in of_one)) for name, of_one in files.items()}
     found = {}
     for name, benchmarks in (jobs | {EVERYTHING: set().union(*jobs.values())}).items():

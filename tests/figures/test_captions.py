@@ -101,7 +101,7 @@ def test_costs_are_those_of_all_jobs_behind_a_figure():
 def test_the_workflow_tells_its_own_jobs(built, monkeypatch):
     """A sweep has its shards and their states behind it."""
     monkeypatch.chdir(built.folder)
-    jobs = costs.jobs_of("figures/fig08.pdf", costs.summary(["figures/fig08.pdf"], []))
+    jobs = costs.jobs_of("figures/fig08.pdf", costs.summary(["figures/fig08.pdf"], "Snakefile", []))
     names = {job.removeprefix("results/benchmarks/") for job in jobs}
     methods = ("amplitudes", "amplitudes_euler")
     assert names == {

@@ -9,8 +9,9 @@ from pathlib import Path
 import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
-RESULTS = (ROOT / os.environ.get("CONVEYOR_RESULTS", "results")).resolve()
-FIGURES = ROOT / "figures" / RESULTS.relative_to(ROOT / "results")
+RESULTS = Path(os.environ.get("CONVEYOR_RESULTS", ROOT / "results")).resolve()
+PREFIX = [] if RESULTS.name == "results" else [RESULTS.name]
+FIGURES = RESULTS.parents[len(PREFIX)].joinpath("figures", *PREFIX)
 
 
 def entries() -> dict[str, dict]:

@@ -55,10 +55,10 @@ def test_results_are_checked_by_the_interpreter_that_runs_snakemake(tmp_path, mo
     test.write_text("def test_one():\n    pass\n")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PATH", "/nowhere")
-    assert check_results.make("results", {}) == "1 passed\n"
+    assert check_results.make("results", {}, "tests/results") == "1 passed\n"
     test.write_text("def test_one():\n    assert 1 == 2\n")
     with pytest.raises(RuntimeError, match="assert 1 == 2"):
-        check_results.make("results", {})
+        check_results.make("results", {}, "tests/results")
 
 
 def test_no_rule_leaves_its_command_to_the_path():
