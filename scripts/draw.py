@@ -26,7 +26,7 @@ def draw(name: str, paths: Mapping[str, str], expected: Mapping[str, list], sett
     """
     plot = importlib.import_module(f"figures.plots.{name}").plot
     with style.applied():
-        return plot({role: tables.read(path, *expected[path]) for role, path in paths.items()}, settings)
+        return plot(**{role: tables.read(path, *expected[path]) for role, path in paths.items()}, **settings)
 
 
 if __name__ == "__main__":

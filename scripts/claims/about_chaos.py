@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from claims import about_proofs
-from claims.finding import METHODS, NONE, Finding, by_both, lowest, onset, told
+from claims.finding import METHODS, NONE, Finding, by_both, by_method, lowest, onset, told
 
 LONGEST_PERIOD = 64  # excitation cycles
 BACK = 0.05  # of the largest position or velocity: nearer than that, a motion has come back
@@ -24,33 +24,36 @@ def least_return(run: pd.DataFrame) -> tuple[float, int]:
     return min(distances), int(np.argmin(distances)) + 1
 
 
-def no_period(tables: dict[str, pd.DataFrame]) -> Finding:
+def no_period(*, euler: pd.DataFrame, converged: pd.DataFrame, horseshoes: pd.DataFrame | None = None) -> Finding:
     """Share of the starts whose motion has no period of up to 64 cycles at the end of a long run."""
-    returns = {method: [least_return(run) for _, run in tables[method].groupby("z0")] for method in METHODS}
+
+    def all_returns(table: pd.DataFrame) -> list[tuple[float, int]]:
+        return [least_return(run) for _, run in table.groupby("z0")]
+
+    returns = by_method(all_returns, euler, converged)
     nearest = {method: min(found) for method, found in returns.items()}
     note = "the motions come back no nearer than " + " and ".join(
         f"{100 * distance:.2g} % of their extent, after {period} cycles ({NAMES[method]})"
         for method, (distance, period) in nearest.items()
     )
     shares = ({"share": float(np.mean([distance > BACK for distance, _ in found]))} for found in returns.values())
-    return Finding(*shares, note + about_proofs.chaotic(tables))
+    return Finding(*shares, note + about_proofs.chaotic(horseshoes))
 
 
-def irregular(tables: dict[str, pd.DataFrame]) -> Finding:
+def irregular(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
     """Median step of the velocity from one initial height to the next over its standard deviation."""
 
     def step(table):
         velocity = table.sort_values("z0").mean_velocity.to_numpy()
         return np.median(np.abs(np.diff(velocity))) / np.std(velocity)
 
-    return by_both("step", step, tables)
+    return by_both("step", step, euler, converged)
 
 
-def height_estimate(tables: dict[str, pd.DataFrame]) -> Finding:
+def height_estimate(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
     """Lowest amplitude (m/s²) with a positive estimate, and changes of its sign between 50 and 60 m/s²."""
     found = []
-    for method in METHODS:
-        table = tables[method]
+    for table in (euler, converged):
         between = table[(table.acceleration >= 50.0) & (table.acceleration <= 60.0)]
         changes = float((np.diff(np.sign(between["lambda"])) != 0.0).sum())
         found.append({"lowest_positive": lowest(table[table["lambda"] > 0.0].acceleration), "changes": changes})
@@ -61,14 +64,20 @@ def positive_onset(table: pd.DataFrame) -> float:
     return onset(table.acceleration.to_numpy(), (table["lambda"] > 0.0).to_numpy())
 
 
-def phase_estimate(tables: dict[str, pd.DataFrame]) -> Finding:
-    found = {method: positive_onset(tables[method]) for method in METHODS}
-    states = tables["states"]
+def phase_estimate(
+    *,
+    euler: pd.DataFrame,
+    converged: pd.DataFrame,
+    states: pd.DataFrame,
+    estimates: pd.DataFrame,
+    certificates: pd.DataFrame | None = None,
+) -> Finding:
+    found = by_method(positive_onset, euler, converged)
     settled = states[(states.acceleration >= found["euler"]) & (states.acceleration < found["converged"])]
     settled = settled[settled.z0 == settled.z0.min()]
     between = {
         method: table[(table.acceleration >= found["euler"]) & (table.acceleration < found["converged"])]["lambda"]
-        for method, table in ((method, tables[method]) for method in METHODS)
+        for method, table in (("euler", euler), ("converged", converged))
     }
     texts = [
         f"{100 * (values > 0.0).mean():.0f} % of the amplitudes {NAMES[method]} (median {values.median():+.2f} 1/s)"
@@ -76,18 +85,17 @@ def phase_estimate(tables: dict[str, pd.DataFrame]) -> Finding:
     ]
     note = (
         f"between {told(found['euler'])} and {told(found['converged'])} the estimate is positive at {texts[0]} and at "
-        f"{texts[1]}, and {100 * (settled.period > 0).mean():.0f} % settle to a period; {of_perturbations(tables)}"
+        f"{texts[1]}, and {100 * (settled.period > 0).mean():.0f} % settle to a period; {of_perturbations(estimates)}"
     )
-    proved = about_proofs.regular(tables, found["euler"])
+    proved = about_proofs.regular(certificates, found["euler"])
     return Finding(*({"amplitude": found[method]} for method in METHODS), note + proved)
 
 
-def of_perturbations(tables: dict[str, pd.DataFrame]) -> str:
+def of_perturbations(estimates: pd.DataFrame) -> str:
     """How the estimate in a regular motion depends on the perturbation."""
-    table = tables["estimates"]
-    rows = table[(table.panel == "perturbation") & (table.case == "orbit_phase")]
+    rows = estimates[(estimates.panel == "perturbation") & (estimates.case == "orbit_phase")]
     by_euler, converged = (rows[rows.estimator == method].value for method in ("euler", "event"))
-    acceleration = table.attrs["exponent"]["cases"]["orbit_phase"]["acceleration"]
+    acceleration = estimates.attrs["exponent"]["cases"]["orbit_phase"]["acceleration"]
     return (
         f"at {acceleration:g} m/s², a settled motion, perturbations from {rows.epsilon.min():g} to "
         f"{rows.epsilon.max():g} rad give {by_euler.min():+.2f} to {by_euler.max():+.2f} 1/s by the paper's method and "
@@ -95,19 +103,20 @@ def of_perturbations(tables: dict[str, pd.DataFrame]) -> str:
     )
 
 
-def portraits(tables: dict[str, pd.DataFrame]) -> Finding:
+def portraits(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
     """Dimensions of the portraits in the first state, the second state and chaos."""
-    found = {}
-    for method in METHODS:
-        table = tables[method].sort_values(["acceleration", "z0"])
+
+    def dimensions(table: pd.DataFrame) -> dict[str, float]:
+        table = table.sort_values(["acceleration", "z0"])
         low, high = (table[table.acceleration == end] for end in (table.acceleration.min(), table.acceleration.max()))
         values = (*map(float, low.dimension), float(high.dimension.iloc[0]))
-        found[method] = dict(zip(("first", "second", "chaos"), values, strict=True))
-    errors = tables["converged"].sort_values(["acceleration", "z0"]).error
+        return dict(zip(("first", "second", "chaos"), values, strict=True))
+
+    found = by_method(dimensions, euler, converged)
     texts = {method: ", ".join(f"{value:.3f}" for value in values.values()) for method, values in found.items()}
     note = (
-        f"converged {texts['converged']} with 95 % intervals of at most ±{errors.max():.2f}; boxes counted as in the "
-        f"paper take the transient and too few scales: {texts['euler']}"
+        f"converged {texts['converged']} with 95 % intervals of at most ±{converged.error.max():.2f}; boxes counted as "
+        f"in the paper take the transient and too few scales: {texts['euler']}"
     )
     return Finding(found["euler"], found["converged"], note)
 
@@ -125,33 +134,39 @@ def dimension_onset(table: pd.DataFrame) -> float:
     return onset(rows.acceleration.to_numpy(), (rows.dimension > middle).to_numpy())
 
 
-def predicted_onset(tables: dict[str, pd.DataFrame]) -> Finding:
+def predicted_onset(
+    *,
+    euler: pd.DataFrame,
+    converged: pd.DataFrame,
+    euler_exponent: pd.DataFrame,
+    converged_exponent: pd.DataFrame,
+    states: pd.DataFrame,
+) -> Finding:
     """Distance (m/s²) between the onset by dimension and the onset by the exponent of Fig. 22, and fluctuation: largest
     step of the dimension between neighbouring amplitudes at which it is known.
     """
     found = []
-    for method in METHODS:
-        by_dimension, by_exponent = dimension_onset(tables[method]), positive_onset(tables[f"{method}_exponent"])
-        steps = np.abs(np.diff(known_dimensions(tables[method]).dimension))
+    for table, exponent in ((euler, euler_exponent), (converged, converged_exponent)):
+        by_dimension, by_exponent = dimension_onset(table), positive_onset(exponent)
+        steps = np.abs(np.diff(known_dimensions(table).dimension))
         found.append(
             {"distance": abs(by_dimension - by_exponent), "largest_step": float(steps.max()) if len(steps) else NONE}
         )
-    unknown = tables["converged"][tables["converged"].dimension.isna()].acceleration
+    unknown = converged[converged.dimension.isna()].acceleration
     note = (
-        f"by dimension chaos begins at {told(dimension_onset(tables['converged']))}, by the estimate of Fig. 22 at "
-        f"{told(positive_onset(tables['converged_exponent']))}; by the paper's method at "
-        f"{told(dimension_onset(tables['euler']))} and {told(positive_onset(tables['euler_exponent']))}, where the "
-        f"second state begins: its boxes give {dimension_range(tables, 'second')} in that and "
-        f"{dimension_range(tables, 'chaos')} in chaos; converged portraits have no scaling region at {len(unknown)} of "
-        f"{len(tables['converged'])} amplitudes"
+        f"by dimension chaos begins at {told(dimension_onset(converged))}, by the estimate of Fig. 22 at "
+        f"{told(positive_onset(converged_exponent))}; by the paper's method at "
+        f"{told(dimension_onset(euler))} and {told(positive_onset(euler_exponent))}, where the "
+        f"second state begins: its boxes give {dimension_range(euler, states, 'second')} in that and "
+        f"{dimension_range(euler, states, 'chaos')} in chaos; converged portraits have no scaling region at "
+        f"{len(unknown)} of {len(converged)} amplitudes"
     )
     return Finding(*found, note)
 
 
-def dimension_range(tables: dict[str, pd.DataFrame], state: str) -> str:
+def dimension_range(euler: pd.DataFrame, states: pd.DataFrame, state: str) -> str:
     """Least and largest dimension by the paper's boxes of the motions that settle to a state, from the same start."""
-    states = tables["states"]
     states = states[states.z0 == states.z0.min()].sort_values("acceleration")[["acceleration", "state"]]
-    rows = pd.merge_asof(tables["euler"].sort_values("acceleration"), states, on="acceleration", direction="nearest")
+    rows = pd.merge_asof(euler.sort_values("acceleration"), states, on="acceleration", direction="nearest")
     found = rows[rows.state == state].dimension
     return f"{found.min():.2f} to {found.max():.2f}"

@@ -1,4 +1,4 @@
-"""What the certificates prove of the statements: sentences for their reasons, empty where there are no certificates."""
+"""What the certificates prove of the statements: sentences for their reasons, empty without the table of proofs."""
 
 import pandas as pd
 
@@ -20,11 +20,11 @@ def stable_motions(table: pd.DataFrame) -> pd.Series:
     return pd.Series({amplitude: count(rows) for amplitude, rows in stable.groupby("acceleration")}, dtype=int)
 
 
-def both_states(tables: dict[str, pd.DataFrame]) -> str:
+def both_states(certificates: pd.DataFrame | None) -> str:
     """At which amplitudes a riding or bouncing motion and a jumping one are proved to be stable both."""
-    if "certificates" not in tables:
+    if certificates is None:
         return ""
-    counts = stable_motions(tables["certificates"])
+    counts = stable_motions(certificates)
     amplitudes = counts.index[counts >= 2]
     if not len(amplitudes):
         return ""
@@ -34,11 +34,11 @@ def both_states(tables: dict[str, pd.DataFrame]) -> str:
     )
 
 
-def regular(tables: dict[str, pd.DataFrame], begin: float) -> str:
+def regular(certificates: pd.DataFrame | None, begin: float) -> str:
     """At which amplitudes from `begin` (m/s²) on a periodic motion is proved to be stable."""
-    if "certificates" not in tables:
+    if certificates is None:
         return ""
-    counts = stable_motions(tables["certificates"])
+    counts = stable_motions(certificates)
     amplitudes = counts.index[counts.index >= begin]
     if not len(amplitudes):
         return ""
@@ -48,11 +48,11 @@ def regular(tables: dict[str, pd.DataFrame], begin: float) -> str:
     )
 
 
-def chaotic(tables: dict[str, pd.DataFrame]) -> str:
+def chaotic(horseshoes: pd.DataFrame | None) -> str:
     """At which amplitudes chaotic motions are proved to exist."""
-    if "horseshoes" not in tables:
+    if horseshoes is None:
         return ""
-    rows = tables["horseshoes"][tables["horseshoes"].proved]
+    rows = horseshoes[horseshoes.proved]
     if rows.empty:
         return ""
     amplitudes = ", ".join(f"{acceleration:g}" for acceleration in rows.acceleration)

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from claims import about_proofs
-from claims.finding import METHODS, NONE, Finding, by_both, highest, lowest, onset, told
+from claims.finding import METHODS, NONE, Finding, by_both, by_method, highest, lowest, onset, told
 
 MM = 1e3
 LINE = 0.02  # of the largest amplitude: what a reader sees as a line in a spectrum
@@ -17,8 +17,8 @@ def second_from_rest(table: pd.DataFrame) -> float:
     return lowest(table[(table.z0 == 0.0) & (table.state != "first")].acceleration)
 
 
-def critical_acceleration(tables: dict[str, pd.DataFrame]) -> Finding:
-    return by_both("critical_amplitude", second_from_rest, tables)
+def critical_acceleration(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
+    return by_both("critical_amplitude", second_from_rest, euler, converged)
 
 
 def two_states(table: pd.DataFrame) -> tuple[float, float]:
@@ -33,21 +33,27 @@ def readings(table: pd.DataFrame, text: Callable[[pd.DataFrame], str]) -> str:
     return ", ".join(f"{text(rows)} ({mode})" for mode, rows in table.groupby("tension"))
 
 
-def interval(tables: dict[str, pd.DataFrame]) -> Finding:
-    ends = {
-        method: dict(zip(("lower_end", "upper_end"), two_states(tables[method]), strict=True)) for method in METHODS
-    }
-    table, (low, high) = tables["converged"], ends["converged"].values()
-    at_end = table[(table.acceleration == high) & (table.state == "first")]
+def interval(
+    *,
+    euler: pd.DataFrame,
+    converged: pd.DataFrame,
+    tension: pd.DataFrame | None = None,
+    certificates: pd.DataFrame | None = None,
+) -> Finding:
+    ends = by_method(two_states, euler, converged)
+    low, high = ends["converged"]
+    starts = converged[converged.acceleration == high]
+    at_end = starts[starts.state == "first"]
     note = (
         f"with the starts of the config both states exist from {told(low)} to {told(high)}; at the upper end "
-        f"{len(at_end)} of {(table.acceleration == high).sum()} starts still end in the first state, up to "
+        f"{len(at_end)} of {len(starts)} starts still end in the first state, up to "
         f"z0 = {MM * highest(at_end.z0):.3g} mm"
     )
-    if "tension" in tables:
-        found = readings(tables["tension"], lambda rows: "{:g} to {:g} m/s²".format(*two_states(rows)))
+    if tension is not None:
+        found = readings(tension, lambda rows: "{:g} to {:g} m/s²".format(*two_states(rows)))
         note += f"; by the reading of a contact force that pulls, with two starts only: {found}"
-    return Finding(ends["euler"], ends["converged"], note + about_proofs.both_states(tables))
+    quantities = ({"lower_end": lower, "upper_end": upper} for lower, upper in ends.values())
+    return Finding(*quantities, note + about_proofs.both_states(certificates))
 
 
 def scatter_onset(table: pd.DataFrame, spread: float = 0.05) -> float:
@@ -64,16 +70,19 @@ def chaos_onset(table: pd.DataFrame) -> float:
     return onset(share.index.to_numpy(), (share > 0.5).to_numpy())
 
 
-def onset_of_chaos(tables: dict[str, pd.DataFrame]) -> Finding:
+def onset_of_chaos(
+    *, euler: pd.DataFrame, converged: pd.DataFrame, certificates: pd.DataFrame | None = None
+) -> Finding:
     """Read as the paper reads it, off velocities that scatter, by either method."""
-    scatter = {method: scatter_onset(tables[method]) for method in METHODS}
-    chaos = {method: chaos_onset(tables[method]) for method in METHODS}
-    table = tables["converged"]
+    scatter = by_method(scatter_onset, euler, converged)
+    chaos = by_method(chaos_onset, euler, converged)
     note = (
         f"what a reader sees is scatter; most starts settle to chaos from {told(chaos['converged'])} on "
         f"({told(chaos['euler'])} where the paper's method leaves them)"
     )
-    between = table[(table.acceleration >= scatter["converged"]) & (table.acceleration < chaos["converged"])]
+    between = converged[
+        (converged.acceleration >= scatter["converged"]) & (converged.acceleration < chaos["converged"])
+    ]
     if len(between):
         periods = ", ".join(
             f"period {period} for {100 * share:.0f} %"
@@ -82,7 +91,7 @@ def onset_of_chaos(tables: dict[str, pd.DataFrame]) -> Finding:
         note += (
             f", while in between {100 * (between.period > 0).mean():.0f} % of the starts settle to a period ({periods})"
         )
-    proved = about_proofs.regular(tables, scatter["converged"])
+    proved = about_proofs.regular(certificates, scatter["converged"])
     return Finding(*({"onset": scatter[method]} for method in METHODS), note + proved)
 
 
@@ -92,30 +101,28 @@ def critical_at(table: pd.DataFrame, acceleration: float) -> float:
     return float(np.interp(acceleration, rows.acceleration, rows.z0, left=NONE, right=NONE))
 
 
-def largest_critical_height(tables: dict[str, pd.DataFrame]) -> Finding:
+def largest_critical_height(*, euler: pd.DataFrame, converged: pd.DataFrame, heights: pd.DataFrame) -> Finding:
     """Over the amplitudes of Fig. 9."""
-    amplitudes = np.sort(tables["heights"].acceleration.unique())
-    found = {
-        method: pd.Series([MM * critical_at(tables[method], one) for one in amplitudes], amplitudes)
-        for method in METHODS
-    }
-    table = tables["converged"]
-    critical = table[table.is_critical]
+    amplitudes = np.sort(heights.acceleration.unique())
+    found = by_method(
+        lambda table: pd.Series([MM * critical_at(table, one) for one in amplitudes], amplitudes), euler, converged
+    )
+    critical = converged[converged.is_critical]
     top = critical.loc[critical.z0.idxmax()] if len(critical) else None
     where = found["converged"].idxmax() if found["converged"].notna().any() else NONE
     note = f"it is that at {told(where)}, where the height is steep in the amplitude" + (
         f": converged {MM * top.z0:.4g} mm at {top.acceleration:g} m/s², the lowest amplitude with a second state; the "
-        f"state changes more than once over z0 at {table[table.crossing > 1].acceleration.nunique()} of "
-        f"{table.acceleration.nunique()} amplitudes"
+        f"state changes more than once over z0 at {converged[converged.crossing > 1].acceleration.nunique()} of "
+        f"{converged.acceleration.nunique()} amplitudes"
         if top is not None
         else ""
     )
     return Finding(*({"largest_height": highest(found[method])} for method in METHODS), note)
 
 
-def critical_height(tables: dict[str, pd.DataFrame], acceleration: float) -> Finding:
+def critical_height(*, euler: pd.DataFrame, converged: pd.DataFrame, acceleration: float) -> Finding:
     """The critical height (mm) at one amplitude (m/s²)."""
-    return by_both("height", lambda table: MM * critical_at(table, acceleration), tables)
+    return by_both("height", lambda table: MM * critical_at(table, acceleration), euler, converged)
 
 
 def velocities(table: pd.DataFrame, state: str) -> tuple[float, float]:
@@ -130,11 +137,9 @@ def relative(value: float, reference: float) -> float:
     return 100.0 * (value / reference - 1.0)
 
 
-def first_velocity(tables: dict[str, pd.DataFrame]) -> Finding:
-    ends = {method: velocities(tables[method], "first") for method in METHODS}
-    found = readings(
-        tables["tension"], lambda rows: f"{100.0 * highest(rows[rows.state == 'first'].mean_velocity):.2f} cm/s"
-    )
+def first_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd.DataFrame) -> Finding:
+    ends = by_method(lambda table: velocities(table, "first"), euler, converged)
+    found = readings(tension, lambda rows: f"{100.0 * highest(rows[rows.state == 'first'].mean_velocity):.2f} cm/s")
     low, high = ends["converged"]
     note = (
         f"it rises by {high - low:.2f} cm/s; the paper's method is {relative(ends['euler'][1], high):+.1f} % off at "
@@ -149,11 +154,10 @@ def first_velocity(tables: dict[str, pd.DataFrame]) -> Finding:
     )
 
 
-def second_velocity(tables: dict[str, pd.DataFrame]) -> Finding:
-    ends = {method: velocities(tables[method], "second") for method in METHODS}
-    table = tables["converged"]
-    medians = 100.0 * table[table.state == "second"].groupby("acceleration").mean_velocity.median()
-    found = readings(tables["tension"], lambda rows: "{:.2f} to {:.2f} cm/s".format(*velocities(rows, "second")))
+def second_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd.DataFrame) -> Finding:
+    ends = by_method(lambda table: velocities(table, "second"), euler, converged)
+    medians = 100.0 * converged[converged.state == "second"].groupby("acceleration").mean_velocity.median()
+    found = readings(tension, lambda rows: "{:.2f} to {:.2f} cm/s".format(*velocities(rows, "second")))
     least = f"its least value, {medians.min():.2f} cm/s, is at {medians.idxmin():g} m/s²; " if len(medians) else ""
     note = (
         f"it falls from {ends['converged'][0]:.2f} to {ends['converged'][1]:.2f} cm/s; {least}"
@@ -162,12 +166,15 @@ def second_velocity(tables: dict[str, pd.DataFrame]) -> Finding:
     return Finding(*({"fall": ends[method][0] - ends[method][1]} for method in METHODS), note)
 
 
-def fit(tables: dict[str, pd.DataFrame]) -> Finding:
-    rows = {method: tables[method].set_index("fit").loc["pymoo"] for method in METHODS}
-    found = {method: {name: float(row[name]) for name in ("A", "B", "C", "error")} for method, row in rows.items()}
-    table = tables["converged"]
-    triple = float(table.set_index("fit").loc["paper"].error)
-    valley = table[(table.fit == "valley") & (table.error <= triple)]
+def fit(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
+
+    def best(table: pd.DataFrame) -> dict[str, float]:
+        row = table.set_index("fit").loc["pymoo"]
+        return {name: float(row[name]) for name in ("A", "B", "C", "error")}
+
+    found = by_method(best, euler, converged)
+    triple = float(converged.set_index("fit").loc["paper"].error)
+    valley = converged[(converged.fit == "valley") & (converged.error <= triple)]
     note = (
         f"A, B and C lie in a valley: on the converged heights the paper's triple has the error {triple:.3g} m², "
         f"the best one {found['converged']['error']:.3g} m², and every B from {valley.B.min():.3g} to "
@@ -190,14 +197,14 @@ def written_runs(runs: list[tuple[float, float]], most: int = 4) -> str:
     return text if len(runs) <= most else f"{text} and {len(runs) - most} shorter ones"
 
 
-def one_onset(tables: dict[str, pd.DataFrame]) -> Finding:
+def one_onset(*, converged: pd.DataFrame) -> Finding:
     """How far apart (m/s²) the onsets of chaos of the single initial heights lie.
 
     The paper's method has no say: runs of both methods are followed by the converged solution until they are clear.
     """
-    table = tables["converged"]
-    onsets = np.array([onset(rows.acceleration.to_numpy(), rows.state == "chaos") for _, rows in table.groupby("z0")])
-    share = (table.state == "chaos").groupby(table.acceleration).mean()
+    starts = converged.groupby("z0")
+    onsets = np.array([onset(rows.acceleration.to_numpy(), rows.state == "chaos") for _, rows in starts])
+    share = (converged.state == "chaos").groupby(converged.acceleration).mean()
     beside = runs_of(share.index, (share > 0.0) & (share < 1.0))
     regular = share.index[share < 1.0]
     note = f"the onsets lie between {told(onsets.min())} and {told(onsets.max())}"
@@ -211,9 +218,9 @@ def one_onset(tables: dict[str, pd.DataFrame]) -> Finding:
     return Finding({}, {"spread": float(np.ptp(onsets))}, note)
 
 
-def impact_line(tables: dict[str, pd.DataFrame]) -> Finding:
+def impact_line(*, converged: pd.DataFrame) -> Finding:
     """Slope (s/m) of the impact phase over the impact velocity, and the largest distance from the line (rad)."""
-    rows = tables["converged"].dropna(subset="impact_velocity")
+    rows = converged.dropna(subset="impact_velocity")
     slope, base = np.polyfit(rows.impact_velocity, rows.impact_phase, 1)
     distance = np.abs(slope * rows.impact_velocity + base - rows.impact_phase).max()
     return Finding({}, {"slope": float(slope), "distance": float(distance)})
@@ -231,51 +238,54 @@ def lines(table: pd.DataFrame, signal: str) -> tuple[int, int, float]:
     return counts[0], counts[-1], float(ratio)
 
 
-def vertical_lines(tables: dict[str, pd.DataFrame]) -> Finding:
+def vertical_lines(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
     def more(table):
         first, second, _ = lines(table, "vz")
         return second - first
 
-    return by_both("more_lines", more, tables)
+    return by_both("more_lines", more, euler, converged)
 
 
-def horizontal_lines(tables: dict[str, pd.DataFrame]) -> Finding:
-    found = {method: lines(tables[method], "vx") for method in METHODS}
+def horizontal_lines(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
+    found = by_method(lambda table: lines(table, "vx"), euler, converged)
     return Finding(
         *({"more_lines": float(first - second), "mean_over_line": ratio} for first, second, ratio in found.values())
     )
 
 
-def overlap(tables: dict[str, pd.DataFrame]) -> Finding:
+def overlap(
+    *, height_low: pd.DataFrame, height_high: pd.DataFrame, velocity_low: pd.DataFrame, velocity_high: pd.DataFrame
+) -> Finding:
     """Share of the higher map's first state that is first state in the lower one, and the higher map's chaos."""
     shares = {}
-    for place in ("height", "velocity"):
-        low, high = tables[f"{place}_low"].state.to_numpy(), tables[f"{place}_high"].state.to_numpy()
+    maps = {"height": (height_low, height_high), "velocity": (velocity_low, velocity_high)}
+    for place, (lower, higher) in maps.items():
+        low, high = lower.state.to_numpy(), higher.state.to_numpy()
         first = high == "first"
         shares[f"shared_{place}"] = float((low[first] == "first").mean()) if first.any() else NONE
         shares[f"chaos_{place}"] = float((high == "chaos").mean())
-    chaotic = sum(int((tables[f"{place}_low"].state == "chaos").sum()) for place in ("height", "velocity"))
+    chaotic = sum(int((table.state == "chaos").sum()) for table in (height_low, velocity_low))
     return Finding({}, shares, f"{chaotic} points of both maps at the lower amplitude are chaotic")
 
 
-def mapped(tables: dict[str, pd.DataFrame]) -> Finding:
+def mapped(*, converged: pd.DataFrame) -> Finding:
     """Share of the starts in the air whose images on the plate lead to the same state."""
-    rows = tables["converged"].dropna(subset="mapped_state")
+    rows = converged.dropna(subset="mapped_state")
     return Finding({}, {"equal": float((rows.state == rows.mapped_state).mean()) if len(rows) else NONE})
 
 
-def euler_error(tables: dict[str, pd.DataFrame]) -> Finding:
+def euler_error(
+    *, euler: pd.DataFrame, converged: pd.DataFrame, euler_exponent: pd.DataFrame, converged_exponent: pd.DataFrame
+) -> Finding:
     """Median relative errors of Euler's mean velocity in the first and in the second state, where both methods lead to
     the same motion with the period of the excitation, and share of the amplitudes of Fig. 22 at which its estimate has
     the right sign.
     """
-    euler, converged = tables["euler"], tables["converged"]
     regular = ((converged.period == 1) & (euler.period == 1) & (converged.state == euler.state)).to_numpy()
     signed = (euler.mean_velocity / converged.mean_velocity - 1.0)[regular]
     errors = signed.abs().groupby(converged.state[regular]).median().reindex(["first", "second"])
-    exponent = tables["converged_exponent"]
-    right = np.sign(tables["euler_exponent"]["lambda"]) == np.sign(exponent["lambda"])
-    wrong = exponent[~right].acceleration
+    right = np.sign(euler_exponent["lambda"]) == np.sign(converged_exponent["lambda"])
+    wrong = converged_exponent[~right].acceleration
     note = (
         f"{len(signed)} runs of period 1 are compared, of which Euler feeds {100 * (signed < 0.0).mean():.0f} % too "
         f"slowly; the sign of the estimate is wrong at {len(wrong)} of {len(right)} amplitudes"

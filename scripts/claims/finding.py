@@ -1,6 +1,7 @@
 """What a finding is, and how tables are searched for onsets."""
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -20,9 +21,14 @@ class Finding(NamedTuple):
     note: str = ""
 
 
-def by_both(name: str, value, tables: dict[str, pd.DataFrame], note: str = "") -> Finding:
+def by_method(value: Callable[[pd.DataFrame], Any], euler: pd.DataFrame, converged: pd.DataFrame) -> dict[str, Any]:
+    """A function of both methods' tables, by the names of the methods."""
+    return {"euler": value(euler), "converged": value(converged)}
+
+
+def by_both(name: str, value: Callable[[pd.DataFrame], float], euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
     """The Finding with one quantity, a function of a method's table."""
-    return Finding(*({name: float(value(tables[method]))} for method in METHODS), note)
+    return Finding({name: float(value(euler))}, {name: float(value(converged))})
 
 
 def lowest(values: pd.Series | pd.Index) -> float:

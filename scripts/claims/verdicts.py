@@ -42,8 +42,8 @@ NAMES = {"euler": "paper's method", "converged": "converged solution"}
 def find(claim: dict, read: dict[str, pd.DataFrame]) -> Finding:
     """The Finding of a claim of the config, from the tables by their references."""
     module, function = claim["finding"].split(".")
-    found = getattr(FINDINGS[module], function)
-    return found({role: read[reference] for role, reference in claim["tables"].items()}, **claim.get("settings", {}))
+    tables_by_role = {role: read[reference] for role, reference in claim["tables"].items()}
+    return getattr(FINDINGS[module], function)(**tables_by_role, **claim.get("settings", {}))
 
 
 def holds(value: float, accepted: list[float | None]) -> bool:

@@ -142,9 +142,9 @@ def facts(found: dict[str, pd.DataFrame]) -> dict[str, str]:
     def claim(name: str, column: str, place: int = 0) -> float:
         return claims.loc[name, column][place]
 
-    edges = fig10({"converged": found["edge"], "euler": found["edge_euler"]}, {})
-    both = {"converged": found["estimate"], "euler": found["estimate_euler"]}
-    chaos = bifurcation({"spectrum": found["spectrum"], "cascade": found["cascade"]}, {"longest_period": 0})
+    edges = fig10(converged=found["edge"], euler=found["edge_euler"])
+    estimates = fig22(converged=found["estimate"], euler=found["estimate_euler"], spectrum=found["spectrum"])
+    chaos = bifurcation(spectrum=found["spectrum"], cascade=found["cascade"], longest_period=0)
     return {
         "euler_positive": f"{claim('C19', 'paper_method'):g}",
         "converged_positive": f"{claim('C19', 'converged'):g}",
@@ -155,7 +155,7 @@ def facts(found: dict[str, pd.DataFrame]) -> dict[str, str]:
         "heights_aside": edges["aside"],
         "heights_most_at": edges["most_at"],
         **{name: chaos[name] for name in ("accumulation", "early_up", "early_down", "regular_share")},
-        **{name: fig22({**both, "spectrum": found["spectrum"]}, {})[name] for name in ("plateau", "truth", "epsilon")},
+        **{name: estimates[name] for name in ("plateau", "truth", "epsilon")},
         **of_verdicts(found["claims"]),
         **of_proofs(found["certificates"], found["certified_bifurcations"], found["certified_chaos"]),
         **of_speed(found["benchmark"]),

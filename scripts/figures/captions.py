@@ -1,13 +1,14 @@
 """The captions of all figures, their numbers filled in from the tables that the figures draw."""
 
+import inspect
 from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
 from jinja2 import Environment, StrictUndefined
 
-from accuracy import stability
 from accuracy.rigid_part import CONTACT, RIGID
+from accuracy.stability import VELOCITY
 from claims.about_chaos import positive_onset
 from claims.about_states import runs_of, second_from_rest, written_runs
 from claims.finding import lowest
@@ -17,8 +18,6 @@ from operating.chart import of_the_search
 MM = 1e3
 SMALL_ELASTICITY = 1e-3  # errors of smaller ones are told by no relative number
 SIGNIFICANT = 3.0  # standard errors by which an exponent is positive
-
-Tables = dict[str, pd.DataFrame]
 
 
 def heights(table: pd.DataFrame) -> dict[str, str]:
@@ -38,12 +37,12 @@ def chaotic(spectrum: pd.DataFrame) -> pd.Series:
     return spectrum.lambda_1 > SIGNIFICANT * spectrum.stderr
 
 
-def fig03(tables: Tables, settings: dict) -> dict[str, str]:
-    return of_runs(tables["euler" if "euler" in tables else "converged"])
+def fig03(*, converged: pd.DataFrame, euler: pd.DataFrame | None = None) -> dict[str, str]:
+    return of_runs(converged if euler is None else euler)
 
 
-def fig08(tables: Tables, settings: dict) -> dict[str, str]:
-    return heights(tables["converged"])
+def fig08(*, converged: pd.DataFrame) -> dict[str, str]:
+    return heights(converged)
 
 
 def aside(least: float, most: float) -> str:
@@ -54,13 +53,11 @@ def aside(least: float, most: float) -> str:
     return f"{low:.1f} to {high:.1f} % {'below' if most < 0.0 else 'above'}"
 
 
-def fig10(tables: Tables, settings: dict) -> dict[str, str]:
-    told = {"resolution": f"{tables['converged'].attrs['resolution']:g}"}
-    if "euler" not in tables:
+def fig10(*, converged: pd.DataFrame, euler: pd.DataFrame | None = None) -> dict[str, str]:
+    told = {"resolution": f"{converged.attrs['resolution']:g}"}
+    if euler is None:
         return told
-    both = [
-        tables[method][tables[method].is_critical].set_index("acceleration").z0 for method in ("euler", "converged")
-    ]
+    both = [edge[edge.is_critical].set_index("acceleration").z0 for edge in (euler, converged)]
     change = 100.0 * (both[0] / both[1] - 1.0).dropna()
     return told | {
         "aside": aside(change.max(), change.min()),
@@ -68,50 +65,48 @@ def fig10(tables: Tables, settings: dict) -> dict[str, str]:
     }
 
 
-def fig20(tables: Tables, settings: dict) -> dict[str, str]:
-    attributes = tables["converged"].attrs
+def fig20(*, converged: pd.DataFrame) -> dict[str, str]:
+    attributes = converged.attrs
     first = attributes["model"]["z0"]
     return {"first_mm": f"{MM * first:g}", "second_mm": f"{MM * (first + attributes['epsilon']):g}"}
 
 
-def fig22(tables: Tables, settings: dict) -> dict[str, str]:
-    told = {"epsilon": f"{tables['converged'].attrs['epsilon']:.0e}".replace("e-0", "e-")}
-    if "euler" not in tables:
+def fig22(*, converged: pd.DataFrame, spectrum: pd.DataFrame, euler: pd.DataFrame | None = None) -> dict[str, str]:
+    told = {"epsilon": f"{converged.attrs['epsilon']:.0e}".replace("e-0", "e-")}
+    if euler is None:
         return told
-    spectrum = tables["spectrum"]
     up = spectrum[(spectrum.branch == "up")].sort_values("acceleration")
     joined = pd.merge_asof(
-        tables["converged"].sort_values("acceleration"),
+        converged.sort_values("acceleration"),
         up[["acceleration", "lambda_1"]].assign(chaotic=chaotic(up)),
         on="acceleration",
         direction="nearest",
     )
     joined = joined[joined.chaotic]
     return told | {
-        "euler_positive": f"{positive_onset(tables['euler']):g}",
-        "converged_positive": f"{positive_onset(tables['converged']):g}",
+        "euler_positive": f"{positive_onset(euler):g}",
+        "converged_positive": f"{positive_onset(converged):g}",
         "plateau": f"{joined['lambda'].median():.0f}",
         "truth": f"{joined.lambda_1.median():.0f}",
     }
 
 
-def fig23(tables: Tables, settings: dict) -> dict[str, str]:
-    return {"end": f"{tables['converged'].time.max():g}"}
+def fig23(*, converged: pd.DataFrame) -> dict[str, str]:
+    return {"end": f"{converged.time.max():g}"}
 
 
-def fig24(tables: Tables, settings: dict) -> dict[str, str]:
-    table = tables["converged"]
+def fig24(*, converged: pd.DataFrame) -> dict[str, str]:
     return {
-        "unknown": str(int(table.dimension.isna().sum())),
-        "amplitudes": str(len(table)),
-        "largest_error": f"{table.attrs['largest_error']:g}",
+        "unknown": str(int(converged.dimension.isna().sum())),
+        "amplitudes": str(len(converged)),
+        "largest_error": f"{converged.attrs['largest_error']:g}",
     }
 
 
-def bifurcation(tables: Tables, settings: dict) -> dict[str, str]:
-    spectrum, found = tables["spectrum"], tables["cascade"].accumulation.dropna()
+def bifurcation(*, spectrum: pd.DataFrame, cascade: pd.DataFrame, longest_period: int) -> dict[str, str]:
+    found = cascade.accumulation.dropna()
     if found.empty:
-        return {"longest_period": str(settings["longest_period"]), "accumulation": ""}
+        return {"longest_period": str(longest_period), "accumulation": ""}
     accumulation, runs = found.iloc[-1], {}
     for branch, rows in spectrum.sort_values("acceleration").groupby("branch"):
         early = rows[rows.acceleration < accumulation]
@@ -119,7 +114,7 @@ def bifurcation(tables: Tables, settings: dict) -> dict[str, str]:
     late = spectrum[spectrum.acceleration > accumulation].sort_values("acceleration")
     regular = (late.lambda_1 < -SIGNIFICANT * late.stderr).groupby(late.acceleration).all()
     return {
-        "longest_period": str(settings["longest_period"]),
+        "longest_period": str(longest_period),
         "accumulation": f"{accumulation:.2f}",
         "early_up": written_runs(runs["up"], 2) if runs.get("up") else "nowhere",
         "early_down": written_runs(runs["down"], 2) if runs.get("down") else "nowhere",
@@ -127,39 +122,40 @@ def bifurcation(tables: Tables, settings: dict) -> dict[str, str]:
     }
 
 
-def overview(tables: Tables, settings: dict) -> dict[str, str]:
-    found = tables["bifurcations"]
+def overview(
+    *, bifurcations: pd.DataFrame, cascade: pd.DataFrame, estimate: pd.DataFrame, map: pd.DataFrame
+) -> dict[str, str]:
+    folds = bifurcations[(bifurcations.kind == "fold") & bifurcations.proved]
     return {
-        "fold": f"{found[(found.kind == 'fold') & found.proved].acceleration_low.min():.1f}",
-        "accumulation": f"{tables['cascade'].accumulation.dropna().iloc[-1]:.2f}",
-        "euler_positive": f"{positive_onset(tables['estimate']):g}",
-        "map_at": f"{tables['map'].attrs['model']['acceleration']:g}",
+        "fold": f"{folds.acceleration_low.min():.1f}",
+        "accumulation": f"{cascade.accumulation.dropna().iloc[-1]:.2f}",
+        "euler_positive": f"{positive_onset(estimate):g}",
+        "map_at": f"{map.attrs['model']['acceleration']:g}",
     }
 
 
-def longest_period(tables: Tables, settings: dict) -> dict[str, str]:
-    return {"longest_period": str(settings["longest_period"])}
+def longest_period(*, longest_period: int) -> dict[str, str]:
+    return {"longest_period": str(longest_period)}
 
 
-def rigid_part(tables: Tables, settings: dict) -> dict[str, str]:
-    table = tables["rigid"]
-    velocities = table[table.kind == "velocity"]
-    contact, rigid = (velocities[velocities.model == model] for model in (CONTACT, RIGID))
-    leaves = second_from_rest(rigid)
-    both = pd.merge(contact, rigid, on=["acceleration", "z0"], suffixes=("_contact", ""))
+def rigid_part(*, rigid: pd.DataFrame, contact: pd.DataFrame) -> dict[str, str]:
+    velocities = rigid[rigid.kind == "velocity"]
+    compliant, bouncing = (velocities[velocities.model == model] for model in (CONTACT, RIGID))
+    leaves = second_from_rest(bouncing)
+    both = pd.merge(compliant, bouncing, on=["acceleration", "z0"], suffixes=("_contact", ""))
     later = both[(both.z0 == 0.0) & (both.acceleration >= leaves)]
     arrived = later[(later.mean_velocity > 0.5 * later.mean_velocity_contact) & (later.state_contact != "first")]
     return {
-        "duration": f"{tables['contact'].attrs['duration']:g}",
-        "leaves": f"{second_from_rest(contact):g}",
+        "duration": f"{contact.attrs['duration']:g}",
+        "leaves": f"{second_from_rest(compliant):g}",
         "rigid_leaves": f"{leaves:g}",
         "arrives": f"{lowest(arrived.acceleration):g}",
     }
 
 
-def scene_budget(tables: Tables, settings: dict) -> dict[str, str]:
+def scene_budget(*, budget: pd.DataFrame) -> dict[str, str]:
     """In how many tables a reader would see that a variant is not the full model."""
-    rows = tables["budget"].drop_duplicates(["table", "variant", "tolerance"])
+    rows = budget.drop_duplicates(["table", "variant", "tolerance"])
     numbers = {}
     for name, variant in (("rigid", "rigid part"), ("half", "half the time")):
         visible = rows[rows.variant == variant].visible
@@ -167,38 +163,35 @@ def scene_budget(tables: Tables, settings: dict) -> dict[str, str]:
     return numbers
 
 
-def settling(tables: Tables, settings: dict) -> dict[str, str]:
-    table = tables["times"]
-    settled = table[table.period > 0].cycles
+def settling(*, times: pd.DataFrame) -> dict[str, str]:
+    settled = times[times.period > 0].cycles
     return {
-        "starts": str(table.attrs["starts"]),
-        "late": f"{100.0 * (settled > table.attrs['settling']).mean():.1f}",
+        "starts": str(times.attrs["starts"]),
+        "late": f"{100.0 * (settled > times.attrs['settling']).mean():.1f}",
     }
 
 
-def scaling(tables: Tables, settings: dict) -> dict[str, str]:
-    table = tables["scaling"]
-    start = table.shard_seconds.sub(table.computing_seconds).div(table.measured)
+def scaling(*, scaling: pd.DataFrame, throughput: pd.DataFrame) -> dict[str, str]:
+    start = scaling.shard_seconds.sub(scaling.computing_seconds).div(scaling.measured)
     return {
-        "threads": str(table[table.varied == "points"].threads.iloc[0]),
+        "threads": str(scaling[scaling.varied == "points"].threads.iloc[0]),
         "start": f"{start.median():.1f}",
-        "made_whole": f"{table.points[(table.varied == 'points') & (table.measured == table.shards)].max():,}",
-        "shared_points": f"{table[table.varied == 'shards'].points.iloc[0]:,}",
-        "gathered": f"{table.gathered.max():,}",
-        "starts": str(tables["throughput"].starts.iloc[0]),
-        "lacking": ", ".join(tables["throughput"].method[tables["throughput"].outcome != "ok"].unique()),
+        "made_whole": f"{scaling.points[(scaling.varied == 'points') & (scaling.measured == scaling.shards)].max():,}",
+        "shared_points": f"{scaling[scaling.varied == 'shards'].points.iloc[0]:,}",
+        "gathered": f"{scaling.gathered.max():,}",
+        "starts": str(throughput.starts.iloc[0]),
+        "lacking": ", ".join(throughput.method[throughput.outcome != "ok"].unique()),
     }
 
 
-def stability_maps(tables: Tables, settings: dict) -> dict[str, str]:
+def stability_maps(*, stability: pd.DataFrame) -> dict[str, str]:
     return {
-        "start_mm": f"{MM * tables['stability'].attrs['conveyor']['z0']:g}",
-        "right": f"{100.0 * stability.VELOCITY:g}",
+        "start_mm": f"{MM * stability.attrs['conveyor']['z0']:g}",
+        "right": f"{100.0 * VELOCITY:g}",
     }
 
 
-def sensitivity(tables: Tables, settings: dict) -> dict[str, str]:
-    derivatives, continued, meetings = (tables[role] for role in ("derivatives", "continued", "meetings"))
+def sensitivity(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.DataFrame) -> dict[str, str]:
     right = derivatives[derivatives.status == "ok"]
     heights = right[right.kind == "critical_height"].acceleration.unique()
     error = ((right.derivative - right.difference) / right.derivative).abs()[right.elasticity.abs() > SMALL_ELASTICITY]
@@ -216,16 +209,17 @@ def sensitivity(tables: Tables, settings: dict) -> dict[str, str]:
     }
 
 
-def of_the_box(tables: Tables, settings: dict) -> dict[str, str]:
-    shares = tables["shares"]
+def of_the_box(*, shares: pd.DataFrame) -> dict[str, str]:
     return of_the_search(shares) | {"largest_error": f"{100.0 * shares.stderr.max():.1f}"}
 
 
-def identification(tables: Tables, settings: dict) -> dict[str, str]:
-    front, asked = tables["front"], tables["profiles"].attrs
+def identification(
+    *, front: pd.DataFrame, profiles: pd.DataFrame, frictions: pd.DataFrame, generations: pd.DataFrame
+) -> dict[str, str]:
+    asked = profiles.attrs
     return {
-        "friction_alone": findings.friction_alone(tables["frictions"], asked["numbers"]),
-        "search": findings.search(front, tables["generations"]),
+        "friction_alone": findings.friction_alone(frictions, asked["numbers"]),
+        "search": findings.search(front, generations),
         "confidence": f"{100.0 * asked['profiles']['confidence']:g}",
         "population": str(asked["search"]["population"]),
         "generations": str(asked["search"]["generations"]),
@@ -235,7 +229,7 @@ def identification(tables: Tables, settings: dict) -> dict[str, str]:
     }
 
 
-NUMBERS: dict[str, Callable[[Tables, dict], dict[str, str]]] = {
+NUMBERS: dict[str, Callable[..., dict[str, str]]] = {
     "fig03": fig03,
     "fig08": fig08,
     "fig10": fig10,
@@ -259,7 +253,12 @@ NUMBERS: dict[str, Callable[[Tables, dict], dict[str, str]]] = {
 }
 
 
-def caption(template: str, name: str, tables: Tables, settings: dict, paper: bool = True) -> str:
+def arguments_of(function: Callable, available: dict) -> dict:
+    """The values whose names are parameters of a function."""
+    return {name: available[name] for name in inspect.signature(function).parameters if name in available}
+
+
+def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings: dict, paper: bool = True) -> str:
     """The caption of a figure from its template; `paper` tells whether it is about the paper's machine.
 
     Raises
@@ -267,7 +266,8 @@ def caption(template: str, name: str, tables: Tables, settings: dict, paper: boo
     jinja2.UndefinedError
         if the template asks for a number that NUMBERS does not give
     """
-    numbers = NUMBERS[name](tables, settings) if name in NUMBERS else {}
+    function = NUMBERS.get(name)
+    numbers = function(**arguments_of(function, {**tables, **settings})) if function else {}
     return (
         Environment(undefined=StrictUndefined, keep_trailing_newline=True)
         .from_string(template)

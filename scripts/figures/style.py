@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from contextlib import AbstractContextManager
 
 import matplotlib as mpl
@@ -89,9 +89,9 @@ def figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width * MM, height * MM))
 
 
-def panels(tables: Mapping[str, pd.DataFrame]) -> dict[str, str]:
-    """The methods whose tables are there, with their titles: for a machine of one's own it may be one."""
-    return {role: title for role, title in PANELS.items() if role in tables}
+def drop_missing(**tables: pd.DataFrame | None) -> dict[str, pd.DataFrame]:
+    """The tables by their roles, without roles that are None: a machine of one's own may have no Euler table."""
+    return {role: table for role, table in tables.items() if table is not None}
 
 
 def from_zero(axes: Axes) -> None:

@@ -162,29 +162,29 @@ def test_reason_says_which_number_is_outside():
 
 def test_critical_acceleration_looks_at_the_start_at_rest():
     table = sweep(lambda a, z: "second" if a >= 50.0 or z > 0.0 else "first")
-    assert numbers(about_states.critical_acceleration(both(table)).converged) == (50.0,)
+    assert numbers(about_states.critical_acceleration(**both(table)).converged) == (50.0,)
 
 
 def test_interval_of_two_states():
     table = sweep(lambda a, z: "second" if a > 47.0 or (a >= 29.0 and z > 0.0) else "first")
-    assert numbers(about_states.interval(both(table)).converged) == (29.0, 47.0)
-    assert all(math.isnan(end) for end in numbers(about_states.interval(both(sweep("first"))).converged))
+    assert numbers(about_states.interval(**both(table)).converged) == (29.0, 47.0)
+    assert all(math.isnan(end) for end in numbers(about_states.interval(**both(sweep("first"))).converged))
 
 
 def test_interval_by_the_reading_of_the_contact_force():
     table = sweep(lambda a, z: "second" if a > 47.0 or (a >= 29.0 and z > 0.0) else "first")
-    finding = about_states.interval({**both(table), "tension": table.assign(tension="clip")})
+    finding = about_states.interval(**both(table), tension=table.assign(tension="clip"))
     assert finding.note.endswith("29 to 47 m/s² (clip)")
 
 
 def test_onset_of_chaos_by_scatter_and_by_state():
     table = sweep(lambda a, z: "chaos" if a >= 63.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
-    finding = about_states.onset_of_chaos(both(table))
+    finding = about_states.onset_of_chaos(**both(table))
     assert (numbers(finding.euler), numbers(finding.converged)) == ((55.0,), (55.0,))
     assert "settle to chaos from 63 m/s² on (63 m/s²" in finding.note
     assert "in between 100 % of the starts settle to a period (period 1 for 100 %)" in finding.note
     late = sweep(lambda a, z: "chaos" if a >= 50.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
-    assert "nan" not in about_states.onset_of_chaos(both(late)).note
+    assert "nan" not in about_states.onset_of_chaos(**both(late)).note
 
 
 @pytest.mark.parametrize("size", [0.01, 10.0])
@@ -212,27 +212,23 @@ def test_what_is_proved_is_told():
     proved = pd.concat(
         [certificates(30.0, 30.0, 40.0, 40.0, 56.0), certificates(45.0, 45.0, 70.0).assign(stability="open")]
     )
-    assert "two stable motions are proved at 2 amplitudes from 30 to 40 m/s²" in about_proofs.both_states(
-        {"certificates": proved}
-    )
-    assert "a stable periodic motion is proved at 1 amplitudes from 56 to 56 m/s²" in about_proofs.regular(
-        {"certificates": proved}, 55.0
-    )
+    assert "two stable motions are proved at 2 amplitudes from 30 to 40 m/s²" in about_proofs.both_states(proved)
+    assert "a stable periodic motion is proved at 1 amplitudes from 56 to 56 m/s²" in about_proofs.regular(proved, 55.0)
     horseshoes = pd.DataFrame({"acceleration": [65.0, 80.0], "proved": [False, True]})
-    assert "is proved at 80 m/s²" in about_proofs.chaotic({"horseshoes": horseshoes})
-    assert [about_proofs.both_states({}), about_proofs.regular({}, 0.0), about_proofs.chaotic({})] == ["", "", ""]
-    assert about_proofs.regular({"certificates": proved}, 60.0) == ""
+    assert "is proved at 80 m/s²" in about_proofs.chaotic(horseshoes)
+    assert [about_proofs.both_states(None), about_proofs.regular(None, 0.0), about_proofs.chaotic(None)] == ["", "", ""]
+    assert about_proofs.regular(proved, 60.0) == ""
 
 
 def test_one_orbit_twice_is_not_two_motions():
     once = certificates(30.0)
-    assert about_proofs.both_states({"certificates": pd.concat([once, once])}) == ""
+    assert about_proofs.both_states(pd.concat([once, once])) == ""
 
 
 def test_statements_name_what_is_proved():
     table = sweep(lambda a, z: "second" if a > 47.0 or (a >= 29.0 and z > 0.0) else "first")
     tables = {**both(table), "certificates": certificates(30.0, 30.0)}
-    assert about_states.interval(tables).note.endswith("(docs/certificates.md)")
+    assert about_states.interval(**tables).note.endswith("(docs/certificates.md)")
 
 
 def test_critical_heights_are_read_between_amplitudes():
@@ -244,15 +240,15 @@ def test_critical_heights_are_read_between_amplitudes():
             "is_critical": [True, True, False, True],
         }
     )
-    assert numbers(about_states.critical_height(both(table), 38.0).converged) == pytest.approx((0.075,))
-    assert math.isnan(*numbers(about_states.critical_height(both(table), 50.0).converged))
+    assert numbers(about_states.critical_height(**both(table), acceleration=38.0).converged) == pytest.approx((0.075,))
+    assert math.isnan(*numbers(about_states.critical_height(**both(table), acceleration=50.0).converged))
 
 
 def test_largest_critical_height_is_that_of_all_amplitudes():
     heights = pd.DataFrame({"acceleration": [29.0, 32.0, 35.0, 50.0]})
     rising = pd.DataFrame({"acceleration": [28.0, 29.0, 35.0], "z0": [4e-4, 1e-4, 3e-4], "is_critical": True})
     rising["crossing"] = 1
-    finding = about_states.largest_critical_height({**both(rising), "heights": heights})
+    finding = about_states.largest_critical_height(**both(rising), heights=heights)
     assert numbers(finding.converged) == pytest.approx((0.3,))  # not that at 28 m/s², nor that at the lowest one
     assert finding.note.startswith("it is that at 35 m/s²")
 
@@ -263,9 +259,9 @@ def test_velocities_of_both_states():
         lambda a, z: 1e-3 * a if z == 0.0 and a <= 47.0 else 0.07 - 1e-4 * (a - 29.0),
     )
     tables = {**both(table), "tension": table[table.z0 == 0.0].assign(tension="clip")}
-    assert numbers(about_states.first_velocity(tables).converged) == pytest.approx((2.9, 4.7))
-    assert numbers(about_states.second_velocity(tables).converged) == pytest.approx((0.18,))
-    assert about_states.first_velocity(tables).note.endswith("4.70 cm/s (clip)")
+    assert numbers(about_states.first_velocity(**tables).converged) == pytest.approx((2.9, 4.7))
+    assert numbers(about_states.second_velocity(**tables).converged) == pytest.approx((0.18,))
+    assert about_states.first_velocity(**tables).note.endswith("4.70 cm/s (clip)")
 
 
 def test_fit_is_that_of_the_regression():
@@ -278,33 +274,33 @@ def test_fit_is_that_of_the_regression():
             "error": [1e-11, 2e-11, 3e-11, 1.5e-11],
         }
     )
-    finding = about_states.fit(both(table))
+    finding = about_states.fit(**both(table))
     assert numbers(finding.converged) == (0.004, -20.0, -1e-4, 1e-11)
     assert "every B from -21 to -21" not in finding.note  # 3e-11 is more than the paper's triple has
     assert "every B from -18 to -18" in finding.note
 
 
 def test_spread_of_onsets():
-    straight = about_states.one_onset({"converged": sweep(lambda a, z: "chaos" if a >= 60.0 else "second")})
+    straight = about_states.one_onset(converged=sweep(lambda a, z: "chaos" if a >= 60.0 else "second"))
     assert (numbers(straight.euler), numbers(straight.converged)) == ((), (0.0,))
     slanted = sweep(lambda a, z: "chaos" if a >= 60.0 + 2e4 * z else "second")
-    assert numbers(about_states.one_onset({"converged": slanted}).converged) == (2.0,)
+    assert numbers(about_states.one_onset(converged=slanted).converged) == (2.0,)
 
 
 def test_early_chaos_of_some_heights_is_told():
     early = sweep(lambda a, z: "chaos" if a >= 63.0 or (a == 53.0 and z == 0.0) else "second")
-    finding = about_states.one_onset({"converged": early})
+    finding = about_states.one_onset(converged=early)
     assert numbers(finding.converged) == (0.0,)
     assert "beside regular motion, by the initial height, from 53.00 m/s²" in finding.note
     assert finding.note.endswith("regular motion is left nowhere")
     windows = sweep(lambda a, z: "chaos" if a >= 63.0 and a not in (71.0, 72.0) else "second")
-    assert about_states.one_onset({"converged": windows}).note.endswith("in windows only: 71.00 to 72.00 m/s²")
+    assert about_states.one_onset(converged=windows).note.endswith("in windows only: 71.00 to 72.00 m/s²")
 
 
 def test_impact_line():
     velocity = np.array([-0.1, -0.05, 0.0, np.nan])
     table = pd.DataFrame({"impact_velocity": velocity, "impact_phase": -32.0 * velocity})
-    assert numbers(about_states.impact_line({"converged": table}).converged) == pytest.approx((-32.0, 0.0), abs=1e-12)
+    assert numbers(about_states.impact_line(converged=table).converged) == pytest.approx((-32.0, 0.0), abs=1e-12)
 
 
 def spectrum(acceleration, signal, amplitudes):
@@ -316,9 +312,11 @@ def spectrum(acceleration, signal, amplitudes):
 
 def test_lines_of_spectra():
     vertical = [spectrum(40.0, "vz", [0.0, 1.0, 0.01]), spectrum(50.0, "vz", [0.0, 1.0, 0.5, 0.3, 0.01])]
-    assert numbers(about_states.vertical_lines(both(pd.concat(vertical))).converged) == (2.0,)
+    assert numbers(about_states.vertical_lines(**both(pd.concat(vertical))).converged) == (2.0,)
     horizontal = [spectrum(40.0, "vx", [1.0, 0.5, 0.2]), spectrum(50.0, "vx", [1.0, 0.01, 0.01])]
-    assert numbers(about_states.horizontal_lines(both(pd.concat(horizontal))).converged) == pytest.approx((2.0, 100.0))
+    assert numbers(about_states.horizontal_lines(**both(pd.concat(horizontal))).converged) == pytest.approx(
+        (2.0, 100.0)
+    )
 
 
 def test_overlap_of_maps():
@@ -327,7 +325,7 @@ def test_overlap_of_maps():
     maps = {
         f"{place}_{level}": table for place in ("height", "velocity") for level, table in (("low", low), ("high", high))
     }
-    finding = about_states.overlap(maps)
+    finding = about_states.overlap(**maps)
     assert numbers(finding.converged) == (0.5, 0.25, 0.5, 0.25)
     assert finding.note.startswith("0 points")  # the chaos of the higher amplitude is not counted
 
@@ -337,19 +335,19 @@ def test_only_the_first_state_is_shared():
     maps = {
         f"{place}_{level}": one for place in ("height", "velocity") for level, one in (("low", low), ("high", high))
     }
-    assert about_states.overlap(maps).converged["shared_height"] == pytest.approx(1.0 / 3.0)
+    assert about_states.overlap(**maps).converged["shared_height"] == pytest.approx(1.0 / 3.0)
 
 
 def test_mapped_states():
     table = pd.DataFrame({"state": ["first", "second", "first"], "mapped_state": ["first", "first", None]})
-    assert numbers(about_states.mapped({"converged": table}).converged) == (0.5,)
+    assert numbers(about_states.mapped(converged=table).converged) == (0.5,)
 
 
 def test_error_of_euler_in_regular_motion_only():
     converged = sweep(lambda a, z: "chaos" if a > 60.0 else "second")
     euler = converged.assign(mean_velocity=np.where(converged.state == "chaos", 1.0, 0.101))
     estimates = {"converged_exponent": exponents(60.0), "euler_exponent": exponents(50.0)}
-    finding = about_states.euler_error({"converged": converged, "euler": euler, **estimates})
+    finding = about_states.euler_error(converged=converged, euler=euler, **estimates)
     assert numbers(finding.euler) == pytest.approx((math.nan, 0.01, 61 / 71), nan_ok=True)
     assert "wrong at 10 of 71 amplitudes" in finding.note
 
@@ -367,7 +365,7 @@ def test_a_motion_comes_back_after_its_period():
 def test_share_without_a_period():
     noise = strobes(0.0, np.random.default_rng(1).normal(size=128))
     regular = strobes(1e-4, np.tile([1.0, -1.0], 64))
-    assert numbers(about_chaos.no_period(both(pd.concat([noise, regular]))).converged) == (0.5,)
+    assert numbers(about_chaos.no_period(**both(pd.concat([noise, regular]))).converged) == (0.5,)
 
 
 def test_a_motion_that_comes_back_to_a_fifth_of_its_extent_has_no_period():
@@ -376,7 +374,7 @@ def test_a_motion_that_comes_back_to_a_fifth_of_its_extent_has_no_period():
     coarse, fine = strobes(0.0, to_and_fro - 0.2 * one), strobes(1e-4, to_and_fro - 0.02 * one)
     assert about_chaos.least_return(coarse) == (pytest.approx(0.2), 2)
     assert about_chaos.least_return(fine) == (pytest.approx(0.02), 2)
-    assert numbers(about_chaos.no_period(both(pd.concat([coarse, fine]))).converged) == (0.5,)
+    assert numbers(about_chaos.no_period(**both(pd.concat([coarse, fine]))).converged) == (0.5,)
 
 
 def test_irregular_dependence():
@@ -385,7 +383,7 @@ def test_irregular_dependence():
     step = np.where(z0 > 5e-4, 1.0, 0.0)
     for velocity, low, high in ((noise, 0.8, 1.1), (step, 0.0, 0.01)):
         table = pd.DataFrame({"z0": z0, "mean_velocity": velocity})
-        assert low <= numbers(about_chaos.irregular(both(table)).converged)[0] <= high
+        assert low <= numbers(about_chaos.irregular(**both(table)).converged)[0] <= high
 
 
 def exponents(first_positive, crossing=None):
@@ -396,7 +394,7 @@ def exponents(first_positive, crossing=None):
 
 
 def test_height_estimate():
-    assert numbers(about_chaos.height_estimate(both(exponents(42.0, crossing=55.0))).converged) == (42.0, 1.0)
+    assert numbers(about_chaos.height_estimate(**both(exponents(42.0, crossing=55.0))).converged) == (42.0, 1.0)
 
 
 def perturbations():
@@ -425,7 +423,7 @@ def estimates(euler, converged):
 
 
 def test_phase_estimate():
-    finding = about_chaos.phase_estimate(estimates(50.0, 59.0))
+    finding = about_chaos.phase_estimate(**estimates(50.0, 59.0))
     assert (numbers(finding.euler), numbers(finding.converged)) == ((50.0,), (59.0,))
     assert "positive at 100 % of the amplitudes by the paper's method" in finding.note
     assert "at 0 % of the amplitudes converged" in finding.note
@@ -442,7 +440,7 @@ def test_portraits_in_the_order_of_the_states():
             "error": 0.1,
         }
     )
-    assert numbers(about_chaos.portraits(both(table)).converged) == (1.0, 1.1, 1.9)
+    assert numbers(about_chaos.portraits(**both(table)).converged) == (1.0, 1.1, 1.9)
 
 
 def test_onset_by_dimension():
@@ -453,6 +451,6 @@ def test_onset_by_dimension():
         "euler_exponent": exponents(62.0),
         "states": sweep(lambda a, z: "chaos" if a >= 63.0 else "second"),
     }
-    finding = about_chaos.predicted_onset(tables)
+    finding = about_chaos.predicted_onset(**tables)
     assert (numbers(finding.euler), numbers(finding.converged)) == ((0.0, 1.0), (3.0, 1.0))
     assert "1.00 to 2.00 in that and 2.00 to 2.00 in chaos" in finding.note

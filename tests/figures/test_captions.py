@@ -44,7 +44,7 @@ def test_plateau_and_exponent_of_fig_22():
     spectrum = pd.DataFrame(
         {"acceleration": acceleration, "branch": "up", "lambda_1": np.where(chaotic, 36.0, -20.0), "stderr": 1.0}
     )
-    found = captions.fig22({"converged": estimate, "euler": estimate, "spectrum": spectrum}, {})
+    found = captions.fig22(converged=estimate, euler=estimate, spectrum=spectrum)
     assert found == {
         "epsilon": "1e-8",
         "euler_positive": "59",
@@ -67,8 +67,8 @@ def test_chaos_before_the_accumulation_is_told():
         )
         for branch, early in (("up", (acceleration >= 59.5) & (acceleration <= 61.0)), ("down", False))
     )
-    tables = {"spectrum": spectrum, "cascade": pd.DataFrame({"accumulation": [np.nan, 62.77]})}
-    found = captions.bifurcation(tables, {"longest_period": 2})
+    cascade = pd.DataFrame({"accumulation": [np.nan, 62.77]})
+    found = captions.bifurcation(spectrum=spectrum, cascade=cascade, longest_period=2)
     assert found["accumulation"] == "62.77"
     assert found["early_up"] == "59.50 to 61.00 m/s²"
     assert found["early_down"] == "nowhere"
@@ -125,7 +125,7 @@ def test_when_a_rigid_part_leaves_and_arrives():
     table = pd.DataFrame(rows, columns=["model", "kind", "acceleration", "z0", "mean_velocity", "state"])
     contact = pd.DataFrame()
     contact.attrs["duration"] = 1.0
-    numbers = captions.rigid_part({"rigid": table, "contact": contact}, {})
+    numbers = captions.rigid_part(rigid=table, contact=contact)
     assert numbers == {"duration": "1", "leaves": "40", "rigid_leaves": "30", "arrives": "50"}
 
 
@@ -133,5 +133,5 @@ def test_tables_are_counted_once_where_a_variant_is_seen():
     names = ("sweeps/a", "sweeps/a", "sweeps/b")
     table = pd.DataFrame({"table": names, "variant": "rigid part", "tolerance": np.nan, "visible": [True, True, False]})
     half = table.assign(variant="half the time", visible=False)
-    numbers = captions.scene_budget({"budget": pd.concat([table, half])}, {})
+    numbers = captions.scene_budget(budget=pd.concat([table, half]))
     assert numbers == {"rigid_seen": "1", "rigid_of": "2", "half_seen": "0", "half_of": "2"}

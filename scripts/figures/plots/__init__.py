@@ -1,1 +1,1 @@
-"""One module for each figure, with a function `draw`."""
+"""One module for each figure; config/figures.yaml names the arguments of its function `plot`."""

@@ -35,9 +35,8 @@ def vertical_axis(axes: Axes, shares: pd.DataFrame) -> Axis:
     return above
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the table of shares."""
-    shares = tables["shares"]
+def plot(*, shares: pd.DataFrame) -> Figure:
+    """Draw the shares of the starts in each motion."""
     figure = style.figure(style.PAGE, 92.0)
     axes = figure.subplots()
     amplitudes = np.sort(shares.acceleration.unique())

@@ -9,13 +9,20 @@ DIRECTIONS = {"up": style.CONVERGED, "down": style.EULER}
 MARKERS = {"fold": ("s", "fold"), "period_doubling": ("o", "period doubling")}
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the tables strobes, branches, bifurcations, cascade and spectrum; settings: longest_period of the orbits
-    shown (excitation cycles), lowest_exponent (1/s).
-    """
+def plot(
+    *,
+    strobes: pd.DataFrame,
+    branches: pd.DataFrame,
+    bifurcations: pd.DataFrame,
+    cascade: pd.DataFrame,
+    spectrum: pd.DataFrame,
+    longest_period: int,
+    lowest_exponent: float,
+) -> Figure:
+    """Draw attractors, orbits of up to `longest_period` cycles, and exponents above `lowest_exponent` (1/s)."""
     figure = style.figure(style.PAGE, 130.0)
     diagram, exponents = figure.subplots(2, 1, sharex=True, height_ratios=(3.0, 1.4))
-    for branch, rows in tables["strobes"].groupby("branch", sort=False):
+    for branch, rows in strobes.groupby("branch", sort=False):
         diagram.plot(
             rows.acceleration,
             rows.v,
@@ -26,9 +33,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
             rasterized=True,
             zorder=1 if branch == "up" else 0,
         )
-    orbits, found = (
-        tables[name][tables[name].period <= settings["longest_period"]] for name in ("branches", "bifurcations")
-    )
+    orbits, found = (table[table.period <= longest_period] for table in (branches, bifurcations))
     for _, rows in orbits.groupby(["branch", "cycle"]):
         for stable, look in ((True, {"linewidth": 0.7}), (False, {"linewidth": 0.5, "linestyle": (0, (3, 2))})):
             # A gap in a line where stability changes.
@@ -48,7 +53,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
             label=label,
         )
     # Where no doublings were found, or too few, nothing is known of where they accumulate.
-    accumulation = tables["cascade"].accumulation.dropna().tail(1)
+    accumulation = cascade.accumulation.dropna().tail(1)
     for place in accumulation:
         for axes in (diagram, exponents):
             axes.axvline(place, color="0.5", linewidth=0.6, linestyle=":")
@@ -60,18 +65,18 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
             textcoords="offset points",
             size=7.0,
         )
-    for branch, rows in tables["spectrum"].groupby("branch", sort=False):
+    for branch, rows in spectrum.groupby("branch", sort=False):
         exponents.plot(
             rows.acceleration, rows.lambda_1, color=DIRECTIONS[branch], linewidth=0.6, label=f"swept {branch}"
         )
     exponents.axhline(0.0, color="black", linewidth=0.6)
-    exponents.set_ylim(settings["lowest_exponent"], 1.15 * tables["spectrum"].lambda_1.max())
+    exponents.set_ylim(lowest_exponent, 1.15 * spectrum.lambda_1.max())
     diagram.plot([], [], color="black", linewidth=0.7, label="stable orbit")
     diagram.plot([], [], color="black", linewidth=0.5, linestyle=(0, (3, 2)), label="unstable orbit")
     diagram.set_ylabel("speed of approach $v$ at $\\psi$ = $\\psi_0$ in m/s")
     exponents.set_ylabel("$\\lambda_1$ in 1/s")
     exponents.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
-    exponents.set_xlim(tables["strobes"].acceleration.min(), tables["strobes"].acceleration.max())
+    exponents.set_xlim(strobes.acceleration.min(), strobes.acceleration.max())
     figure.align_ylabels()
     handles = [*diagram.get_legend_handles_labels()[0], *exponents.get_legend_handles_labels()[0]]
     figure.legend(handles=handles, loc="outside upper center", ncols=6)

@@ -20,15 +20,12 @@ def name_of(row) -> str:
     return "fold" if row.kind == "fold" else f"{row.period} → {2 * row.period}"
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the tables branches, orbits (certificates) and bifurcations; settings: longest_period of the branches drawn
-    as lines (excitation cycles).
-    """
+def plot(*, branches: pd.DataFrame, orbits: pd.DataFrame, bifurcations: pd.DataFrame, longest_period: int) -> Figure:
+    """Draw the certificates `orbits` on the branches of up to `longest_period` cycles, and proved bifurcations."""
     figure = style.figure(style.PAGE, 130.0)
     grid = figure.add_gridspec(2, 2, height_ratios=(2.2, 1.0), width_ratios=(2.0, 1.0))
     diagram, widths, brackets = (figure.add_subplot(place) for place in (grid[0, :], grid[1, 0], grid[1, 1]))
-    branches, orbits = tables["branches"], tables["orbits"]
-    for _, rows in branches[branches.period <= settings["longest_period"]].groupby(["branch", "cycle"]):
+    for _, rows in branches[branches.period <= longest_period].groupby(["branch", "cycle"]):
         diagram.plot(rows.acceleration, rows.v, color="0.7", linewidth=0.6, zorder=1)
     diagram.plot([], [], color="0.7", linewidth=0.6, label="computed branches")
     for kind, look in PROVED.items():
@@ -37,7 +34,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
             diagram.plot(
                 rows.acceleration, rows.stored_v, linestyle="none", markersize=2.8, markeredgewidth=0.7, **look
             )
-    proved = tables["bifurcations"][tables["bifurcations"].proved]
+    proved = bifurcations[bifurcations.proved]
     for row in proved.itertuples():
         diagram.axvline(row.acceleration_low, color="black", linewidth=0.5, linestyle=":", zorder=0)
     diagram.set_xlim(branches.acceleration.min(), branches.acceleration.max())

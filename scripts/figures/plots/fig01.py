@@ -2,7 +2,6 @@
 
 import math
 
-import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse, Polygon
@@ -55,8 +54,8 @@ def arrow(axes: Axes, tail: tuple[float, float], tip: tuple[float, float], look:
     axes.annotate("", tip, tail, arrowprops=properties)
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """No tables, no settings."""
+def plot() -> Figure:
+    """Draw the scheme, which needs no tables."""
     figure = style.figure(style.COLUMN, 32.0)
     axes = figure.subplots()
     axes.set_aspect("equal")

@@ -2,7 +2,6 @@
 
 import math
 
-import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Circle, Rectangle
 
@@ -12,8 +11,8 @@ from figures.plots.fig01 import arrow
 THROW = math.radians(25.0)  # drawn steeper than the paper's 12°, to be seen
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """No tables, no settings."""
+def plot() -> Figure:
+    """Draw the scheme, which needs no tables."""
     figure = style.figure(style.COLUMN, 32.0)
     axes = figure.subplots()
     axes.set_aspect("equal")

@@ -6,13 +6,15 @@ from matplotlib.figure import Figure
 from figures import style
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the sweeps `converged` and `euler`; settings: critical_acceleration, m/s²."""
+def plot(
+    *, converged: pd.DataFrame, euler: pd.DataFrame | None = None, critical_acceleration: float | None = None
+) -> Figure:
+    """Draw two sweeps over acceleration, and mark `critical_acceleration` (m/s²)."""
     figure = style.figure(style.COLUMN, 62.0)
     axes = figure.subplots()
-    converged = tables["converged"].query("z0 == 0")
-    if "euler" in tables:
-        euler = tables["euler"].query("z0 == 0")
+    converged = converged.query("z0 == 0")
+    if euler is not None:
+        euler = euler.query("z0 == 0")
         axes.plot(
             euler.acceleration,
             euler.mean_velocity,
@@ -32,8 +34,8 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         color=style.CONVERGED,
         label=style.CONVERGED_LABEL,
     )
-    if "critical_acceleration" in settings:
-        style.mark(axes, settings["critical_acceleration"], f"{settings['critical_acceleration']:g} m/s²")
+    if critical_acceleration is not None:
+        style.mark(axes, critical_acceleration, f"{critical_acceleration:g} m/s²")
     axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     axes.set_ylabel("mean feeding velocity in m/s")
     style.from_zero(axes)

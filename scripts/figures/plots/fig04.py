@@ -6,19 +6,19 @@ from matplotlib.figure import Figure
 from figures import style
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the signals `converged` and `euler` at two amplitudes."""
+def plot(*, converged: pd.DataFrame, euler: pd.DataFrame) -> Figure:
+    """Draw signals at two amplitudes."""
     figure = style.figure(style.PAGE, 88.0)
     panels = figure.subplots(2, 2, sharex=True, sharey="row")
-    for axes, (_, rows) in zip(panels[1], tables["converged"].groupby("acceleration"), strict=True):
+    for axes, (_, rows) in zip(panels[1], converged.groupby("acceleration"), strict=True):
         axes.plot(rows.time, 1e3 * rows.plate_z, **style.PLATE_CURVE)
         axes.set_xlim(rows.time.min(), rows.time.max())
         axes.set_xlabel("time in s")
-    for role, look in style.CURVES.items():
-        for column, (acceleration, rows) in enumerate(tables[role].groupby("acceleration")):
+    for role, table in {"converged": converged, "euler": euler}.items():
+        for column, (acceleration, rows) in enumerate(table.groupby("acceleration")):
             velocity, height = panels[:, column]
-            velocity.plot(rows.time, rows.vx, **look)
-            height.plot(rows.time, 1e3 * rows.z, **look)
+            velocity.plot(rows.time, rows.vx, **style.CURVES[role])
+            height.plot(rows.time, 1e3 * rows.z, **style.CURVES[role])
             velocity.set_title(f"{('below', 'above')[column]}, $\\hat{{a}}$ = {acceleration:g} m/s²")
     panels[0, 0].set_ylabel("feeding velocity $\\dot{x}_p$ in m/s")
     panels[1, 0].set_ylabel("heights $z_p$, $z_s$ in mm")

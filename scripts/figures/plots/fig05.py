@@ -8,21 +8,20 @@ from figures import style
 FORCES = {"contact_force": "contact force $F_c$ in mN", "friction_force": "friction force $F_r$ in mN"}
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the signals `converged` and `euler` at two amplitudes; settings: begin, s, of what is shown."""
+def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, begin: float) -> Figure:
+    """Draw signals at two amplitudes from the time `begin` (s) on."""
     figure = style.figure(style.PAGE, 88.0)
     panels = figure.subplots(2, 2, sharex=True)
-    for role, look in style.CURVES.items():
-        table = tables[role][tables[role].time >= settings["begin"]]
-        for column, (acceleration, rows) in enumerate(table.groupby("acceleration")):
+    for role, table in {"converged": converged, "euler": euler}.items():
+        for column, (acceleration, rows) in enumerate(table[table.time >= begin].groupby("acceleration")):
             panels[0, column].set_title(f"{('below', 'above')[column]}, $\\hat{{a}}$ = {acceleration:g} m/s²")
             for axes, force in zip(panels[:, column], FORCES, strict=True):
-                axes.plot(rows.time, 1e3 * rows[force], **look)
+                axes.plot(rows.time, 1e3 * rows[force], **style.CURVES[role])
     for line, label in zip(panels, FORCES.values(), strict=True):
         for axes in line:
             axes.set_ylabel(label)
     for axes in panels[1]:
-        axes.set_xlim(settings["begin"], tables["converged"].time.max())
+        axes.set_xlim(begin, converged.time.max())
         axes.locator_params(axis="x", nbins=5)
         axes.set_xlabel("time in s")
     figure.align_ylabels()

@@ -8,7 +8,7 @@ from figures import style
 LOWEST = 1e-6  # m/s, of the axis: lines of the riding part fall to the noise of the samples below it
 
 
-def plot_signal(tables: dict[str, pd.DataFrame], signal: str, symbol: str, highest: float) -> Figure:
+def plot_signal(converged: pd.DataFrame, euler: pd.DataFrame, signal: str, symbol: str, highest: float) -> Figure:
     """One signal of the spectra `converged` and `euler` at two amplitudes up to the frequency `highest` (Hz)."""
     figure = style.figure(style.PAGE, 60.0)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
@@ -21,8 +21,8 @@ def plot_signal(tables: dict[str, pd.DataFrame], signal: str, symbol: str, highe
         },
         "converged": {"marker": ".", "color": style.CONVERGED, "label": style.CONVERGED_LABEL},
     }
-    for role, look in looks.items():
-        table = tables[role]
+    for role, table in {"euler": euler, "converged": converged}.items():
+        look = looks[role]
         shown = table[(table.signal == signal) & (table.frequency <= highest)]
         for axes, place, (acceleration, rows) in zip(
             panels, ("below", "above"), shown.groupby("acceleration"), strict=True
@@ -39,6 +39,6 @@ def plot_signal(tables: dict[str, pd.DataFrame], signal: str, symbol: str, highe
     return figure
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the spectra `converged` and `euler` at two amplitudes; settings: highest, Hz, of what is shown."""
-    return plot_signal(tables, "vz", "$\\dot{z}_p$", settings["highest"])
+def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, highest: float) -> Figure:
+    """Draw spectra at two amplitudes up to the frequency `highest` (Hz)."""
+    return plot_signal(converged, euler, "vz", "$\\dot{z}_p$", highest)

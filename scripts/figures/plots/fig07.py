@@ -6,6 +6,6 @@ from matplotlib.figure import Figure
 from figures.plots.fig06 import plot_signal
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the spectra `converged` and `euler` at two amplitudes; settings: highest, Hz, of what is shown."""
-    return plot_signal(tables, "vx", "$\\dot{x}_p$", settings["highest"])
+def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, highest: float) -> Figure:
+    """Draw spectra at two amplitudes up to the frequency `highest` (Hz)."""
+    return plot_signal(converged, euler, "vx", "$\\dot{x}_p$", highest)

@@ -32,15 +32,16 @@ def unsettled(sweep: pd.DataFrame) -> tuple[float, float] | None:
     return float(middle), float(wide.loc[middle])
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the sweeps `converged` and `euler` over acceleration and z0; settings: two_states, m/s²."""
+def plot(
+    *, converged: pd.DataFrame, euler: pd.DataFrame | None = None, two_states: list[float] | None = None
+) -> Figure:
+    """Draw sweeps over acceleration and z0, and shade the interval `two_states` (m/s²)."""
     figure = style.figure(style.PAGE, 72.0)
-    titles = style.panels(tables)
-    panels = figure.subplots(1, len(titles), sharex=True, sharey=True, squeeze=False)[0]
-    for axes, (role, title) in zip(panels, titles.items(), strict=True):
-        sweep = tables[role]
-        if "two_states" in settings:
-            axes.axvspan(*settings["two_states"], color="0.93", linewidth=0.0)
+    sweeps = style.drop_missing(euler=euler, converged=converged)
+    panels = figure.subplots(1, len(sweeps), sharex=True, sharey=True, squeeze=False)[0]
+    for axes, (role, sweep) in zip(panels, sweeps.items(), strict=True):
+        if two_states is not None:
+            axes.axvspan(*two_states, color="0.93", linewidth=0.0)
         axes.plot(*plate_velocity(sweep), color=style.PLATE, linewidth=0.8, linestyle="--")
         for state, colour in style.STATE_COLOURS.items():
             rows = sweep[sweep.state == state]
@@ -55,19 +56,19 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
                 size=7.0,
                 arrowprops={"arrowstyle": "->", "linewidth": 0.6, "shrinkB": 3.0},
             )
-        axes.set_title(title)
+        axes.set_title(style.PANELS[role])
         axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     panels[0].set_ylabel("mean feeding velocity in m/s")
     for axes in panels:
         style.from_zero(axes)
-    present = {state for table in tables.values() for state in table.state}
+    present = {state for sweep in sweeps.values() for state in sweep.state}
     handles = {
         state: Line2D([], [], color=colour, marker="o", linestyle="")
         for state, colour in style.STATE_COLOURS.items()
         if state in present
     }
     handles["largest velocity of the conveyor"] = Line2D([], [], color=style.PLATE, linewidth=0.8, linestyle="--")
-    if "two_states" in settings:
+    if two_states is not None:
         handles["two states (paper)"] = Patch(color="0.93")
     figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=len(handles))
     return figure

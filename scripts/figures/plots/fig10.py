@@ -13,27 +13,32 @@ def triple(fits: pd.DataFrame, fit: str) -> Hyperbola:
     return Hyperbola(*fits.set_index("fit").loc[fit, ["A", "B", "C"]])
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the critical heights `converged` and `euler` and the regressions `fit` and `fit_euler`."""
+def plot(
+    *,
+    converged: pd.DataFrame,
+    fit: pd.DataFrame,
+    euler: pd.DataFrame | None = None,
+    fit_euler: pd.DataFrame | None = None,
+) -> Figure:
+    """Draw critical heights and the regressions `fit` and `fit_euler` of Eq. 13."""
     figure = style.figure(style.COLUMN, 66.0)
     axes = figure.subplots()
-    converged = tables["converged"]
     edge = converged[converged.is_critical]
     curves = (
-        ("fit", "pymoo", style.CONVERGED, "-", "Eq. 13, fitted to converged"),
-        ("fit_euler", "pymoo", style.EULER, "-", "Eq. 13, fitted to the paper's method"),
-        ("fit", "paper", "black", ":", "Eq. 13 with the paper's A, B, C"),
+        (fit, "pymoo", style.CONVERGED, "-", "Eq. 13, fitted to converged"),
+        (fit_euler, "pymoo", style.EULER, "-", "Eq. 13, fitted to the paper's method"),
+        (fit, "paper", "black", ":", "Eq. 13 with the paper's A, B, C"),
     )
-    there = [curve for curve in curves if curve[0] in tables and (tables[curve[0]].fit == curve[1]).any()]
-    for role, fit, colour, line, label in there:
-        fitted = np.linspace(
-            *tables[role].attrs.get("acceleration", (edge.acceleration.min(), edge.acceleration.max())), 200
-        )
-        height = 1e3 * critical_height(fitted, triple(tables[role], fit))
+    for fits, name, colour, line, label in curves:
+        if fits is None or name not in set(fits.fit):
+            continue
+        ends = fits.attrs.get("acceleration", (edge.acceleration.min(), edge.acceleration.max()))
+        fitted = np.linspace(*ends, 200)
+        height = 1e3 * critical_height(fitted, triple(fits, name))
         axes.plot(fitted, height, line, color=colour, linewidth=0.8, label=label)
     hollow = {"markerfacecolor": "none", "markeredgewidth": 0.6, "linestyle": ""}
-    if "euler" in tables:
-        euler = tables["euler"][tables["euler"].is_critical]
+    if euler is not None:
+        euler = euler[euler.is_critical]
         axes.plot(
             euler.acceleration,
             1e3 * euler.z0,
@@ -60,7 +65,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     axes.set_ylim(bottom=0.0)
     if edge.empty:
         axes.annotate("no change of state over these heights", (0.5, 0.5), xycoords="axes fraction", ha="center")
-    if tables["fit"].empty:
+    if fit.empty:
         axes.plot([], [], " ", label=f"no fit of Eq. 13 to {edge.acceleration.nunique()} amplitudes")
     axes.legend()
     return figure

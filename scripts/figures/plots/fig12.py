@@ -6,13 +6,12 @@ from matplotlib.figure import Figure
 from figures import style
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the sweep `map` over acceleration and z0."""
+def plot(*, map: pd.DataFrame) -> Figure:
+    """Draw a sweep over acceleration and z0."""
     figure = style.figure(style.COLUMN, 70.0)
     axes = figure.subplots()
-    table = tables["map"]
-    style.state_map(axes, table.assign(z0=1e3 * table.z0), "acceleration", "z0")
+    style.state_map(axes, map.assign(z0=1e3 * map.z0), "acceleration", "z0")
     axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     axes.set_ylabel("initial height $z_0$ in mm")
-    figure.legend(handles=style.state_handles(table), loc="outside upper center", ncols=4)
+    figure.legend(handles=style.state_handles(map), loc="outside upper center", ncols=4)
     return figure

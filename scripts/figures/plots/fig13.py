@@ -23,12 +23,11 @@ def phase_map(table: pd.DataFrame, name: str, label: str, start: str) -> tuple[F
     return figure, axes
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the sweep `map` over psi0 and z0; a line shows the height of the plate."""
-    table = tables["map"]
-    figure, axes = phase_map(table.assign(z0=1e3 * table.z0), "z0", "initial height $z_0$ in mm", "$\\dot{z}_0$ = 0")
-    model = {name: value for name, value in table.attrs["model"].items() if name != "vz0"}
-    phases = np.linspace(table.psi0.min(), table.psi0.max(), 200)
+def plot(*, map: pd.DataFrame) -> Figure:
+    """Draw a sweep over psi0 and z0; a line shows the height of the plate."""
+    figure, axes = phase_map(map.assign(z0=1e3 * map.z0), "z0", "initial height $z_0$ in mm", "$\\dot{z}_0$ = 0")
+    model = {name: value for name, value in map.attrs["model"].items() if name != "vz0"}
+    phases = np.linspace(map.psi0.min(), map.psi0.max(), 200)
     plate = conveyor_motion(Conveyor(**model), phases / (2.0 * np.pi * model["frequency"]))["z"]
     axes.plot(1e3 * plate[plate >= 0.0], phases[plate >= 0.0], color="white", linewidth=1.0)
     top = plate.argmax()

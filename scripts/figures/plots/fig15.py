@@ -10,16 +10,15 @@ MARKERS = "os^v"
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the impacts `impacts` over acceleration and z0, which lie on the line of Eqs. 17 and 18."""
+def plot(*, impacts: pd.DataFrame) -> Figure:
+    """Draw impacts over acceleration and z0, which lie on the line of Eqs. 17 and 18."""
     figure = style.figure(style.COLUMN, 70.0)
     axes = figure.subplots()
-    table = tables["impacts"]
-    model = table.attrs["model"]
-    ends = np.array([table.impact_velocity.min(), 0.0])
+    model = impacts.attrs["model"]
+    ends = np.array([impacts.impact_velocity.min(), 0.0])
     slope = -2.0 * np.pi * model["frequency"] / model["gravity"]
     axes.plot(ends, model["psi0"] + slope * ends, color=style.PLATE, linewidth=0.8, label="slope $-\\omega/g$")
-    curves = table.groupby("acceleration")
+    curves = impacts.groupby("acceleration")
     for offset, (marker, colour, (acceleration, rows)) in enumerate(zip(MARKERS, COLOURS, curves, strict=True)):
         shown = rows.iloc[offset :: len(curves)]
         axes.plot(
@@ -35,6 +34,6 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     axes.set_xlabel("velocity at the first impact $\\dot{z}_1$ in m/s")
     axes.set_ylabel("phase at the first impact $\\psi_1$ in rad")
     style.phase_axis(axes.yaxis)
-    axes.set_ylim(0.0, 1.1 * table.impact_phase.max())
+    axes.set_ylim(0.0, 1.1 * impacts.impact_phase.max())
     axes.legend(loc="upper right")
     return figure

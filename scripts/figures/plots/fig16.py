@@ -6,17 +6,16 @@ from matplotlib.figure import Figure
 from figures import style
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the signals `converged` and `euler`; settings: acceleration, m/s², and z0, m, of the run shown."""
+def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, acceleration: float, z0: float) -> Figure:
+    """Draw signals of the run with this `acceleration` (m/s²) and `z0` (m)."""
     figure = style.figure(style.PAGE, 100.0)
     (velocity, contact), (height, friction) = figure.subplots(2, 2, sharex=True)
     looks = (
-        ("euler", {"color": style.EULER, "label": style.EULER_LABEL}),
-        ("converged", {"color": style.CONVERGED, "label": style.CONVERGED_LABEL}),
+        (euler, {"color": style.EULER, "label": style.EULER_LABEL}),
+        (converged, {"color": style.CONVERGED, "label": style.CONVERGED_LABEL}),
     )
-    for role, look in looks:
-        table = tables[role]
-        rows = table[(table.acceleration == settings["acceleration"]) & (table.z0 == settings["z0"])]
+    for table, look in looks:
+        rows = table[(table.acceleration == acceleration) & (table.z0 == z0)]
         velocity.plot(rows.time, rows.vx, linewidth=0.7, **look)
         height.plot(rows.time, 1e3 * rows.z, linewidth=0.7, **look)
         contact.plot(rows.time, 1e3 * rows.contact_force, linewidth=0.7, **look)

@@ -6,14 +6,19 @@ from matplotlib.figure import Figure
 from figures import style
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the estimates `converged`, `euler` and the critical heights `edge`; settings: first_positive, m/s²."""
-    titles = style.panels(tables)
-    figure = style.figure(style.COLUMN, 16.0 + 34.0 * len(titles))
-    panels = figure.subplots(len(titles), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
-    edge = tables["edge"]
-    for axes, (role, label) in zip(panels, titles.items(), strict=True):
-        table, colour = tables[role], style.CURVES[role]["color"]
+def plot(
+    *,
+    converged: pd.DataFrame,
+    edge: pd.DataFrame,
+    euler: pd.DataFrame | None = None,
+    first_positive: float | None = None,
+) -> Figure:
+    """Draw estimates, shade where a critical height of `edge` parts the runs, and mark `first_positive` (m/s²)."""
+    estimates = style.drop_missing(euler=euler, converged=converged)
+    figure = style.figure(style.COLUMN, 16.0 + 34.0 * len(estimates))
+    panels = figure.subplots(len(estimates), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
+    for axes, (role, table) in zip(panels, estimates.items(), strict=True):
+        colour = style.CURVES[role]["color"]
         between = edge.acceleration[edge.is_critical & (edge.z0 < table.attrs["epsilon"])]
         axes.axhline(0.0, color="black", linewidth=0.6)
         axes.plot(table.acceleration, table["lambda"], color=colour, linewidth=0.8)
@@ -28,17 +33,17 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
                 va="center",
                 size=7.0,
             )
-        if "first_positive" in settings:
-            axes.axvline(settings["first_positive"], color="black", linewidth=0.6, linestyle=":")
+        if first_positive is not None:
+            axes.axvline(first_positive, color="black", linewidth=0.6, linestyle=":")
             axes.annotate(
-                f"{settings['first_positive']:g} m/s²",
-                (settings["first_positive"], 0.0),
+                f"{first_positive:g} m/s²",
+                (first_positive, 0.0),
                 xytext=(-3, -9),
                 textcoords="offset points",
                 ha="right",
                 size=7.0,
             )
-        axes.set_title(label, color=colour)
+        axes.set_title(style.PANELS[role], color=colour)
         axes.set_ylabel("exponent of $z_p$ in 1/s")
     panels[-1].set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     return figure

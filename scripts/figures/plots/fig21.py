@@ -7,19 +7,19 @@ from matplotlib.figure import Figure
 from figures import style
 
 LEAST = 1e-12  # m/s: where both parts slip they have the same velocity but for rounding
-LOOKS = {
-    "euler": (style.EULER, style.EULER_LABEL),
-    "converged": (style.CONVERGED, style.CONVERGED_LABEL),
-}
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the signals `converged` and `euler` at two phases."""
+def plot(*, converged: pd.DataFrame, euler: pd.DataFrame) -> Figure:
+    """Draw signals at two phases and their distance."""
     figure = style.figure(style.PAGE, 116.0)
     panels = figure.subplots(3, 2, sharex=True, sharey="row")
-    for column, (role, (colour, title)) in zip(panels.T, LOOKS.items(), strict=True):
+    signals = (
+        (euler, style.EULER, style.EULER_LABEL),
+        (converged, style.CONVERGED, style.CONVERGED_LABEL),
+    )
+    for column, (table, colour, title) in zip(panels.T, signals, strict=True):
         position, velocity, difference = column
-        (low, base), (high, perturbed) = tables[role].groupby("psi0")
+        (low, base), (high, perturbed) = table.groupby("psi0")
         mantissa, exponent = f"{high - low:.0e}".split("e")
         for axes, name, scale in ((position, "x", 1e3), (velocity, "vx", 1.0)):
             axes.plot(base.time, scale * base[name], color=colour, linewidth=1.4, label="base")

@@ -6,16 +6,18 @@ from matplotlib.figure import Figure
 from figures import style
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the estimates `converged` and `euler`; settings: critical_acceleration, m/s²."""
+def plot(
+    *, converged: pd.DataFrame, euler: pd.DataFrame | None = None, critical_acceleration: float | None = None
+) -> Figure:
+    """Draw estimates over the amplitude, and mark `critical_acceleration` (m/s²)."""
     figure = style.figure(style.COLUMN, 62.0)
     axes = figure.subplots()
     axes.axhline(0.0, color="black", linewidth=0.6)
-    for role, label in style.panels(tables).items():
-        table, width = tables[role], 1.6 if role == "euler" else 0.8
-        axes.plot(table.acceleration, table["lambda"], color=style.CURVES[role]["color"], linewidth=width, label=label)
-    if "critical_acceleration" in settings:
-        style.mark(axes, settings["critical_acceleration"], f"{settings['critical_acceleration']:g} m/s²")
+    for role, table in style.drop_missing(euler=euler, converged=converged).items():
+        look = {"color": style.CURVES[role]["color"], "linewidth": 1.6 if role == "euler" else 0.8}
+        axes.plot(table.acceleration, table["lambda"], label=style.PANELS[role], **look)
+    if critical_acceleration is not None:
+        style.mark(axes, critical_acceleration, f"{critical_acceleration:g} m/s²")
     axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
     axes.set_ylabel("Lyapunov exponent of $\\dot{x}_p$ in 1/s")
     style.legend_above(figure, axes, ncols=2)

@@ -6,21 +6,28 @@ from matplotlib.figure import Figure
 from figures import style
 
 UNKNOWN = {"converged": 0.05, "correlation": 0.02}  # share of the axis where amplitudes without an estimate are marked
+LOOKS = {
+    "euler": ("o-", style.EULER, "paper's method: boxes, first second"),
+    "converged": ("s", style.CONVERGED, "converged: boxes, settled motion"),
+    "correlation": ("x", style.SECOND_ESTIMATE, "converged: correlation sum"),
+}
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the dimensions `euler`, `converged` and `correlation`; settings: critical_acceleration, m/s²."""
+def plot(
+    *,
+    converged: pd.DataFrame,
+    correlation: pd.DataFrame,
+    euler: pd.DataFrame | None = None,
+    critical_acceleration: float | None = None,
+) -> Figure:
+    """Draw dimensions by boxes and by the `correlation` sum, and mark `critical_acceleration` (m/s²)."""
     figure = style.figure(style.COLUMN, 86.0)
     axes = figure.subplots()
     for dimension in (1.0, 2.0):
         axes.axhline(dimension, color="0.8", linewidth=0.6)
-    looks = (
-        ("euler", "o-", style.EULER, "paper's method: boxes, first second"),
-        ("converged", "s", style.CONVERGED, "converged: boxes, settled motion"),
-        ("correlation", "x", style.SECOND_ESTIMATE, "converged: correlation sum"),
-    )
-    for role, marker, colour, label in [look for look in looks if look[0] in tables]:
-        table = tables[role]
+    tables = style.drop_missing(euler=euler, converged=converged, correlation=correlation)
+    for role, table in tables.items():
+        marker, colour, label = LOOKS[role]
         known = table[table.dimension.notna()]
         axes.errorbar(
             known.acceleration,
@@ -46,8 +53,8 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
                 markeredgewidth=0.8,
             )
     axes.plot([], [], "|", color="black", markersize=3.5, label="no estimate: its interval is too wide")
-    if "critical_acceleration" in settings:
-        style.mark(axes, settings["critical_acceleration"], f"{settings['critical_acceleration']:g} m/s²")
+    if critical_acceleration is not None:
+        style.mark(axes, critical_acceleration, f"{critical_acceleration:g} m/s²")
     # Every bar is seen from end to end, with room for the marks below.
     ends = [table.dimension + sign * table.error for table in tables.values() for sign in (-1.0, 1.0)]
     low, high = pd.concat(ends).min(), pd.concat(ends).max()

@@ -16,18 +16,17 @@ MARKERS = {
 CURVES = 5
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From critical heights `converged` and regressions `fit`, `fit_euler`; settings: paper_error, m²."""
+def plot(*, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame, paper_error: float) -> Figure:
+    """Draw the fits of the critical heights `converged`, and mark the error `paper_error` (m²)."""
     figure = style.figure(style.PAGE, 62.0)
     errors, triples, heights = figure.subplots(1, 3)
-    fit, data = tables["fit"], tables["converged"]
     valley = fit[fit.fit == "valley"]
-    flat = valley[valley.error <= settings["paper_error"]]
+    flat = valley[valley.error <= paper_error]
 
-    errors.axhline(1e6 * settings["paper_error"] ** 0.5, color="black", linewidth=0.6, linestyle=":")
+    errors.axhline(1e6 * paper_error**0.5, color="black", linewidth=0.6, linestyle=":")
     errors.annotate(
         "the paper",
-        (1.0, 1e6 * settings["paper_error"] ** 0.5),
+        (1.0, 1e6 * paper_error**0.5),
         xycoords=("axes fraction", "data"),
         xytext=(0, -2),
         textcoords="offset points",
@@ -35,9 +34,9 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         va="top",
         size=7.0,
     )
-    labels = {"fit": (style.CONVERGED, "converged data"), "fit_euler": (style.EULER, "by the paper's method")}
-    for role, (colour, label) in labels.items():
-        curve = tables[role][tables[role].fit == "valley"]
+    fits = ((fit, style.CONVERGED, "converged data"), (fit_euler, style.EULER, "by the paper's method"))
+    for table, colour, label in fits:
+        curve = table[table.fit == "valley"]
         errors.plot(curve.B, 1e6 * curve.error**0.5, color=colour, linewidth=0.8, label=label)
     errors.set_yscale("log")
     errors.set_yticks([4.0, 6.0, 10.0, 20.0], ["4", "6", "10", "20"])
@@ -65,7 +64,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         curve = critical_height(range_of_fit, Hyperbola(row.A, row.B, row.C))
         colour = colormaps["viridis"](shade)
         heights.plot(range_of_fit, 1e3 * curve, color=colour, linewidth=0.6, label=f"$B = {row.B:.1f}$ m/s²")
-    edge = data[data.is_critical]
+    edge = converged[converged.is_critical]
     heights.plot(
         edge.acceleration, 1e3 * edge.z0, ".", color="black", markersize=2.0, markeredgewidth=0.0, label="data"
     )

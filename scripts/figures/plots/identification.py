@@ -108,12 +108,12 @@ def valley(axes: Axes, profiles: pd.DataFrame, optima: pd.DataFrame, model: dict
     axes.figure.colorbar(points, ax=axes, label=UNITS["angle"][1], pad=0.02, aspect=25)
 
 
-def one_profile(axes: Axes, tables: dict[str, pd.DataFrame], parameter: str, given: float) -> None:
+def one_profile(axes: Axes, profiles: pd.DataFrame, optima: pd.DataFrame, parameter: str, given: float) -> None:
     """The least total over one parameter for each set of evidence, and the level of its interval."""
     scale, label = UNITS[parameter]
     for evidence, (colour, line, name) in EVIDENCE.items():
-        profile = lowest_profile(tables["profiles"], evidence, parameter)
-        rows = tables["optima"][tables["optima"].evidence == evidence]
+        profile = lowest_profile(profiles, evidence, parameter)
+        rows = optima[optima.evidence == evidence]
         axes.plot(scale * profile[parameter], profile.total, color=colour, linestyle=line, label=name)
         level = rows.total.min() + rows.rise.iloc[0]
         axes.axhline(level, color=colour, linestyle=line, linewidth=0.4)
@@ -122,18 +122,20 @@ def one_profile(axes: Axes, tables: dict[str, pd.DataFrame], parameter: str, giv
     axes.set_xlabel(label)
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the tables `printed`, `front`, `profiles`, `optima` and `frictions` of the stage."""
+def plot(
+    *, printed: pd.DataFrame, front: pd.DataFrame, profiles: pd.DataFrame, optima: pd.DataFrame, frictions: pd.DataFrame
+) -> Figure:
+    """Draw all results of the stage identification."""
     figure = style.figure(style.PAGE, 122.0)
     upper, lower = figure.subfigures(2, 1, height_ratios=(1.0, 1.0))
     alone, velocities, contacts = upper.subplots(1, 3, width_ratios=(1.0, 0.9, 1.15))
-    model = tables["profiles"].attrs["model"]
-    friction_alone(alone, tables["frictions"], tables["printed"], model["friction"])
-    fronts(velocities, tables["front"], tables["printed"])
-    valley(contacts, tables["profiles"], tables["optima"], model)
+    model = profiles.attrs["model"]
+    friction_alone(alone, frictions, printed, model["friction"])
+    fronts(velocities, front, printed)
+    valley(contacts, profiles, optima, model)
     panels = lower.subplots(1, 4, sharey=True)
     for axes, parameter in zip(panels, PARAMETERS, strict=True):
-        one_profile(axes, tables, parameter, model[parameter])
+        one_profile(axes, profiles, optima, parameter, model[parameter])
     panels[0].set_ylabel("least total misfit")
     lower.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     for axes, letter in zip((alone, velocities, contacts, *panels), "abcdefg", strict=True):

@@ -18,9 +18,8 @@ LOOKS = {
 }
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the tables of shares and regimes."""
-    shares, regimes = tables["shares"], tables["regimes"]
+def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
+    """Draw shares and regimes of motion."""
     figure = style.figure(style.PAGE, 104.0)
     strip, velocities, share = figure.subplots(3, 1, sharex=True, height_ratios=(0.35, 3.0, 2.0))
     amplitudes = np.sort(shares.acceleration.unique())

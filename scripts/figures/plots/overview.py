@@ -55,10 +55,18 @@ def said(axes: Axes, x: float, height: float, text: str) -> None:
     )
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From strobes, bifurcations, cascade, spectrum, the paper's estimate and a map; settings: critical_acceleration
-    (m/s²), lowest_exponent (1/s).
-    """
+def plot(
+    *,
+    strobes: pd.DataFrame,
+    bifurcations: pd.DataFrame,
+    cascade: pd.DataFrame,
+    spectrum: pd.DataFrame,
+    estimate: pd.DataFrame,
+    map: pd.DataFrame,
+    critical_acceleration: float,
+    lowest_exponent: float,
+) -> Figure:
+    """Shade amplitudes from `critical_acceleration` (m/s²) on, and draw exponents above `lowest_exponent` (1/s)."""
     figure = style.figure(style.PAGE, 96.0)
     both = figure.subplots(1, 2, width_ratios=(2.0, 1.0))
     for axes in both:
@@ -69,12 +77,12 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     below = figure.add_subplot(left[1], sharex=diagram)
     starts = figure.add_subplot(grid[1])
 
-    fold = tables["bifurcations"].query("kind == 'fold' and proved").acceleration_low.min()
-    accumulation = tables["cascade"].accumulation.dropna().iloc[-1]
-    attractors(diagram, tables["strobes"])
-    exponents(below, tables["spectrum"], tables["estimate"])
+    fold = bifurcations.query("kind == 'fold' and proved").acceleration_low.min()
+    accumulation = cascade.accumulation.dropna().iloc[-1]
+    attractors(diagram, strobes)
+    exponents(below, spectrum, estimate)
     for axes in (diagram, below):
-        axes.axvspan(settings["critical_acceleration"], accumulation, color=SHADE, zorder=-1)
+        axes.axvspan(critical_acceleration, accumulation, color=SHADE, zorder=-1)
         axes.axvline(fold, color="black", linewidth=0.6, linestyle=":")
         axes.axvline(accumulation, color="black", linewidth=0.6, linestyle=":")
     diagram.annotate(
@@ -89,25 +97,24 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     said(diagram, accumulation, 0.97, "doublings\naccumulate")
     below.annotate(
         "called\nchaos",
-        (0.5 * (settings["critical_acceleration"] + accumulation), 0.97),
+        (0.5 * (critical_acceleration + accumulation), 0.97),
         xycoords=("data", "axes fraction"),
         ha="center",
         va="top",
         size=7.0,
     )
     diagram.tick_params(labelbottom=False)
-    below.set_ylim(settings["lowest_exponent"], 1.5 * tables["spectrum"].lambda_1.max())
-    below.set_xlim(tables["strobes"].acceleration.min(), tables["strobes"].acceleration.max())
+    below.set_ylim(lowest_exponent, 1.5 * spectrum.lambda_1.max())
+    below.set_xlim(strobes.acceleration.min(), strobes.acceleration.max())
     below.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
 
-    table = tables["map"]
-    style.state_map(starts, table.assign(z0=MM * table.z0), "z0", "psi0")
+    style.state_map(starts, map.assign(z0=MM * map.z0), "z0", "psi0")
     style.phase_axis(starts.yaxis)
     starts.set_xlabel("initial height $z_0$ in mm")
     starts.set_ylabel("initial phase $\\psi_0$ in rad")
-    starts.set_title(f"$\\hat{{a}}$ = {table.attrs['model']['acceleration']:g} m/s²")
+    starts.set_title(f"$\\hat{{a}}$ = {map.attrs['model']['acceleration']:g} m/s²")
     for axes, letter in ((diagram, "a"), (below, "b"), (starts, "c")):
         axes.set_title(letter, loc="left", weight="bold")
-    figure.legend(handles=style.state_handles(tables["strobes"], table), loc="outside upper center", ncols=4)
+    figure.legend(handles=style.state_handles(strobes, map), loc="outside upper center", ncols=4)
     figure.align_ylabels([diagram, below])
     return figure

@@ -23,12 +23,11 @@ def draw_velocities(axes: Axes, rows: pd.DataFrame) -> None:
     axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the table of the rigid part."""
-    table = tables["rigid"]
+def plot(*, rigid: pd.DataFrame) -> Figure:
+    """Draw velocities, folds and doublings of a rigid part and of the contact."""
     figure = style.figure(style.PAGE, 115.0)
     panels = figure.subplot_mosaic([["low", "high"], ["places", "places"]], height_ratios=[2.0, 1.0])
-    velocities = table[table.kind == "velocity"]
+    velocities = rigid[rigid.kind == "velocity"]
     low, high = velocities.z0.min(), velocities.z0.max()
     for name, height in (("low", low), ("high", high)):
         draw_velocities(panels[name], velocities[velocities.z0 == height])
@@ -37,7 +36,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
 
     places = panels["places"]
     for row, (model, (marker, colour, label)) in enumerate(MODELS.items()):
-        found = table[(table.kind != "velocity") & (table.model == model)]
+        found = rigid[(rigid.kind != "velocity") & (rigid.model == model)]
         places.plot(found.acceleration, [row] * len(found), marker, color=colour, markersize=4.0, label=label)
         if model == "contact":
             for bifurcation in found.itertuples():

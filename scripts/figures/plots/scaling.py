@@ -80,19 +80,18 @@ def beside_peers(axes: Axes, table: pd.DataFrame) -> None:
     axes.set_xlabel(f"starts followed for {table.attrs['duration']:g} s, per second of one thread")
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the tables of scaling and of throughput."""
-    table = tables["scaling"]
+def plot(*, scaling: pd.DataFrame, throughput: pd.DataFrame) -> Figure:
+    """Draw costs of sweeps and the throughput of other programs."""
     figure = style.figure(style.PAGE, 150.0)
     rows = figure.add_gridspec(3, 2, height_ratios=(3, 3, 2))
     left, right, threads, shards = (figure.add_subplot(rows[place]) for place in ((0, 0), (0, 1), (1, 0), (1, 1)))
-    beside_peers(figure.add_subplot(rows[2, :]), tables["throughput"])
-    over_points(left, right, table)
-    rows = table[table.varied == "threads"].sort_values("threads")
+    beside_peers(figure.add_subplot(rows[2, :]), throughput)
+    over_points(left, right, scaling)
+    rows = scaling[scaling.varied == "threads"].sort_values("threads")
     over_counts(threads, rows, "threads", rows.computed / rows.computing_seconds)
     threads.set_xlabel("threads of a job")
     threads.set_ylabel("points per second of a job,\nonce it has started")
-    rows = table[table.varied == "shards"].sort_values("shards")
+    rows = scaling[scaling.varied == "shards"].sort_values("shards")
     over_counts(shards, rows, "shards", rows.computed / rows.shard_seconds)
     shards.set_xlabel("shards of a sweep")
     shards.set_ylabel("points per second of all jobs,\none after the other")

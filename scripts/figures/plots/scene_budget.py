@@ -28,10 +28,10 @@ def in_words(figure: str) -> str:
     return f"Fig. {int(number)}" if number.isdigit() else figure.replace("_", " ")
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the table `budget` and its processor `times`."""
-    table = tables["budget"].merge(tables["times"], on=["table", "variant", "tolerance"], how="left")
-    table.attrs = tables["budget"].attrs
+def plot(*, budget: pd.DataFrame, times: pd.DataFrame) -> Figure:
+    """Draw costs and visible changes of each table's variants."""
+    table = budget.merge(times, on=["table", "variant", "tolerance"], how="left")
+    table.attrs = budget.attrs
     drawn = table[table.table != "none"]
     names = list(dict.fromkeys(drawn.table))
     figures = drawn.groupby("table").figure.unique().map(lambda drawing: ", ".join(map(in_words, drawing)))

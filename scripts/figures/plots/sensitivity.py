@@ -81,16 +81,16 @@ def look_of(curve: pd.DataFrame, first_fold: float) -> tuple[str, dict]:
     return "other doublings", {"color": OTHER, "linewidth": 0.8, "linestyle": (0, (2, 1.5))}
 
 
-def chart(axes: Axes, tables: dict[str, pd.DataFrame], parameter: str, group: str, name: str) -> None:
+def chart(axes: Axes, curves: pd.DataFrame, meetings: pd.DataFrame, parameter: str, group: str, name: str) -> None:
     """Γ over a group, with the points of codimension two and the conveyor of the config."""
-    continued = tables["continued"][tables["continued"].parameter == parameter]
+    continued = curves[curves.parameter == parameter]
     folds = continued[continued.kind == "fold"]
-    curves = [rows for _, rows in continued.groupby(["kind", "doubling", "begin"], sort=False)]
+    groups = [rows for _, rows in continued.groupby(["kind", "doubling", "begin"], sort=False)]
     # What is named lies above the others.
-    for rows in sorted(curves, key=lambda rows: not look_of(rows, folds.begin.min())[0].startswith("other")):
+    for rows in sorted(groups, key=lambda rows: not look_of(rows, folds.begin.min())[0].startswith("other")):
         label, look = look_of(rows, folds.begin.min())
         axes.plot(rows[group], rows.amplitude_group, label=label, **look)
-    meetings = tables["meetings"][tables["meetings"].parameter == parameter]
+    meetings = meetings[meetings.parameter == parameter]
     shown = meetings[
         (meetings.status == "ok") & (meetings.meeting != "grazing") | (meetings.status == "the curve ends here")
     ]
@@ -107,7 +107,7 @@ def chart(axes: Axes, tables: dict[str, pd.DataFrame], parameter: str, group: st
                 markeredgewidth=0.6,
                 **look,
             )
-    own = tables["continued"][tables["continued"].parameter == "angle"]
+    own = curves[curves.parameter == "angle"]
     if len(own):
         axes.axvline(own[group].iloc[0], color="black", linewidth=0.5, linestyle=":")
         axes.annotate(
@@ -129,18 +129,17 @@ def chart(axes: Axes, tables: dict[str, pd.DataFrame], parameter: str, group: st
     axes.set_ylabel("amplitude group $\\Gamma = a_z/g$")
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the tables of derivatives, of continued curves and of their meetings."""
-    table = tables["derivatives"]
+def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.DataFrame) -> Figure:
+    """Draw derivatives, and curves of bifurcations that are continued over two groups."""
     figure = style.figure(style.PAGE, 140.0)
     (amplitudes, heights), (damping, stiffness) = figure.subplots(2, 2, height_ratios=(1.0, 1.15))
 
-    named = {label: rows for label, rows in chosen(table).items() if len(rows)}
+    named = {label: rows for label, rows in chosen(derivatives).items() if len(rows)}
     dots(amplitudes, named, [name for name in NAMES if name != "acceleration"], "elasticity", POINTS)
     amplitudes.set_xlabel("change of the amplitude $\\hat{a}$ in % for 1 % more")
     amplitudes.legend(loc="lower left", bbox_to_anchor=(-0.19, 1.0), ncols=2, columnspacing=0.6, handletextpad=0.2)
 
-    rows = table[(table.kind == "critical_height") & (table.status == "ok")]
+    rows = derivatives[(derivatives.kind == "critical_height") & (derivatives.status == "ok")]
     rows = rows.assign(per_percent=1e4 * rows.derivative * rows.value)
     of_amplitudes = {f"{a:.4g} m/s²": one for a, one in rows.groupby("acceleration")}
     shades = colormaps["viridis"](np.linspace(0.0, 0.85, max(len(of_amplitudes), 1)))
@@ -149,8 +148,15 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     heights.set_xlabel("change of the critical height in µm for 1 % more")
     heights.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, columnspacing=0.7, handletextpad=0.0)
 
-    chart(damping, tables, "damping", "damping_group", "damping group $D = d_c/(m\\omega)$")
-    chart(stiffness, tables, "stiffness", "stiffness_group", "stiffness group $K = k_c g^{p-1}/(m\\omega^{2p})$")
+    chart(damping, continued, meetings, "damping", "damping_group", "damping group $D = d_c/(m\\omega)$")
+    chart(
+        stiffness,
+        continued,
+        meetings,
+        "stiffness",
+        "stiffness_group",
+        "stiffness group $K = k_c g^{p-1}/(m\\omega^{2p})$",
+    )
     handles: dict = {}
     for axes in (damping, stiffness):
         handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))

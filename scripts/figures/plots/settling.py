@@ -8,17 +8,16 @@ from matplotlib.figure import Figure
 from figures import style
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the table of settling times; its settings say how long the config follows a start."""
-    table = tables["times"]
+def plot(*, times: pd.DataFrame) -> Figure:
+    """Draw the cycles until starts settle; the attribute `settling` is the limit of the config."""
     figure = style.figure(style.COLUMN, 84.0)
     axes = figure.subplots()
-    most = table.cycles.max()
-    amplitudes = np.sort(table.acceleration.unique())
+    most = times.cycles.max()
+    amplitudes = np.sort(times.acceleration.unique())
     colours = colormaps["viridis"](np.linspace(0.0, 0.9, len(amplitudes)))
     lines = ("-", "--", "-.", ":")
     for k, (colour, acceleration) in enumerate(zip(colours, amplitudes, strict=True)):
-        rows = table[table.acceleration == acceleration]
+        rows = times[times.acceleration == acceleration]
         settled = np.sort(rows[rows.period > 0].cycles)
         # A start that has settled at the last cycle of its search is gone behind it.
         cycles = np.concatenate([[1.0], settled, [most]])
@@ -26,7 +25,7 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
         axes.step(
             cycles, share, where="post", color=colour, linestyle=lines[k % len(lines)], label=f"{acceleration:g} m/s²"
         )
-    style.mark(axes, table.attrs["settling"], "as long as a\nstart is followed")
+    style.mark(axes, times.attrs["settling"], "as long as a\nstart is followed")
     axes.set_xscale("log")
     axes.set_xlim(8.0, most)
     axes.set_ylim(-0.02, 1.05)

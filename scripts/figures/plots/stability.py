@@ -113,23 +113,22 @@ def draw_hard(axes: Axes, table: pd.DataFrame) -> None:
     axes.set_xlabel("relative error of the height")
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the table of stability; settings: acceleration, m/s²."""
-    table = tables["stability"]
+def plot(*, stability: pd.DataFrame, acceleration: float) -> Figure:
+    """Draw the maps of all methods at one `acceleration` (m/s²), and their limits."""
     figure = style.figure(style.PAGE, 225.0)
     above, below = figure.subfigures(2, 1, height_ratios=[3.6, 1.0])
-    draw_maps(above, table, settings["acceleration"])
+    draw_maps(above, stability, acceleration)
     edges, chatter, hard = below.subplots(1, 3)
-    draw_edges(edges, table)
-    draw_chatter(chatter, table)
-    draw_hard(hard, table)
+    draw_edges(edges, stability)
+    draw_chatter(chatter, stability)
+    draw_hard(hard, stability)
     handles = [Patch(color=colour, label=outcome) for outcome, colour in OUTCOMES.items()]
     handles.append(Line2D([], [], **LIMIT, label="limit in theory"))
     handles.append(Line2D([], [], linestyle="", **PAPER, label="the paper"))
     above.legend(handles=handles, loc="outside upper center", ncols=6)
     handles = [
         Line2D([], [], linestyle="", marker="o", color=colour, label=name)
-        for colour, name in (style.METHODS[method] for method in (*table.attrs["methods"], "event"))
+        for colour, name in (style.METHODS[method] for method in (*stability.attrs["methods"], "event"))
     ]
     below.legend(handles=handles, loc="outside upper center", ncols=4)
     return figure

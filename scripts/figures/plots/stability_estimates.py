@@ -75,15 +75,14 @@ def draw_dimensions(axes: Axes, rows: pd.DataFrame, column: str, label: str) -> 
     axes.set_xlabel(label)
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the table of estimates."""
-    table = tables["estimates"]
+def plot(*, estimates: pd.DataFrame) -> Figure:
+    """Draw estimates over perturbation, time and step."""
     figure = style.figure(style.PAGE, 200.0)
     above, below = figure.subfigures(2, 1, height_ratios=[2.7, 1.0])
     panels = above.subplots(len(CASES), len(VARIED))
     for row, (case, label) in zip(panels, CASES.items(), strict=True):
         for axes, panel in zip(row, VARIED, strict=True):
-            draw_exponents(axes, table[(table.panel == panel) & (table.case == case)], panel)
+            draw_exponents(axes, estimates[(estimates.panel == panel) & (estimates.case == case)], panel)
         row[0].set_ylabel(label)
         for axes in row[1:]:
             axes.set_ylabel("exponent in 1/s")
@@ -94,9 +93,9 @@ def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
     above.legend(handles=handles, loc="outside upper center", ncols=4)
 
     sets, samples, time = below.subplots(1, 3, sharey=True)
-    draw_dimensions(sets, table[table.panel == "known set"], "samples", "points of a known set")
-    draw_dimensions(samples, table[table.panel == "samples"], "samples", "points of a settled portrait")
-    draw_dimensions(time, table[table.panel == "run time"], "duration", "time of a run by Euler in s")
+    draw_dimensions(sets, estimates[estimates.panel == "known set"], "samples", "points of a known set")
+    draw_dimensions(samples, estimates[estimates.panel == "samples"], "samples", "points of a settled portrait")
+    draw_dimensions(time, estimates[estimates.panel == "run time"], "duration", "time of a run by Euler in s")
     sets.set_ylabel("dimension")
     handles = [Line2D([], [], marker=marker, color=colour, label=name) for name, colour, marker in ESTIMATORS.values()]
     handles.append(Line2D([], [], **TRUTH, label="truth"))

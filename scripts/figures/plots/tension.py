@@ -14,11 +14,10 @@ MODES = {
 }
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the sweep `sweep` over tension, z0 and acceleration and the critical heights `edge` over tension."""
+def plot(*, sweep: pd.DataFrame, edge: pd.DataFrame) -> Figure:
+    """Draw a sweep over tension, z0 and acceleration, and critical heights over tension."""
     figure = style.figure(style.PAGE, 104.0)
     panels = figure.subplot_mosaic([["velocity", "edge"], ["states", "states"]], height_ratios=(2.0, 1.2))
-    sweep, edge = tables["sweep"], tables["edge"]
     for mode, (label, colour, dashes, width) in MODES.items():
         regular = sweep[(sweep.tension == mode) & (sweep.state != "chaos") & (sweep.period == 1)]
         for state, rows in regular.groupby("state"):

@@ -8,7 +8,6 @@ from matplotlib.lines import Line2D
 
 from figures import style
 
-SCENES = {"jumping": "jumping", "riding": "always in contact", "bouncing": "micro-bounces"}
 # Marker and line of each treatment.
 TREATMENTS = {
     "exact": ("o", "-", None),
@@ -91,11 +90,11 @@ def draw_failures(axes: Axes, table: pd.DataFrame, x: str) -> None:
         )
 
 
-def panel(axes: Axes, table: pd.DataFrame, x: str, y: str, settings: dict) -> None:
+def panel(axes: Axes, table: pd.DataFrame, x: str, y: str, paper_step: float) -> None:
     """Error `y` over work `x` of all methods in one scene."""
     for _, rows in table.groupby(["method", "treatment"], sort=False):
         curve(axes, rows, x, y)
-    paper = table[(table.method == "euler") & np.isclose(table.step, settings["paper_step"])]
+    paper = table[(table.method == "euler") & np.isclose(table.step, paper_step)]
     axes.plot(paper[x], paper[y], "o", markersize=7.0, markerfacecolor="none", color=style.EULER)
     draw_failures(axes, table, x)
     axes.set_xscale("log")
@@ -107,9 +106,9 @@ def panel(axes: Axes, table: pd.DataFrame, x: str, y: str, settings: dict) -> No
     axes.grid(linewidth=0.3, color="0.9")
 
 
-def handles(tables: dict[str, pd.DataFrame]) -> list[Line2D]:
+def handles(scenes: list[pd.DataFrame]) -> list[Line2D]:
     """Of the legend: methods that ran (a peer may not be installed), and treatments of events."""
-    everything = pd.concat([tables[scene] for scene in SCENES])
+    everything = pd.concat(scenes)
     ran = set(everything[everything.outcome != MISSING].method)
     known = [
         Line2D([], [], color=colour, linewidth=1.4, label=name)
@@ -136,23 +135,37 @@ def draw_estimates(axes: Axes, rows: pd.DataFrame, work: str, error: str) -> Non
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), handlelength=1.2)
 
 
-def plot(tables: dict[str, pd.DataFrame], settings: dict) -> Figure:
-    """From the tables of work and times of SCENES and that of the estimates; settings: paper_step, s."""
+def plot(
+    *,
+    jumping: pd.DataFrame,
+    riding: pd.DataFrame,
+    bouncing: pd.DataFrame,
+    jumping_times: pd.DataFrame,
+    riding_times: pd.DataFrame,
+    bouncing_times: pd.DataFrame,
+    estimates: pd.DataFrame,
+    paper_step: float,
+) -> Figure:
+    """Draw work and error of three motions, with a circle around the step of the paper, `paper_step` (s)."""
     figure = style.figure(style.PAGE, 215.0)
     upper, lower = figure.subfigures(2, 1, height_ratios=(3.4, 1.0))
-    grid = upper.subplots(len(SCENES), len(PANELS), sharex="col", sharey=True)
-    for (scene, name), row in zip(SCENES.items(), grid, strict=True):
-        table = tables[scene].assign(milliseconds=1e3 * tables[f"{scene}_times"].seconds)
+    grid = upper.subplots(3, len(PANELS), sharex="col", sharey=True)
+    scenes = {
+        "jumping": (jumping, jumping_times),
+        "always in contact": (riding, riding_times),
+        "micro-bounces": (bouncing, bouncing_times),
+    }
+    for (name, (work, times)), row in zip(scenes.items(), grid, strict=True):
+        table = work.assign(milliseconds=1e3 * times.seconds)
         for axes, (x, y, label, title) in zip(row, PANELS, strict=True):
-            panel(axes, table, x, y, settings)
-            if scene == next(iter(SCENES)):
+            panel(axes, table, x, y, paper_step)
+            if axes in grid[0]:
                 axes.set_title(title)
             if axes in grid[-1]:
                 axes.set_xlabel(label)
         row[0].set_ylabel(f"{name}\nrelative error")
-    upper.legend(handles=handles(tables), loc="outside upper center", ncols=4)
+    upper.legend(handles=handles([jumping, riding, bouncing]), loc="outside upper center", ncols=4)
     upper.supxlabel(MEANINGS, size=7.0)
-    estimates = tables["estimates"]
     for axes, (quantity, labels) in zip(lower.subplots(1, len(QUANTITIES)), QUANTITIES.items(), strict=True):
         draw_estimates(axes, estimates[estimates.quantity == quantity], *labels)
     return figure
