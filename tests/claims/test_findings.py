@@ -1,0 +1,18 @@
+"""What the config gives to findings is what their signatures name."""
+
+import inspect
+
+import pytest
+from project import read_config
+
+from claims.verdicts import FINDINGS
+
+CLAIMS = read_config("claims")["claims"]
+
+
+@pytest.mark.parametrize("claim", CLAIMS)
+def test_a_finding_takes_the_tables_and_settings_of_its_claim(claim):
+    entry = CLAIMS[claim]
+    module, function = entry["finding"].split(".")
+    signature = inspect.signature(getattr(FINDINGS[module], function))
+    signature.bind(**dict.fromkeys([*entry["tables"], *entry.get("settings", {})]))

@@ -1,0 +1,61 @@
+"""What the config gives to plots and captions is what their signatures name."""
+
+import importlib
+import inspect
+
+import pytest
+from jinja2 import Environment
+from jinja2.meta import find_undeclared_variables
+from project import ROOT, read_config
+
+from conveyor.methods import fixed_step
+from figures import captions, style
+
+CONFIG = read_config()
+FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]
+# Settings that mark a number of the paper, which a machine of the user's own does without.
+PAPER_MARKS = {"critical_acceleration", "critical_height", "first_positive", "two_states"}
+
+
+def names(entry, keys=("tables", "settings")):
+    return [name for key in keys for name in entry.get(key, {})]
+
+
+@pytest.mark.parametrize("figure", FIGURES)
+def test_a_plot_takes_the_tables_and_settings_of_its_figure(figure):
+    entry = FIGURES[figure]
+    plot = importlib.import_module(f"figures.plots.{figure}").plot
+    given = names(entry)
+    assert len(given) == len(set(given)), "a table and a setting share a name"
+    inspect.signature(plot).bind(**dict.fromkeys(given))
+
+
+@pytest.mark.parametrize("figure", [name for name, entry in FIGURES.items() if "paper_only" not in entry])
+def test_a_plot_does_without_the_published_method_and_the_papers_marks(figure):
+    entry = FIGURES[figure]
+    tables = [role for role, reference in entry["tables"].items() if not reference.endswith("_euler")]
+    settings = [name for name in entry.get("settings", {}) if name not in PAPER_MARKS]
+    plot = importlib.import_module(f"figures.plots.{figure}").plot
+    inspect.signature(plot).bind(**dict.fromkeys([*tables, *settings]))
+
+
+@pytest.mark.parametrize("figure", FIGURES)
+def test_a_caption_function_finds_what_it_reads(figure):
+    wanted = find_undeclared_variables(
+        Environment().parse((ROOT / f"workflow/report/{figure}.rst").read_text(encoding="utf-8"))
+    )
+    if figure not in captions.NUMBERS:
+        assert wanted <= {"paper"}, "the caption needs a function in NUMBERS"
+        return
+    given = names(FIGURES[figure], ("tables", "caption_tables", "settings"))
+    parameters = inspect.signature(captions.NUMBERS[figure]).parameters
+    assert {name for name, one in parameters.items() if one.default is one.empty} <= set(given)
+    # A table that only the caption has is read by its function.
+    assert set(FIGURES[figure].get("caption_tables", {})) <= set(parameters)
+
+
+@pytest.mark.parametrize("method", fixed_step.METHODS)
+def test_a_method_with_a_fixed_step_is_complete(method):
+    assert method in style.METHODS
+    assert method in fixed_step.GROWTH
+    assert len(fixed_step.EVALUATIONS) == len(fixed_step.METHODS)
