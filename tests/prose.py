@@ -14,7 +14,7 @@ ALLOWED = (
     r"(?m)^:scale: \d+$|^\d+\. ",
     r"1/s\b",
     r"a confidence of 95 %",
-    r"DOP853|RK4\d?|SHA-256|BSD-3-Clause|Python 3\.11|\bD_2\b",
+    r"DOP853|RK4\d?|SHA-256|BSD-3-Clause|Python 3\.11(, 3\.12 or 3\.13)?|x86-64|\bD_2\b",
 )
 FORMULA = re.compile(r"\$\$.*?\$\$|\$[^$\n]*\$", re.DOTALL)
 WORDS = r"\b(?:eleven|twelve|thirteen|fifteen|twenty|thirty|fifty|hundred)\b"

@@ -73,7 +73,6 @@ def test_hash_changes_with_what_is_imported_only(scripts):
     def write(file: str, text: str) -> None:
         (scripts / file).write_text(text)
         # A process reads each file once.
-        imports.parse.cache_clear()
         imports.direct_imports.cache_clear()
         source_hash.content.cache_clear()
 

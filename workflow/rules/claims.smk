@@ -77,7 +77,7 @@ rule check_results:
         **stage("claims.check_results"),
         results=lambda wildcards, output: os.path.dirname(output.checked),
         figures=config["figures"],
-        tests=source("tests/results"),
+        tests=lambda wildcards: source("tests/results"),
     message:
         "Tests of the results"
     script:

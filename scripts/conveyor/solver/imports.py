@@ -11,7 +11,6 @@ from functools import cache
 from pathlib import Path
 
 
-@cache
 def parse(file: Path) -> ast.Module:
     return ast.parse(file.read_bytes(), filename=str(file))
 

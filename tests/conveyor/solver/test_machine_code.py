@@ -8,7 +8,7 @@ import pytest
 
 from conveyor.solver import imports, machine_code
 
-CACHED = (imports.parse, imports.direct_imports, machine_code.syntax, machine_code.content)
+CACHED = (imports.direct_imports, machine_code.syntax, machine_code.content)
 
 
 @pytest.fixture
