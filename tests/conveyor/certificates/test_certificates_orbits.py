@@ -131,7 +131,7 @@ def test_zeros_of_a_parabola():
     zero = prove_zero(parabola(2), approximation(2, arb(1.40625)), 1e-20)
     assert zero.enclosure[0, 0].contains(arb(2).sqrt().mid())
     assert zero.enclosure[0, 0].rad() < 1e-3
-    near = correct(parabola(2), approximation(2, arb(1.40625)), 1e-20)
+    near = correct(parabola(2), approximation(2, arb(1.40625)), 1e-16)
     assert abs(near.centre[0, 0] - arb(2).sqrt()) < 1e-15
     for constant in (-1, 0):
         with pytest.raises(Refused):
