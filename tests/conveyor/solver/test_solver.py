@@ -292,3 +292,23 @@ def test_runs_are_compiled_once_however_their_times_lie_in_memory():
     compiled = list(trajectory_module.follow.signatures)
     np.testing.assert_array_equal(trajectory_module.integrate(parameters, by_columns, tolerance=1e-6)[0], by_rows)
     assert trajectory_module.follow.signatures == compiled
+
+
+@pytest.mark.parametrize("acceleration", [2.0, 8.0])
+def test_a_part_that_rides_on_a_vertical_plate_has_no_events(acceleration):
+    """Below g the part never leaves the plate, and without horizontal motion it neither slips nor begins to stick."""
+    conveyor = Conveyor(acceleration=acceleration, angle=0.5 * math.pi, friction=0.6)
+    assert len(simulate(conveyor, Start("conveyor"), duration=0.1).events) == 0
+
+
+def test_friction_accelerates_a_sticking_part_with_the_plate():
+    """While the part sticks, friction is its mass times the horizontal acceleration of the plate."""
+    conveyor = Conveyor(acceleration=8.0, friction=0.6)
+    run = simulate(conveyor, Start("conveyor"), duration=0.1)
+    changes = run.events[np.isin(run.events["kind"], ["stick", "slip"])]
+    begins = np.flatnonzero(changes["kind"][:-1] == "stick")
+    assert len(begins) > 2
+    for begin, end in zip(changes["time"][begins], changes["time"][begins + 1], strict=True):
+        times = np.linspace(begin, end, 12)[1:-1]
+        plate = 8.0 * math.cos(conveyor.angle) * np.cos(100 * math.pi * times)
+        np.testing.assert_allclose(run.sample(times)["friction_force"], conveyor.mass * plate, rtol=1e-9, atol=1e-15)
