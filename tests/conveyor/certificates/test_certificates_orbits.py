@@ -13,7 +13,7 @@ from conveyor.certificates.brackets import bracket_doubling, bracket_fold
 from conveyor.certificates.excursion import plan_sets
 from conveyor.certificates.law import Accuracy, System, law_of
 from conveyor.certificates.newton import Approximation, correct, krawczyk, prove_zero
-from conveyor.certificates.orbit import check_near, prove_orbit
+from conveyor.certificates.orbit import ProvedOrbit, check_near, prove_orbit
 from conveyor.certificates.shooting import Shooting, equations_at, launch
 from conveyor.solver.model import Conveyor, Start, pack
 
@@ -136,6 +136,27 @@ def test_zeros_of_a_parabola():
     for constant in (-1, 0):
         with pytest.raises(Refused):
             prove_zero(parabola(constant), approximation(constant, arb(1)), 1e-20)
+
+
+@pytest.mark.parametrize(
+    ("multipliers", "stability"),
+    [
+        ((0.5, 0.25), "stable"),
+        ((0.5j, -0.5j), "stable"),
+        ((1.5, 0.5), "unstable"),
+        ((-1.5, -0.5), "unstable"),
+        ((1j, -1j), "open"),
+        ((1.0, 0.5), "open"),
+    ],
+)
+def test_stability_by_hand(multipliers, stability):
+    """Both multipliers inside the unit circle, one outside, or none of it for certain."""
+    one, other = multipliers
+    trace, determinant = (arb(complex(value).real) for value in (one + other, one * other))
+    orbit = ProvedOrbit(None, None, None, trace, determinant, arb(0))
+    assert orbit.stability == stability
+    found = {(float(real), float(imag)) for real, imag in orbit.multipliers()}
+    assert found == {(complex(value).real, complex(value).imag) for value in multipliers}
 
 
 def test_a_wrong_period_is_refused(jumping):
