@@ -312,3 +312,20 @@ def test_friction_accelerates_a_sticking_part_with_the_plate():
         times = np.linspace(begin, end, 12)[1:-1]
         plate = 8.0 * math.cos(conveyor.angle) * np.cos(100 * math.pi * times)
         np.testing.assert_allclose(run.sample(times)["friction_force"], conveyor.mass * plate, rtol=1e-9, atol=1e-15)
+
+
+@pytest.mark.parametrize("psi0", [0.0, math.pi])
+def test_a_plate_presses_on_or_leaves_a_part_at_relative_rest(psi0):
+    """At the phase 0 the plate accelerates upwards and presses, at π it falls away by (a_z - g) t²/2: 2.7 m/s² t²/2."""
+    conveyor = Conveyor(acceleration=60.0, psi0=psi0)
+    run = simulate(conveyor, Start("conveyor"), duration=0.01)
+    moment = np.array([1e-4])
+    sample, plate = run.sample(moment), conveyor_motion(conveyor, moment)
+    gap = sample["z"][0] - plate["z"][0]
+    if psi0 == 0.0:
+        assert sample["contact_force"][0] > 0.0
+        assert gap < 0.0
+        assert run.impacts == 0
+    else:
+        assert sample["contact_force"][0] == 0.0
+        assert gap == pytest.approx(0.5 * (60.0 * math.sin(conveyor.angle) - 9.81) * 1e-8, rel=1e-2)
