@@ -176,13 +176,13 @@ Every bound stands in `scripts/conveyor/certificates` with its reason.
 
 - **Contact**: with δ = w² and dt = w ds the equations are polynomial but for sine and cosine, which join as two more
   unknowns. A step is a Taylor polynomial of order {settings["order"]}, whose coefficients floating point suggests
-  (`suggestion.py`) and Picard's operator proves; a bound on the rest follows from the polynomial itself (`taylor.py`).
+  (`double_double.py`) and Picard's operator proves; a bound on the rest follows from the polynomial itself
+  (`taylor.py`).
 - **Events**: roots of w and of the gap, each with a proof that there is exactly one and none before (`roots.py`).
 - **Flight**: closed form (`flight.py`).
 - **Derivatives**: those of (δ, Y) with Y = δ̇ + (d_c/m) δ, which need no jump at events; their determinant is checked
   against the time in contact (`motion.py`, `orbit.py`).
-- **Orbits**: Krawczyk's operator on the states at several phases of each cycle (`newton.py`, `shooting.py`), from
-  those in floating point (`guess.py`).
+- **Orbits**: Krawczyk's operator on the states at several phases of each cycle (`newton.py`, `shooting.py`).
 - **Brackets and chaos**: Bolzano's theorem along a proved branch (`brackets.py`); covering relations of Zgliczyński
   and Gidea (`covering.py`).
 

@@ -16,11 +16,11 @@ from conveyor.analysis import orbits
 from conveyor.analysis.orbits import Bifurcation, Orbit, ReturnMap
 from conveyor.certificates.balls import Refused, bounds, exactly, precision
 from conveyor.certificates.brackets import bracket_doubling, bracket_fold
-from conveyor.certificates.covering import plan, prove_horseshoe
-from conveyor.certificates.law import Law, law_of
-from conveyor.certificates.motion import Accuracy
+from conveyor.certificates.covering import prove_horseshoe
+from conveyor.certificates.excursion import plan_sets
+from conveyor.certificates.law import Accuracy, Law, System, law_of
 from conveyor.certificates.orbit import ProvedOrbit, check_near, prove_orbit
-from conveyor.certificates.shooting import NODES, Shooting
+from conveyor.certificates.shooting import Shooting
 from conveyor.solver.model import unpack
 from conveyor.solver.progress import bar
 from pipeline import fields, grid
@@ -143,7 +143,7 @@ def law(settings: dict) -> Law:
 
 def shooting(settings: dict, period: int) -> Shooting:
     """The equations of the orbits of a period, with the accuracy of the settings."""
-    return Shooting(law(settings), Accuracy(settings["order"], settings["tolerance"]), period, NODES)
+    return Shooting(law(settings), Accuracy(settings["order"], settings["tolerance"]), period)
 
 
 def known(branch: int, returns: ReturnMap, unknown: np.ndarray) -> Known:
@@ -315,7 +315,7 @@ def prove_chaos(settings: dict, about: tuple) -> dict:
     """The row of one amplitude: a horseshoe at the orbit of one cycle with the largest multiplier that has one."""
     acceleration, saddles = about
     chaos, parameters, units = settings["chaos"], parameters_of(settings), law(settings)
-    accuracy, returns = Accuracy(chaos["order"], chaos["tolerance"]), ReturnMap(parameters, 1)
+    system = System(units, units.gamma(exactly(acceleration)), Accuracy(chaos["order"], chaos["tolerance"]))
     row = {
         "acceleration": acceleration,
         "proved": False,
@@ -330,8 +330,8 @@ def prove_chaos(settings: dict, about: tuple) -> dict:
     for saddle in sorted(saddles, key=lambda saddle: -abs(saddle.orbit.multipliers[0])):
         try:
             fixed = np.append(saddle.strobes[0], acceleration)
-            centres, axes = plan(returns, fixed, chaos["size"], chaos["ratio"], chaos["longest"])
-            horseshoe = prove_horseshoe(units, accuracy, units.gamma(exactly(acceleration)), NODES, centres, axes)
+            centres, axes = plan_sets(parameters, fixed, chaos["size"], chaos["ratio"], chaos["longest"])
+            horseshoe = prove_horseshoe(system, centres, axes)
         except Refused as refused:
             row["reason"] = str(refused)
             continue

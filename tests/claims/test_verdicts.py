@@ -454,3 +454,10 @@ def test_onset_by_dimension():
     finding = about_chaos.predicted_onset(**tables)
     assert (numbers(finding.euler), numbers(finding.converged)) == ((0.0, 1.0), (3.0, 1.0))
     assert "1.00 to 2.00 in that and 2.00 to 2.00 in chaos" in finding.note
+
+
+def test_the_onset_by_dimension_is_half_way_between_both_ends():
+    """From 1 to 2 the dimension is nearer to its upper end from 1.5 on."""
+    amplitudes = np.arange(30.0, 90.0)
+    table = pd.DataFrame({"acceleration": amplitudes, "dimension": np.interp(amplitudes, [50.0, 70.0], [1.0, 2.0])})
+    assert about_chaos.dimension_onset(table) == 61.0

@@ -1,8 +1,11 @@
 """Portraits whose dimension is known: a point, closed curves."""
 
+import numpy as np
 import pandas as pd
 import pytest
 
+from conveyor import Conveyor, Start, simulate
+from conveyor.solver.model import pack
 from dimensions import portraits
 
 SETTINGS = {
@@ -43,3 +46,14 @@ def test_what_is_known_too_little_is_no_number():
 def test_an_unknown_estimator_is_an_error():
     with pytest.raises(ValueError, match="'counting' is not one of paper, box, correlation"):
         made(axes={"acceleration": [40.0]}, model={"z0": 0.0, "vz0": 0.0}, samples=100, estimator="counting")
+
+
+@pytest.mark.parametrize("method", ["event", "euler"])
+def test_a_portrait_holds_the_motion_from_its_beginning_on(method):
+    conveyor = Conveyor(acceleration=40.0)
+    settings = {"method": method, "begin": 0.02, "interval": 0.5, "samples": 4, "tolerance": 1e-10, "step": 1e-6}
+    points = portraits.portrait(pack(conveyor, Start(3e-4)), settings)
+    # Half an excitation cycle is 0.01 s.
+    run = simulate(conveyor, Start(3e-4), duration=0.05, method=method, tolerance=1e-10, step=1e-6)
+    truth = run.sample([0.02, 0.03, 0.04, 0.05])
+    np.testing.assert_allclose(points, np.column_stack([truth["z"], truth["vz"]]), rtol=1e-12, atol=0)

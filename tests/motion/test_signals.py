@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from conveyor import Conveyor
+from conveyor import Conveyor, Start, simulate
 from conveyor.solver.model import conveyor_motion
 from motion import impacts, signals, spectra
 from pipeline import fields, tables
@@ -72,3 +72,12 @@ def test_starts_and_their_images_lead_to_the_same_state():
     assert len(above) == 3
     assert (above.state == above.mapped_state).all()
     assert table.query("psi0 == 0.0").state.tolist() == ["first", "second"]
+
+
+def test_a_spectrum_is_that_of_the_last_period():
+    """At frequency 0 stands the mean velocity, which still grows here."""
+    run = simulate(Conveyor(), Start(3e-4), duration=0.1)
+    found = spectra.spectra_of_end(run, 2, 0.25, 4096)["vx"]
+    ends = run.sample([0.06, 0.1])["x"]
+    assert found.frequency[1] == pytest.approx(25.0)
+    assert found.amplitude[0] == pytest.approx((ends[1] - ends[0]) / 0.04, rel=1e-3)

@@ -115,3 +115,15 @@ def test_orbits_of_a_doubled_branch_begin_no_other_one(monkeypatch):
     )
     settings = {"limits": [20.0, 90.0], "max_period": 2}
     assert branches.explored(None, starts, settings) == ["once", "double", "apart"]
+
+
+def test_an_exponent_within_its_error_is_no_witness_of_chaos(monkeypatch):
+    """λ1 = 1 ± 1 1/s is not told from zero at two standard errors; 3 ± 1 1/s is."""
+    last = pd.DataFrame({"acceleration": [50.0, 60.0], "branch": "up", "period": [0, 0], "state": "chaos"})
+    monkeypatch.setattr(witnesses, "starts_on_attractors", lambda *_: (last, None))
+    monkeypatch.setattr(witnesses, "zero_one_values", lambda *_, **__: np.array([0.99, 0.99]))
+    spectrum = last[["acceleration", "branch"]].assign(lambda_1=[1.0, 3.0], stderr=1.0)
+    found = witnesses.make(None, spectrum, {"significant": 2.0})
+    assert found["by_exponent"].tolist() == [False, True]
+    assert found["agree"].tolist() == [False, True]
+    assert "not told from zero" in found["reason"][0]

@@ -1,4 +1,4 @@
-"""Balls: what is read as exact, what is rounded outwards, and the refusal of a proof."""
+"""Balls: exact decimals, outward rounding, and the refusal of a proof."""
 
 import math
 from collections.abc import Iterator
@@ -40,13 +40,3 @@ def bounds(ball: arb) -> tuple[float, float]:
     while not arb(above) >= high:
         above = math.nextafter(above, math.inf)
     return below, above
-
-
-def between(low: arb, high: arb) -> arb:
-    """A ball that holds everything from `low` to `high`."""
-    return low.union(high)
-
-
-def middle(ball: arb) -> arb:
-    """The exact centre of a ball."""
-    return ball.mid()

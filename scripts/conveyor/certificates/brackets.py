@@ -1,39 +1,30 @@
-"""Brackets of bifurcations: amplitudes between which a multiplier passes -1, or a branch turns, by the mean value
-theorem of Bolzano on a branch that is proved from end to end.
+"""Brackets of bifurcations: amplitudes between which a multiplier passes -1, or a branch turns.
+
+The test functions (1 ± μ1)(1 ± μ2) have different signs at the ends of a branch that is proved without gaps, so that
+they vanish in between (Bolzano's theorem).
 """
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from flint import arb, arb_mat
 
-from .balls import Refused, between, exactly, middle
-from .guess import Motion, guess
-from .newton import Zero, corrected, exact, floats, prove
-from .orbit import ProvedOrbit, linearised, prove_orbit
-from .shooting import OnArc, Shooting
+from .balls import Refused, exactly
+from .newton import Approximation, Zero, approximate_inverse, correct, exact, midpoints, prove_zero
+from .orbit import ProvedOrbit, linearise, prove_orbit
+from .shooting import Shooting, equations_on_arc, launch
 
-# Secant steps to where a test function is zero, from two amplitudes this far apart (m/s²).
-SECANT_STEPS, APART = 6, 1e-6
-# Part of a branch on which its turn is searched, in the units of the unknowns, and how often.
-SEARCHED_ARC, SEARCHES = 1e-4, 2
+# Half the length of the first secant at an approximate bifurcation, in m/s² and along an arc in the units of the
+# unknowns, and how many secants there are, each on a hundredth of the length of the one before.
+NEAR, NEAR_ON_ARC, SECANTS = 1e-6, 1e-4, 2
 
 
-class Doubling(NamedTuple):
-    """Within `acceleration` (m/s²) a multiplier of the orbit passes -1."""
+class Bracket(NamedTuple):
+    """An interval that contains the amplitude of a bifurcation, by proof."""
 
-    acceleration: arb
-    tests: tuple[arb, arb]  # (1 + μ1)(1 + μ2) at both ends
-    branch: ProvedOrbit  # over all amplitudes between them
-
-
-class Fold(NamedTuple):
-    """An arc of a branch has its least amplitude within, where a multiplier is +1."""
-
-    acceleration: arb  # encloses the least amplitude, m/s²
-    tests: tuple[arb, arb]  # (1 - μ1)(1 - μ2) at both ends of the arc
-    opposite: tuple[arb, arb]  # (1 + μ1)(1 + μ2) there
-    branch: Zero  # over the whole arc
+    acceleration: arb  # m/s²
+    tests: tuple[arb, arb]  # (1 ± μ1)(1 ± μ2) at both ends of the interval or of the arc; different signs
 
 
 def check_within(zero: Zero, other: Zero) -> None:
@@ -49,7 +40,22 @@ def check_within(zero: Zero, other: Zero) -> None:
         raise Refused("the ends are not proved to lie on the branch between them")
 
 
-def bracket_doubling(shooting: Shooting, acceleration: float, strobes: np.ndarray, half_width: float) -> Doubling:
+def approach_root(test: Callable[[arb], arb], guess: arb, reach: float) -> arb:
+    """Where a test function is about zero, exact, by secants; nothing is proved here."""
+    for _ in range(SECANTS):
+        before, behind = test(guess - reach).mid(), test(guess + reach).mid()
+        guess, reach = (guess - reach * (behind + before) / (behind - before)).mid(), reach / 100
+        if not guess.is_finite():
+            raise Refused("a test function is constant near the approximate bifurcation")
+    return guess
+
+
+def have_different_signs(one: arb, other: arb) -> bool:
+    """Whether two values are proved to have different signs."""
+    return one * other < 0
+
+
+def bracket_doubling(shooting: Shooting, acceleration: float, strobes: np.ndarray, half_width: float) -> Bracket:
     """A bracket of the amplitude at which a multiplier of an orbit passes -1.
 
     Parameters
@@ -64,34 +70,24 @@ def bracket_doubling(shooting: Shooting, acceleration: float, strobes: np.ndarra
     Refused
         with the reason
     """
-    law = shooting.law
 
-    def orbit_at(amplitude: float) -> ProvedOrbit:
-        return prove_orbit(shooting, law.gamma(exactly(amplitude)), strobes)
+    def orbit_at(amplitude: arb) -> ProvedOrbit:
+        return prove_orbit(shooting, shooting.law.gamma(amplitude), strobes)
 
-    def test(amplitude: float) -> float:
-        return guess(law, float(law.gamma(exactly(amplitude))), shooting.nodes, strobes).doubling_test
-
-    # Where to look, in floating point: nothing is proved by the secant.
-    before, here = acceleration, acceleration + APART
-    last, now = test(before), test(here)
-    for _ in range(SECANT_STEPS):
-        if now == last or abs(here - before) < 0.1 * half_width:
-            break
-        before, here, last = here, here - now * (here - before) / (now - last), now
-        now = test(here)
-    low, high = here - half_width, here + half_width
-    ends = orbit_at(low), orbit_at(high)
-    signs = [(end.doubling_test > 0, end.doubling_test < 0) for end in ends]
-    if signs not in ([(True, False), (False, True)], [(False, True), (True, False)]):
+    centre = float(approach_root(lambda amplitude: orbit_at(amplitude).doubling_test, exactly(acceleration), NEAR))
+    bracket = exactly(centre - half_width), exactly(centre + half_width)
+    ends = [orbit_at(amplitude) for amplitude in bracket]
+    tests = ends[0].doubling_test, ends[1].doubling_test
+    if not have_different_signs(*tests):
         raise Refused("1 + trace + determinant has no two different signs at the ends")
-    branch = prove_orbit(shooting, between(ends[0].gamma, ends[1].gamma), strobes)
+    amplitudes = bracket[0].union(bracket[1])
+    branch = orbit_at(amplitudes)
     for end in ends:
         check_within(end.zero, branch.zero)
-    return Doubling(between(exactly(low), exactly(high)), tuple(end.doubling_test for end in ends), branch)
+    return Bracket(amplitudes, tests)
 
 
-def bracket_fold(shooting: Shooting, acceleration: float, strobes: np.ndarray, half_arc: float) -> Fold:
+def bracket_fold(shooting: Shooting, acceleration: float, strobes: np.ndarray, half_arc: float) -> Bracket:
     """A bracket of the least amplitude of a branch that turns.
 
     On the arc the equations with the place as a parameter are regular, by proof. There, by Cramer's rule, dγ/d(place)
@@ -109,40 +105,35 @@ def bracket_fold(shooting: Shooting, acceleration: float, strobes: np.ndarray, h
     Refused
         with the reason
     """
-    gamma = float(shooting.law.gamma(exactly(acceleration)))
+    gamma = shooting.law.gamma(exactly(acceleration)).mid()
     # Newton's iteration at one amplitude would diverge here.
-    states = Motion(shooting.law, gamma, shooting.nodes).launch(strobes)
-    origin = exact(np.append(states, gamma)[:, None])
+    origin = arb_mat([*launch(shooting, gamma, strobes).centre.tolist(), [gamma]])
     # The direction of the branch: what the equations, without the last one, leave free.
-    flat = OnArc(shooting, origin, arb_mat([[0] * (2 * shooting.count) + [1]]), arb(0))
+    flat = equations_on_arc(shooting, origin, arb_mat([[0] * (2 * shooting.count) + [1]]), arb(0))
     _, slope, _ = flat(origin, True)
-    direction = exact(np.linalg.svd(floats(slope)[:-1])[2][-1:])
+    direction = exact(np.linalg.svd(midpoints(slope)[:-1])[2][-1:])
 
-    def at(place: arb) -> Zero:
-        equations = OnArc(shooting, origin, direction, place)
-        start = origin + direction.transpose() * middle(place)
-        _, slope, _ = equations(start, True)
-        near = corrected(equations, floats(start).ravel(), floats(slope), shooting.least)
-        return prove(equations, near, shooting.least, "arc of the branch")
+    def zero_at(place: arb) -> Zero:
+        equations = equations_on_arc(shooting, origin, direction, place)
+        centre = origin + direction.transpose() * place.mid()
+        value, slope, _ = equations(centre, True)
+        near = correct(equations, Approximation(centre, value, approximate_inverse(slope)), shooting.least)
+        return prove_zero(equations, near, shooting.least)
 
-    def tests(zero: Zero) -> tuple[arb, arb]:
-        trace, determinant, _ = linearised(shooting, zero.evidence)
-        return 1 - trace + determinant, 1 + trace + determinant
+    def fold_test(zero: Zero) -> arb:
+        trace, determinant, _ = linearise(shooting, zero.evidence)
+        return 1 - trace + determinant
 
-    # Where the branch turns: nothing is proved by the secants.
-    half, turn, reach = arb(half_arc), arb(0), arb(SEARCHED_ARC)
-    for _ in range(SEARCHES):
-        before, behind = (middle(tests(at(turn + side * reach))[0]) for side in (-1, 1))
-        turn, reach = middle(turn - reach * (behind + before) / (behind - before)), reach / 100
-    ends = at(turn - half), at(turn + half)
-    top, branch = at(turn), at(turn + arb(0, half))
+    turn = approach_root(lambda place: fold_test(zero_at(place)), arb(0), NEAR_ON_ARC)
+    half = arb(half_arc)
+    ends = zero_at(turn - half), zero_at(turn + half)
+    top, branch = zero_at(turn), zero_at(turn + arb(0, half))
     for zero in (top, *ends):
         check_within(zero, branch)
-    gammas = [zero.enclosure.entries()[-1] for zero in (*ends, top, branch)]
-    if not (gammas[2] < gammas[0] and gammas[2] < gammas[1]):
+    at_first, at_last, at_top, on_branch = (zero.enclosure.entries()[-1] for zero in (*ends, top, branch))
+    if not (at_top < at_first and at_top < at_last):
         raise Refused("the amplitude is not least within the arc")
-    folds = [tests(end) for end in ends]
-    if not (folds[0][0] > 0 > folds[1][0] or folds[0][0] < 0 < folds[1][0]):
+    tests = fold_test(ends[0]), fold_test(ends[1])
+    if not have_different_signs(*tests):
         raise Refused("1 - trace + determinant has no two different signs at the ends of the arc")
-    least = between(gammas[3].lower(), gammas[2].upper()) / shooting.law.slope
-    return Fold(least, *zip(*folds, strict=True), branch)
+    return Bracket(on_branch.lower().union(at_top.upper()) / shooting.law.slope, tests)

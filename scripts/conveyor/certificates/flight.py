@@ -28,7 +28,7 @@ class Flight(NamedTuple):
         """u after the phase `lapse`."""
         return self.rate0 - lapse - self.gamma * ((self.phase + lapse).sin() - self.phase.sin())
 
-    def carried(self, matrix: arb_mat, lapse: arb) -> arb_mat:
+    def carry(self, matrix: arb_mat, lapse: arb) -> arb_mat:
         """Perturbations of (δ, Y) at fixed time after the phase `lapse`, from those at take-off.
 
         In flight δ = -q and Y = δ', so that δ'' = 1 + γ cos φ: ζ stays and η grows by τ ζ. A third column belongs to

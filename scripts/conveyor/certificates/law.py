@@ -37,6 +37,21 @@ class Law(NamedTuple):
         return self.slope * acceleration
 
 
+class Accuracy(NamedTuple):
+    """How the steps of a contact are made."""
+
+    order: int  # of the Taylor series
+    tolerance: float  # of the last terms of a series
+
+
+class System(NamedTuple):
+    """The vertical motion at the amplitudes of a ball."""
+
+    law: Law
+    gamma: arb  # amplitude of the plate's acceleration over gravity
+    accuracy: Accuracy
+
+
 def read_angle(angle: float) -> arb:
     """An angle in rad: a decimal of degrees times π/180 where that is what the float means, else its own decimal."""
     degrees = round(math.degrees(angle), DIGITS_OF_DEGREES)

@@ -10,21 +10,16 @@ from typing import NamedTuple
 
 from flint import arb, arb_mat
 
-from . import taylor
-from .balls import Refused, between, middle
+from .balls import Refused
+from .double_double import PHASE, W, Y
 from .flight import Flight
-from .law import Law
-from .roots import first_root, sharpen
+from .law import System
+from .roots import bracket_first_root, sharpen
+from .taylor import Step, make_step
 
-# Pieces of a motion after which it is given up, and shorter steps that are tried where an event hides in a step's end.
-MAX_PIECES, SHORTER_STEPS = 2000, 12
-
-
-class Accuracy(NamedTuple):
-    """How the steps are made."""
-
-    order: int
-    tolerance: float  # of the last terms of a step's series
+# Flights and steps after which a motion is given up; shorter steps that are tried where an event hides in a step's end;
+# bisections towards the end of a motion.
+MAX_PIECES, SHORTER_STEPS, BISECTIONS = 2000, 12, 40
 
 
 class Impact(NamedTuple):
@@ -35,14 +30,13 @@ class Impact(NamedTuple):
 
 
 class Arrival(NamedTuple):
-    """Where a motion arrives."""
+    """The state at the end of a motion, and what happened before."""
 
     delta: arb
     y: arb
-    matrix: arb_mat  # derivative of (δ, Y) by the state at the beginning, a third column by γ; no columns if not wanted
+    matrix: arb_mat  # derivative of (δ, Y) by the initial state, a third column by γ; no columns if not wanted
     impacts: list[Impact]
     contact: arb  # phase spent in contact
-    pieces: int
 
 
 class _Contact(NamedTuple):
@@ -53,17 +47,15 @@ class _Contact(NamedTuple):
     phase: arb
 
 
-def follow(
-    law: Law, accuracy: Accuracy, gamma: arb, begin: arb, end: arb, delta: arb, y: arb, columns: int = 0
-) -> Arrival:
+def follow(system: System, begin: arb, end: arb, delta: arb, y: arb, columns: int = 0) -> Arrival:
     """The motion from the phase `begin` to the phase `end`, for all states and amplitudes of the given balls.
 
     Parameters
     ----------
-    law, accuracy, gamma : the law, how it is integrated, and the amplitude
+    system : the motion at an amplitude, and the accuracy of its steps
     begin, end : phases, rad
     delta, y : state at `begin`
-    columns : 0 for no derivative, 2 for that by (δ, Y), 3 for that by γ too
+    columns : 0 for no derivative, 2 for the derivative by (δ, Y), 3 for the derivative by γ too
 
     Raises
     ------
@@ -72,80 +64,76 @@ def follow(
     """
     matrix = arb_mat([[1, 0, 0][:columns], [0, 1, 0][:columns]])
     impacts: list[Impact] = []
-    contact = arb(0)
+    contact, touched = arb(0), begin
     if delta > 0:
         here = _Contact(delta.sqrt(), y, begin)
     elif delta < 0:
-        here = Flight(begin, -delta, -y, gamma)
+        here = Flight(begin, -delta, -y, system.gamma)
     else:
         raise Refused("an impact or a separation lies at the section")
-    touched = begin
-    for pieces in range(1, MAX_PIECES):
+    for _ in range(MAX_PIECES):
         if isinstance(here, Flight):
-            lapse = _fly(here, end)
+            lapse = _find_impact(here, end)
             if lapse is None:
                 left = end - here.phase
-                return Arrival(-here.gap(left), -here.rate(left), here.carried(matrix, left), impacts, contact, pieces)
-            # Positive: the gap falls where it has its root.
-            speed = -here.rate(lapse)
-            matrix = here.carried(matrix, lapse)
+                return Arrival(-here.gap(left), -here.rate(left), here.carry(matrix, left), impacts, contact)
+            matrix = here.carry(matrix, lapse)
             touched = here.phase + lapse
-            impacts.append(Impact(touched, speed))
-            here = _Contact(arb(0), speed, touched)
+            # The speed is positive: the gap falls where it has its root.
+            impacts.append(Impact(touched, -here.rate(lapse)))
+            here = _Contact(arb(0), impacts[-1].speed, touched)
             continue
-        made = taylor.step(law, gamma, here, columns, accuracy.order, accuracy.tolerance)
-        s, event = _press(law, made, here, end)
-        matrix = made.carried(matrix, s)
-        here = _Contact(*(made.value(i, s) for i in (taylor.W, taylor.Y, taylor.PHASE)))
+        step = make_step(system, here, columns)
+        s, event = _find_end(system, step, here, end)
+        matrix = step.carry(matrix, s)
+        here = _Contact(*(step.value(component, s) for component in (W, Y, PHASE)))
         if event == "end":
-            return Arrival(here.w * here.w, here.y, matrix, impacts, contact + end - touched, pieces)
+            return Arrival(here.w * here.w, here.y, matrix, impacts, contact + end - touched)
         if event == "separation":
-            # At w = 0 is δ' = Y, negative: w falls where it has its root.
             contact += here.phase - touched
-            here = Flight(here.phase, arb(0), -here.y, gamma)
-    raise Refused(f"not at the end after {MAX_PIECES} steps and flights")
+            # At w = 0 is δ' = Y, negative: w falls where it has its root.
+            here = Flight(here.phase, arb(0), -here.y, system.gamma)
+    raise Refused(f"the motion does not reach its end within {MAX_PIECES} steps and flights")
 
 
-def _fly(flight: Flight, end: arb) -> arb | None:
+def _find_impact(flight: Flight, end: arb) -> arb | None:
     """The time to the impact that ends a flight, or None if it reaches the phase `end`; the gap is positive before."""
     left = end - flight.phase
-    found = first_root(flight.gap, flight.rate, left.upper(), flight.gap0.is_zero(), "the gap of a flight")
-    if found is None:
+    bracket = bracket_first_root(flight.gap, flight.rate, left.upper(), flight.gap0.is_zero(), "the gap of a flight")
+    if bracket is None:
         return None
-    lapse = sharpen(flight.gap, flight.rate, *found)
+    lapse = sharpen(flight.gap, flight.rate, *bracket)
     if not lapse < left:
         raise Refused("an impact lies at the section")
     return lapse
 
 
-def _press(law: Law, made: taylor.Step, here: _Contact, end: arb) -> tuple[arb, str]:
+def _find_end(system: System, step: Step, here: _Contact, end: arb) -> tuple[arb, str]:
     """The s at which a step ends, and why: "separation", "end" (the phase is reached) or "step"; w > 0 before."""
 
     def w(s: arb) -> arb:
-        return made.value(taylor.W, s)
+        return step.value(W, s)
 
     def slope(s: arb) -> arb:
-        return made.speed(law, s) / 2
+        # w' = v/2 with v = Y - β w².
+        value = w(s)
+        return (step.value(Y, s) - system.law.beta * value * value) / 2
 
     def ahead(s: arb) -> arb:
-        return end - made.value(taylor.PHASE, s)
+        return end - step.value(PHASE, s)
 
-    def pace(s: arb) -> arb:
-        return -w(s)
-
-    refusal = None
-    length = made.length
+    length, refusal = step.length, None
     for _ in range(SHORTER_STEPS):
         # A shorter step may end where w and the phase have a sign.
         try:
-            found = first_root(w, slope, length, here.w.is_zero(), "the penetration of a contact")
-            separation = None if found is None else sharpen(w, slope, *found)
+            bracket = bracket_first_root(w, slope, length, here.w.is_zero(), "the penetration of a contact")
+            separation = None if bracket is None else sharpen(w, slope, *bracket)
             reach = length if separation is None else separation.lower()
             # dφ/ds = w > 0 up to here: the phase is reached at most once.
-            arrival = None if ahead(reach) > 0 else _arrival(w, ahead, pace, reach)
+            arrival = None if ahead(reach) > 0 else _find_arrival(w, ahead, reach)
         except Refused as refused:
             refusal = refused
-            length = middle(length * arb(0.8))
+            length = (length * arb(0.8)).mid()
             continue
         if arrival is not None:
             return arrival, "end"
@@ -157,17 +145,17 @@ def _press(law: Law, made: taylor.Step, here: _Contact, end: arb) -> tuple[arb, 
     raise refusal
 
 
-def _arrival(w, ahead, pace, reach: arb) -> arb:
+def _find_arrival(w, ahead, reach: arb) -> arb:
     """The s at which a phase is reached before `reach`, exact, up to which w > 0 is proved."""
     if not ahead(reach) < 0:
         raise Refused("the section lies at the end of a step")
     low, high = arb(0), reach
-    for _ in range(40):
-        centre = middle(between(low, high))
+    for _ in range(BISECTIONS):
+        centre = low.union(high).mid()
         if ahead(centre) > 0:
             low = centre
         elif ahead(centre) < 0:
             high = centre
-        if w(between(low, high)) > 0:
-            return sharpen(ahead, pace, low, high)
+        if w(low.union(high)) > 0:
+            return sharpen(ahead, lambda s: -w(s), low, high)
     raise Refused("grazing: the section is reached while the penetration vanishes")

@@ -1,4 +1,4 @@
-"""Zeros of equations: an approximate one by Newton's iteration, then a box with exactly one by Krawczyk's operator."""
+"""Zeros of equations: approximations by Newton's iteration, boxes with exactly one zero by Krawczyk's operator."""
 
 import math
 from collections.abc import Callable
@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from flint import arb, arb_mat
 
-from .balls import Refused, middle
+from .balls import Refused
 
 # Corrections of an approximate zero, and enlargements of a box that is too small.
 CORRECTIONS, INFLATIONS = 8, 4
@@ -19,23 +19,23 @@ Equations = Callable[[arb_mat, bool], tuple[arb_mat, arb_mat | None, Any]]
 
 
 class Approximation(NamedTuple):
-    """Near a zero."""
+    """A point near a zero of f."""
 
     centre: arb_mat  # exact, shape (n, 1)
     value: arb_mat  # f there
-    inverse: arb_mat  # of f' there, about, exact
+    inverse: arb_mat  # of f' there or nearby, approximate, exact numbers
 
 
 class Zero(NamedTuple):
     """Exactly one zero in a box, shape (n, 1)."""
 
-    enclosure: arb_mat  # that holds it
-    box: arb_mat  # in which there is no other
+    enclosure: arb_mat  # contains the zero
+    box: arb_mat  # contains no other zero
     evidence: Any  # what the equations found on the way, over the box
 
 
-def floats(matrix: arb_mat) -> np.ndarray:
-    """The centres of a matrix of balls."""
+def midpoints(matrix: arb_mat) -> np.ndarray:
+    """The midpoints of a matrix of balls, rounded to floats."""
     return np.array([[float(value) for value in row] for row in matrix.tolist()])
 
 
@@ -44,8 +44,8 @@ def exact(values: np.ndarray) -> arb_mat:
     return arb_mat([[arb(float(value)) for value in row] for row in values])
 
 
-def inverse_of(slope: np.ndarray) -> np.ndarray:
-    """An approximate inverse of a matrix: a preconditioner need not be right.
+def approximate_inverse(slope: arb_mat) -> arb_mat:
+    """The inverse of a matrix in floating point: a preconditioner need not be right.
 
     Raises
     ------
@@ -53,40 +53,34 @@ def inverse_of(slope: np.ndarray) -> np.ndarray:
         if the matrix is singular in floating point
     """
     try:
-        inverse = np.linalg.inv(slope)
+        inverse = np.linalg.inv(midpoints(slope))
     except np.linalg.LinAlgError:
         raise Refused("the linearisation is singular") from None
     if not np.isfinite(inverse).all():
         raise Refused("the linearisation is singular")
-    return inverse
+    return exact(inverse)
 
 
-def corrected(equations: Equations, start: np.ndarray, slope: np.ndarray, least: float) -> Approximation:
-    """An approximate zero; nothing is proved here.
-
-    It is corrected until what remains of a correction is less than its own width and `least`.
-
-    Parameters
-    ----------
-    equations, least : the equations, and the least radius of a box around the zero
-    start, slope : a point near it, and the derivative there, in floating point, shapes (n,) and (n, n)
+def correct(equations: Equations, near: Approximation, least: float) -> Approximation:
+    """Improve an approximation until Newton's correction is within its own radius and `least`; nothing is proved here.
 
     Raises
     ------
     Refused
-        if there is none nearby
+        if there is no zero nearby
     """
-    centre, inverse, last = exact(start[:, None]), exact(inverse_of(slope)), math.inf
+    last = math.inf
     for _ in range(CORRECTIONS):
-        found = Approximation(centre, equations(centre, False)[0], inverse)
-        step = (inverse * found.value).entries()
-        size = max(float(abs(middle(entry))) for entry in step)
+        step = (near.inverse * near.value).entries()
+        size = max(float(abs(entry.mid())) for entry in step)
         if not size < FARTHEST:
             break
-        if not size < 0.5 * last or all(abs(middle(entry)) <= entry.rad() + least for entry in step):
-            return found
+        if not size < 0.5 * last or all(abs(entry.mid()) <= entry.rad() + least for entry in step):
+            return near
         last = size
-        centre = arb_mat([[middle(entry - change)] for entry, change in zip(centre.entries(), step, strict=True)])
+        pairs = zip(near.centre.entries(), step, strict=True)
+        centre = arb_mat([[(entry - change).mid()] for entry, change in pairs])
+        near = near._replace(centre=centre, value=equations(centre, False)[0])
     raise Refused("Newton's iteration finds nothing nearby")
 
 
@@ -109,21 +103,20 @@ def krawczyk(value: arb_mat, slope: arb_mat, inverse: arb_mat, deviation: arb_ma
     return (identity - inverse * slope) * deviation - inverse * value
 
 
-def prove(equations: Equations, near: Approximation, least: float, what: str, radius: float | None = None) -> Zero:
+def prove_zero(equations: Equations, near: Approximation, least: float) -> Zero:
     """Exactly one zero in a box around the centre of an approximation.
 
-    The box is twice as wide as Newton's correction, whose width a parameter with a wide ball makes, and at least as
-    wide as `least`; a box that proves nothing is enlarged where its image sticks out. With a `radius` this box alone
-    is tried.
+    The radii of the box are twice Newton's correction, which a parameter with a wide ball makes wide, plus `least`. A
+    box that proves nothing is enlarged where its image sticks out.
 
     Raises
     ------
     Refused
-        with the reason
+        if the box holds no zero, or no enlarged box contains its image
     """
     centre, value, inverse = near
-    radii = [2 * abs(step).upper() + least if radius is None else arb(radius) for step in (inverse * value).entries()]
-    for _ in range(INFLATIONS if radius is None else 1):
+    radii = [2 * abs(step).upper() + least for step in (inverse * value).entries()]
+    for _ in range(INFLATIONS):
         deviation = arb_mat([[arb(0, size)] for size in radii])
         box = centre + deviation
         _, slope, evidence = equations(box, True)
@@ -132,6 +125,6 @@ def prove(equations: Equations, near: Approximation, least: float, what: str, ra
         if all(wide.contains_interior(narrow) for wide, narrow in pairs):
             return Zero(centre + image, box, evidence)
         if any(not wide.overlaps(narrow) for wide, narrow in pairs):
-            raise Refused(f"there is no {what} in the box")
+            raise Refused("there is no zero in the box")
         radii = [size.max(2 * abs(narrow).upper()) for size, (_, narrow) in zip(radii, pairs, strict=True)]
-    raise Refused(f"no {what} is proved: Newton's image of the box does not lie inside it")
+    raise Refused("no zero is proved: Krawczyk's image of the box does not lie inside the box")

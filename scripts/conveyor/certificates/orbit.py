@@ -7,10 +7,9 @@ import numpy as np
 from flint import arb, arb_mat
 
 from .balls import Refused, bounds
-from .guess import guess
 from .motion import Arrival, Impact
-from .newton import Zero, corrected, exact, floats, prove
-from .shooting import AtAmplitude, Shooting
+from .newton import Zero, correct, exact, midpoints, prove_zero
+from .shooting import NODES, Shooting, equations_at, launch
 
 
 class ProvedOrbit(NamedTuple):
@@ -25,7 +24,7 @@ class ProvedOrbit(NamedTuple):
 
     def strobe(self, cycle: int) -> tuple[arb, arb]:
         """(δ, Y) at the beginning of a cycle of the period, in units of the law."""
-        row = 2 * self.shooting.nodes * cycle
+        row = 2 * NODES * cycle
         return self.zero.enclosure[row, 0], self.zero.enclosure[row + 1, 0]
 
     @property
@@ -87,7 +86,7 @@ class ProvedOrbit(NamedTuple):
         return [(first, arb(0)), (self.determinant / first, arb(0))]
 
 
-def linearised(shooting: Shooting, arrivals: list[Arrival]) -> tuple[arb, arb, arb]:
+def linearise(shooting: Shooting, arrivals: list[Arrival]) -> tuple[arb, arb, arb]:
     """Trace and determinant of the derivative over a period, and the phase in contact.
 
     The trace is that of Q⁻¹ P Q for any Q: with the Q of a QR decomposition at each node the factors of the product P
@@ -95,13 +94,13 @@ def linearised(shooting: Shooting, arrivals: list[Arrival]) -> tuple[arb, arb, a
     divergence -β in contact (Liouville), which is narrower than that of the product and must agree with it.
     """
     matrices = [arb_mat([[arrival.matrix[i, j] for j in range(2)] for i in range(2)]) for arrival in arrivals]
-    whole = reduce(lambda product, matrix: floats(matrix) @ product, matrices, np.eye(2))
+    whole = reduce(lambda product, matrix: midpoints(matrix) @ product, matrices, np.eye(2))
     values, vectors = np.linalg.eig(whole)
     x, y = vectors[:, np.argmax(np.abs(values))].real
     base = frame = exact(np.array([[x, -y], [y, x]]))
     product = arb_mat([[1, 0], [0, 1]])
     for matrix in matrices:
-        following = base if matrix is matrices[-1] else exact(np.linalg.qr(floats(matrix * frame))[0])
+        following = base if matrix is matrices[-1] else exact(np.linalg.qr(midpoints(matrix * frame))[0])
         product = following.inv() * matrix * frame * product
         frame = following
     contact = sum((arrival.contact for arrival in arrivals), arb(0))
@@ -109,13 +108,6 @@ def linearised(shooting: Shooting, arrivals: list[Arrival]) -> tuple[arb, arb, a
     if not determinant.overlaps(product.det()):
         raise Refused("the determinant contradicts the time in contact")
     return product.trace(), determinant, contact
-
-
-def proved(shooting: Shooting, gamma: arb, zero: Zero) -> ProvedOrbit:
-    """What follows from exactly one zero of the equations."""
-    orbit = ProvedOrbit(shooting, gamma, zero, *linearised(shooting, zero.evidence))
-    check_period(orbit)
-    return orbit
 
 
 def prove_orbit(shooting: Shooting, gamma: arb, strobes: np.ndarray) -> ProvedOrbit:
@@ -132,10 +124,12 @@ def prove_orbit(shooting: Shooting, gamma: arb, strobes: np.ndarray) -> ProvedOr
     Refused
         with the reason
     """
-    found = guess(shooting.law, float(gamma), shooting.nodes, strobes)
-    equations = AtAmplitude(shooting, gamma)
-    near = corrected(equations, found.states.ravel(), found.slope, shooting.least)
-    return proved(shooting, gamma, prove(equations, near, shooting.least, "orbit"))
+    equations = equations_at(shooting, gamma)
+    near = correct(equations, launch(shooting, gamma, strobes), shooting.least)
+    zero = prove_zero(equations, near, shooting.least)
+    orbit = ProvedOrbit(shooting, gamma, zero, *linearise(shooting, zero.evidence))
+    check_period(orbit)
+    return orbit
 
 
 def check_period(orbit: ProvedOrbit) -> None:

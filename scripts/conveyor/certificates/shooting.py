@@ -1,101 +1,122 @@
 """The equations of a periodic orbit, by multiple shooting.
 
-The orbit is cut at phases that divide each excitation cycle evenly. The unknowns are the states (δ, Y) at all of them,
-the equations say that each follows from the one before: the errors of one piece are not carried through the others,
-where the contact's ringing would blow up their boxes, but are joined by one linear system.
+The orbit is cut at phases that divide each excitation cycle evenly. The unknowns are the states (δ, Y) at all of these
+nodes; the equations say that each state follows from the one before. The errors of one piece are not carried through
+the other pieces, where the contact's ringing would blow up their boxes, but are joined by one linear system.
 """
 
 from typing import NamedTuple
 
+import numpy as np
 from flint import arb, arb_mat
 
-from .law import Law
-from .motion import Accuracy, Arrival, follow
+from .law import Accuracy, Law, System
+from .motion import Arrival, follow
+from .newton import Approximation, Equations, approximate_inverse
 
 # Nodes in an excitation cycle: the contact of a riding part rings about five times in it.
 NODES = 8
 
 
 class Shooting(NamedTuple):
-    """The orbits of `period` excitation cycles, cut at `nodes` phases of each."""
+    """The orbits of `period` excitation cycles, cut at NODES phases of each cycle."""
 
     law: Law
     accuracy: Accuracy
     period: int
-    nodes: int
 
     @property
     def count(self) -> int:
         """Number of nodes of an orbit."""
-        return self.period * self.nodes
+        return self.period * NODES
 
     @property
     def least(self) -> float:
         """Least radius of a box: well above what one piece of the motion adds."""
         return 16.0 * self.accuracy.tolerance
 
-    def arrival(self, gamma: arb, node: int, delta: arb, y: arb, columns: int) -> Arrival:
-        """The motion from one node to the next."""
-        turn = 2 * arb.pi() / self.nodes
-        begin = self.law.phase + turn * (node % self.nodes)
-        return follow(self.law, self.accuracy, gamma, begin, begin + turn, delta, y, columns)
 
-    def arrivals(self, gamma: arb, states: arb_mat, columns: int) -> list[Arrival]:
-        """The motions from all nodes; states : (δ, Y) of all nodes below each other, shape (2 count, 1)."""
-        return [
-            self.arrival(gamma, node, states[2 * node, 0], states[2 * node + 1, 0], columns)
-            for node in range(self.count)
-        ]
-
-    def residual(self, states: arb_mat, arrivals: list[Arrival]) -> arb_mat:
-        """By what each motion misses the next node, shape (2 count, 1)."""
-        reached = arb_mat([[value] for arrival in arrivals for value in (arrival.delta, arrival.y)])
-        wanted = states.entries()
-        return reached - arb_mat([[value] for value in wanted[2:] + wanted[:2]])
-
-    def slope(self, arrivals: list[Arrival]) -> arb_mat:
-        """Its derivative by the states, shape (2 count, 2 count)."""
-        size = 2 * self.count
-        rows = [[arb(0)] * size for _ in range(size)]
-        for row, entries in enumerate(rows):
-            matrix, own = arrivals[row // 2].matrix, row - row % 2
-            entries[own] += matrix[row % 2, 0]
-            entries[own + 1] += matrix[row % 2, 1]
-            entries[(row + 2) % size] -= 1
-        return arb_mat(rows)
+def follow_to_next_node(system: System, node: int, delta: arb, y: arb, columns: int) -> Arrival:
+    """The motion from one node to the next one."""
+    turn = 2 * arb.pi() / NODES
+    begin = system.law.phase + turn * (node % NODES)
+    return follow(system, begin, begin + turn, delta, y, columns)
 
 
-class AtAmplitude(NamedTuple):
-    """Equations for (δ, Y) of all nodes at the amplitudes of a ball."""
-
-    shooting: Shooting
-    gamma: arb
-
-    def __call__(self, unknown: arb_mat, derivative: bool) -> tuple[arb_mat, arb_mat | None, list[Arrival]]:
-        arrivals = self.shooting.arrivals(self.gamma, unknown, 2 if derivative else 0)
-        value = self.shooting.residual(unknown, arrivals)
-        return value, self.shooting.slope(arrivals) if derivative else None, arrivals
+def residual(states: arb_mat, arrivals: list[Arrival]) -> arb_mat:
+    """By what each motion misses the next node, shape (2 count, 1); states: (δ, Y) of all nodes below each other."""
+    reached = arb_mat([[value] for arrival in arrivals for value in (arrival.delta, arrival.y)])
+    wanted = states.entries()
+    return reached - arb_mat([[value] for value in wanted[2:] + wanted[:2]])
 
 
-class OnArc(NamedTuple):
+def residual_slope(arrivals: list[Arrival]) -> arb_mat:
+    """Derivative of the residual by the states, shape (2 count, 2 count)."""
+    size = 2 * len(arrivals)
+    rows = [[arb(0)] * size for _ in range(size)]
+    for row, entries in enumerate(rows):
+        matrix, own = arrivals[row // 2].matrix, row - row % 2
+        entries[own] += matrix[row % 2, 0]
+        entries[own + 1] += matrix[row % 2, 1]
+        entries[(row + 2) % size] -= 1
+    return arb_mat(rows)
+
+
+def launch(shooting: Shooting, gamma: arb, strobes: np.ndarray) -> Approximation:
+    """States of all nodes from approximate states at the beginnings of the cycles, shape (period, 2)."""
+    system = System(shooting.law, gamma, shooting.accuracy)
+    states, arrivals = [], []
+    for strobe in strobes:
+        state = [arb(float(value)) for value in strobe]
+        for node in range(NODES):
+            arrivals.append(follow_to_next_node(system, node, *state, columns=2))
+            states += state
+            state = [arrivals[-1].delta.mid(), arrivals[-1].y.mid()]
+    centre = arb_mat([[value] for value in states])
+    return Approximation(centre, residual(centre, arrivals), approximate_inverse(residual_slope(arrivals)))
+
+
+def follow_all(system: System, states: list[arb], columns: int) -> list[Arrival]:
+    """The motions from all nodes to the next ones; states: δ and Y of the first node, of the second one, …"""
+    return [
+        follow_to_next_node(system, node, *state, columns)
+        for node, state in enumerate(zip(states[::2], states[1::2], strict=True))
+    ]
+
+
+def equations_at(shooting: Shooting, gamma: arb) -> Equations:
+    """Equations for (δ, Y) of all nodes at the amplitudes of a ball; their evidence is the arrivals at all nodes."""
+    system = System(shooting.law, gamma, shooting.accuracy)
+
+    def evaluate(states: arb_mat, derivative: bool) -> tuple[arb_mat, arb_mat | None, list[Arrival]]:
+        arrivals = follow_all(system, states.entries(), 2 if derivative else 0)
+        return residual(states, arrivals), residual_slope(arrivals) if derivative else None, arrivals
+
+    return evaluate
+
+
+def equations_on_arc(shooting: Shooting, origin: arb_mat, direction: arb_mat, place: arb) -> Equations:
     """Equations for (δ, Y) of all nodes and γ, at the places of a ball along an arc of a branch.
 
     The place is the component of the unknowns, less `origin`, along `direction`: folds are no obstacle to it.
+
+    Parameters
+    ----------
+    origin, direction : exact, shapes (2 count + 1, 1) and (1, 2 count + 1)
+    place : the place
     """
 
-    shooting: Shooting
-    origin: arb_mat  # shape (2 count + 1, 1), exact
-    direction: arb_mat  # shape (1, 2 count + 1), exact
-    place: arb
-
-    def __call__(self, unknown: arb_mat, derivative: bool) -> tuple[arb_mat, arb_mat | None, list[Arrival]]:
+    def evaluate(unknown: arb_mat, derivative: bool) -> tuple[arb_mat, arb_mat | None, list[Arrival]]:
         *entries, gamma = unknown.entries()
+        system = System(shooting.law, gamma, shooting.accuracy)
+        arrivals = follow_all(system, entries, 3 if derivative else 0)
         states = arb_mat([[value] for value in entries])
-        arrivals = self.shooting.arrivals(gamma, states, 3 if derivative else 0)
-        last = (self.direction * (unknown - self.origin))[0, 0] - self.place
-        value = arb_mat([*self.shooting.residual(states, arrivals).tolist(), [last]])
+        last = (direction * (unknown - origin))[0, 0] - place
+        value = arb_mat([*residual(states, arrivals).tolist(), [last]])
         if not derivative:
             return value, None, arrivals
-        drift = [arrival.matrix[i, 2] for arrival in arrivals for i in range(2)]
-        rows = [[*row, by_gamma] for row, by_gamma in zip(self.shooting.slope(arrivals).tolist(), drift, strict=True)]
-        return value, arb_mat([*rows, self.direction.entries()]), arrivals
+        by_gamma = [arrival.matrix[i, 2] for arrival in arrivals for i in range(2)]
+        rows = [[*row, drift] for row, drift in zip(residual_slope(arrivals).tolist(), by_gamma, strict=True)]
+        return value, arb_mat([*rows, direction.entries()]), arrivals
+
+    return evaluate

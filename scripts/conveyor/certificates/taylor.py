@@ -5,7 +5,7 @@ The equations are polynomial in (w, Y, cos φ, sin φ), and so are those of pert
     η' = w (ζ - β η),   ζ' = -p κ w^(2p-1) η,   and for the derivative by γ, ζ' = … + w cos φ.
 
 `rates` writes them once; it is evaluated in three arithmetics, each with one purpose: on truncated series it proves the
-coefficients that `suggestion` finds, on bounds of terms it gives what the coefficients leave over, and on norms the
+coefficients that `double_double` finds, on bounds of terms it gives what the coefficients leave over, and on norms the
 bound of the remainder.
 
 The remainder. Let ‖f‖ = Σ |f_n| hⁿ, so that ‖f g‖ ≤ ‖f‖ ‖g‖ and |f(s)| ≤ ‖f‖ for |s| ≤ h. Let x̄ be the exact solution's
@@ -25,23 +25,21 @@ import numpy as np
 from flint import arb, arb_mat, arb_poly, arb_series, ctx
 
 from .balls import Refused
-from .law import Law
-from .suggestion import parts_of, suggest
+from .double_double import COSINE, MOTION, PHASE, enclose_series, parts_of
+from .law import System
 
-# Components of a step; the columns of perturbations follow, two components each.
-W, Y, COSINE, SINE, PHASE = range(5)
-MOTION = 5
 # How often a bound that does not hold is doubled, and a step that has none is halved.
 DOUBLINGS, HALVINGS = 4, 20
 # What makes up for the rounding of a sum of three floats.
 SLACK = 1.0 + 1e-15
 
 
-def rates(law: Law, gamma: arb, x: Sequence, columns: int) -> list:
+def rates(system: System, x: Sequence, columns: int) -> list:
     """Derivatives by s of (w, Y, cos φ, sin φ, φ) and of `columns` perturbations, in any arithmetic with + - and *.
 
     The third perturbation, if there is one, is the derivative by γ.
     """
+    law, gamma, _ = system
     w, y, cosine, sine = x[:PHASE]
     square, driven = w * w, w * cosine
     stiff = w if law.twice_exponent == 2 else square  # w^(2p-1)
@@ -62,13 +60,15 @@ def rates(law: Law, gamma: arb, x: Sequence, columns: int) -> list:
     return found
 
 
-def bounding(law: Law) -> Law:
-    """Bounds on a law's numbers, exact, with signs such that in `rates` nothing is subtracted.
+def bound_system(system: System) -> System:
+    """Bounds on the numbers of a system, exact, with signs such that in `rates` nothing is subtracted.
 
     The rates of bounds on ‖f‖ are then bounds on ‖rates(f)‖ (that of cos φ with a minus), and so is what they grow by
     with bounds on ‖f + e‖ on what f + e adds: Σ |(f + e)^k - f^k| ≤ (‖f‖ + ‖e‖)^k - ‖f‖^k for every product.
     """
-    return law._replace(beta=-law.beta.abs_upper(), kappa=-law.kappa.abs_upper())
+    law, gamma, accuracy = system
+    bounded = law._replace(beta=-law.beta.abs_upper(), kappa=-law.kappa.abs_upper())
+    return System(bounded, gamma.abs_upper(), accuracy)
 
 
 class Step(NamedTuple):
@@ -82,12 +82,7 @@ class Step(NamedTuple):
         """A component over a ball of s within the step."""
         return self.parts[component](s) + arb(0, self.remainders[component])
 
-    def speed(self, law: Law, s: arb) -> arb:
-        """v = δ' = Y - β w²."""
-        w = self.value(W, s)
-        return self.value(Y, s) - law.beta * w * w
-
-    def carried(self, matrix: arb_mat, s: arb) -> arb_mat:
+    def carry(self, matrix: arb_mat, s: arb) -> arb_mat:
         """Perturbations of (δ, Y) at s from those at the beginning of the step: linear, plus what γ adds."""
         columns = [[self.value(i, s), self.value(i + 1, s)] for i in range(MOTION, len(self.parts), 2)]
         if not columns:
@@ -99,12 +94,12 @@ class Step(NamedTuple):
         return moved
 
 
-def expand(law: Law, gamma: arb, start: Sequence[arb], columns: int, order: int) -> tuple[list[arb_poly], np.ndarray]:
-    """The exact series of the solutions from all points of `start`, up to an order, in balls.
+def expand(system: System, initial: Sequence[arb], columns: int) -> tuple[list[arb_poly], np.ndarray]:
+    """The exact series of the solutions from all points of `initial`, in balls.
 
-    Suggested balls are put into Picard's operator T(x) = x0 + ∫ rates(x) ds once. If they hold what comes out, they
-    hold the exact coefficients: the first one is given, and that of order n + 1 of T follows from those up to order n.
-    What comes out holds them, too.
+    Probable enclosures are put into Picard's operator T(x) = x0 + ∫ rates(x) ds once. If they contain the result, they
+    contain the exact coefficients: the first one is given, and that of order n + 1 of T follows from those up to order
+    n. The result contains the exact coefficients, too.
 
     Returns
     -------
@@ -115,91 +110,96 @@ def expand(law: Law, gamma: arb, start: Sequence[arb], columns: int, order: int)
     ValueError
         where the context (see balls.precision) cuts series off before the order: the remainder would be wrong
     Refused
-        if what was suggested does not hold the series
+        if the probable enclosures do not contain the result
     """
+    law, gamma, (order, _) = system
     if ctx.cap <= order:
         raise ValueError(f"series of order {order} in a context for {ctx.cap - 1}")
-    rows = np.zeros((len(start), 3, order + 1))
-    rows[:, :, 0] = [parts_of(value) for value in start]
+    rows = np.zeros((len(initial), 3, order + 1))
+    rows[:, :, 0] = [parts_of(value) for value in initial]
     minus_p = arb(law.twice_exponent) / -2
     numbers = gamma, -law.beta, -law.kappa, minus_p * law.kappa
-    suggest(rows, law.twice_exponent, *map(parts_of, numbers), ctx.prec)
+    enclose_series(rows, law.twice_exponent, *map(parts_of, numbers), ctx.prec)
     sizes = SLACK * np.abs(rows).sum(axis=1)
-    wide = [
-        arb_series([value, *centre[1:]]) + arb_series([0, *rest[1:]]) + arb_series([0, *radius[1:]]) * arb(0, 1)
-        for value, (centre, rest, radius) in zip(start, rows.tolist(), strict=True)
+    probable = [
+        arb_series([value, *high[1:]]) + arb_series([0, *low[1:]]) + arb_series([0, *radius[1:]]) * arb(0, 1)
+        for value, (high, low, radius) in zip(initial, rows.tolist(), strict=True)
     ]
-    found = []
-    for value, series, rate in zip(start, wide, rates(law, gamma, wide, columns), strict=True):
-        narrow = [value, *rate.integral().coeffs()[1 : order + 1]]
-        if not all(map(arb.contains, series.coeffs(), narrow)):
+    proved = []
+    for value, series, rate in zip(initial, probable, rates(system, probable, columns), strict=True):
+        image = [value, *rate.integral().coeffs()[1 : order + 1]]
+        if not all(map(arb.contains, series.coeffs(), image)):
             raise Refused("the series of a step is not proved")
-        found.append(arb_poly(narrow))
-    return found, sizes
+        proved.append(arb_poly(image))
+    return proved, sizes
 
 
-def length_of(sizes: np.ndarray, tolerance: float) -> arb:
-    """A step, exact, whose last terms of w and Y are about `tolerance`; nothing is proved here."""
+def choose_length(sizes: np.ndarray, tolerance: float) -> arb:
+    """A length, exact, at which the last terms of w and Y are about `tolerance`; nothing is proved here."""
     length, order = 1.0, sizes.shape[1] - 1
-    for part in sizes[:COSINE]:
+    for size in sizes[:COSINE]:
         for n in (order - 1, order):
-            if part[n] > 0.0:
-                length = min(length, (tolerance / part[n]) ** (1.0 / n))
+            if size[n] > 0.0:
+                length = min(length, (tolerance / size[n]) ** (1.0 / n))
     return arb(length)
 
 
-def remainders(law: Law, gamma: arb, sizes: np.ndarray, left_over: Sequence[arb_poly], length: arb) -> list[arb] | None:
+def bound_remainders(
+    bounds: System, sizes: np.ndarray, rate_bounds: Sequence[arb_poly], length: arb
+) -> list[arb] | None:
     """Bounds on what series up to an order leave out on [-length, length], or None if none is found.
 
-    law, gamma : as from `bounding`
-    sizes : bounds on the terms of the series, shape (components, order + 1)
-    left_over : the rates of polynomials with these terms
+    Parameters
+    ----------
+    bounds : as from `bound_system`
+    sizes : bounds on the coefficients of the series, shape (components, order + 1)
+    rate_bounds : the rates of polynomials with these coefficients
+    length : exact
     """
     columns, order = (len(sizes) - MOTION) // 2, sizes.shape[1] - 1
     # The integral of a term of order n is length/(n + 1) of it.
     gain = length ** (order + 1) / (order + 1)
-    defects = [gain * abs(rate.right_shift(order)(length)) for rate in left_over]
+    defects = [gain * abs(rate.right_shift(order)(length)) for rate in rate_bounds]
     norms = [arb_poly(row)(length) for row in sizes.tolist()]
-    before = rates(law, gamma, norms, columns)
+    before = rates(bounds, norms, columns)
     gain = length / (order + 2)
-    bound = [2 * defect for defect in defects]
+    radii = [2 * defect for defect in defects]
     for _ in range(DOUBLINGS):
-        after = rates(law, gamma, [part + deviation for part, deviation in zip(norms, bound, strict=True)], columns)
+        after = rates(bounds, [norm + radius for norm, radius in zip(norms, radii, strict=True)], columns)
         reached = [
             (defect + gain * abs(new - old)).upper() for defect, new, old in zip(defects, after, before, strict=True)
         ]
-        if all(there <= here for there, here in zip(reached, bound, strict=True)):
+        if all(new <= old for new, old in zip(reached, radii, strict=True)):
             return reached
-        bound = [2 * there for there in reached]
+        radii = [2 * radius for radius in reached]
     return None
 
 
-def step(law: Law, gamma: arb, start: Sequence[arb], columns: int, order: int, tolerance: float) -> Step:
+def make_step(system: System, initial: Sequence[arb], columns: int) -> Step:
     """A step of the contact with proved remainders.
 
     Parameters
     ----------
-    law, gamma : the law and its amplitude
-    start : w, Y and φ, all points of which are meant
-    columns : 0; 2 for the derivative by (δ, Y); 3 for that by γ too
-    order, tolerance : of the series, and of its last terms
+    system : the motion at an amplitude, and the accuracy of its steps
+    initial : w, Y and φ; the step holds for all points of these balls
+    columns : 0; 2 for the derivative by (δ, Y); 3 for the derivative by γ too
 
     Raises
     ------
     Refused
         if no length is found for which the remainder has a bound
     """
-    w, y, phase = start
+    w, y, phase = initial
     sine, cosine = phase.sin_cos()
     identity = [arb(1), arb(0), arb(0), arb(1), arb(0), arb(0)][: 2 * columns]
-    parts, sizes = expand(law, gamma, [w, y, cosine, sine, phase, *identity], columns, order)
-    bounded = bounding(law), gamma.abs_upper()
-    left_over = rates(*bounded, [arb_poly(row) for row in sizes.tolist()], columns)
-    # Bounds on the terms of a product are up to twice as large as they are.
-    length = length_of(sizes, 0.5 * tolerance)
+    parts, sizes = expand(system, [w, y, cosine, sine, phase, *identity], columns)
+    bounds = bound_system(system)
+    rate_bounds = rates(bounds, [arb_poly(row) for row in sizes.tolist()], columns)
+    # Bounds on the terms of a product are up to twice as large as the terms.
+    length = choose_length(sizes, 0.5 * system.accuracy.tolerance)
     for _ in range(HALVINGS):
-        found = remainders(*bounded, sizes, left_over, length)
-        if found is not None:
-            return Step(length, parts, found)
+        remainders = bound_remainders(bounds, sizes, rate_bounds, length)
+        if remainders is not None:
+            return Step(length, parts, remainders)
         length = length / 2
     raise Refused("no step of the contact has a bounded remainder")

@@ -226,3 +226,15 @@ def test_motions_of_one_state_are_told_apart():
     found = states.classify(rows)
     assert list(found.state) == ["second", "second"]
     assert found.longest_flight[1] > 1.0 > found.longest_flight[0]
+
+
+def test_boxes_hold_a_motion_and_its_neighbourhood():
+    """A point within a box's size of any strobe, on every side, lies in a box that counts as visited."""
+    strobes = np.random.default_rng(2).normal(size=(500, 2)) * [1e-5, 0.1]
+    low, size, visited = chaotic_set.boxes_of(strobes)
+    for shift in ((0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (-1.0, -1.0)):
+        places = np.floor((strobes + np.array(shift) * size * (1.0 - 1e-9) - low) / size).astype(int)
+        assert places.min() >= 0
+        assert places.max() < len(visited)
+        assert visited[places[:, 0], places[:, 1]].all()
+    assert visited.mean() < 0.1

@@ -108,3 +108,11 @@ def test_eigenvalues_of_a_product(size, turn):
 
 def test_eigenvalues_that_rounding_hides():
     assert all(math.isnan(value) for value in of_repeated(np.ones((1, 2, 2))))
+
+
+def test_standard_error_by_hand():
+    """Blocks with the means 1 and 3: mean 2, sample standard deviation √2, standard error √2/√2."""
+    stretches = np.array([0.0, 2.0, 2.0, 4.0]).reshape(1, 4, 1)
+    values, errors = exponents(stretches, 2)
+    assert values[0, 0] == pytest.approx(2.0)
+    assert errors[0, 0] == pytest.approx(1.0)

@@ -78,3 +78,10 @@ def test_mean_square_displacement_agrees_with_its_definition():
 def test_series_is_checked(series):
     with pytest.raises(ValueError, match="series must be finite"):
         zero_one(series, seed=1)
+
+
+def test_value_and_error_are_median_and_half_the_distance_of_quartiles():
+    found = zero_one(quasi_periodic(), seed=1)
+    lower, median, upper = np.quantile(found.growth, [0.25, 0.5, 0.75])
+    assert found.value == pytest.approx(median)
+    assert found.error == pytest.approx((upper - lower) / 2.0)

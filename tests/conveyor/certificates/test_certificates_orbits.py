@@ -10,12 +10,11 @@ from conveyor.analysis import orbits, stroboscope
 from conveyor.certificates import brackets, covering
 from conveyor.certificates.balls import Refused, bounds, exactly, precision
 from conveyor.certificates.brackets import bracket_doubling, bracket_fold
-from conveyor.certificates.guess import guess
-from conveyor.certificates.law import law_of
-from conveyor.certificates.motion import Accuracy
-from conveyor.certificates.newton import corrected, prove
-from conveyor.certificates.orbit import check_near, prove_orbit
-from conveyor.certificates.shooting import NODES, AtAmplitude, Shooting
+from conveyor.certificates.excursion import plan_sets
+from conveyor.certificates.law import Accuracy, System, law_of
+from conveyor.certificates.newton import Approximation, correct, krawczyk, prove_zero
+from conveyor.certificates.orbit import ProvedOrbit, check_near, prove_orbit
+from conveyor.certificates.shooting import Shooting, equations_at, launch
 from conveyor.solver.model import Conveyor, Start, pack
 
 FINE = Accuracy(order=24, tolerance=1e-22)
@@ -49,7 +48,7 @@ def stored(acceleration: float, start: np.ndarray, period: int) -> orbits.Orbit:
 
 
 def shooting(period: int, law=None, accuracy=FINE) -> Shooting:
-    return Shooting(law or law_of(Conveyor()), accuracy, period, NODES)
+    return Shooting(law or law_of(Conveyor()), accuracy, period)
 
 
 def proved(acceleration: float, start: np.ndarray, period: int = 1, **changes):
@@ -100,17 +99,64 @@ def test_other_bits_and_order_agree(jumping):
 
 def test_a_false_orbit_is_refused(jumping):
     """Shifted by 1e-6: there is no orbit in a small box around it, and the one that Newton finds is another one."""
-    equations = shooting(1)
-    gamma = equations.law.gamma(exactly(40.0))
-    at = AtAmplitude(equations, gamma)
-    found = guess(equations.law, float(gamma), NODES, jumping)
-    near = corrected(at, found.states.ravel(), found.slope, equations.least)
-    prove(at, near, equations.least, "orbit", radius=1e-9)
-    shifted = near.centre + arb_mat([[exactly(1e-6)] for _ in range(near.centre.nrows())])
-    with pytest.raises(Refused, match="there is no orbit in the box"):
-        prove(at, near._replace(centre=shifted, value=at(shifted, False)[0]), equations.least, "orbit", radius=1e-9)
+    problem = shooting(1)
+    gamma = problem.law.gamma(exactly(40.0))
+    equations = equations_at(problem, gamma)
+    near = correct(equations, launch(problem, gamma, jumping), problem.least)
+    count = near.centre.nrows()
+    deviation = arb_mat([[arb(0, 1e-9)] for _ in range(count)])
+
+    def image(centre):
+        value, slope = equations(centre, False)[0], equations(centre + deviation, True)[1]
+        return zip(deviation.entries(), krawczyk(value, slope, near.inverse, deviation).entries(), strict=True)
+
+    assert all(wide.contains_interior(narrow) for wide, narrow in image(near.centre))
+    shifted = near.centre + arb_mat([[exactly(1e-6)] for _ in range(count)])
+    assert any(not wide.overlaps(narrow) for wide, narrow in image(shifted))
     with pytest.raises(Refused, match="another one"):
         check_near(proved(40.0, jumping), jumping + 1e-6, 1e-7)
+
+
+def test_zeros_of_a_parabola():
+    """x² = 2 has one zero near 1.4; x² = -1 has none, and the double zero of x² is not proved."""
+
+    def approximation(constant, centre):
+        return Approximation(
+            arb_mat([[centre]]), arb_mat([[centre * centre - constant]]), arb_mat([[1 / (2 * centre)]])
+        )
+
+    def parabola(constant):
+        return lambda x, _: (arb_mat([[x[0, 0] * x[0, 0] - constant]]), arb_mat([[2 * x[0, 0]]]), None)
+
+    zero = prove_zero(parabola(2), approximation(2, arb(1.40625)), 1e-20)
+    assert zero.enclosure[0, 0].contains(arb(2).sqrt().mid())
+    assert zero.enclosure[0, 0].rad() < 1e-3
+    near = correct(parabola(2), approximation(2, arb(1.40625)), 1e-16)
+    assert abs(near.centre[0, 0] - arb(2).sqrt()) < 1e-15
+    for constant in (-1, 0):
+        with pytest.raises(Refused):
+            prove_zero(parabola(constant), approximation(constant, arb(1)), 1e-20)
+
+
+@pytest.mark.parametrize(
+    ("multipliers", "stability"),
+    [
+        ((0.5, 0.25), "stable"),
+        ((0.5j, -0.5j), "stable"),
+        ((1.5, 0.5), "unstable"),
+        ((-1.5, -0.5), "unstable"),
+        ((1j, -1j), "open"),
+        ((1.0, 0.5), "open"),
+    ],
+)
+def test_stability_by_hand(multipliers, stability):
+    """Both multipliers inside the unit circle, one outside, or none of it for certain."""
+    one, other = multipliers
+    trace, determinant = (arb(complex(value).real) for value in (one + other, one * other))
+    orbit = ProvedOrbit(None, None, None, trace, determinant, arb(0))
+    assert orbit.stability == stability
+    found = {(float(real), float(imag)) for real, imag in orbit.multipliers()}
+    assert found == {(complex(value).real, complex(value).imag) for value in multipliers}
 
 
 def test_a_wrong_period_is_refused(jumping):
@@ -161,7 +207,7 @@ def test_no_doubling_is_bracketed_where_there_is_none(jumping, monkeypatch):
     """Far from a doubling the search leads nowhere; without a search the signs at the ends are equal."""
     with pytest.raises(Refused):
         bracket_doubling(shooting(1), 40.0, jumping, 1e-9)
-    monkeypatch.setattr(brackets, "SECANT_STEPS", 0)
+    monkeypatch.setattr(brackets, "SECANTS", 0)
     with pytest.raises(Refused, match="no two different signs"):
         bracket_doubling(shooting(1), 40.0, jumping, 1e-9)
 
@@ -183,7 +229,7 @@ def test_no_fold_is_bracketed_where_there_is_none(jumping, branch, monkeypatch):
     start = strobes(orbit.acceleration, orbit.state, 1)
     with pytest.raises(Refused):
         bracket_fold(shooting(1), orbit.acceleration, start, 0.1)
-    monkeypatch.setattr(brackets, "SEARCHES", 0)
+    monkeypatch.setattr(brackets, "SECANTS", 0)
     with pytest.raises(Refused, match="not least within the arc"):
         bracket_fold(shooting(1), 40.0, jumping, 1e-6)
 
@@ -199,13 +245,13 @@ def horseshoe_plan():
     near = [orbit for orbit in rides if abs(orbit.acceleration - 80.0) < 0.2]
     found = [returns.newton(returns.scaled(80.0, orbit.state)) for orbit in near]
     fixed = next(unknown for unknown in found if unknown is not None)
-    return covering.plan(returns, fixed, 1e-6, 0.3, 14)
+    return plan_sets(PARAMETERS, fixed, 1e-6, 0.3, 14)
 
 
 def horseshoe(centres, axes):
     with precision(64, 16):
         law = law_of(Conveyor())
-        return covering.prove_horseshoe(law, CHAOS, law.gamma(arb(80)), NODES, centres, axes)
+        return covering.prove_horseshoe(System(law, law.gamma(arb(80)), CHAOS), centres, axes)
 
 
 def test_a_horseshoe_is_proved(horseshoe_plan):
@@ -228,7 +274,7 @@ def test_a_false_horseshoe_is_refused(horseshoe_plan):
 def test_entropy_of_a_full_shift():
     """Stays and excursions of one cycle each are two symbols without rule; of one and two, the golden mean."""
     for cycles, root in ((1, arb(2)), (2, (1 + arb(5).sqrt()) / 2)):
-        bound = covering.entropy_of(cycles)
+        bound = covering.bound_entropy(cycles)
         assert bound <= root.log()
         assert root.log() - bound < 1e-15
 

@@ -8,12 +8,12 @@ from flint import arb, arb_mat
 
 from conveyor.analysis import stroboscope
 from conveyor.analysis.orbits import ReturnMap
-from conveyor.certificates import suggestion, taylor
-from conveyor.certificates.balls import Refused, between, bounds, exactly, precision
+from conveyor.certificates import double_double, taylor
+from conveyor.certificates.balls import Refused, bounds, exactly, precision
 from conveyor.certificates.flight import Flight
-from conveyor.certificates.law import law_of
-from conveyor.certificates.motion import Accuracy, follow
-from conveyor.certificates.roots import first_root, sharpen
+from conveyor.certificates.law import Accuracy, System, law_of
+from conveyor.certificates.motion import follow
+from conveyor.certificates.roots import bracket_first_root, sharpen
 from conveyor.solver.model import Conveyor, Start, pack
 
 FINE = Accuracy(order=24, tolerance=1e-22)
@@ -58,7 +58,9 @@ def test_enclosures_hold_the_solver_on_random_cycles():
         state = np.array([-random.uniform(0.5, 8.0), random.uniform(-2.0, 4.0)])
         begin, gamma = law.phase, law.gamma(exactly(conveyor.acceleration))
         try:
-            found = follow(law, COARSE, gamma, begin, begin + 2 * arb.pi(), *map(arb, state.tolist()), columns=2)
+            found = follow(
+                System(law, gamma, COARSE), begin, begin + 2 * arb.pi(), *map(arb, state.tolist()), columns=2
+            )
         except Refused:
             continue
         if not found.impacts:
@@ -78,7 +80,7 @@ def test_enclosures_hold_the_solver_on_random_cycles():
 def test_flight_against_the_parabola():
     """A plate at rest: the flight ends at u + √(u² + 2 q)."""
     flight = Flight(arb(1), arb(0.3), arb(0.7), arb(0))
-    found = first_root(flight.gap, flight.rate, arb(10), False, "gap")
+    found = bracket_first_root(flight.gap, flight.rate, arb(10), False, "gap")
     lapse = sharpen(flight.gap, flight.rate, *found)
     truth = flight.rate0 + (flight.rate0 * flight.rate0 + 2 * flight.gap0).sqrt()
     assert lapse.overlaps(truth)
@@ -113,7 +115,7 @@ def test_contact_against_the_closed_form_of_a_spring():
     law = law_of(conveyor)
     gamma, begin = law.gamma(arb(30)), arb(0)
     end = begin + arb(0.6)
-    found = follow(law, FINE, gamma, begin, end, arb(0.03), arb(0.05), columns=3)
+    found = follow(System(law, gamma, FINE), begin, end, arb(0.03), arb(0.05), columns=3)
     delta, speed = hooke(law, gamma, begin, end, arb(0.03), arb(0.05) - law.beta * arb(0.03))
     assert found.delta.overlaps(delta)
     assert found.y.overlaps(speed + law.beta * delta)
@@ -128,7 +130,7 @@ def test_contact_against_the_closed_form_of_a_spring():
 
 def test_determinant_is_that_of_the_time_in_contact():
     law = law_of(Conveyor())
-    found = follow(law, FINE, law.gamma(arb(40)), arb(0), 2 * arb.pi(), arb(-5.5), arb(0.7), columns=2)
+    found = follow(System(law, law.gamma(arb(40)), FINE), arb(0), 2 * arb.pi(), arb(-5.5), arb(0.7), columns=2)
     assert len(found.impacts) == 1
     assert found.matrix.det().overlaps((-law.beta * found.contact).exp())
     assert found.matrix.det().rad() < 1e-17
@@ -138,7 +140,9 @@ def test_derivative_by_the_amplitude_is_that_of_differences():
     law = law_of(Conveyor())
     step = arb(1e-9)
     at = [
-        follow(law, FINE, law.gamma(arb(40)) + side * step, arb(0), 2 * arb.pi(), arb(-5.5), arb(0.7), columns=3)
+        follow(
+            System(law, law.gamma(arb(40)) + side * step, FINE), arb(0), 2 * arb.pi(), arb(-5.5), arb(0.7), columns=3
+        )
         for side in (-1, 0, 1)
     ]
     for row, values in enumerate(([found.delta for found in at], [found.y for found in at])):
@@ -149,13 +153,13 @@ def test_derivative_by_the_amplitude_is_that_of_differences():
 def test_a_box_of_starts_holds_the_images_of_all():
     law = law_of(Conveyor())
     gamma, end = law.gamma(arb(40)), 2 * arb.pi()
-    wide = follow(law, COARSE, gamma, arb(0), end, arb(-5.5, 1e-5), arb(0.7, 1e-5), columns=2)
+    wide = follow(System(law, gamma, COARSE), arb(0), end, arb(-5.5, 1e-5), arb(0.7, 1e-5), columns=2)
     for shift in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
         start = arb(-5.5) + shift[0] * arb(1e-5), arb(0.7) + shift[1] * arb(1e-5)
-        corner = follow(law, COARSE, gamma, arb(0), end, *start)
+        corner = follow(System(law, gamma, COARSE), arb(0), end, *start)
         assert wide.delta.overlaps(corner.delta)
         moved = wide.matrix * arb_mat([[value * arb(1e-5)] for value in shift])
-        centre = follow(law, COARSE, gamma, arb(0), end, arb(-5.5), arb(0.7))
+        centre = follow(System(law, gamma, COARSE), arb(0), end, arb(-5.5), arb(0.7))
         assert (centre.delta + moved[0, 0]).overlaps(corner.delta)
 
 
@@ -163,45 +167,45 @@ def test_remainder_holds_what_a_short_series_leaves_out():
     """A step of low order against the same step of high order."""
     law = law_of(Conveyor())
     start = [arb(0), arb(3.6), arb(2.26)]
-    short = taylor.step(law, law.gamma(arb(40)), start, 3, 6, 1e-5)
-    long = taylor.step(law, law.gamma(arb(40)), start, 3, 24, 1e-22)
+    short = taylor.make_step(System(law, law.gamma(arb(40)), Accuracy(6, 1e-5)), start, 3)
+    long = taylor.make_step(System(law, law.gamma(arb(40)), Accuracy(24, 1e-22)), start, 3)
     s = short.length.min(long.length)
     for component in range(len(short.parts)):
         low, high = short.value(component, s), long.value(component, s)
         assert low.overlaps(high)
         assert high.rad() < 1e-15
-    left_out = short.parts[taylor.Y](s) - long.value(taylor.Y, s)
+    left_out = short.parts[double_double.Y](s) - long.value(double_double.Y, s)
     assert not left_out.contains(0)
-    assert abs(left_out) <= short.remainders[taylor.Y]
+    assert abs(left_out) <= short.remainders[double_double.Y]
 
 
 @pytest.mark.parametrize("change", [(slice(None), 0, 3, 1e-24), (slice(None), 2, slice(None), -1e-31)])
-def test_a_false_suggestion_of_a_series_is_refused(monkeypatch, change):
-    """Centres that are moved by more than their radii, and radii that are too small."""
+def test_a_false_enclosure_of_a_series_is_refused(monkeypatch, change):
+    """Midpoints that are moved by more than their radii, and radii that are too small."""
     component, part, order, by = change
 
-    def suggest(rows, *rest):
-        suggestion.suggest(rows, *rest)
+    def enclose_falsely(rows, *rest):
+        double_double.enclose_series(rows, *rest)
         rows[component, part, order] += by
 
     law = law_of(Conveyor())
     start = [arb(0), arb(3.6), arb(2.26)]
-    taylor.step(law, law.gamma(arb(40)), start, 2, 24, 1e-22)
-    monkeypatch.setattr(taylor, "suggest", suggest)
+    taylor.make_step(System(law, law.gamma(arb(40)), Accuracy(24, 1e-22)), start, 2)
+    monkeypatch.setattr(taylor, "enclose_series", enclose_falsely)
     with pytest.raises(Refused, match="the series of a step is not proved"):
-        taylor.step(law, law.gamma(arb(40)), start, 2, 24, 1e-22)
+        taylor.make_step(System(law, law.gamma(arb(40)), Accuracy(24, 1e-22)), start, 2)
 
 
 @pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0, 2.5])
 @pytest.mark.parametrize("bits", [64, 128])
-def test_suggestions_of_series_are_narrow(exponent, bits):
+def test_enclosures_of_series_are_narrow(exponent, bits):
     """Below 1e-12 and in proportion to their boxes, for all exponents, with and without penetration at the start."""
     law = law_of(Conveyor(exponent=exponent, stiffness=5e5 * 1e4 ** (2 * (exponent - 1.5))))
     with precision(bits, 24):
         for start in ([arb(0), arb(3.6), arb(2.26)], [arb(0.3), arb(-0.7), arb(1)]):
             for radius in (0.0, 1e-9):
                 wide = [value + arb(0, radius) for value in start[1:]]
-                made = taylor.step(law, law.gamma(arb(40)), [start[0], *wide], 3, 24, 1e-14)
+                made = taylor.make_step(System(law, law.gamma(arb(40)), Accuracy(24, 1e-14)), [start[0], *wide], 3)
                 widths = [float(made.value(i, made.length).rad()) for i in range(len(made.parts))]
                 assert max(widths) < 1e-12 + 100.0 * radius
 
@@ -209,7 +213,7 @@ def test_suggestions_of_series_are_narrow(exponent, bits):
 def test_series_are_not_cut_off_unseen():
     law = law_of(Conveyor())
     with precision(128, 16), pytest.raises(ValueError, match="series of order 24 in a context for 16"):
-        follow(law, FINE, law.gamma(arb(40)), arb(0), arb(1), arb(1), arb(1))
+        follow(System(law, law.gamma(arb(40)), FINE), arb(0), arb(1), arb(1), arb(1))
 
 
 def test_grazing_is_refused():
@@ -221,27 +225,30 @@ def test_grazing_is_refused():
     for gap in (start.gap0, start.gap0 + arb(0, 1e-6)):
         flight = start._replace(gap0=gap)
         with pytest.raises(Refused, match="grazing"):
-            first_root(flight.gap, flight.rate, arb(2), False, "the gap")
+            bracket_first_root(flight.gap, flight.rate, arb(2), False, "the gap")
     # Farther from the plate the same flight has no impact; nearer it has one.
-    assert first_root(start._replace(gap0=start.gap0 + 0.1).gap, start.rate, arb(1.5), False, "the gap") is None
-    assert first_root(start._replace(gap0=start.gap0 - 0.1).gap, start.rate, arb(1.5), False, "the gap") is not None
+    assert bracket_first_root(start._replace(gap0=start.gap0 + 0.1).gap, start.rate, arb(1.5), False, "the gap") is None
+    assert (
+        bracket_first_root(start._replace(gap0=start.gap0 - 0.1).gap, start.rate, arb(1.5), False, "the gap")
+        is not None
+    )
 
 
 def test_a_state_at_an_event_is_refused():
     law = law_of(Conveyor())
     with pytest.raises(Refused, match="at the section"):
-        follow(law, FINE, law.gamma(arb(40)), arb(0), arb(1), arb(0, 1e-9), arb(1))
+        follow(System(law, law.gamma(arb(40)), FINE), arb(0), arb(1), arb(0, 1e-9), arb(1))
 
 
 def test_first_of_several_roots_is_found():
     """cos has its first zero at π/2, and none before 1.5."""
-    low, high = first_root(lambda s: s.cos(), lambda s: -s.sin(), arb(9), False, "cosine")
+    low, high = bracket_first_root(lambda s: s.cos(), lambda s: -s.sin(), arb(9), False, "cosine")
     root = sharpen(lambda s: s.cos(), lambda s: -s.sin(), low, high)
     assert root.overlaps(arb.pi() / 2)
     assert root.rad() < 1e-30
-    assert first_root(lambda s: s.cos(), lambda s: -s.sin(), arb(1.5), False, "cosine") is None
+    assert bracket_first_root(lambda s: s.cos(), lambda s: -s.sin(), arb(1.5), False, "cosine") is None
     with pytest.raises(Refused, match="grazing"):
-        first_root(lambda s: (s - 1) * (s - 1), lambda s: 2 * (s - 1), arb(2), False, "a square")
+        bracket_first_root(lambda s: (s - 1) * (s - 1), lambda s: 2 * (s - 1), arb(2), False, "a square")
 
 
 def test_numbers_are_read_as_decimals():
@@ -263,4 +270,3 @@ def test_floats_are_rounded_outwards():
         assert arb(low) < number < arb(high)
         assert high == math.nextafter(low, 1.0)
     assert bounds(arb(0.25)) == (0.25, 0.25)
-    assert between(arb(0), arb(1)).contains(0.5)

@@ -292,3 +292,40 @@ def test_runs_are_compiled_once_however_their_times_lie_in_memory():
     compiled = list(trajectory_module.follow.signatures)
     np.testing.assert_array_equal(trajectory_module.integrate(parameters, by_columns, tolerance=1e-6)[0], by_rows)
     assert trajectory_module.follow.signatures == compiled
+
+
+@pytest.mark.parametrize("acceleration", [2.0, 8.0])
+def test_a_part_that_rides_on_a_vertical_plate_has_no_events(acceleration):
+    """Below g the part never leaves the plate, and without horizontal motion it neither slips nor begins to stick."""
+    conveyor = Conveyor(acceleration=acceleration, angle=0.5 * math.pi, friction=0.6)
+    assert len(simulate(conveyor, Start("conveyor"), duration=0.1).events) == 0
+
+
+def test_friction_accelerates_a_sticking_part_with_the_plate():
+    """While the part sticks, friction is its mass times the horizontal acceleration of the plate."""
+    conveyor = Conveyor(acceleration=8.0, friction=0.6)
+    run = simulate(conveyor, Start("conveyor"), duration=0.1)
+    changes = run.events[np.isin(run.events["kind"], ["stick", "slip"])]
+    begins = np.flatnonzero(changes["kind"][:-1] == "stick")
+    assert len(begins) > 2
+    for begin, end in zip(changes["time"][begins], changes["time"][begins + 1], strict=True):
+        times = np.linspace(begin, end, 12)[1:-1]
+        plate = 8.0 * math.cos(conveyor.angle) * np.cos(100 * math.pi * times)
+        np.testing.assert_allclose(run.sample(times)["friction_force"], conveyor.mass * plate, rtol=1e-9, atol=1e-15)
+
+
+@pytest.mark.parametrize("psi0", [0.0, math.pi])
+def test_a_plate_presses_on_or_leaves_a_part_at_relative_rest(psi0):
+    """At the phase 0 the plate accelerates upwards and presses, at π it falls away by (a_z - g) t²/2: 2.7 m/s² t²/2."""
+    conveyor = Conveyor(acceleration=60.0, psi0=psi0)
+    run = simulate(conveyor, Start("conveyor"), duration=0.01)
+    moment = np.array([1e-4])
+    sample, plate = run.sample(moment), conveyor_motion(conveyor, moment)
+    gap = sample["z"][0] - plate["z"][0]
+    if psi0 == 0.0:
+        assert sample["contact_force"][0] > 0.0
+        assert gap < 0.0
+        assert run.impacts == 0
+    else:
+        assert sample["contact_force"][0] == 0.0
+        assert gap == pytest.approx(0.5 * (60.0 * math.sin(conveyor.angle) - 9.81) * 1e-8, rel=1e-2)

@@ -1,0 +1,135 @@
+"""Probable enclosures of the Taylor coefficients of a contact step, in compiled double-double arithmetic.
+
+They are not proved here: `taylor` proves them by one evaluation in balls. Without them it would need one evaluation for
+each order, and proofs would take twice as long. A number is a midpoint, the unevaluated sum of two floats with some 30
+digits (Dekker 1971), and a radius.
+"""
+
+import numpy as np
+from flint import arb
+
+from ..solver.jit import inlined, kernel
+
+# Components of a step; the columns of perturbations follow, two components each.
+W, Y, COSINE, SINE, PHASE, MOTION = range(6)
+# Parts of a number: the midpoint is HIGH + LOW.
+HIGH, LOW, RADIUS = range(3)
+# Relative errors that radii allow for: of a product here, of a ball of some bits with a few bits to spare, of a radius.
+ROUNDING, SPARE_BITS, WIDER = 1e-30, 4, 1.0 + 1e-6
+SPLIT = 134217729.0  # 2^27 + 1
+
+
+def parts_of(ball: arb) -> tuple[float, float, float]:
+    """Both floats of the midpoint of a ball and its radius, rounded to nearest."""
+    midpoint = ball.mid()
+    high = float(midpoint)
+    return high, float(midpoint - high), float(ball.rad())
+
+
+@inlined
+def two_sum(a, b):
+    """a + b, and the error of this sum (Knuth)."""
+    total = a + b
+    part = total - a
+    return total, (a - (total - part)) + (b - part)
+
+
+@inlined
+def two_product(a, b):
+    """a b, and the error of this product (Dekker)."""
+    product = a * b
+    wide_a, wide_b = SPLIT * a, SPLIT * b
+    high_a, high_b = wide_a - (wide_a - a), wide_b - (wide_b - b)
+    low_a, low_b = a - high_a, b - high_b
+    return product, ((high_a * high_b - product) + high_a * low_b + low_a * high_b) + low_a * low_b
+
+
+@inlined
+def add(a, b):
+    high, low = two_sum(a[HIGH], b[HIGH])
+    return high, low + a[LOW] + b[LOW], a[RADIUS] + b[RADIUS]
+
+
+@inlined
+def multiply(a, b, rounding):
+    high, low = two_product(a[HIGH], b[HIGH])
+    radius = abs(a[HIGH]) * b[RADIUS] + a[RADIUS] * (abs(b[HIGH]) + b[RADIUS])
+    return high, low + a[HIGH] * b[LOW] + a[LOW] * b[HIGH], radius + rounding * abs(high)
+
+
+@inlined
+def coefficient(series, n):
+    return series[HIGH, n], series[LOW, n], series[RADIUS, n]
+
+
+@inlined
+def set_coefficient(series, n, value, rounding):
+    series[HIGH, n], series[LOW, n] = two_sum(value[HIGH], value[LOW])
+    series[RADIUS, n] = WIDER * (value[RADIUS] + rounding * abs(value[HIGH]))
+
+
+@inlined
+def integrate(series, n, rate, rounding):
+    """Set the coefficient of order n + 1 from that of order n of the rate."""
+    count = n + 1.0
+    high = rate[HIGH] / count
+    back, lost = two_product(high, count)
+    low = ((rate[HIGH] - back) - lost + rate[LOW]) / count
+    set_coefficient(series, n + 1, (high, low, rate[RADIUS] / count), rounding)
+
+
+@inlined
+def convolve(a, b, n, rounding):
+    """The coefficient of order n of the product of two series."""
+    high = low = radius = size = 0.0
+    for k in range(n + 1):
+        one, other = a[HIGH, k], b[HIGH, n - k]
+        product, error = two_product(one, other)
+        high, lost = two_sum(high, product)
+        low += error + lost + one * b[LOW, n - k] + a[LOW, k] * other
+        radius += abs(one) * b[RADIUS, n - k] + a[RADIUS, k] * (abs(other) + b[RADIUS, n - k])
+        size += abs(product)
+    return high, low, radius + rounding * size
+
+
+@kernel
+def enclose_series(series, twice_exponent, gamma, damping, stiffness, softening, bits):
+    """Fill in the coefficients from order 1 on, for the rates that `taylor.rates` states.
+
+    Parameters
+    ----------
+    series : float64, shape (5 + 2 columns, 3, order + 1): motion and perturbations, their coefficients of order 0 given
+    twice_exponent : 2p
+    gamma, damping, stiffness, softening : γ, -β, -κ and -p κ, as from `parts_of`
+    bits : of the arithmetic in which the coefficients are proved
+    """
+    rounding = max(ROUNDING, 2.0 ** (SPARE_BITS - bits))
+    length = series.shape[2]
+    w, y, cosine, sine = series[W], series[Y], series[COSINE], series[SINE]
+    square, driven = np.zeros((3, length)), np.zeros((3, length))
+    # w³ … w^(2p-1), one after the other.
+    powers = np.zeros((max(twice_exponent - 3, 0), 3, length))
+    drifts = np.zeros((series.shape[0], 3, length))
+    for n in range(length - 1):
+        set_coefficient(square, n, convolve(w, w, n, rounding), rounding)
+        set_coefficient(driven, n, convolve(w, cosine, n, rounding), rounding)
+        stiff = w if twice_exponent == 2 else square
+        for k in range(len(powers)):
+            set_coefficient(powers[k], n, convolve(stiff, w, n, rounding), rounding)
+            stiff = powers[k]
+        push = add(coefficient(w, n), multiply(coefficient(driven, n), gamma, rounding))
+        spring = multiply(convolve(stiff, square, n, rounding), stiffness, rounding)
+        integrate(y, n, add(push, spring), rounding)
+        turned = convolve(w, sine, n, rounding)
+        integrate(cosine, n, (-turned[HIGH], -turned[LOW], turned[RADIUS]), rounding)
+        integrate(sine, n, coefficient(driven, n), rounding)
+        integrate(series[PHASE], n, coefficient(w, n), rounding)
+        for row in range(MOTION, len(series), 2):
+            eta, zeta, drift = series[row], series[row + 1], drifts[row]
+            damped = multiply(coefficient(eta, n), damping, rounding)
+            set_coefficient(drift, n, add(coefficient(zeta, n), damped), rounding)
+            pull = multiply(convolve(stiff, eta, n, rounding), softening, rounding)
+            integrate(eta, n, convolve(w, drift, n, rounding), rounding)
+            integrate(zeta, n, add(pull, coefficient(driven, n)) if row == MOTION + 4 else pull, rounding)
+        twice = add(coefficient(y, n), multiply(coefficient(square, n), damping, rounding))
+        integrate(w, n, (0.5 * twice[HIGH], 0.5 * twice[LOW], 0.5 * twice[RADIUS]), rounding)

@@ -1,0 +1,151 @@
+"""Where a horseshoe may lie: a homoclinic excursion of a saddle of the stroboscopic map, in floating point.
+
+Nothing is proved here. The parallelograms around the saddle and along the excursion go to `covering`, which proves that
+they cover one another. All points are (δ, Y) in units of the law, the library's scaled unknowns.
+"""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from ..analysis.orbits import ReturnMap
+from .balls import Refused
+
+# Where the tried excursions begin, and how near to the fixed point they must return, in the scaled unknowns; how many
+# are tried; bisections towards the excursion that is found, and Newton's corrections of it.
+LEAVING, RETURNED = 1e-4, 0.2
+EXCURSIONS, BISECTIONS, CORRECTIONS = 1000, 60, 6
+# Where on the axes of the first set an excursion begins and, at most, ends.
+BEGINNING = 0.6
+
+
+class Saddle(NamedTuple):
+    """A fixed point of the map of one cycle with one multiplier outside and one inside the unit circle."""
+
+    parameters: np.ndarray  # packed conveyor
+    point: np.ndarray  # (δ, Y)
+    amplitude: float  # m/s²
+    multipliers: np.ndarray  # the unstable one, the stable one
+    axes: np.ndarray  # their directions in columns
+
+
+def iterate(parameters: np.ndarray, amplitude: float, point: np.ndarray, cycles: int) -> np.ndarray:
+    """The images of a point after 0 … cycles cycles, shape (cycles + 1, 2)."""
+    return np.vstack([point, ReturnMap(parameters, cycles).strobes(np.append(point, amplitude))[:, :2]])
+
+
+def differentiate(parameters: np.ndarray, amplitude: float, point: np.ndarray) -> np.ndarray:
+    """Derivative of the map of one cycle, shape (2, 2)."""
+    return ReturnMap(parameters, 1).residual(np.append(point, amplitude))[1] + np.eye(2)
+
+
+def find_saddle(parameters: np.ndarray, amplitude: float, point: np.ndarray) -> Saddle:
+    """Multipliers and directions of a fixed point; Refused if it is no saddle."""
+    multipliers, vectors = np.linalg.eig(differentiate(parameters, amplitude, point))
+    if np.iscomplexobj(multipliers) or not np.abs(multipliers).max() > 1.0 > np.abs(multipliers).min():
+        raise Refused("the fixed point is no saddle")
+    order = np.argsort(-np.abs(multipliers))
+    return Saddle(parameters, point, amplitude, multipliers[order], vectors[:, order])
+
+
+def project(saddle: Saddle, points: np.ndarray) -> np.ndarray:
+    """Coordinates of points along the unstable and the stable direction, shape (n, 2)."""
+    return np.linalg.solve(saddle.axes, (points - saddle.point).T).T
+
+
+def leave(saddle: Saddle, distance: float, cycles: int) -> np.ndarray:
+    """The iterates of a point at a distance along the unstable direction, shape (cycles + 1, 2)."""
+    return iterate(saddle.parameters, saddle.amplitude, saddle.point + distance * saddle.axes[:, 0], cycles)
+
+
+def crossings(saddle: Saddle, longest: int) -> Iterator[tuple[int, float, float]]:
+    """Cycles after which excursions cross the stable direction, shortest first, and distances on both sides."""
+    distances = LEAVING * np.geomspace(1.0 / abs(saddle.multipliers[0]), 1.0, EXCURSIONS)
+    for side in (distances, -distances):
+        across = np.array([project(saddle, leave(saddle, distance, longest))[:, 0] for distance in side])
+        for cycles in range(2, longest + 1):
+            for k in np.flatnonzero(across[1:, cycles] * across[:-1, cycles] < 0.0):
+                yield cycles, side[k], side[k + 1]
+
+
+def find_excursion(saddle: Saddle, longest: int) -> np.ndarray:
+    """The shortest excursion that leaves along the unstable and returns along the stable direction, shape (n, 2)."""
+    for cycles, low, high in crossings(saddle, longest):
+        sign = project(saddle, leave(saddle, low, longest))[cycles, 0]
+        for _ in range(BISECTIONS):
+            centre = 0.5 * (low + high)
+            same = project(saddle, leave(saddle, centre, longest))[cycles, 0] * sign > 0.0
+            low, high = (centre, high) if same else (low, centre)
+        path = leave(saddle, low, longest)[: cycles + 1]
+        if np.abs(project(saddle, path[-1:])).max() < RETURNED:
+            return path
+    raise Refused(f"no excursion of up to {longest} cycles returns to the fixed point")
+
+
+def correct_path(saddle: Saddle, path: np.ndarray) -> np.ndarray:
+    """An orbit that leaves and returns along the straight directions, by Newton's iteration on all its points."""
+    count, across = len(path), np.linalg.inv(saddle.axes)
+    for _ in range(CORRECTIONS):
+        slope, value = np.zeros((2 * count, 2 * count)), np.zeros(2 * count)
+        slope[0, :2], value[0] = across[1], project(saddle, path[:1])[0, 1]
+        slope[-1, -2:], value[-1] = across[0], project(saddle, path[-1:])[0, 0]
+        for k in range(count - 1):
+            rows = slice(2 * k + 1, 2 * k + 3)
+            slope[rows, 2 * k : 2 * k + 2] = differentiate(saddle.parameters, saddle.amplitude, path[k])
+            slope[rows, 2 * k + 2 : 2 * k + 4] = -np.eye(2)
+            value[rows] = iterate(saddle.parameters, saddle.amplitude, path[k], 1)[1] - path[k + 1]
+        path = path - np.linalg.solve(slope, value).reshape(count, 2)
+    return path
+
+
+def carry_directions(matrices: list[np.ndarray], axes: np.ndarray) -> list[np.ndarray]:
+    """Axes at all points of a path: unstable directions are carried forwards, stable ones backwards."""
+    unstable, stable = [axes[:, 0]], [axes[:, 1]]
+    for matrix in matrices[:-1]:
+        ahead = matrix @ unstable[-1]
+        unstable.append(ahead / np.linalg.norm(ahead))
+    for matrix in matrices[-2::-1]:
+        back = np.linalg.solve(matrix, stable[-1])
+        stable.append(back / np.linalg.norm(back))
+    return [np.column_stack(pair) for pair in zip(unstable, reversed(stable), strict=True)]
+
+
+def plan_sets(
+    parameters: np.ndarray, fixed: np.ndarray, size: float, ratio: float, longest: int
+) -> tuple[np.ndarray, list[np.ndarray]]:
+    """Centres and axes of parallelograms around a fixed point and along an excursion from it.
+
+    Parameters
+    ----------
+    parameters : packed conveyor
+    fixed : a saddle (δ, Y, â) of the map of one cycle
+    size, ratio : the largest half unstable axis, and that over half the stable axis of the first set
+    longest : cycles of the longest excursion that is looked for, from near the fixed point on
+
+    Returns
+    -------
+    centres, axes : shape (n, 2), and n matrices of shape (2, 2); the first ones belong to the fixed point
+
+    Raises
+    ------
+    Refused
+        if the point is no saddle, or no excursion is found
+    """
+    saddle = find_saddle(parameters, fixed[2], fixed[:2])
+    path = find_excursion(saddle, longest)
+    # Longer by iterates on the straight directions, until both ends lie within the first set.
+    out, back = project(saddle, path[[0, -1]])[[0, 1], [0, 1]]
+    before, behind = [], []
+    while abs(out) > BEGINNING * size:
+        out /= saddle.multipliers[0]
+        before.insert(0, saddle.point + out * saddle.axes[:, 0])
+    size = abs(out) / BEGINNING
+    while abs(back) > BEGINNING * size / ratio:
+        back *= saddle.multipliers[1]
+        behind.append(saddle.point + back * saddle.axes[:, 1])
+    path = correct_path(saddle, np.array([*before, *path, *behind]))
+    axes = carry_directions([differentiate(parameters, saddle.amplitude, point) for point in path], saddle.axes)
+    first = saddle.axes / np.array([1.0, BEGINNING * size / abs(back)])
+    # The excursion begins and ends within the set of the fixed point.
+    return np.vstack([saddle.point, path[1:-1]]), [size * part for part in (first, *axes[1:-1])]

@@ -1,0 +1,31 @@
+"""Tables of critical heights where the state of each start is given."""
+
+import numpy as np
+
+from conveyor.solver.model import ACCELERATION, Z0
+from motion import critical_heights
+
+
+def test_changes_are_numbered_from_below_at_each_conveyor(monkeypatch):
+    """At 30 m/s² the first state ends at 0.15 mm; at 40 m/s² it also comes back at 0.25 mm and ends at 0.35 mm."""
+
+    def decide(rows, *_):
+        height, stripe = rows[:, Z0], rows[:, ACCELERATION] == 40.0
+        first = (height < 1.5e-4) | (stripe & (height > 2.5e-4) & (height < 3.5e-4))
+        return np.where(first, "first", "second")
+
+    monkeypatch.setattr(critical_heights, "decide", decide)
+    monkeypatch.setattr(critical_heights, "known_of", lambda *_, **__: None)
+    found = critical_heights.make(
+        {
+            "axes": {"acceleration": [30.0, 40.0]},
+            "model": {"vz0": 0.0},
+            "scan": {"start": 0.0, "stop": 4e-4, "num": 9},
+            "resolution": 1e-9,
+        }
+    )
+    assert found["acceleration"].tolist() == [30.0, 40.0, 40.0, 40.0]
+    assert found["crossing"].tolist() == [1, 1, 2, 3]
+    np.testing.assert_allclose(found["z0"], [1.5e-4, 1.5e-4, 2.5e-4, 3.5e-4], rtol=0, atol=1e-9)
+    assert found["state_below"].tolist() == ["first", "first", "second", "first"]
+    assert found["is_critical"].tolist() == [True, True, False, False]

@@ -1,0 +1,31 @@
+"""Rows of proofs: columns in SI units against the orbit in floating point."""
+
+import numpy as np
+import pytest
+
+from conveyor.analysis import orbits, stroboscope
+from conveyor.solver.model import Conveyor, Start, pack
+from orbits import certified
+
+SETTINGS = {"model": {}, "bits": 128, "order": 24, "tolerance": 1e-22, "closeness": 1e-7}
+
+
+def test_the_row_of_a_riding_part():
+    """It is never in the air; its penetration, speed of approach and period are those of floating point."""
+    row = pack(Conveyor(acceleration=30.0), Start())
+    state = stroboscope.initial_states(row[None], orbits.TOLERANCE)[0]
+    orbit, _ = orbits.settled_orbit(row, 30.0, state, (1,), 1000)
+    returns = orbits.ReturnMap(row, 1)
+    about = certified.known(7, returns, returns.scaled(30.0, orbit.state))
+    found, _ = certified.timed(SETTINGS, certified.Work(certified.prove_known, (about,)))
+    assert found["contained"]
+    assert (found["branch"], found["period"], found["impacts"], found["stability"]) == (7, 1, 0, "stable")
+    assert orbit.state[0] > 0.0
+    for name, value in (("delta", orbit.state[0]), ("v", orbit.state[1])):
+        np.testing.assert_allclose([found[f"{name}_low"], found[f"{name}_high"]], value, rtol=1e-9, atol=1e-13)
+    for name in ("duration", "contact_time"):
+        assert found[f"{name}_low"] <= 0.02 <= found[f"{name}_high"]
+        assert found[f"{name}_high"] - found[f"{name}_low"] < 1e-17
+    assert np.isnan(found["impact_phase_low"])
+    damping = Conveyor().damping / Conveyor().mass
+    assert found["determinant_low"] == pytest.approx(np.exp(-damping * 0.02), rel=1e-12)
