@@ -9,6 +9,7 @@ import platform
 import re
 import subprocess
 from datetime import UTC, datetime
+from importlib import metadata
 from pathlib import Path
 
 import pandas as pd
@@ -49,13 +50,18 @@ def seconds(folder: Path) -> dict[str, float]:
     }
 
 
-def make(config: str, versions: list[str], benchmarks: str, *, threads: int) -> str:
+def versions() -> list[str]:
+    """NAME==VERSION of Python and of all installed packages."""
+    packages = {f"{package.name.lower()}=={package.version}" for package in metadata.distributions()}
+    return [f"python=={platform.python_version()}", *sorted(packages)]
+
+
+def make(config: str, benchmarks: str, *, threads: int) -> str:
     """The provenance as JSON.
 
     Parameters
     ----------
     config : hash of the canonical config
-    versions : of the packages, NAME==VERSION
     benchmarks : folder of the benchmark files
     threads : cores that Snakemake was given
     """
@@ -68,6 +74,6 @@ def make(config: str, versions: list[str], benchmarks: str, *, threads: int) -> 
         "processors": os.cpu_count(),
         "threads": threads,
         "seconds": seconds(Path(benchmarks)),
-        "versions": versions,
+        "versions": versions(),
     }
     return json.dumps(provenance, indent=2) + "\n"
