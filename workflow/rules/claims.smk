@@ -1,9 +1,34 @@
 # The paper's statements with their verdicts, and the tests of the results.
+from workflow.config.settings import tighter_claims
+from workflow.config.tables import ON_REQUEST, TABLES
+
+TIGHTER_CLAIMS = tighter_claims(config)
+# The tests of the results are about the conveyor of the paper.
+RESULT_TESTS = [] if OWN_MACHINE else sources("tests/results/*.py")
+CHECKED = [result("checked.txt")] if RESULT_TESTS else []
+TESTED_TABLES = [
+    *(f"{section}/{name}" for section in ("orbits", "lyapunov") for name in TABLES[section]),
+    *(f"precision/{name}" for name in config["precision"]["scenes"]),
+    *(f"results/{name}" for name in TABLES["results"] if name not in ON_REQUEST),
+]
+
+
+def references_of_claims(claims):
+    """The tables that claims read."""
+    return sorted({reference for claim in claims.values() for reference in claim["tables"].values()})
+
+
+def one_claim(wildcards):
+    return {wildcards.name: config["claims"][wildcards.name]}
+
+
+def references_of_claim(wildcards):
+    return references_of_claims(one_claim(wildcards))
 
 
 rule claims:
     input:
-        read=[table(reference) for reference in references_of_claims(config["claims"])],
+        read=map(table, references_of_claims(config["claims"])),
     output:
         claims=table("results/claims"),
         report=result("claims.md"),
@@ -12,8 +37,7 @@ rule claims:
     benchmark:
         benchmark_file("checks/claims")
     params:
-        **stage("claims.verdicts"),
-        settings=settings_of(config, "results/claims"),
+        **stage("claims.verdicts", "results/claims"),
         references=references_of_claims(config["claims"]),
     message:
         "The paper's statements"
@@ -23,7 +47,7 @@ rule claims:
 
 rule claim:
     input:
-        read=lambda wildcards: [table(name) for name in references_of_claims(CLAIM[wildcards.name])],
+        read=lambda wildcards: [table(reference) for reference in references_of_claim(wildcards)],
     output:
         report=result("claims/{name}.md"),
     log:
@@ -34,8 +58,8 @@ rule claim:
         name=one_of(config["claims"]),
     params:
         **stage("claims.one_claim"),
-        settings=lambda wildcards: {"claims": CLAIM[wildcards.name]},
-        references=lambda wildcards: references_of_claims(CLAIM[wildcards.name]),
+        settings=lambda wildcards: {"claims": one_claim(wildcards)},
+        references=references_of_claim,
     message:
         "The statement {wildcards.name} alone"
     script:
@@ -44,7 +68,7 @@ rule claim:
 
 rule uncertainty:
     input:
-        read=[table(reference) for reference in references_of_claims(tighter_claims(config))],
+        read=map(table, references_of_claims(TIGHTER_CLAIMS)),
         claims=table("results/claims"),
     output:
         uncertainty=result("uncertainty.json"),
@@ -54,8 +78,8 @@ rule uncertainty:
         benchmark_file("checks/uncertainty")
     params:
         **stage("claims.uncertainty"),
-        settings={"claims": tighter_claims(config)},
-        references=references_of_claims(tighter_claims(config)),
+        settings={"claims": TIGHTER_CLAIMS},
+        references=references_of_claims(TIGHTER_CLAIMS),
     message:
         "Uncertainty of the claims' numbers"
     script:
@@ -64,7 +88,7 @@ rule uncertainty:
 
 rule check_results:
     input:
-        TESTED_TABLES,
+        map(table, TESTED_TABLES),
         figure_files(),
         RESULT_TESTS,
     output:
@@ -77,7 +101,7 @@ rule check_results:
         **stage("claims.check_results"),
         results=lambda wildcards, output: os.path.dirname(output.checked),
         figures=config["figures"],
-        tests=lambda wildcards: source("tests/results"),
+        tests=source("tests/results"),
     message:
         "Tests of the results"
     script:

@@ -1,4 +1,18 @@
 # Figures and their captions.
+FIGURES = config["figures"] | config["figures_on_request"]
+
+
+def tables_of_figure(wildcards):
+    """The tables that a figure draws, by their roles; an error for a figure that makes no sense for this machine."""
+    if reason := REFUSED.get(wildcards.figure):
+        raise WorkflowError(f"{figure_file(wildcards.figure)} is not made for this machine: {reason}")
+    return {role: table(reference) for role, reference in FIGURES[wildcards.figure]["tables"].items()}
+
+
+def references_of_captions(figures):
+    """The tables that the captions of figures read."""
+    roles = [entry.get(key, {}) for entry in figures.values() for key in ("tables", "caption_tables")]
+    return sorted({reference for of_figure in roles for reference in of_figure.values()})
 
 
 rule plot:
@@ -12,7 +26,7 @@ rule plot:
     benchmark:
         benchmark_file("figures/{figure}")
     wildcard_constraints:
-        figure=one_of(FIGURES),
+        figure=one_of([*FIGURES, *REFUSED]),
     resources:
         mem_mb=1500,
     params:
@@ -25,20 +39,9 @@ rule plot:
         "../../scripts/draw.py"
 
 
-rule refuse:
-    input:
-        refuse_figure,
-    output:
-        figure_file("{figure}"),
-        figure_file("{figure}", "png"),
-    wildcard_constraints:
-        figure=one_of(REFUSED),
-    localrule: True
-
-
 rule captions:
     input:
-        read=[table(reference) for reference in references_of_captions(config["figures"])],
+        read=map(table, references_of_captions(config["figures"])),
         templates=[source(f"workflow/report/{figure}.rst") for figure in config["figures"]],
     output:
         caption_files(),
@@ -59,7 +62,7 @@ rule captions:
 
 use rule captions as captions_on_request with:
     input:
-        read=[table(reference) for reference in references_of_captions(config["figures_on_request"])],
+        read=map(table, references_of_captions(config["figures_on_request"])),
         templates=[source(f"workflow/report/{figure}.rst") for figure in config["figures_on_request"]],
     output:
         caption_files(config["figures_on_request"]),
@@ -68,9 +71,7 @@ use rule captions as captions_on_request with:
     benchmark:
         benchmark_file("figures/captions_on_request")
     params:
-        **stage("figures.captions"),
         figures=config["figures_on_request"],
         references=references_of_captions(config["figures_on_request"]),
-        paper=not OWN_MACHINE,
     message:
         "Captions of the figures on request"

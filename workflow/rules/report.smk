@@ -1,11 +1,32 @@
 # Pages of `snakemake --report`: a start page, the figures of each section beside their captions, the claims, the provenance.
+from scripts.report.pages import escape_label, figure_pages, notice
+
+REPORT_PAGES = figure_pages(
+    {
+        name: {
+            "name": name,
+            **{key: entry[key] for key in ("title", "section")},
+            "file": figure_file(name),
+            "png": figure_file(name, "png"),
+            "rst": result(f"captions/{name}.rst"),
+        }
+        for name, entry in config["figures"].items()
+    }
+)
+REPORT_NOTICE = notice(OVERLAYS, config["sweeps"], PAPER["sweeps"])
+REPORT_SOURCES = [*sources("scripts/report/*.html"), source("scripts/report/page.css")]
+# The findings quote the claims of the paper.
+HAS_FINDINGS = config["claims"] and config["claims"].keys() >= PAPER["claims"].keys()
+
+
+def report_file(name):
+    return result(f"report/{name}.html")
 
 
 rule report_figures:
     input:
         [figure[kind] for page in REPORT_PAGES.values() for figure in page["figures"] for kind in ("png", "rst")],
-        sources("scripts/report/*.html"),
-        source("scripts/report/page.css"),
+        REPORT_SOURCES,
     output:
         **{
             name: report(
@@ -31,9 +52,8 @@ rule report_figures:
 
 rule report_summary:
     input:
-        sources("scripts/report/*.html"),
-        source("scripts/report/page.css"),
-        **({"findings": result("findings.md")} if REPORTS_FINDINGS else {}),
+        REPORT_SOURCES,
+        **({"findings": result("findings.md")} if HAS_FINDINGS else {}),
         claims=table("results/claims"),
         provenance=result("provenance.json"),
     output:
