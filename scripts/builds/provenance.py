@@ -1,6 +1,6 @@
-"""From which sources, with what, where and in which time the results were made.
+"""The record of a build: a manifest of its files, and the sources, versions, machine and times behind them.
 
-It differs from build to build; nothing is made from it.
+The provenance differs from build to build; only the report shows it.
 """
 
 import json
@@ -13,6 +13,8 @@ from importlib import metadata
 from pathlib import Path
 
 import pandas as pd
+
+from builds.manifest import list_files
 
 ROOT = Path(__file__).resolve().parents[2]
 UNKNOWN = "unknown"
@@ -56,11 +58,13 @@ def versions() -> list[str]:
     return [f"python=={platform.python_version()}", *sorted(packages)]
 
 
-def make(config: str, benchmarks: str, *, threads: int) -> str:
-    """The provenance as JSON.
+def make(files: list[str], timed: list[str], config: str, benchmarks: str, *, threads: int) -> dict[str, str]:
+    """The manifest, and the provenance as JSON.
 
     Parameters
     ----------
+    files : all results and figures
+    timed : the files with measured times
     config : hash of the canonical config
     benchmarks : folder of the benchmark files
     threads : cores that Snakemake was given
@@ -76,4 +80,4 @@ def make(config: str, benchmarks: str, *, threads: int) -> str:
         "seconds": seconds(Path(benchmarks)),
         "versions": versions(),
     }
-    return json.dumps(provenance, indent=2) + "\n"
+    return {"manifest": list_files(files, timed), "provenance": json.dumps(provenance, indent=2) + "\n"}

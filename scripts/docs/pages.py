@@ -57,7 +57,7 @@ def in_markdown(caption: str, medium: str) -> str:
 def printed(figure: dict, folder: str) -> str:
     """A figure for pandoc."""
     caption = re.sub(r"([\[\]])", r"\\\1", figure["caption"])
-    return f"![**{figure['label']}.** {caption}]({folder}{figure['name']}.pdf)"
+    return f"![**{figure['label']}.** {caption}](/{folder}{figure['name']}.pdf)"
 
 
 def shown(figure: dict, folder: str) -> str:

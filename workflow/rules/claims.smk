@@ -2,8 +2,10 @@
 from workflow.config.settings import tighter_claims
 from workflow.config.tables import ON_REQUEST, TABLES
 
+# Each claim alone.
+CLAIM = {name: {name: claim} for name, claim in config["claims"].items()}
 TIGHTER_CLAIMS = tighter_claims(config)
-# The tests of the results are about the conveyor of the paper.
+# The tests of the results, which are about the conveyor of the paper, and the tables that they read.
 RESULT_TESTS = [] if OWN_MACHINE else sources("tests/results/*.py")
 CHECKED = [result("checked.txt")] if RESULT_TESTS else []
 TESTED_TABLES = [
@@ -13,22 +15,9 @@ TESTED_TABLES = [
 ]
 
 
-def references_of_claims(claims):
-    """The tables that claims read."""
-    return sorted({reference for claim in claims.values() for reference in claim["tables"].values()})
-
-
-def one_claim(wildcards):
-    return {wildcards.name: config["claims"][wildcards.name]}
-
-
-def references_of_claim(wildcards):
-    return references_of_claims(one_claim(wildcards))
-
-
 rule claims:
     input:
-        read=map(table, references_of_claims(config["claims"])),
+        read=map(table, references_of(config["claims"])),
     output:
         claims=table("results/claims"),
         report=result("claims.md"),
@@ -38,7 +27,7 @@ rule claims:
         benchmark_file("checks/claims")
     params:
         **stage("claims.verdicts", "results/claims"),
-        references=references_of_claims(config["claims"]),
+        references=references_of(config["claims"]),
     message:
         "The paper's statements"
     script:
@@ -47,7 +36,7 @@ rule claims:
 
 rule claim:
     input:
-        read=lambda wildcards: [table(reference) for reference in references_of_claim(wildcards)],
+        read=lambda wildcards: [table(reference) for reference in references_of(CLAIM[wildcards.name])],
     output:
         report=result("claims/{name}.md"),
     log:
@@ -58,8 +47,8 @@ rule claim:
         name=one_of(config["claims"]),
     params:
         **stage("claims.one_claim"),
-        settings=lambda wildcards: {"claims": one_claim(wildcards)},
-        references=references_of_claim,
+        settings=lambda wildcards: {"claims": CLAIM[wildcards.name]},
+        references=lambda wildcards: references_of(CLAIM[wildcards.name]),
     message:
         "The statement {wildcards.name} alone"
     script:
@@ -68,7 +57,7 @@ rule claim:
 
 rule uncertainty:
     input:
-        read=map(table, references_of_claims(TIGHTER_CLAIMS)),
+        read=map(table, references_of(TIGHTER_CLAIMS)),
         claims=table("results/claims"),
     output:
         uncertainty=result("uncertainty.json"),
@@ -79,7 +68,7 @@ rule uncertainty:
     params:
         **stage("claims.uncertainty"),
         settings={"claims": TIGHTER_CLAIMS},
-        references=references_of_claims(TIGHTER_CLAIMS),
+        references=references_of(TIGHTER_CLAIMS),
     message:
         "Uncertainty of the claims' numbers"
     script:
@@ -101,7 +90,7 @@ rule check_results:
         **stage("claims.check_results"),
         results=lambda wildcards, output: os.path.dirname(output.checked),
         figures=config["figures"],
-        tests=source("tests/results"),
+        tests=lambda wildcards: source("tests/results"),
     message:
         "Tests of the results"
     script:

@@ -1,12 +1,12 @@
-# What all rules share: names of files and common params.
+# What rules share: names of files, common params, and the functions that rules call.
 import os
 import re
 import signal
 
 from scripts.pipeline.source_hash import source_hash
 from workflow.config.settings import settings_of
-from workflow.config.sharing import THREADS
-from workflow.config.tables import kind_of
+from workflow.config.sharing import THREADS, plan
+from workflow.config.tables import kind_of, resolve
 
 # Without huge pages: clearing one takes 5 to 14 ms on a virtual machine, and joining shards takes 8 % more memory with them.
 os.environ.setdefault("MIMALLOC_ALLOW_THP", "0")
@@ -36,8 +36,8 @@ def source(path):
 
 
 def sources(pattern):
-    """The files of this workflow that match a pattern."""
-    return sorted(source(path) for path in ROOT.glob(pattern))
+    """The files of this workflow that match a pattern, without compiled Python."""
+    return sorted(source(path) for path in ROOT.glob(pattern) if path.is_file() and path.suffix != ".pyc")
 
 
 def result(name):
@@ -109,3 +109,38 @@ def expected(wildcards, input):
     """A param: kind and settings that each input table must have, so that no other table is read in its place."""
     references = {file: reference_of(file) for file in input if file.endswith(".parquet")}
     return {file: [kind_of(name), settings_of(config, name)] for file, name in references.items()}
+
+
+# -- sweeps ------------------------------------------------------------------------------------------------------------
+
+PLANS = {name: plan(config["sharing"], resolve(config, "sweeps", name)) for name in config["sweeps"]}
+
+
+def shards_of_sweep(wildcards):
+    """All shards, in the order of their rows."""
+    return [table(f"shards/{wildcards.name}/{shard}") for shard in range(PLANS[wildcards.name].shards)]
+
+
+def rows_of_shard(wildcards):
+    """First row of a shard, and the row behind its last one."""
+    sweep = PLANS[wildcards.name]
+    first = int(wildcards.shard) * sweep.rows
+    return [first, min(first + sweep.rows, sweep.points)]
+
+
+# -- figures and claims ------------------------------------------------------------------------------------------------
+
+FIGURES = config["figures"] | config["figures_on_request"]
+
+
+def tables_of_figure(wildcards):
+    """The tables that a figure draws, by their roles; an error for a figure that makes no sense for this machine."""
+    if reason := REFUSED.get(wildcards.figure):
+        raise WorkflowError(f"{figure_file(wildcards.figure)} is not made for this machine: {reason}")
+    return {role: table(reference) for role, reference in FIGURES[wildcards.figure]["tables"].items()}
+
+
+def references_of(entries):
+    """The tables that claims read, or figures with their captions."""
+    roles = [entry.get(key, {}) for entry in entries.values() for key in ("tables", "caption_tables")]
+    return sorted({reference for of_entry in roles for reference in of_entry.values()})

@@ -40,17 +40,12 @@ LIBRARY = [
 ]
 
 
-def tables_of_claims(wildcards):
-    """A param: the tables that each claim is made from."""
-    return {name: [table(reference) for reference in one["tables"].values()] for name, one in config["claims"].items()}
-
-
 rule page:
     input:
         unpack(lambda wildcards: PAGES[wildcards.page]),
         template=source("workflow/templates/{page}.md"),
     output:
-        DOCS + "{page}.md",
+        f"{DOCS}{{page}}.md",
     log:
         log_file("docs/{page}"),
     benchmark:
@@ -153,7 +148,7 @@ use rule findings as article_text with:
         benchmark_file("docs/article_text")
     params:
         medium="print",
-        folder=f"/figures/{PREFIX}",
+        folder=f"figures/{PREFIX}",
     message:
         "The text of the article"
 
@@ -224,7 +219,7 @@ rule site:
 rule costs:
     input:
         figure_files(),
-        map(table, references_of_claims(config["claims"])),
+        map(table, references_of(config["claims"])),
     output:
         result("costs.json"),
     log:
@@ -234,7 +229,7 @@ rule costs:
     params:
         **stage("docs.costs"),
         figures={name: [figure_file(name)] for name in config["figures"]},
-        claims=tables_of_claims,
+        claims={name: [*map(table, claim["tables"].values())] for name, claim in config["claims"].items()},
         snakefile=os.path.relpath(workflow.main_snakefile),
         configfiles=OVERLAYS,
     message:
@@ -248,7 +243,7 @@ rule picture:
     input:
         png=figure_file("{figure}", "png"),
     output:
-        DOCS + "{figure}.png",
+        f"{DOCS}{{figure}}.png",
     log:
         log_file("docs/{figure}"),
     benchmark:

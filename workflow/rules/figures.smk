@@ -1,18 +1,4 @@
 # Figures and their captions.
-FIGURES = config["figures"] | config["figures_on_request"]
-
-
-def tables_of_figure(wildcards):
-    """The tables that a figure draws, by their roles; an error for a figure that makes no sense for this machine."""
-    if reason := REFUSED.get(wildcards.figure):
-        raise WorkflowError(f"{figure_file(wildcards.figure)} is not made for this machine: {reason}")
-    return {role: table(reference) for role, reference in FIGURES[wildcards.figure]["tables"].items()}
-
-
-def references_of_captions(figures):
-    """The tables that the captions of figures read."""
-    roles = [entry.get(key, {}) for entry in figures.values() for key in ("tables", "caption_tables")]
-    return sorted({reference for of_figure in roles for reference in of_figure.values()})
 
 
 rule plot:
@@ -41,7 +27,7 @@ rule plot:
 
 rule captions:
     input:
-        read=map(table, references_of_captions(config["figures"])),
+        read=map(table, references_of(config["figures"])),
         templates=[source(f"workflow/report/{figure}.rst") for figure in config["figures"]],
     output:
         caption_files(),
@@ -52,7 +38,7 @@ rule captions:
     params:
         **stage("figures.captions"),
         figures=config["figures"],
-        references=references_of_captions(config["figures"]),
+        references=references_of(config["figures"]),
         paper=not OWN_MACHINE,
     message:
         "Captions of all figures"
@@ -62,7 +48,7 @@ rule captions:
 
 use rule captions as captions_on_request with:
     input:
-        read=map(table, references_of_captions(config["figures_on_request"])),
+        read=map(table, references_of(config["figures_on_request"])),
         templates=[source(f"workflow/report/{figure}.rst") for figure in config["figures_on_request"]],
     output:
         caption_files(config["figures_on_request"]),
@@ -72,6 +58,6 @@ use rule captions as captions_on_request with:
         benchmark_file("figures/captions_on_request")
     params:
         figures=config["figures_on_request"],
-        references=references_of_captions(config["figures_on_request"]),
+        references=references_of(config["figures_on_request"]),
     message:
         "Captions of the figures on request"

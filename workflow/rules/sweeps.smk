@@ -2,24 +2,8 @@
 # shards, so that a cluster can share it; the joined table does not depend on the number of shards.
 import math
 
-from workflow.config.sharing import plan
-from workflow.config.tables import resolve
-
-PLANS = {name: plan(config["sharing"], resolve(config, "sweeps", name)) for name in config["sweeps"]}
 MARGIN = 3  # a job may take so many times its estimated time
 JOINED_ROWS = 20_000_000  # a minute
-
-
-def shards_of_sweep(wildcards):
-    """All shards, in the order of their rows."""
-    return [table(f"shards/{wildcards.name}/{shard}") for shard in range(PLANS[wildcards.name].shards)]
-
-
-def rows_of_shard(wildcards):
-    """First row of a shard, and the row behind its last one."""
-    sweep = PLANS[wildcards.name]
-    first = int(wildcards.shard) * sweep.rows
-    return [first, min(first + sweep.rows, sweep.points)]
 
 
 rule shards:
