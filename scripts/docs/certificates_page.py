@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from claims.about_proofs import stable_motions
-from pipeline.templates import fill
+from pipeline.templates import render
 
 
 def interval(low: float, high: float) -> str:
@@ -105,4 +105,4 @@ def make(
         "bits": settings["bits"],
         "chaos_bits": settings["chaos"]["bits"],
     }
-    return fill(template, values)
+    return render(template, values)

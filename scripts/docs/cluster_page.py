@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from pipeline.templates import fill
+from pipeline.templates import render
 
 
 def costs(table: pd.DataFrame) -> pd.DataFrame:
@@ -87,4 +87,4 @@ def values(table: pd.DataFrame, sharing: dict) -> dict[str, str | bool | list]:
 
 def make(template: str, scaling: pd.DataFrame) -> str:
     """The page from its template and the table of scaling."""
-    return fill(template, values(scaling, scaling.attrs["sharing"]))
+    return render(template, values(scaling, scaling.attrs["sharing"]))

@@ -2,9 +2,9 @@
 
 import json
 
-from pipeline.templates import fill
+from pipeline.templates import render
 
 
 def make(template: str, costs: str) -> str:
     """The page from its template and the costs of figures and claims as JSON."""
-    return fill(template, json.loads(costs))
+    return render(template, json.loads(costs))

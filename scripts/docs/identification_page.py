@@ -9,7 +9,7 @@ from identification import findings
 from identification.misfits import OBJECTIVES
 from identification.printed import CONVERGED, EULER
 from identification.search_space import PARAMETERS
-from pipeline.templates import fill
+from pipeline.templates import render
 
 IN_WORDS = {
     "all": "all numbers",
@@ -188,4 +188,4 @@ def values(tables: dict[str, pd.DataFrame]) -> dict[str, object]:
 
 def make(template: str, **tables: pd.DataFrame) -> str:
     """The page from its template and the tables of the stage identification."""
-    return fill(template, values(tables))
+    return render(template, values(tables))

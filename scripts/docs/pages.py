@@ -29,7 +29,7 @@ import pandas as pd
 
 from docs.config_keys import Key, Written, keys, written
 from docs.facts import facts, of_claims, plain
-from pipeline.templates import fill
+from pipeline.templates import render
 
 # How a subscript is written for pandoc and for Sphinx; captions are reStructuredText.
 SUBSCRIPTS = {"print": r"~\1~", "site": r"{sub}`\1`"}
@@ -234,5 +234,5 @@ def make(
         known,
         library,
     )
-    pages = [fill(template, fields) for template in templates]
+    pages = [render(template, fields) for template in templates]
     return pages if len(pages) > 1 else pages[0]

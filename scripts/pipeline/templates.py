@@ -1,11 +1,19 @@
-"""Fill the fields of a template: Markdown, YAML or reStructuredText with the syntax of Jinja."""
+"""Pages from Jinja templates and data."""
 
 from collections.abc import Mapping
 from typing import Any
 
 from jinja2 import Environment, StrictUndefined
 
+ENVIRONMENT = Environment(undefined=StrictUndefined, keep_trailing_newline=True)
 
-def fill(template: str, values: Mapping[str, Any]) -> str:
-    """A page from its template; jinja2.UndefinedError names a field that has no value."""
-    return Environment(undefined=StrictUndefined, keep_trailing_newline=True).from_string(template).render(values)
+
+def render(template: str, values: Mapping[str, Any]) -> str:
+    """The page that a template gives with some values.
+
+    Raises
+    ------
+    jinja2.UndefinedError
+        names a value that the template asks for and nobody gives
+    """
+    return ENVIRONMENT.from_string(template).render(values)

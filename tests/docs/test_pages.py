@@ -15,7 +15,7 @@ from prose import typed
 from claims.verdicts import NOT_REPRODUCED, PAPER_METHOD_ONLY, REPRODUCED
 from docs import article, facts, pages, site
 from docs.config_keys import all_written, written
-from pipeline.templates import fill
+from pipeline.templates import render
 
 TEMPLATES = ROOT / "workflow/templates"
 FRAME = (TEMPLATES / "article.typ").read_text(encoding="utf-8")
@@ -65,7 +65,7 @@ def test_a_reference_or_a_formula_is_no_result(text):
 
 def test_a_number_that_nobody_gives_is_an_error():
     with pytest.raises(UndefinedError, match="speed"):
-        fill("at {{ speed }} m/s", {})
+        render("at {{ speed }} m/s", {})
 
 
 @pytest.mark.parametrize("name", KEPT)

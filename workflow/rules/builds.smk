@@ -57,13 +57,7 @@ rule provenance:
 
 rule archive:
     input:
-        results=[
-            *figure_files(),
-            *caption_files(),
-            *map(table, READ),
-            *rules.claims.output,
-            *rules.provenance.output,
-        ],
+        results=[*figure_files(), *caption_files(), *map(table, READ), *rules.claims.output, *rules.provenance.output],
         sources=[file for pattern in ARCHIVED for file in sources(pattern)],
         overlays=[file for file in OVERLAYS if not file.startswith("..")],
         readme=source("workflow/templates/ARCHIVE.md"),

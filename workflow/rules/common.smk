@@ -23,10 +23,6 @@ CORES = workflow.cores or 1
 JOB_THREADS = min(THREADS, CORES)
 
 
-wildcard_constraints:
-    name="[A-Za-z][A-Za-z0-9_-]*",
-
-
 # -- names of files ----------------------------------------------------------------------------------------------------
 
 
