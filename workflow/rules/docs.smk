@@ -98,7 +98,7 @@ rule companion:
 rule findings:
     input:
         **FACTS,
-        templates=source("workflow/templates/findings.md"),
+        templates=[source("workflow/templates/findings.md")],
     output:
         result("findings.md"),
     log:
