@@ -5,7 +5,7 @@ from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
 from workflow.config import ConfigError, load_config
-from workflow.config.files import DEFAULT_FILES, ROOT, STAGES
+from workflow.config.files import DEFAULT_FILES, ROOT
 
 min_version("9.27")
 
@@ -30,11 +30,20 @@ container: "conveyor.sif"
 
 
 include: "workflow/rules/common.smk"
-
-
-for stage_name in (*STAGES, "builds", "report"):
-
-    include: f"workflow/rules/{stage_name}.smk"
+include: "workflow/rules/sweeps.smk"
+include: "workflow/rules/motion.smk"
+include: "workflow/rules/orbits.smk"
+include: "workflow/rules/dimensions.smk"
+include: "workflow/rules/fit.smk"
+include: "workflow/rules/sensitivity.smk"
+include: "workflow/rules/operating.smk"
+include: "workflow/rules/accuracy.smk"
+include: "workflow/rules/claims.smk"
+include: "workflow/rules/identification.smk"
+include: "workflow/rules/figures.smk"
+include: "workflow/rules/docs.smk"
+include: "workflow/rules/builds.smk"
+include: "workflow/rules/report.smk"
 
 
 rule all:
@@ -42,10 +51,10 @@ rule all:
     input:
         figure_files(),
         caption_files(),
-        result("claims.md"),
-        result("provenance.json"),
-        [result("checked.txt")] if CHECKS_RESULTS else [],
-        [report_file(name) for name in (*REPORT_PAGES, "summary", "claims", "provenance")],
+        rules.claims.output,
+        rules.provenance.output,
+        rules.report_figures.output,
+        rules.report_summary.output,
     localrule: True
     message:
         "All figures and claims are up to date"

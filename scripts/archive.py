@@ -66,6 +66,7 @@ if __name__ == "__main__":
         archive.mkdir(parents=True)
         copy(snakemake.input.results, os.curdir, archive)
         copy(snakemake.input.sources, Path(snakemake.scriptdir).parent, archive)
+        copy(snakemake.input.overlays, os.curdir, archive)
         shutil.copyfile(snakemake.input.readme, archive / "ARCHIVE.md")
         (archive / DRAWN).write_text(json.dumps(snakemake.params.figures, indent=1) + "\n", encoding="utf-8")
         (archive / SUMS).write_text(sums(archive), encoding="utf-8")

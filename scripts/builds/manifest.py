@@ -1,10 +1,10 @@
-"""Every result and figure with its SHA-256, or that it may differ as measured times stand in it.
+"""The manifest: every result and figure with its SHA-256, or a note that the file may differ from build to build.
 
 The manifest itself is equal in every build of a config, so that two builds are compared by their manifests.
 """
 
 import hashlib
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from pathlib import Path
 
 HEAD = """\
@@ -16,12 +16,12 @@ MAY_DIFFER = "# may differ, as measured times stand in it: "
 
 
 def line(file: str, timed: bool) -> str:
-    """What the manifest says of a file; sha256sum takes the lines of those that may differ for remarks."""
+    """The line of a file; sha256sum takes the lines of files that may differ for remarks."""
     if timed:
         return f"{MAY_DIFFER}{file}\n"
     return f"{hashlib.sha256(Path(file).read_bytes()).hexdigest()}  {file}\n"
 
 
-def make(files: list[str], timed: Collection[str]) -> str:
-    """The manifest of `files`, of which those that are `timed` may differ from run to run."""
+def list_files(files: Iterable[str], timed: Collection[str]) -> str:
+    """The manifest of `files`; the files in `timed` hold measured times, and may differ from run to run."""
     return HEAD + "".join(line(file, file in timed) for file in files)

@@ -1,6 +1,6 @@
-"""From which sources, with what, where and in which time the results were made.
+"""The record of a build: a manifest of its files, and the sources, versions, machine and times behind them.
 
-It differs from build to build; nothing is made from it.
+The provenance differs from build to build; only the report shows it.
 """
 
 import json
@@ -9,9 +9,12 @@ import platform
 import re
 import subprocess
 from datetime import UTC, datetime
+from importlib import metadata
 from pathlib import Path
 
 import pandas as pd
+
+from builds.manifest import list_files
 
 ROOT = Path(__file__).resolve().parents[2]
 UNKNOWN = "unknown"
@@ -49,13 +52,20 @@ def seconds(folder: Path) -> dict[str, float]:
     }
 
 
-def make(config: str, versions: list[str], benchmarks: str, *, threads: int) -> str:
-    """The provenance as JSON.
+def versions() -> list[str]:
+    """NAME==VERSION of Python and of all installed packages."""
+    packages = {f"{package.name.lower()}=={package.version}" for package in metadata.distributions()}
+    return [f"python=={platform.python_version()}", *sorted(packages)]
+
+
+def make(files: list[str], timed: list[str], config: str, benchmarks: str, *, threads: int) -> dict[str, str]:
+    """The manifest, and the provenance as JSON.
 
     Parameters
     ----------
+    files : all results and figures
+    timed : the files with measured times
     config : hash of the canonical config
-    versions : of the packages, NAME==VERSION
     benchmarks : folder of the benchmark files
     threads : cores that Snakemake was given
     """
@@ -68,6 +78,6 @@ def make(config: str, versions: list[str], benchmarks: str, *, threads: int) -> 
         "processors": os.cpu_count(),
         "threads": threads,
         "seconds": seconds(Path(benchmarks)),
-        "versions": versions,
+        "versions": versions(),
     }
-    return json.dumps(provenance, indent=2) + "\n"
+    return {"manifest": list_files(files, timed), "provenance": json.dumps(provenance, indent=2) + "\n"}

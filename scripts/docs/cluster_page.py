@@ -4,13 +4,8 @@ import math
 
 import numpy as np
 import pandas as pd
-from jinja2 import Environment, StrictUndefined
 
-HEAD = (
-    "| Points | Jobs | Made | Points of a job | Computing, µs a point | Time of a job, s | Estimated, s "
-    "| Memory of a job, MB | Core hours | Putting together, min | Its memory, MB | File, GB |\n"
-    f"{12 * '|---'}|\n"
-)
+from pipeline.templates import render
 
 
 def costs(table: pd.DataFrame) -> pd.DataFrame:
@@ -26,17 +21,26 @@ def costs(table: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-def lines(rows: pd.DataFrame) -> str:
-    return HEAD + "".join(
-        f"| {row.points:,} | {row.shards} | {row.measured} | {row.rows:,} | {row.microseconds:.1f} "
-        f"| {row.job_seconds:.0f} | {row.estimated_seconds:.0f} | {row.shard_memory:.0f} | {row.core_hours:.2g} "
-        f"| {row.minutes:.2g} | {row.gathering_memory:.0f} | {row.gigabytes:.2g} |\n"
-        for row in rows.itertuples()
-    )
+def cells(row) -> list[str]:
+    """The row of a sweep in the table of the page."""
+    return [
+        f"{row.points:,}",
+        f"{row.shards}",
+        f"{row.measured}",
+        f"{row.rows:,}",
+        f"{row.microseconds:.1f}",
+        f"{row.job_seconds:.0f}",
+        f"{row.estimated_seconds:.0f}",
+        f"{row.shard_memory:.0f}",
+        f"{row.core_hours:.2g}",
+        f"{row.minutes:.2g}",
+        f"{row.gathering_memory:.0f}",
+        f"{row.gigabytes:.2g}",
+    ]
 
 
-def numbers(table: pd.DataFrame, sharing: dict) -> dict[str, str | bool]:
-    """All that the template asks for, in words.
+def values(table: pd.DataFrame, sharing: dict) -> dict[str, str | bool | list]:
+    """The fields of the template.
 
     Parameters
     ----------
@@ -53,7 +57,7 @@ def numbers(table: pd.DataFrame, sharing: dict) -> dict[str, str | bool]:
     start = table.shard_seconds.sub(table.computing_seconds).div(table.measured).median() - loading
     estimated_hours = largest.shards * largest.estimated_seconds * largest.threads / 3600.0
     return {
-        "table": lines(rows),
+        "rows": [cells(row) for row in rows.itertuples()],
         "points": f"{largest.points:,}",
         "jobs": f"{largest.shards}",
         "core_hours": f"{largest.core_hours:.2g}",
@@ -81,7 +85,6 @@ def numbers(table: pd.DataFrame, sharing: dict) -> dict[str, str | bool]:
     }
 
 
-def make(scaling: pd.DataFrame, template: str, settings: dict) -> str:
-    """The page from its template, the table of scaling and the section `sharing` of the config."""
-    environment = Environment(undefined=StrictUndefined, keep_trailing_newline=True)
-    return environment.from_string(template).render(numbers(scaling, settings))
+def make(template: str, scaling: pd.DataFrame) -> str:
+    """The page from its template and the table of scaling."""
+    return render(template, values(scaling, scaling.attrs["sharing"]))

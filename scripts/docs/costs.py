@@ -7,8 +7,6 @@ import sys
 
 import pandas as pd
 
-EVERYTHING = "everything"
-
 
 def summary(targets: list[str], snakefile: str, configfiles: list[str]) -> pd.DataFrame:
     """Snakemake's own account of all files behind some targets: output_file, rule, log-file(s), input-file(s), …"""
@@ -47,18 +45,34 @@ def jobs_of(target: str, table: pd.DataFrame) -> set[str]:
     return jobs
 
 
-def cost(files: set[str]) -> tuple[float, float]:
+def cost(files: set[str]) -> dict[str, float | int]:
     """Sum of the wall times (s) and largest resident memory (MiB) of the jobs with these benchmark files."""
+    if not files:
+        return {"seconds": 0.0, "memory": 0.0, "jobs": 0}
     rows = pd.concat([pd.read_csv(file, sep="\t", na_values="-") for file in sorted(files)])
-    return float(rows["s"].sum()), float(rows["max_rss"].max())
+    return {"seconds": float(rows["s"].sum()), "memory": float(rows["max_rss"].max()), "jobs": len(files)}
 
 
-def make(files: dict[str, list[str]], snakefile: str, configfiles: list[str]) -> str:
-    """What some things cost, by the files that each is made from: seconds, MiB and the number of jobs, as JSON."""
-    table = summary(sorted({file for of_one in files.values() for file in of_one}), snakefile, configfiles)
-    jobs = {name: set().union(*(jobs_of(file, table) for file in of_one)) for name, of_one in files.items()}
-    found = {}
-    for name, benchmarks in (jobs | {EVERYTHING: set().union(*jobs.values())}).items():
-        seconds, memory = cost(benchmarks) if benchmarks else (0.0, 0.0)
-        found[name] = {"seconds": seconds, "memory": memory, "jobs": len(benchmarks)}
+def make(figures: dict[str, list[str]], claims: dict[str, list[str]], snakefile: str, configfiles: list[str]) -> str:
+    """Seconds, MiB and number of jobs of each figure, of each claim, and of everything, as JSON.
+
+    Parameters
+    ----------
+    figures, claims : the files that each is made from
+    snakefile, configfiles : the workflow that says which jobs a file needs
+    """
+    table = summary(
+        sorted({file for files in [*figures.values(), *claims.values()] for file in files}), snakefile, configfiles
+    )
+
+    def jobs(files: list[str]) -> set[str]:
+        return set().union(*(jobs_of(file, table) for file in files))
+
+    of_figures, of_claims = ({name: jobs(files) for name, files in group.items()} for group in (figures, claims))
+    everything = set().union(*of_figures.values(), *of_claims.values())
+    found = {
+        "figures": {name: cost(files) for name, files in of_figures.items()},
+        "claims": {name: cost(files) for name, files in of_claims.items()},
+        "everything": cost(everything),
+    }
     return json.dumps(found, indent=1)

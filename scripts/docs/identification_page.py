@@ -1,15 +1,15 @@
-"""What the paper's numbers say of its parameters, in words, with the numbers of the tables."""
+"""The numbers of the page on the parameters that the paper's numbers imply."""
 
 import math
 
 import numpy as np
 import pandas as pd
-from jinja2 import Environment, StrictUndefined
 
 from identification import findings
 from identification.misfits import OBJECTIVES
 from identification.printed import CONVERGED, EULER
 from identification.search_space import PARAMETERS
+from pipeline.templates import render
 
 IN_WORDS = {
     "all": "all numbers",
@@ -40,18 +40,11 @@ def named(parameter: str) -> str:
     return f"{name} in {unit}" if unit else name
 
 
-def table(head: list[str], rows: list[list[str]]) -> str:
-    """A table in Markdown."""
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in [head, ["---"] * len(head), *rows])
-
-
-def numbers_table(printed: pd.DataFrame, implied: pd.DataFrame) -> str:
+def number_rows(printed: pd.DataFrame, implied: pd.DataFrame) -> list[list[str]]:
     """Each number: the paper's, those at the printed parameters by both methods, those at the best ones."""
-    sets = list(implied["set"].unique())
-    head = ["Number", "What it is", "Paper", "Accepted", "As printed, paper's method", "As printed, converged"]
     at = printed[printed["set"] == "printed"]
     columns = [at[at.method == method] for method in (EULER, CONVERGED)]
-    columns += [implied[implied["set"] == name] for name in sets]
+    columns += [implied[implied["set"] == name] for name in implied["set"].unique()]
     rows = []
     for name, *of_sets in zip(at.number.unique(), *(one.itertuples(name=None) for one in columns), strict=True):
         cells = [pd.Series(values[1:], index=at.columns) for values in of_sets]
@@ -59,14 +52,14 @@ def numbers_table(printed: pd.DataFrame, implied: pd.DataFrame) -> str:
         accepted = written_interval(one.low, one.high)
         measured = [f"{cell.value:.4g} ({cell.misfit:+.2f})" for cell in cells]
         rows.append([name, one["is"], f"{one.paper:.6g}", accepted, *measured])
-    return table(head + [f"Best: {IN_WORDS[name]}" for name in sets], rows)
+    return rows
 
 
 def written_interval(low: float, high: float) -> str:
     return f"[{'-∞' if math.isnan(low) else f'{low:.8g}'}, {high:.8g}]"
 
 
-def frictions_table(printed: pd.DataFrame) -> str:
+def friction_rows(printed: pd.DataFrame) -> list[list[str]]:
     """Velocities at the frictions that are told, all else as printed."""
     converged = printed[printed.method == CONVERGED]
     base = converged[converged["set"] == "printed"].set_index("number").value
@@ -76,13 +69,10 @@ def frictions_table(printed: pd.DataFrame) -> str:
         rest = values.drop(list(findings.VELOCITIES.values()))
         velocities = [f"{values[name]:.2f}" for name in findings.VELOCITIES.values()]
         rows.append([f"{of_set.friction.iloc[0]:g}", *velocities, f"{np.abs(rest - base[rest.index]).max():g}"])
-    return table(
-        ["Friction μ", "First state, lower end, in cm/s", "Its upper end", "Fall of the second", "Change of the rest"],
-        rows,
-    )
+    return rows
 
 
-def intervals_table(profiles: pd.DataFrame, optima: pd.DataFrame, model: dict) -> str:
+def interval_rows(profiles: pd.DataFrame, optima: pd.DataFrame, model: dict) -> list[list[str]]:
     """Best values and intervals for each set of evidence, and whether the printed value lies in it."""
     rows = [["printed", *(told(name, model[name]) for name in PARAMETERS)]]
     for evidence, of_set in optima.groupby("evidence", sort=False):
@@ -95,7 +85,7 @@ def intervals_table(profiles: pd.DataFrame, optima: pd.DataFrame, model: dict) -
                 f"{told(name, best[name])}; {told_end(name, low)} to {told_end(name, high)}, {verdict} the printed one"
             )
         rows.append([IN_WORDS[evidence], *cells])
-    return table(["Numbers", *map(named, PARAMETERS)], rows)
+    return rows
 
 
 def bounded(profiles: pd.DataFrame, optima: pd.DataFrame, evidence: str) -> str:
@@ -107,9 +97,9 @@ def bounded(profiles: pd.DataFrame, optima: pd.DataFrame, evidence: str) -> str:
     return "; ".join(f"{kind}: {', '.join(names)}" for kind, names in found.items() if names)
 
 
-def totals_table(optima: pd.DataFrame) -> str:
+def total_rows(optima: pd.DataFrame) -> list[list[str]]:
     """Least totals by evidence and reading, and those of the printed parameters."""
-    rows = [
+    return [
         [
             f"{IN_WORDS[row.evidence]} ({row.numbers})",
             row.tension,
@@ -120,16 +110,14 @@ def totals_table(optima: pd.DataFrame) -> str:
         ]
         for row in optima.itertuples()
     ]
-    return table(["Numbers", "Reading", "Least total", *map(named, PARAMETERS), "Total as printed", "Status"], rows)
 
 
-def fronts_table(front: pd.DataFrame) -> str:
+def front_rows(front: pd.DataFrame) -> list[list[str]]:
     """The least of each objective on the fronts."""
-    rows = [
+    return [
         [reading, *(f"{of_reading[name].min():.2f}" for name in OBJECTIVES), str(len(of_reading))]
         for reading, of_reading in front.groupby("tension", sort=False)
     ]
-    return table(["Reading", "Where the states change", "First velocity", "Fall of the second", "Members"], rows)
 
 
 def printed_as_a_whole(optima: pd.DataFrame, reading: str) -> str:
@@ -166,7 +154,9 @@ def values(tables: dict[str, pd.DataFrame]) -> dict[str, object]:
     moved = of_interpolation(implied)
     return {
         "coarse": findings.coarse(settings),
-        "numbers": numbers_table(printed, implied),
+        "sets": [IN_WORDS[name] for name in implied["set"].unique()],
+        "numbers": number_rows(printed, implied),
+        "parameters": [named(name) for name in PARAMETERS],
         "contacts": settings["contacts"]["loss"] * settings["contacts"]["stiffness"],
         "interpolation_median": f"{np.median(moved):.3f}",
         "interpolation_most": f"{moved.max():.2f}",
@@ -174,15 +164,15 @@ def values(tables: dict[str, pd.DataFrame]) -> dict[str, object]:
         "down": f"{numbers[findings.DOWN_ALONE]['paper']:g}",
         "widening": f"{findings.contradiction(numbers):.3g}",
         "zero": f"{-triple['A'] / triple['C'] - triple['B']:.2f}",
-        "frictions": frictions_table(printed),
+        "frictions": friction_rows(printed),
         "friction_alone": findings.friction_alone(tables["frictions"], numbers),
         "seeds": len(settings["search"]["seeds"]),
         "search": findings.search(front, tables["generations"]),
-        "fronts": fronts_table(front),
-        "totals": totals_table(optima),
+        "fronts": front_rows(front),
+        "totals": total_rows(optima),
         "confidence": f"{100.0 * settings['profiles']['confidence']:g}",
         "factor": f"{math.sqrt(optima[optima.evidence == 'all'].scale.iloc[0]):.2f}",
-        "intervals": intervals_table(profiles, optima, model),
+        "intervals": interval_rows(profiles, optima, model),
         "bounded_all": bounded(profiles, optima, "all"),
         "bounded_without": bounded(profiles, optima, "end_left_out"),
         "bounded_method": bounded(profiles, optima, "paper_method"),
@@ -198,5 +188,4 @@ def values(tables: dict[str, pd.DataFrame]) -> dict[str, object]:
 
 def make(template: str, **tables: pd.DataFrame) -> str:
     """The page from its template and the tables of the stage identification."""
-    environment = Environment(undefined=StrictUndefined, keep_trailing_newline=True)
-    return environment.from_string(template).render(values(tables))
+    return render(template, values(tables))

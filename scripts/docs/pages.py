@@ -9,7 +9,7 @@ A template is Markdown (or YAML) with Jinja's fields. What it may ask for: the f
     of_the_paper      names of the paper's figures; the others are this project's own
     statements        the claims as docs.facts tells them, with their uncertainty
     tightened         how many of them were looked at with tighter tolerances; same_verdicts: how many did not change
-    costs             seconds, memory (MiB) and jobs of figures and claims
+    costs             seconds, memory (MiB) and jobs of all `figures`, all `claims`, and of `everything`
     gaps              keys of the config whose comment says that the paper leaves them open
     keys              all keys of the config, by their sections, with the values of the default config
     entries           entries of a section of the paper's config, with the comments above them
@@ -26,9 +26,10 @@ from collections import Counter
 from collections.abc import Callable
 
 import pandas as pd
-from jinja2 import Environment, StrictUndefined
 
+from docs.config_keys import Key, Written, keys, written
 from docs.facts import facts, of_claims, plain
+from pipeline.templates import render
 
 # How a subscript is written for pandoc and for Sphinx; captions are reStructuredText.
 SUBSCRIPTS = {"print": r"~\1~", "site": r"{sub}`\1`"}
@@ -56,7 +57,7 @@ def in_markdown(caption: str, medium: str) -> str:
 def printed(figure: dict, folder: str) -> str:
     """A figure for pandoc."""
     caption = re.sub(r"([\[\]])", r"\\\1", figure["caption"])
-    return f"![**{figure['label']}.** {caption}]({folder}{figure['name']}.pdf)"
+    return f"![**{figure['label']}.** {caption}](/{folder}{figure['name']}.pdf)"
 
 
 def shown(figure: dict, folder: str) -> str:
@@ -80,18 +81,18 @@ def of_figures(figures: dict[str, dict], captions: list[str], medium: str) -> di
     }
 
 
-def readable(path: list[str]) -> str:
+def readable(path: tuple[str, ...]) -> str:
     """ "orbits.seeds[].z0" of the path of a key."""
     return ".".join(path).replace(".[]", "[]")
 
 
-def of_gaps(written: list[dict]) -> list[dict]:
+def of_gaps(defaults: list[Written]) -> list[dict]:
     """What the paper leaves open: keys, their values, and the comments that say so, each once."""
     return [
-        {"key": readable(key["path"]), "value": key["value"], "comment": said}
-        for key in written
-        for said in (key["beside"], key["above"])
-        if OPEN.search(said) and key["path"][0] not in NOT_OF_THE_PAPER
+        {"key": readable(key.path), "value": key.value, "comment": comment}
+        for key in defaults
+        for comment in (key.beside, key.above)
+        if OPEN.search(comment) and key.path[0] not in NOT_OF_THE_PAPER
     ]
 
 
@@ -99,24 +100,24 @@ def of_gaps(written: list[dict]) -> list[dict]:
 NOT_OF_THE_PAPER = ("companion", "figures", "claims", "benchmark", "stability", "precision")
 
 
-def of_keys(keys: list[dict], written: list[dict]) -> dict[str, list[dict]]:
+def of_keys(known: list[Key], defaults: list[Written]) -> dict[str, list[dict]]:
     """All keys by their sections, with the value of the default config where a key has one name only."""
-    values = {tuple(key["path"]): key["value"] for key in written}
+    values = {key.path: key.value for key in defaults}
     found = {}
-    for key in keys:
-        value = values.get(tuple(key["path"]), "")
-        found.setdefault(key["path"][0], []).append({**key, "key": readable(key["path"]), "value": value})
+    for key in known:
+        value = values.get(key.path, "")
+        found.setdefault(key.path[0], []).append({**key._asdict(), "key": readable(key.path), "value": value})
     return found
 
 
-def of_entries(keys: list[dict], written: list[dict]) -> dict[str, list[dict]]:
+def of_entries(known: list[Key], defaults: list[Written]) -> dict[str, list[dict]]:
     """Entries of the sections whose entries have names of one's own choice, with the comments above them."""
-    named = {key["path"][0] for key in keys if len(key["path"]) > 1 and key["path"][1] == "NAME"}
+    named = {key.path[0] for key in known if len(key.path) > 1 and key.path[1] == "NAME"}
     found = {section: [] for section in named}
-    for key in written:
-        section, *rest = key["path"]
+    for key in defaults:
+        section, *rest = key.path
         if section in named and len(rest) == 1:
-            found[section].append({"name": rest[0], "comment": key["above"] or key["beside"]})
+            found[section].append({"name": rest[0], "comment": key.above or key.beside})
     return found
 
 
@@ -152,8 +153,8 @@ def context(
     findings: str,
     medium: str,
     folder: str,
-    written: list[dict],
-    keys: list[dict],
+    defaults: list[Written],
+    known: list[Key],
     library: list[str],
 ) -> dict:
     """All that a template may ask for."""
@@ -172,19 +173,14 @@ def context(
         "costs": json.loads(costs) if costs else {},
         "proved": proved,
         "findings": findings,
-        "gaps": of_gaps(written),
-        "keys": of_keys(keys, written),
-        "entries": of_entries(keys, written),
+        "gaps": of_gaps(defaults),
+        "keys": of_keys(known, defaults),
+        "entries": of_entries(known, defaults),
         "modules": of_modules(library),
         "figure": lambda name: FIGURE[medium](told[name], folder),
         "cell": cell,
         "medium": medium,
     }
-
-
-def filled(template: str, values: dict) -> str:
-    """A page from its template; jinja2.UndefinedError names what nobody gives."""
-    return Environment(undefined=StrictUndefined, keep_trailing_newline=True).from_string(template).render(values)
 
 
 def make(
@@ -198,8 +194,8 @@ def make(
     findings: str = "",
     medium: str = "site",
     folder: str = "",
-    written: list[dict] = (),
-    known: list[dict] = (),
+    config: list[str] = (),
+    schema: str = "",
     library: list[str] = (),
     **tables: pd.DataFrame,
 ) -> list[str] | str:
@@ -216,12 +212,27 @@ def make(
     findings : the page of what was found beyond the paper
     medium : print or site
     folder : where the figures are, as the page says it
-    written, known : keys of the default config files, and all keys of the schema (docs.config_keys)
+    config : texts of the default config files
+    schema : JSON Schema of the config
     library : files of the library's modules, without their endings
     tables : those that docs.facts asks for
     """
-    asked = context(
-        tables, figures, values, captions, costs, uncertainty, proved, findings, medium, folder, written, known, library
+    defaults = [key for text in config for key in written(text)]
+    known = list(keys(json.loads(schema))) if schema else []
+    fields = context(
+        tables,
+        figures,
+        values,
+        captions,
+        costs,
+        uncertainty,
+        proved,
+        findings,
+        medium,
+        folder,
+        defaults,
+        known,
+        library,
     )
-    pages = [filled(template, asked) for template in templates]
+    pages = [render(template, fields) for template in templates]
     return pages if len(pages) > 1 else pages[0]

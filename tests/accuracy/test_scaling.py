@@ -161,10 +161,10 @@ def test_what_the_whole_sweep_costs():
     assert rows.microseconds.tolist() == pytest.approx([2e4, 2e4, 2e4])
     assert rows.minutes.to_dict() == pytest.approx({100: 1.0 / 60.0, 250: 2.0 / 60.0, 1000: 1000 * 6.0 / 300 / 60.0})
     sharing = {"core_hours": 24.0, "most_jobs": 500, "job_seconds": 60.0}
-    told = cluster_page.numbers(table(), sharing)
+    told = cluster_page.values(table(), sharing)
     assert (told["least_ratio"], told["most_ratio"]) == ("0.5", "2")
     assert told["within_limit"]
-    assert not cluster_page.numbers(table(), sharing | {"core_hours": 0.01})["within_limit"]
+    assert not cluster_page.values(table(), sharing | {"core_hours": 0.01})["within_limit"]
     assert (told["points"], told["most_memory"], told["made_whole"]) == ("1,000", "305", "250")
     assert (told["start"], told["loading"]) == ("0.8", "0.2")
 
@@ -177,6 +177,8 @@ def test_cost_of_a_point_is_told_without_and_with_the_start_of_the_job():
 
 def test_the_page_of_clusters_says_both():
     template = (ROOT / "workflow/templates/cluster.md").read_text()
-    page = cluster_page.make(table(), template, {"core_hours": 24.0, "most_jobs": 500, "job_seconds": 60.0})
+    found = table()
+    found.attrs["sharing"] = {"core_hours": 24.0, "most_jobs": 500, "job_seconds": 60.0}
+    page = cluster_page.make(template, found)
     assert "| 250 | 3 | 3 | 100 | 20000.0 |" in page
     assert "0.8 s for Python and its imports, and 0.2 s for its first points" in " ".join(page.split())

@@ -15,6 +15,7 @@ from prose import typed
 from claims.verdicts import NOT_REPRODUCED, PAPER_METHOD_ONLY, REPRODUCED
 from docs import article, facts, pages, site
 from docs.config_keys import all_written, written
+from pipeline.templates import render
 
 TEMPLATES = ROOT / "workflow/templates"
 FRAME = (TEMPLATES / "article.typ").read_text(encoding="utf-8")
@@ -22,6 +23,7 @@ FRAME = (TEMPLATES / "article.typ").read_text(encoding="utf-8")
 PROSE = [
     TEMPLATES / "README.md",
     TEMPLATES / "findings.md",
+    TEMPLATES / "figures.md",
     TEMPLATES / "article.md",
     *sorted((TEMPLATES / "site").glob("*.md")),
 ]
@@ -63,7 +65,7 @@ def test_a_reference_or_a_formula_is_no_result(text):
 
 def test_a_number_that_nobody_gives_is_an_error():
     with pytest.raises(UndefinedError, match="speed"):
-        pages.filled("at {{ speed }} m/s", {})
+        render("at {{ speed }} m/s", {})
 
 
 @pytest.mark.parametrize("name", KEPT)
@@ -140,7 +142,7 @@ def test_comments_belong_to_their_keys():
 
 
 def test_what_the_paper_leaves_open_is_told():
-    found = pages.of_gaps([key._asdict() for key in all_written(CONFIG)])
+    found = pages.of_gaps(all_written(CONFIG))
     assert {"model.gravity", "sweeps.amplitudes.axes.acceleration", "estimates.phase.epsilon"} <= {
         gap["key"] for gap in found
     }

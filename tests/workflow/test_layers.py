@@ -4,7 +4,7 @@ import pytest
 from project import ROOT, STAGES
 
 from scripts.conveyor.solver.imports import direct_imports
-from workflow import source_hash
+from scripts.pipeline import source_hash
 
 # Rooms of the library, from the ground up; `conveyor` itself has what leads to solver and methods: simulate, ensembles.
 # The module `parameters` imports nothing and stands below them.

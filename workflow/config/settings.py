@@ -55,6 +55,8 @@ def settings_of(config: dict, reference: str) -> dict | None:
         case "results", "throughput":
             solver = {key: config["solver"][key] for key in ("duration", "tolerance", "step")}
             return {**config[name], **solver, "map": throughput_map(config)}
+        case "results", "scaling":
+            return {**config[name], "sharing": config["sharing"]}
         case "results", "claims":
             return {"claims": config["claims"]}
         case "results", _:

@@ -1,5 +1,6 @@
 # How accurate, fast and robust the solver is, compared with other methods. Jobs that measure wall times run alone: they take
 # all cores here, and a node of their own on a cluster.
+from workflow.config.settings import budgeted_entries, budgeted_tables, model_without_acceleration, scaling_cases
 
 
 rule benchmark:
@@ -15,8 +16,7 @@ rule benchmark:
         cpus_per_task=CORES,
         slurm_extra="--exclusive",
     params:
-        **stage("accuracy.benchmark"),
-        settings=settings_of(config, "results/benchmark"),
+        **stage("accuracy.benchmark", "results/benchmark"),
     message:
         "The solver against the published method"
     script:
@@ -38,9 +38,7 @@ rule accuracy:
         mem_mb=2000,
         runtime=60,
     params:
-        stage="accuracy.{name}",
-        code=lambda wildcards: source_hash("make", f"accuracy/{wildcards.name}"),
-        settings=settings("results"),
+        **stage("accuracy.{name}", "results/{name}"),
     message:
         "Accuracy: {wildcards.name}"
     script:
@@ -60,8 +58,7 @@ rule precision:
         name=one_of(config["precision"]["scenes"]),
     priority: 2
     params:
-        **stage("accuracy.precision"),
-        settings=settings("precision"),
+        **stage("accuracy.precision", "precision/{name}"),
         timing={name: config["precision"][name] for name in ("repeats", "seconds")},
     message:
         "Error against work, {wildcards.name}"
@@ -69,7 +66,10 @@ rule precision:
         "../../scripts/make.py"
 
 
-# A machine of the user's own has no fit of the paper's heights unless its config adds one.
+# The fit of Eq. 13 as in the paper; None for a machine of the user's own whose config has no such entry.
+PAPER_FIT = config["regressions"].get("height")
+
+
 rule precision_estimates:
     input:
         **({"critical": table(f"critical/{PAPER_FIT['critical']}")} if PAPER_FIT else {}),
@@ -80,8 +80,7 @@ rule precision_estimates:
     benchmark:
         benchmark_file("accuracy/precision_estimates")
     params:
-        **stage("accuracy.precision_estimates"),
-        settings=settings_of(config, "results/precision_estimates"),
+        **stage("accuracy.precision_estimates", "results/precision_estimates"),
         model=model_without_acceleration(config),
         fit=PAPER_FIT,
     message:
@@ -103,8 +102,7 @@ rule scene_budget:
         cpus_per_task=JOB_THREADS,
         mem_mb=2000,
     params:
-        **stage("accuracy.scene_budget"),
-        settings=settings_of(config, "results/scene_budget"),
+        **stage("accuracy.scene_budget", "results/scene_budget"),
         entries=budgeted_entries(config),
         drawn=budgeted_tables(config),
     message:
@@ -124,8 +122,7 @@ rule rigid_part:
     benchmark:
         benchmark_file("accuracy/rigid_part")
     params:
-        **stage("accuracy.rigid_part"),
-        settings=settings_of(config, "results/rigid_part"),
+        **stage("accuracy.rigid_part", "results/rigid_part"),
         entry=settings_of(config, "sweeps/amplitudes"),
     message:
         "A rigid part instead of the contact law"
@@ -146,8 +143,7 @@ rule scaling:
         cpus_per_task=CORES,
         slurm_extra="--exclusive",
     params:
-        **stage("accuracy.scaling"),
-        settings=settings_of(config, "results/scaling"),
+        **stage("accuracy.scaling", "results/scaling"),
         cases=scaling_cases(config),
     message:
         "Cost of sweeps of all sizes"

@@ -1,30 +1,36 @@
 # What a build holds, and where it comes from: the last files of all.
+import hashlib
+import json
+
+# The tables that figures, captions and claims are made from, and tables that the same jobs make for pages only.
+READ = sorted({*references_of(config["figures"]), *references_of(config["claims"])})
+BESIDE = {"sensitivity/derivatives": "sensitivity/groups", "identification/profiles": "identification/implied"}
+BUILT_TABLES = sorted({"results/claims", *READ, *TESTED_TABLES, *(BESIDE[name] for name in READ if name in BESIDE)})
+BUILT = [
+    *map(table, BUILT_TABLES),
+    *([result("benchmark.md")] if "results/benchmark" in BUILT_TABLES else []),
+    result("claims.md"),
+    *caption_files(),
+    *figure_files(),
+    *figure_files("png"),
+]
+# Kinds of tables with measured times, which differ from build to build, and the figures that are drawn from them.
+TIMED = {"benchmark", "precision_times", "certificate_times", "budget_times"}
+TIMED_FIGURES = [name for name, entry in config["figures"].items() if TIMED & {*map(kind_of, entry["tables"].values())}]
+# The sources that draw the figures of an archive again and make its results again.
+ARCHIVED = [
+    *("Snakefile", "README.md", "LICENSE", "CITATION.cff", "CONTRIBUTING.md", "CHANGELOG.md", "pyproject.toml"),
+    *("environment.txt", "conveyor.def", "config/**/*", "workflow/**/*", "profiles/**/*", "scripts/**/*", "tests/**/*"),
+]
 
 
-rule manifest:
-    input:
-        built_files(),
-    output:
-        manifest=result("manifest.sha256"),
-    log:
-        log_file("builds/manifest"),
-    benchmark:
-        benchmark_file("builds/manifest")
-    params:
-        **stage("builds.manifest"),
-        files=built_files(),
-        timed=timed_files(),
-    message:
-        "The manifest of all results and figures"
-    script:
-        "../../scripts/make.py"
-
-
+# Last of all, and alone: it needs no other core, but records how many cores there are.
 rule provenance:
     input:
-        result("manifest.sha256"),
-        [result("checked.txt")] if CHECKS_RESULTS else [],
+        BUILT,
+        CHECKED,
     output:
+        manifest=result("manifest.sha256"),
         provenance=result("provenance.json"),
     log:
         log_file("builds/provenance"),
@@ -35,19 +41,25 @@ rule provenance:
         cpus_per_task=CORES,
     params:
         **stage("builds.provenance"),
+        files=sorted(BUILT),
+        timed=[
+            *(table(name) for name in BUILT_TABLES if kind_of(name) in TIMED),
+            result("benchmark.md"),
+            *(figure_file(name, ending) for name in TIMED_FIGURES for ending in ("pdf", "png")),
+        ],
         config=hashlib.sha256(json.dumps(config).encode()).hexdigest(),
-        versions=versions([*package_names(), "snakemake"]),
         benchmarks=result("benchmarks"),
     message:
-        "Commit, config, versions and processor of the build"
+        "The manifest of all results; commit, config, versions and processor of the build"
     script:
         "../../scripts/make.py"
 
 
 rule archive:
     input:
-        results=archived_results(),
-        sources=archived_sources(),
+        results=[*figure_files(), *caption_files(), *map(table, READ), *rules.claims.output, *rules.provenance.output],
+        sources=[file for pattern in ARCHIVED for file in sources(pattern)],
+        overlays=[file for file in OVERLAYS if not file.startswith("..")],
         readme=source("workflow/templates/ARCHIVE.md"),
     output:
         directory(f"archive/{config['prefix'] or 'paper'}"),
@@ -56,7 +68,15 @@ rule archive:
     benchmark:
         benchmark_file("builds/archive")
     params:
-        figures=archived_figures(),
+        figures={
+            figure_file(name): {
+                "name": name,
+                "tables": {role: table(reference) for role, reference in entry["tables"].items()},
+                "kinds": {role: kind_of(reference) for role, reference in entry["tables"].items()},
+                "settings": entry.get("settings", {}),
+            }
+            for name, entry in config["figures"].items()
+        },
         megabytes=config["archive"]["megabytes"],
         code=source_hash("archive"),
     message:

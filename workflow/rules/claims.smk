@@ -1,9 +1,23 @@
 # The paper's statements with their verdicts, and the tests of the results.
+from workflow.config.settings import tighter_claims
+from workflow.config.tables import ON_REQUEST, TABLES
+
+# Each claim alone.
+CLAIM = {name: {name: claim} for name, claim in config["claims"].items()}
+TIGHTER_CLAIMS = tighter_claims(config)
+# The tests of the results, which are about the conveyor of the paper, and the tables that they read.
+RESULT_TESTS = [] if OWN_MACHINE else sources("tests/results/*.py")
+CHECKED = [result("checked.txt")] if RESULT_TESTS else []
+TESTED_TABLES = [
+    *(f"{section}/{name}" for section in ("orbits", "lyapunov") for name in TABLES[section]),
+    *(f"precision/{name}" for name in config["precision"]["scenes"]),
+    *(f"results/{name}" for name in TABLES["results"] if name not in ON_REQUEST),
+]
 
 
 rule claims:
     input:
-        read=[table(reference) for reference in references_of_claims(config["claims"])],
+        read=map(table, references_of(config["claims"])),
     output:
         claims=table("results/claims"),
         report=result("claims.md"),
@@ -12,9 +26,8 @@ rule claims:
     benchmark:
         benchmark_file("checks/claims")
     params:
-        **stage("claims.verdicts"),
-        settings=settings_of(config, "results/claims"),
-        references=references_of_claims(config["claims"]),
+        **stage("claims.verdicts", "results/claims"),
+        references=references_of(config["claims"]),
     message:
         "The paper's statements"
     script:
@@ -23,7 +36,7 @@ rule claims:
 
 rule claim:
     input:
-        read=lambda wildcards: [table(name) for name in references_of_claims(CLAIM[wildcards.name])],
+        read=lambda wildcards: [table(reference) for reference in references_of(CLAIM[wildcards.name])],
     output:
         report=result("claims/{name}.md"),
     log:
@@ -35,7 +48,7 @@ rule claim:
     params:
         **stage("claims.one_claim"),
         settings=lambda wildcards: {"claims": CLAIM[wildcards.name]},
-        references=lambda wildcards: references_of_claims(CLAIM[wildcards.name]),
+        references=lambda wildcards: references_of(CLAIM[wildcards.name]),
     message:
         "The statement {wildcards.name} alone"
     script:
@@ -44,7 +57,7 @@ rule claim:
 
 rule uncertainty:
     input:
-        read=[table(reference) for reference in references_of_claims(tighter_claims(config))],
+        read=map(table, references_of(TIGHTER_CLAIMS)),
         claims=table("results/claims"),
     output:
         uncertainty=result("uncertainty.json"),
@@ -54,8 +67,8 @@ rule uncertainty:
         benchmark_file("checks/uncertainty")
     params:
         **stage("claims.uncertainty"),
-        settings={"claims": tighter_claims(config)},
-        references=references_of_claims(tighter_claims(config)),
+        settings={"claims": TIGHTER_CLAIMS},
+        references=references_of(TIGHTER_CLAIMS),
     message:
         "Uncertainty of the claims' numbers"
     script:
@@ -64,7 +77,7 @@ rule uncertainty:
 
 rule check_results:
     input:
-        TESTED_TABLES,
+        map(table, TESTED_TABLES),
         figure_files(),
         RESULT_TESTS,
     output:

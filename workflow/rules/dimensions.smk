@@ -14,8 +14,7 @@ rule dimensions:
         cpus_per_task=JOB_THREADS,
         mem_mb=2000,
     params:
-        **stage("dimensions.portraits"),
-        settings=settings("dimensions"),
+        **stage("dimensions.portraits", "dimensions/{name}"),
     message:
         "Fractal dimensions, {wildcards.name}"
     script:

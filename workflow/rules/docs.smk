@@ -1,75 +1,79 @@
 # Pages of the documentation, the article and the site, made from results.
+from pathlib import Path
+
+from workflow.config.schema import json_schema
+from workflow.config.tables import TABLES
+
+# Pages made from the paper's config are part of the repository: in docs/, some of them in the project's folder.
+DOCS, PROJECT = (result("docs/"), result("docs/")) if PREFIX else ("docs/", "")
+# What fills the template of each page on one topic.
+PAGES = {
+    "certificates": tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
+    "cluster": tables_of("results/scaling"),
+    "figures": {"costs": result("costs.json")},
+    "identification": tables_of(*(f"identification/{name}" for name in TABLES["identification"] if name != "edges")),
+}
+# The tables behind the numbers of the other pages, by their roles in scripts/docs/facts.py.
+FACTS = {
+    **tables_of("results/claims", "results/benchmark", "lyapunov/spectrum", "orbits/cascade"),
+    **PAGES["certificates"],
+    "edge": table("critical/edge"),
+    "edge_euler": table("critical/edge_euler"),
+    "estimate": table("estimates/phase"),
+    "estimate_euler": table("estimates/phase_euler"),
+    "fit": table("regressions/height"),
+}
+KEPT_PAGES = ("README.md", "metadata.yaml", "codecheck.yml")
+ARTICLE_PARTS = {
+    "config": [os.path.relpath(file) for file in DEFAULT_FILES],
+    "captions": caption_files(),
+    "costs": result("costs.json"),
+    "uncertainty": result("uncertainty.json"),
+    "proved": f"{DOCS}certificates.md",
+}
+ARTICLE = source("workflow/templates/article.md")
+SITE_PAGES = [ARTICLE, *sources("workflow/templates/site/*.md")]
+LIBRARY = [
+    Path(file).relative_to(source("scripts")).with_suffix("").as_posix()
+    for file in sources("scripts/conveyor/**/*.py")
+    if not file.endswith("__init__.py")
+]
 
 
-rule certificates_page:
+rule page:
     input:
-        **tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
+        unpack(lambda wildcards: PAGES[wildcards.page]),
+        template=source("workflow/templates/{page}.md"),
     output:
-        page=page("certificates.md"),
+        f"{DOCS}{{page}}.md",
     log:
-        log_file("docs/certificates"),
+        log_file("docs/{page}"),
     benchmark:
-        benchmark_file("docs/certificates")
+        benchmark_file("docs/{page}")
+    wildcard_constraints:
+        page=one_of(PAGES),
     params:
-        **stage("docs.certificates_page"),
+        **stage("docs.{page}_page"),
     message:
-        "What is proved, in words"
+        "The page {wildcards.page}.md"
     script:
         "../../scripts/make.py"
 
 
-rule identification_page:
-    input:
-        **tables_of(*(f"identification/{name}" for name in TABLES["identification"] if name != "edges")),
-        template=source("workflow/templates/identification.md"),
-    output:
-        page=page("identification.md"),
-    log:
-        log_file("docs/identification"),
-    benchmark:
-        benchmark_file("docs/identification")
-    params:
-        **stage("docs.identification_page"),
-    message:
-        "The parameters that the paper's numbers imply, in words"
-    script:
-        "../../scripts/make.py"
-
-
+# The page of claims that the repository keeps.
 rule claims_page:
     input:
-        page=result("claims.md"),
+        result("claims.md"),
     output:
-        page=page("claims.md"),
+        f"{DOCS}claims.md",
     log:
         log_file("docs/claims"),
     benchmark:
         benchmark_file("docs/claims")
-    params:
-        **stage("docs.copy_page"),
     message:
-        "The page of claims that the repository keeps"
-    script:
-        "../../scripts/make.py"
-
-
-rule cluster_page:
-    input:
-        scaling=table("results/scaling"),
-        template=source("workflow/templates/cluster.md"),
-    output:
-        page=page("cluster.md"),
-    log:
-        log_file("docs/cluster"),
-    benchmark:
-        benchmark_file("docs/cluster")
-    params:
-        **stage("docs.cluster_page"),
-        settings=config["sharing"],
-    message:
-        "The cost of large sweeps"
-    script:
-        "../../scripts/make.py"
+        "The page claims.md"
+    shell:
+        "cp {input} {output} 2> {log}"
 
 
 rule companion:
@@ -77,7 +81,7 @@ rule companion:
         [source(f"scripts/docs/companion/{name}") for name in ("page.html", "page.css", "solver.js", "page.js")],
         maps=[table(f"sweeps/{name}") for name in config["companion"]["maps"]],
     output:
-        page=page("companion.html"),
+        f"{DOCS}companion.html",
     log:
         log_file("docs/companion"),
     benchmark:
@@ -103,7 +107,12 @@ rule findings:
         benchmark_file("docs/findings")
     params:
         **stage("docs.pages"),
-        **PAGE_PARAMS,
+        figures={name: {key: entry[key] for key in ("title", "section")} for name, entry in config["figures"].items()},
+        values={
+            "prefix": config["prefix"],
+            "step": config["solver"]["step"],
+            "tighter": config["uncertainty"]["tighter"],
+        },
     message:
         "Findings beyond the paper"
     script:
@@ -111,71 +120,26 @@ rule findings:
 
 
 # The README, the form of the journal ReScience, and the manifest of CODECHECK.
-rule top_level_pages:
+use rule findings as kept_pages with:
     input:
         **FACTS,
-        templates=[source(f"workflow/templates/{name}") for name in ("README.md", "metadata.yaml", "codecheck.yml")],
+        templates=[source(f"workflow/templates/{name}") for name in KEPT_PAGES],
         findings=result("findings.md"),
     output:
-        [top_level_page(name) for name in ("README.md", "metadata.yaml", "codecheck.yml")],
+        [f"{PROJECT}{name}" for name in KEPT_PAGES],
     log:
         log_file("docs/kept_pages"),
     benchmark:
         benchmark_file("docs/kept_pages")
-    params:
-        **stage("docs.pages"),
-        **PAGE_PARAMS,
     message:
         "README and metadata"
-    script:
-        "../../scripts/make.py"
 
 
-rule costs:
+use rule findings as article_text with:
     input:
-        figure_files(),
-        [table(reference) for reference in references_of_claims(config["claims"])],
-    output:
-        costs=result("costs.json"),
-    log:
-        log_file("docs/costs"),
-    benchmark:
-        benchmark_file("docs/costs")
-    params:
-        **stage("docs.costs"),
-        files=files_of_costs(),
-        snakefile=os.path.relpath(workflow.main_snakefile),
-        configfiles=[os.path.relpath(file) for file in workflow.overwrite_configfiles],
-    message:
-        "The cost of each figure and claim"
-    script:
-        "../../scripts/make.py"
-
-
-rule figure_costs:
-    input:
-        costs=result("costs.json"),
-    output:
-        page=page("figures.md"),
-    log:
-        log_file("docs/figures"),
-    benchmark:
-        benchmark_file("docs/figures")
-    params:
-        **stage("docs.figure_costs"),
-        figures=list(config["figures"]),
-    message:
-        "The page of costs"
-    script:
-        "../../scripts/make.py"
-
-
-rule article_text:
-    input:
-        CONFIG_FILES,
         **FACTS,
         **ARTICLE_PARTS,
-        templates=[source("workflow/templates/article.md")],
+        templates=[ARTICLE],
     output:
         result("article/article.md"),
     log:
@@ -183,15 +147,30 @@ rule article_text:
     benchmark:
         benchmark_file("docs/article_text")
     params:
-        **stage("docs.pages"),
-        **PAGE_PARAMS,
         medium="print",
-        folder=os.sep + figure_file("")[: -len(".pdf")],
-        written=written_keys,
+        folder=f"figures/{PREFIX}",
     message:
         "The text of the article"
-    script:
-        "../../scripts/make.py"
+
+
+use rule findings as site_pages with:
+    input:
+        **FACTS,
+        **ARTICLE_PARTS,
+        templates=SITE_PAGES,
+        schema=source("config/schema.json"),
+    output:
+        [result(f"site_pages/{Path(file).name}") for file in SITE_PAGES],
+    log:
+        log_file("docs/site_pages"),
+    benchmark:
+        benchmark_file("docs/site_pages")
+    params:
+        medium="site",
+        folder="figures/",
+        library=LIBRARY,
+    message:
+        "The pages of the site"
 
 
 rule article:
@@ -200,7 +179,7 @@ rule article:
         text=result("article/article.md"),
         frame=source("workflow/templates/article.typ"),
     output:
-        article=result("article.pdf"),
+        result("article.pdf"),
     log:
         log_file("docs/article"),
     benchmark:
@@ -213,36 +192,10 @@ rule article:
         "../../scripts/make.py"
 
 
-rule site_pages:
-    input:
-        CONFIG_FILES,
-        **FACTS,
-        **ARTICLE_PARTS,
-        templates=[source("workflow/templates/article.md"), *sources("workflow/templates/site/*.md")],
-    output:
-        [result(f"site_pages/{Path(file).name}") for file in ("article.md", *sources("workflow/templates/site/*.md"))],
-    log:
-        log_file("docs/site_pages"),
-    benchmark:
-        benchmark_file("docs/site_pages")
-    params:
-        **stage("docs.pages"),
-        **PAGE_PARAMS,
-        medium="site",
-        folder="figures/",
-        written=written_keys,
-        known=known_keys,
-        library=LIBRARY,
-    message:
-        "The pages of the site"
-    script:
-        "../../scripts/make.py"
-
-
 rule site:
     input:
         article=result("article.pdf"),
-        companion=page("companion.html"),
+        companion=f"{DOCS}companion.html",
         pages=rules.site_pages.output,
         style=source("scripts/docs/site.css"),
         pdf=figure_files(),
@@ -263,12 +216,34 @@ rule site:
         "../../scripts/build_site.py"
 
 
+rule costs:
+    input:
+        figure_files(),
+        map(table, references_of(config["claims"])),
+    output:
+        result("costs.json"),
+    log:
+        log_file("docs/costs"),
+    benchmark:
+        benchmark_file("docs/costs")
+    params:
+        **stage("docs.costs"),
+        figures={name: [figure_file(name)] for name in config["figures"]},
+        claims={name: [*map(table, claim["tables"].values())] for name, claim in config["claims"].items()},
+        snakefile=os.path.relpath(workflow.main_snakefile),
+        configfiles=OVERLAYS,
+    message:
+        "The cost of each figure and claim"
+    script:
+        "../../scripts/make.py"
+
+
 # The pictures of the README.
 rule picture:
     input:
         png=figure_file("{figure}", "png"),
     output:
-        picture=page("{figure}.png"),
+        f"{DOCS}{{figure}}.png",
     log:
         log_file("docs/{figure}"),
     benchmark:
@@ -286,15 +261,11 @@ rule picture:
 # The JSON Schema of the config, which the repository keeps for editors: snakemake --force config/schema.json
 rule schema:
     output:
-        schema="config/schema.json",
+        "config/schema.json",
     log:
         log_file("docs/schema"),
-    benchmark:
-        benchmark_file("docs/schema")
-    params:
-        **stage("docs.copy_page"),
-        page=lambda wildcards: json_schema(),
+    localrule: True
     message:
         "The JSON Schema of the config"
-    script:
-        "../../scripts/make.py"
+    run:
+        Path(output[0]).write_text(json_schema(), encoding="utf-8")

@@ -12,7 +12,7 @@ rule plot:
     benchmark:
         benchmark_file("figures/{figure}")
     wildcard_constraints:
-        figure=one_of(FIGURES),
+        figure=one_of([*FIGURES, *REFUSED]),
     resources:
         mem_mb=1500,
     params:
@@ -25,20 +25,9 @@ rule plot:
         "../../scripts/draw.py"
 
 
-rule refuse:
-    input:
-        refuse_figure,
-    output:
-        figure_file("{figure}"),
-        figure_file("{figure}", "png"),
-    wildcard_constraints:
-        figure=one_of(REFUSED),
-    localrule: True
-
-
 rule captions:
     input:
-        read=[table(reference) for reference in references_of_captions(config["figures"])],
+        read=map(table, references_of(config["figures"])),
         templates=[source(f"workflow/report/{figure}.rst") for figure in config["figures"]],
     output:
         caption_files(),
@@ -49,7 +38,7 @@ rule captions:
     params:
         **stage("figures.captions"),
         figures=config["figures"],
-        references=references_of_captions(config["figures"]),
+        references=references_of(config["figures"]),
         paper=not OWN_MACHINE,
     message:
         "Captions of all figures"
@@ -59,7 +48,7 @@ rule captions:
 
 use rule captions as captions_on_request with:
     input:
-        read=[table(reference) for reference in references_of_captions(config["figures_on_request"])],
+        read=map(table, references_of(config["figures_on_request"])),
         templates=[source(f"workflow/report/{figure}.rst") for figure in config["figures_on_request"]],
     output:
         caption_files(config["figures_on_request"]),
@@ -68,9 +57,7 @@ use rule captions as captions_on_request with:
     benchmark:
         benchmark_file("figures/captions_on_request")
     params:
-        **stage("figures.captions"),
         figures=config["figures_on_request"],
-        references=references_of_captions(config["figures_on_request"]),
-        paper=not OWN_MACHINE,
+        references=references_of(config["figures_on_request"]),
     message:
         "Captions of the figures on request"

@@ -13,8 +13,7 @@ rule regressions:
     wildcard_constraints:
         name=one_of(config["regressions"]),
     params:
-        **stage("fit.regressions"),
-        settings=settings("regressions"),
+        **stage("fit.regressions", "regressions/{name}"),
     message:
         "Fit of Eq. 13, {wildcards.name}"
     script:

@@ -1,5 +1,4 @@
-# Which parameters the paper's numbers imply: the quantities of the claims over the parameters, and the best fits. Settings are
-# looked up when a rule runs, because a config without the paper's claims identifies nothing.
+# Which parameters the paper's numbers imply: the quantities of the claims over the parameters, and the best fits.
 
 
 rule identification_edges:
@@ -13,8 +12,7 @@ rule identification_edges:
     resources:
         cpus_per_task=JOB_THREADS,
     params:
-        **stage("identification.edges"),
-        settings=lambda wildcards: settings_of(config, "identification/edges"),
+        **stage("identification.edges", "identification/edges"),
     message:
         "Edges of the first state over the contact parameters"
     script:
@@ -32,8 +30,7 @@ rule identification_printed:
         benchmark_file("identification/printed")
     priority: 2
     params:
-        **stage("identification.printed"),
-        settings=lambda wildcards: settings_of(config, "identification/printed"),
+        **stage("identification.printed", "identification/printed"),
     message:
         "The paper's numbers at the paper's parameters"
     script:
@@ -51,8 +48,7 @@ rule identification_fronts:
         benchmark_file("identification/fronts")
     priority: 2
     params:
-        **stage("identification.fronts"),
-        settings=lambda wildcards: settings_of(config, "identification/front"),
+        **stage("identification.fronts", "identification/front"),
     message:
         "Best fits to the paper's numbers"
     script:
@@ -72,8 +68,7 @@ rule identification_profiles:
         benchmark_file("identification/profiles")
     priority: 2
     params:
-        **stage("identification.profiles"),
-        settings=lambda wildcards: settings_of(config, "identification/profiles"),
+        **stage("identification.profiles", "identification/profiles"),
     message:
         "Intervals of confidence for each parameter"
     script:

@@ -1,58 +1,22 @@
 # The motion of single parts: over time, as spectra, at their first impacts; heights at which the state of motion changes.
 
 
-rule signals:
+rule motion:
     output:
-        signals=table("signals/{name}"),
+        table("{section}/{name}"),
     log:
-        log_file("signals/{name}"),
+        log_file("{section}/{name}"),
     benchmark:
-        benchmark_file("signals/{name}")
+        benchmark_file("{section}/{name}")
     wildcard_constraints:
-        name=one_of(config["signals"]),
-    params:
-        **stage("motion.signals"),
-        settings=settings("signals"),
-    message:
-        "Signals over time, {wildcards.name}"
-    script:
-        "../../scripts/make.py"
-
-
-rule spectra:
-    output:
-        spectra=table("spectra/{name}"),
-    log:
-        log_file("spectra/{name}"),
-    benchmark:
-        benchmark_file("spectra/{name}")
-    wildcard_constraints:
-        name=one_of(config["spectra"]),
-    params:
-        **stage("motion.spectra"),
-        settings=settings("spectra"),
-    message:
-        "Spectra of the velocities, {wildcards.name}"
-    script:
-        "../../scripts/make.py"
-
-
-rule impacts:
-    output:
-        impacts=table("impacts/{name}"),
-    log:
-        log_file("impacts/{name}"),
-    benchmark:
-        benchmark_file("impacts/{name}")
-    wildcard_constraints:
-        name=one_of(config["impacts"]),
+        section="signals|spectra|impacts",
+        name=one_of({*config["signals"], *config["spectra"], *config["impacts"]}),
     resources:
         cpus_per_task=JOB_THREADS,
     params:
-        **stage("motion.impacts"),
-        settings=settings("impacts"),
+        **stage("motion.{section}", "{section}/{name}"),
     message:
-        "First impacts, {wildcards.name}"
+        "Motion of single parts: {wildcards.section}, {wildcards.name}"
     script:
         "../../scripts/make.py"
 
@@ -69,8 +33,7 @@ rule critical:
     resources:
         cpus_per_task=JOB_THREADS,
     params:
-        **stage("motion.critical_heights"),
-        settings=settings("critical"),
+        **stage("motion.critical_heights", "critical/{name}"),
     message:
         "Critical initial heights, {wildcards.name}"
     script:

@@ -11,8 +11,7 @@ rule operating:
     resources:
         cpus_per_task=JOB_THREADS,
     params:
-        **stage("operating.shares"),
-        settings=settings_of(config, "operating/shares"),
+        **stage("operating.shares", "operating/shares"),
     message:
         "Share of initial conditions that reach each attractor"
     script:

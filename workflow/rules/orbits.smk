@@ -14,8 +14,7 @@ rule estimates:
         cpus_per_task=JOB_THREADS,
         mem_mb=2000,
     params:
-        **stage("orbits.estimates"),
-        settings=settings("estimates"),
+        **stage("orbits.estimates", "estimates/{name}"),
     message:
         "Lyapunov exponents by finite differences, {wildcards.name}"
     script:
@@ -30,8 +29,7 @@ rule orbits:
     benchmark:
         benchmark_file("orbits/orbits")
     params:
-        **stage("orbits.branches"),
-        settings=settings_of(config, "orbits/branches"),
+        **stage("orbits.branches", "orbits/branches"),
     message:
         "Periodic orbits"
     script:
@@ -54,8 +52,7 @@ rule certificates:
         mem_mb=1500,
         runtime=60,
     params:
-        **stage("orbits.certified"),
-        settings=settings_of(config, "orbits/certificates"),
+        **stage("orbits.certified", "orbits/certificates"),
     message:
         "Proofs of orbits, bifurcations and chaos"
     script:
@@ -72,8 +69,7 @@ rule attractors:
     resources:
         cpus_per_task=JOB_THREADS,
     params:
-        **stage("orbits.strobes"),
-        settings=settings_of(config, "attractors/strobes"),
+        **stage("orbits.strobes", "attractors/strobes"),
     message:
         "Attractors over the amplitude"
     script:
@@ -92,8 +88,7 @@ rule lyapunov:
     resources:
         cpus_per_task=JOB_THREADS,
     params:
-        **stage("orbits.exponents"),
-        settings=settings_of(config, "lyapunov/spectrum"),
+        **stage("orbits.exponents", "lyapunov/spectrum"),
     message:
         "Lyapunov exponents over the amplitude"
     script:
@@ -112,8 +107,7 @@ rule witnesses:
     resources:
         cpus_per_task=JOB_THREADS,
     params:
-        **stage("orbits.witnesses"),
-        settings=settings_of(config, "lyapunov/witnesses"),
+        **stage("orbits.witnesses", "lyapunov/witnesses"),
     message:
         "Three tests for chaos on each attractor"
     script:

@@ -1,15 +1,34 @@
 # Pages of `snakemake --report`: a start page, the figures of each section beside their captions, the claims, the provenance.
+from scripts.report.pages import escape_label, figure_pages, notice
+
+REPORT = result("report")
+REPORT_PAGES = figure_pages(
+    {
+        name: {
+            "name": name,
+            **{key: entry[key] for key in ("title", "section")},
+            "file": figure_file(name),
+            "png": figure_file(name, "png"),
+            "rst": result(f"captions/{name}.rst"),
+        }
+        for name, entry in config["figures"].items()
+    },
+    folder=REPORT,
+)
+REPORT_NOTICE = notice(OVERLAYS, config["sweeps"], PAPER["sweeps"])
+REPORT_SOURCES = [*sources("scripts/report/*.html"), source("scripts/report/page.css")]
+# The findings quote the claims of the paper.
+HAS_FINDINGS = config["claims"] and config["claims"].keys() >= PAPER["claims"].keys()
 
 
 rule report_figures:
     input:
         [figure[kind] for page in REPORT_PAGES.values() for figure in page["figures"] for kind in ("png", "rst")],
-        sources("scripts/report/*.html"),
-        source("scripts/report/page.css"),
+        REPORT_SOURCES,
     output:
         **{
             name: report(
-                report_file(name),
+                page["file"],
                 category="Figures",
                 labels={"section": escape_label(page["section"]), "figures": escape_label(page["label"])},
             )
@@ -31,16 +50,15 @@ rule report_figures:
 
 rule report_summary:
     input:
-        sources("scripts/report/*.html"),
-        source("scripts/report/page.css"),
-        **({"findings": result("findings.md")} if REPORTS_FINDINGS else {}),
+        REPORT_SOURCES,
+        **({"findings": result("findings.md")} if HAS_FINDINGS else {}),
         claims=table("results/claims"),
         provenance=result("provenance.json"),
     output:
-        summary=report_file("summary"),
-        claims=report(report_file("claims"), category="Claims", labels={"page": "The paper's statements"}),
+        summary=f"{REPORT}/summary.html",
+        claims=report(f"{REPORT}/claims.html", category="Claims", labels={"page": "The paper's statements"}),
         provenance=report(
-            report_file("provenance"), category="Provenance", labels={"page": "Where these results come from"}
+            f"{REPORT}/provenance.html", category="Provenance", labels={"page": "Where these results come from"}
         ),
     log:
         log_file("report/summary"),
@@ -49,11 +67,8 @@ rule report_summary:
     params:
         **stage("report.summary"),
         step=config["solver"]["step"],
-        pages=[
-            {"heading": page["heading"], "file": report_file(name), "figures": page["figures"]}
-            for name, page in REPORT_PAGES.items()
-        ],
-        files={name: report_file(name) for name in ("claims", "provenance")},
+        pages=list(REPORT_PAGES.values()),
+        files={name: f"{REPORT}/{name}.html" for name in ("claims", "provenance")},
         told=REPORT_NOTICE,
     message:
         "The start page of the report"

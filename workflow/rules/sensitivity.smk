@@ -12,8 +12,7 @@ rule sensitivity:
     benchmark:
         benchmark_file("sensitivity/derivatives")
     params:
-        **stage("sensitivity.derivatives"),
-        settings=settings_of(config, "sensitivity/derivatives"),
+        **stage("sensitivity.derivatives", "sensitivity/derivatives"),
     message:
         "Derivatives of bifurcations and critical heights"
     script:
@@ -32,8 +31,7 @@ rule curves:
     resources:
         cpus_per_task=JOB_THREADS,
     params:
-        **stage("sensitivity.curves"),
-        settings=settings_of(config, "sensitivity/continued"),
+        **stage("sensitivity.curves", "sensitivity/continued"),
     message:
         "Folds and period doublings in two parameters"
     script:

@@ -1,5 +1,9 @@
 # Sweeps: one trajectory for each point of a product of axes, and the state of motion that it leads to. A sweep is computed in
 # shards, so that a cluster can share it; the joined table does not depend on the number of shards.
+import math
+
+MARGIN = 3  # a job may take so many times its estimated time
+JOINED_ROWS = 20_000_000  # a minute
 
 
 rule shards:
@@ -17,8 +21,7 @@ rule shards:
         mem_mb=lambda wildcards, attempt: math.ceil(attempt * PLANS[wildcards.name].memory),
         runtime=lambda wildcards, attempt: math.ceil(attempt * (10 + MARGIN * PLANS[wildcards.name].seconds / 60)),
     params:
-        **stage("sweeps.shards"),
-        settings=settings("sweeps"),
+        **stage("sweeps.shards", "sweeps/{name}"),
         rows=rows_of_shard,
     message:
         "Sweep {wildcards.name}, shard {wildcards.shard}"
@@ -41,7 +44,7 @@ rule sweeps:
         mem_mb=lambda wildcards, attempt: math.ceil(attempt * PLANS[wildcards.name].gathering),
         runtime=lambda wildcards, attempt: attempt * (10 + MARGIN * PLANS[wildcards.name].points // JOINED_ROWS),
     params:
-        settings=settings("sweeps"),
+        settings=lambda wildcards: settings_of(config, f"sweeps/{wildcards.name}"),
         points=lambda wildcards: PLANS[wildcards.name].points,
         code=source_hash("gather"),
     message:

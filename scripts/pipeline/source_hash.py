@@ -1,7 +1,7 @@
 """Content hashes of what a script runs: its own source, the modules that it imports, and the versions of packages.
 
 Snakemake sees a changed script but not a changed module behind it. With such a hash among its params, a rule reruns
-exactly if something that it executes has changed in content.
+exactly if something that it executes has changed in content. Imported by the Snakefile, so without slow imports.
 """
 
 import hashlib
@@ -14,7 +14,7 @@ from pathlib import Path
 
 from scripts.conveyor.solver.imports import all_imports
 
-SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
+SCRIPTS = Path(__file__).resolve().parents[1]
 # Distributions that others work through.
 BEHIND = {"numba": ("llvmlite",), "matplotlib": ("pillow",)}
 
@@ -64,6 +64,7 @@ def versions(packages: Iterable[str]) -> list[str]:
     return sorted(found)
 
 
+@cache
 def source_hash(*scripts: str) -> str:
     """Hash of scripts, named by their paths below scripts/ without ".py", and of everything that they import."""
     files, packages = closure(*scripts)
