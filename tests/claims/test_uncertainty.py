@@ -49,7 +49,7 @@ def test_nobody_looks_where_no_claim_is_named():
 @pytest.mark.parametrize(
     ("overlay", "words"),
     [
-        ({"tighter": 1.0}, "uncertainty.tighter = 1.0 is outside (1, 10000]"),
+        ({"tighter": 1.0}, "uncertainty.tighter = 1.0 should be more than 1"),
         ({"claims": ["C99"]}, "uncertainty.claims[0] = 'C99' should be 'C01', "),
     ],
 )

@@ -159,7 +159,7 @@ def test_what_an_overlay_names_is_as_it_says():
 @pytest.mark.parametrize(
     ("model", "told"),
     [
-        ({"mass": -1.0}, "model.mass = -1.0 is outside"),
+        ({"mass": -1.0}, "model.mass = -1.0 should be at least"),
         ({"angle": 0.0}, "model.angle = 0.0 makes the plate move only horizontally"),
         ({"weight": 1.0, "mass": 1.0}, "model.weight is an unknown key"),
     ],

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from .checks import problems
 from .errors import ConfigError
-from .files import as_first_written, merge, read_all
+from .files import merge, read_all
 from .machine import is_own_machine, machine_problems, refused_figures, scale_config
 from .model import MODEL
 from .tables import by_methods, with_tighter
@@ -50,8 +50,7 @@ def load_config(
         if errors := machine_problems(paper, config):
             raise ConfigError(errors)
         defaults = [scale_config(paper, config)]
-    contents = [*defaults, *overlays]
-    whole = as_first_written(merge(*contents, config), contents)
+    whole = merge(*defaults, *overlays, config)
     if check and (errors := problems(whole, paper)):
         raise ConfigError(errors)
     return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_machine, refused_figures(paper, whole))

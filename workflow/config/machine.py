@@ -12,11 +12,10 @@ from .errors import type_problems
 from .files import merge
 from .model import MODEL
 from .schema import child, full_schema, schema_at, unit_of
-from .tables import METHOD_SECTIONS
+from .tables import FIGURES, METHOD_SECTIONS
 
 # Parameters of the conveyor and the part; the other parameters of the model are settings of a run.
 MACHINE = ("angle", "frequency", "stiffness", "damping", "friction", "mass", "exponent", "gravity")
-FIGURES = ("figures", "figures_on_request")
 # Settings of figures that mark a number of the paper.
 MARKS = ("critical_acceleration", "critical_height", "first_positive", "two_states")
 DIGITS = 4  # of scaled amplitudes, heights and velocities, which appear on axes and in titles

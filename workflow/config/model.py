@@ -368,6 +368,8 @@ class Stability(TypedDict):
 
 
 class Perturbed(TypedDict):
+    """A motion and its perturbation."""
+
     acceleration: Acceleration
     z0: Height
     perturb: Annotated[Literal["psi0", "z0"], Field(description="perturbed parameter")]
@@ -403,6 +405,8 @@ class StabilityEstimates(TypedDict):
 
 
 class Shortened(TypedDict, total=False):
+    """Settings of a shortened variant."""
+
     settling: Cycles
     duration: Duration
     begin: number("time of the first sample", "s", ge=0, le=1e6)
@@ -544,6 +548,8 @@ class Searched(TypedDict):
 
 
 class Evidence(TypedDict):
+    """Numbers that the search fits."""
+
     without: many(NumberOfClaim, "quantities that are left out", least=0)
     shifted: Annotated[bool, Field(description="add the error of the paper's method at its parameters")]
 

@@ -39,6 +39,8 @@ TABLES = {
 ON_REQUEST = ("scaling", "throughput")
 # Tables of `results` whose settings stand in a section with another name.
 SECTION_OF = {"budget_times": "scene_budget"}
+# Sections of figures.
+FIGURES = ("figures", "figures_on_request")
 # Sections that follow initial conditions until the motion settles.
 SETTLING = ("sweeps", "critical", "impacts", "signals", "spectra")
 # Sections whose entries may list several methods.
@@ -65,19 +67,22 @@ def kind_of(reference: str) -> str:
     return name if section in TABLES else section
 
 
+def variants(name: str, entry: dict) -> dict[str, dict]:
+    """The tables of an entry: NAME has the first of its `methods`, NAME_METHOD each further one."""
+    if "methods" not in entry:
+        return {name: entry}
+    alone = {key: value for key, value in entry.items() if key != "methods"}
+    first, *others = entry["methods"]
+    return {name: alone | {"method": first}} | {f"{name}_{method}": alone | {"method": method} for method in others}
+
+
 def by_methods(config: dict) -> dict:
-    """A config with one method per entry: NAME has the first of its `methods`, NAME_METHOD each further one."""
+    """A config with one method per entry."""
     found = dict(config)
     for section in METHOD_SECTIONS:
         found[section] = {}
         for name, entry in config[section].items():
-            if "methods" not in entry:
-                found[section][name] = entry
-                continue
-            alone = {key: value for key, value in entry.items() if key != "methods"}
-            first, *others = entry["methods"]
-            found[section][name] = alone | {"method": first}
-            found[section] |= {f"{name}_{method}": alone | {"method": method} for method in others}
+            found[section] |= variants(name, entry)
     return found
 
 
@@ -122,19 +127,22 @@ def references(config: dict) -> list[str]:
     return [f"{section}/{name}" for section, of_section in names.items() for name in of_section]
 
 
-def resolve(config: dict, section: str, name: str) -> dict:
-    """All settings that the table `section`/`name` depends on, with the defaults filled in."""
-    entry = {
-        **{key: config["solver"][key] for key in ("duration", "method", "tolerance", "step")},
-        **config[section][name],
-    }
+def fill_defaults(config: dict, section: str, entry: dict) -> dict:
+    """An entry of a section of trajectories with all settings that its table depends on."""
+    solver = {key: config["solver"][key] for key in ("duration", "method", "tolerance", "step")}
+    filled = {**solver, **entry}
     if section in SETTLING:
-        entry["settling"] = config["solver"]["settling"]
-    entry["model"] = {**config["model"], **entry.get("model", {})}
+        filled["settling"] = config["solver"]["settling"]
+    filled["model"] = {**config["model"], **entry.get("model", {})}
     for axis in entry.get("axes", ()):
-        del entry["model"][axis]
-    del entry["step" if entry["method"] == "event" else "tolerance"]
-    return entry
+        del filled["model"][axis]
+    del filled["step" if filled["method"] == "event" else "tolerance"]
+    return filled
+
+
+def resolve(config: dict, section: str, name: str) -> dict:
+    """All settings that the table `section`/`name` depends on."""
+    return fill_defaults(config, section, config[section][name])
 
 
 def ends(axis: list | dict) -> list:
