@@ -10,7 +10,7 @@ import math
 from scripts.identification.settings import identification_settings
 
 from .sharing import THREADS, plan, seconds_of
-from .tables import ENTRIES, entry_of, kind_of, resolve, roles_of_solution, tighter_reference
+from .tables import ENTRIES, entry_of, fill_defaults, kind_of, resolve, roles_of_solution, tighter_reference
 
 
 def settings_of(config: dict, reference: str) -> dict | None:
@@ -24,19 +24,19 @@ def settings_of(config: dict, reference: str) -> dict | None:
         case (("precision" | "precision_times"), _):
             return precision_settings(config, name)
         case "orbits", ("branches" | "folds_and_doublings" | "cascade"):
-            return analysis_settings(config, "orbits")
+            return with_model(config, "orbits", solver=("tolerance",))
         case "orbits", _:
-            return {**config["certificates"], "model": analysis_settings(config, "orbits")["model"]}
+            return config["certificates"] | {"model": with_model(config, "orbits")["model"]}
         case "attractors", _:
-            return analysis_settings(config, "attractors")
+            return with_model(config, "attractors", solver=("tolerance", "settling"))
         case "lyapunov", "spectrum":
-            return analysis_settings(config, "attractors", "lyapunov")
+            return with_model(config, "attractors", "lyapunov", solver=("tolerance", "settling"))
         case "lyapunov", _:
-            return analysis_settings(config, "attractors", "witnesses")
+            return with_model(config, "attractors", "witnesses", solver=("tolerance", "settling"))
         case "sensitivity", ("derivatives" | "groups"):
-            return {name: value for name, value in sensitivity_settings(config).items() if name != "curves"}
+            return {key: value for key, value in sensitivity_settings(config).items() if key != "curves"}
         case "sensitivity", _:
-            return {name: sensitivity_settings(config)[name] for name in ("longest_period", "curves", "model")}
+            return {key: sensitivity_settings(config)[key] for key in ("longest_period", "curves", "model")}
         case "operating", "shares":
             return operating_settings(config)
         case "operating", _:
@@ -46,15 +46,13 @@ def settings_of(config: dict, reference: str) -> dict | None:
         case "results", "benchmark":
             return benchmark_settings(config)
         case "results", "stability_estimates":
-            return {**config[name], "model": model_without_acceleration(config)}
+            return with_model(config, name)
         case "results", ("settling_times" | "label_checks"):
-            solver = {key: config["solver"][key] for key in ("settling", "tolerance")}
-            return {**config[name], **solver, "model": model_without_acceleration(config)}
+            return with_model(config, name, solver=("tolerance", "settling"))
         case "results", "budget_times":
             return config["scene_budget"]
         case "results", "throughput":
-            solver = {key: config["solver"][key] for key in ("duration", "tolerance", "step")}
-            return {**config[name], **solver, "map": throughput_map(config)}
+            return throughput_settings(config)
         case "results", "claims":
             return {"claims": config["claims"]}
         case "results", _:
@@ -67,18 +65,16 @@ def model_without_acceleration(config: dict) -> dict:
     return {name: value for name, value in config["model"].items() if name != "acceleration"}
 
 
-def analysis_settings(config: dict, *sections: str) -> dict:
-    """Sections of the analysis merged with the tolerance and the model; later sections win."""
-    settings = {"tolerance": config["solver"]["tolerance"]}
-    if "attractors" in sections:
-        settings["settling"] = config["solver"]["settling"]
+def with_model(config: dict, *sections: str, solver: tuple[str, ...] = ()) -> dict:
+    """Settings of the solver and sections of the config, of which later ones win, with the model."""
+    settings = {key: config["solver"][key] for key in solver}
     for section in sections:
-        settings.update(config[section])
+        settings |= config[section]
     return {**settings, "model": {**model_without_acceleration(config), **settings.get("model", {})}}
 
 
 def sensitivity_settings(config: dict) -> dict:
-    return {**config["sensitivity"], "model": analysis_settings(config, "orbits")["model"]}
+    return {**config["sensitivity"], "model": with_model(config, "orbits")["model"]}
 
 
 def operating_settings(config: dict) -> dict:
@@ -140,7 +136,7 @@ def budgeted_entries(config: dict) -> dict[str, dict]:
 def scaling_case(config: dict, varied: str, axes: dict, *, shards=None, threads=THREADS, conveyors=1) -> dict:
     """A sweep of the chart of scaling, in the planned number of shards unless `shards` is given."""
     own = {"axes": axes, "needs": "vertical", "duration": 0.02, "tolerance": 1.0e-6}
-    entry = resolve(config | {"sweeps": {varied: own}}, "sweeps", varied)
+    entry = fill_defaults(config, "sweeps", own)
     if conveyors > 1:
         entry["model"] |= {"z0": 0.0}
     shared = plan(config["sharing"], entry)
@@ -179,9 +175,11 @@ def scaling_cases(config: dict) -> list[dict]:
     ]
 
 
-def throughput_map(config: dict) -> dict:
-    """The map of initial conditions that the throughput of methods is measured on."""
-    return scaling_case(config, "points", map_axes(config["throughput"]["starts"]))["settings"]
+def throughput_settings(config: dict) -> dict:
+    """The section `throughput` with the map of initial conditions that the throughput of methods is measured on."""
+    solver = {key: config["solver"][key] for key in ("duration", "tolerance", "step")}
+    axes = map_axes(config["throughput"]["starts"])
+    return {**config["throughput"], **solver, "map": scaling_case(config, "points", axes)["settings"]}
 
 
 # -- claims ------------------------------------------------------------------------------------------------------------
