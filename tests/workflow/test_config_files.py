@@ -46,7 +46,10 @@ def test_a_fault_names_file_line_and_key(tmp_path, text, message):
 
 
 def test_a_directory_is_no_config(tmp_path):
-    assert read(tmp_path) == ([f"{tmp_path}: Is a directory; --configfile takes all files that follow: give targets before it"], None)
+    assert read(tmp_path) == (
+        [f"{tmp_path}: Is a directory; --configfile takes all files that follow: give targets before it"],
+        None,
+    )
 
 
 def test_only_octal_numbers_are_told(tmp_path):

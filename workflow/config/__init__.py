@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from .checks import problems
-from .errors import ConfigError
+from .errors import ConfigError, type_problems
 from .files import merge, read_all
-from .machine import is_own_machine, machine_problems, refused_figures, scale_config
+from .machine import is_own_machine, refused_figures, scale_config
 from .model import MODEL
 from .tables import by_methods, with_tighter
 
@@ -43,14 +43,12 @@ def load_config(
     config : Snakemake's merged config; as a module of another workflow, it is the only overlay
     check : whether to check it, which jobs of a running workflow need not do
     """
-    defaults, overlays = read_all(default_files), read_all(overlay_files)
-    paper = merge(*defaults)
-    own_machine = is_own_machine(paper, config)
-    if own_machine:
-        if errors := machine_problems(paper, config):
-            raise ConfigError(errors)
-        defaults = [scale_config(paper, config)]
-    whole = merge(*defaults, *overlays, config)
+    paper, overlay = merge(*read_all(default_files)), merge(*read_all(overlay_files), config)
+    whole = merge(paper, overlay)
+    if check and (errors := type_problems(whole)):
+        raise ConfigError(errors)
+    if own_machine := is_own_machine(paper, whole):
+        whole = merge(scale_config(paper, overlay), overlay)
     if check and (errors := problems(whole, paper)):
         raise ConfigError(errors)
     return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_machine, refused_figures(paper, whole))
