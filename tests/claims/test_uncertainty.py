@@ -10,7 +10,7 @@ from project import merged, read_config
 from claims import uncertainty
 from claims.verdicts import REPRODUCED
 from workflow.config import canonical, problems
-from workflow.config.tables import by_methods, tighter_reference, with_tighter
+from workflow.config.entries import by_methods, tighter_reference, with_tighter
 
 CONFIG = read_config()
 

@@ -11,8 +11,8 @@ from conveyor import Conveyor, Start, ensemble, simulation
 from conveyor.methods import fixed_step
 from conveyor.solver import model
 from workflow.config import problems
+from workflow.config.entries import resolve
 from workflow.config.schema import schema_at
-from workflow.config.tables import resolve
 
 CONFIG = read_config()
 MINE = {"axes": {"acceleration": {"start": 30, "stop": 40, "num": 3}, "z0": [0.0, "conveyor"]}}

@@ -7,8 +7,8 @@ import yaml
 from project import CONFIG_FILES, ROOT, Project, copy_project, merged, read_config
 
 from workflow.config import ConfigError, canonical, load_config
+from workflow.config.entries import METHOD_SECTIONS, by_methods, resolve
 from workflow.config.files import DEFAULT_FILES, check_command_line, read
-from workflow.config.tables import METHOD_SECTIONS, by_methods, resolve
 
 FAULTS = [
     ("model: {mass: 0.1}\nsolver: {}\nmodel: {angle: 0.1}\n", ":3: model stands in line 1 already"),
@@ -116,10 +116,10 @@ def test_the_config_of_the_paper_is_in_canonical_form():
     config = plain(read_config())
     found = canonical(config)
     assert found == config
-    for section in config.keys() - {*METHOD_SECTIONS, "dimensions"}:
+    for section in config.keys() - set(METHOD_SECTIONS):
         assert written(found[section]) == written(config[section])
     found, config = by_methods(found), by_methods(config)
-    for section in (*METHOD_SECTIONS, "dimensions"):
+    for section in METHOD_SECTIONS:
         for name in config[section]:
             assert written(resolve(found, section, name)) == written(resolve(config, section, name))
 

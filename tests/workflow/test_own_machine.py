@@ -9,6 +9,7 @@ from project import ROOT, Project, merged, read_config
 
 from conveyor.solver.model import Conveyor
 from workflow.config import ConfigError, canonical, load_config, problems
+from workflow.config.entries import by_methods
 from workflow.config.files import DEFAULT_FILES
 from workflow.config.machine import (
     MARKS,
@@ -17,7 +18,6 @@ from workflow.config.machine import (
     refused_figures,
     scale_config,
 )
-from workflow.config.tables import by_methods
 
 CONFIG = canonical(read_config())
 EXAMPLES = {path.stem: path for path in sorted((ROOT / "config/examples").glob("*.yaml"))}

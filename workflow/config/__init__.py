@@ -5,11 +5,11 @@ from pathlib import Path
 from typing import NamedTuple
 
 from .checks import problems
+from .entries import by_methods, with_tighter
 from .errors import ConfigError, type_problems
 from .files import merge, read_all
 from .machine import is_own_machine, refused_figures, scale_config
 from .model import MODEL
-from .tables import by_methods, with_tighter
 
 __all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems"]
 

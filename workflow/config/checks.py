@@ -7,33 +7,32 @@ import math
 from collections.abc import Iterator
 from functools import cache
 
-from .errors import suggest_name, type_problems
-from .files import DEFAULT_FILES, ROOT, merge, read_all
-from .machine import is_own_machine
-from .model import MODEL
-from .sharing import plan
-from .tables import (
+from .entries import (
     ENTRIES,
     FIGURES,
     METHOD_SECTIONS,
-    TABLES,
     TIGHTENED,
     by_methods,
     count_points,
     count_values,
     ends,
-    entry_of,
     fill_defaults,
-    references,
     resolve,
     values_of,
     variants,
     with_tighter,
 )
+from .errors import suggest_name, type_problems
+from .files import DEFAULT_FILES, ROOT, merge, read_all
+from .machine import is_own_machine
+from .model import MODEL
+from .sharing import plan
+from .tables import TABLES, entry_of, references
 
 # Folders below results/ and figures/ that a prefix would share with the default config.
-RESERVED = {*ENTRIES, *TABLES, "precision", "precision_times", "article", "benchmarks", "captions", "claims", "docs"}
-RESERVED |= {"logs", "report", "runs", "sections", "shards", "site", "site_pages", "archive", "checks"}
+RESERVED = {*ENTRIES, *(table.split("/")[0] for table in TABLES), "precision", "precision_times", "article", "claims"}
+RESERVED |= {"benchmarks", "captions", "docs", "logs", "report", "runs", "sections", "shards", "site", "site_pages"}
+RESERVED |= {"archive", "checks"}
 LARGEST_TABLE = 10_000_000  # rows or states of one job, which takes some hours
 MOST_STEPS = 10**9  # of one run with a fixed step, which takes some ten seconds
 STEPS_IN_A_CYCLE = 20  # smallest number of steps that resolves an excitation cycle
@@ -46,7 +45,7 @@ def prefix(config: dict, defaults: dict) -> Iterator[str]:
 
 def methods(config: dict, defaults: dict) -> Iterator[str]:
     """Settings of methods that exclude each other, and entries that make the same table."""
-    for section in (*METHOD_SECTIONS, "dimensions"):
+    for section in METHOD_SECTIONS:
         for name, entry in config[section].items():
             used = entry.get("methods") or [entry.get("method")]
             if "method" in entry and "methods" in entry:
@@ -107,7 +106,7 @@ def runs_with_step(config: dict) -> Iterator[tuple[str, float, float, float]]:
     def key(place: str, entry: dict) -> str:
         return f"{place}.step" if "step" in entry else f"solver.step (of {place})"
 
-    for section in (*METHOD_SECTIONS, "dimensions"):
+    for section in METHOD_SECTIONS:
         for name, entry in config[section].items():
             for variant in variants(name, entry).values():
                 filled = fill_defaults(config, section, variant)
@@ -234,8 +233,7 @@ def figures(config: dict, defaults: dict) -> Iterator[str]:
                 if not (ROOT / file).is_file():
                     yield f"{section}.{figure} has no {file}; a figure needs a plot script and a caption of its name"
             for reference in entry["tables"].values():
-                table = entry_of(tables, reference)
-                if table and entry["needs"] == "feeding" and table.get("needs") == "vertical":
+                if entry["needs"] == "feeding" and entry_of(tables, reference).get("needs") == "vertical":
                     yield f"{section}.{figure} needs feeding, but {reference} is computed for vertical needs only"
 
 

@@ -8,11 +8,12 @@ orbits, and the tables of the paper's method.
 import math
 from typing import Any
 
+from .entries import FIGURES, METHOD_SECTIONS, by_methods
 from .errors import ConfigError
 from .files import merge
 from .model import MODEL
 from .schema import child, full_schema, schema_at, unit_of
-from .tables import FIGURES, METHOD_SECTIONS, by_methods, references
+from .tables import references
 
 # Parameters of the conveyor and the part; the other parameters of the model are settings of a run.
 MACHINE = ("angle", "frequency", "stiffness", "damping", "friction", "mass", "exponent", "gravity")
@@ -76,7 +77,7 @@ def drop_other_methods(config: dict, overlay: dict) -> None:
     """Drop the tables of fixed-step methods that neither the overlay nor a figure of it names."""
     figures = [config[section].get(name, {}) for section in FIGURES for name in overlay.get(section, ())]
     needed = {reference for figure in figures if "paper_only" in figure for reference in figure["tables"].values()}
-    for section in (*METHOD_SECTIONS, "dimensions"):
+    for section in METHOD_SECTIONS:
         for name, entry in list(config[section].items()):
             if "methods" in entry and f"{section}/{name}_euler" not in needed:
                 entry["methods"] = entry["methods"][:1]

@@ -5,7 +5,8 @@ from typing import Annotated, Literal, NotRequired
 from pydantic import AfterValidator, ConfigDict, Field, Strict, TypeAdapter
 from typing_extensions import TypedDict
 
-from scripts.conveyor.parameters import DESCRIPTIONS, FIXED_STEP_METHODS, TENSION_MODES
+from scripts.conveyor.parameters import DESCRIPTIONS, FIXED_STEP_METHODS
+from scripts.identification.settings import NUMBERS_OF_CLAIMS
 
 from .types import (
     AXIS_TYPES,
@@ -38,10 +39,7 @@ Velocity = parameter("vz0")
 Duration = number("simulated time of a run", "s", gt=0, le=1e6)
 Durations = many(Duration, "durations")
 FixedStepMethod = Annotated[Literal[FIXED_STEP_METHODS], Field(description="method with a fixed step")]
-Method = Annotated[
-    Literal["event", *FIXED_STEP_METHODS],
-    Field(description="event is the event-driven solver, the other methods have a fixed step"),
-]
+Method = Annotated[Literal["event", *FIXED_STEP_METHODS], Field(description="event, or a method with a fixed step")]
 Tolerance = number("relative error per step of the method event", ge=1e-14, le=1e-2)
 Tolerances = many(Tolerance, "relative tolerances", least=0)
 Step = number("time step of the fixed-step methods", "s", ge=1e-12, le=1e-1)
@@ -71,7 +69,6 @@ LastTerms = number("size of the last terms of the Taylor series, in g/ω² and g
 Resolution = number("width to which a bracket is halved", "m/s²", gt=0, le=1e4)
 Amplitudes = many(Acceleration, "amplitudes of the excitation")
 Heights = interval(HeightNumber, "interval of the random initial heights")
-ParameterOfFit = number("parameter of Eq. 13", ge=-1e6, le=1e6)
 
 
 class Solver(TypedDict):
@@ -115,12 +112,7 @@ class Followed(TypedDict):
 
 class Sweep(Followed):
     duration: NotRequired[Duration]
-    needs: NotRequired[
-        Annotated[
-            Literal["feeding", "vertical"],
-            Field(description="vertical leaves out the feeding velocity, which is faster"),
-        ]
-    ]
+    needs: NotRequired[Annotated[Literal["feeding", "vertical"], Field(description="vertical is faster")]]
 
 
 class Estimate(Followed):
@@ -164,9 +156,7 @@ class Dimension(Followed):
     begin: number("time of the first sample", "s", ge=0, le=1e6)
     interval: Interval
     samples: Samples
-    estimator: Annotated[
-        Literal["paper", "box", "correlation"], Field(description="estimator of the fractal dimension")
-    ]
+    estimator: Annotated[Literal["paper", "box", "correlation"], Field(description="estimator of the dimension")]
     octaves: NotRequired[whole("box sizes are 1/2 to 1/2^octaves of the extent", 3, 30)]
     theiler: NotRequired[Theiler]
     largest_error: NotRequired[number("estimates with a larger error are left out", gt=0, le=2)]
@@ -195,12 +185,7 @@ class SeedOrbit(TypedDict):
 
 
 class Orbits(TypedDict):
-    seeds: NotRequired[
-        Annotated[
-            list[SeedOrbit],
-            Field(min_length=1, max_length=1000, description="initial conditions of the first orbits"),
-        ]
-    ]
+    seeds: NotRequired[Annotated[list[SeedOrbit], Field(min_length=1, max_length=1000, description="first orbits")]]
     limits: interval(Acceleration, "amplitudes between which branches are followed")
     max_period: whole("longest period that is followed", 1, 64, "excitation cycles")
     cycles: whole("cycles until a seed is near its orbit", 64, 10**9, "excitation cycles")
@@ -259,9 +244,7 @@ Quantity = TypedDict(
     {
         "is": Annotated[Line, Field(description="quantity and unit")],
         "paper": Annotated[Statistic | None, Field(description="the paper's number, or null")],
-        "accepted": interval(
-            Statistic | None, "[least, largest] number that supports the claim; null for no bound", point=True
-        ),
+        "accepted": interval(Statistic | None, "[least, largest] number, or null for no bound", point=True),
         "because": text("reason for the interval", r"[\s\S]{3,}", "a reason of at least three letters"),
     },
 )
@@ -521,21 +504,6 @@ class Operating(TypedDict):
     tolerance: Tolerance
 
 
-# Quantities of claims that scripts/identification/measures.py computes for any conveyor.
-NUMBERS_OF_CLAIMS = (
-    "C01.critical_amplitude",
-    "C02.lower_end",
-    "C02.upper_end",
-    "C04.largest_height",
-    "C05.velocity_at_lower_end",
-    "C05.velocity_at_upper_end",
-    "C06.fall",
-    "C07.height",
-    "C08.height",
-    "C09.error",
-    "C10.lower_end",
-    "C10.upper_end",
-)
 NumberOfClaim = Annotated[Literal[NUMBERS_OF_CLAIMS], Field(description="quantity of a claim, as CLAIM.QUANTITY")]
 NumbersOfClaims = many(NumberOfClaim, "quantities of claims")
 
@@ -568,9 +536,7 @@ class Front(TypedDict):
 
 
 class Edges(TypedDict):
-    vertical_acceleration: span(
-        number("amplitude of the vertical acceleration", "m/s²", gt=0, le=1e4), "scan from below"
-    )
+    vertical_acceleration: span(number("vertical amplitude", "m/s²", gt=0, le=1e4), "scan from below")
     further: number("distance above an edge at which the first state is searched for", "m/s²", gt=0, le=1e3)
     resolution: number("accuracy of an edge", "m/s²", gt=0, le=10)
 
@@ -589,9 +555,7 @@ ChangedParameters = mapping(
 
 class Identification(TypedDict):
     bounds: Annotated[Searched, Field(description="search interval of each parameter")]
-    readings: many(
-        Annotated[Literal[TENSION_MODES], Field(description=DESCRIPTIONS["tension"])], "readings of Eqs. 7 and 11"
-    )
+    readings: many(MODEL_TYPES["tension"], "readings of Eqs. 7 and 11")
     objectives: mapping(
         "objectives of the search", dict.fromkeys(("places", "first_velocity", "second_velocity"), NumbersOfClaims)
     )
@@ -607,12 +571,8 @@ class Identification(TypedDict):
     told: Annotated[dict[Name, ChangedParameters], Field(description="parameters at which the quantities are reported")]
 
 
-Portrait = Annotated[
-    tuple[Acceleration, HeightNumber],
-    Strict(False),
-    AfterValidator(list),
-    Field(description="[amplitude, initial height]"),
-]
+# [amplitude, initial height]
+Portrait = Annotated[tuple[Acceleration, HeightNumber], Strict(False), AfterValidator(list)]
 
 
 class FigureSettings(TypedDict, total=False):
@@ -635,12 +595,8 @@ class FigureSettings(TypedDict, total=False):
 class Figure(TypedDict):
     title: Annotated[Line, Field(description="title")]
     section: Annotated[Line, Field(description="section of the paper")]
-    paper_only: NotRequired[
-        Annotated[Line, Field(description="why the figure makes sense for the paper's conveyor only")]
-    ]
-    needs: Annotated[
-        Literal["feeding", "vertical", "nothing"], Field(description="kind of motion that the figure needs")
-    ]
+    paper_only: NotRequired[Annotated[Line, Field(description="why only the paper's conveyor has this figure")]]
+    needs: Annotated[Literal["feeding", "vertical", "nothing"], Field(description="motion that the figure needs")]
     tables: Annotated[dict[Name, Reference], Field(description="tables by the roles that the plot script knows")]
     settings: NotRequired[Annotated[FigureSettings, Field(description="numbers that the plot script draws")]]
     caption_tables: NotRequired[Annotated[dict[Name, Reference], Field(description="further tables of the caption")]]

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from scripts.pipeline.shared_searches import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED
 from scripts.pipeline.sizes import BLOCK, ROW_GROUP
 
-from .tables import count_points, count_values, ends, values_of
+from .entries import count_points, count_values, ends, values_of
 
 THREADS = 2  # of a job
 STARTS = ("psi0", "z0", "vz0")  # parameters of an initial condition; the others belong to the conveyor

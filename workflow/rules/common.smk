@@ -10,17 +10,21 @@ from pathlib import Path
 from scripts.docs.config_keys import all_written
 from scripts.docs.config_keys import keys as config_keys
 from scripts.report.pages import escape_label, figure_pages, notice
+from workflow.config.entries import resolve
 from workflow.config.schema import json_schema
-from workflow.config.settings import (
+from workflow.config.sharing import THREADS, plan
+from workflow.config.tables import (
+    ON_REQUEST,
+    TABLES,
     budgeted_entries,
     budgeted_tables,
+    kind_of,
     model_without_acceleration,
+    references,
     scaling_cases,
     settings_of,
     tighter_claims,
 )
-from workflow.config.sharing import THREADS, plan
-from workflow.config.tables import ON_REQUEST, TABLES, kind_of, resolve
 from workflow.source_hash import SCRIPTS, closure, source_hash, versions
 
 # Without huge pages: clearing one takes 5 to 14 ms on a virtual machine, and joining shards takes 8 % more memory with them.
@@ -193,13 +197,10 @@ CHECKS_RESULTS = bool(RESULT_TESTS) and not OWN_MACHINE
 # The tables that the tests of the results read.
 TESTED_TABLES = [
     table(reference)
-    for reference in (
-        *(f"orbits/{name}" for name in TABLES["orbits"]),
-        *(f"lyapunov/{name}" for name in TABLES["lyapunov"]),
-        *(f"precision/{name}" for name in config["precision"]["scenes"]),
-        *(f"results/{name}" for name in TABLES["results"] if name not in ON_REQUEST),
-    )
-    if CHECKS_RESULTS
+    for reference in references(config)
+    if reference.startswith(("orbits/", "lyapunov/", "precision/", "results/"))
+    and reference not in ON_REQUEST
+    and CHECKS_RESULTS
 ]
 
 

@@ -20,7 +20,7 @@ rule certificates_page:
 
 rule identification_page:
     input:
-        **tables_of(*(f"identification/{name}" for name in TABLES["identification"] if name != "edges")),
+        **tables_of(*(name for name in TABLES if name.startswith("identification/") and name != "identification/edges")),
         template=source("workflow/templates/identification.md"),
     output:
         page=page("identification.md"),
