@@ -78,7 +78,7 @@ def read(file: str | Path) -> tuple[list[str], Any]:
         faults = list(misread(node)) if node else []
         content = yaml.load(text, Loader=yaml.CSafeLoader)
     except OSError as error:
-        return [f"{file}: {error.strerror}; --configfile takes all files that follow: give targets before it"], None
+        return [f"{file}: {error.strerror}; name a config file (targets stand before --configfile)"], None
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
         return [f"{file}:{line}: is not UTF-8 text ({error.reason}); save it as UTF-8"], None

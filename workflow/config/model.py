@@ -130,26 +130,21 @@ class Critical(Followed):
     resolution: number("accuracy of a critical height", "m", ge=1e-15, le=1)
 
 
-class Fit(TypedDict):
-    A: number("parameter A of Eq. 13", "m²/s²", ge=-1e6, le=1e6)
-    B: number("parameter B of Eq. 13", "m/s²", ge=-1e6, le=1e6)
-    C: number("parameter C of Eq. 13", "m", ge=-1e6, le=1e6)
-
-
-class BoundsOfFit(TypedDict):
-    A: interval(number("A", "m²/s²", ge=-1e6, le=1e6), "bounds of A")
-    B: interval(number("B", "m/s²", ge=-1e6, le=1e6), "bounds of B")
-    C: interval(number("C", "m", ge=-1e6, le=1e6), "bounds of C")
+FIT = {
+    "A": number("parameter A of Eq. 13", "m²/s²", ge=-1e6, le=1e6),
+    "B": number("parameter B of Eq. 13", "m/s²", ge=-1e6, le=1e6),
+    "C": number("parameter C of Eq. 13", "m", ge=-1e6, le=1e6),
+}
 
 
 class Regression(TypedDict):
     critical: Annotated[Name, Field(description="entry of `critical` that Eq. 13 is fitted to")]
     acceleration: NotRequired[interval(Acceleration, "amplitudes of the fitted data")]
-    bounds: Annotated[BoundsOfFit, Field(description="search interval of each parameter")]
+    bounds: mapping("search intervals", {name: interval(item, f"bounds of {name}") for name, item in FIT.items()})
     seed: Seed
     evaluations: whole("largest number of evaluations", 1, 10**9)
-    valley: span(number("B", "m/s²", ge=-1e6, le=1e6), "values of B along the valley")
-    paper: NotRequired[Annotated[Fit, Field(description="the paper's parameters")]]
+    valley: span(FIT["B"], "values of B along the valley")
+    paper: NotRequired[mapping("the paper's parameters", FIT)]
 
 
 class Dimension(Followed):
@@ -400,14 +395,13 @@ class Shortened(TypedDict, total=False):
     blocks: Blocks
 
 
-SHORTER = ("sweeps", "signals", "spectra", "critical", "impacts", "attractors", "lyapunov", "dimensions", "estimates")
-DRAWN = ("sweeps", "signals", "spectra", "estimates", "critical", "impacts", "dimensions", "attractors", "lyapunov")
+BUDGETED = ("sweeps", "signals", "spectra", "estimates", "critical", "impacts", "dimensions", "attractors", "lyapunov")
 Points = whole("number of points", 1, MOST_POINTS)
 
 
 class SceneBudget(TypedDict):
-    shortened: mapping("settings that every variant shortens", dict.fromkeys(SHORTER, Shortened), total=False)
-    points: mapping("points of each table that are compared", dict.fromkeys(DRAWN, Points))
+    shortened: mapping("settings that every variant shortens", dict.fromkeys(BUDGETED, Shortened), total=False)
+    points: mapping("points of each table that are compared", dict.fromkeys(BUDGETED, Points))
     shifts: many(number("shift of the initial height", "m", ge=-1, le=1), "shifts of the initial height")
     tolerances: Tolerances
     pixels: number("share of visibly changed values that is accepted", ge=0, le=1)
