@@ -11,7 +11,7 @@ from conveyor import Conveyor, Start, ensemble, simulation
 from conveyor.methods import fixed_step
 from conveyor.solver import model
 from workflow.config import problems
-from workflow.config.entries import resolve
+from workflow.config.entries import by_methods, resolve
 from workflow.config.schema import schema_at
 
 CONFIG = read_config()
@@ -284,6 +284,13 @@ def test_configs_are_right():
 )
 def test_names_and_methods_that_do_not_clash_are_right(overlay):
     assert problems(merged(CONFIG, overlay)) == []
+
+
+def test_methods_make_a_table_each():
+    portrait = {**CONFIG["dimensions"]["portrait"], "samples": 100, "methods": ["event", "euler"]}
+    config = merged(CONFIG, {"dimensions": {"mine": portrait}})
+    assert problems(config) == []
+    assert by_methods(config)["dimensions"]["mine_euler"]["method"] == "euler"
 
 
 def test_a_step_of_the_default_config_may_be_left_unused():

@@ -124,10 +124,6 @@ def of_identification(table: str, config: dict) -> dict:
     return identification_settings(config, table, model_without_acceleration(config))
 
 
-def none(config: dict) -> None:
-    """Of tables that are made from other tables only."""
-
-
 FOLLOWED = ("tolerance", "settling")
 # The tables that are no entries, and the function that returns the settings of each.
 TABLES = {
@@ -147,7 +143,7 @@ TABLES = {
     "sensitivity/continued": curves_settings,
     "sensitivity/meetings": curves_settings,
     "operating/shares": operating_settings,
-    "operating/regimes": none,
+    "operating/regimes": lambda config: None,  # made from other tables only
     **{f"identification/{name}": partial(of_identification, name) for name in IDENTIFICATION},
     "results/claims": lambda config: {"claims": config["claims"]},
     "results/benchmark": benchmark_settings,

@@ -16,12 +16,14 @@ NAME = rf"[A-Za-z][A-Za-z0-9_-]{{0,{LONGEST_NAME - 1}}}"
 
 def number(description: str, unit: str = "", **bounds: float) -> Any:
     """A number with a unit and the bounds ge, gt, le, lt."""
-    return Annotated[float, Field(description=description, json_schema_extra={"unit": unit}, **bounds)]
+    extra = {"unit": unit} if unit else None
+    return Annotated[float, Field(description=description, json_schema_extra=extra, **bounds)]
 
 
 def whole(description: str, least: int, most: int, unit: str = "") -> Any:
     """A whole number in any spelling: 50000 or 5.0e+4."""
-    field = Field(ge=least, le=most, description=description, json_schema_extra={"unit": unit})
+    extra = {"unit": unit} if unit else None
+    field = Field(ge=least, le=most, description=description, json_schema_extra=extra)
     return Annotated[int, field, BeforeValidator(as_integer)]
 
 
