@@ -134,22 +134,20 @@ def steps(config: dict, defaults: dict) -> Iterator[str]:
             yield f"{key} = {step!r} s {fault}"
 
 
-def perturbations(config: dict, defaults: dict) -> Iterator[str]:
-    pairs = [
-        (
-            f"estimates.{name}",
-            entry["perturb"],
-            entry["epsilon"],
-            values_of(resolve(config, "estimates", name), entry["perturb"]),
-        )
-        for name, entry in config["estimates"].items()
-    ]
+def perturbed_runs(config: dict) -> Iterator[tuple[str, str, float, list]]:
+    """All perturbed runs: the key, the perturbed parameter, the size of the perturbation, the parameter's values."""
+    for name, entry in config["estimates"].items():
+        values = values_of(resolve(config, "estimates", name), entry["perturb"])
+        yield f"estimates.{name}", entry["perturb"], entry["epsilon"], values
     exponent = config["stability_estimates"]["exponent"]
     epsilon = min(exponent["epsilon"], *exponent["epsilons"])
     for name, case in exponent["cases"].items():
         values = [(config["model"] | case)[case["perturb"]]]
-        pairs.append((f"stability_estimates.exponent.cases.{name}", case["perturb"], epsilon, values))
-    for key, perturb, epsilon, values in pairs:
+        yield f"stability_estimates.exponent.cases.{name}", case["perturb"], epsilon, values
+
+
+def perturbations(config: dict, defaults: dict) -> Iterator[str]:
+    for key, perturb, epsilon, values in perturbed_runs(config):
         if "conveyor" in values:
             remedy = "give z0 a height in m, or perturb another parameter"
             yield f"{key}.perturb = {perturb!r} perturbs nothing where z0 is the word conveyor; {remedy}"
