@@ -41,7 +41,7 @@ Durations = many(Duration, "durations")
 FixedStepMethod = Annotated[Literal[FIXED_STEP_METHODS], Field(description="method with a fixed step")]
 Method = Annotated[Literal["event", *FIXED_STEP_METHODS], Field(description="event, or a method with a fixed step")]
 Tolerance = number("relative error per step of the method event", ge=1e-14, le=1e-2)
-Tolerances = many(Tolerance, "relative tolerances", least=0)
+Tolerances = many(Tolerance, "relative tolerances")
 Step = number("time step of the fixed-step methods", "s", ge=1e-12, le=1e-1)
 Steps = many(Step, "time steps of the fixed-step methods")
 Epsilon = number("size of the perturbation, in units of the perturbed parameter", ge=1e-15, le=1)
@@ -285,7 +285,8 @@ class Benchmark(TypedDict):
 
 
 INTEGRATORS = ("RK45", "DOP853", "Radau", "LSODA", "heyoka")
-Peers = mapping("tolerances of each integrator", dict.fromkeys(INTEGRATORS, Tolerances), total=False)
+PeerTolerances = many(Tolerance, "relative tolerances", least=0)
+Peers = mapping("tolerances of each integrator", dict.fromkeys(INTEGRATORS, PeerTolerances), total=False)
 
 
 class Precision(TypedDict):
