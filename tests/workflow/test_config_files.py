@@ -16,7 +16,7 @@ FAULTS = [
     ("model:\n  stiffness: 050\n", ":2: model.stiffness = 050 is read as 40, an octal number"),
     ("model: {stiffness: 1:30}\n", ":1: model.stiffness = 1:30 is read as 90, with base 60"),
     ("sweeps:\n  mine:\n    axes: {z0: [0.0, -1:30.5]}\n", ":3: sweeps.mine.axes.z0[1] = -1:30.5 is read as"),
-    ("model: &m {mass: *m}\n", ":1: m contains itself by its anchor"),
+    ("model: &m {mass: *m}\n", ":1: model.mass contains itself by its anchor"),
     ("model: {mass: 0.1\n", ":2: is not YAML: "),
     ("model:\n\tmass: 0.1\n", ":2: is not YAML: "),
     ("- 1\n", ": holds no mapping"),

@@ -33,8 +33,6 @@ def size_fault(text: str) -> str | None:
             anchor, before = began.pop()
             anchored[anchor] = values - before
         elif isinstance(event, yaml.AliasEvent):
-            if any(anchor == event.anchor for anchor, _ in began):
-                return f"{line}: {event.anchor} contains itself by its anchor; write the values out"
             values += anchored.get(event.anchor, 1)
         elif isinstance(event, yaml.NodeEvent):
             values += 1
@@ -48,10 +46,12 @@ def size_fault(text: str) -> str | None:
     return None
 
 
-def misread(node: yaml.Node, path: tuple[str | int, ...] = ()) -> Iterator[str]:
-    """ "LINE: fault" for all that YAML reads below a node otherwise than a reader expects."""
+def misread(node: yaml.Node, path: tuple[str | int, ...] = (), above: tuple[yaml.Node, ...] = ()) -> Iterator[str]:
+    """ "LINE: fault" for all that YAML reads below a node otherwise than a reader expects; `above` are its parents."""
     key, line = format_key(path), node.start_mark.line + 1
-    if isinstance(node, yaml.MappingNode):
+    if node in above:
+        yield f"{line}: {key} contains itself by its anchor; write the values out"
+    elif isinstance(node, yaml.MappingNode):
         lines = {}
         for name, value in node.value:
             if isinstance(name, yaml.ScalarNode):
@@ -59,10 +59,10 @@ def misread(node: yaml.Node, path: tuple[str | int, ...] = ()) -> Iterator[str]:
                 if name.value in lines:
                     yield f"{here}: {format_key(inner)} stands in line {lines[name.value]} already; merge both"
                 lines[name.value] = here
-                yield from misread(value, inner)
+                yield from misread(value, inner, (*above, node))
     elif isinstance(node, yaml.SequenceNode):
         for place, value in enumerate(node.value):
-            yield from misread(value, (*path, place))
+            yield from misread(value, (*path, place), (*above, node))
     elif node.tag.endswith((":int", ":float")) and (":" in node.value or OCTAL.fullmatch(node.value)):
         reason, sign = ("with base 60", "colons") if ":" in node.value else ("an octal number", "the 0")
         yield f"{line}: {key} = {node.value} is read as {yaml.safe_load(node.value)}, {reason}; write it without {sign}"
