@@ -170,6 +170,14 @@ def test_a_machine_that_cannot_be_is_told(model, told):
         load_config(DEFAULT_FILES, [], {"prefix": "mine", "model": model})
 
 
+def test_an_overlay_may_give_one_end_of_a_scaled_range():
+    """100 m/s² is beyond the paper's range of amplitudes, but not beyond the scaled one."""
+    axes = {"acceleration": {"start": 100.0}}
+    overlay = {"prefix": "mine", "model": {"gravity": 39.24}, "sweeps": {"amplitudes": {"axes": axes}}}
+    amplitudes = load_config(DEFAULT_FILES, [], overlay).config["sweeps"]["amplitudes"]["axes"]["acceleration"]
+    assert amplitudes == {"start": 100.0, "stop": 360.0, "num": 281}
+
+
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_the_named_figures_are_planned(name):
     targets = [f"figures/{name}/{figure}.pdf" for figure in sorted(ANY)]

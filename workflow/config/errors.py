@@ -83,10 +83,10 @@ def explain(error: dict) -> str:
     return f"{shown} {fault}{f' ({unit})' if unit else ''}{remedy}"
 
 
-def type_problems(config: Any) -> list[str]:
-    """Errors of the types of a config, one line each."""
+def type_problems(config: Any, ignored: str = "") -> list[str]:
+    """Errors of the types of a config, one line each, without those of the kind `ignored`."""
     try:
         MODEL.validate_python(config)
     except ValidationError as invalid:
-        return [explain(error) for error in invalid.errors(include_url=False)]
+        return [explain(error) for error in invalid.errors(include_url=False) if error["type"] != ignored]
     return []
