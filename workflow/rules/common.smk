@@ -11,7 +11,7 @@ from scripts.docs.config_keys import all_written
 from scripts.docs.config_keys import keys as config_keys
 from scripts.report.pages import escape_label, figure_pages, notice
 from workflow.config.entries import resolve
-from workflow.config.schema import json_schema
+from workflow.config.schema import full_schema, json_schema
 from workflow.config.sharing import THREADS, plan
 from workflow.config.tables import (
     ON_REQUEST,
@@ -353,4 +353,4 @@ def written_keys(wildcards):
 
 def known_keys(wildcards):
     """A param: all keys that a config may have."""
-    return [key._asdict() for key in config_keys(json.loads(json_schema()))]
+    return [key._asdict() for key in config_keys(full_schema())]
