@@ -54,7 +54,7 @@ def put(path: tuple, value) -> dict:
 
 
 def assert_told(config: dict, path: tuple, name: str = "") -> None:
-    """Some line names the key of `path`, or it lacks `name`; every line is one line of readable length."""
+    """Some line names the key of `path`, and `name`; every line is one line of readable length."""
     lines = problems(config)
     assert any(key_of(path) in line and name in line for line in lines), (key_of(path), lines)
     assert all(len(line) < 600 and line.isprintable() for line in lines), lines

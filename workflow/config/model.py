@@ -112,7 +112,12 @@ class Followed(TypedDict):
 
 class Sweep(Followed):
     duration: NotRequired[Duration]
-    needs: NotRequired[Annotated[Literal["feeding", "vertical"], Field(description="vertical is faster")]]
+    needs: NotRequired[
+        Annotated[
+            Literal["feeding", "vertical"],
+            Field(description="vertical leaves out the feeding velocity, which is faster"),
+        ]
+    ]
 
 
 class Estimate(Followed):
@@ -180,7 +185,11 @@ class SeedOrbit(TypedDict):
 
 
 class Orbits(TypedDict):
-    seeds: NotRequired[Annotated[list[SeedOrbit], Field(min_length=1, max_length=1000, description="first orbits")]]
+    seeds: NotRequired[
+        Annotated[
+            list[SeedOrbit], Field(min_length=1, max_length=1000, description="initial conditions of the first orbits")
+        ]
+    ]
     limits: interval(Acceleration, "amplitudes between which branches are followed")
     max_period: whole("longest period that is followed", 1, 64, "excitation cycles")
     cycles: whole("cycles until a seed is near its orbit", 64, 10**9, "excitation cycles")
