@@ -4,6 +4,7 @@ Each check takes a config of the right types, and the default config.
 """
 
 import math
+from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 
@@ -52,8 +53,8 @@ def methods(config: dict, defaults: dict) -> Iterator[str]:
                 yield f"{section}.{name} has both method and methods; give methods: [{entry['method']}] alone"
             elif "step" in entry and used == ["event"] and "step" not in defaults[section].get(name, {}):
                 yield f"{section}.{name}.step is not used by the method event; remove it, or give a fixed-step method"
-        made = [table for name, entry in config[section].items() for table in variants(name, entry)]
-        for table in {table for table in made if made.count(table) > 1}:
+        made = Counter(table for name, entry in config[section].items() for table in variants(name, entry))
+        for table in (table for table, count in made.items() if count > 1):
             yield f"{section}.{table} is the name of two tables, one of them made by `methods`; rename an entry"
 
 
