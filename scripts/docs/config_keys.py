@@ -7,6 +7,8 @@ from typing import NamedTuple
 
 import yaml
 
+from workflow.config.schema import options_of
+
 QUOTED = re.compile(r"\"[^\"]*\"|'[^']*'")
 
 
@@ -28,25 +30,17 @@ class Written(NamedTuple):
     above: str
 
 
-def options_of(schema: dict, definitions: dict) -> list[dict]:
-    """The alternatives of a part of the schema, with references to shared definitions replaced."""
-    if "$ref" in schema:
-        schema = definitions[schema["$ref"].rpartition("/")[2]] | schema
-    options = schema.get("oneOf") or schema.get("anyOf")
-    return [inner for option in options for inner in options_of(option, definitions)] if options else [schema]
-
-
 def describe_range(schema: dict) -> str:
     low, high = (schema.get(end, schema.get(f"exclusive{end.capitalize()}")) for end in ("minimum", "maximum"))
     ends = "[" if "minimum" in schema else "(", "]" if "maximum" in schema else ")"
     return f"number in {ends[0]}{low:g}, {high:g}{ends[1]}"
 
 
-def describe_values(schema: dict, definitions: dict) -> str:
+def describe_values(schema: dict) -> str:
     """The admissible values of a key in words."""
-    options = options_of(schema, definitions)
+    options = options_of(schema)
     if len(options) > 1:
-        return ", or ".join(describe_values(option, definitions) for option in options)
+        return ", or ".join(describe_values(option) for option in options)
     match options[0]:
         case {"patternErrorMessage": expected}:
             return expected
@@ -59,9 +53,9 @@ def describe_values(schema: dict, definitions: dict) -> str:
         case {"type": "integer"}:
             return f"whole {describe_range(options[0])}"
         case {"type": "array", "prefixItems": items}:
-            return f"list of {', '.join(describe_values(item, definitions) for item in items)}"
+            return f"list of {', '.join(describe_values(item) for item in items)}"
         case {"type": "array", "items": item}:
-            return f"list, each {describe_values(item, definitions)}"
+            return f"list, each {describe_values(item)}"
         case {"type": "object", "properties": keys} if keys.keys() == {"start", "stop", "num"}:
             return "{start, stop, num}"
         case {"type": "boolean"}:
@@ -71,32 +65,31 @@ def describe_values(schema: dict, definitions: dict) -> str:
     return "keys below"
 
 
-def unit_of(schema: dict, definitions: dict) -> str:
+def unit_of(schema: dict) -> str:
     """The unit of a number, or of the numbers in a list or a span."""
-    for option in options_of(schema, definitions):
+    for option in options_of(schema):
         inner = option.get("items") or option.get("properties", {}).get("start")
-        if unit := option.get("unit") or (unit_of(inner, definitions) if inner else ""):
+        if unit := option.get("unit") or (unit_of(inner) if inner else ""):
             return unit
     return ""
 
 
-def keys(schema: dict, definitions: dict | None = None, path: tuple[str, ...] = ()) -> Iterator[Key]:
+def keys(schema: dict, path: tuple[str, ...] = ()) -> Iterator[Key]:
     """All keys of the schema, in its order."""
-    definitions = schema["$defs"] if definitions is None else definitions
-    (inner, *more), allowed = options_of(schema, definitions), describe_values(schema, definitions)
+    (inner, *more), allowed = options_of(schema), describe_values(schema)
     properties = inner.get("properties", {})
     if path != ("model",) and properties.keys() >= {"acceleration", "mass"}:
         yield Key(path, "keys of `model`", "", schema["description"])
     elif properties and allowed == "keys below":
         for name, item in properties.items():
-            yield from keys(item, definitions, (*path, name))
+            yield from keys(item, (*path, name))
     elif allowed == "keys below":
         of_names = inner.get("additionalProperties") or next(iter(inner["patternProperties"].values()))
-        yield from keys(of_names, definitions, (*path, "NAME"))
+        yield from keys(of_names, (*path, "NAME"))
     elif not more and allowed == "list, each keys below":
-        yield from keys(inner["items"], definitions, (*path, "[]"))
+        yield from keys(inner["items"], (*path, "[]"))
     else:
-        yield Key(path, allowed, unit_of(schema, definitions), schema["description"])
+        yield Key(path, allowed, unit_of(schema), schema["description"])
 
 
 def comment_of(line: str) -> str:

@@ -1,5 +1,20 @@
 """What each table of the identification needs of the config; imported by the Snakefile, so without slow imports."""
 
+# Quantities of claims that scripts/identification/measures.py computes for any conveyor.
+NUMBERS_OF_CLAIMS = (
+    "C01.critical_amplitude",
+    "C02.lower_end",
+    "C02.upper_end",
+    "C04.largest_height",
+    "C05.velocity_at_lower_end",
+    "C05.velocity_at_upper_end",
+    "C06.fall",
+    "C07.height",
+    "C08.height",
+    "C09.error",
+    "C10.lower_end",
+    "C10.upper_end",
+)
 # The parts of the section `identification`, and of the rest of the config, that each of its tables needs.
 EDGES = ("bounds", "contacts", "heights", "edges")
 SEARCH = ("bounds", "objectives", "search", "numbers", "measured")

@@ -10,7 +10,7 @@ from project import merged, read_config
 from claims import uncertainty
 from claims.verdicts import REPRODUCED
 from workflow.config import canonical, problems
-from workflow.config.tables import by_methods, tighter_reference, with_tighter
+from workflow.config.entries import by_methods, tighter_reference, with_tighter
 
 CONFIG = read_config()
 
@@ -49,7 +49,7 @@ def test_nobody_looks_where_no_claim_is_named():
 @pytest.mark.parametrize(
     ("overlay", "words"),
     [
-        ({"tighter": 1.0}, "uncertainty.tighter = 1.0 is outside (1, 10000]"),
+        ({"tighter": 1.0}, "uncertainty.tighter = 1.0 should be more than 1"),
         ({"claims": ["C99"]}, "uncertainty.claims[0] = 'C99' should be 'C01', "),
     ],
 )

@@ -24,7 +24,7 @@ from conveyor.solver import model
 from conveyor.solver.model import Conveyor, Start, pack, unpack
 from docs.companion import build
 from pipeline import grid
-from workflow.config.tables import resolve
+from workflow.config.entries import resolve
 
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG = read_config()

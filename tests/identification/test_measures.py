@@ -11,9 +11,9 @@ from conveyor.analysis.hyperbola import Hyperbola, critical_height, mean_squared
 from conveyor.analysis.states import classify
 from identification import edges, measures, printed
 from identification.search_space import PARAMETERS, packed
+from identification.settings import NUMBERS_OF_CLAIMS
 from motion import critical_heights
 from pipeline import grid
-from workflow.config.model import NUMBERS_OF_CLAIMS
 
 CONFIG = read_config()
 MODEL, OWN = CONFIG["model"], CONFIG["identification"]

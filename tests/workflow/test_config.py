@@ -11,8 +11,8 @@ from conveyor import Conveyor, Start, ensemble, simulation
 from conveyor.methods import fixed_step
 from conveyor.solver import model
 from workflow.config import problems
+from workflow.config.entries import by_methods, resolve
 from workflow.config.schema import schema_at
-from workflow.config.tables import resolve
 
 CONFIG = read_config()
 MINE = {"axes": {"acceleration": {"start": 30, "stop": 40, "num": 3}, "z0": [0.0, "conveyor"]}}
@@ -40,7 +40,8 @@ WRONG = [
     ({"identification": {"heights": [0.0, 2.0e-4, 1.0e-4, 3.0e-4]}}, "is not ascending"),
     ({"sweep": {}}, "sweep is an unknown key; did you mean sweeps?"),
     ({"sweeps": {"mine": {**MINE, "methd": "euler"}}}, "sweeps.mine.methd is an unknown key; did you mean method?"),
-    ({"model": {"mass": -0.1}}, "model.mass = -0.1 is outside [1e-12, 1e+06] kg"),
+    ({"precision": {"tolerances": []}}, "precision.tolerances = [] should have at least 1 item"),
+    ({"model": {"mass": -0.1}}, "model.mass = -0.1 should be at least 1e-12 (kg)"),
     ({"model": {"angle": 12}}, "12° are 0.2094 rad"),
     ({"model": {"z0": "conveyer"}}, "or the word conveyor"),
     ({"model": {"stiffness": "5e5"}}, "model.stiffness = '5e5' is text to YAML"),
@@ -50,18 +51,18 @@ WRONG = [
     ({"sweeps": {"mine": {"axes": {}}}}, "sweeps.mine.axes = {} is empty"),
     (
         {"sweeps": {"mine": {"axes": {"angle": {"start": 0.1, "stop": 0.2, "num": 0}}}}},
-        "sweeps.mine.axes.angle.num = 0 is outside [1, 1e+06]",
+        "sweeps.mine.axes.angle.num = 0 should be at least 1",
     ),
     (
         {"sweeps": {"mine": {"axes": {"angle": {"start": 0.1, "stop": 12, "num": 2}}}}},
-        "axes.angle.stop = 12 is outside",
+        "axes.angle.stop = 12 should be at most 1.5708 (rad)",
     ),
-    ({"sweeps": {"mine": {"axes": {"mass": [1.0e-3, -1.0]}}}}, "sweeps.mine.axes.mass[1] = -1.0 is outside"),
+    ({"sweeps": {"mine": {"axes": {"mass": [1.0e-3, -1.0]}}}}, "sweeps.mine.axes.mass[1] = -1.0 should be at least"),
     ({"sweeps": {"mine": {"axes": {"accel": [30.0]}}}}, "sweeps.mine.axes.accel is an unknown key"),
-    ({"sweeps": {"mine": {"axes": {"z0": {"start": 0.0}}}}}, "sweeps.mine.axes.z0 lacks stop, num"),
-    ({"sweeps": {"mine": {"duration": 1.0}}}, "sweeps.mine lacks axes"),
+    ({"sweeps": {"mine": {"axes": {"z0": {"start": 0.0}}}}}, "sweeps.mine.axes.z0.stop is missing"),
+    ({"sweeps": {"mine": {"duration": 1.0}}}, "sweeps.mine.axes is missing"),
     ({"sweeps": {"mine": {**MINE, "model": {"z0": 1.0e-4}}}}, "sweeps.mine.model.z0 is an axis of this entry too"),
-    ({"sweeps": {"mine": {**MINE, "duration": 0}}}, "sweeps.mine.duration = 0 is outside (0, 1e+06] s"),
+    ({"sweeps": {"mine": {**MINE, "duration": 0}}}, "sweeps.mine.duration = 0 should be more than 0 (s)"),
     (
         {"sweeps": {"mine": {**MINE, "duration": float("nan")}}},
         "sweeps.mine.duration = nan should be a finite number",
@@ -76,8 +77,8 @@ WRONG = [
         {"sweeps": {"mine": {**MINE, "method": "euler", "step": 5.0e-3, "duration": 1.0e-3}}},
         "sweeps.mine.step = 0.005 s",
     ),
-    ({"estimates": {"phase": {"last": 1}}}, "estimates.phase.last = 1 is outside (0, 1) of the duration"),
-    ({"estimates": {"phase": {"epsilon": 0.0}}}, "estimates.phase.epsilon = 0.0 is outside [1e-15, 1]"),
+    ({"estimates": {"phase": {"last": 1}}}, "estimates.phase.last = 1 should be less than 1 (of the duration)"),
+    ({"estimates": {"phase": {"epsilon": 0.0}}}, "estimates.phase.epsilon = 0.0 should be at least 1e-15"),
     (
         {"figures": {"fig03": {"tables": {"euler": "sweeps/none"}}}},
         "figures.fig03.tables.euler = 'sweeps/none'",
@@ -93,7 +94,7 @@ WRONG = [
         {"estimates": {"height": {"axes": {"z0": [0.0, "conveyor"]}}}},
         "estimates.height.perturb = 'z0' perturbs nothing where z0 is the word conveyor",
     ),
-    ({"estimates": {"phase": {"epsilon": 1.0e-300}}}, "estimates.phase.epsilon = 1e-300 is outside [1e-15, 1]"),
+    ({"estimates": {"phase": {"epsilon": 1.0e-300}}}, "estimates.phase.epsilon = 1e-300 should be at least 1e-15"),
     (
         {"estimates": {"height": {"epsilon": 1.0e-15, "axes": {"z0": [9.0]}}}},
         "estimates.height.epsilon = 1e-15 is lost in the rounding of z0",
@@ -104,7 +105,7 @@ WRONG = [
     ),
     ({"sweeps": {"heights": {"step": 0.1}}}, "sweeps.heights.step = 0.1 s is too long for 50 Hz"),
     ({"sweeps": {"heights": {"step": 1.0e-12}}}, "sweeps.heights.step = 1e-12 s makes 1e+12 steps"),
-    ({"solver": {"step": 0.1}}, "solver.step (of sweeps.amplitudes_euler) = 0.1 s is too long"),
+    ({"solver": {"step": 0.1}}, "solver.step (of sweeps.amplitudes) = 0.1 s is too long"),
     ({"dimensions": {"portrait_euler": {"samples": 200000, "step": 3.0e-6}}}, "dimensions.portrait_euler.step = 3e-06"),
     ({"critical": {"edge": {"axes": {"z0": [0.0]}}}}, "critical.edge.axes.z0 is the scanned parameter"),
     ({"critical": {"edge": {"model": {"z0": 0.0}}}}, "critical.edge.model.z0 is the scanned parameter"),
@@ -151,7 +152,7 @@ WRONG = [
         "critical.edge.scan = [0.0, 0.0002, 0.0001] is not",
     ),
     ({"critical": {"edge": {"scan": [0.0]}}}, "critical.edge.scan = [0.0] should have at least 2 items, not 1"),
-    ({"critical": {"edge": {"scan": {"num": 1}}}}, "critical.edge.scan.num = 1 is outside [2, 1e+06]"),
+    ({"critical": {"edge": {"scan": {"num": 1}}}}, "critical.edge.scan.num = 1 should be at least 2"),
     (
         {"critical": {"edge": {"scan": [0.0, "conveyor"]}}},
         "critical.edge.scan[1] = 'conveyor' should be a valid number",
@@ -181,11 +182,11 @@ WRONG = [
     # two entries that make the same table
     (
         {"sweeps": {"mine": {**MINE, "methods": ["event", "euler"]}, "mine_euler": MINE}},
-        "sweeps.mine_euler and sweeps.mine both make the table sweeps/mine_euler",
+        "sweeps.mine_euler is the name of two tables",
     ),
     (
         {"sweeps": {"amplitudes_euler": MINE}},
-        "sweeps.amplitudes_euler and sweeps.amplitudes both make",
+        "sweeps.amplitudes_euler is the name of two tables",
     ),
     (
         {
@@ -194,7 +195,7 @@ WRONG = [
                 "a_semi_implicit": {**MINE, "methods": ["event", "euler"]},
             }
         },
-        "sweeps.a_semi_implicit and sweeps.a both make the table sweeps/a_semi_implicit_euler",
+        "sweeps.a_semi_implicit_euler is the name of two tables",
     ),
     (
         {"sweeps": {"amplitudes_tighter": MINE}},
@@ -238,7 +239,7 @@ WRONG = [
     ({"solver": {True: 1}}, "solver has a key that YAML reads as True, not as text"),
     (
         {"sweeps": {"heights": {"axes": {"z0": {"num": 1.0e12}}}}},
-        "sweeps.heights.axes.z0.num = 1000000000000 is outside [1, 1e+06]",
+        "sweeps.heights.axes.z0.num = 1000000000000 should be at most 1e+06",
     ),
     (
         {"critical": {"edge": {"axes": {"acceleration": {"num": 1.0e6}}}}},
@@ -284,6 +285,13 @@ def test_configs_are_right():
 )
 def test_names_and_methods_that_do_not_clash_are_right(overlay):
     assert problems(merged(CONFIG, overlay)) == []
+
+
+def test_methods_make_a_table_each():
+    portrait = {**CONFIG["dimensions"]["portrait"], "samples": 100, "methods": ["event", "euler"]}
+    config = merged(CONFIG, {"dimensions": {"mine": portrait}})
+    assert problems(config) == []
+    assert by_methods(config)["dimensions"]["mine_euler"]["method"] == "euler"
 
 
 def test_a_step_of_the_default_config_may_be_left_unused():

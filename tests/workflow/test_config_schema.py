@@ -9,7 +9,7 @@ from jsonschema import Draft202012Validator
 from project import CONFIG_FILES, ROOT, read_config
 
 from docs.config_keys import all_written, keys
-from workflow.config.schema import full_schema, json_schema, resolve_reference, schema_at, unit_of
+from workflow.config.schema import full_schema, json_schema, options_of, schema_at, unit_of
 
 SCHEMA = json.loads(json_schema())
 FILES = [ROOT / f"config/{name}.yaml" for name in (*CONFIG_FILES, "reduced")]
@@ -69,7 +69,10 @@ def every_part(value):
 def test_every_key_has_a_description():
     places = [part["properties"] for part in every_part(SCHEMA) if isinstance(part.get("properties"), dict)]
     lacking = [
-        name for place in places for name, item in place.items() if not resolve_reference(item).get("description")
+        name
+        for place in places
+        for name, item in place.items()
+        if not any("description" in one for one in options_of(item))
     ]
     assert len(places) > 60
     assert lacking == []

@@ -1,22 +1,23 @@
 """A machine of one's own: the paper's config in its scales, without what belongs to the paper."""
 
 import math
+import re
 
 import pytest
 import yaml
 from project import ROOT, Project, merged, read_config
 
 from conveyor.solver.model import Conveyor
-from workflow.config import canonical, problems
+from workflow.config import ConfigError, canonical, load_config, problems
+from workflow.config.entries import by_methods
+from workflow.config.files import DEFAULT_FILES
 from workflow.config.machine import (
     MARKS,
     contact_time,
     is_own_machine,
-    machine_problems,
     refused_figures,
     scale_config,
 )
-from workflow.config.tables import by_methods
 
 CONFIG = canonical(read_config())
 EXAMPLES = {path.stem: path for path in sorted((ROOT / "config/examples").glob("*.yaml"))}
@@ -45,16 +46,15 @@ def config_of(overlay: dict) -> dict:
         ({"prefix": "mine", "model": {"acceleration": 50.0, "z0": 0.1}}, False),
         ({"prefix": "mine", "model": {"friction": 0.15}}, False),
         ({"prefix": "mine", "model": {"friction": 0.2}}, True),
-        ({"prefix": "mine", "model": 3}, False),
     ],
 )
 def test_a_prefix_and_another_machine_make_a_machine_of_ones_own(overlay, own):
-    assert is_own_machine(CONFIG, overlay) == own
+    assert is_own_machine(CONFIG, merged(CONFIG, overlay)) == own
 
 
 def test_overlays_of_the_paper_change_what_they_name_only():
     """The reduced config has a prefix, but the paper's machine: its axes begin and end where the paper's do."""
-    assert not is_own_machine(CONFIG, read_config("reduced"))
+    assert not is_own_machine(CONFIG, merged(CONFIG, read_config("reduced")))
 
 
 def test_numbers_keep_their_values_in_the_scales_of_the_machine():
@@ -159,14 +159,23 @@ def test_what_an_overlay_names_is_as_it_says():
 @pytest.mark.parametrize(
     ("model", "told"),
     [
-        ({"mass": -1.0}, "model.mass = -1.0 is outside"),
-        ({"angle": 0.0}, "model.angle = 0.0 makes the plate move only horizontally"),
+        ({"mass": -1.0}, "model.mass = -1.0 should be at least"),
+        ({"angle": 0.0}, "model.angle = 0.0 lets no amplitude lift a part"),
         ({"weight": 1.0, "mass": 1.0}, "model.weight is an unknown key"),
+        (3, "model = 3 should be a valid mapping"),
     ],
 )
 def test_a_machine_that_cannot_be_is_told(model, told):
-    (line,) = machine_problems(CONFIG, {"prefix": "mine", "model": model})
-    assert told in line
+    with pytest.raises(ConfigError, match=re.escape(told)):
+        load_config(DEFAULT_FILES, [], {"prefix": "mine", "model": model})
+
+
+def test_an_overlay_may_give_one_end_of_a_scaled_range():
+    """100 m/s² is beyond the paper's range of amplitudes, but not beyond the scaled one."""
+    axes = {"acceleration": {"start": 100.0}}
+    overlay = {"prefix": "mine", "model": {"gravity": 39.24}, "sweeps": {"amplitudes": {"axes": axes}}}
+    amplitudes = load_config(DEFAULT_FILES, [], overlay).config["sweeps"]["amplitudes"]["axes"]["acceleration"]
+    assert amplitudes == {"start": 100.0, "stop": 360.0, "num": 281}
 
 
 @pytest.mark.parametrize("name", EXAMPLES)

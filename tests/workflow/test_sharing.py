@@ -6,8 +6,8 @@ from project import merged, read_config
 from pipeline import grid
 from pipeline.motions import of_conveyors
 from workflow.config import problems
+from workflow.config.entries import resolve
 from workflow.config.sharing import THREADS, conveyors_of, plan, restless
-from workflow.config.tables import resolve
 
 CONFIG = read_config()
 SHARING = CONFIG["sharing"]

@@ -5,11 +5,11 @@ from pathlib import Path
 from typing import NamedTuple
 
 from .checks import problems
-from .errors import ConfigError
-from .files import as_first_written, merge, read_all
-from .machine import is_own_machine, machine_problems, refused_figures, scale_config
+from .entries import by_methods, with_tighter
+from .errors import ConfigError, type_problems
+from .files import merge, read_all
+from .machine import is_own_machine, refused_figures, scale_config
 from .model import MODEL
-from .tables import by_methods, with_tighter
 
 __all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems"]
 
@@ -43,15 +43,13 @@ def load_config(
     config : Snakemake's merged config; as a module of another workflow, it is the only overlay
     check : whether to check it, which jobs of a running workflow need not do
     """
-    defaults, overlays = read_all(default_files), read_all(overlay_files)
-    paper = merge(*defaults)
-    own_machine = is_own_machine(paper, config)
-    if own_machine:
-        if errors := machine_problems(paper, config):
-            raise ConfigError(errors)
-        defaults = [scale_config(paper, config)]
-    contents = [*defaults, *overlays]
-    whole = as_first_written(merge(*contents, config), contents)
+    paper, overlay = merge(*read_all(default_files)), merge(*read_all(overlay_files), config)
+    whole = merge(paper, overlay)
+    # Not whether values fit together: an overlay may give one end of a range whose other end is yet to be scaled.
+    if check and (errors := type_problems(whole, ignored="value_error")):
+        raise ConfigError(errors)
+    if own_machine := is_own_machine(paper, whole):
+        whole = merge(scale_config(paper, overlay), overlay)
     if check and (errors := problems(whole, paper)):
         raise ConfigError(errors)
     return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_machine, refused_figures(paper, whole))

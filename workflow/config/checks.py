@@ -1,111 +1,154 @@
 """Contradictions between the values of a config: one line each, with the key and the remedy.
 
-Each check takes a config of the right types with one method per entry, and the default config.
+Each check takes a config of the right types, and the default config.
 """
 
 import math
-import re
+from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 
-from .errors import suggest_name, type_problems
-from .files import DEFAULT_FILES, ROOT, merge, read_all
-from .machine import is_own_machine
-from .model import MODEL
-from .sharing import plan
-from .tables import (
+from .entries import (
     ENTRIES,
+    FIGURES,
     METHOD_SECTIONS,
-    TABLES,
     TIGHTENED,
     by_methods,
     count_points,
     count_values,
     ends,
-    entry_of,
-    references,
+    fill_defaults,
     resolve,
     values_of,
+    variants,
     with_tighter,
 )
+from .errors import suggest_name, type_problems
+from .files import DEFAULT_FILES, ROOT, merge, read_all
+from .machine import is_own_machine
+from .model import MODEL
+from .sharing import plan
+from .tables import TABLES, entry_of, references
 
 # Folders below results/ and figures/ that a prefix would share with the default config.
-RESERVED = {*ENTRIES, *TABLES, "precision", "precision_times", "article", "benchmarks", "captions", "claims", "docs"}
-RESERVED |= {"logs", "report", "runs", "sections", "shards", "site", "site_pages", "archive", "checks"}
+RESERVED = {*ENTRIES, *(table.split("/")[0] for table in TABLES), "precision", "precision_times", "article", "claims"}
+RESERVED |= {"benchmarks", "captions", "docs", "logs", "report", "runs", "sections", "shards", "site", "site_pages"}
+RESERVED |= {"archive", "checks"}
 LARGEST_TABLE = 10_000_000  # rows or states of one job, which takes some hours
 MOST_STEPS = 10**9  # of one run with a fixed step, which takes some ten seconds
 STEPS_IN_A_CYCLE = 20  # smallest number of steps that resolves an excitation cycle
 
 
-def whole_steps(duration: float, step: float) -> bool:
-    """Whether a duration (s) is a whole number of steps (s), up to the rounding of both."""
-    count = round(duration / step)
-    return count > 0 and abs(duration / step - count) <= 1e-9 * count
+def prefix(config: dict, defaults: dict) -> Iterator[str]:
+    if config["prefix"] in RESERVED:
+        yield f"prefix = {config['prefix']!r} is a folder of the default results; give another name"
 
 
-def step_error(step: float, duration: float, frequency: float) -> str | None:
-    """The fault of a time step (s) of a run (s) at a frequency (Hz) with its remedy, or None."""
-    if step > duration:
-        return f"is longer than its duration of {duration!r} s"
-    largest = 1.0 / (STEPS_IN_A_CYCLE * frequency)
-    if step > largest * (1.0 + 1e-9):
-        return f"is too long for {frequency:g} Hz; take at most {largest:g} s, 1/{STEPS_IN_A_CYCLE} of a cycle"
-    if duration / step > MOST_STEPS:
-        return f"makes {duration / step:.0e} steps of {duration!r} s; take at least {duration / MOST_STEPS:g} s"
-    if not whole_steps(duration, step):
-        return f"does not divide its duration of {duration!r} s; take {duration / max(1, round(duration / step))!r}"
-    return None
+def methods(config: dict, defaults: dict) -> Iterator[str]:
+    """Settings of methods that exclude each other, and entries that make the same table."""
+    for section in METHOD_SECTIONS:
+        for name, entry in config[section].items():
+            used = entry.get("methods") or [entry.get("method")]
+            if "method" in entry and "methods" in entry:
+                yield f"{section}.{name} has both method and methods; give methods: [{entry['method']}] alone"
+            elif "step" in entry and used == ["event"] and "step" not in defaults[section].get(name, {}):
+                yield f"{section}.{name}.step is not used by the method event; remove it, or give a fixed-step method"
+        made = Counter(table for name, entry in config[section].items() for table in variants(name, entry))
+        for table in (table for table, count in made.items() if count > 1):
+            yield f"{section}.{table} is the name of two tables, one of them made by `methods`; rename an entry"
 
 
-def overridden_axes(config: dict) -> Iterator[str]:
+def axes(config: dict, defaults: dict) -> Iterator[str]:
     for section in ENTRIES:
         for name, entry in config[section].items():
             for axis in sorted(set(entry.get("axes", ())) & set(entry.get("model", ()))):
                 yield f"{section}.{name}.model.{axis} is an axis of this entry too; keep one of them"
+            if section != "sweeps" and "axes" in entry:
+                rows = count_points(entry["axes"]) * count_values(entry.get("times") or entry.get("scan") or [None])
+                if rows > LARGEST_TABLE:
+                    limit = f"at most {LARGEST_TABLE:,} are computed; give a smaller num"
+                    yield f"{section}.{name}.axes makes {rows:,} points or rows; {limit}"
+    operating = config["operating"]
+    starts = count_values(operating["acceleration"]) * operating["starts"]
+    if starts > LARGEST_TABLE:
+        yield f"operating.starts makes {starts:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
 
 
-def steps(config: dict) -> Iterator[str]:
-    for section in (*METHOD_SECTIONS, "dimensions"):
-        for name, own in config[section].items():
-            entry = resolve(config, section, name)
-            if "step" not in entry:
-                continue
-            key = f"{section}.{name}.step" if "step" in own else f"solver.step (of {section}.{name})"
-            for frequency in values_of(entry, "frequency"):
-                duration = entry["duration"]
-                if section == "dimensions":
-                    duration = entry["begin"] + entry["interval"] * (entry["samples"] - 1) / frequency
-                if error := step_error(entry["step"], duration, frequency):
-                    yield f"{key} = {entry['step']!r} s {error}"
-    exponent = config["stability_estimates"]["exponent"]
-    runs = [("step", exponent["step"], duration) for duration in (exponent["duration"], *exponent["durations"])]
-    runs += [(f"steps[{place}]", step, exponent["duration"]) for place, step in enumerate(exponent["steps"])]
-    runs = [(f"stability_estimates.exponent.{key}", step, duration) for key, step, duration in runs]
-    precision = config["precision"]
-    runs += [
-        (f"precision.steps[{place}]", step, precision["duration"]) for place, step in enumerate(precision["steps"])
-    ]
+def sweeps(config: dict, defaults: dict) -> Iterator[str]:
+    limit = config["sharing"]["core_hours"]
+    for name, entry in config["sweeps"].items():
+        for variant in variants(name, entry).values():
+            shared = plan(config["sharing"], fill_defaults(config, "sweeps", variant))
+            if shared.core_hours > limit:
+                yield (
+                    f"sweeps.{name}.axes makes {shared.points:,} points, some {shared.core_hours:.2g} hours of one "
+                    f"core in {shared.shards} jobs of {shared.memory / 1000.0:.2g} GB; give a smaller num, or raise "
+                    f"sharing.core_hours = {limit:g}"
+                )
+
+
+def step_fault(step: float, duration: float, frequency: float) -> str | None:
+    """The fault of a time step (s) of a run (s) at a frequency (Hz) with its remedy, or None."""
+    largest, whole = 1.0 / (STEPS_IN_A_CYCLE * frequency), max(1, round(duration / step))
+    if step > duration:
+        return f"is longer than its duration of {duration!r} s"
+    if step > largest * (1.0 + 1e-9):
+        return f"is too long for {frequency:g} Hz; take at most {largest:g} s, 1/{STEPS_IN_A_CYCLE} of a cycle"
+    if duration / step > MOST_STEPS:
+        return f"makes {duration / step:.0e} steps of {duration!r} s; take at least {duration / MOST_STEPS:g} s"
+    if abs(duration / step - whole) > 1e-9 * whole:
+        return f"does not divide its duration of {duration!r} s; take {duration / whole!r}"
+    return None
+
+
+def runs_with_step(config: dict) -> Iterator[tuple[str, float, float, float]]:
+    """All runs with a fixed step: the key of the step, the step (s), the duration (s), the frequency (Hz)."""
+
+    def key(place: str, entry: dict) -> str:
+        return f"{place}.step" if "step" in entry else f"solver.step (of {place})"
+
+    for section in METHOD_SECTIONS:
+        for name, entry in config[section].items():
+            for variant in variants(name, entry).values():
+                filled = fill_defaults(config, section, variant)
+                for frequency in values_of(filled, "frequency") if "step" in filled else ():
+                    duration = filled["duration"]
+                    if section == "dimensions":
+                        duration = entry["begin"] + entry["interval"] * (entry["samples"] - 1) / frequency
+                    yield key(f"{section}.{name}", entry), filled["step"], duration, frequency
+    exponent, precision = config["stability_estimates"]["exponent"], config["precision"]
+    frequency = config["model"]["frequency"]
+    for duration in (exponent["duration"], *exponent["durations"]):
+        yield "stability_estimates.exponent.step", exponent["step"], duration, frequency
+    for place, step in enumerate(exponent["steps"]):
+        yield f"stability_estimates.exponent.steps[{place}]", step, exponent["duration"], frequency
+    for place, step in enumerate(precision["steps"]):
+        yield f"precision.steps[{place}]", step, precision["duration"], frequency
     for name, case in config["benchmark"]["cases"].items():
-        key = f"benchmark.cases.{name}.step" if "step" in case else f"solver.step (of benchmark.cases.{name})"
-        solver = config["solver"] | case
-        runs.append((key, solver["step"], solver["duration"]))
-    for key, step, duration in runs:
-        if error := step_error(step, duration, config["model"]["frequency"]):
-            yield f"{key} = {step!r} s {error}"
+        run = config["solver"] | case
+        yield key(f"benchmark.cases.{name}", case), run["step"], run["duration"], frequency
 
 
-def perturbations(config: dict) -> Iterator[str]:
-    pairs = [
-        (f"estimates.{name}", entry["perturb"], entry["epsilon"], values_of(entry, entry["perturb"]))
-        for name in config["estimates"]
-        for entry in [resolve(config, "estimates", name)]
-    ]
+def steps(config: dict, defaults: dict) -> Iterator[str]:
+    for key, step, duration, frequency in runs_with_step(config):
+        if fault := step_fault(step, duration, frequency):
+            yield f"{key} = {step!r} s {fault}"
+
+
+def perturbed_runs(config: dict) -> Iterator[tuple[str, str, float, list]]:
+    """All perturbed runs: the key, the perturbed parameter, the size of the perturbation, the parameter's values."""
+    for name, entry in config["estimates"].items():
+        values = values_of(resolve(config, "estimates", name), entry["perturb"])
+        yield f"estimates.{name}", entry["perturb"], entry["epsilon"], values
     exponent = config["stability_estimates"]["exponent"]
+    epsilon = min(exponent["epsilon"], *exponent["epsilons"])
     for name, case in exponent["cases"].items():
-        values = [case.get(case["perturb"], config["model"][case["perturb"]])]
-        key = f"stability_estimates.exponent.cases.{name}"
-        pairs.append((key, case["perturb"], min(exponent["epsilon"], *exponent["epsilons"]), values))
-    for key, perturb, epsilon, values in pairs:
+        values = [(config["model"] | case)[case["perturb"]]]
+        yield f"stability_estimates.exponent.cases.{name}", case["perturb"], epsilon, values
+
+
+def perturbations(config: dict, defaults: dict) -> Iterator[str]:
+    for key, perturb, epsilon, values in perturbed_runs(config):
         if "conveyor" in values:
             remedy = "give z0 a height in m, or perturb another parameter"
             yield f"{key}.perturb = {perturb!r} perturbs nothing where z0 is the word conveyor; {remedy}"
@@ -113,7 +156,7 @@ def perturbations(config: dict) -> Iterator[str]:
             yield f"{key}.epsilon = {epsilon!r} is lost in the rounding of {perturb}; give a larger one"
 
 
-def scans(config: dict) -> Iterator[str]:
+def critical(config: dict, defaults: dict) -> Iterator[str]:
     for name, entry in config["critical"].items():
         for part in ("axes", "model"):
             if "z0" in entry.get(part, ()):
@@ -122,28 +165,25 @@ def scans(config: dict) -> Iterator[str]:
         if entry["resolution"] <= 2.0 * spacing:
             key = f"critical.{name}.resolution = {entry['resolution']!r} m"
             yield f"{key} is below the spacing of floating-point numbers; take at least {4.0 * spacing:g} m"
-
-
-def sensitivity(config: dict) -> Iterator[str]:
-    name = config["sensitivity"]["critical"]
-    entry = resolve(config, "critical", name) if name in config["critical"] else None
+    name, single = config["sensitivity"]["critical"], by_methods(config)
+    entry = resolve(single, "critical", name) if name in single["critical"] else None
     if entry and (set(entry["axes"]) != {"acceleration"} or entry["method"] != "event"):
         yield f"sensitivity.critical = {name!r} is not over the acceleration alone, by the method event; name another"
 
 
-def times(config: dict) -> Iterator[str]:
+def times(config: dict, defaults: dict) -> Iterator[str]:
     for name, entry in config["signals"].items():
         duration = resolve(config, "signals", name)["duration"]
         if entry["times"]["stop"] > duration:
             key = f"signals.{name}.times.stop = {entry['times']['stop']!r} s"
             yield f"{key} is beyond the duration of {duration!r} s; take less, or give signals.{name}.duration"
     for name, case in config["benchmark"]["cases"].items():
-        duration = case.get("duration", config["solver"]["duration"])
+        duration = (config["solver"] | case)["duration"]
         if case["compared"] > duration:
             yield f"benchmark.cases.{name}.compared = {case['compared']!r} s is beyond the duration of {duration!r} s"
 
 
-def orbits(config: dict) -> Iterator[str]:
+def orbits(config: dict, defaults: dict) -> Iterator[str]:
     low, high = config["orbits"]["limits"]
     for place, seed in enumerate(config["orbits"].get("seeds", [])):
         if not low < seed["acceleration"] < high:
@@ -153,7 +193,7 @@ def orbits(config: dict) -> Iterator[str]:
             )
 
 
-def dimensions(config: dict) -> Iterator[str]:
+def dimensions(config: dict, defaults: dict) -> Iterator[str]:
     for name, entry in config["dimensions"].items():
         needed = {"paper": "octaves", "correlation": "theiler"}.get(entry["estimator"])
         if needed and needed not in entry:
@@ -162,46 +202,21 @@ def dimensions(config: dict) -> Iterator[str]:
             yield f"dimensions.{name}.theiler = {entry['theiler']} leaves no pair of {entry['samples']} samples"
 
 
-def sizes(config: dict) -> Iterator[str]:
-    for name in config["sweeps"]:
-        shared, limit = plan(config["sharing"], resolve(config, "sweeps", name)), config["sharing"]["core_hours"]
-        if shared.core_hours > limit:
-            yield (
-                f"sweeps.{name}.axes makes {shared.points:,} points, some {shared.core_hours:.2g} hours of one core in "
-                f"{shared.shards} jobs of {shared.memory / 1000.0:.2g} GB; give a smaller num, or raise "
-                f"sharing.core_hours = {limit:g}"
-            )
-    for section in ENTRIES:
-        for name, entry in config[section].items():
-            if section == "sweeps" or "axes" not in entry:
-                continue
-            points = count_points(entry["axes"])
-            rows = points * count_values(entry.get("times") or entry.get("scan") or [None])
-            if rows > LARGEST_TABLE:
-                yield (
-                    f"{section}.{name}.axes makes {rows:,} points or rows; at most {LARGEST_TABLE:,} are computed; "
-                    "give a smaller num"
-                )
-    operating = config["operating"]
-    starts = count_values(operating["acceleration"]) * operating["starts"]
-    if starts > LARGEST_TABLE:
-        yield f"operating.starts makes {starts:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
-
-
-def unknown_references(config: dict) -> Iterator[str]:
+def unknown_references(config: dict, defaults: dict) -> Iterator[str]:
     """Names of tables, entries and presets that the config does not have."""
-    tables, critical, companion = references(config), config["critical"], config["companion"]
+    single, companion = by_methods(config), config["companion"]
+    tables, fitted = references(single), single["critical"]
     used = [
         (f"{user}.{name}.{key}.{role}", table, tables)
-        for user in ("figures", "figures_on_request", "claims")
+        for user in (*FIGURES, "claims")
         for name, entry in config[user].items()
         for key in ("tables", "caption_tables")
         for role, table in entry.get(key, {}).items()
     ]
     used += [("scene_budget.reasons", table, tables) for table in config["scene_budget"]["reasons"]]
-    used += [(f"regressions.{name}.critical", one["critical"], critical) for name, one in config["regressions"].items()]
-    used += [("sensitivity.critical", config["sensitivity"]["critical"], critical)]
-    used += [(f"companion.maps[{place}]", name, config["sweeps"]) for place, name in enumerate(companion["maps"])]
+    used += [(f"regressions.{name}.critical", one["critical"], fitted) for name, one in config["regressions"].items()]
+    used += [("sensitivity.critical", config["sensitivity"]["critical"], fitted)]
+    used += [(f"companion.maps[{place}]", name, single["sweeps"]) for place, name in enumerate(companion["maps"])]
     used += [("companion.opening", companion["opening"], companion["presets"])]
     used += [("uncertainty.claims", name, config["claims"]) for name in config["uncertainty"]["claims"]]
     for key, name, known in used:
@@ -209,85 +224,49 @@ def unknown_references(config: dict) -> Iterator[str]:
             yield f"{key} = {name!r} is unknown; {suggest_name(name, known)}"
 
 
-def figures(config: dict) -> Iterator[str]:
-    for section in ("figures", "figures_on_request"):
+def figures(config: dict, defaults: dict) -> Iterator[str]:
+    tables = by_methods(config)
+    for section in FIGURES:
         for figure, entry in config[section].items():
             for file in (f"scripts/figures/plots/{figure}.py", f"workflow/report/{figure}.rst"):
                 if not (ROOT / file).is_file():
                     yield f"{section}.{figure} has no {file}; a figure needs a plot script and a caption of its name"
             for reference in entry["tables"].values():
-                table = entry_of(config, reference)
-                if table and entry["needs"] == "feeding" and table.get("needs") == "vertical":
+                if entry["needs"] == "feeding" and entry_of(tables, reference).get("needs") == "vertical":
                     yield f"{section}.{figure} needs feeding, but {reference} is computed for vertical needs only"
 
 
-def compare_keys(key: str, given: dict, default: dict, may_lack: bool) -> Iterator[str]:
-    """Keys of a mapping that the default config does not have there, and keys that are missing."""
-    for name in (name for name in given if name not in default):
-        yield f"{key}.{name} is an unknown key; {suggest_name(name, default)}"
-    if not may_lack and (missing := [name for name in default if name not in given]):
-        yield f"{key} lacks {', '.join(missing)}"
+def default_claim(name: str, claim: dict, defaults: dict) -> dict:
+    """The claim of the default config with the same finding, first that of the same name; {} if there is none."""
+    claims = ({name: {}} | defaults["claims"]).values()
+    return next((one for one in claims if one.get("finding") == claim["finding"]), {})
 
 
 def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
     """Tables and settings that the default config does not have: no plot script and no finding uses them."""
+    parts = [
+        (f"{section}.{name}", entry, defaults[section][name], ("tables", "caption_tables", "settings"))
+        for section in FIGURES
+        for name, entry in config[section].items()
+        if name in defaults[section]
+    ]
+    for name, claim in config["claims"].items():
+        if default := default_claim(name, claim, defaults):
+            parts.append((f"claims.{name}", claim, default, ("tables", "quantities", "settings")))
+        else:
+            remedy = suggest_name(claim["finding"], [one["finding"] for one in defaults["claims"].values()])
+            yield f"claims.{name}.finding = {claim['finding']!r} is no finding of the default config; {remedy}"
     may_lack = is_own_machine(defaults, config)
-    for section in ("figures", "figures_on_request"):
-        for name, entry in config[section].items():
-            default = defaults[section].get(name)
-            for key in ("tables", "caption_tables", "settings") if default else ():
-                yield from compare_keys(f"{section}.{name}.{key}", entry.get(key, {}), default.get(key, {}), may_lack)
-    by_finding = {claim["finding"]: claim for claim in defaults["claims"].values()}
-    for name, entry in config["claims"].items():
-        if entry["finding"] not in by_finding:
-            remedy = suggest_name(entry["finding"], by_finding)
-            yield f"claims.{name}.finding = {entry['finding']!r} is no finding of the default config; {remedy}"
-            continue
-        default = defaults["claims"].get(name, {})
-        if default.get("finding") != entry["finding"]:
-            default = by_finding[entry["finding"]]
-        for key in ("tables", "quantities", "settings"):
-            yield from compare_keys(f"claims.{name}.{key}", entry.get(key, {}), default.get(key, {}), may_lack)
+    for place, entry, default, keys in parts:
+        for key in keys:
+            given, known = entry.get(key, {}), default.get(key, {})
+            for name in (name for name in given if name not in known):
+                yield f"{place}.{key}.{name} is an unknown key; {suggest_name(name, known)}"
+            for name in (name for name in known if name not in given and not may_lack):
+                yield f"{place}.{key}.{name} is missing"
 
 
-def clashes(config: dict) -> Iterator[str]:
-    """Entries that make the same table. The config still has `methods`."""
-    for section in METHOD_SECTIONS:
-        makers = {}
-        for name, entry in config[section].items():
-            for table in (name, *(f"{name}_{method}" for method in entry.get("methods", ())[1:])):
-                if table in makers:
-                    other = f"{section}.{makers[table]}"
-                    yield f"{section}.{name} and {other} both make the table {section}/{table}; rename one of them"
-                makers[table] = name
-
-
-def tighter_clashes(config: dict) -> Iterator[str]:
-    """Entries with the name of a table of tighter tolerances. The config has no other errors."""
-    tightened = with_tighter(config)
-    for section in TIGHTENED:
-        for name, entry in config[section].items():
-            if tightened[section][name] != entry:
-                yield f"{section}.{name} has the name of a table of tighter tolerances (uncertainty.claims); rename it"
-
-
-def methods(config: dict, defaults: dict) -> Iterator[str]:
-    """Settings of methods that exclude each other. The config still has `methods`."""
-    for section in (*METHOD_SECTIONS, "dimensions"):
-        for name, entry in config[section].items():
-            used = entry.get("methods") or [entry.get("method")]
-            if "method" in entry and "methods" in entry:
-                yield f"{section}.{name} has both method and methods; give methods: [{entry['method']}] alone"
-            elif "step" in entry and used == ["event"] and "step" not in defaults[section].get(name, {}):
-                yield f"{section}.{name}.step is not used by the method event; remove it, or give a fixed-step method"
-
-
-def prefix(config: dict) -> Iterator[str]:
-    if config["prefix"] in RESERVED:
-        yield f"prefix = {config['prefix']!r} is a folder of the default results; give another name"
-
-
-def identification(config: dict) -> Iterator[str]:
+def identification(config: dict, defaults: dict) -> Iterator[str]:
     own = config["identification"]
     searched = [number for group in own["objectives"].values() for number in group]
     for number in sorted({number for number in searched if searched.count(number) > 1}):
@@ -307,20 +286,19 @@ def identification(config: dict) -> Iterator[str]:
         )
 
 
+def tighter_names(config: dict) -> Iterator[str]:
+    """Entries with the name of a table of tighter tolerances. The config has no other contradictions."""
+    single = by_methods(config)
+    tightened = with_tighter(single)
+    for section in TIGHTENED:
+        for name, entry in single[section].items():
+            if tightened[section][name] != entry:
+                yield f"{section}.{name} has the name of a table of tighter tolerances (uncertainty.claims); rename it"
+
+
 CHECKS = (
-    prefix,
-    overridden_axes,
-    steps,
-    perturbations,
-    scans,
-    sensitivity,
-    times,
-    orbits,
-    dimensions,
-    sizes,
-    unknown_references,
-    figures,
-    identification,
+    *(prefix, methods, axes, sweeps, steps, perturbations, critical, times, orbits, dimensions),
+    *(unknown_references, figures, unused_keys, identification),
 )
 
 
@@ -329,29 +307,10 @@ def default_config() -> dict:
     return merge(*read_all(DEFAULT_FILES))
 
 
-def contradictions(config: dict, defaults: dict) -> Iterator[str]:
-    """One line for each contradiction between values of a config whose types are right."""
-    yield from methods(config, defaults)
-    yield from clashes(config)
-    yield from unused_keys(config, defaults)
-    # Lines about the tables of `methods` name the entry in the file.
-    entries = {
-        f"{section}.{name}_{method}": f"{section}.{name}"
-        for section in METHOD_SECTIONS
-        for name, entry in config[section].items()
-        for method in entry.get("methods", [])[1:]
-    }
-    single = by_methods(config)
-    for line in (line for check in CHECKS for line in check(single)):
-        for table, entry in entries.items():
-            line = re.sub(rf"(?<![\w.]){re.escape(table)}(?=\.)", entry, line)
-        yield line
-
-
 def problems(config: dict, defaults: dict | None = None) -> list[str]:
     """All errors of a merged config, one line each; empty if there are none."""
     if errors := type_problems(config):
         return errors
-    typed = MODEL.validate_python(config)
-    lines = contradictions(typed, default_config() if defaults is None else defaults)
-    return list(dict.fromkeys(lines)) or list(tighter_clashes(by_methods(typed)))
+    typed, defaults = MODEL.validate_python(config), default_config() if defaults is None else defaults
+    lines = [line for check in CHECKS for line in check(typed, defaults)]
+    return list(dict.fromkeys(lines)) or list(tighter_names(typed))

@@ -16,17 +16,18 @@ MOST_LINES = 6  # of a message: ten with the four lines that Snakemake adds
 SHORT = Repr()
 SHORT.maxstring = SHORT.maxother = 60
 format_value = SHORT.repr
+BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
 
 
 class ConfigError(Exception):
     """A config that cannot be used; the message has at most six lines."""
 
     def __init__(self, lines: list[str]):
-        if len(lines) < MOST_LINES:
-            super().__init__("\n".join(["The config cannot be used:", *lines]))
-            return
-        first, more = lines[: MOST_LINES - 1], len(lines) - MOST_LINES + 1
-        super().__init__("\n".join([f"The config cannot be used; the first {len(first)} errors, {more} more:", *first]))
+        head = "The config cannot be used"
+        if (more := len(lines) - MOST_LINES + 1) > 0:
+            lines = lines[: MOST_LINES - 1]
+            head += f"; the first {len(lines)} errors, {more} more"
+        super().__init__("\n".join([f"{head}:", *lines]))
 
 
 def suggest_name(name: Any, known: Iterable[str]) -> str:
@@ -41,11 +42,6 @@ def format_key(path: Iterable[str | int]) -> str:
     return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in names).lstrip(".") or "config"
 
 
-def path_of(location: tuple) -> list[str | int]:
-    """The path of a value, without the marks of alternatives in the location of an error of pydantic."""
-    return [part for part in location if str(part)[:1] != "("]
-
-
 def reads_as_number(value: Any) -> bool:
     try:
         return isinstance(value, str) and float(value) is not None
@@ -55,54 +51,42 @@ def reads_as_number(value: Any) -> bool:
 
 def explain(error: dict) -> str:
     """One line for an error of pydantic."""
-    *above, name = path_of(error["loc"]) or [""]
-    key, value = format_key([*above, name]), format_value(error["input"])
-    if error["type"] == "invalid_key" or (name == "[key]" and error["type"] == "string_type"):
-        section = format_key(above if error["type"] == "invalid_key" else above[:-1])
-        return f"{section} has a key that YAML reads as {value}, not as text; use another name, in quotes"
-    if name == "[key]":
-        names = schema_at(above[:-1])["propertyNames"]
-        known, expected = names.get("enum"), names.get("patternErrorMessage")
-        remedy = suggest_name(error["input"], known) if known else f"give {expected}"
-        return f"{format_key(above[:-1])} has the unknown name {value}; {remedy}"
-    schema = schema_at([*above, name])
-    match error["type"]:
-        case "extra_forbidden":
-            known = [name for option in options_of(schema_at(above)) for name in option.get("properties", {})]
-            return f"{key} is an unknown key; {suggest_name(name, known)}"
-        case "value_error":
-            return f"{key} = {value} {error['ctx']['error']}"
-        case "string_pattern_mismatch":
-            return f"{key} = {value} should be {schema['patternErrorMessage']}"
-        case "float_type" | "int_type" | "height" if reads_as_number(error["input"]):
-            return f"{key} = {value} is text to YAML; write it with a decimal point and a signed exponent (1.0e-4)"
-        case "greater_than" | "greater_than_equal" | "less_than" | "less_than_equal":
-            return f"{key} = {value} is outside {describe_range(schema, error['input'])}"
+    # Without the names of forms ("(span)"), and without "[key]" behind a name of the user's choice.
+    path = [part for part in error["loc"] if str(part)[:1] != "(" and part != "[key]"]
+    kind, value, is_name = error["type"], error["input"], error["loc"][-1:] == ("[key]",)
+    key, above, schema = format_key(path), format_key(path[:-1]), schema_at(path)
+    shown = f"{key} = {format_value(value)}"
+    if kind == "invalid_key" or (is_name and not isinstance(value, str)):
+        return f"{above} has a key that YAML reads as {value!r}, not as text; put it in quotes"
+    if is_name:
+        names = schema_at(path[:-1])["propertyNames"]
+        remedy = suggest_name(value, names["enum"]) if "enum" in names else f"give {names['patternErrorMessage']}"
+        return f"{above} has the unknown name {format_value(value)}; {remedy}"
+    if kind == "missing":
+        return f"{key} is missing"
+    if kind == "extra_forbidden":
+        known = [name for option in options_of(schema_at(path[:-1])) for name in option.get("properties", {})]
+        return f"{key} is an unknown key; {suggest_name(path[-1], known)}"
+    if kind == "value_error":
+        return f"{shown} {error['ctx']['error']}"
+    if kind == "string_pattern_mismatch":
+        return f"{shown} should be {schema['patternErrorMessage']}"
+    if kind in ("float_type", "int_type", "form") and reads_as_number(value):
+        return f"{shown} is text to YAML; write it with a decimal point and a signed exponent (1.0e-4)"
     # "Input should be …", "List should have …"
-    message = error["msg"].partition(" ")[2].replace(" after validation", "").replace("dictionary", "mapping")
-    return f"{key} = {value} {message} {unit_of(schema) and f'({unit_of(schema)})'}".rstrip()
-
-
-def describe_range(schema: dict, value: float) -> str:
-    """The range of a number with its unit, and the remedy for an angle in degrees."""
-    schema, unit = next(option for option in options_of(schema) if option.get("type") != "string"), unit_of(schema)
-    low, high = (schema.get(end, schema.get(f"exclusive{end.capitalize()}")) for end in ("minimum", "maximum"))
-    ends = "[" if "minimum" in schema else "(", "]" if "maximum" in schema else ")"
-    is_degrees = unit == "rad" and high < abs(value) <= 360
+    unit, fault = unit_of(schema), error["msg"].partition(" ")[2]
+    for name, bound in error.get("ctx", {}).items():
+        fault = f"should be {BOUNDS[name]} {bound:g}" if name in BOUNDS else fault
+    fault = fault.replace(" after validation", "").replace("dictionary", "mapping")
+    is_degrees = kind == "less_than_equal" and unit == "rad" and value <= 360
     remedy = f"; angles are in radians, {value:g}° are {math.radians(value):.4f} rad" if is_degrees else ""
-    return f"{ends[0]}{low:g}, {high:g}{ends[1]} {unit}".rstrip() + remedy
+    return f"{shown} {fault}{f' ({unit})' if unit else ''}{remedy}"
 
 
-def type_problems(config: Any) -> list[str]:
-    """Errors of the types of a config, one line each."""
+def type_problems(config: Any, ignored: str = "") -> list[str]:
+    """Errors of the types of a config, one line each, without those of the kind `ignored`."""
     try:
         MODEL.validate_python(config)
     except ValidationError as invalid:
-        errors = invalid.errors(include_url=False)
-        missing = {}
-        for error in errors:
-            if error["type"] == "missing":
-                missing.setdefault(format_key(path_of(error["loc"][:-1])), []).append(str(error["loc"][-1]))
-        lines = [f"{key} lacks {', '.join(names)}" for key, names in missing.items()]
-        return lines + [explain(error) for error in errors if error["type"] != "missing"]
+        return [explain(error) for error in invalid.errors(include_url=False) if error["type"] != ignored]
     return []

@@ -1,9 +1,9 @@
-"""Read and merge config files, and reject what Snakemake or YAML would misread.
+"""Read and merge config files, and reject what YAML 1.1 would misread.
 
-Snakemake merges overlays, but forgets which file has a key first. YAML 1.1 keeps the last of two equal keys, and reads
-050 as 40 and 1:30 as 90.
+YAML 1.1 keeps the last of two equal keys, and reads 050 as 40 and 1:30 as 90.
 """
 
+import argparse
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,7 +12,7 @@ from typing import Any
 import yaml
 from snakemake.utils import update_config
 
-from .errors import ConfigError, format_value
+from .errors import ConfigError, format_key, format_value
 
 ROOT = Path(__file__).resolve().parents[2]
 STAGES = (
@@ -22,100 +22,74 @@ STAGES = (
 DEFAULT_FILES = tuple(ROOT / f"config/{name}.yaml" for name in ("config", *STAGES))
 MOST_VALUES, MOST_LEVELS = 12_000, 50  # of a file, anchors expanded: larger files take seconds to check
 OCTAL = re.compile(r"[-+]?0[0-7_]+")
-# Options of Snakemake that name config files and config values.
-FILE_OPTIONS, VALUE_OPTIONS = ("--configfile", "--configfiles"), ("--config", "-C")
 
 
-def check_size(text: str) -> str | None:
+def size_fault(text: str) -> str | None:
     """What makes a YAML text too large to be parsed, or None. The parser's own recursion would crash on deep levels."""
-    levels, values = 0, 0
+    values, began, anchored = 0, [], {}
     for event in yaml.parse(text, Loader=yaml.CSafeLoader):
-        values += isinstance(event, yaml.NodeEvent)
-        levels += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
         line = event.start_mark.line + 1
-        if levels > MOST_LEVELS:
+        if isinstance(event, yaml.CollectionEndEvent):
+            anchor, before = began.pop()
+            anchored[anchor] = values - before
+        elif isinstance(event, yaml.AliasEvent):
+            values += anchored.get(event.anchor, 1)
+        elif isinstance(event, yaml.NodeEvent):
+            values += 1
+            if isinstance(event, yaml.CollectionStartEvent):
+                began.append((event.anchor, values))
+        if len(began) > MOST_LEVELS:
             return f"{line}: has more than {MOST_LEVELS} nested levels; write a flatter file"
         if values > MOST_VALUES:
-            return f"{line}: has more than {MOST_VALUES:,} values; write a long axis as {{start: …, stop: …, num: …}}"
+            remedy = "write a long axis as {start: …, stop: …, num: …}, and fewer anchors"
+            return f"{line}: has more than {MOST_VALUES:,} values; {remedy}"
     return None
 
 
-def expanded_size(node: yaml.Node, known: dict[yaml.Node, tuple[int, int]]) -> tuple[int, int]:
-    """Values and levels below a node with all anchors expanded; a node that contains itself counts once."""
-    if node not in known:
-        known[node] = (1, 1)
-        children = node.value if isinstance(node, yaml.CollectionNode) else ()
-        pairs = ((child,) if isinstance(child, yaml.Node) else child for child in children)
-        sizes = [expanded_size(child, known) for pair in pairs for child in pair]
-        known[node] = (1 + sum(values for values, _ in sizes), 1 + max((levels for _, levels in sizes), default=0))
-    return known[node]
-
-
-def misread(node: yaml.Node, key: str, above: tuple[yaml.Node, ...], seen: set[yaml.Node]) -> Iterator[str]:
-    """ "LINE: fault" for all that YAML reads below a node otherwise than a reader expects.
-
-    Parameters
-    ----------
-    key : the key of the node, as messages show it
-    above : the nodes that contain this one
-    seen : the nodes checked so far, which anchors may repeat
-    """
-    line = node.start_mark.line + 1
+def misread(node: yaml.Node, path: tuple[str | int, ...] = (), above: tuple[yaml.Node, ...] = ()) -> Iterator[str]:
+    """ "LINE: fault" for all that YAML reads below a node otherwise than a reader expects; `above` are its parents."""
+    key, line = format_key(path), node.start_mark.line + 1
     if node in above:
         yield f"{line}: {key} contains itself by its anchor; write the values out"
-    if node in seen:
-        return
-    seen.add(node)
-    if isinstance(node, yaml.MappingNode):
+    elif isinstance(node, yaml.MappingNode):
         lines = {}
         for name, value in node.value:
-            inner = f"{key}.{name.value}".lstrip(".")
             if isinstance(name, yaml.ScalarNode):
-                here = name.start_mark.line + 1
+                inner, here = (*path, name.value), name.start_mark.line + 1
                 if name.value in lines:
-                    yield f"{here}: {inner} stands in line {lines[name.value]} already; merge both"
+                    yield f"{here}: {format_key(inner)} stands in line {lines[name.value]} already; merge both"
                 lines[name.value] = here
-            yield from misread(value, inner, (*above, node), seen)
+                yield from misread(value, inner, (*above, node))
     elif isinstance(node, yaml.SequenceNode):
         for place, value in enumerate(node.value):
-            yield from misread(value, f"{key}[{place}]", (*above, node), seen)
-    elif node.tag in ("tag:yaml.org,2002:int", "tag:yaml.org,2002:float"):
-        text = node.value
-        if ":" in text:
-            yield f"{line}: {key} = {text} is read as {yaml.safe_load(text)}, with base 60; write it without colons"
-        elif OCTAL.fullmatch(text):
-            yield f"{line}: {key} = {text} is read as {yaml.safe_load(text)}, an octal number; write it without the 0"
+            yield from misread(value, (*path, place), (*above, node))
+    elif node.tag.endswith((":int", ":float")) and (":" in node.value or OCTAL.fullmatch(node.value)):
+        reason, sign = ("with base 60", "colons") if ":" in node.value else ("an octal number", "the 0")
+        yield f"{line}: {key} = {node.value} is read as {yaml.safe_load(node.value)}, {reason}; write it without {sign}"
 
 
 def read(file: str | Path) -> tuple[list[str], Any]:
     """All faults of a config file, one line each, and its content (None if it cannot be read)."""
     try:
         text = Path(file).read_text(encoding="utf-8")
-        if fault := check_size(text):
+        if fault := size_fault(text):
             return [f"{file}:{fault}"], None
         node = yaml.compose(text, Loader=yaml.CSafeLoader)
-        values, levels = expanded_size(node, {}) if node else (0, 0)
-        if values > MOST_VALUES or levels > MOST_LEVELS:
-            return [f"{file}: its anchors make {values:,} values on {levels} levels; write fewer anchors"], None
+        faults = list(misread(node)) if node else []
         content = yaml.load(text, Loader=yaml.CSafeLoader)
     except OSError as error:
-        is_target = Path(file).parts[:1] in (("figures",), ("results",), ("docs",))
-        remedy = (
-            "put targets before --configfile, which takes all files that follow" if is_target else "give a config file"
-        )
-        return [f"{file}: {error.strerror}; {remedy}"], None
+        return [f"{file}: {error.strerror}; name a config file (targets stand before --configfile)"], None
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
         return [f"{file}:{line}: is not UTF-8 text ({error.reason}); save it as UTF-8"], None
     except (yaml.YAMLError, ValueError, TypeError) as error:
         mark = getattr(error, "problem_mark", None)
         reason = " ".join(str(getattr(error, "problem", error)).split())
-        return [
-            f"{file}:{f'{mark.line + 1}:' if mark else ''} is not YAML: {reason}; compare it with config/config.yaml"
-        ], None
+        place = f"{file}:{mark.line + 1}" if mark else file
+        return [f"{place}: is not YAML: {reason}; compare it with config/config.yaml"], None
     if not isinstance(content, dict):
         return [f"{file}: holds no mapping of keys to values; begin with a section of config/config.yaml"], None
-    return [f"{file}:{fault}" for fault in misread(node, "", (), set())], content
+    return list(dict.fromkeys(f"{file}:{fault}" for fault in faults)), content
 
 
 def read_all(files: list[str | Path]) -> list[dict]:
@@ -127,41 +101,14 @@ def read_all(files: list[str | Path]) -> list[dict]:
 
 
 def merge(*configs: dict) -> dict:
-    """A new config: each of `configs` merged over the previous ones, as Snakemake merges overlays."""
+    """A new config: each of `configs` merged over the previous ones, as Snakemake merges overlays.
+
+    Keys have the order of the first config that has them.
+    """
     merged = {}
     for config in configs:
         update_config(merged, config)
     return merged
-
-
-def as_first_written(value: Any, contents: list) -> Any:
-    """A merged value with its keys in the order, and its numbers in the spelling, of the first file that has them.
-
-    Parameters
-    ----------
-    value : the merged value
-    contents : what the files have at this place, the first file first
-    """
-    if isinstance(value, dict):
-        mappings = [content for content in contents if isinstance(content, dict)]
-        keys = dict.fromkeys(key for mapping in mappings for key in mapping if key in value) | dict.fromkeys(value)
-        return {key: as_first_written(value[key], [one[key] for one in mappings if key in one]) for key in keys}
-    return next((content for content in contents if content == value), value)
-
-
-def option_values(arguments: list[str], options: tuple[str, ...]) -> Iterator[str]:
-    """The values that a command line gives to some options, which take all values up to the next option."""
-    is_given = False
-    for argument in arguments:
-        if argument.startswith("-"):
-            option, equals, value = argument.partition("=")
-            if not argument.startswith("--"):
-                option, value = argument[:2], argument[2:].removeprefix("=")
-            is_given = option in options
-            if is_given and (equals or value):
-                yield value
-        elif is_given:
-            yield argument
 
 
 def check_command_line(arguments: list[str]) -> None:
@@ -169,11 +116,15 @@ def check_command_line(arguments: list[str]) -> None:
 
     Snakemake itself ends with a traceback, or does not name file and line.
     """
-    faults = [fault for file in option_values(arguments, FILE_OPTIONS) for fault in read(file)[0]]
+    parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
+    parser.add_argument("--configfile", "--configfiles", nargs="*", action="extend", default=[])
+    parser.add_argument("--config", "-C", nargs="*", action="extend", default=[])
+    options, _ = parser.parse_known_args(arguments)
+    faults = [fault for file in options.configfile for fault in read(file)[0]]
     faults += [
         f"--config {format_value(value)} is not KEY=VALUE with a top-level KEY such as prefix; put other values in an "
         "overlay file, and name it with --configfile"
-        for value in option_values(arguments, VALUE_OPTIONS)
+        for value in options.config
         if not re.fullmatch(r"[A-Za-z_]\w+=.*", value, re.DOTALL)
     ]
     if faults:

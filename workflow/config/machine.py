@@ -8,15 +8,15 @@ orbits, and the tables of the paper's method.
 import math
 from typing import Any
 
-from .errors import type_problems
+from .entries import FIGURES, METHOD_SECTIONS, by_methods
+from .errors import ConfigError
 from .files import merge
 from .model import MODEL
 from .schema import child, full_schema, schema_at, unit_of
-from .tables import METHOD_SECTIONS
+from .tables import references
 
 # Parameters of the conveyor and the part; the other parameters of the model are settings of a run.
 MACHINE = ("angle", "frequency", "stiffness", "damping", "friction", "mass", "exponent", "gravity")
-FIGURES = ("figures", "figures_on_request")
 # Settings of figures that mark a number of the paper.
 MARKS = ("critical_acceleration", "critical_height", "first_positive", "two_states")
 DIGITS = 4  # of scaled amplitudes, heights and velocities, which appear on axes and in titles
@@ -24,15 +24,9 @@ ROUNDED = ("m/s²", "m", "m/s", "m²/s²")
 STEPS = 4000  # the steps per excitation cycle are a multiple of this number, so that samples lie on steps
 
 
-def as_mapping(value: Any) -> dict:
-    """The value, or {} where an overlay has no mapping; another check reports that."""
-    return value if isinstance(value, dict) else {}
-
-
-def is_own_machine(paper: dict, overlay: dict) -> bool:
-    """Whether an overlay has a prefix and another conveyor than the paper."""
-    model, papers = as_mapping(overlay.get("model")), as_mapping(paper.get("model"))
-    return bool(overlay.get("prefix")) and any(name in model and model[name] != papers.get(name) for name in MACHINE)
+def is_own_machine(paper: dict, config: dict) -> bool:
+    """Whether a whole config has a prefix and another conveyor than the paper."""
+    return bool(config["prefix"]) and any(config["model"][name] != paper["model"][name] for name in MACHINE)
 
 
 def scale_ratios(paper: dict, own: dict) -> dict[str, float]:
@@ -79,43 +73,43 @@ def scaled_step(paper: dict, own: dict) -> float:
     return 1.0 / (own["frequency"] * STEPS * math.ceil(1.0 / (own["frequency"] * STEPS * step) - 1e-9))
 
 
-def drop_other_methods(config: dict, overlay: dict) -> set[str]:
-    """Drop the tables of fixed-step methods that neither the overlay nor a figure of it names; return these tables."""
-    named = [config[section].get(name, {}) for section in FIGURES for name in as_mapping(overlay.get(section))]
-    needed = {reference for entry in named if "paper_only" in entry for reference in entry["tables"].values()}
-    dropped = set()
-    for section in (*METHOD_SECTIONS, "dimensions"):
-        overlays = as_mapping(overlay.get(section))
+def drop_other_methods(config: dict, overlay: dict) -> None:
+    """Drop the tables of fixed-step methods that neither the overlay nor a figure of it names."""
+    figures = [config[section].get(name, {}) for section in FIGURES for name in overlay.get(section, ())]
+    needed = {reference for figure in figures if "paper_only" in figure for reference in figure["tables"].values()}
+    for section in METHOD_SECTIONS:
         for name, entry in list(config[section].items()):
-            twin = f"{section}/{name}_euler"
-            if "methods" in entry and "methods" not in as_mapping(overlays.get(name)) and twin not in needed:
-                entry["method"] = entry.pop("methods")[0]
-                dropped.add(twin)
-            elif entry.get("method", "event") != "event" and name not in overlays and f"{section}/{name}" not in needed:
+            if "methods" in entry and f"{section}/{name}_euler" not in needed:
+                entry["methods"] = entry["methods"][:1]
+            is_named = name in overlay.get(section, ()) or f"{section}/{name}" in needed
+            if entry.get("method", "event") != "event" and not is_named:
                 del config[section][name]
-                dropped.add(f"{section}/{name}")
     for name, entry in list(config["regressions"].items()):
-        if f"critical/{entry['critical']}" in dropped and name not in as_mapping(overlay.get("regressions")):
+        if entry["critical"] not in config["critical"] and name not in overlay.get("regressions", ()):
             del config["regressions"][name]
-            dropped.add(f"regressions/{name}")
-    return dropped
 
 
-def machine_problems(paper: dict, overlay: dict) -> list[str]:
-    """Errors in the model of an overlay, one line each."""
-    config = merge(paper, {"model": overlay["model"]})
-    if errors := type_problems(config):
-        return errors
-    if math.sin(config["model"]["angle"]) == 0.0:
-        return [
-            "model.angle = 0.0 makes the plate move only horizontally: no amplitude lifts a part; give a larger angle"
-        ]
-    return []
+def drop_figures(config: dict, overlay: dict) -> None:
+    """Drop what belongs to the paper in figures: whole figures, marks, and tables that the config no longer has."""
+    tables = references(by_methods(merge(config, overlay)))
+    for section in FIGURES:
+        for name, entry in list(config[section].items()):
+            if "paper_only" in entry and name not in overlay.get(section, ()):
+                del config[section][name]
+            for key in {"tables", "caption_tables"} & entry.keys():
+                entry[key] = {role: table for role, table in entry[key].items() if table in tables}
+            if "settings" in entry:
+                entry["settings"] = {key: value for key, value in entry["settings"].items() if key not in MARKS}
 
 
 def scale_config(paper: dict, overlay: dict) -> dict:
-    """The paper's config scaled to the conveyor of an overlay, which is then merged over it."""
-    own = {**paper["model"], **{name: float(value) for name, value in overlay["model"].items() if name in MACHINE}}
+    """The paper's config scaled to the conveyor of an overlay, which is then merged over it.
+
+    ConfigError says that there is no scale for amplitudes. The types of the overlay are right.
+    """
+    own = paper["model"] | {name: float(value) for name, value in overlay["model"].items() if name in MACHINE}
+    if math.sin(own["angle"]) == 0.0:
+        raise ConfigError(["model.angle = 0.0 lets no amplitude lift a part; give a larger angle"])
     ratios = scale_ratios(paper["model"], own)
     config = scale(MODEL.validate_python(paper), full_schema(), ratios)
     config["model"] |= {name: own[name] for name in MACHINE}
@@ -123,22 +117,12 @@ def scale_config(paper: dict, overlay: dict) -> dict:
         config["solver"]["step"] = scaled_step(paper, own)
     for entry in config["estimates"].values():
         entry["epsilon"] = scale(entry["epsilon"], schema_at(["model", entry["perturb"]]), ratios)
-
-    dropped = drop_other_methods(config, overlay)
     del config["orbits"]["seeds"]
+    config["claims"], config["uncertainty"]["claims"] = {}, []
+    drop_other_methods(config, overlay)
     for entry in config["regressions"].values():
         del entry["acceleration"], entry["paper"]
-    config["claims"], config["uncertainty"]["claims"] = {}, []
-    for section in FIGURES:
-        for name, entry in list(config[section].items()):
-            if "paper_only" in entry and name not in as_mapping(overlay.get(section)):
-                del config[section][name]
-                continue
-            for key in ("tables", "caption_tables"):
-                if key in entry:
-                    entry[key] = {role: table for role, table in entry[key].items() if table not in dropped}
-            if "settings" in entry:
-                entry["settings"] = {key: value for key, value in entry["settings"].items() if key not in MARKS}
+    drop_figures(config, overlay)
     return config
 
 

@@ -1,12 +1,12 @@
 """All keys of the config in their canonical order, with description, unit and range."""
 
-from functools import partial
-from typing import Annotated, Any, NotRequired
+from typing import Annotated, Literal, NotRequired
 
-from pydantic import AfterValidator, ConfigDict, Field, Strict, TypeAdapter, WrapValidator, with_config
+from pydantic import AfterValidator, ConfigDict, Field, Strict, TypeAdapter
 from typing_extensions import TypedDict
 
-from scripts.conveyor.parameters import DESCRIPTIONS, FIXED_STEP_METHODS, TENSION_MODES
+from scripts.conveyor.parameters import DESCRIPTIONS, FIXED_STEP_METHODS
+from scripts.identification.settings import NUMBERS_OF_CLAIMS
 
 from .types import (
     AXIS_TYPES,
@@ -15,64 +15,126 @@ from .types import (
     MOST_POINTS,
     NAME,
     Axes,
+    Line,
     Model,
     Name,
     Reference,
-    as_written,
     axis,
     check_ascending,
     check_span,
     interval,
-    line,
     many,
     mapping,
-    named,
     number,
     parameter,
     span,
     text,
     whole,
-    word,
 )
 
-positive = partial(number, gt=0)
-count = partial(whole, least=1, most=10**9)
+# Types of several keys.
 Acceleration, Accelerations = MODEL_TYPES["acceleration"], AXIS_TYPES["acceleration"]
-Height = MODEL_TYPES["z0"]
-HeightNumber, Velocity = parameter("z0", "height above the mean position of the plate"), parameter("vz0")
-Duration = positive("simulated time of a run", "s", le=1e6)
-METHODS = ("event", *FIXED_STEP_METHODS)
-Method = word("event is the event-driven solver, the other methods have a fixed step", *METHODS)
-Methods = many(Method, "methods; the second and further ones make tables of their own, NAME_METHOD")
+Height, HeightNumber = MODEL_TYPES["z0"], parameter("z0", "height above the mean position of the plate")
+Velocity = parameter("vz0")
+Duration = number("simulated time of a run", "s", gt=0, le=1e6)
+Durations = many(Duration, "durations")
+FixedStepMethod = Annotated[Literal[FIXED_STEP_METHODS], Field(description="method with a fixed step")]
+Method = Annotated[Literal["event", *FIXED_STEP_METHODS], Field(description="event, or a method with a fixed step")]
 Tolerance = number("relative error per step of the method event", ge=1e-14, le=1e-2)
 Tolerances = many(Tolerance, "relative tolerances")
 Step = number("time step of the fixed-step methods", "s", ge=1e-12, le=1e-1)
 Steps = many(Step, "time steps of the fixed-step methods")
 Epsilon = number("size of the perturbation, in units of the perturbed parameter", ge=1e-15, le=1)
-Begin = number("time of the first sample", "s", ge=0, le=1e6)
-Interval = positive("time between samples", "excitation cycles", le=1e3)
+Interval = number("time between samples", "excitation cycles", gt=0, le=1e3)
 Seed = whole("seed of the random numbers", 0, 2**32 - 1)
 Cycles = whole("length of a run", 256, 10**9, "excitation cycles")
 Samples = whole("number of samples", 8, 10**8)
 ManySamples = many(whole("number of samples", 100, 10**8), "numbers of samples")
 Theiler = whole("pairs of samples closer in time than this are left out", 0, 10**8, "samples")
 Transient = whole("excitation cycles before recording", 0, 10**9, "excitation cycles")
-Strobes = count("stroboscopic samples, one per excitation cycle")
-BlockCycles, Blocks = count("cycles per block", unit="excitation cycles"), whole("number of blocks", 2, 10**6)
-Share = number("share of visibly changed values that is accepted", ge=0, le=1)
+Strobes = whole("stroboscopic samples, one per excitation cycle", 1, 10**9)
+BlockCycles = whole("cycles per block", 1, 10**9, "excitation cycles")
+Blocks = whole("number of blocks", 2, 10**6)
 Period = whole("longest period considered", 1, 64, "excitation cycles")
 Starts = whole("number of random initial conditions", 1, 10**6)
-Repeats = count("repetitions")
-MaxEvaluations = count("force evaluations after which a peer method is stopped")
-ProcessorTime = positive("time after which a run is not repeated", "s of processor time", le=3600)
-Resolution = positive("width to which a bracket is halved", "m/s²", le=1e4)
+Repeats = whole("repetitions", 1, 10**9)
+MaxEvaluations = whole("force evaluations after which a peer method is stopped", 1, 10**9)
+ProcessorTime = number("time after which a run is not repeated", "s of processor time", gt=0, le=3600)
+Seconds = number("measured time on one core", "s", gt=0, le=1e6)
+SecondsPair = interval(Seconds, "[time where the plate cannot throw parts, time where it can]", point=True)
+Megabytes = number("memory", "MB", gt=0, le=1e6)
+Bits = whole("bits of the interval arithmetic", 53, 4096)
+Order = whole("order of the Taylor series", 4, 200)
+LastTerms = number("size of the last terms of the Taylor series, in g/ω² and g/ω", gt=0, le=1e-3)
+Resolution = number("width to which a bracket is halved", "m/s²", gt=0, le=1e4)
+Amplitudes = many(Acceleration, "amplitudes of the excitation")
 Heights = interval(HeightNumber, "interval of the random initial heights")
-MeanVelocityError = positive("relative error of the mean velocity", le=1e300)
-BITS, ORDER = whole("bits of the interval arithmetic", 53, 4096), whole("order of the Taylor series", 4, 200)
-LAST_TERMS = positive("size of the last terms of the Taylor series, in g/ω² and g/ω", le=1e-3)
-Kept = Annotated[number("number", ge=-1e300, le=1e300), WrapValidator(as_written)]
-CLAIMS = tuple(f"C{place:02d}" for place in range(1, 24))
-Claims = many(word("claim of the paper", *CLAIMS), "claims that are checked with tighter tolerances", least=0)
+
+
+class Solver(TypedDict):
+    duration: Duration
+    method: Method
+    tolerance: Tolerance
+    step: Step
+    settling: whole("an initial condition that has not settled by then may be chaotic", 256, 10**9, "excitation cycles")
+
+
+class Costs(TypedDict):
+    cycle: number("time per excitation cycle by the method event, on one core", "s", gt=0, le=1e6)
+    fixed_step: number("time per step of a fixed-step method, on one core", "s", gt=0, le=1e6)
+    start: mapping(
+        "cost per initial condition, by what is known of its conveyor",
+        {"alone": SecondsPair, "chaos": SecondsPair, "orbits": SecondsPair},
+    )
+    conveyor: mapping("cost of the search for attractors, per conveyor", {"chaos": SecondsPair, "orbits": SecondsPair})
+
+
+class Sharing(TypedDict):
+    job_seconds: number("wanted duration of a job on two cores", "s", gt=0, le=1e6)
+    most_jobs: whole("largest number of jobs per sweep", 1, 10**5)
+    core_hours: number("largest estimated cost of a sweep", "h", gt=0, le=1e9)
+    seconds: Annotated[Costs, Field(description="measured costs from which a sweep's cost is estimated")]
+    megabytes: mapping(
+        "memory of a job and of each row", {"program": Megabytes, "row": Megabytes, "written_row": Megabytes}
+    )
+
+
+class Followed(TypedDict):
+    """Keys of a table of trajectories."""
+
+    axes: Axes
+    model: NotRequired[Model]
+    method: NotRequired[Method]
+    methods: NotRequired[many(Method, "methods; the second and further ones make tables of their own, NAME_METHOD")]
+    tolerance: NotRequired[Tolerance]
+    step: NotRequired[Step]
+
+
+class Sweep(Followed):
+    duration: NotRequired[Duration]
+    needs: NotRequired[
+        Annotated[
+            Literal["feeding", "vertical"],
+            Field(description="vertical leaves out the feeding velocity, which is faster"),
+        ]
+    ]
+
+
+class Estimate(Followed):
+    duration: NotRequired[Duration]
+    perturb: Annotated[Literal["psi0", "z0", "vz0"], Field(description="perturbed parameter")]
+    epsilon: Epsilon
+    output: Annotated[Literal["x", "vx", "z", "vz"], Field(description="compared state variable")]
+    last: number("share of the run that is averaged", "of the duration", gt=0, lt=1)
+    samples: whole("samples in this share", 2, 10**8)
+
+
+class Critical(Followed):
+    duration: NotRequired[Duration]
+    scan: axis(HeightNumber, "initial heights that are scanned for changes", least=2, check=check_ascending)
+    resolution: number("accuracy of a critical height", "m", ge=1e-15, le=1)
+
+
 FIT = {
     "A": number("parameter A of Eq. 13", "m²/s²", ge=-1e6, le=1e6),
     "B": number("parameter B of Eq. 13", "m/s²", ge=-1e6, le=1e6),
@@ -80,498 +142,527 @@ FIT = {
 }
 
 
-def optional(keys: dict[str, Any]) -> dict[str, Any]:
-    return {name: NotRequired[item] for name, item in keys.items()}
+class Regression(TypedDict):
+    critical: Annotated[Name, Field(description="entry of `critical` that Eq. 13 is fitted to")]
+    acceleration: NotRequired[interval(Acceleration, "amplitudes of the fitted data")]
+    bounds: mapping("search intervals", {name: interval(item, f"bounds of {name}") for name, item in FIT.items()})
+    seed: Seed
+    evaluations: whole("largest number of evaluations", 1, 10**9)
+    valley: span(FIT["B"], "values of B along the valley")
+    paper: NotRequired[mapping("the paper's parameters", FIT)]
 
 
-def one_each(names: tuple[str, ...], item: Any, description: str, total: bool = True) -> Any:
-    """A mapping in which all names have a value of the same type."""
-    return mapping(description, dict.fromkeys(names, item), total)
+class Dimension(Followed):
+    begin: number("time of the first sample", "s", ge=0, le=1e6)
+    interval: Interval
+    samples: Samples
+    estimator: Annotated[Literal["paper", "box", "correlation"], Field(description="estimator of the dimension")]
+    octaves: NotRequired[whole("box sizes are 1/2 to 1/2^octaves of the extent", 3, 30)]
+    theiler: NotRequired[Theiler]
+    largest_error: NotRequired[number("estimates with a larger error are left out", gt=0, le=2)]
 
 
-SOLVER = {
-    "duration": Duration,
-    "method": Method,
-    "tolerance": Tolerance,
-    "step": Step,
-    "settling": whole(
-        "an initial condition that has not settled by then may be chaotic", 256, 10**9, "excitation cycles"
-    ),
-}
-Seconds = positive("measured time on one core", "s", le=1e6)
-Pair = interval(Seconds, "[time where the plate cannot throw parts, time where it can]", point=True)
-Megabytes = positive("memory", "MB", le=1e6)
-COSTS = {
-    "cycle": positive("time per excitation cycle by the method event, on one core", "s", le=1e6),
-    "fixed_step": positive("time per step of a fixed-step method, on one core", "s", le=1e6),
-    "start": one_each(
-        ("alone", "chaos", "orbits"), Pair, "cost per initial condition, by what is known of its conveyor"
-    ),
-    "conveyor": one_each(("chaos", "orbits"), Pair, "cost of the search for attractors, per conveyor"),
-}
-SHARING = {
-    "job_seconds": positive("wanted duration of a job on two cores", "s", le=1e6),
-    "most_jobs": whole("largest number of jobs per sweep", 1, 10**5),
-    "core_hours": positive("largest estimated cost of a sweep", "h", le=1e9),
-    "seconds": mapping("measured costs from which a sweep's cost is estimated", COSTS),
-    "megabytes": one_each(("program", "row", "written_row"), Megabytes, "memory of a job and of each row"),
-}
+class Signal(Followed):
+    duration: NotRequired[Duration]
+    times: span(number("time", "s", ge=0, le=1e6), "times of the samples")
 
-FOLLOWED = {"axes": Axes} | optional(
-    {"model": Model, "method": Method, "methods": Methods, "tolerance": Tolerance, "step": Step}
+
+class Spectrum(Followed):
+    duration: NotRequired[Duration]
+    last: number("share of the run that is transformed", "of the duration", gt=0, le=1)
+    samples_per_cycle: whole("samples per excitation cycle", 8, 10**6)
+
+
+class Impacts(TypedDict):
+    axes: Axes
+    model: NotRequired[Model]
+
+
+class SeedOrbit(TypedDict):
+    acceleration: Acceleration
+    z0: Height
+    vz0: NotRequired[Velocity]
+
+
+class Orbits(TypedDict):
+    seeds: NotRequired[
+        Annotated[
+            list[SeedOrbit], Field(min_length=1, max_length=1000, description="initial conditions of the first orbits")
+        ]
+    ]
+    limits: interval(Acceleration, "amplitudes between which branches are followed")
+    max_period: whole("longest period that is followed", 1, 64, "excitation cycles")
+    cycles: whole("cycles until a seed is near its orbit", 64, 10**9, "excitation cycles")
+    model: NotRequired[Model]
+
+
+class CertifiedChaos(TypedDict):
+    acceleration: many(Acceleration, "amplitudes of the proofs of chaos", least=0)
+    size: number("largest half axis of a parallelogram along the unstable direction, in g/ω² and g/ω", gt=0, le=1)
+    ratio: number("unstable half axis over stable half axis", gt=0, le=100)
+    longest: whole("longest excursion searched for", 2, 64, "excitation cycles")
+    bits: Bits
+    order: Order
+    tolerance: LastTerms
+
+
+class Certificates(TypedDict):
+    acceleration: Accelerations
+    also: many(Acceleration, "further amplitudes", least=0)
+    longest_period: Period
+    doubled_limit: Acceleration
+    bits: Bits
+    order: Order
+    tolerance: LastTerms
+    closeness: number("largest distance of a proved orbit from the stored one, in g/ω² and g/ω", gt=0, le=1)
+    doublings: whole("period doublings that are proved", 0, 8)
+    half_width: number("half width of the bracket of a doubling", "m/s²", gt=0, le=1e-2)
+    half_arc: number("half the arc of a branch around its fold, in g/ω², g/ω and g", gt=0, le=1e-2)
+    chaos: Annotated[CertifiedChaos, Field(description="proofs of chaos")]
+
+
+class Attractors(TypedDict):
+    acceleration: Accelerations
+    transient: Transient
+    strobes: Strobes
+    model: NotRequired[Model]
+    tolerance: NotRequired[Tolerance]
+
+
+class Lyapunov(TypedDict):
+    cycles: BlockCycles
+    blocks: Blocks
+    tolerance: NotRequired[Tolerance]
+
+
+class Witnesses(TypedDict):
+    strobes: whole("samples of the 0-1 test", 100, 10**8)
+    seed: Seed
+    significant: number("standard errors by which an exponent is positive", ge=0, le=1e6)
+    tolerance: NotRequired[Tolerance]
+
+
+Statistic = number("number", ge=-1e300, le=1e300)
+Quantity = TypedDict(
+    "Quantity",
+    {
+        "is": Annotated[Line, Field(description="quantity and unit")],
+        "paper": Annotated[Statistic | None, Field(description="the paper's number, or null")],
+        "accepted": interval(Statistic | None, "[least, largest] number, or null for no bound", point=True),
+        "because": text("reason for the interval", r"[\s\S]{3,}", "a reason of at least three letters"),
+    },
 )
-TIMED = FOLLOWED | {"duration": NotRequired[Duration]}
-SWEEP = TIMED | {
-    "needs": NotRequired[word("vertical leaves out the feeding velocity, which is faster", "feeding", "vertical")]
-}
-ESTIMATE = TIMED | {
-    "perturb": word("perturbed parameter", "psi0", "z0", "vz0"),
-    "epsilon": Epsilon,
-    "output": word("compared state variable", "x", "vx", "z", "vz"),
-    "last": number("share of the run that is averaged", "of the duration", gt=0, lt=1),
-    "samples": whole("samples in this share", 2, 10**8),
-}
-CRITICAL = TIMED | {
-    "scan": axis(HeightNumber, "initial heights that are scanned for changes", least=2, check=check_ascending),
-    "resolution": number("accuracy of a critical height", "m", ge=1e-15, le=1),
-}
-REGRESSION = {
-    "critical": Annotated[Name, Field(description="entry of `critical` that Eq. 13 is fitted to")],
-    "acceleration": NotRequired[interval(Acceleration, "amplitudes of the fitted data")],
-    "bounds": mapping(
-        "search interval of each parameter", {name: interval(item, f"bounds of {name}") for name, item in FIT.items()}
-    ),
-    "seed": Seed,
-    "evaluations": count("largest number of evaluations"),
-    "valley": span(FIT["B"], "values of B along the valley"),
-    "paper": NotRequired[mapping("the paper's parameters", FIT)],
-}
-DIMENSION = FOLLOWED | {
-    "begin": Begin,
-    "interval": Interval,
-    "samples": Samples,
-    "estimator": word("estimator of the fractal dimension", "paper", "box", "correlation"),
-    "octaves": NotRequired[whole("box sizes are 1/2 to 1/2^octaves of the extent", 3, 30)],
-    "theiler": NotRequired[Theiler],
-    "largest_error": NotRequired[positive("estimates with a larger error are left out", le=2)],
-}
-SIGNAL = TIMED | {"times": span(number("time", "s", ge=0, le=1e6), "times of the samples")}
-SPECTRUM = TIMED | {
-    "last": positive("share of the run that is transformed", "of the duration", le=1),
-    "samples_per_cycle": whole("samples per excitation cycle", 8, 10**6),
-}
-IMPACTS = {"axes": Axes, "model": NotRequired[Model]}
 
-SEED_ORBIT = {"acceleration": Acceleration, "z0": Height, "vz0": NotRequired[Velocity]}
-SeedOrbits = Annotated[
-    list[mapping("initial condition near an orbit", SEED_ORBIT)], Field(min_length=1, max_length=1000)
-]
-ORBITS = {
-    "seeds": NotRequired[Annotated[SeedOrbits, Field(description="initial conditions of the first orbits")]],
-    "limits": interval(Acceleration, "amplitudes between which branches are followed"),
-    "max_period": whole("longest period that is followed", 1, 64, "excitation cycles"),
-    "cycles": whole("cycles until a seed is near its orbit", 64, 10**9, "excitation cycles"),
-    "model": NotRequired[Model],
-}
-CERTIFIED_CHAOS = {
-    "acceleration": many(Acceleration, "amplitudes of the proofs of chaos", least=0, check=list),
-    "size": positive("largest half axis of a parallelogram along the unstable direction, in g/ω² and g/ω", le=1),
-    "ratio": positive("unstable half axis over stable half axis", le=100),
-    "longest": whole("longest excursion searched for", 2, 64, "excitation cycles"),
-    "bits": BITS,
-    "order": ORDER,
-    "tolerance": LAST_TERMS,
-}
-CERTIFICATES = {
-    "acceleration": Accelerations,
-    "also": many(Acceleration, "further amplitudes", least=0, check=list),
-    "longest_period": Period,
-    "doubled_limit": Acceleration,
-    "bits": BITS,
-    "order": ORDER,
-    "tolerance": LAST_TERMS,
-    "closeness": positive("largest distance of a proved orbit from the stored one, in g/ω² and g/ω", le=1),
-    "doublings": whole("period doublings that are proved", 0, 8),
-    "half_width": positive("half width of the bracket of a doubling", "m/s²", le=1e-2),
-    "half_arc": positive("half the arc of a branch around its fold, in g/ω², g/ω and g", le=1e-2),
-    "chaos": mapping("proofs of chaos", CERTIFIED_CHAOS),
-}
-ATTRACTORS = {
-    "acceleration": Accelerations,
-    "transient": Transient,
-    "strobes": Strobes,
-    "model": NotRequired[Model],
-    "tolerance": NotRequired[Tolerance],
-}
-LYAPUNOV = {"cycles": BlockCycles, "blocks": Blocks, "tolerance": NotRequired[Tolerance]}
-WITNESSES = {
-    "strobes": whole("samples of the 0-1 test", 100, 10**8),
-    "seed": Seed,
-    "significant": number("standard errors by which an exponent is positive", ge=0, le=1e6),
-    "tolerance": NotRequired[Tolerance],
-}
 
-QUANTITY = {
-    "is": line("quantity and unit"),
-    "paper": Annotated[Kept | None, Field(description="the paper's number, or null")],
-    "accepted": interval(Kept | None, "[least, largest] number that supports the claim; null for no bound", point=True),
-    "because": text("reason for the interval", r"[\s\S]{3,}", "a reason of at least three letters"),
-}
-CLAIM = {
-    "where": line("section or figure of the paper"),
-    "statement": line("the claim"),
-    "finding": line("function of scripts/claims, as MODULE.FUNCTION"),
-    "settings": NotRequired[mapping("settings of the finding", {"acceleration": Acceleration}, total=False)],
-    "quantities": named("quantities that the finding returns", mapping("a quantity", QUANTITY), min_length=1),
-    "tables": named("tables by the roles that the finding knows", Reference),
-}
-UNCERTAINTY = {"tighter": number("factor of the tighter tolerances", gt=1, le=1e4), "claims": Claims}
+class Claim(TypedDict):
+    where: Annotated[Line, Field(description="section or figure of the paper")]
+    statement: Annotated[Line, Field(description="the claim")]
+    finding: Annotated[Line, Field(description="function of scripts/claims, as MODULE.FUNCTION")]
+    settings: NotRequired[mapping("settings of the finding", {"acceleration": Acceleration}, total=False)]
+    quantities: Annotated[dict[Name, Quantity], Field(description="quantities that the finding returns", min_length=1)]
+    tables: Annotated[dict[Name, Reference], Field(description="tables by the roles that the finding knows")]
 
-Speed = Annotated[positive("speed in units of explicit Euler", le=1e300), WrapValidator(as_written)]
-CASE = {
-    "motion": line("state of motion"),
-    "model": Model,
-    "duration": NotRequired[Duration],
-    "loosest": NotRequired[Tolerance],
-    "step": NotRequired[Step],
-    "compared": positive("time over which the error is measured", "s", le=1e6),
-    "wanted": mapping("goals of the benchmark", {"error": MeanVelocityError, "speed": Speed, "aim": Speed}),
-}
-BENCHMARK = {"repeats": Repeats, "cases": named("benchmark cases", mapping("a case", CASE))}
+
+CLAIMS = tuple(f"C{place:02d}" for place in range(1, 24))
+NameOfClaim = Annotated[Literal[CLAIMS], Field(description="claim of the paper")]
+
+
+class Uncertainty(TypedDict):
+    tighter: number("factor of the tighter tolerances", gt=1, le=1e4)
+    claims: many(NameOfClaim, "claims that are checked with tighter tolerances", least=0)
+
+
+class Goals(TypedDict):
+    error: number("relative error of the mean velocity", gt=0, le=1e300)
+    speed: number("speed in units of explicit Euler", gt=0, le=1e300)
+    aim: number("speed in units of explicit Euler", gt=0, le=1e300)
+
+
+class Case(TypedDict):
+    motion: Annotated[Line, Field(description="state of motion")]
+    model: Model
+    duration: NotRequired[Duration]
+    loosest: NotRequired[Tolerance]
+    step: NotRequired[Step]
+    compared: number("time over which the error is measured", "s", gt=0, le=1e6)
+    wanted: Annotated[Goals, Field(description="goals of the benchmark")]
+
+
+class Benchmark(TypedDict):
+    repeats: Repeats
+    cases: Annotated[dict[Name, Case], Field(description="benchmark cases")]
+
+
 INTEGRATORS = ("RK45", "DOP853", "Radau", "LSODA", "heyoka")
 PeerTolerances = many(Tolerance, "relative tolerances", least=0)
-PeersOfAKind = one_each(INTEGRATORS, PeerTolerances, "tolerances of each integrator", total=False)
-PRECISION = {
-    "duration": Duration,
-    "scenes": named("conveyors by their names", Model),
-    "tolerances": Tolerances,
-    "steps": Steps,
-    "peers": one_each(("sign", "events", "modes"), PeersOfAKind, "peers by their treatment of impacts", total=False),
-    "max_evaluations": MaxEvaluations,
-    "repeats": Repeats,
-    "seconds": ProcessorTime,
-}
-ExponentPairs = {
-    "acceleration": Acceleration,
-    "z0": Height,
-    "durations": many(Duration, "durations"),
-    "epsilon": Epsilon,
-}
-PRECISION_ESTIMATES = {
-    "exponent": mapping("largest Lyapunov exponent by finite differences", ExponentPairs),
-    "dimension": mapping("fractal dimension", {"points": ManySamples, "repeats": Repeats}),
-    "fit": mapping("fit of Eq. 13", {"evaluations": whole("largest number of evaluations", 4, 10**9)}),
-    "seed": Seed,
-}
-RIDE = {
-    "start": Acceleration,
-    "stop": Acceleration,
-    "num": whole("number of amplitudes", 1, MOST_POINTS),
-    "z0": Height,
-    "duration": Duration,
-}
-HARD = {"label": line("label in the figure"), "model": Model, "duration": Duration}
-STICK = {name: item for name, item in MODEL_TYPES.items() if name not in ("z0", "vz0")}
-STABILITY = {
-    "methods": many(word("method with a fixed step", *FIXED_STEP_METHODS), "methods with a fixed step"),
-    "paper_step": Step,
-    "step": span(Step, "time steps"),
-    "contact": mapping("contact with p = 1", {name: MODEL_TYPES[name] for name in ("stiffness", "damping")}),
-    "stiffness": span(MODEL_TYPES["stiffness"], "contact stiffnesses"),
-    "damping": span(MODEL_TYPES["damping"], "contact damping coefficients"),
-    "impact_velocity": span(positive("impact velocity", "m/s", le=100), "impact velocities"),
-    "conveyor": Annotated[mapping("the paper's conveyor without chaos", RIDE), AfterValidator(check_span)],
-    "stick": mapping("a conveyor on which the part sticks", STICK, total=False),
-    "chatter_steps": Steps,
-    "hard": named("difficult cases", mapping("a difficult case", HARD)),
-}
-PERTURBED = {
-    "acceleration": Acceleration,
-    "z0": Height,
-    "perturb": word("perturbed parameter", "psi0", "z0"),
-    "output": word("compared state variable", "vx", "z"),
-}
-PAPER_EXPONENT = {
-    "step": Step,
-    "epsilon": Epsilon,
-    "duration": Duration,
-    "cases": one_each(
-        ("orbit_phase", "orbit_height", "chaos_phase"), mapping("a case", PERTURBED), "perturbed motions"
-    ),
-    "epsilons": many(Epsilon, "sizes of the perturbation"),
-    "durations": many(Duration, "durations"),
-    "steps": Steps,
-}
-PAPER_DIMENSION = {
-    "samples": ManySamples,
-    "correlated": whole("largest number of samples of a correlation sum", 100, 10**8),
-    "theiler": Theiler,
-    "portraits": one_each(("second", "chaos"), Model, "conveyors of the phase portraits"),
-    "begin": positive("time of the first sample", "s", le=1e6),
-    "interval": Interval,
-    "paper_interval": Interval,
-    "durations": many(Duration, "durations"),
-    "octaves": whole("box sizes are 1/2 to 1/2^octaves of the extent", 2, 30),
-}
-STABILITY_ESTIMATES = {
-    "exponent": mapping("largest Lyapunov exponent by finite differences (Eq. 23)", PAPER_EXPONENT),
-    "dimension": mapping("fractal dimension by box counting", PAPER_DIMENSION),
-    "seed": Seed,
-}
-SHORTENED = {
-    "settling": Cycles,
-    "duration": Duration,
-    "begin": Begin,
-    "samples": Samples,
-    "transient": Transient,
-    "strobes": Strobes,
-    "cycles": BlockCycles,
-    "blocks": Blocks,
-}
-Shortened = mapping("settings of a shortened variant", SHORTENED, total=False)
-DRAWN = ("sweeps", "signals", "spectra", "estimates", "critical", "impacts", "dimensions", "attractors", "lyapunov")
-SHORTER = ("sweeps", "signals", "spectra", "critical", "impacts", "attractors", "lyapunov", "dimensions", "estimates")
+Peers = mapping("tolerances of each integrator", dict.fromkeys(INTEGRATORS, PeerTolerances), total=False)
+
+
+class Precision(TypedDict):
+    duration: Duration
+    scenes: Annotated[dict[Name, Model], Field(description="conveyors by their names")]
+    tolerances: Tolerances
+    steps: Steps
+    peers: mapping("peers by their treatment of impacts", {"sign": Peers, "events": Peers, "modes": Peers}, total=False)
+    max_evaluations: MaxEvaluations
+    repeats: Repeats
+    seconds: ProcessorTime
+
+
+class ExponentPairs(TypedDict):
+    acceleration: Acceleration
+    z0: Height
+    durations: Durations
+    epsilon: Epsilon
+
+
+class PrecisionEstimates(TypedDict):
+    exponent: Annotated[ExponentPairs, Field(description="largest Lyapunov exponent by finite differences")]
+    dimension: mapping("fractal dimension", {"points": ManySamples, "repeats": Repeats})
+    fit: mapping("fit of Eq. 13", {"evaluations": whole("largest number of evaluations", 4, 10**9)})
+    seed: Seed
+
+
+class Ride(TypedDict):
+    start: Acceleration
+    stop: Acceleration
+    num: whole("number of amplitudes", 1, MOST_POINTS)
+    z0: Height
+    duration: Duration
+
+
+class HardCase(TypedDict):
+    label: Annotated[Line, Field(description="label in the figure")]
+    model: Model
+    duration: Duration
+
+
+class Stability(TypedDict):
+    methods: many(FixedStepMethod, "methods with a fixed step")
+    paper_step: Step
+    step: span(Step, "time steps")
+    contact: mapping("contact with p = 1", {name: MODEL_TYPES[name] for name in ("stiffness", "damping")})
+    stiffness: span(MODEL_TYPES["stiffness"], "contact stiffnesses")
+    damping: span(MODEL_TYPES["damping"], "contact damping coefficients")
+    impact_velocity: span(number("impact velocity", "m/s", gt=0, le=100), "impact velocities")
+    conveyor: Annotated[Ride, AfterValidator(check_span), Field(description="the paper's conveyor without chaos")]
+    stick: mapping(
+        "a conveyor on which the part sticks",
+        {name: item for name, item in MODEL_TYPES.items() if name not in ("z0", "vz0")},
+        total=False,
+    )
+    chatter_steps: Steps
+    hard: Annotated[dict[Name, HardCase], Field(description="difficult cases")]
+
+
+class Perturbed(TypedDict):
+    """A motion and its perturbation."""
+
+    acceleration: Acceleration
+    z0: Height
+    perturb: Annotated[Literal["psi0", "z0"], Field(description="perturbed parameter")]
+    output: Annotated[Literal["vx", "z"], Field(description="compared state variable")]
+
+
+class PaperExponent(TypedDict):
+    step: Step
+    epsilon: Epsilon
+    duration: Duration
+    cases: mapping("perturbed motions", dict.fromkeys(("orbit_phase", "orbit_height", "chaos_phase"), Perturbed))
+    epsilons: many(Epsilon, "sizes of the perturbation")
+    durations: Durations
+    steps: Steps
+
+
+class PaperDimension(TypedDict):
+    samples: ManySamples
+    correlated: whole("largest number of samples of a correlation sum", 100, 10**8)
+    theiler: Theiler
+    portraits: mapping("conveyors of the phase portraits", {"second": Model, "chaos": Model})
+    begin: number("time of the first sample", "s", gt=0, le=1e6)
+    interval: Interval
+    paper_interval: Interval
+    durations: Durations
+    octaves: whole("box sizes are 1/2 to 1/2^octaves of the extent", 2, 30)
+
+
+class StabilityEstimates(TypedDict):
+    exponent: Annotated[PaperExponent, Field(description="largest Lyapunov exponent by finite differences (Eq. 23)")]
+    dimension: Annotated[PaperDimension, Field(description="fractal dimension by box counting")]
+    seed: Seed
+
+
+class Shortened(TypedDict, total=False):
+    """Settings of a shortened variant."""
+
+    settling: Cycles
+    duration: Duration
+    begin: number("time of the first sample", "s", ge=0, le=1e6)
+    samples: Samples
+    transient: Transient
+    strobes: Strobes
+    cycles: BlockCycles
+    blocks: Blocks
+
+
+BUDGETED = ("sweeps", "signals", "spectra", "estimates", "critical", "impacts", "dimensions", "attractors", "lyapunov")
 Points = whole("number of points", 1, MOST_POINTS)
-SCENE_BUDGET = {
-    "shortened": one_each(SHORTER, Shortened, "settings that every variant shortens", total=False),
-    "points": one_each(DRAWN, Points, "points of each table that are compared"),
-    "shifts": many(number("shift of the initial height", "m", ge=-1, le=1), "shifts of the initial height"),
-    "tolerances": Tolerances,
-    "pixels": Share,
-    "line": number("visible change of a line, as a share of the axis", ge=0, le=1),
-    "reasons": Annotated[
-        dict[Reference, line("reason")], Field(description="why a table is more accurate than its figure needs")
-    ],
-}
-RIGID_PART = {
-    "doublings": whole("period doublings that are followed", 1, 16),
-    "z0": Height,
-    "duration": Duration,
-    "close": positive("distance at which a motion repeats itself, in parts of the jump height", le=1),
-    "margin": positive("amplitude steps in which a period is followed", "m/s²", le=1e4),
-    "resolution": Resolution,
-}
-Amplitudes = many(Acceleration, "amplitudes of the excitation")
-SETTLING_TIMES = {"acceleration": Amplitudes, "starts": Starts, "z0": Heights, "cycles": Cycles, "seed": Seed}
-LABEL_CHECKS = {
-    "acceleration": Amplitudes,
-    "starts": Starts,
-    "unshared": whole("initial conditions that are followed without shared chaotic sets", 0, 10**6),
-    "z0": Heights,
-    "seed": Seed,
-}
-RANDOM_COUNTS = ("around the paper", "whole ranges")
-RANDOM_POINTS = {
-    "count": one_each(RANDOM_COUNTS, whole("number of random conveyors", 1, 10**7), "conveyors by their ranges"),
-    "seed": Seed,
-    "cycles": Annotated[positive("length of a run", "excitation cycles", le=1e6), WrapValidator(as_written)],
-    "tolerance": Tolerance,
-}
+
+
+class SceneBudget(TypedDict):
+    shortened: mapping("settings that every variant shortens", dict.fromkeys(BUDGETED, Shortened), total=False)
+    points: mapping("points of each table that are compared", dict.fromkeys(BUDGETED, Points))
+    shifts: many(number("shift of the initial height", "m", ge=-1, le=1), "shifts of the initial height")
+    tolerances: Tolerances
+    pixels: number("share of visibly changed values that is accepted", ge=0, le=1)
+    line: number("visible change of a line, as a share of the axis", ge=0, le=1)
+    reasons: Annotated[dict[Reference, Line], Field(description="why a table is more accurate than its figure needs")]
+
+
+class RigidPart(TypedDict):
+    doublings: whole("period doublings that are followed", 1, 16)
+    z0: Height
+    duration: Duration
+    close: number("distance at which a motion repeats itself, in parts of the jump height", gt=0, le=1)
+    margin: number("amplitude steps in which a period is followed", "m/s²", gt=0, le=1e4)
+    resolution: Resolution
+
+
+class SettlingTimes(TypedDict):
+    acceleration: Amplitudes
+    starts: Starts
+    z0: Heights
+    cycles: Cycles
+    seed: Seed
+
+
+class LabelChecks(TypedDict):
+    acceleration: Amplitudes
+    starts: Starts
+    unshared: whole("initial conditions that are followed without shared chaotic sets", 0, 10**6)
+    z0: Heights
+    seed: Seed
+
+
+Conveyors = whole("number of random conveyors", 1, 10**7)
+
+
+class RandomPoints(TypedDict):
+    count: mapping("conveyors by their ranges", {"around the paper": Conveyors, "whole ranges": Conveyors})
+    seed: Seed
+    cycles: number("length of a run", "excitation cycles", gt=0, le=1e6)
+    tolerance: Tolerance
+
+
 Factor = number("factor by which a parameter is increased and decreased", gt=1, le=1e3)
-CURVES = {
-    "doublings": whole("doublings that are followed in two parameters", 0, 12),
-    "factors": one_each(("damping", "stiffness", "frequency", "angle"), Factor, "range of each parameter"),
-    "amplitude": interval(positive("a_z/g", le=1e3), "range of a_z/g"),
-    "step": positive("longest step in x, y, log a_z/g and the logarithm of the parameter", le=1),
-    "points": whole("largest number of points on each side of a curve", 10, 10**5),
-}
-SENSITIVITY = {
-    "longest_period": Period,
-    "doublings": whole("doublings whose derivatives are extrapolated", 1, 12),
-    "rest": mapping("initial condition of Fig. 3", {"z0": HeightNumber, "vz0": Velocity}),
-    "critical": Annotated[Name, Field(description="entry of `critical` over the amplitude alone")],
-    "heights": whole("number of amplitudes of this entry", 1, 1000),
-    "difference": number("relative change of a parameter in the check by finite differences", ge=1e-7, le=1e-2),
-    "agreement": positive("accepted difference between both derivatives", le=1),
-    "curves": mapping("bifurcation curves in two parameters", CURVES),
-}
-SCALING = {
-    "points": many(whole("points", 1000, 10**10), "points of a map"),
-    "made_whole": whole("up to this number of points all shards are computed", 1000, 10**9),
-    "conveyors": many(whole("conveyors", 10, 10**6), "numbers of conveyors"),
-    "threads": many(whole("threads", 1, 256), "numbers of threads"),
-    "shards": many(whole("shards", 1, 1000), "numbers of shards"),
-    "shared_points": whole("points of the maps over threads and shards", 1000, 10**8),
-}
-THROUGHPUT = {
-    "starts": whole("initial conditions of Fig. 13", 4, 10**6),
-    "peers": one_each(INTEGRATORS, Tolerance, "relative tolerance of each integrator", total=False),
-    "batch": whole("initial conditions that heyoka integrates together", 1, 64),
-    "max_evaluations": MaxEvaluations,
-    "repeats": Repeats,
-    "seconds": ProcessorTime,
-}
-OPERATING = {
-    "acceleration": Accelerations,
-    "resolution": Resolution,
-    "height": interval(number("height above the plate", "m", ge=0, le=10), "initial heights", point=True),
-    "vz0": interval(Velocity, "initial velocities", point=True),
-    "psi0": interval(MODEL_TYPES["psi0"], "phases of the excitation", point=True),
-    "starts": whole("random initial conditions per amplitude", 16, 10**6),
-    "seed": Seed,
-    "followed": whole("initial conditions per attractor whose mean velocity is computed", 2, 1000),
-    "cycles": whole("cycles over which a mean velocity is taken", 10, 10**6, "excitation cycles"),
-    "same_velocity": number(
-        "relative difference up to which velocities are equal", "of the larger velocity", gt=0, lt=1
-    ),
-    "tolerance": Tolerance,
-}
 
-OBJECTIVES = ("places", "first_velocity", "second_velocity")
-# Quantities of claims that scripts/identification/measures.py computes for any conveyor.
-NUMBERS_OF_CLAIMS = (
-    "C01.critical_amplitude",
-    "C02.lower_end",
-    "C02.upper_end",
-    "C04.largest_height",
-    "C05.velocity_at_lower_end",
-    "C05.velocity_at_upper_end",
-    "C06.fall",
-    "C07.height",
-    "C08.height",
-    "C09.error",
-    "C10.lower_end",
-    "C10.upper_end",
+
+class Curves(TypedDict):
+    doublings: whole("doublings that are followed in two parameters", 0, 12)
+    factors: mapping("range of each parameter", dict.fromkeys(("damping", "stiffness", "frequency", "angle"), Factor))
+    amplitude: interval(number("a_z/g", gt=0, le=1e3), "range of a_z/g")
+    step: number("longest step in x, y, log a_z/g and the logarithm of the parameter", gt=0, le=1)
+    points: whole("largest number of points on each side of a curve", 10, 10**5)
+
+
+class Sensitivity(TypedDict):
+    longest_period: Period
+    doublings: whole("doublings whose derivatives are extrapolated", 1, 12)
+    rest: mapping("initial condition of Fig. 3", {"z0": HeightNumber, "vz0": Velocity})
+    critical: Annotated[Name, Field(description="entry of `critical` over the amplitude alone")]
+    heights: whole("number of amplitudes of this entry", 1, 1000)
+    difference: number("relative change of a parameter in the check by finite differences", ge=1e-7, le=1e-2)
+    agreement: number("accepted difference between both derivatives", gt=0, le=1)
+    curves: Annotated[Curves, Field(description="bifurcation curves in two parameters")]
+
+
+class Scaling(TypedDict):
+    points: many(whole("points", 1000, 10**10), "points of a map")
+    made_whole: whole("up to this number of points all shards are computed", 1000, 10**9)
+    conveyors: many(whole("conveyors", 10, 10**6), "numbers of conveyors")
+    threads: many(whole("threads", 1, 256), "numbers of threads")
+    shards: many(whole("shards", 1, 1000), "numbers of shards")
+    shared_points: whole("points of the maps over threads and shards", 1000, 10**8)
+
+
+class Throughput(TypedDict):
+    starts: whole("initial conditions of Fig. 13", 4, 10**6)
+    peers: mapping("relative tolerance of each integrator", dict.fromkeys(INTEGRATORS, Tolerance), total=False)
+    batch: whole("initial conditions that heyoka integrates together", 1, 64)
+    max_evaluations: MaxEvaluations
+    repeats: Repeats
+    seconds: ProcessorTime
+
+
+class Operating(TypedDict):
+    acceleration: Accelerations
+    resolution: Resolution
+    height: interval(number("height above the plate", "m", ge=0, le=10), "initial heights", point=True)
+    vz0: interval(Velocity, "initial velocities", point=True)
+    psi0: interval(MODEL_TYPES["psi0"], "phases of the excitation", point=True)
+    starts: whole("random initial conditions per amplitude", 16, 10**6)
+    seed: Seed
+    followed: whole("initial conditions per attractor whose mean velocity is computed", 2, 1000)
+    cycles: whole("cycles over which a mean velocity is taken", 10, 10**6, "excitation cycles")
+    same_velocity: number("relative difference up to which velocities are equal", "of the larger velocity", gt=0, lt=1)
+    tolerance: Tolerance
+
+
+NumberOfClaim = Annotated[Literal[NUMBERS_OF_CLAIMS], Field(description="quantity of a claim, as CLAIM.QUANTITY")]
+NumbersOfClaims = many(NumberOfClaim, "quantities of claims")
+
+
+class Searched(TypedDict):
+    friction: interval(number("friction", "1", gt=0, le=10), DESCRIPTIONS["friction"])
+    loss: interval(number("loss", "1", gt=0, le=2), "damping × contact time / mass")
+    stiffness: interval(MODEL_TYPES["stiffness"], DESCRIPTIONS["stiffness"])
+    angle: interval(number("angle", "rad", gt=0, le=1.5707), DESCRIPTIONS["angle"])
+
+
+class Evidence(TypedDict):
+    """Numbers that the search fits."""
+
+    without: many(NumberOfClaim, "quantities that are left out", least=0)
+    shifted: Annotated[bool, Field(description="add the error of the paper's method at its parameters")]
+
+
+class Front(TypedDict):
+    weights: whole("parts into which the weights divide one", 1, 50)
+    least: number("weight in place of zero", gt=0, le=1)
+    drawn: whole("random points in the bounds", 10, 10**6)
+    starts: whole("random points that start a least-squares fit", 1, 100)
+    population: whole("population of NSGA-II", 20, 10**4)
+    generations: whole("generations of NSGA-II", 4, 10**5)
+    seeds: many(Seed, "seeds of the random numbers", least=2)
+    worst: number("misfit from which a member does not count", gt=0, le=1e3)
+    settled: number("relative change of the hypervolume that counts as settled", gt=0, le=1)
+    distance: number("accepted mean distance between the fronts of two seeds", gt=0, le=1e3)
+
+
+class Edges(TypedDict):
+    vertical_acceleration: span(number("vertical amplitude", "m/s²", gt=0, le=1e4), "scan from below")
+    further: number("distance above an edge at which the first state is searched for", "m/s²", gt=0, le=1e3)
+    resolution: number("accuracy of an edge", "m/s²", gt=0, le=10)
+
+
+class Profiles(TypedDict):
+    points: whole("points of a profile", 3, 1000)
+    confidence: number("confidence level of the intervals", gt=0, lt=1)
+
+
+ChangedParameters = mapping(
+    "changed parameters",
+    {name: MODEL_TYPES[name] for name in ("friction", "damping", "stiffness", "angle")},
+    total=False,
 )
-NumberOfClaim = word("quantity of a claim, as CLAIM.QUANTITY", *NUMBERS_OF_CLAIMS)
-SEARCHED = {
-    "friction": interval(number("friction", "1", gt=0, le=10), DESCRIPTIONS["friction"]),
-    "loss": interval(number("loss", "1", gt=0, le=2), "damping × contact time / mass"),
-    "stiffness": interval(MODEL_TYPES["stiffness"], DESCRIPTIONS["stiffness"]),
-    "angle": interval(number("angle", "rad", gt=0, le=1.5707), DESCRIPTIONS["angle"]),
-}
-EVIDENCE = {
-    "without": many(NumberOfClaim, "quantities that are left out", least=0),
-    "shifted": Annotated[bool, Strict(), Field(description="add the error of the paper's method at its parameters")],
-}
-FRONT = {
-    "weights": whole("parts into which the weights divide one", 1, 50),
-    "least": positive("weight in place of zero", le=1),
-    "drawn": whole("random points in the bounds", 10, 10**6),
-    "starts": whole("random points that start a least-squares fit", 1, 100),
-    "population": whole("population of NSGA-II", 20, 10**4),
-    "generations": whole("generations of NSGA-II", 4, 10**5),
-    "seeds": many(Seed, "seeds of the random numbers", least=2),
-    "worst": positive("misfit from which a member does not count", le=1e3),
-    "settled": positive("relative change of the hypervolume that counts as settled", le=1),
-    "distance": positive("accepted mean distance between the fronts of two seeds", le=1e3),
-}
-EDGES = {
-    "vertical_acceleration": span(
-        positive("amplitude of the vertical acceleration", "m/s²", le=1e4), "scan from below"
-    ),
-    "further": positive("distance above an edge at which the first state is searched for", "m/s²", le=1e3),
-    "resolution": positive("accuracy of an edge", "m/s²", le=10),
-}
-PROFILES = {
-    "points": whole("points of a profile", 3, 1000),
-    "confidence": number("confidence level of the intervals", gt=0, lt=1),
-}
-ToldAt = {name: MODEL_TYPES[name] for name in ("friction", "damping", "stiffness", "angle")}
-IDENTIFICATION = {
-    "bounds": mapping("search interval of each parameter", SEARCHED),
-    "readings": many(word(DESCRIPTIONS["tension"], *TENSION_MODES), "readings of Eqs. 7 and 11"),
-    "objectives": one_each(OBJECTIVES, many(NumberOfClaim, "quantities of claims"), "objectives of the search"),
-    "evidence": one_each(("all", "end_left_out", "paper_method"), mapping("evidence", EVIDENCE), "sets of evidence"),
-    "contacts": one_each(("loss", "stiffness"), whole("number of values", 4, 1000), "contacts in the table of edges"),
-    "heights": many(HeightNumber, "initial heights in the table of edges", least=4, check=check_ascending),
-    "edges": mapping("edges of the states of motion", EDGES),
-    "inside": positive("distance inside the interval of two states at which velocities are measured", "m/s²", le=10),
-    "search": mapping("multi-objective search with NSGA-II", FRONT),
-    "profiles": mapping("profile likelihoods", PROFILES),
-    "told": named(
-        "parameters at which the quantities are reported", mapping("changed parameters", ToldAt, total=False)
-    ),
-}
-
-Portrait = Annotated[
-    tuple[Acceleration, HeightNumber],
-    Strict(False),
-    AfterValidator(list),
-    Field(description="[amplitude, initial height]"),
-]
-FIGURE_SETTINGS = {
-    "acceleration": Acceleration,
-    "z0": HeightNumber,
-    "critical_acceleration": Acceleration,
-    "critical_height": HeightNumber,
-    "two_states": interval(Acceleration, "interval with two states of motion"),
-    "first_positive": Acceleration,
-    "begin": number("time at which the plot begins", "s", ge=0, le=1e6),
-    "highest": positive("largest frequency of the plot", "Hz", le=1e6),
-    "portraits": Annotated[list[Portrait], Field(min_length=3, max_length=3, description="three phase portraits")],
-    "transient": number("time that is left out", "s", ge=0, le=1e6),
-    "longest_period": Period,
-    "lowest_exponent": number("lowest Lyapunov exponent of the plot", "1/s", ge=-1e6, le=1e6),
-    "paper_step": Step,
-    "paper_error": positive("error of the paper's fit", "m²", le=1),
-}
-FIGURE = {
-    "title": line("title"),
-    "section": line("section of the paper"),
-    "paper_only": NotRequired[line("why the figure makes sense for the paper's conveyor only")],
-    "needs": word("kind of motion that the figure needs", "feeding", "vertical", "nothing"),
-    "tables": named("tables by the roles that the plot script knows", Reference),
-    "settings": NotRequired[mapping("numbers that the plot script draws", FIGURE_SETTINGS, total=False)],
-    "caption_tables": NotRequired[named("further tables of the caption", Reference)],
-}
-COMPANION = {
-    "maps": many(Name, "sweeps over two parameters"),
-    "opening": Annotated[Name, Field(description="preset with which the page opens")],
-    "presets": named("conveyors of the page", Model, min_length=1),
-    "tolerance": Tolerance,
-    "cycles": whole("cycles within which a motion must repeat itself", 256, 10**9, "excitation cycles"),
-    "separation": positive("initial distance of the second part", "m", le=1),
-}
-ARCHIVE = {"megabytes": positive("largest size of the archive", "MB", le=1e6)}
-PREFIX = f"a folder name of at most {LONGEST_NAME} letters, digits, - and _, or nothing"
 
 
-def entries(description: str, keys: dict[str, Any]) -> Any:
-    return named(description, mapping(f"entry of {description}", keys))
+class Identification(TypedDict):
+    bounds: Annotated[Searched, Field(description="search interval of each parameter")]
+    readings: many(MODEL_TYPES["tension"], "readings of Eqs. 7 and 11")
+    objectives: mapping(
+        "objectives of the search", dict.fromkeys(("places", "first_velocity", "second_velocity"), NumbersOfClaims)
+    )
+    evidence: mapping("sets of evidence", dict.fromkeys(("all", "end_left_out", "paper_method"), Evidence))
+    contacts: mapping(
+        "contacts in the table of edges", dict.fromkeys(("loss", "stiffness"), whole("number of values", 4, 1000))
+    )
+    heights: many(HeightNumber, "initial heights in the table of edges", least=4, check=check_ascending)
+    edges: Annotated[Edges, Field(description="edges of the states of motion")]
+    inside: number("distance inside the interval of two states at which velocities are measured", "m/s²", gt=0, le=10)
+    search: Annotated[Front, Field(description="multi-objective search with NSGA-II")]
+    profiles: Annotated[Profiles, Field(description="profile likelihoods")]
+    told: Annotated[dict[Name, ChangedParameters], Field(description="parameters at which the quantities are reported")]
 
 
-SECTIONS = {
-    "prefix": text("folder below results/ and figures/ for the results of this config", f"(|{NAME})", PREFIX),
-    "model": mapping("the conveyor and the part", MODEL_TYPES),
-    "solver": mapping("default settings of all trajectories", SOLVER),
-    "sharing": mapping("division of sweeps into jobs", SHARING),
-    "sweeps": entries("trajectories for all combinations of axes", SWEEP),
-    "estimates": entries("Lyapunov exponents by finite differences (Eq. 23)", ESTIMATE),
-    "critical": entries("initial heights at which the state of motion changes", CRITICAL),
-    "regressions": entries("fits of Eq. 13 to critical heights", REGRESSION),
-    "dimensions": entries("fractal dimensions of phase portraits", DIMENSION),
-    "signals": entries("motion of part and plate at given times", SIGNAL),
-    "spectra": entries("amplitude spectra of the velocities", SPECTRUM),
-    "impacts": entries("first impacts of parts that start in the air", IMPACTS),
-    "orbits": mapping("periodic orbits of the vertical motion", ORBITS),
-    "certificates": mapping("computer-assisted proofs of orbits, bifurcations and chaos", CERTIFICATES),
-    "attractors": mapping("stroboscopic states over the amplitude", ATTRACTORS),
-    "lyapunov": mapping("Lyapunov exponents of the attractors", LYAPUNOV),
-    "witnesses": mapping("tests for chaos", WITNESSES),
-    "claims": Annotated[
-        dict[word("claim of the paper", *CLAIMS), mapping("a claim", CLAIM)], Field(description="claims of the paper")
-    ],
-    "uncertainty": mapping("check of the claims with tighter tolerances", UNCERTAINTY),
-    "benchmark": mapping("speed and error of the solver and of the paper's method", BENCHMARK),
-    "precision": mapping("error against cost of all methods", PRECISION),
-    "precision_estimates": mapping("error against cost of derived quantities", PRECISION_ESTIMATES),
-    "stability": mapping("limits of stability of the methods", STABILITY),
-    "stability_estimates": mapping("limits of the paper's estimates", STABILITY_ESTIMATES),
-    "scene_budget": mapping("accuracy that each figure needs", SCENE_BUDGET),
-    "rigid_part": mapping("rigid bouncing part in place of the contact", RIGID_PART),
-    "settling_times": mapping("time until a motion settles", SETTLING_TIMES),
-    "label_checks": mapping("independence of labels from other initial conditions", LABEL_CHECKS),
-    "random_points": mapping("random conveyors and initial conditions", RANDOM_POINTS),
-    "sensitivity": mapping("derivatives of bifurcations and critical heights", SENSITIVITY),
-    "scaling": mapping("cost of sweeps by size, threads and shards", SCALING),
-    "throughput": mapping("initial conditions per second, beside peers", THROUGHPUT),
-    "operating": mapping("shares of the attractors over the amplitude", OPERATING),
-    "identification": mapping("parameters that the paper's numbers imply", IDENTIFICATION),
-    "figures": entries("figures", FIGURE),
-    "figures_on_request": entries("figures that only an explicit target makes", FIGURE),
-    "companion": mapping("the interactive page", COMPANION),
-    "archive": mapping("the archive of figures, tables and sources", ARCHIVE),
-}
-Config = with_config(ConfigDict(extra="forbid", strict=True))(TypedDict("Config", SECTIONS))
+# [amplitude, initial height]
+Portrait = Annotated[tuple[Acceleration, HeightNumber], Strict(False), AfterValidator(list)]
+
+
+class FigureSettings(TypedDict, total=False):
+    acceleration: Acceleration
+    z0: HeightNumber
+    critical_acceleration: Acceleration
+    critical_height: HeightNumber
+    two_states: interval(Acceleration, "interval with two states of motion")
+    first_positive: Acceleration
+    begin: number("time at which the plot begins", "s", ge=0, le=1e6)
+    highest: number("largest frequency of the plot", "Hz", gt=0, le=1e6)
+    portraits: Annotated[list[Portrait], Field(min_length=3, max_length=3, description="three phase portraits")]
+    transient: number("time that is left out", "s", ge=0, le=1e6)
+    longest_period: Period
+    lowest_exponent: number("lowest Lyapunov exponent of the plot", "1/s", ge=-1e6, le=1e6)
+    paper_step: Step
+    paper_error: number("error of the paper's fit", "m²", gt=0, le=1)
+
+
+class Figure(TypedDict):
+    title: Annotated[Line, Field(description="title")]
+    section: Annotated[Line, Field(description="section of the paper")]
+    paper_only: NotRequired[Annotated[Line, Field(description="why only the paper's conveyor has this figure")]]
+    needs: Annotated[Literal["feeding", "vertical", "nothing"], Field(description="motion that the figure needs")]
+    tables: Annotated[dict[Name, Reference], Field(description="tables by the roles that the plot script knows")]
+    settings: NotRequired[Annotated[FigureSettings, Field(description="numbers that the plot script draws")]]
+    caption_tables: NotRequired[Annotated[dict[Name, Reference], Field(description="further tables of the caption")]]
+
+
+class Companion(TypedDict):
+    maps: many(Name, "sweeps over two parameters")
+    opening: Annotated[Name, Field(description="preset with which the page opens")]
+    presets: Annotated[dict[Name, Model], Field(description="conveyors of the page", min_length=1)]
+    tolerance: Tolerance
+    cycles: whole("cycles within which a motion must repeat itself", 256, 10**9, "excitation cycles")
+    separation: number("initial distance of the second part", "m", gt=0, le=1)
+
+
+class Config(TypedDict):
+    __pydantic_config__ = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+
+    prefix: text(
+        "folder below results/ and figures/ for the results of this config",
+        f"(|{NAME})",
+        f"a folder name of at most {LONGEST_NAME} letters, digits, - and _, or nothing",
+    )
+    model: mapping("the conveyor and the part", MODEL_TYPES)
+    solver: Annotated[Solver, Field(description="default settings of all trajectories")]
+    sharing: Annotated[Sharing, Field(description="division of sweeps into jobs")]
+    sweeps: Annotated[dict[Name, Sweep], Field(description="trajectories for all combinations of axes")]
+    estimates: Annotated[dict[Name, Estimate], Field(description="Lyapunov exponents by finite differences (Eq. 23)")]
+    critical: Annotated[dict[Name, Critical], Field(description="initial heights at which the state of motion changes")]
+    regressions: Annotated[dict[Name, Regression], Field(description="fits of Eq. 13 to critical heights")]
+    dimensions: Annotated[dict[Name, Dimension], Field(description="fractal dimensions of phase portraits")]
+    signals: Annotated[dict[Name, Signal], Field(description="motion of part and plate at given times")]
+    spectra: Annotated[dict[Name, Spectrum], Field(description="amplitude spectra of the velocities")]
+    impacts: Annotated[dict[Name, Impacts], Field(description="first impacts of parts that start in the air")]
+    orbits: Annotated[Orbits, Field(description="periodic orbits of the vertical motion")]
+    certificates: Annotated[Certificates, Field(description="proofs of orbits, bifurcations and chaos")]
+    attractors: Annotated[Attractors, Field(description="stroboscopic states over the amplitude")]
+    lyapunov: Annotated[Lyapunov, Field(description="Lyapunov exponents of the attractors")]
+    witnesses: Annotated[Witnesses, Field(description="tests for chaos")]
+    claims: Annotated[dict[NameOfClaim, Claim], Field(description="claims of the paper")]
+    uncertainty: Annotated[Uncertainty, Field(description="check of the claims with tighter tolerances")]
+    benchmark: Annotated[Benchmark, Field(description="speed and error of the solver and of the paper's method")]
+    precision: Annotated[Precision, Field(description="error against cost of all methods")]
+    precision_estimates: Annotated[PrecisionEstimates, Field(description="error against cost of derived quantities")]
+    stability: Annotated[Stability, Field(description="limits of stability of the methods")]
+    stability_estimates: Annotated[StabilityEstimates, Field(description="limits of the paper's estimates")]
+    scene_budget: Annotated[SceneBudget, Field(description="accuracy that each figure needs")]
+    rigid_part: Annotated[RigidPart, Field(description="rigid bouncing part in place of the contact")]
+    settling_times: Annotated[SettlingTimes, Field(description="time until a motion settles")]
+    label_checks: Annotated[LabelChecks, Field(description="independence of labels from other initial conditions")]
+    random_points: Annotated[RandomPoints, Field(description="random conveyors and initial conditions")]
+    sensitivity: Annotated[Sensitivity, Field(description="derivatives of bifurcations and critical heights")]
+    scaling: Annotated[Scaling, Field(description="cost of sweeps by size, threads and shards")]
+    throughput: Annotated[Throughput, Field(description="initial conditions per second, beside peers")]
+    operating: Annotated[Operating, Field(description="shares of the attractors over the amplitude")]
+    identification: Annotated[Identification, Field(description="parameters that the paper's numbers imply")]
+    figures: Annotated[dict[Name, Figure], Field(description="figures")]
+    figures_on_request: Annotated[dict[Name, Figure], Field(description="figures that only an explicit target makes")]
+    companion: Annotated[Companion, Field(description="the interactive page")]
+    archive: mapping(
+        "the archive of figures, tables and sources",
+        {"megabytes": number("largest size of the archive", "MB", gt=0, le=1e6)},
+    )
+
+
 MODEL = TypeAdapter(Config)

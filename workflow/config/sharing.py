@@ -6,12 +6,13 @@ request, and which sweeps are rejected; no number of a table depends on it.
 """
 
 import math
+from bisect import bisect_right
 from typing import NamedTuple
 
 from scripts.pipeline.shared_searches import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED
 from scripts.pipeline.sizes import BLOCK, ROW_GROUP
 
-from .tables import count_points, count_values, ends, values_of
+from .entries import count_points, count_values, ends, values_of
 
 THREADS = 2  # of a job
 STARTS = ("psi0", "z0", "vz0")  # parameters of an initial condition; the others belong to the conveyor
@@ -78,21 +79,14 @@ def seconds_of(entry: dict, costs: dict, rows: int) -> float:
     return rows * (run + start) + conveyors * conveyor
 
 
-def most_rows(entry: dict, costs: dict, seconds: float) -> int:
-    """Largest number of rows of a resolved entry that take at most `seconds` on one core; at least one."""
-    low, high = 1, count_points(entry["axes"])
-    while low < high:
-        middle = (low + high + 1) // 2
-        low, high = (middle, high) if seconds_of(entry, costs, middle) <= seconds else (low, middle - 1)
-    return low
-
-
 def plan(sharing: dict, entry: dict) -> Plan:
     """The division of a sweep into jobs of the wanted duration, or longer jobs if there were too many."""
     costs, memory = sharing["seconds"], sharing["megabytes"]
     points = count_points(entry["axes"])
-    rows = most_rows(entry, costs, THREADS * sharing["job_seconds"])
-    rows = min(points, max(rows, math.ceil(points / sharing["most_jobs"])))
+    # The largest number of rows that take at most this time.
+    limit = THREADS * sharing["job_seconds"]
+    rows = bisect_right(range(1, points + 1), limit, key=lambda rows: seconds_of(entry, costs, rows))
+    rows = max(1, rows, math.ceil(points / sharing["most_jobs"]))
     computed, written = memory["row"] * min(rows, BLOCK), memory["written_row"] * min(rows, ROW_GROUP + BLOCK)
     return Plan(
         points,

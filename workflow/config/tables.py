@@ -1,157 +1,228 @@
-"""The tables of a config, and the settings that each table depends on."""
+"""The tables of a config, and the settings of each table: the part of the config that its script needs.
 
+The rule that makes a table passes its settings to the script, which stores them in the table. A rule that reads the
+table expects the same settings, so a table that was made from other settings is refused.
+"""
+
+import itertools
 import math
+from functools import partial
+from operator import itemgetter
 
-# Sections with one table per entry.
-ENTRIES = ("sweeps", "estimates", "critical", "regressions", "dimensions", "signals", "spectra", "impacts")
-# Sections with fixed tables.
+from scripts.identification.settings import IDENTIFICATION, identification_settings
+
+from .entries import ENTRIES, fill_defaults, resolve, roles_of_solution, tighter_reference
+from .sharing import THREADS, plan, seconds_of
+
+
+def model_without_acceleration(config: dict) -> dict:
+    """The model for sections that state their amplitudes, so that the default amplitude does not rerun them."""
+    return {name: value for name, value in config["model"].items() if name != "acceleration"}
+
+
+def with_model(config: dict, *sections: str, solver: tuple[str, ...] = ()) -> dict:
+    """Settings of the solver and sections of the config, of which later ones win, with the model."""
+    settings = {key: config["solver"][key] for key in solver}
+    for section in sections:
+        settings |= config[section]
+    return {**settings, "model": {**model_without_acceleration(config), **settings.get("model", {})}}
+
+
+def sensitivity_settings(config: dict) -> dict:
+    return {**config["sensitivity"], "model": with_model(config, "orbits")["model"]}
+
+
+def operating_settings(config: dict) -> dict:
+    """The operating section states the amplitudes and the box of initial conditions."""
+    initial = ("psi0", "z0", "vz0")
+    model = {name: value for name, value in model_without_acceleration(config).items() if name not in initial}
+    return {**config["operating"], "settling": config["solver"]["settling"], "model": model}
+
+
+def precision_settings(config: dict, scene: str) -> dict:
+    """One scene of the section `precision`."""
+    precision = config["precision"]
+    shared = {name: precision[name] for name in ("duration", "tolerances", "steps", "peers", "max_evaluations")}
+    return {**shared, "model": {**config["model"], **precision["scenes"][scene]}}
+
+
+def benchmark_settings(config: dict) -> dict:
+    """The cases of the benchmark with all defaults filled in."""
+    solver = {key: config["solver"][key] for key in ("duration", "step")}
+    cases = config["benchmark"]["cases"]
+    return {
+        "cases": {
+            name: {**solver, **case, "model": {**config["model"], **case["model"]}} for name, case in cases.items()
+        },
+        "tolerance": config["solver"]["tolerance"],
+        "repeats": config["benchmark"]["repeats"],
+    }
+
+
+def scaling_case(config: dict, varied: str, axes: dict, *, shards=None, threads=THREADS, conveyors=1) -> dict:
+    """A sweep of the chart of scaling, in the planned number of shards unless `shards` is given."""
+    own = {"axes": axes, "needs": "vertical", "duration": 0.02, "tolerance": 1.0e-6}
+    entry = fill_defaults(config, "sweeps", own)
+    if conveyors > 1:
+        entry["model"] |= {"z0": 0.0}
+    shared = plan(config["sharing"], entry)
+    if shards:
+        rows = math.ceil(shared.points / shards)
+        seconds = seconds_of(entry, config["sharing"]["seconds"], rows)
+        shared = shared._replace(rows=rows, shards=math.ceil(shared.points / rows), seconds=seconds)
+    is_whole = shards or shared.points <= config["scaling"]["made_whole"]
+    return {
+        "varied": varied,
+        "settings": entry,
+        "plan": shared._asdict(),
+        "threads": threads,
+        "conveyors": conveyors,
+        "measured": shared.shards if is_whole else 1,
+    }
+
+
+def map_axes(points: int) -> dict:
+    """Axes of a map of about `points` initial conditions, as in Fig. 13."""
+    phases = round(points**0.5)
+    z0 = {"start": 0.0, "stop": 0.5e-3, "num": points // phases}
+    return {"psi0": {"start": 0.0, "stop": 2.0 * math.pi * (1.0 - 1.0 / phases), "num": phases}, "z0": z0}
+
+
+def scaling_cases(config: dict) -> list[dict]:
+    """All sweeps of the chart of scaling."""
+    scaling = config["scaling"]
+    few = map_axes(scaling["shared_points"])
+    amplitudes = [{"start": 20.0, "stop": 45.0, "num": number} for number in scaling["conveyors"]]
+    return [
+        *(scaling_case(config, "points", map_axes(points)) for points in scaling["points"]),
+        *(scaling_case(config, "conveyors", {"acceleration": axis}, conveyors=axis["num"]) for axis in amplitudes),
+        *(scaling_case(config, "threads", few, shards=1, threads=threads) for threads in scaling["threads"]),
+        *(scaling_case(config, "shards", few, shards=shards) for shards in scaling["shards"]),
+    ]
+
+
+def throughput_settings(config: dict) -> dict:
+    """The section `throughput` with the map of initial conditions that the throughput of methods is measured on."""
+    solver = {key: config["solver"][key] for key in ("duration", "tolerance", "step")}
+    axes = map_axes(config["throughput"]["starts"])
+    return {**config["throughput"], **solver, "map": scaling_case(config, "points", axes)["settings"]}
+
+
+def certificates_settings(config: dict) -> dict:
+    return {**config["certificates"], "model": with_model(config, "orbits")["model"]}
+
+
+def derivatives_settings(config: dict) -> dict:
+    return {key: value for key, value in sensitivity_settings(config).items() if key != "curves"}
+
+
+def curves_settings(config: dict) -> dict:
+    return {key: sensitivity_settings(config)[key] for key in ("longest_period", "curves", "model")}
+
+
+def of_identification(table: str, config: dict) -> dict:
+    return identification_settings(config, table, model_without_acceleration(config))
+
+
+FOLLOWED = ("tolerance", "settling")
+# The tables that are no entries, and the function that returns the settings of each.
 TABLES = {
-    "orbits": (
-        "branches",
-        "folds_and_doublings",
-        "cascade",
-        "certificates",
-        "certified_bifurcations",
-        "certified_chaos",
-        "certificate_times",
+    **dict.fromkeys(
+        ("orbits/branches", "orbits/folds_and_doublings", "orbits/cascade"),
+        lambda config: with_model(config, "orbits", solver=("tolerance",)),
     ),
-    "attractors": ("strobes",),
-    "lyapunov": ("spectrum", "witnesses"),
-    "sensitivity": ("derivatives", "groups", "continued", "meetings"),
-    "operating": ("shares", "regimes"),
-    "identification": ("edges", "printed", "front", "generations", "profiles", "optima", "frictions", "implied"),
-    "results": (
-        "claims",
-        "benchmark",
-        "random_points",
-        "precision_estimates",
-        "stability",
-        "stability_estimates",
-        "scene_budget",
-        "budget_times",
-        "rigid_part",
-        "settling_times",
-        "scaling",
-        "throughput",
-    ),
+    "orbits/certificates": certificates_settings,
+    "orbits/certified_bifurcations": certificates_settings,
+    "orbits/certified_chaos": certificates_settings,
+    "orbits/certificate_times": certificates_settings,
+    "attractors/strobes": lambda config: with_model(config, "attractors", solver=FOLLOWED),
+    "lyapunov/spectrum": lambda config: with_model(config, "attractors", "lyapunov", solver=FOLLOWED),
+    "lyapunov/witnesses": lambda config: with_model(config, "attractors", "witnesses", solver=FOLLOWED),
+    "sensitivity/derivatives": derivatives_settings,
+    "sensitivity/groups": derivatives_settings,
+    "sensitivity/continued": curves_settings,
+    "sensitivity/meetings": curves_settings,
+    "operating/shares": operating_settings,
+    "operating/regimes": lambda config: None,  # made from other tables only
+    **{f"identification/{name}": partial(of_identification, name) for name in IDENTIFICATION},
+    "results/claims": lambda config: {"claims": config["claims"]},
+    "results/benchmark": benchmark_settings,
+    "results/random_points": itemgetter("random_points"),
+    "results/precision_estimates": itemgetter("precision_estimates"),
+    "results/stability": itemgetter("stability"),
+    "results/stability_estimates": lambda config: with_model(config, "stability_estimates"),
+    "results/scene_budget": itemgetter("scene_budget"),
+    "results/budget_times": itemgetter("scene_budget"),
+    "results/rigid_part": itemgetter("rigid_part"),
+    "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED),
+    "results/label_checks": lambda config: with_model(config, "label_checks", solver=FOLLOWED),
+    "results/scaling": itemgetter("scaling"),
+    "results/throughput": throughput_settings,
 }
 # Tables that only an explicit target makes.
-ON_REQUEST = ("scaling", "throughput")
-# Tables of `results` whose settings stand in a section with another name.
-SECTION_OF = {"budget_times": "scene_budget"}
-# Sections that follow initial conditions until the motion settles.
-SETTLING = ("sweeps", "critical", "impacts", "signals", "spectra")
-# Sections whose entries may list several methods.
-METHOD_SECTIONS = ("sweeps", "estimates", "critical", "signals", "spectra")
-
-# Sections whose tables depend on a tolerance, directly or through another table.
-TIGHTENED = ("sweeps", "estimates", "critical", "dimensions", "signals", "spectra", "regressions")
-TIGHTER = "tighter"
-
-
-def entry_of(config: dict, reference: str) -> dict | None:
-    """The settings of the table SECTION/NAME, or None if there is no such table."""
-    section, name = reference.split("/")
-    if name in TABLES.get(section, ()):
-        return config[SECTION_OF.get(name, name) if section == "results" else section]
-    if section in ("precision", "precision_times"):
-        return config["precision"] if name in config["precision"]["scenes"] else None
-    return config[section].get(name) if section in ENTRIES else None
-
-
-def kind_of(reference: str) -> str:
-    """The kind of the table SECTION/NAME: its name in sections with fixed tables, else its section."""
-    section, name = reference.split("/")
-    return name if section in TABLES else section
-
-
-def by_methods(config: dict) -> dict:
-    """A config with one method per entry: NAME has the first of its `methods`, NAME_METHOD each further one."""
-    found = dict(config)
-    for section in METHOD_SECTIONS:
-        found[section] = {}
-        for name, entry in config[section].items():
-            if "methods" not in entry:
-                found[section][name] = entry
-                continue
-            alone = {key: value for key, value in entry.items() if key != "methods"}
-            first, *others = entry["methods"]
-            found[section][name] = alone | {"method": first}
-            found[section] |= {f"{name}_{method}": alone | {"method": method} for method in others}
-    return found
-
-
-def roles_of_solution(tables: dict[str, str]) -> list[str]:
-    """The roles of the converged solution among the tables of a claim; all roles if none is named converged."""
-    named = [role for role in tables if role.startswith("converged")]
-    return named or list(tables)
-
-
-def tighter_reference(config: dict, reference: str) -> str:
-    """The twin of a table with a tighter tolerance, or the table itself if it has no such twin."""
-    section, name = reference.split("/")
-    twin = f"{name}_{TIGHTER}"
-    return f"{section}/{twin}" if section in ENTRIES and twin in config[section] else reference
-
-
-def with_tighter(config: dict) -> dict:
-    """A config with twins NAME_tighter of the tables behind the claims in `uncertainty`, with a tighter tolerance."""
-    found = config | {section: dict(config[section]) for section in TIGHTENED}
-
-    def tighten(reference: str) -> None:
-        section, name = reference.split("/")
-        entry = config[section][name] if section in TIGHTENED else {"method": None}
-        if section == "regressions":
-            tighten(f"critical/{entry['critical']}")
-            found[section][f"{name}_{TIGHTER}"] = entry | {"critical": f"{entry['critical']}_{TIGHTER}"}
-        elif entry.get("method", config["solver"]["method"]) == "event":
-            tolerance = entry.get("tolerance", config["solver"]["tolerance"]) / config["uncertainty"]["tighter"]
-            found[section][f"{name}_{TIGHTER}"] = entry | {"tolerance": tolerance}
-
-    for name in config["uncertainty"]["claims"]:
-        tables = config["claims"][name]["tables"]
-        for role in roles_of_solution(tables):
-            tighten(tables[role])
-    return found
+ON_REQUEST = ("results/label_checks", "results/scaling", "results/throughput")
 
 
 def references(config: dict) -> list[str]:
     """All tables of a config, as SECTION/NAME."""
-    names = {section: config[section] for section in ENTRIES} | TABLES
-    names |= dict.fromkeys(("precision", "precision_times"), config["precision"]["scenes"])
-    return [f"{section}/{name}" for section, of_section in names.items() for name in of_section]
+    entries = [f"{section}/{name}" for section in ENTRIES for name in config[section]]
+    scenes = [f"{kind}/{scene}" for kind in ("precision", "precision_times") for scene in config["precision"]["scenes"]]
+    return [*entries, *TABLES, *scenes]
 
 
-def resolve(config: dict, section: str, name: str) -> dict:
-    """All settings that the table `section`/`name` depends on, with the defaults filled in."""
-    entry = {
-        **{key: config["solver"][key] for key in ("duration", "method", "tolerance", "step")},
-        **config[section][name],
+def kind_of(reference: str) -> str:
+    """The kind of the table SECTION/NAME: its section if it is an entry, else its name."""
+    section, name = reference.split("/")
+    return name if reference in TABLES else section
+
+
+def entry_of(config: dict, reference: str) -> dict:
+    """The entry of the table SECTION/NAME, {} if the table is no entry."""
+    section, name = reference.split("/")
+    return config[section].get(name, {}) if section in ENTRIES else {}
+
+
+def settings_of(config: dict, reference: str) -> dict | None:
+    """The settings of the table SECTION/NAME, or None for a table that is made from other tables only."""
+    section, name = reference.split("/")
+    if reference in TABLES:
+        return TABLES[reference](config)
+    if section in ("precision", "precision_times"):
+        return precision_settings(config, name)
+    return config[section][name] if section == "regressions" else resolve(config, section, name)
+
+
+def budgeted_tables(config: dict) -> dict[str, list[str]]:
+    """The tables of converged trajectories that each figure draws and that the section `scene_budget` covers."""
+
+    def is_budgeted(reference: str) -> bool:
+        is_converged = entry_of(config, reference).get("method", "event") == "event"
+        is_covered = reference.split("/")[0] in config["scene_budget"]["points"]
+        return is_covered and is_converged and reference != "lyapunov/witnesses"
+
+    return {
+        figure: [reference for reference in dict.fromkeys(entry["tables"].values()) if is_budgeted(reference)]
+        for figure, entry in config["figures"].items()
     }
-    if section in SETTLING:
-        entry["settling"] = config["solver"]["settling"]
-    entry["model"] = {**config["model"], **entry.get("model", {})}
-    for axis in entry.get("axes", ()):
-        del entry["model"][axis]
-    del entry["step" if entry["method"] == "event" else "tolerance"]
-    return entry
 
 
-def ends(axis: list | dict) -> list:
-    """The values of an axis, or the first and the last one."""
-    return axis if isinstance(axis, list) else [axis["start"], axis["stop"]]
+def budgeted_entries(config: dict) -> dict[str, dict]:
+    """The settings of all budgeted tables, each with an axis over the amplitude."""
+    entries = {}
+    for reference in itertools.chain(*budgeted_tables(config).values()):
+        entry = settings_of(config, reference)
+        if "axes" not in entry:
+            entry = {**entry, "axes": {"acceleration": entry["acceleration"]}, "duration": None}
+        entries[reference] = entry
+    return entries
 
 
-def values_of(entry: dict, name: str) -> list:
-    """The values that a parameter takes in a resolved entry, or the ends of their range."""
-    return ends(entry["axes"][name]) if name in entry["axes"] else [entry["model"][name]]
+def tighter_claims(config: dict) -> dict[str, dict]:
+    """The claims whose uncertainty is estimated, with tables of tighter tolerances for the converged solution."""
 
+    def tighten(claim: dict) -> dict:
+        tables = claim["tables"]
+        tighter = {role: tighter_reference(config, tables[role]) for role in roles_of_solution(tables)}
+        return claim | {"tables": tables | tighter}
 
-def count_values(axis: list | dict) -> int:
-    """Number of values of an axis."""
-    return len(axis) if isinstance(axis, list) else int(axis["num"])
-
-
-def count_points(axes: dict) -> int:
-    """Number of points in the product of axes."""
-    return math.prod(map(count_values, axes.values()))
+    return {name: tighten(config["claims"][name]) for name in config["uncertainty"]["claims"]}

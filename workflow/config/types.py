@@ -1,7 +1,7 @@
-"""Types of config values: numbers with unit and range, intervals, axes, mappings."""
+"""Types of config values: numbers with unit and range, lists, intervals, axes."""
 
 from functools import partial
-from typing import Annotated, Any, Literal, Union
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag, WrapValidator
 from typing_extensions import TypedDict
@@ -15,55 +15,34 @@ NAME = rf"[A-Za-z][A-Za-z0-9_-]{{0,{LONGEST_NAME - 1}}}"
 
 
 def number(description: str, unit: str = "", **bounds: float) -> Any:
-    """A finite number with a unit and the bounds ge, gt, le, lt."""
+    """A number with a unit and the bounds ge, gt, le, lt."""
     extra = {"unit": unit} if unit else None
-    return Annotated[float, Field(description=description, allow_inf_nan=False, json_schema_extra=extra, **bounds)]
-
-
-def as_integer(value: Any) -> Any:
-    """A whole number in any spelling (5.0e+4) as an integer."""
-    return int(value) if isinstance(value, float) and value.is_integer() else value
+    return Annotated[float, Field(description=description, json_schema_extra=extra, **bounds)]
 
 
 def whole(description: str, least: int, most: int, unit: str = "") -> Any:
+    """A whole number in any spelling: 50000 or 5.0e+4."""
     extra = {"unit": unit} if unit else None
-    return Annotated[
-        int,
-        Field(ge=least, le=most),
-        BeforeValidator(as_integer),
-        Field(description=description, json_schema_extra=extra),
-    ]
+    field = Field(ge=least, le=most, description=description, json_schema_extra=extra)
+    return Annotated[int, field, BeforeValidator(as_integer)]
 
 
-def as_written(value: Any, validate) -> Any:
-    """Check a number and keep it as an integer or a float, as the config file has it."""
-    validate(value)
-    return value
+def as_integer(value: Any) -> Any:
+    return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
 def text(description: str, pattern: str, expected: str) -> Any:
+    """A text that matches a pattern; error messages state what is `expected` instead."""
     extra = {"patternErrorMessage": expected}
     return Annotated[str, Field(description=description, pattern=f"^{pattern}$", json_schema_extra=extra)]
 
 
-def line(description: str) -> Any:
-    return text(description, r"[^\x00-\x1f]+", "text on one line; put it in quotes")
-
-
-def word(description: str, *words: str) -> Any:
-    return Annotated[Literal[words], Field(description=description)]
-
-
 def mapping(description: str, keys: dict[str, Any], total: bool = True) -> Any:
-    """A mapping with these keys; `total` says whether all of them are required."""
-    return Annotated[TypedDict(description, keys, total=total), Field(description=description)]
+    """A small mapping without a class of its own; `total` says whether all of its keys are required."""
+    return Annotated[TypedDict("_".join(keys), keys, total=total), Field(description=description)]
 
 
-def named(description: str, item: Any, **bounds: int) -> Any:
-    """A mapping from names that the user chooses."""
-    return Annotated[dict[Name, item], Field(description=description, **bounds)]
-
-
+Line = text("text", r"[^\x00-\x1f]+", "text on one line; put it in quotes")
 Name = text(
     "name",
     NAME,
@@ -105,44 +84,56 @@ def check_span(values: dict) -> dict:
     return values
 
 
-def interval(item: Any, description: str, point: bool = False) -> Any:
-    """[least, largest], or null for no bound; `point` says whether both may be equal."""
-    check = AfterValidator(partial(check_interval, point=point))
-    return Annotated[list[item], Field(min_length=2, max_length=2), check, Field(description=description)]
-
-
 def many(item: Any, description: str, least: int = 1, check=check_distinct) -> Any:
     """A list of distinct values."""
-    return Annotated[
-        list[item],
-        Field(min_length=least, max_length=LONGEST_LIST, fail_fast=True),
-        AfterValidator(check),
-        Field(description=description),
-    ]
+    field = Field(min_length=least, max_length=LONGEST_LIST, fail_fast=True, description=description)
+    return Annotated[list[item], field, AfterValidator(check)]
+
+
+def interval(item: Any, description: str, point: bool = False) -> Any:
+    """[least, largest], or null for no bound; `point` says whether both may be equal."""
+    field = Field(min_length=2, max_length=2, description=description)
+    return Annotated[list[item], field, AfterValidator(partial(check_interval, point=point))]
 
 
 def span(item: Any, description: str, least: int = 2) -> Any:
     """{start, stop, num}: num evenly spaced values from start to stop, both included."""
     keys = {"start": item, "stop": item, "num": whole("number of values", least, MOST_POINTS)}
-    return Annotated[mapping(description, keys), AfterValidator(check_span), Field(description=description)]
+    return Annotated[mapping(description, keys), AfterValidator(check_span)]
+
+
+def either(description: str, expected: str, choose, **forms: Any) -> Any:
+    """One of several forms; `choose` returns the name of the form that a value has, or None.
+
+    The location of an error holds this name in brackets.
+    """
+    one, other = (Annotated[form, Tag(f"({name})")] for name, form in forms.items())
+    form = Discriminator(
+        lambda value: f"({choose(value)})" if choose(value) else None,
+        custom_error_type="form",
+        custom_error_message=f"Input should be {expected}",
+    )
+    return Annotated[one | other, form, Field(description=description)]
 
 
 def axis_form(value: Any) -> str | None:
-    return "(span)" if isinstance(value, dict) else "(list)" if isinstance(value, list) else None
+    return "span" if isinstance(value, dict) else "list" if isinstance(value, list) else None
 
 
-AXIS_FORM = Discriminator(
-    axis_form,
-    custom_error_type="axis",
-    custom_error_message="Input should be a list of values, or {start: …, stop: …, num: …}",
-)
+def height_form(value: Any) -> str | None:
+    return "word" if value == "conveyor" else None if isinstance(value, str) else "number"
 
 
 def axis(item: Any, description: str, end: Any = None, least: int = 1, check=check_distinct) -> Any:
     """A list of values or a span; `end` is the type of start and stop where a value may also be a word."""
-    values = Annotated[many(item, description, least, check), Tag("(list)")]
-    evenly_spaced = Annotated[span(end or item, description, least), Tag("(span)")]
-    return Annotated[Union[values, evenly_spaced], AXIS_FORM, Field(description=description)]  # noqa: UP007
+    forms = {"list": many(item, description, least, check), "span": span(end or item, description, least)}
+    return either(description, "a list of values, or {start: …, stop: …, num: …}", axis_form, **forms)
+
+
+def parameter(name: str, description: str = "") -> Any:
+    """A number with the unit and the range of a parameter of the library."""
+    low, high = RANGES[name]
+    return number(description or DESCRIPTIONS[name], UNITS[name], ge=low, le=high)
 
 
 def keep_order(values: Any, validate) -> dict:
@@ -153,33 +144,26 @@ def keep_order(values: Any, validate) -> dict:
     return {name: checked[name] for name in values}
 
 
-def height_form(value: Any) -> str | None:
-    return "(word)" if value == "conveyor" else None if isinstance(value, str) else "(number)"
-
-
-def parameter(name: str, description: str = "", unit: str = "") -> Any:
-    """A number with the range of a parameter of the library."""
-    low, high = RANGES[name]
-    return number(description or DESCRIPTIONS[name], unit or UNITS[name], ge=low, le=high)
-
-
-HEIGHT_FORM = Discriminator(
-    height_form,
-    custom_error_type="height",
-    custom_error_message="Input should be a number, or the word conveyor",
-)
-HEIGHTS = Union[Annotated[parameter("z0"), Tag("(number)")], Annotated[Literal["conveyor"], Tag("(word)")]]  # noqa: UP007
 MODEL_TYPES = {name: parameter(name) for name in RANGES} | {
-    "tension": word(DESCRIPTIONS["tension"], *TENSION_MODES),
-    "z0": Annotated[HEIGHTS, HEIGHT_FORM, Field(description=DESCRIPTIONS["z0"])],
+    "tension": Annotated[Literal[TENSION_MODES], Field(description=DESCRIPTIONS["tension"])],
+    "z0": either(
+        DESCRIPTIONS["z0"],
+        "a number, or the word conveyor",
+        height_form,
+        number=parameter("z0"),
+        word=Literal["conveyor"],
+    ),
 }
 MODEL_TYPES = {name: MODEL_TYPES[name] for name in PARAMETERS}
-AXIS_TYPES = {name: axis(item, DESCRIPTIONS[name]) for name, item in MODEL_TYPES.items()}
-AXIS_TYPES["z0"] = axis(MODEL_TYPES["z0"], DESCRIPTIONS["z0"], parameter("z0"))
-AXIS_TYPES["tension"] = many(MODEL_TYPES["tension"], DESCRIPTIONS["tension"])
-Model = mapping("parameters that differ from those of `model`", MODEL_TYPES, total=False)
+AXIS_TYPES = {name: axis(item, DESCRIPTIONS[name]) for name, item in MODEL_TYPES.items()} | {
+    "tension": many(MODEL_TYPES["tension"], DESCRIPTIONS["tension"]),
+    "z0": axis(MODEL_TYPES["z0"], DESCRIPTIONS["z0"], end=parameter("z0")),
+}
 Axes = Annotated[
-    mapping("one table row per combination; the first axis varies slowest", AXIS_TYPES, total=False),
+    TypedDict("Axes", AXIS_TYPES, total=False),
     WrapValidator(keep_order),
     Field(description="axes of the table: lists of values or {start, stop, num}; the first one varies slowest"),
+]
+Model = Annotated[
+    TypedDict("Model", MODEL_TYPES, total=False), Field(description="parameters that differ from those of `model`")
 ]

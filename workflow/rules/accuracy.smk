@@ -1,6 +1,6 @@
 # How accurate, fast and robust the solver is, compared with other methods. Jobs that measure wall times run alone: they take
 # all cores here, and a node of their own on a cluster.
-from workflow.config.settings import budgeted_entries, budgeted_tables, model_without_acceleration, scaling_cases
+from workflow.config.tables import budgeted_entries, budgeted_tables, model_without_acceleration, scaling_cases
 
 
 rule benchmark:

@@ -1,6 +1,5 @@
 # The paper's statements with their verdicts, and the tests of the results.
-from workflow.config.settings import tighter_claims
-from workflow.config.tables import ON_REQUEST, TABLES
+from workflow.config.tables import ON_REQUEST, references, tighter_claims
 
 # Each claim alone.
 CLAIM = {name: {name: claim} for name, claim in config["claims"].items()}
@@ -9,9 +8,9 @@ TIGHTER_CLAIMS = tighter_claims(config)
 RESULT_TESTS = [] if OWN_MACHINE else sources("tests/results/*.py")
 CHECKED = [result("checked.txt")] if RESULT_TESTS else []
 TESTED_TABLES = [
-    *(f"{section}/{name}" for section in ("orbits", "lyapunov") for name in TABLES[section]),
-    *(f"precision/{name}" for name in config["precision"]["scenes"]),
-    *(f"results/{name}" for name in TABLES["results"] if name not in ON_REQUEST),
+    reference
+    for reference in references(config)
+    if reference.startswith(("orbits/", "lyapunov/", "precision/", "results/")) and reference not in ON_REQUEST
 ]
 
 

@@ -4,9 +4,9 @@ import re
 import signal
 
 from scripts.pipeline.source_hash import source_hash
-from workflow.config.settings import settings_of
+from workflow.config.entries import resolve
 from workflow.config.sharing import THREADS, plan
-from workflow.config.tables import kind_of, resolve
+from workflow.config.tables import kind_of, settings_of
 
 # Without huge pages: clearing one takes 5 to 14 ms on a virtual machine, and joining shards takes 8 % more memory with them.
 os.environ.setdefault("MIMALLOC_ALLOW_THP", "0")

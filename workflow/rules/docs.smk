@@ -11,7 +11,9 @@ PAGES = {
     "certificates": tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
     "cluster": tables_of("results/scaling"),
     "figures": {"costs": result("costs.json")},
-    "identification": tables_of(*(f"identification/{name}" for name in TABLES["identification"] if name != "edges")),
+    "identification": tables_of(
+        *(name for name in TABLES if name.startswith("identification/") and name != "identification/edges")
+    ),
 }
 # The tables behind the numbers of the other pages, by their roles in scripts/docs/facts.py.
 FACTS = {

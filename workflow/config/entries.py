@@ -1,0 +1,104 @@
+"""Entries of sections with one table per entry: methods, defaults, twins with tighter tolerances, axes."""
+
+import math
+
+ENTRIES = ("sweeps", "estimates", "critical", "regressions", "dimensions", "signals", "spectra", "impacts")
+FIGURES = ("figures", "figures_on_request")
+# Sections that follow initial conditions until the motion settles.
+SETTLING = ("sweeps", "critical", "impacts", "signals", "spectra")
+# Sections whose entries may list several methods.
+METHOD_SECTIONS = ("sweeps", "estimates", "critical", "dimensions", "signals", "spectra")
+# Sections whose tables depend on a tolerance, directly or through another table.
+TIGHTENED = (*METHOD_SECTIONS, "regressions")
+TIGHTER = "tighter"
+
+
+def variants(name: str, entry: dict) -> dict[str, dict]:
+    """The tables of an entry: NAME has the first of its `methods`, NAME_METHOD each further one."""
+    if "methods" not in entry:
+        return {name: entry}
+    alone = {key: value for key, value in entry.items() if key != "methods"}
+    first, *others = entry["methods"]
+    return {name: alone | {"method": first}} | {f"{name}_{method}": alone | {"method": method} for method in others}
+
+
+def by_methods(config: dict) -> dict:
+    """A config with one method per entry."""
+    found = dict(config)
+    for section in METHOD_SECTIONS:
+        found[section] = {}
+        for name, entry in config[section].items():
+            found[section] |= variants(name, entry)
+    return found
+
+
+def roles_of_solution(tables: dict[str, str]) -> list[str]:
+    """The roles of the converged solution among the tables of a claim; all roles if none is named converged."""
+    named = [role for role in tables if role.startswith("converged")]
+    return named or list(tables)
+
+
+def tighter_reference(config: dict, reference: str) -> str:
+    """The twin of a table with a tighter tolerance, or the table itself if it has no such twin."""
+    section, name = reference.split("/")
+    twin = f"{name}_{TIGHTER}"
+    return f"{section}/{twin}" if section in ENTRIES and twin in config[section] else reference
+
+
+def with_tighter(config: dict) -> dict:
+    """A config with twins NAME_tighter of the tables behind the claims in `uncertainty`, with a tighter tolerance."""
+    found = config | {section: dict(config[section]) for section in TIGHTENED}
+
+    def tighten(reference: str) -> None:
+        section, name = reference.split("/")
+        entry = config[section][name] if section in TIGHTENED else {"method": None}
+        if section == "regressions":
+            tighten(f"critical/{entry['critical']}")
+            found[section][f"{name}_{TIGHTER}"] = entry | {"critical": f"{entry['critical']}_{TIGHTER}"}
+        elif entry.get("method", config["solver"]["method"]) == "event":
+            tolerance = entry.get("tolerance", config["solver"]["tolerance"]) / config["uncertainty"]["tighter"]
+            found[section][f"{name}_{TIGHTER}"] = entry | {"tolerance": tolerance}
+
+    for name in config["uncertainty"]["claims"]:
+        tables = config["claims"][name]["tables"]
+        for role in roles_of_solution(tables):
+            tighten(tables[role])
+    return found
+
+
+def fill_defaults(config: dict, section: str, entry: dict) -> dict:
+    """An entry of a section of trajectories with all settings that its table depends on."""
+    solver = {key: config["solver"][key] for key in ("duration", "method", "tolerance", "step")}
+    filled = {**solver, **entry}
+    if section in SETTLING:
+        filled["settling"] = config["solver"]["settling"]
+    filled["model"] = {**config["model"], **entry.get("model", {})}
+    for axis in entry.get("axes", ()):
+        del filled["model"][axis]
+    del filled["step" if filled["method"] == "event" else "tolerance"]
+    return filled
+
+
+def resolve(config: dict, section: str, name: str) -> dict:
+    """All settings that the table `section`/`name` depends on."""
+    return fill_defaults(config, section, config[section][name])
+
+
+def ends(axis: list | dict) -> list:
+    """The values of an axis, or the first and the last one."""
+    return axis if isinstance(axis, list) else [axis["start"], axis["stop"]]
+
+
+def values_of(entry: dict, name: str) -> list:
+    """The values that a parameter takes in a resolved entry, or the ends of their range."""
+    return ends(entry["axes"][name]) if name in entry["axes"] else [entry["model"][name]]
+
+
+def count_values(axis: list | dict) -> int:
+    """Number of values of an axis."""
+    return len(axis) if isinstance(axis, list) else int(axis["num"])
+
+
+def count_points(axes: dict) -> int:
+    """Number of points in the product of axes."""
+    return math.prod(map(count_values, axes.values()))
