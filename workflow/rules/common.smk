@@ -6,7 +6,7 @@ import signal
 from scripts.pipeline.source_hash import source_hash
 from workflow.config.settings import settings_of
 from workflow.config.sharing import THREADS, plan
-from workflow.config.tables import kind_of, resolve
+from workflow.config.tables import ENTRIES, kind_of, resolve
 
 # Without huge pages: clearing one takes 5 to 14 ms on a virtual machine, and joining shards takes 8 % more memory with them.
 os.environ.setdefault("MIMALLOC_ALLOW_THP", "0")
@@ -95,7 +95,10 @@ def stage(module, made=None):
         return source_hash("make", module.format(**wildcards).replace(".", "/"))
 
     def settings(wildcards):
-        return settings_of(config, made.format(**wildcards))
+        section, name = made.format(**wildcards).split("/")
+        if section in ENTRIES and name not in config[section]:
+            raise WorkflowError(f"the config has no entry {section}.{name}; add it, or name another entry")
+        return settings_of(config, f"{section}/{name}")
 
     params = {"stage": module, "code": code, "expected": expected}
     return params | {"settings": settings} if made else params
