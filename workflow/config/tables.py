@@ -156,7 +156,7 @@ TABLES = {
     "results/rigid_part": itemgetter("rigid_part"),
     "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED),
     "results/label_checks": lambda config: with_model(config, "label_checks", solver=FOLLOWED),
-    "results/scaling": itemgetter("scaling"),
+    "results/scaling": lambda config: {**config["scaling"], "sharing": config["sharing"]},
     "results/throughput": throughput_settings,
 }
 # Tables that only an explicit target makes.

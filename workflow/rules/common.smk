@@ -4,7 +4,7 @@ import re
 import signal
 
 from scripts.pipeline.source_hash import source_hash
-from workflow.config.entries import resolve
+from workflow.config.entries import ENTRIES, resolve
 from workflow.config.sharing import THREADS, plan
 from workflow.config.tables import kind_of, settings_of
 
@@ -95,7 +95,10 @@ def stage(module, made=None):
         return source_hash("make", module.format(**wildcards).replace(".", "/"))
 
     def settings(wildcards):
-        return settings_of(config, made.format(**wildcards))
+        section, name = made.format(**wildcards).split("/")
+        if section in ENTRIES and name not in config[section]:
+            raise WorkflowError(f"the config has no entry {section}.{name}; add it, or name another entry")
+        return settings_of(config, f"{section}/{name}")
 
     params = {"stage": module, "code": code, "expected": expected}
     return params | {"settings": settings} if made else params

@@ -70,8 +70,6 @@ rule claims_page:
         f"{DOCS}claims.md",
     log:
         log_file("docs/claims"),
-    benchmark:
-        benchmark_file("docs/claims")
     message:
         "The page claims.md"
     shell:
