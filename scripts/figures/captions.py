@@ -171,7 +171,7 @@ def settling(*, times: pd.DataFrame) -> dict[str, str]:
     }
 
 
-def scaling(*, scaling: pd.DataFrame, throughput: pd.DataFrame) -> dict[str, str]:
+def scaling(*, scaling: pd.DataFrame) -> dict[str, str]:
     start = scaling.shard_seconds.sub(scaling.computing_seconds).div(scaling.measured)
     return {
         "threads": str(scaling[scaling.varied == "points"].threads.iloc[0]),
@@ -179,8 +179,6 @@ def scaling(*, scaling: pd.DataFrame, throughput: pd.DataFrame) -> dict[str, str
         "made_whole": f"{scaling.points[(scaling.varied == 'points') & (scaling.measured == scaling.shards)].max():,}",
         "shared_points": f"{scaling[scaling.varied == 'shards'].points.iloc[0]:,}",
         "gathered": f"{scaling.gathered.max():,}",
-        "starts": str(throughput.starts.iloc[0]),
-        "lacking": ", ".join(throughput.method[throughput.outcome != "ok"].unique()),
     }
 
 

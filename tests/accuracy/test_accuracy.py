@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 from project import merged, read_config
 
-from accuracy import benchmark, precision, random_points, timing
+from accuracy import benchmark, precision, timing
 from conveyor.methods import heyoka_peer
 
 CONFIG = read_config()
@@ -104,17 +104,3 @@ def test_runs_take_turns_until_enough_time_is_spent_on_them(monkeypatch):
     fast = ["fast"] * 2
     assert made == [*fast, "slow", "slowest", *fast, "slow", *fast]
     assert times == [[0.125] * 6, [0.5] * 2, [2.0]]
-
-
-def test_random_points_know_how_deep_they_get():
-    found = random_points.make(
-        {"count": {"around the paper": 300, "whole ranges": 50}, "seed": 3, "cycles": 3, "tolerance": 1e-8}
-    )
-    ok = found["status"] == "ok"
-    assert ok[:300].all()
-    assert np.isfinite(found["max_depth"][ok]).all()
-    assert (found["max_depth"][ok] <= found["allowed_depth"][ok] * (1.0 + 1e-9)).all()
-    # A part that starts on the plate and is pressed on gets into it.
-    on_plate = ok & np.isnan(found["z0"]) & (found["vz0"] < 0.0)
-    assert on_plate.any()
-    assert (found["max_depth"][on_plate] > 0.0).all()
