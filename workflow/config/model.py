@@ -353,20 +353,6 @@ RIGID_PART = {
 }
 Amplitudes = many(Acceleration, "amplitudes of the excitation")
 SETTLING_TIMES = {"acceleration": Amplitudes, "starts": Starts, "z0": Heights, "cycles": Cycles, "seed": Seed}
-LABEL_CHECKS = {
-    "acceleration": Amplitudes,
-    "starts": Starts,
-    "unshared": whole("initial conditions that are followed without shared chaotic sets", 0, 10**6),
-    "z0": Heights,
-    "seed": Seed,
-}
-RANDOM_COUNTS = ("around the paper", "whole ranges")
-RANDOM_POINTS = {
-    "count": one_each(RANDOM_COUNTS, whole("number of random conveyors", 1, 10**7), "conveyors by their ranges"),
-    "seed": Seed,
-    "cycles": Annotated[positive("length of a run", "excitation cycles", le=1e6), WrapValidator(as_written)],
-    "tolerance": Tolerance,
-}
 Factor = number("factor by which a parameter is increased and decreased", gt=1, le=1e3)
 CURVES = {
     "doublings": whole("doublings that are followed in two parameters", 0, 12),
@@ -392,14 +378,6 @@ SCALING = {
     "threads": many(whole("threads", 1, 256), "numbers of threads"),
     "shards": many(whole("shards", 1, 1000), "numbers of shards"),
     "shared_points": whole("points of the maps over threads and shards", 1000, 10**8),
-}
-THROUGHPUT = {
-    "starts": whole("initial conditions of Fig. 13", 4, 10**6),
-    "peers": one_each(INTEGRATORS, Tolerance, "relative tolerance of each integrator", total=False),
-    "batch": whole("initial conditions that heyoka integrates together", 1, 64),
-    "max_evaluations": MaxEvaluations,
-    "repeats": Repeats,
-    "seconds": ProcessorTime,
 }
 OPERATING = {
     "acceleration": Accelerations,
@@ -561,11 +539,8 @@ SECTIONS = {
     "scene_budget": mapping("accuracy that each figure needs", SCENE_BUDGET),
     "rigid_part": mapping("rigid bouncing part in place of the contact", RIGID_PART),
     "settling_times": mapping("time until a motion settles", SETTLING_TIMES),
-    "label_checks": mapping("independence of labels from other initial conditions", LABEL_CHECKS),
-    "random_points": mapping("random conveyors and initial conditions", RANDOM_POINTS),
     "sensitivity": mapping("derivatives of bifurcations and critical heights", SENSITIVITY),
     "scaling": mapping("cost of sweeps by size, threads and shards", SCALING),
-    "throughput": mapping("initial conditions per second, beside peers", THROUGHPUT),
     "operating": mapping("shares of the attractors over the amplitude", OPERATING),
     "identification": mapping("parameters that the paper's numbers imply", IDENTIFICATION),
     "figures": entries("figures", FIGURE),

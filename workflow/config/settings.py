@@ -47,14 +47,11 @@ def settings_of(config: dict, reference: str) -> dict | None:
             return benchmark_settings(config)
         case "results", "stability_estimates":
             return {**config[name], "model": model_without_acceleration(config)}
-        case "results", ("settling_times" | "label_checks"):
+        case "results", "settling_times":
             solver = {key: config["solver"][key] for key in ("settling", "tolerance")}
             return {**config[name], **solver, "model": model_without_acceleration(config)}
         case "results", "budget_times":
             return config["scene_budget"]
-        case "results", "throughput":
-            solver = {key: config["solver"][key] for key in ("duration", "tolerance", "step")}
-            return {**config[name], **solver, "map": throughput_map(config)}
         case "results", "claims":
             return {"claims": config["claims"]}
         case "results", _:
@@ -177,11 +174,6 @@ def scaling_cases(config: dict) -> list[dict]:
         *(scaling_case(config, "threads", few, shards=1, threads=threads) for threads in scaling["threads"]),
         *(scaling_case(config, "shards", few, shards=shards) for shards in scaling["shards"]),
     ]
-
-
-def throughput_map(config: dict) -> dict:
-    """The map of initial conditions that the throughput of methods is measured on."""
-    return scaling_case(config, "points", map_axes(config["throughput"]["starts"]))["settings"]
 
 
 # -- claims ------------------------------------------------------------------------------------------------------------

@@ -23,7 +23,6 @@ TABLES = {
     "results": (
         "claims",
         "benchmark",
-        "random_points",
         "precision_estimates",
         "stability",
         "stability_estimates",
@@ -32,11 +31,10 @@ TABLES = {
         "rigid_part",
         "settling_times",
         "scaling",
-        "throughput",
     ),
 }
 # Tables that only an explicit target makes.
-ON_REQUEST = ("scaling", "throughput")
+ON_REQUEST = ("scaling",)
 # Tables of `results` whose settings stand in a section with another name.
 SECTION_OF = {"budget_times": "scene_budget"}
 # Sections that follow initial conditions until the motion settles.

@@ -23,7 +23,7 @@ rule benchmark:
         "../../scripts/make.py"
 
 
-# Tables that are made from the config alone. On request, because they take long: label_checks, throughput.
+# Tables that are made from the config alone.
 rule accuracy:
     output:
         table("results/{name}"),
@@ -32,7 +32,7 @@ rule accuracy:
     benchmark:
         benchmark_file("accuracy/{name}")
     wildcard_constraints:
-        name="random_points|stability|stability_estimates|settling_times|label_checks|throughput",
+        name="stability|stability_estimates|settling_times",
     resources:
         cpus_per_task=JOB_THREADS,
         mem_mb=2000,

@@ -234,7 +234,7 @@ def holds_times(reference):
 
 
 # Kinds of tables with measured times, which differ from build to build.
-TIMED = ("benchmark", "precision_times", "certificate_times", "budget_times", "scaling", "throughput")
+TIMED = ("benchmark", "precision_times", "certificate_times", "budget_times", "scaling")
 
 
 def timed_files():
