@@ -1,7 +1,5 @@
 """The one look of all figures: sizes, fonts, colours, and the one place that saves them."""
 
-import os
-import re
 from collections.abc import Iterable
 from contextlib import AbstractContextManager
 
@@ -12,7 +10,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.backends.backend_pdf import FigureCanvasPdf, PdfFile, PdfPages
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
@@ -53,9 +51,6 @@ CURVES = {
 # The plate's own curves, behind those of the part.
 PLATE_CURVE = {"color": "0.8", "linewidth": 2.5, "label": "conveyor"}
 
-# What a page writes: texts, which stay, and numbers with more decimals than a reader sees, 1/72 inch each.
-TEXT_OR_NUMBER = re.compile(rb"\((?:\\.|[^()\\])*\)|-?\d*\.\d{5,}", re.DOTALL)
-NEGATIVE_ZERO = re.compile(rb"(?<![\w.+-])-0(?:\.0*)?(?![\w.])")
 RESOLUTION = 600  # dpi of rasterised parts and of PNG files
 PARAMETERS = {
     "font.family": "DejaVu Sans",
@@ -148,44 +143,19 @@ def legend_above(figure: Figure, axes: Axes, **options) -> None:
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", **options)
 
 
-def rounded(match: re.Match[bytes]) -> bytes:
-    """A match of TEXT_OR_NUMBER as a page keeps it: numbers to 1e-4, which is 35 nm."""
-    found = match.group()
-    return found if found.startswith(b"(") else b"%.4f" % float(found)
-
-
-class Page(PdfFile):
-    """A PDF without the last digits of coordinates, and without negative zeros: both are errors of their rounding."""
-
-    def write(self, data: bytes) -> None:
-        super().write(NEGATIVE_ZERO.sub(b"0", TEXT_OR_NUMBER.sub(rounded, data)))
-
-
-class Pages(PdfPages):
-    """Where a PDF goes: a Page without a date."""
-
-    def _ensure_file(self) -> PdfFile:
-        if self._file is None:
-            self._file = Page(self._filename, metadata={"CreationDate": None})
-        return self._file
-
-
 def save(figure: Figure, paths: Iterable[str]) -> None:
-    """Write a figure to PDF or PNG files; equal figures give equal bytes.
+    """Write a figure to PDF or PNG files, without a date in them.
 
-    Each is drawn once: savefig would draw it twice, the first time for the layout alone.
+    Each file is drawn once. `savefig` would draw it twice, the first time to find the layout.
     """
     with applied():
         for path in paths:
-            part = f"{path}.part"
             figure.dpi = RESOLUTION
             if path.endswith(".pdf"):
-                with Pages(part) as pages:
-                    FigureCanvasPdf(figure).print_pdf(pages)
+                FigureCanvasPdf(figure).print_pdf(path, metadata={"CreationDate": None})
             else:
                 canvas = FigureCanvasAgg(figure)
                 canvas.draw()
                 opaque = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
-                opaque.save(part, "PNG", dpi=(RESOLUTION, RESOLUTION))
-            os.replace(part, path)
+                opaque.save(path, "PNG", dpi=(RESOLUTION, RESOLUTION))
             figure.set_layout_engine("none")  # the other files keep the layout of the first
