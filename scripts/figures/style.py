@@ -31,6 +31,8 @@ CONVERGED_LABEL = "converged (exact events)"
 EULER_LABEL = "paper's method (Euler)"
 PANELS = {"euler": EULER_LABEL, "converged": CONVERGED_LABEL}  # of the paper's figures, in their order
 PLATE = "#555555"
+AMPLITUDE = "acceleration amplitude $\\hat{a}$ in m/s²"
+VELOCITY = "mean feeding velocity in m/s"
 # Colour and name of every method that the solver is compared with.
 METHODS = {
     "event": (CONVERGED, "this solver"),
@@ -89,6 +91,16 @@ def drop_missing(**tables: pd.DataFrame | None) -> dict[str, pd.DataFrame]:
     return {role: table for role, table in tables.items() if table is not None}
 
 
+def method_panels(figure: Figure, tables: dict[str, pd.DataFrame], xlabel: str, ylabel: str) -> list[Axes]:
+    """Panels side by side with common scales, one for each method's table by its role, with titles and labels."""
+    panels = figure.subplots(1, len(tables), sharex=True, sharey=True, squeeze=False)[0]
+    for axes, role in zip(panels, tables, strict=True):
+        axes.set_title(PANELS[role])
+        axes.set_xlabel(xlabel)
+    panels[0].set_ylabel(ylabel)
+    return list(panels)
+
+
 def from_zero(axes: Axes) -> None:
     """Let the vertical axis begin at zero, or below what is less."""
     low = min((np.nanmin(line.get_ydata()) for line in axes.lines if len(line.get_ydata())), default=0.0)
@@ -96,34 +108,35 @@ def from_zero(axes: Axes) -> None:
         axes.set_ylim(bottom=0.0)
 
 
+def note(axes: Axes, text: str, place: tuple, offset: tuple[float, float] = (0.0, 0.0), **options) -> None:
+    """A small text at a place of the axes, moved by an offset in points; options as of `Axes.annotate`."""
+    axes.annotate(text, place, xytext=offset, textcoords="offset points", size=7.0, **options)
+
+
 def mark(axes: Axes, x: float, label: str) -> None:
     """A thin vertical line at x with a label at its upper end."""
     axes.axvline(x, color="black", linewidth=0.6, linestyle=":")
-    axes.annotate(
-        label,
-        (x, 1.0),
-        xycoords=("data", "axes fraction"),
-        xytext=(2, -1),
-        textcoords="offset points",
-        va="top",
-        size=7.0,
+    note(axes, label, (x, 1.0), (2, -1), xycoords=("data", "axes fraction"), va="top")
+
+
+def class_map(axes: Axes, classes: pd.DataFrame, colours: dict[str, str]) -> None:
+    """Colour the plane by named classes: a table with x in its columns and y in its index; colours by class."""
+    numbers = {name: number for number, name in enumerate(colours)}
+    axes.pcolormesh(
+        classes.columns.to_numpy(),
+        classes.index.to_numpy(),
+        classes.replace(numbers).to_numpy(dtype=float),
+        cmap=ListedColormap(list(colours.values())),
+        vmin=-0.5,
+        vmax=len(colours) - 0.5,
+        shading="nearest",
+        rasterized=True,
     )
 
 
 def state_map(axes: Axes, table: pd.DataFrame, x: str, y: str) -> None:
     """Colour the plane of two axes of a sweep by its column `state`; the axes keep their units."""
-    states = list(STATE_COLOURS)
-    grid = table.assign(code=table.state.map(states.index)).pivot(index=y, columns=x, values="code")
-    axes.pcolormesh(
-        grid.columns.to_numpy(),
-        grid.index.to_numpy(),
-        grid.to_numpy(),
-        cmap=ListedColormap(list(STATE_COLOURS.values())),
-        vmin=-0.5,
-        vmax=len(states) - 0.5,
-        shading="nearest",
-        rasterized=True,
-    )
+    class_map(axes, table.pivot(index=y, columns=x, values="state"), STATE_COLOURS)
 
 
 def state_handles(*tables: pd.DataFrame) -> list[Artist]:

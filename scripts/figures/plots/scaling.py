@@ -46,9 +46,7 @@ def over_counts(axes: Axes, rows: pd.DataFrame, varied: str, rates: pd.Series) -
     axes.plot(counts, rates, "o-", color=MAPS)
     if varied == "threads":
         axes.plot(counts, rates[0] * counts / counts[0], color="black", linewidth=0.6, linestyle=":")
-        axes.annotate(
-            "in proportion", (counts[-1], rates[0] * counts[-1] / counts[0]), ha="right", va="bottom", size=7.0
-        )
+        style.note(axes, "in proportion", (counts[-1], rates[0] * counts[-1] / counts[0]), ha="right", va="bottom")
     else:
         axes.set_xscale("log")
     axes.set_xticks(counts, [f"{count}" for count in counts])
