@@ -54,10 +54,7 @@ def plot(
 ) -> Figure:
     """Shade amplitudes from `critical_acceleration` (m/s²) on, and draw exponents above `lowest_exponent` (1/s)."""
     figure = style.figure(style.PAGE, 96.0)
-    both = figure.subplots(1, 2, width_ratios=(2.0, 1.0))
-    for axes in both:
-        axes.remove()
-    grid = both[0].get_gridspec()
+    grid = figure.add_gridspec(1, 2, width_ratios=(2.0, 1.0))
     left = grid[0].subgridspec(2, 1, height_ratios=(1.5, 1.0))
     diagram = figure.add_subplot(left[0])
     below = figure.add_subplot(left[1], sharex=diagram)
