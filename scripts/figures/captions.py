@@ -5,7 +5,6 @@ from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
-from jinja2 import Environment, StrictUndefined
 
 from accuracy.rigid_part import CONTACT, RIGID
 from accuracy.stability import VELOCITY
@@ -14,6 +13,7 @@ from claims.about_states import runs_of, second_from_rest, written_runs
 from claims.finding import lowest
 from identification import findings
 from operating.chart import of_the_search
+from pipeline.templates import render
 
 MM = 1e3
 SMALL_ELASTICITY = 1e-3  # errors of smaller ones are told by no relative number
@@ -266,11 +266,7 @@ def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings:
     """
     function = NUMBERS.get(name)
     numbers = function(**arguments_of(function, {**tables, **settings})) if function else {}
-    return (
-        Environment(undefined=StrictUndefined, keep_trailing_newline=True)
-        .from_string(template)
-        .render(numbers, paper=paper)
-    )
+    return render(template, numbers | {"paper": paper})
 
 
 def make(

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 import pytest
-from project import merged, read_config
+from project import ROOT, merged, read_config
 
 from accuracy import benchmark, precision, timing
 from conveyor.methods import heyoka_peer
@@ -34,11 +34,13 @@ def test_benchmark_is_as_accurate_as_wanted(cases):
     # A riding part repeats its steps, a chaotic one cannot; what is repeated is not counted as computed.
     repeated = dict(zip(found["case"], found["repeated_steps"], strict=True))
     assert repeated["D"] == 0 < repeated["B"]
-    text = benchmark.report(found, cases, 1)
+    template = (ROOT / "workflow/templates/benchmark.md").read_text(encoding="utf-8")
+    settings = {"cases": cases, "repeats": 1}
+    text = benchmark.report(template, found, settings)
     rows = [line.split(" | ")[0] for line in text.splitlines() if line.startswith("| ") and "Case" not in line]
     assert rows == [f"| {name}" for name in found["case"]]
     slow = {**found, "speed": np.full(len(rows), 1.0)}
-    assert "miss what is wanted: A (1 of" in benchmark.report(slow, cases, 1)
+    assert "miss what is wanted: A (1 of" in benchmark.report(template, slow, settings)
 
 
 @pytest.fixture(scope="module", params=["jumping", "riding", "bouncing"])

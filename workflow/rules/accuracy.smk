@@ -3,6 +3,8 @@
 
 
 rule benchmark:
+    input:
+        template=source("workflow/templates/benchmark.md"),
     output:
         benchmark=table("results/benchmark"),
         report=result("benchmark.md"),

@@ -4,6 +4,7 @@
 rule claims:
     input:
         read=[table(reference) for reference in references_of_claims(config["claims"])],
+        template=source("workflow/templates/claims.md"),
     output:
         claims=table("results/claims"),
         report=result("claims.md"),
@@ -24,6 +25,7 @@ rule claims:
 rule claim:
     input:
         read=lambda wildcards: [table(name) for name in references_of_claims(CLAIM[wildcards.name])],
+        template=source("workflow/templates/claims.md"),
     output:
         report=result("claims/{name}.md"),
     log:
