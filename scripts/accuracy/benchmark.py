@@ -12,10 +12,9 @@ import pandas as pd
 
 from conveyor.methods import peers
 from conveyor.simulation import Run, simulate
-from conveyor.solver.model import Conveyor, Start, pack
 from conveyor.solver.polynomial import ORDER
 from conveyor.solver.progress import bar
-from pipeline import fields
+from pipeline import fields, grid
 from pipeline.templates import render
 
 TABLES = {
@@ -52,16 +51,9 @@ TRUTH = {"integrator": "DOP853", "treatment": "modes", "tolerance": 1e-13, "max_
 RUNS = 20
 
 
-def part(settings: dict) -> tuple[Conveyor, Start]:
-    """The conveyor and the start of a case."""
-    model = dict(settings["model"])
-    start = Start(model.pop("z0"), model.pop("vz0"))
-    return Conveyor(**model), start
-
-
 def timed(case: dict, duration: float, method: str, reuse: bool = True) -> tuple[float, Run]:
     """Wall time (s) of a run and its mean velocity, and the run."""
-    conveyor, start = part(case)
+    conveyor, start = grid.conveyor_and_start(case["model"])
     accuracy = {"tolerance": case["tolerance"], "step": case["step"], "reuse": reuse}
     begin = perf_counter()
     run = simulate(conveyor, start, duration=duration, method=method, **accuracy)
@@ -103,7 +95,8 @@ def columns(cases: dict[str, dict], tolerance: float, repeats: int, *, progress:
     runs = [timed(case, case["duration"], "event")[1] for case in rows]
     eulers = [timed(case, case["duration"], "euler")[1] for case in rows]
     truths = {
-        name: peers.run(pack(*part(case)), case["compared"], **TRUTH).mean_velocity for name, case in cases.items()
+        name: peers.run(grid.packed(case["model"]), case["compared"], **TRUTH).mean_velocity
+        for name, case in cases.items()
     }
     truth = np.array([truths[case["case"]] for case in rows])
     found = [timed(case, case["compared"], "event")[1].mean_velocity() for case in rows]

@@ -12,7 +12,7 @@ from conveyor.methods import fixed_step
 from conveyor.simulation import simulate
 from conveyor.solver.model import Conveyor, Start, conveyor_motion, pack
 from conveyor.solver.progress import bar
-from pipeline import fields
+from pipeline import fields, grid
 
 TABLES = {
     "stability": (
@@ -268,9 +268,7 @@ def hard_rows(settings: dict, step: float) -> list[dict]:
     """
     rows = []
     for case in settings.values():
-        model = dict(case["model"])
-        start = Start(model.pop("z0", 0.0), model.pop("vz0", 0.0))
-        conveyor = Conveyor(**model)
+        conveyor, start = grid.conveyor_and_start(case["model"])
         truth = simulate(conveyor, start, duration=case["duration"], tolerance=1e-13)
         own = simulate(conveyor, start, duration=case["duration"])
         scale = max(abs(truth.z_end), 1e-9)
@@ -293,4 +291,4 @@ def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray
     """The columns of the table of stability."""
     rows = region_rows(settings, progress) + chatter_rows(settings)
     rows += hard_rows(settings["hard"], settings["paper_step"])
-    return {name: np.array([one[name] for one in rows]) for name in rows[0]}
+    return fields.columns(rows, TABLES["stability"])

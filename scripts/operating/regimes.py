@@ -102,4 +102,4 @@ def make(shares: pd.DataFrame) -> dict[str, np.ndarray]:
                 "best_share_stderr": own.stderr.max(),
             }
         )
-    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
+    return fields.columns(rows, TABLES["regimes"])

@@ -11,8 +11,8 @@ from conveyor.analysis.bifurcation_points import GRAZING, Point
 from conveyor.analysis.groups import amplitude_of
 from conveyor.solver.model import ANGLE, PARAMETERS, UNITS
 from conveyor.solver.parallel import for_each_chunk
-from pipeline import fields
-from sensitivity.selection import COLUMNS, Selected, conveyor, selected
+from pipeline import fields, grid
+from sensitivity.selection import COLUMNS, Selected, selected
 
 OF_CURVE = (
     fields.text("kind", "fold, period_doubling or grazing (where a riding part begins to leave the plate)"),
@@ -130,11 +130,6 @@ def over_angle(parameters: np.ndarray, one: Selected, settings: dict) -> Iterato
         yield {**begun(one, "angle"), **place(parameters, one.point, "angle", part), **about}
 
 
-def columns(rows: list[dict], kind: str) -> dict[str, np.ndarray]:
-    """Rows as the columns of a kind of table."""
-    return {column.name: np.array([row[column.name] for row in rows]) for column in TABLES[kind]}
-
-
 def make(
     folds_and_doublings: pd.DataFrame,
     cascade: pd.DataFrame,
@@ -144,7 +139,7 @@ def make(
     progress: str | None = None,
 ) -> dict[str, dict[str, np.ndarray]]:
     """The columns of both tables, by their kinds, for the section `sensitivity` of the config."""
-    parameters = conveyor(settings["model"])
+    parameters = grid.packed(settings["model"])
     chosen = selected(
         parameters, folds_and_doublings, cascade, settings["longest_period"], settings["curves"]["doublings"]
     )
@@ -161,6 +156,6 @@ def make(
     points = [row for rows, _ in found for row in rows]
     points += [row for one in chosen for row in over_angle(parameters, one, settings["curves"])]
     return {
-        "continued": columns(points, "continued"),
-        "meetings": columns([row for _, rows in found for row in rows], "meetings"),
+        "continued": fields.columns(points, TABLES["continued"]),
+        "meetings": fields.columns([row for _, rows in found for row in rows], TABLES["meetings"]),
     }

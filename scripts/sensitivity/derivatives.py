@@ -19,8 +19,8 @@ from conveyor.analysis.groups import (
     units,
 )
 from conveyor.solver.model import ACCELERATION, PARAMETERS, UNITS, VZ0, Z0
-from pipeline import fields
-from sensitivity.selection import COLUMNS, Selected, at, conveyor, selected
+from pipeline import fields, grid
+from sensitivity.selection import COLUMNS, Selected, at, selected
 
 MOVED = (
     fields.text("kind", "fold, period_doubling, grazing, accumulation, critical_amplitude or critical_height"),
@@ -235,7 +235,7 @@ def group_rows(one: Moved) -> Iterator[dict]:
 
 def starts(critical: pd.DataFrame, settings: dict) -> Iterator[Moved]:
     """The critical amplitude of the start at rest, and critical heights."""
-    parameters = conveyor({**critical.attrs["model"], "z0": 0.0})
+    parameters = grid.packed({**critical.attrs["model"], "z0": 0.0})
     edges = critical[critical.is_critical].sort_values("acceleration")
     rest = parameters.copy()
     rest[Z0], rest[VZ0] = settings["rest"]["z0"], settings["rest"]["vz0"]
@@ -251,24 +251,18 @@ def starts(critical: pd.DataFrame, settings: dict) -> Iterator[Moved]:
         yield on_edge("critical_height", here, HEIGHT)
 
 
-def columns(rows: list[dict], kind: str) -> dict[str, np.ndarray]:
-    """Rows as the columns of a kind of table."""
-    return {column.name: np.array([row[column.name] for row in rows]) for column in TABLES[kind]}
-
-
 def make(
     folds_and_doublings: pd.DataFrame, cascade: pd.DataFrame, critical: pd.DataFrame, settings: dict
 ) -> dict[str, dict[str, np.ndarray]]:
     """The columns of both tables, by their kinds, for the section `sensitivity` of the config."""
-    parameters = conveyor(settings["model"])
+    parameters = grid.packed(settings["model"])
     chosen = selected(parameters, folds_and_doublings, cascade, settings["longest_period"], settings["doublings"])
     bifurcations = [of_bifurcation(parameters, one) for one in chosen]
     accumulation = of_accumulation(parameters, [one for one in bifurcations if one.doubling])
     moved = [*bifurcations, *([accumulation] if accumulation else []), *starts(critical, settings)]
+    physical = [row for one in moved for row in physical_rows(one, settings["difference"], settings["agreement"])]
+    groups = [row for one in moved for row in group_rows(one)]
     return {
-        "derivatives": columns(
-            [row for one in moved for row in physical_rows(one, settings["difference"], settings["agreement"])],
-            "derivatives",
-        ),
-        "groups": columns([row for one in moved for row in group_rows(one)], "groups"),
+        "derivatives": fields.columns(physical, TABLES["derivatives"]),
+        "groups": fields.columns(groups, TABLES["groups"]),
     }

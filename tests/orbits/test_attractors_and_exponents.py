@@ -8,6 +8,7 @@ import pytest
 from project import read_config
 
 from orbits import branches, exponents, seeds, strobes, witnesses
+from pipeline import grid
 
 MODEL = {
     "acceleration": 40.0,
@@ -85,7 +86,7 @@ def test_orbits_to_begin_with_are_found():
     section = read_config("orbits")["orbits"]
     settings = {**section, "limits": [35.0, 45.0], "max_period": 1, "cycles": 300, "model": MODEL}
     del settings["seeds"]
-    found = seeds.seeds(branches.parameters_of(settings), settings)
+    found = seeds.seeds(grid.packed(settings["model"]), settings)
     assert {orbit.period for orbit in found} == {1}
     assert {orbit.longest_flight > 0.5 for orbit in found} == {True, False}
     tables = branches.make(settings)
