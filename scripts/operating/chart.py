@@ -73,7 +73,7 @@ def irregular(regimes: pd.DataFrame, resolution: float) -> dict[str, str]:
     return found
 
 
-def of_the_search(shares: pd.DataFrame) -> dict[str, str]:
+def search_numbers(shares: pd.DataFrame) -> dict[str, str]:
     """What was looked at, and how closely."""
     search = shares.attrs
     amplitudes = np.sort(shares.acceleration.unique())
@@ -111,5 +111,5 @@ def rows_of(regimes: pd.DataFrame, resolution: float) -> list[list[str]]:
 def make(template: str, shares: pd.DataFrame, regimes: pd.DataFrame) -> str:
     """The page from its template and the tables of shares and regimes."""
     resolution = shares.attrs["resolution"]
-    values = regular(shares, regimes) | irregular(regimes, resolution) | of_the_search(shares)
+    values = regular(shares, regimes) | irregular(regimes, resolution) | search_numbers(shares)
     return render(template, values | {"rows": rows_of(regimes, resolution)})

@@ -185,7 +185,7 @@ def motions_at(amplitudes: np.ndarray, settings: dict, *, threads: int = 1, prog
     return columns
 
 
-def joined(one: dict[str, np.ndarray], other: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+def join_tables(one: dict[str, np.ndarray], other: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
     """Rows of two tables, by amplitude and motion."""
     both = {name: np.concatenate([one[name], other[name]]) for name in one}
     order = np.lexsort((both["motion"], both["acceleration"]))
@@ -203,4 +203,4 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
             return table
         between = 0.5 * (places[1:] + places[:-1])[wide]
         label = progress and f"{progress}, {len(between)} amplitudes between"
-        table = joined(table, motions_at(between, settings, threads=threads, progress=label))
+        table = join_tables(table, motions_at(between, settings, threads=threads, progress=label))

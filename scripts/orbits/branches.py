@@ -81,7 +81,7 @@ def bifurcation_rows(branches: list[Branch]) -> list[dict]:
     return rows
 
 
-def explored(parameters: np.ndarray, starts: list[Orbit], settings: dict) -> list[Branch]:
+def explore_branches(parameters: np.ndarray, starts: list[Orbit], settings: dict) -> list[Branch]:
     """All branches that hang together with some orbits, each once.
 
     Orbits that were looked for come in the order of their periods: those of doubled branches lie on what has been found
@@ -169,7 +169,7 @@ def make(settings: dict) -> dict[str, dict[str, np.ndarray]]:
     """The columns of the three tables, by their kinds, for the section `orbits` of the config."""
     parameters = grid.packed(settings["model"])
     starts = seeds(parameters, settings)
-    branches = explored(parameters, starts, settings)
+    branches = explore_branches(parameters, starts, settings)
     cascade = cascade_of(parameters, branches, starts, settings)
     rows = {
         "branches": branch_rows(parameters, branches),

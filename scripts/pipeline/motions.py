@@ -30,7 +30,7 @@ def tolerance_of(settings: dict) -> float:
     return settings.get("tolerance", DEFAULT_TOLERANCE)
 
 
-def known_of(
+def shared_attractors(
     parameters: np.ndarray, starts: int, settings: dict, *, threads: int = 1, progress: str | None = None
 ) -> KnownAttractors:
     """The attractors of conveyors, shape (n, 13), that are worth finding for so many starts of each of them."""
@@ -48,10 +48,10 @@ def search_beside(parameters: np.ndarray, settings: dict, threads: int) -> Calla
     """
     if threads == 1 or not set(settings["axes"]) <= STARTS:
         return None
-    return cache(partial(known_of, parameters[:1], starts_per_conveyor(settings["axes"]), settings))
+    return cache(partial(shared_attractors, parameters[:1], starts_per_conveyor(settings["axes"]), settings))
 
 
-def of_conveyors(parameters: np.ndarray) -> list[np.ndarray]:
+def batches_by_conveyor(parameters: np.ndarray) -> list[np.ndarray]:
     """Rows of `parameters`, shape (n, 13), in batches that hold all starts of their conveyors."""
     _, conveyor = distinct(parameters)
     order = np.argsort(conveyor, kind="stable")
@@ -80,11 +80,11 @@ def motions_of_starts(
     options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
     if known is not None:
         return classify(parameters, known=known, **options, progress=progress)
-    batches = of_conveyors(parameters)
+    batches = batches_by_conveyor(parameters)
     parts = []
     for number, rows in enumerate(batches, start=1):
         label = progress and (f"{progress} ({number} of {len(batches)})" if len(batches) > 1 else progress)
-        known = known_of(parameters[rows], starts, settings, threads=threads, progress=label)
+        known = shared_attractors(parameters[rows], starts, settings, threads=threads, progress=label)
         parts.append(classify(parameters[rows], known=known, **options, progress=label))
     order = np.argsort(np.concatenate(batches))
     return Motions(*(np.concatenate(column)[order] for column in zip(*parts, strict=True)))

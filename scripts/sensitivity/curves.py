@@ -64,7 +64,7 @@ ENDS = {
 STEEPEST = 0.49 * np.pi  # rad, of an angle of throw that is looked at
 
 
-def begun(one: Selected, parameter: str) -> dict:
+def curve_columns(one: Selected, parameter: str) -> dict:
     """The columns that name a curve."""
     return {
         "kind": one.kind,
@@ -91,7 +91,7 @@ def place(parameters: np.ndarray, point: Point, parameter: str, part: float) -> 
     }
 
 
-def followed(point: Point, parameter: str, settings: dict) -> Curve:
+def follow_curve(point: Point, parameter: str, settings: dict) -> Curve:
     """The curve of a bifurcation."""
     path = POWERS[parameter](point.groups.exponent)
     reach = np.log(settings["factors"][parameter])
@@ -101,9 +101,9 @@ def followed(point: Point, parameter: str, settings: dict) -> Curve:
     return bifurcation_curves.follow(point, path, *limits, longest_step=settings["step"], most=settings["points"])
 
 
-def of_curve(parameters: np.ndarray, one: Selected, parameter: str, curve: Curve) -> tuple[list[dict], list[dict]]:
+def rows_of_curve(parameters: np.ndarray, one: Selected, parameter: str, curve: Curve) -> tuple[list[dict], list[dict]]:
     """The rows of its points and of its meetings."""
-    name = begun(one, parameter)
+    name = curve_columns(one, parameter)
     last = len(curve.points) - 1
     points = []
     for n, (point, part, form, impacts) in enumerate(
@@ -119,7 +119,7 @@ def of_curve(parameters: np.ndarray, one: Selected, parameter: str, curve: Curve
     return points, meetings
 
 
-def over_angle(parameters: np.ndarray, one: Selected, settings: dict) -> Iterator[dict]:
+def rows_over_angle(parameters: np.ndarray, one: Selected, settings: dict) -> Iterator[dict]:
     """The curve over the angle of throw: Γ stays, so that â goes with 1/sin φ."""
     reach = np.log(settings["factors"]["angle"])
     highest = min(reach, np.log(STEEPEST / parameters[ANGLE]))
@@ -127,7 +127,7 @@ def over_angle(parameters: np.ndarray, one: Selected, settings: dict) -> Iterato
     for n, part in enumerate(parts):
         end = n in (0, len(parts) - 1)
         about = {"point": n, "impacts": 0, "normal_form": np.nan, "status": "limit of the config" if end else "ok"}
-        yield {**begun(one, "angle"), **place(parameters, one.point, "angle", part), **about}
+        yield {**curve_columns(one, "angle"), **place(parameters, one.point, "angle", part), **about}
 
 
 def make(
@@ -150,11 +150,11 @@ def make(
     def work(begin, end):
         for n in range(begin, end):
             one, parameter = tasks[n]
-            found[n] = of_curve(parameters, one, parameter, followed(one.point, parameter, settings["curves"]))
+            found[n] = rows_of_curve(parameters, one, parameter, follow_curve(one.point, parameter, settings["curves"]))
 
     for_each_chunk(work, len(tasks), threads=threads, chunk=1, progress=progress)
     points = [row for rows, _ in found for row in rows]
-    points += [row for one in chosen for row in over_angle(parameters, one, settings["curves"])]
+    points += [row for one in chosen for row in rows_over_angle(parameters, one, settings["curves"])]
     return {
         "continued": fields.columns(points, TABLES["continued"]),
         "meetings": fields.columns([row for _, rows in found for row in rows], TABLES["meetings"]),

@@ -56,13 +56,13 @@ def columns(
     continued(starts, runs["z_end"][those], runs["vz_end"][those], settings["duration"], out=starts)
     found = motions(starts, settings, known=known, threads=threads, progress=progress)
     state, period, flight = (
-        everywhere(ok, values, missing)
+        fill_missing(ok, values, missing)
         for values, missing in ((found.state, "undecided"), (found.period, 0), (found.longest_flight, np.nan))
     )
     return axes | runs | {"state": state, "period": period, "longest_flight": flight}
 
 
-def everywhere(ok: np.ndarray, values: np.ndarray, missing: str | float) -> np.ndarray:
+def fill_missing(ok: np.ndarray, values: np.ndarray, missing: str | float) -> np.ndarray:
     """The `values` in the places where `ok`, of shape (n,), is true, and what is `missing` in the others."""
     if len(values) == len(ok):
         return values

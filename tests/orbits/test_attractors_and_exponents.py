@@ -115,4 +115,4 @@ def test_orbits_of_a_doubled_branch_begin_no_other_one(monkeypatch):
         branches.orbits, "explore", lambda parameters, seeds, *rest: [one for seed in seeds for one in found[seed.name]]
     )
     settings = {"limits": [20.0, 90.0], "max_period": 2}
-    assert branches.explored(None, starts, settings) == ["once", "double", "apart"]
+    assert branches.explore_branches(None, starts, settings) == ["once", "double", "apart"]

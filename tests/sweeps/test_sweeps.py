@@ -167,9 +167,14 @@ def test_attractors_of_one_conveyor_are_found_while_its_starts_run(monkeypatch):
     settings = {"axes": axes, "model": {"acceleration": 60.0}, "duration": 0.02, "settling": 500}
     one = shards.columns(settings, threads=1)
     assert set(one["state"]) == {"second", "chaos"}
-    true, true_chunks, threads, found = pipeline.motions.known_of, ensemble.for_each_chunk, [], threading.Event()
+    true, true_chunks, threads, found = (
+        pipeline.motions.shared_attractors,
+        ensemble.for_each_chunk,
+        [],
+        threading.Event(),
+    )
 
-    def known_of(*arguments, **options):
+    def shared_attractors(*arguments, **options):
         threads.append(threading.current_thread())
         known = true(*arguments, **options)
         found.set()
@@ -184,7 +189,7 @@ def test_attractors_of_one_conveyor_are_found_while_its_starts_run(monkeypatch):
 
         true_chunks(after_the_search, *arguments, **options)
 
-    monkeypatch.setattr(pipeline.motions, "known_of", known_of)
+    monkeypatch.setattr(pipeline.motions, "shared_attractors", shared_attractors)
     monkeypatch.setattr(ensemble, "for_each_chunk", for_each_chunk)
     two = shards.columns(settings, threads=2)
     assert len(threads) == 1 and threads != [threading.current_thread()]
