@@ -1,8 +1,6 @@
 """Which motions starts end in, for the stages whose entries of the config say how to find that out."""
 
 import math
-from collections.abc import Callable
-from functools import cache, partial
 
 import numpy as np
 
@@ -41,16 +39,6 @@ def shared_attractors(
     return known_attractors(parameters, orbits=starts >= ORBITS_SHARED, **options, progress=progress)
 
 
-def search_beside(parameters: np.ndarray, settings: dict, threads: int) -> Callable[[], KnownAttractors] | None:
-    """Finds the attractors of one conveyor, the first time it is called: it takes one thread while others run starts.
-
-    None where there is no other thread, or for several conveyors, whose searches share threads.
-    """
-    if threads == 1 or not set(settings["axes"]) <= STARTS:
-        return None
-    return cache(partial(shared_attractors, parameters[:1], starts_per_conveyor(settings["axes"]), settings))
-
-
 def batches_by_conveyor(parameters: np.ndarray) -> list[np.ndarray]:
     """Rows of `parameters`, shape (n, 13), in batches that hold all starts of their conveyors."""
     _, conveyor = distinct(parameters)
@@ -64,7 +52,6 @@ def motions_of_starts(
     settings: dict,
     *,
     starts: int,
-    known: KnownAttractors | None = None,
     threads: int = 1,
     progress: str | None = None,
 ) -> Motions:
@@ -75,11 +62,8 @@ def motions_of_starts(
     parameters : float64, shape (n, 13)
     settings : `settling`, and `tolerance` if it is not the default
     starts : of each conveyor, in all batches and shards
-    known : the attractors of all conveyors, if they have been found
     """
     options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
-    if known is not None:
-        return classify(parameters, known=known, **options, progress=progress)
     batches = batches_by_conveyor(parameters)
     parts = []
     for number, rows in enumerate(batches, start=1):
@@ -93,7 +77,7 @@ def motions_of_starts(
 def motions(parameters: np.ndarray, settings: dict, **options) -> Motions:
     """The motions that the starts of `parameters`, shape (n, 13), end in; `settings` are those of their entry.
 
-    options : `known`, `threads` and `progress`, as in motions_of_starts
+    options : `threads` and `progress`, as in motions_of_starts
     """
     return motions_of_starts(parameters, settings, starts=starts_per_conveyor(settings["axes"]), **options)
 
