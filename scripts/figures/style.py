@@ -9,12 +9,9 @@ import pandas as pd
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from PIL import Image
 
 mpl.use("Agg")
 
@@ -157,18 +154,9 @@ def legend_above(figure: Figure, axes: Axes, **options) -> None:
 
 
 def save(figure: Figure, paths: Iterable[str]) -> None:
-    """Write a figure to PDF or PNG files, without a date in them.
-
-    Each file is drawn once. `savefig` would draw it twice, the first time to find the layout.
-    """
+    """Write a figure to PDF or PNG files, without a date in them; all files have the layout of the first one."""
     with applied():
         for path in paths:
-            figure.dpi = RESOLUTION
-            if path.endswith(".pdf"):
-                FigureCanvasPdf(figure).print_pdf(path, metadata={"CreationDate": None})
-            else:
-                canvas = FigureCanvasAgg(figure)
-                canvas.draw()
-                opaque = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
-                opaque.save(path, "PNG", dpi=(RESOLUTION, RESOLUTION))
-            figure.set_layout_engine("none")  # the other files keep the layout of the first
+            metadata = {"CreationDate": None} if path.endswith(".pdf") else None
+            figure.savefig(path, dpi=RESOLUTION, metadata=metadata)
+            figure.set_layout_engine("none")
