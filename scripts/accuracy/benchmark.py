@@ -8,13 +8,14 @@ DOP853 from event to event.
 from time import perf_counter
 
 import numpy as np
+import pandas as pd
 
 from conveyor.methods import peers
 from conveyor.simulation import Run, simulate
-from conveyor.solver.model import Conveyor, Start, pack
 from conveyor.solver.polynomial import ORDER
 from conveyor.solver.progress import bar
-from pipeline import fields
+from pipeline import fields, grid
+from pipeline.templates import render
 
 TABLES = {
     "benchmark": (
@@ -49,33 +50,10 @@ TRUTH = {"integrator": "DOP853", "treatment": "modes", "tolerance": 1e-13, "max_
 # Runs of the solver for each run of Euler.
 RUNS = 20
 
-COLUMNS = {
-    "Case": "{case}",
-    "Motion": "{motion}",
-    "â, m/s²": "{acceleration:g}",
-    "z0, mm": "{height:g}",
-    "Tolerance": "{tolerance:.0e} ({chosen})",
-    "Taylor steps: computed, repeated": "{steps}, {repeated_steps}",
-    "Events": "{events}",
-    "Wall time, ms": "{ours:.3f}",
-    "Euler, ms": "{theirs:.1f}",
-    "Error of Euler": "{euler_error:.1e}",
-    "Error (wanted)": "{error:.1e} (≤ {wanted_error:.0e})",
-    "Speed against Euler (wanted, aim)": "{speed:.0f} (≥ {wanted_speed:g}, {wanted_aim:g})",
-    "The same without repeated steps": "{speed_without:.0f}",
-}
-
-
-def part(settings: dict) -> tuple[Conveyor, Start]:
-    """The conveyor and the start of a case."""
-    model = dict(settings["model"])
-    start = Start(model.pop("z0"), model.pop("vz0"))
-    return Conveyor(**model), start
-
 
 def timed(case: dict, duration: float, method: str, reuse: bool = True) -> tuple[float, Run]:
     """Wall time (s) of a run and its mean velocity, and the run."""
-    conveyor, start = part(case)
+    conveyor, start = grid.conveyor_and_start(case["model"])
     accuracy = {"tolerance": case["tolerance"], "step": case["step"], "reuse": reuse}
     begin = perf_counter()
     run = simulate(conveyor, start, duration=duration, method=method, **accuracy)
@@ -117,7 +95,8 @@ def columns(cases: dict[str, dict], tolerance: float, repeats: int, *, progress:
     runs = [timed(case, case["duration"], "event")[1] for case in rows]
     eulers = [timed(case, case["duration"], "euler")[1] for case in rows]
     truths = {
-        name: peers.run(pack(*part(case)), case["compared"], **TRUTH).mean_velocity for name, case in cases.items()
+        name: peers.run(grid.packed(case["model"]), case["compared"], **TRUTH).mean_velocity
+        for name, case in cases.items()
     }
     truth = np.array([truths[case["case"]] for case in rows])
     found = [timed(case, case["compared"], "event")[1].mean_velocity() for case in rows]
@@ -144,42 +123,26 @@ def columns(cases: dict[str, dict], tolerance: float, repeats: int, *, progress:
     }
 
 
-def report(found: dict[str, np.ndarray], cases: dict[str, dict], repeats: int) -> str:
-    """The table in Markdown, with what is wanted of each case."""
-    lines = [f"| {' | '.join(COLUMNS)} |", "|" + "---|" * len(COLUMNS)]
-    missed = []
-    for k, name in enumerate(found["case"]):
-        row = {column: values[k] for column, values in found.items()}
-        millis = {column: 1e3 * row[source] for column, source in (("height", "z0"), ("ours", "seconds"))}
-        wanted = {f"wanted_{column}": value for column, value in cases[name]["wanted"].items()}
-        millis["theirs"] = 1e3 * row["euler_seconds"]
-        lines.append(f"| {' | '.join(cell.format(**row, **millis, **wanted) for cell in COLUMNS.values())} |")
-        if row["chosen"] == "default" and (
-            row["speed"] < wanted["wanted_speed"] or row["error"] > wanted["wanted_error"]
-        ):
-            missed.append(f"{name} ({row['speed']:.0f} of {wanted['wanted_speed']:g})")
-    shorter = "".join(
-        f" ({name}: of the first {case['compared']:g} s)"
-        for name, case in cases.items()
-        if case["compared"] != case["duration"]
-    )
-    verdict = (
-        f"At the default tolerance these miss what is wanted: {', '.join(missed)}."
-        if missed
-        else ("At the default tolerance every case is as fast and as accurate as wanted.")
-    )
-    return (
-        "# The solver against the paper's method\n\n"
-        "Both through `simulate(…)` and `mean_velocity()`, without samples, on one thread; median wall times of "
-        f"{repeats} rounds in which the methods alternate. Errors are relative, of the mean feeding velocity over the "
-        f"last quarter{shorter}, against scipy's DOP853 from event to event at tolerance {TRUTH['tolerance']:g}. A "
-        f"Taylor step of the solver finds {ORDER} derivatives of the contact force; once the vertical motion repeats "
-        "itself, its steps are repeated instead of computed, which the last column does without. A tolerance marked as "
-        "the loosest that keeps the error was chosen against the truth.\n\n" + "\n".join(lines) + f"\n\n{verdict}\n"
-    )
+def report(template: str, found: dict[str, np.ndarray], settings: dict) -> str:
+    """The page on the benchmark, with what is wanted of each case."""
+    cases = settings["cases"]
+    rows = [row | {"wanted": cases[row["case"]]["wanted"]} for row in pd.DataFrame(found).to_dict("records")]
+
+    def misses(row: dict) -> bool:
+        return row["speed"] < row["wanted"]["speed"] or row["error"] > row["wanted"]["error"]
+
+    values = {
+        "rows": rows,
+        "missed": [row for row in rows if row["chosen"] == "default" and misses(row)],
+        "shorter": [{"name": name, **case} for name, case in cases.items() if case["compared"] != case["duration"]],
+        "repeats": settings["repeats"],
+        "order": ORDER,
+        "tolerance_of_truth": TRUTH["tolerance"],
+    }
+    return render(template, values)
 
 
-def make(settings: dict, *, progress: str | None = None) -> dict:
-    """The columns of the table and the report for the resolved cases, the default tolerance and the repeats."""
+def make(settings: dict, template: str, *, progress: str | None = None) -> dict:
+    """The columns of the table, and the page from its template, for cases, the default tolerance and the repeats."""
     found = columns(**settings, progress=progress)
-    return {"benchmark": found, "report": report(found, settings["cases"], settings["repeats"])}
+    return {"benchmark": found, "report": report(template, found, settings)}

@@ -16,9 +16,9 @@ from accuracy.timing import in_turns
 from conveyor.analysis import states
 from conveyor.methods import fixed_step, peers
 from conveyor.simulation import simulate
-from conveyor.solver.model import Conveyor, Start, conveyor_motion, pack
+from conveyor.solver.model import conveyor_motion, pack
 from conveyor.solver.polynomial import ORDER
-from pipeline import fields
+from pipeline import fields, grid
 
 RUN = (
     fields.text("method", "event, a fixed-step method, or one of scipy's integrators"),
@@ -85,16 +85,9 @@ def methods(settings: dict) -> list[Method]:
     return listed
 
 
-def scene(settings: dict) -> tuple[Conveyor, Start]:
-    """The conveyor and the start that the settings describe."""
-    model = dict(settings["model"])
-    start = Start(model.pop("z0"), model.pop("vz0"))
-    return Conveyor(**model), start
-
-
 def follow(method: Method, settings: dict) -> Result:
     """One run. A Taylor step of order n counts as n force evaluations: it finds n derivatives of the force."""
-    conveyor, start = scene(settings)
+    conveyor, start = grid.conveyor_and_start(settings["model"])
     if method.treatment in peers.TREATMENTS:
         run = peers.run(
             pack(conveyor, start),
@@ -115,7 +108,7 @@ def follow(method: Method, settings: dict) -> Result:
 
 def leads_to(settings: dict, end: np.ndarray) -> str:
     """State of motion that a run with this end leads to."""
-    parameters = pack(*scene(settings))[None]
+    parameters = grid.packed(settings["model"])[None]
     later = states.continued(parameters, end[1:2], end[2:3], settings["duration"])
     return str(states.classify(later).state[0])
 
@@ -124,7 +117,7 @@ def outcome(result: Result, error: float, settings: dict, state: str) -> str:
     """ "ok", or what is wrong with a run, which its own status need not say; `state` is the right state of motion."""
     if result.status != "ok":
         return result.status
-    conveyor, _ = scene(settings)
+    conveyor, _ = grid.conveyor_and_start(settings["model"])
     plate = conveyor_motion(conveyor, np.array([settings["duration"], 0.5 / conveyor.frequency]))["z"]
     stroke = np.abs(plate).max()
     if result.end[1] < plate[0] - stroke:
@@ -144,7 +137,7 @@ def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[s
     progress : name of a progress bar, or None
     """
     truth = follow(Method("event", ANEW, TRUTH, None), settings)
-    _, *scale = peers.scales(pack(*scene(settings)))
+    _, *scale = peers.scales(grid.packed(settings["model"]))
     listed = methods(settings)
     for method in listed:
         follow(method, settings | SHORT)

@@ -111,4 +111,4 @@ def make(settings: dict, model: dict, fit: dict | None = None, critical: pd.Data
     rows += dimension_rows(settings["dimension"], settings["seed"])
     if critical is not None:
         rows += fit_rows(settings["fit"], critical, fit, settings["seed"])
-    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
+    return fields.columns(rows, TABLES["precision_estimates"])

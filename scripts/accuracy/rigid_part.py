@@ -25,7 +25,6 @@ from conveyor.solver.model import (
     Conveyor,
     Start,
     pack,
-    unpack,
 )
 from conveyor.solver.progress import bar
 from pipeline import fields, grid
@@ -176,9 +175,8 @@ def make(
     entry : settings of the sweep
     sweeps, folds_and_doublings, cascade : tables of the compliant contact
     """
-    _, parameters = grid.product({"acceleration": [0.0]}, entry["model"])
-    conveyor, _ = unpack(parameters[0])
-    of_speed = table_of_restitution(parameters[0])
+    conveyor, _ = grid.conveyor_and_start(entry["model"])
+    of_speed = table_of_restitution(pack(conveyor, Start()))
     one_number = SPEEDS, np.full(len(SPEEDS), orbit_of(conveyor, of_speed).restitution)
 
     rows = []
@@ -200,4 +198,4 @@ def make(
     models = {RIGID: of_speed, ONE_NUMBER: one_number}
     for model, restitution in bar(models.items(), label=progress, unit="models"):
         rows += bifurcation_rows(model, conveyor, restitution, settings)
-    return {name: np.array([row[name] for row in rows]) for name in rows[-1]}
+    return fields.columns(rows, TABLES["rigid_part"])

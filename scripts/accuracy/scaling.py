@@ -125,7 +125,7 @@ def shards_of(case: dict, folder: Path) -> list[dict[str, float]]:
     ]
 
 
-def put_together(case: dict, folder: Path) -> dict[str, float]:
+def gather_shards(case: dict, folder: Path) -> dict[str, float]:
     """`run` for what puts the shards of a case together, how many rows it has, and the size (B) of the file."""
     paths, shards_of_all = [str(folder / f"{k}.parquet") for k in range(case["measured"])], case["plan"]["shards"]
     copies = paths if len(paths) == shards_of_all else paths * min(shards_of_all, MOST_GATHERED)
@@ -144,7 +144,7 @@ def medians(rounds: list[list[dict[str, float]]]) -> list[dict[str, float]]:
 
 
 def row(case: dict, made: list[dict[str, float]], together: dict[str, float]) -> dict[str, Any]:
-    """A row of the table for one `case`, from `medians` of its shards and what `put_together` says.
+    """A row of the table for one `case`, from `medians` of its shards and what `gather_shards` says.
 
     A case says what is varied, the settings of its sweep, its plan, its threads, and how many shards are to be made.
     """
@@ -185,6 +185,6 @@ def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> d
         with tempfile.TemporaryDirectory() as folder:
             times[k].append(shards_of(cases[k], Path(folder)))
             if number == 0:
-                together[k] = put_together(cases[k], Path(folder))
+                together[k] = gather_shards(cases[k], Path(folder))
     rows = (row(case, medians(times[k]), together[k]) for k, case in enumerate(cases))
     return {name: column.to_numpy() for name, column in pd.DataFrame(rows).items()}

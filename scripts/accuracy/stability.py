@@ -12,7 +12,7 @@ from conveyor.methods import fixed_step
 from conveyor.simulation import simulate
 from conveyor.solver.model import Conveyor, Start, conveyor_motion, pack
 from conveyor.solver.progress import bar
-from pipeline import fields
+from pipeline import fields, grid
 
 TABLES = {
     "stability": (
@@ -77,7 +77,7 @@ def limit(method: str, stiffness: float, damping: float, mass: float) -> float:
     return brentq(growth, steps[last - 1], steps[last])
 
 
-def whole(duration: float, step: float) -> float:
+def whole_steps(duration: float, step: float) -> float:
     """The least whole number of steps (s) that lasts for a duration (s)."""
     return math.ceil(duration / step - 1e-9) * step
 
@@ -97,7 +97,7 @@ def outcome_at_rest(method: str, step: float, stiffness: float, damping: float) 
         run = simulate(conveyor, start, duration=duration)
         z, vz, highest = run.z_end, run.vz_end, run.max_gap
     else:
-        found = fixed_step.run(pack(conveyor, start), whole(duration, step), step, method)
+        found = fixed_step.run(pack(conveyor, start), whole_steps(duration, step), step, method)
         z, vz, highest = found.z, found.vz, found.max_gap
     if not (math.isfinite(z) and math.isfinite(vz)) or max(abs(z), highest) > FAR:
         return BLOWS_UP
@@ -117,7 +117,7 @@ def restitution(method: str, step: float, speed: float, conveyor: Conveyor) -> f
         run = simulate(conveyor, start, duration=duration)
         z, vz = run.z_end, run.vz_end
     else:
-        found = fixed_step.run(pack(conveyor, start), whole(duration, step), step, method)
+        found = fixed_step.run(pack(conveyor, start), whole_steps(duration, step), step, method)
         z, vz = found.z, found.vz
     if not (math.isfinite(z) and abs(z) < FAR):
         return math.inf
@@ -189,12 +189,12 @@ def on_conveyors(
     """`experiments` on the vibrating plate: with each step, parts at all amplitudes are followed side by side."""
     conveyors, start = [Conveyor(acceleration=value) for value in values], Start(z0)
     parameters = np.array([pack(conveyor, start) for conveyor in conveyors])
-    runs = cache(lambda step: fixed_step.run_all(parameters, whole(duration, step), step, method))
+    runs = cache(lambda step: fixed_step.run_all(parameters, whole_steps(duration, step), step, method))
 
     def one(place: int, conveyor: Conveyor) -> tuple[Callable[[float], str], float]:
         stiffness = 1.5 * conveyor.stiffness * math.sqrt(deepest_on_conveyor(conveyor, start, duration))
         theory = limit(method, stiffness, conveyor.damping, conveyor.mass)
-        return lambda step: outcome_on_conveyor(runs(step)[place], conveyor, start, whole(duration, step)), theory
+        return lambda step: outcome_on_conveyor(runs(step)[place], conveyor, start, whole_steps(duration, step)), theory
 
     return [one(place, conveyor) for place, conveyor in enumerate(conveyors)]
 
@@ -253,7 +253,7 @@ def chatter_rows(settings: dict) -> list[dict]:
     for step in settings["chatter_steps"]:
         times = 0.1 + step * np.arange(2000)
         for method in ("euler", "event"):
-            duration = whole(times[-1] + step, step)
+            duration = whole_steps(times[-1] + step, step)
             run = simulate(conveyor, Start("conveyor"), duration=duration, method=method, step=step)
             slips = run.sample(times)["vx"] - conveyor_motion(conveyor, times)["vx"]
             slip = float(np.sqrt(np.mean(slips**2)))
@@ -268,16 +268,14 @@ def hard_rows(settings: dict, step: float) -> list[dict]:
     """
     rows = []
     for case in settings.values():
-        model = dict(case["model"])
-        start = Start(model.pop("z0", 0.0), model.pop("vz0", 0.0))
-        conveyor = Conveyor(**model)
+        conveyor, start = grid.conveyor_and_start(case["model"])
         truth = simulate(conveyor, start, duration=case["duration"], tolerance=1e-13)
         own = simulate(conveyor, start, duration=case["duration"])
         scale = max(abs(truth.z_end), 1e-9)
         error = abs(own.z_end - truth.z_end) / scale
         fine = own.status == truth.status == "ok" and own.event_count == truth.event_count and error < FINE
         rows.append(row(f"hard: {case['label']}", "event", own.event_count, error, RIGHT if fine else WRONG))
-        euler = fixed_step.run(pack(conveyor, start), whole(case["duration"], step), step)
+        euler = fixed_step.run(pack(conveyor, start), whole_steps(case["duration"], step), step)
         error = abs(euler.z - truth.z_end) / scale
         if euler.status != "ok" or max(abs(euler.z), euler.max_gap) > FAR:
             outcome = BLOWS_UP
@@ -293,4 +291,4 @@ def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray
     """The columns of the table of stability."""
     rows = region_rows(settings, progress) + chatter_rows(settings)
     rows += hard_rows(settings["hard"], settings["paper_step"])
-    return {name: np.array([one[name] for one in rows]) for name in rows[0]}
+    return fields.columns(rows, TABLES["stability"])

@@ -43,8 +43,7 @@ NONE = {"epsilon": math.nan, "duration": math.nan, "step": math.nan, "samples": 
 
 def parameters_of(case: dict, model: dict) -> np.ndarray:
     """Parameter vector of one motion, shape (1, 13)."""
-    _, rows = grid.product({name: [case[name]] for name in ("acceleration", "z0")}, model)
-    return rows
+    return grid.packed(model | {name: case[name] for name in ("acceleration", "z0")})[None]
 
 
 def exponent_in_truth(case: dict, parameters: np.ndarray, model: dict) -> float:
@@ -149,4 +148,4 @@ def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray
     model = settings["model"]
     rows = exponent_rows(settings["exponent"], model, progress)
     rows += dimension_rows(settings["dimension"], model, settings["seed"], progress)
-    return {name: np.array([one[name] for one in rows]) for name in rows[0]}
+    return fields.columns(rows, TABLES["stability_estimates"])

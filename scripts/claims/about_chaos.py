@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from claims import about_proofs
-from claims.finding import METHODS, NONE, Finding, by_both, by_method, lowest, onset, told
+from claims.finding import METHODS, NONE, Finding, by_both, by_method, format_value, lowest, onset
 
 LONGEST_PERIOD = 64  # excitation cycles
 BACK = 0.05  # of the largest position or velocity: nearer than that, a motion has come back
@@ -84,8 +84,9 @@ def phase_estimate(
         for method, values in between.items()
     ]
     note = (
-        f"between {told(found['euler'])} and {told(found['converged'])} the estimate is positive at {texts[0]} and at "
-        f"{texts[1]}, and {100 * (settled.period > 0).mean():.0f} % settle to a period; {of_perturbations(estimates)}"
+        f"between {format_value(found['euler'])} and {format_value(found['converged'])} the estimate is positive at "
+        f"{texts[0]} and at {texts[1]}, and {100 * (settled.period > 0).mean():.0f} % settle to a period; "
+        f"{of_perturbations(estimates)}"
     )
     proved = about_proofs.regular(certificates, found["euler"])
     return Finding(*({"amplitude": found[method]} for method in METHODS), note + proved)
@@ -154,9 +155,9 @@ def predicted_onset(
         )
     unknown = converged[converged.dimension.isna()].acceleration
     note = (
-        f"by dimension chaos begins at {told(dimension_onset(converged))}, by the estimate of Fig. 22 at "
-        f"{told(positive_onset(converged_exponent))}; by the paper's method at "
-        f"{told(dimension_onset(euler))} and {told(positive_onset(euler_exponent))}, where the "
+        f"by dimension chaos begins at {format_value(dimension_onset(converged))}, by the estimate of Fig. 22 at "
+        f"{format_value(positive_onset(converged_exponent))}; by the paper's method at "
+        f"{format_value(dimension_onset(euler))} and {format_value(positive_onset(euler_exponent))}, where the "
         f"second state begins: its boxes give {dimension_range(euler, states, 'second')} in that and "
         f"{dimension_range(euler, states, 'chaos')} in chaos; converged portraits have no scaling region at "
         f"{len(unknown)} of {len(converged)} amplitudes"

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from claims import about_proofs
-from claims.finding import METHODS, NONE, Finding, by_both, by_method, highest, lowest, onset, told
+from claims.finding import METHODS, NONE, Finding, by_both, by_method, format_value, highest, lowest, onset
 
 MM = 1e3
 LINE = 0.02  # of the largest amplitude: what a reader sees as a line in a spectrum
@@ -45,8 +45,8 @@ def interval(
     starts = converged[converged.acceleration == high]
     at_end = starts[starts.state == "first"]
     note = (
-        f"with the starts of the config both states exist from {told(low)} to {told(high)}; at the upper end "
-        f"{len(at_end)} of {len(starts)} starts still end in the first state, up to "
+        f"with the starts of the config both states exist from {format_value(low)} to {format_value(high)}; at the "
+        f"upper end {len(at_end)} of {len(starts)} starts still end in the first state, up to "
         f"z0 = {MM * highest(at_end.z0):.3g} mm"
     )
     if tension is not None:
@@ -77,8 +77,8 @@ def onset_of_chaos(
     scatter = by_method(scatter_onset, euler, converged)
     chaos = by_method(chaos_onset, euler, converged)
     note = (
-        f"what a reader sees is scatter; most starts settle to chaos from {told(chaos['converged'])} on "
-        f"({told(chaos['euler'])} where the paper's method leaves them)"
+        f"what a reader sees is scatter; most starts settle to chaos from {format_value(chaos['converged'])} on "
+        f"({format_value(chaos['euler'])} where the paper's method leaves them)"
     )
     between = converged[
         (converged.acceleration >= scatter["converged"]) & (converged.acceleration < chaos["converged"])
@@ -110,7 +110,7 @@ def largest_critical_height(*, euler: pd.DataFrame, converged: pd.DataFrame, hei
     critical = converged[converged.is_critical]
     top = critical.loc[critical.z0.idxmax()] if len(critical) else None
     where = found["converged"].idxmax() if found["converged"].notna().any() else NONE
-    note = f"it is that at {told(where)}, where the height is steep in the amplitude" + (
+    note = f"it is that at {format_value(where)}, where the height is steep in the amplitude" + (
         f": converged {MM * top.z0:.4g} mm at {top.acceleration:g} m/s², the lowest amplitude with a second state; the "
         f"state changes more than once over z0 at {converged[converged.crossing > 1].acceleration.nunique()} of "
         f"{converged.acceleration.nunique()} amplitudes"
@@ -207,7 +207,7 @@ def one_onset(*, converged: pd.DataFrame) -> Finding:
     share = (converged.state == "chaos").groupby(converged.acceleration).mean()
     beside = runs_of(share.index, (share > 0.0) & (share < 1.0))
     regular = share.index[share < 1.0]
-    note = f"the onsets lie between {told(onsets.min())} and {told(onsets.max())}"
+    note = f"the onsets lie between {format_value(onsets.min())} and {format_value(onsets.max())}"
     if beside:
         note += f"; chaos beside regular motion, by the initial height, from {written_runs(beside)}"
     if len(regular):

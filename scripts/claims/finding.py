@@ -53,6 +53,6 @@ def onset(x: np.ndarray, holds: np.ndarray) -> float:
     return NONE if wrong[-1] == best else float(x[np.argmin(wrong)])
 
 
-def told(value: float, unit: str = "m/s²") -> str:
+def format_value(value: float, unit: str = "m/s²") -> str:
     """An amplitude in words: "nowhere" for NaN."""
     return "nowhere" if np.isnan(value) else f"{value:g} {unit}"

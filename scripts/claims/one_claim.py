@@ -5,6 +5,6 @@ import pandas as pd
 from claims import verdicts
 
 
-def make(settings: dict, references: list[str], read: list[pd.DataFrame]) -> str:
+def make(settings: dict, references: list[str], template: str, read: list[pd.DataFrame]) -> str:
     """The report on a statement, from its tables, which `references` name as SECTION/NAME."""
-    return verdicts.make(settings, references, read)["report"]
+    return verdicts.make(settings, references, template, read)["report"]

@@ -1,6 +1,7 @@
 """The paper's checkable statements, what both methods give, and verdicts that follow from the numbers."""
 
 import math
+from collections.abc import Iterable
 
 import pandas as pd
 import pyarrow as pa
@@ -8,6 +9,7 @@ import pyarrow as pa
 from claims import about_chaos, about_states
 from claims.finding import METHODS, Finding
 from pipeline import fields, tables
+from pipeline.templates import render
 
 TABLES = {
     "claims": (
@@ -119,47 +121,27 @@ def columns(claims: dict[str, dict], found: dict[str, Finding]) -> dict[str, lis
     }
 
 
-def report(rows: pd.DataFrame) -> str:
-    """The table in Markdown."""
-
-    def numbers(values) -> str:
-        return ", ".join("–" if value is None or math.isnan(value) else f"{value:.4g}" for value in values) or "–"
-
-    if rows.empty:
-        return (
-            "# The paper's statements\n\nThey are about the paper's machine, and are not held against this one; an "
-            "overlay without a prefix does so.\n"
-        )
-    lines = [
-        "# The paper's statements",
-        "",
-        "Each verdict follows from the numbers: `reproduced` if the converged ones lie in the accepted intervals "
-        "(those of the paper's method, where the statement is about it), else `reproduced by the paper's method "
-        "only` or `not reproduced`. The paper's method is explicit Euler with the paper's step, computed here; what it "
-        "leaves is followed on by the converged solution where a state of motion is asked for.",
-        "",
-        "| | Where | Statement | Quantities | Paper | Paper's method, computed here | Converged | Accepted | Verdict |",
-        "|---|---|---|---|---|---|---|---|---|",
-    ]
-    for row in rows.itertuples():
-        accepted = "; ".join(
-            f"{interval(low, high)} ({because})"
-            for low, high, because in zip(row.accepted_low, row.accepted_high, row.because, strict=True)
-        )
-        lines.append(
-            f"| {row.id} | {row.where} | {row.statement} | {'; '.join(row.quantities)} | {numbers(row.paper)} "
-            f"| {numbers(row.paper_method)} | {numbers(row.converged)} | {accepted} | **{row.verdict}** |"
-        )
-    told = rows.dropna(subset="reason")
-    for title, part in (("Reasons", told[told.verdict != REPRODUCED]), ("Notes", told[told.verdict == REPRODUCED])):
-        lines += ["", f"## {title}", "", *(f"- **{row.id}** {row.reason}." for row in part.itertuples())]
-    return "\n".join(lines) + "\n"
+def numbers(values: Iterable[float | None]) -> str:
+    """Numbers of a claim in a cell of the page, with dashes for missing ones."""
+    return ", ".join("–" if value is None or math.isnan(value) else f"{value:.4g}" for value in values) or "–"
 
 
-def make(settings: dict, references: list[str], read: list[pd.DataFrame]) -> dict:
-    """The columns of the table of claims and the report, from the tables that `references` name as SECTION/NAME."""
+def report(template: str, rows: pd.DataFrame) -> str:
+    """The table of claims as a page."""
+    values = {
+        "rows": rows.to_dict("records"),
+        "explained": rows.dropna(subset="reason").to_dict("records"),
+        "reproduced": REPRODUCED,
+        "numbers": numbers,
+        "interval": interval,
+    }
+    return render(template, values)
+
+
+def make(settings: dict, references: list[str], template: str, read: list[pd.DataFrame]) -> dict:
+    """The columns of the table of claims and the page, from the tables that `references` name as SECTION/NAME."""
     tables_by_name = dict(zip(references, read, strict=True))
     found = {name: find(claim, tables_by_name) for name, claim in settings["claims"].items()}
     made = columns(settings["claims"], found)
     rows = tables.make("claims", TABLES["claims"], made, settings).to_pandas()
-    return {"claims": made, "report": report(rows)}
+    return {"claims": made, "report": report(template, rows)}

@@ -5,7 +5,6 @@ from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
-from jinja2 import Environment, StrictUndefined
 
 from accuracy.rigid_part import CONTACT, RIGID
 from accuracy.stability import VELOCITY
@@ -13,7 +12,8 @@ from claims.about_chaos import positive_onset
 from claims.about_states import runs_of, second_from_rest, written_runs
 from claims.finding import lowest
 from identification import findings
-from operating.chart import of_the_search
+from operating.chart import search_numbers
+from pipeline.templates import render
 
 MM = 1e3
 SMALL_ELASTICITY = 1e-3  # errors of smaller ones are told by no relative number
@@ -26,10 +26,10 @@ def heights(table: pd.DataFrame) -> dict[str, str]:
     return {"heights": str(len(z0)), "lowest_mm": f"{MM * z0[0]:g}", "highest_mm": f"{MM * z0[-1]:g}"}
 
 
-def of_runs(table: pd.DataFrame) -> dict[str, str]:
+def run_numbers(table: pd.DataFrame) -> dict[str, str]:
     """How long the runs of a table are, and the step of those by Euler."""
-    told = {"duration": f"{table.attrs['duration']:g}"}
-    return told | ({"step_us": f"{1e6 * table.attrs['step']:g}"} if "step" in table.attrs else {})
+    numbers = {"duration": f"{table.attrs['duration']:g}"}
+    return numbers | ({"step_us": f"{1e6 * table.attrs['step']:g}"} if "step" in table.attrs else {})
 
 
 def chaotic(spectrum: pd.DataFrame) -> pd.Series:
@@ -38,15 +38,15 @@ def chaotic(spectrum: pd.DataFrame) -> pd.Series:
 
 
 def fig03(*, converged: pd.DataFrame, euler: pd.DataFrame | None = None) -> dict[str, str]:
-    return of_runs(converged if euler is None else euler)
+    return run_numbers(converged if euler is None else euler)
 
 
 def fig08(*, converged: pd.DataFrame) -> dict[str, str]:
     return heights(converged)
 
 
-def aside(least: float, most: float) -> str:
-    """How changes between two bounds (%) are told, "1.1 to 4.2 % below"."""
+def format_change(least: float, most: float) -> str:
+    """How changes between two bounds (%) are written, "1.1 to 4.2 % below"."""
     if least * most < 0.0:
         return f"between {min(least, most):+.1f} and {max(least, most):+.1f} % off"
     low, high = sorted((abs(least), abs(most)))
@@ -54,13 +54,13 @@ def aside(least: float, most: float) -> str:
 
 
 def fig10(*, converged: pd.DataFrame, euler: pd.DataFrame | None = None) -> dict[str, str]:
-    told = {"resolution": f"{converged.attrs['resolution']:g}"}
+    numbers = {"resolution": f"{converged.attrs['resolution']:g}"}
     if euler is None:
-        return told
+        return numbers
     both = [edge[edge.is_critical].set_index("acceleration").z0 for edge in (euler, converged)]
     change = 100.0 * (both[0] / both[1] - 1.0).dropna()
-    return told | {
-        "aside": aside(change.max(), change.min()),
+    return numbers | {
+        "aside": format_change(change.max(), change.min()),
         "most_at": f"{change.idxmin():g}",
     }
 
@@ -72,9 +72,9 @@ def fig20(*, converged: pd.DataFrame) -> dict[str, str]:
 
 
 def fig22(*, converged: pd.DataFrame, spectrum: pd.DataFrame, euler: pd.DataFrame | None = None) -> dict[str, str]:
-    told = {"epsilon": f"{converged.attrs['epsilon']:.0e}".replace("e-0", "e-")}
+    numbers = {"epsilon": f"{converged.attrs['epsilon']:.0e}".replace("e-0", "e-")}
     if euler is None:
-        return told
+        return numbers
     up = spectrum[(spectrum.branch == "up")].sort_values("acceleration")
     joined = pd.merge_asof(
         converged.sort_values("acceleration"),
@@ -83,7 +83,7 @@ def fig22(*, converged: pd.DataFrame, spectrum: pd.DataFrame, euler: pd.DataFram
         direction="nearest",
     )
     joined = joined[joined.chaotic]
-    return told | {
+    return numbers | {
         "euler_positive": f"{positive_onset(euler):g}",
         "converged_positive": f"{positive_onset(converged):g}",
         "plateau": f"{joined['lambda'].median():.0f}",
@@ -171,7 +171,7 @@ def settling(*, times: pd.DataFrame) -> dict[str, str]:
     }
 
 
-def scaling(*, scaling: pd.DataFrame, throughput: pd.DataFrame) -> dict[str, str]:
+def scaling(*, scaling: pd.DataFrame) -> dict[str, str]:
     start = scaling.shard_seconds.sub(scaling.computing_seconds).div(scaling.measured)
     return {
         "threads": str(scaling[scaling.varied == "points"].threads.iloc[0]),
@@ -179,8 +179,6 @@ def scaling(*, scaling: pd.DataFrame, throughput: pd.DataFrame) -> dict[str, str
         "made_whole": f"{scaling.points[(scaling.varied == 'points') & (scaling.measured == scaling.shards)].max():,}",
         "shared_points": f"{scaling[scaling.varied == 'shards'].points.iloc[0]:,}",
         "gathered": f"{scaling.gathered.max():,}",
-        "starts": str(throughput.starts.iloc[0]),
-        "lacking": ", ".join(throughput.method[throughput.outcome != "ok"].unique()),
     }
 
 
@@ -209,8 +207,8 @@ def sensitivity(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings:
     }
 
 
-def of_the_box(*, shares: pd.DataFrame) -> dict[str, str]:
-    return of_the_search(shares) | {"largest_error": f"{100.0 * shares.stderr.max():.1f}"}
+def box_numbers(*, shares: pd.DataFrame) -> dict[str, str]:
+    return search_numbers(shares) | {"largest_error": f"{100.0 * shares.stderr.max():.1f}"}
 
 
 def identification(
@@ -242,9 +240,9 @@ NUMBERS: dict[str, Callable[..., dict[str, str]]] = {
     "overview": overview,
     "bifurcation": bifurcation,
     "sensitivity": sensitivity,
-    "basin_stability": of_the_box,
+    "basin_stability": box_numbers,
     "certificates": longest_period,
-    "operating": of_the_box,
+    "operating": box_numbers,
     "rigid_part": rigid_part,
     "scene_budget": scene_budget,
     "scaling": scaling,
@@ -268,11 +266,7 @@ def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings:
     """
     function = NUMBERS.get(name)
     numbers = function(**arguments_of(function, {**tables, **settings})) if function else {}
-    return (
-        Environment(undefined=StrictUndefined, keep_trailing_newline=True)
-        .from_string(template)
-        .render(numbers, paper=paper)
-    )
+    return render(template, numbers | {"paper": paper})
 
 
 def make(

@@ -1,7 +1,5 @@
 """The one look of all figures: sizes, fonts, colours, and the one place that saves them."""
 
-import os
-import re
 from collections.abc import Iterable
 from contextlib import AbstractContextManager
 
@@ -11,12 +9,9 @@ import pandas as pd
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.backends.backend_pdf import FigureCanvasPdf, PdfFile, PdfPages
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from PIL import Image
 
 mpl.use("Agg")
 
@@ -33,6 +28,8 @@ CONVERGED_LABEL = "converged (exact events)"
 EULER_LABEL = "paper's method (Euler)"
 PANELS = {"euler": EULER_LABEL, "converged": CONVERGED_LABEL}  # of the paper's figures, in their order
 PLATE = "#555555"
+AMPLITUDE = "acceleration amplitude $\\hat{a}$ in m/s²"
+VELOCITY = "mean feeding velocity in m/s"
 # Colour and name of every method that the solver is compared with.
 METHODS = {
     "event": (CONVERGED, "this solver"),
@@ -53,9 +50,6 @@ CURVES = {
 # The plate's own curves, behind those of the part.
 PLATE_CURVE = {"color": "0.8", "linewidth": 2.5, "label": "conveyor"}
 
-# What a page writes: texts, which stay, and numbers with more decimals than a reader sees, 1/72 inch each.
-TEXT_OR_NUMBER = re.compile(rb"\((?:\\.|[^()\\])*\)|-?\d*\.\d{5,}", re.DOTALL)
-NEGATIVE_ZERO = re.compile(rb"(?<![\w.+-])-0(?:\.0*)?(?![\w.])")
 RESOLUTION = 600  # dpi of rasterised parts and of PNG files
 PARAMETERS = {
     "font.family": "DejaVu Sans",
@@ -94,6 +88,16 @@ def drop_missing(**tables: pd.DataFrame | None) -> dict[str, pd.DataFrame]:
     return {role: table for role, table in tables.items() if table is not None}
 
 
+def method_panels(figure: Figure, tables: dict[str, pd.DataFrame], xlabel: str, ylabel: str) -> list[Axes]:
+    """Panels side by side with common scales, one for each method's table by its role, with titles and labels."""
+    panels = figure.subplots(1, len(tables), sharex=True, sharey=True, squeeze=False)[0]
+    for axes, role in zip(panels, tables, strict=True):
+        axes.set_title(PANELS[role])
+        axes.set_xlabel(xlabel)
+    panels[0].set_ylabel(ylabel)
+    return list(panels)
+
+
 def from_zero(axes: Axes) -> None:
     """Let the vertical axis begin at zero, or below what is less."""
     low = min((np.nanmin(line.get_ydata()) for line in axes.lines if len(line.get_ydata())), default=0.0)
@@ -101,34 +105,35 @@ def from_zero(axes: Axes) -> None:
         axes.set_ylim(bottom=0.0)
 
 
+def note(axes: Axes, text: str, place: tuple, offset: tuple[float, float] = (0.0, 0.0), **options) -> None:
+    """A small text at a place of the axes, moved by an offset in points; options as of `Axes.annotate`."""
+    axes.annotate(text, place, xytext=offset, textcoords="offset points", size=7.0, **options)
+
+
 def mark(axes: Axes, x: float, label: str) -> None:
     """A thin vertical line at x with a label at its upper end."""
     axes.axvline(x, color="black", linewidth=0.6, linestyle=":")
-    axes.annotate(
-        label,
-        (x, 1.0),
-        xycoords=("data", "axes fraction"),
-        xytext=(2, -1),
-        textcoords="offset points",
-        va="top",
-        size=7.0,
+    note(axes, label, (x, 1.0), (2, -1), xycoords=("data", "axes fraction"), va="top")
+
+
+def class_map(axes: Axes, classes: pd.DataFrame, colours: dict[str, str]) -> None:
+    """Colour the plane by named classes: a table with x in its columns and y in its index; colours by class."""
+    numbers = {name: number for number, name in enumerate(colours)}
+    axes.pcolormesh(
+        classes.columns.to_numpy(),
+        classes.index.to_numpy(),
+        classes.replace(numbers).to_numpy(dtype=float),
+        cmap=ListedColormap(list(colours.values())),
+        vmin=-0.5,
+        vmax=len(colours) - 0.5,
+        shading="nearest",
+        rasterized=True,
     )
 
 
 def state_map(axes: Axes, table: pd.DataFrame, x: str, y: str) -> None:
     """Colour the plane of two axes of a sweep by its column `state`; the axes keep their units."""
-    states = list(STATE_COLOURS)
-    grid = table.assign(code=table.state.map(states.index)).pivot(index=y, columns=x, values="code")
-    axes.pcolormesh(
-        grid.columns.to_numpy(),
-        grid.index.to_numpy(),
-        grid.to_numpy(),
-        cmap=ListedColormap(list(STATE_COLOURS.values())),
-        vmin=-0.5,
-        vmax=len(states) - 0.5,
-        shading="nearest",
-        rasterized=True,
-    )
+    class_map(axes, table.pivot(index=y, columns=x, values="state"), STATE_COLOURS)
 
 
 def state_handles(*tables: pd.DataFrame) -> list[Artist]:
@@ -148,44 +153,10 @@ def legend_above(figure: Figure, axes: Axes, **options) -> None:
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", **options)
 
 
-def rounded(match: re.Match[bytes]) -> bytes:
-    """A match of TEXT_OR_NUMBER as a page keeps it: numbers to 1e-4, which is 35 nm."""
-    found = match.group()
-    return found if found.startswith(b"(") else b"%.4f" % float(found)
-
-
-class Page(PdfFile):
-    """A PDF without the last digits of coordinates, and without negative zeros: both are errors of their rounding."""
-
-    def write(self, data: bytes) -> None:
-        super().write(NEGATIVE_ZERO.sub(b"0", TEXT_OR_NUMBER.sub(rounded, data)))
-
-
-class Pages(PdfPages):
-    """Where a PDF goes: a Page without a date."""
-
-    def _ensure_file(self) -> PdfFile:
-        if self._file is None:
-            self._file = Page(self._filename, metadata={"CreationDate": None})
-        return self._file
-
-
 def save(figure: Figure, paths: Iterable[str]) -> None:
-    """Write a figure to PDF or PNG files; equal figures give equal bytes.
-
-    Each is drawn once: savefig would draw it twice, the first time for the layout alone.
-    """
+    """Write a figure to PDF or PNG files, without a date in them; all files have the layout of the first one."""
     with applied():
         for path in paths:
-            part = f"{path}.part"
-            figure.dpi = RESOLUTION
-            if path.endswith(".pdf"):
-                with Pages(part) as pages:
-                    FigureCanvasPdf(figure).print_pdf(pages)
-            else:
-                canvas = FigureCanvasAgg(figure)
-                canvas.draw()
-                opaque = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
-                opaque.save(part, "PNG", dpi=(RESOLUTION, RESOLUTION))
-            os.replace(part, path)
-            figure.set_layout_engine("none")  # the other files keep the layout of the first
+            metadata = {"CreationDate": None} if path.endswith(".pdf") else None
+            figure.savefig(path, dpi=RESOLUTION, metadata=metadata)
+            figure.set_layout_engine("none")

@@ -25,9 +25,9 @@ def misfit(values: np.ndarray, number: Number) -> np.ndarray:
     return (values - 0.5 * (number.low + number.high)) / (0.5 * (number.high - number.low))
 
 
-def number(told: dict) -> Number:
+def number(entry: dict) -> Number:
     """The Number of an entry of the settings."""
-    return Number(told["low"], told["high"])
+    return Number(entry["low"], entry["high"])
 
 
 class Numbers(NamedTuple):

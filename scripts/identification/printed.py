@@ -50,7 +50,7 @@ def edges_at(values: np.ndarray, reading: str, method: str, settings: dict, thre
     )
 
 
-def followed(method: str, settings: dict, threads: int) -> measures.Follow:
+def velocities_by(method: str, settings: dict, threads: int) -> measures.Follow:
     """Mean feeding velocities (m/s) by one of both methods."""
     if method == CONVERGED:
         return measures.by_events
@@ -63,7 +63,7 @@ def measured(values: np.ndarray, reading: str, method: str, settings: dict, thre
     heights, wanted = np.array(settings["heights"]), settings["measured"]
     parameters = packed(values[None], reading, settings["model"])
     edges = edges_at(values, reading, method, settings, threads)[None]
-    found = measures.quantities(parameters, heights, edges, wanted, followed(method, settings, threads))
+    found = measures.quantities(parameters, heights, edges, wanted, velocities_by(method, settings, threads))
     amplitudes = measures.fitted_amplitudes(wanted)
     critical = measures.curve(heights, edges, parameters[:, ANGLE]).critical_height(amplitudes[None])[0]
     triple = fit_least_squares(amplitudes, critical, tuple(wanted["bounds_of_b"])).parameters

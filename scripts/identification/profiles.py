@@ -77,7 +77,7 @@ class Space(NamedTuple):
     rest: Callable[[np.ndarray], np.ndarray]
 
 
-def holding(parameter: str, value: float, bounds: np.ndarray, model: dict) -> Space:
+def hold(parameter: str, value: float, bounds: np.ndarray, model: dict) -> Space:
     """The Space where one parameter is held at a value. A held damping gives the loss from the stiffness."""
     column = list(PARAMETERS).index(parameter)
     others = [place for place in range(len(SEARCHED)) if place != column]
@@ -139,7 +139,7 @@ def profile(
     logs, of_pool = np.log(grid), np.log(values_of(pool.x, model))[:, column]
     half = 0.5 * (logs[1] - logs[0])
     middle = int(np.abs(logs - np.log(values_of(optimum[None], model))[0, column]).argmin())
-    spaces = [holding(parameter, value, bounds, model) for value in grid]
+    spaces = [hold(parameter, value, bounds, model) for value in grid]
     found: dict[int, Fit] = {}
 
     # Starts come again: where a profile rises, a value is worse than the neighbour from whose result it has started.
@@ -191,7 +191,7 @@ def shifts_of(numbers: pd.DataFrame) -> dict[str, float]:
     return (one - other).to_dict()
 
 
-def of_friction(edges: measures.Edges, values: np.ndarray, settings: dict, follow: measures.Follow) -> dict:
+def vary_friction(edges: measures.Edges, values: np.ndarray, settings: dict, follow: measures.Follow) -> dict:
     """The columns of the table of frictions: what friction alone changes beside the printed values, shape (4,)."""
     grid = np.tile(values, (FRICTIONS, 1))
     column = list(PARAMETERS).index("friction")
@@ -247,11 +247,11 @@ def make(
             x, _, lowest = min(held, key=lambda row: row[2]["total"])
             if lowest["total"] < best.total:
                 best = fit(misfits, np.array([x, best.x]), bounds)
-            of_profiles += [row | told(x, model) | {row["parameter"]: value} for x, value, row in held]
+            of_profiles += [row | parameters_by_name(x, model) | {row["parameter"]: value} for x, value, row in held]
             of_optima.append(
                 {
                     **of_set,
-                    **told(best.x, model),
+                    **parameters_by_name(best.x, model),
                     "total": best.total,
                     "printed_total": float(np.sum(numbers.misfits(at_given) ** 2)),
                     "numbers": len(numbers.of_paper),
@@ -262,12 +262,12 @@ def make(
     return {
         "profiles": pd.DataFrame(of_profiles).to_dict("list"),
         "optima": optima.to_dict("list"),
-        "frictions": of_friction(interpolated, given, settings, follow),
+        "frictions": vary_friction(interpolated, given, settings, follow),
         "implied": implied(optima, interpolated, settings, threads).to_dict("list"),
     }
 
 
-def told(x: np.ndarray, model: dict) -> dict[str, float]:
+def parameters_by_name(x: np.ndarray, model: dict) -> dict[str, float]:
     """The parameters by their names, of what is searched, shape (4,)."""
     return dict(zip(PARAMETERS, map(float, values_of(x[None], model)[0]), strict=True))
 

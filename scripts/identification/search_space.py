@@ -7,8 +7,9 @@ loss and stiffness: along the valley of equally good contacts it would have to r
 import numpy as np
 
 from conveyor.solver.model import PARAMETERS as OF_CONVEYOR
-from conveyor.solver.model import TENSION, TENSION_MODES, UNITS, Conveyor, Start, pack
+from conveyor.solver.model import TENSION, TENSION_MODES, UNITS
 from identification.edges import duration_over_mass
+from pipeline import grid
 
 # What is told, with units; and what is searched, in its order.
 PARAMETERS = {name: UNITS[name] for name in ("friction", "damping", "stiffness", "angle")}
@@ -37,8 +38,7 @@ def searched(values: np.ndarray, model: dict) -> np.ndarray:
 
 def packed(values: np.ndarray, reading: str, model: dict) -> np.ndarray:
     """Parameter vectors, shape (n, 13), of a model with other values, shape (n, 4), and another reading of tension."""
-    conveyor = Conveyor(**{name: value for name, value in model.items() if name not in ("z0", "vz0")})
-    rows = np.tile(pack(conveyor, Start(vz=model["vz0"])), (len(values), 1))
+    rows = np.tile(grid.packed(model | {"z0": 0.0}), (len(values), 1))
     rows[:, [OF_CONVEYOR.index(name) for name in PARAMETERS]] = values
     rows[:, TENSION] = TENSION_MODES.index(reading)
     return rows

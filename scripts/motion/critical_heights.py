@@ -7,7 +7,7 @@ from conveyor.analysis import critical
 from conveyor.analysis.known import KnownAttractors
 from conveyor.analysis.states import classify, continued
 from pipeline import fields, grid
-from pipeline.motions import known_of, tolerance_of
+from pipeline.motions import shared_attractors, tolerance_of
 
 TABLES = {
     "critical": (
@@ -40,7 +40,7 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     """
     axes, parameters = grid.product(settings["axes"], settings["model"])
     heights = grid.axis_values("z0", settings["scan"])
-    known = known_of(parameters, len(heights), settings, threads=threads)
+    known = shared_attractors(parameters, len(heights), settings, threads=threads)
     found = critical.crossings(
         parameters, heights, lambda rows: decide(rows, settings, known, threads), settings["resolution"]
     )

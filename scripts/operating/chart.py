@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pandas as pd
-from jinja2 import Environment, StrictUndefined
 
 from operating.regimes import CHAOS, ONE, SEVERAL, UNKNOWN, best_of
+from pipeline.templates import render
 
 # None of n independent starts did it: with 95 % confidence fewer than this over n do (-log 0.05 is 2.996).
 RULE_OF_THREE = 3.0
@@ -73,7 +73,7 @@ def irregular(regimes: pd.DataFrame, resolution: float) -> dict[str, str]:
     return found
 
 
-def of_the_search(shares: pd.DataFrame) -> dict[str, str]:
+def search_numbers(shares: pd.DataFrame) -> dict[str, str]:
     """What was looked at, and how closely."""
     search = shares.attrs
     amplitudes = np.sort(shares.acceleration.unique())
@@ -111,6 +111,5 @@ def rows_of(regimes: pd.DataFrame, resolution: float) -> list[list[str]]:
 def make(template: str, shares: pd.DataFrame, regimes: pd.DataFrame) -> str:
     """The page from its template and the tables of shares and regimes."""
     resolution = shares.attrs["resolution"]
-    told = regular(shares, regimes) | irregular(regimes, resolution) | of_the_search(shares)
-    environment = Environment(undefined=StrictUndefined, keep_trailing_newline=True)
-    return environment.from_string(template).render(told, rows=rows_of(regimes, resolution))
+    values = regular(shares, regimes) | irregular(regimes, resolution) | search_numbers(shares)
+    return render(template, values | {"rows": rows_of(regimes, resolution)})

@@ -1,7 +1,5 @@
 """What the shares of motions mean for who runs a conveyor: where one velocity is certain, where several exist."""
 
-from collections.abc import Mapping
-
 import numpy as np
 import pandas as pd
 
@@ -50,13 +48,13 @@ def regime_of(state: np.ndarray, velocity: np.ndarray, share: float) -> str:
     return ONE if same(velocity, velocity.max(), share).all() else SEVERAL
 
 
-def regimes_of(table: Mapping[str, np.ndarray], share: float) -> tuple[np.ndarray, np.ndarray]:
+def regimes_of(table: pd.DataFrame, share: float) -> tuple[np.ndarray, np.ndarray]:
     """Amplitudes of a table of shares, ascending, and the regime at each, both of shape (m,)."""
-    places, begin = np.unique(table["acceleration"], return_index=True)
-    ends = [*begin[1:], len(table["acceleration"])]
-    state, velocity = np.asarray(table["state"]), np.asarray(table["mean_velocity"])
-    parts = [slice(*part) for part in zip(begin, ends, strict=True)]
-    return places, np.array([regime_of(state[part], velocity[part], share) for part in parts])
+    found = {
+        acceleration: regime_of(motions.state.to_numpy(), motions.mean_velocity.to_numpy(), share)
+        for acceleration, motions in table.groupby("acceleration")
+    }
+    return np.array(list(found)), np.array(list(found.values()))
 
 
 def best_of(shares: pd.DataFrame, share: float) -> pd.DataFrame:
@@ -77,7 +75,7 @@ def best_of(shares: pd.DataFrame, share: float) -> pd.DataFrame:
 def make(shares: pd.DataFrame) -> dict[str, np.ndarray]:
     """The columns of the table of regimes: one row for each interval of amplitudes with one regime."""
     limit = shares.attrs["same_velocity"]
-    places, regimes = regimes_of({name: shares[name].to_numpy() for name in shares}, limit)
+    places, regimes = regimes_of(shares, limit)
     best = best_of(shares, limit)
     changes = np.flatnonzero(regimes[1:] != regimes[:-1]) + 1
     rows = []
@@ -102,4 +100,4 @@ def make(shares: pd.DataFrame) -> dict[str, np.ndarray]:
                 "best_share_stderr": own.stderr.max(),
             }
         )
-    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
+    return fields.columns(rows, TABLES["regimes"])

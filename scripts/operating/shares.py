@@ -7,6 +7,7 @@ halved where the answer changes.
 import math
 
 import numpy as np
+import pandas as pd
 
 from conveyor.analysis.states import Motions
 from conveyor.simulation import LAST
@@ -131,8 +132,10 @@ def velocities(
     return found, status
 
 
-def motions_at(amplitudes: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict:
-    """The columns of the table for some amplitudes (m/s²), ascending, shape (m,)."""
+def motions_at(
+    amplitudes: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None
+) -> pd.DataFrame:
+    """The table for some amplitudes (m/s²), ascending, shape (m,)."""
     starts = starts_of_box(settings)
     parameters = parameters_of(amplitudes, starts, settings["model"])
     found = motions_of_starts(parameters, settings, starts=len(starts), threads=threads, progress=progress)
@@ -165,35 +168,26 @@ def motions_at(amplitudes: np.ndarray, settings: dict, *, threads: int = 1, prog
             error[row] = each[own].std(ddof=1) / math.sqrt(sizes[row]) if sizes[row] > 1 else np.nan
     share = count / len(starts)
     acceleration = parameters[first, ACCELERATION]
-    order = np.lexsort((-count, -np.nan_to_num(velocity, nan=-np.inf), acceleration))
-    columns = {
-        "acceleration": acceleration,
-        "vertical": acceleration * np.sin(parameters[first, ANGLE]) / parameters[first, GRAVITY],
-        "state": found.state[first],
-        "period": found.period[first],
-        "longest_flight": found.longest_flight[first],
-        "starts": count,
-        "share": share,
-        "stderr": np.sqrt(share * (1.0 - share) / len(starts)),
-        "mean_velocity": velocity,
-        "velocity_stderr": error,
-        "status": status,
-    }
-    columns = {name: values[order] for name, values in columns.items()}
-    _, begin = np.unique(columns["acceleration"], return_index=True)
-    columns["motion"] = np.arange(len(rows)) - np.repeat(begin, np.diff([*begin, len(rows)])) + 1
-    return columns
+    table = pd.DataFrame(
+        {
+            "acceleration": acceleration,
+            "vertical": acceleration * np.sin(parameters[first, ANGLE]) / parameters[first, GRAVITY],
+            "state": found.state[first],
+            "period": found.period[first],
+            "longest_flight": found.longest_flight[first],
+            "starts": count,
+            "share": share,
+            "stderr": np.sqrt(share * (1.0 - share) / len(starts)),
+            "mean_velocity": velocity,
+            "velocity_stderr": error,
+            "status": status,
+        }
+    ).sort_values(["acceleration", "mean_velocity", "starts"], ascending=[True, False, False], ignore_index=True)
+    return table.assign(motion=table.groupby("acceleration").cumcount() + 1)
 
 
-def joined(one: dict[str, np.ndarray], other: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Rows of two tables, by amplitude and motion."""
-    both = {name: np.concatenate([one[name], other[name]]) for name in one}
-    order = np.lexsort((both["motion"], both["acceleration"]))
-    return {name: values[order] for name, values in both.items()}
-
-
-def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
-    """The columns of the table for the settings of the config."""
+def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
+    """The table for the settings of the config."""
     amplitudes = np.unique(grid.axis_values("acceleration", settings["acceleration"]))
     table = motions_at(amplitudes, settings, threads=threads, progress=progress)
     while True:
@@ -203,4 +197,5 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
             return table
         between = 0.5 * (places[1:] + places[:-1])[wide]
         label = progress and f"{progress}, {len(between)} amplitudes between"
-        table = joined(table, motions_at(between, settings, threads=threads, progress=label))
+        new = motions_at(between, settings, threads=threads, progress=label)
+        table = pd.concat([table, new]).sort_values(["acceleration", "motion"], ignore_index=True)

@@ -34,11 +34,6 @@ TABLES = {
 }
 
 
-def parameters_of(settings: dict) -> np.ndarray:
-    """The packed conveyor of the settings; its amplitude does not count."""
-    return grid.product({"acceleration": [0.0]}, settings["model"])[1][0]
-
-
 def describe(orbit: Orbit) -> dict[str, float]:
     """The columns that rows of orbits and of bifurcations share."""
     first, second = orbit.multipliers
@@ -86,7 +81,7 @@ def bifurcation_rows(branches: list[Branch]) -> list[dict]:
     return rows
 
 
-def explored(parameters: np.ndarray, starts: list[Orbit], settings: dict) -> list[Branch]:
+def explore_branches(parameters: np.ndarray, starts: list[Orbit], settings: dict) -> list[Branch]:
     """All branches that hang together with some orbits, each once.
 
     Orbits that were looked for come in the order of their periods: those of doubled branches lie on what has been found
@@ -170,19 +165,15 @@ def cascade_rows(cascade: list[Bifurcation]) -> list[dict]:
     return rows
 
 
-def columns(rows: list[dict], kind: str) -> dict[str, np.ndarray]:
-    """Rows as the columns of a kind of table."""
-    return {column.name: np.array([row[column.name] for row in rows]) for column in TABLES[kind]}
-
-
 def make(settings: dict) -> dict[str, dict[str, np.ndarray]]:
     """The columns of the three tables, by their kinds, for the section `orbits` of the config."""
-    parameters = parameters_of(settings)
+    parameters = grid.packed(settings["model"])
     starts = seeds(parameters, settings)
-    branches = explored(parameters, starts, settings)
+    branches = explore_branches(parameters, starts, settings)
     cascade = cascade_of(parameters, branches, starts, settings)
-    return {
-        "branches": columns(branch_rows(parameters, branches), "branches"),
-        "folds_and_doublings": columns(bifurcation_rows(branches), "folds_and_doublings"),
-        "cascade": columns(cascade_rows(cascade), "cascade"),
+    rows = {
+        "branches": branch_rows(parameters, branches),
+        "folds_and_doublings": bifurcation_rows(branches),
+        "cascade": cascade_rows(cascade),
     }
+    return {kind: fields.columns(of_kind, TABLES[kind]) for kind, of_kind in rows.items()}

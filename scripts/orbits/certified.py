@@ -21,7 +21,6 @@ from conveyor.certificates.excursion import plan_sets
 from conveyor.certificates.law import Accuracy, Law, System, law_of
 from conveyor.certificates.orbit import ProvedOrbit, check_near, prove_orbit
 from conveyor.certificates.shooting import Shooting
-from conveyor.solver.model import unpack
 from conveyor.solver.progress import bar
 from pipeline import fields, grid
 
@@ -131,14 +130,9 @@ class Work(NamedTuple):
     about: tuple
 
 
-def parameters_of(settings: dict) -> np.ndarray:
-    """The packed conveyor of the settings; its amplitude does not count."""
-    return grid.product({"acceleration": [0.0]}, settings["model"])[1][0]
-
-
 def law(settings: dict) -> Law:
     """The conveyor with its numbers read as decimals."""
-    return law_of(unpack(parameters_of(settings))[0])
+    return law_of(grid.conveyor_and_start(settings["model"])[0])
 
 
 def shooting(settings: dict, period: int) -> Shooting:
@@ -202,7 +196,7 @@ def amplitudes(settings: dict) -> list[float]:
 
 def orbits_to_prove(settings: dict, branches: pd.DataFrame, cascade: pd.DataFrame) -> list[Known]:
     """All orbits up to the longest period at the amplitudes of the settings."""
-    parameters, wanted = parameters_of(settings), amplitudes(settings)
+    parameters, wanted = grid.packed(settings["model"]), amplitudes(settings)
     lines = stored_lines(branches, settings["longest_period"])
     periods = int(branches.period.max()), settings["longest_period"]
     more = doubled_lines(parameters, cascade, periods, (wanted[0], settings["doubled_limit"]))
@@ -279,7 +273,7 @@ def prove_known(settings: dict, about: tuple) -> dict:
 
 def strobes_of(settings: dict, row) -> np.ndarray:
     """(δ, Y) at the beginnings of the cycles of an orbit of a table, in units of the law."""
-    returns = ReturnMap(parameters_of(settings), int(row.period))
+    returns = ReturnMap(grid.packed(settings["model"]), int(row.period))
     return known(0, returns, returns.scaled(row.acceleration, np.array([row.delta, row.v]))).strobes
 
 
@@ -314,7 +308,7 @@ def prove_bifurcation(settings: dict, about: tuple) -> dict:
 def prove_chaos(settings: dict, about: tuple) -> dict:
     """The row of one amplitude: a horseshoe at the orbit of one cycle with the largest multiplier that has one."""
     acceleration, saddles = about
-    chaos, parameters, units = settings["chaos"], parameters_of(settings), law(settings)
+    chaos, parameters, units = settings["chaos"], grid.packed(settings["model"]), law(settings)
     system = System(units, units.gamma(exactly(acceleration)), Accuracy(chaos["order"], chaos["tolerance"]))
     row = {
         "acceleration": acceleration,
@@ -377,7 +371,7 @@ def works_of(settings: dict, stored: dict[str, pd.DataFrame]) -> list[Work]:
     doublings = bifurcations[(bifurcations.kind == "period_doubling") & (bifurcations.period == first.period)]
     jumping = doublings.loc[(doublings.acceleration - first.acceleration).abs().idxmin()].branch
     folds = bifurcations[(bifurcations.kind == "fold") & (bifurcations.branch == jumping)]
-    parameters = parameters_of(settings)
+    parameters = grid.packed(settings["model"])
     singles = stored_lines(stored["branches"], 1)
     chaotic = [
         (
@@ -398,11 +392,6 @@ def works_of(settings: dict, stored: dict[str, pd.DataFrame]) -> list[Work]:
         *(Work(prove_bifurcation, ("period_doubling", n, row)) for n, row in numbered(doubled)),
         *(Work(prove_chaos, about) for about in chaotic),
     ]
-
-
-def columns(rows: list[dict], kind: str) -> dict[str, np.ndarray]:
-    """Rows as the columns of a kind of table."""
-    return {column.name: [row[column.name] for row in rows] for column in TABLES[kind]}
 
 
 PROVERS = {
@@ -438,4 +427,4 @@ def make(
                 "seconds": seconds,
             }
         )
-    return {kind: columns(of_kind, kind) for kind, of_kind in rows.items()}
+    return {kind: fields.columns(of_kind, TABLES[kind]) for kind, of_kind in rows.items()}

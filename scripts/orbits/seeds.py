@@ -14,7 +14,7 @@ AMPLITUDES, STARTS = 15, 8
 DIGITS = 4  # of the longest flight, by which orbits of one period and amplitude are told apart
 
 
-def given(parameters: np.ndarray, settings: dict) -> list[Orbit]:
+def follow_seeds(parameters: np.ndarray, settings: dict) -> list[Orbit]:
     """The stable orbits that the starts of the settings end in.
 
     Raises
@@ -38,7 +38,7 @@ def given(parameters: np.ndarray, settings: dict) -> list[Orbit]:
     return found
 
 
-def looked_for(parameters: np.ndarray, settings: dict) -> Iterator[Orbit]:
+def search_seeds(parameters: np.ndarray, settings: dict) -> Iterator[Orbit]:
     """The stable orbits that starts at amplitudes between the limits end in, each once at each amplitude."""
     for acceleration in np.linspace(*settings["limits"], AMPLITUDES + 2)[1:-1]:
         row = parameters.copy()
@@ -63,8 +63,8 @@ def seeds(parameters: np.ndarray, settings: dict) -> list[Orbit]:
         if there are none, or a given start does not end in one
     """
     if "seeds" in settings:
-        return given(parameters, settings)
-    found = list(looked_for(parameters, settings))
+        return follow_seeds(parameters, settings)
+    found = list(search_seeds(parameters, settings))
     if not found:
         raise ValueError(
             f"orbits.seeds: no start between {settings['limits']} m/s² ends in a stable orbit of up to "

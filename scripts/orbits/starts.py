@@ -10,7 +10,6 @@ from pipeline import grid
 def starts_on_attractors(strobes: pd.DataFrame, settings: dict) -> tuple[pd.DataFrame, np.ndarray]:
     """The last recorded state of each amplitude and branch, and parameter vectors that start there, shape (n, 13)."""
     last = strobes[strobes.cycle == strobes.cycle.max()].reset_index(drop=True)
-    _, parameters = grid.product({"acceleration": [0.0]}, settings["model"])
-    parameters = np.repeat(parameters, len(last), axis=0)
+    parameters = np.tile(grid.packed(settings["model"]), (len(last), 1))
     parameters[:, 0] = last.acceleration
     return last, stroboscope.starts_of_states(parameters, last[["delta", "v"]].to_numpy(), settings["tolerance"])

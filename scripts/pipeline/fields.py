@@ -3,6 +3,8 @@
 The schema of a table stands beside the function that makes it, in the module of its stage.
 """
 
+from collections.abc import Mapping, Sequence
+
 import pyarrow as pa
 
 from conveyor.solver.model import PARAMETERS, TENSION, UNITS
@@ -32,6 +34,11 @@ def several(name: str, kind: pa.DataType, unit: str, description: str) -> pa.Fie
 
 def flag(name: str, description: str) -> pa.Field:
     return field(name, pa.bool_(), "", description)
+
+
+def columns(rows: Sequence[Mapping], schema: Sequence[pa.Field]) -> dict[str, list]:
+    """Rows as the columns of a schema; what else the rows have is left out."""
+    return {column.name: [row[column.name] for row in rows] for column in schema}
 
 
 AXES = {name: number(name, UNITS[name], "axis of the sweep") for name in PARAMETERS}

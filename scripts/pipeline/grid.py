@@ -51,6 +51,17 @@ def columns_of_axes(axes: Mapping[str, Axis], rows: tuple[int, int] | None = Non
     return {name: value[place] for (name, value), place in zip(values.items(), places, strict=True)}
 
 
+def conveyor_and_start(model: Mapping[str, float | str]) -> tuple[Conveyor, Start]:
+    """A conveyor and an initial condition from values of model.PARAMETERS that differ from the defaults."""
+    start = Start(model.get("z0", 0.0), model.get("vz0", 0.0))
+    return Conveyor(**{name: value for name, value in model.items() if name not in ("z0", "vz0")}), start
+
+
+def packed(model: Mapping[str, float | str]) -> np.ndarray:
+    """The same as a parameter vector, shape (13,)."""
+    return pack(*conveyor_and_start(model))
+
+
 def product(
     axes: Mapping[str, Axis], model: Mapping[str, float | str], rows: tuple[int, int] | None = None
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
@@ -68,9 +79,7 @@ def product(
     parameters : float64, shape (n, 13), rows as from model.pack
     """
     columns = columns_of_axes(axes, rows)
-    start = Start(model.get("z0", 0.0), model.get("vz0", 0.0))
-    conveyor = Conveyor(**{name: value for name, value in model.items() if name not in ("z0", "vz0")})
-    parameters = np.tile(pack(conveyor, start), (len(next(iter(columns.values()))), 1))
+    parameters = np.tile(packed(model), (len(next(iter(columns.values()))), 1))
     for name, column in columns.items():
         codes = column if column.dtype.kind == "f" else [TENSION_MODES.index(mode) for mode in column]
         parameters[:, PARAMETERS.index(name)] = codes

@@ -1,8 +1,6 @@
 """Which motions starts end in, for the stages whose entries of the config say how to find that out."""
 
 import math
-from collections.abc import Callable
-from functools import cache, partial
 
 import numpy as np
 
@@ -30,7 +28,7 @@ def tolerance_of(settings: dict) -> float:
     return settings.get("tolerance", DEFAULT_TOLERANCE)
 
 
-def known_of(
+def shared_attractors(
     parameters: np.ndarray, starts: int, settings: dict, *, threads: int = 1, progress: str | None = None
 ) -> KnownAttractors:
     """The attractors of conveyors, shape (n, 13), that are worth finding for so many starts of each of them."""
@@ -41,17 +39,7 @@ def known_of(
     return known_attractors(parameters, orbits=starts >= ORBITS_SHARED, **options, progress=progress)
 
 
-def search_beside(parameters: np.ndarray, settings: dict, threads: int) -> Callable[[], KnownAttractors] | None:
-    """Finds the attractors of one conveyor, the first time it is called: it takes one thread while others run starts.
-
-    None where there is no other thread, or for several conveyors, whose searches share threads.
-    """
-    if threads == 1 or not set(settings["axes"]) <= STARTS:
-        return None
-    return cache(partial(known_of, parameters[:1], starts_per_conveyor(settings["axes"]), settings))
-
-
-def of_conveyors(parameters: np.ndarray) -> list[np.ndarray]:
+def batches_by_conveyor(parameters: np.ndarray) -> list[np.ndarray]:
     """Rows of `parameters`, shape (n, 13), in batches that hold all starts of their conveyors."""
     _, conveyor = distinct(parameters)
     order = np.argsort(conveyor, kind="stable")
@@ -64,7 +52,6 @@ def motions_of_starts(
     settings: dict,
     *,
     starts: int,
-    known: KnownAttractors | None = None,
     threads: int = 1,
     progress: str | None = None,
 ) -> Motions:
@@ -75,16 +62,13 @@ def motions_of_starts(
     parameters : float64, shape (n, 13)
     settings : `settling`, and `tolerance` if it is not the default
     starts : of each conveyor, in all batches and shards
-    known : the attractors of all conveyors, if they have been found
     """
     options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
-    if known is not None:
-        return classify(parameters, known=known, **options, progress=progress)
-    batches = of_conveyors(parameters)
+    batches = batches_by_conveyor(parameters)
     parts = []
     for number, rows in enumerate(batches, start=1):
         label = progress and (f"{progress} ({number} of {len(batches)})" if len(batches) > 1 else progress)
-        known = known_of(parameters[rows], starts, settings, threads=threads, progress=label)
+        known = shared_attractors(parameters[rows], starts, settings, threads=threads, progress=label)
         parts.append(classify(parameters[rows], known=known, **options, progress=label))
     order = np.argsort(np.concatenate(batches))
     return Motions(*(np.concatenate(column)[order] for column in zip(*parts, strict=True)))
@@ -93,7 +77,7 @@ def motions_of_starts(
 def motions(parameters: np.ndarray, settings: dict, **options) -> Motions:
     """The motions that the starts of `parameters`, shape (n, 13), end in; `settings` are those of their entry.
 
-    options : `known`, `threads` and `progress`, as in motions_of_starts
+    options : `threads` and `progress`, as in motions_of_starts
     """
     return motions_of_starts(parameters, settings, starts=starts_per_conveyor(settings["axes"]), **options)
 

@@ -5,10 +5,8 @@ it is and what was computed (model, duration, method, …) stand there, too; pan
 `attrs`. A column of settings, such as an axis, comes first.
 """
 
-import glob
 import json
 import os
-import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -65,23 +63,15 @@ def make(kind: str, schema: Sequence[pa.Field], columns: Mapping[str, Sequence],
 
 
 @contextmanager
-def replaced(path: str | Path) -> Iterator[str]:
-    """A file to write in place of `path`, which it replaces at once when all is written, or not at all.
-
-    Every writer has a file of its own. Once a table is complete, files that killed writers left beside it are removed.
-    """
-    path = Path(path)
-    handle, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
-    os.close(handle)
+def replaced(path: str | Path) -> Iterator[Path]:
+    """A file to write in place of `path`, which it replaces at once when all is written, or not at all."""
+    part = Path(f"{path}.part")
     try:
         yield part
-        os.chmod(part, 0o666 & ~umask())
         os.replace(part, path)
     except BaseException:
-        os.unlink(part)
+        part.unlink(missing_ok=True)
         raise
-    for left in path.parent.glob(f".{glob.escape(path.name)}.*.part"):
-        left.unlink(missing_ok=True)
 
 
 def encoding(schema: pa.Schema) -> dict[str, Any]:
@@ -98,22 +88,21 @@ def encoding(schema: pa.Schema) -> dict[str, Any]:
 
 def write(path: str | Path, table: pa.Table) -> None:
     """Write a table to `path`; its bytes depend on its content and on pyarrow's version only."""
-    with replaced(path) as part:
-        pq.write_table(table, part, row_group_size=ROW_GROUP, **encoding(table.schema))
+    write_blocks(path, [table])
 
 
 def write_blocks(path: str | Path, blocks: Iterable[pa.Table]) -> None:
-    """Write blocks of rows of a table, at least one, with little more than a row group of it in memory at a time.
+    """Write a table from blocks of its rows, at least one block, with about one row group in memory at a time.
 
-    The bytes are those that `write` gives of the whole table.
+    The bytes do not depend on how the rows are cut into blocks.
     """
     waiting: list[pa.Table] = []
     with replaced(path) as part, ExitStack() as files:
         writer = None
         for block in blocks:
             waiting.append(block)
-            schema = waiting[0].schema
-            writer = writer or files.enter_context(pq.ParquetWriter(part, schema, **encoding(schema)))
+            if writer is None:
+                writer = files.enter_context(pq.ParquetWriter(part, block.schema, **encoding(block.schema)))
             while sum(map(len, waiting)) >= ROW_GROUP:
                 together = pa.concat_tables(waiting)
                 writer.write_table(together.slice(0, ROW_GROUP), row_group_size=ROW_GROUP)
@@ -160,13 +149,6 @@ def holds(block: pa.Table, wanted: Mapping[str, np.ndarray]) -> bool:
     return all(
         pa.array(values, from_pandas=True).equals(block[name].combine_chunks()) for name, values in wanted.items()
     )
-
-
-def umask() -> int:
-    """The permissions that new files of this process do not get; mkstemp's have fewer still."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def check(path: str | Path, kind: str, settings: dict | None = None) -> None:

@@ -11,8 +11,8 @@ from conveyor.analysis.bifurcation_points import GRAZING, Point
 from conveyor.analysis.groups import amplitude_of
 from conveyor.solver.model import ANGLE, PARAMETERS, UNITS
 from conveyor.solver.parallel import for_each_chunk
-from pipeline import fields
-from sensitivity.selection import COLUMNS, Selected, conveyor, selected
+from pipeline import fields, grid
+from sensitivity.selection import COLUMNS, Selected, selected
 
 OF_CURVE = (
     fields.text("kind", "fold, period_doubling or grazing (where a riding part begins to leave the plate)"),
@@ -64,7 +64,7 @@ ENDS = {
 STEEPEST = 0.49 * np.pi  # rad, of an angle of throw that is looked at
 
 
-def begun(one: Selected, parameter: str) -> dict:
+def curve_columns(one: Selected, parameter: str) -> dict:
     """The columns that name a curve."""
     return {
         "kind": one.kind,
@@ -91,7 +91,7 @@ def place(parameters: np.ndarray, point: Point, parameter: str, part: float) -> 
     }
 
 
-def followed(point: Point, parameter: str, settings: dict) -> Curve:
+def follow_curve(point: Point, parameter: str, settings: dict) -> Curve:
     """The curve of a bifurcation."""
     path = POWERS[parameter](point.groups.exponent)
     reach = np.log(settings["factors"][parameter])
@@ -101,9 +101,9 @@ def followed(point: Point, parameter: str, settings: dict) -> Curve:
     return bifurcation_curves.follow(point, path, *limits, longest_step=settings["step"], most=settings["points"])
 
 
-def of_curve(parameters: np.ndarray, one: Selected, parameter: str, curve: Curve) -> tuple[list[dict], list[dict]]:
+def rows_of_curve(parameters: np.ndarray, one: Selected, parameter: str, curve: Curve) -> tuple[list[dict], list[dict]]:
     """The rows of its points and of its meetings."""
-    name = begun(one, parameter)
+    name = curve_columns(one, parameter)
     last = len(curve.points) - 1
     points = []
     for n, (point, part, form, impacts) in enumerate(
@@ -119,7 +119,7 @@ def of_curve(parameters: np.ndarray, one: Selected, parameter: str, curve: Curve
     return points, meetings
 
 
-def over_angle(parameters: np.ndarray, one: Selected, settings: dict) -> Iterator[dict]:
+def rows_over_angle(parameters: np.ndarray, one: Selected, settings: dict) -> Iterator[dict]:
     """The curve over the angle of throw: Γ stays, so that â goes with 1/sin φ."""
     reach = np.log(settings["factors"]["angle"])
     highest = min(reach, np.log(STEEPEST / parameters[ANGLE]))
@@ -127,12 +127,7 @@ def over_angle(parameters: np.ndarray, one: Selected, settings: dict) -> Iterato
     for n, part in enumerate(parts):
         end = n in (0, len(parts) - 1)
         about = {"point": n, "impacts": 0, "normal_form": np.nan, "status": "limit of the config" if end else "ok"}
-        yield {**begun(one, "angle"), **place(parameters, one.point, "angle", part), **about}
-
-
-def columns(rows: list[dict], kind: str) -> dict[str, np.ndarray]:
-    """Rows as the columns of a kind of table."""
-    return {column.name: np.array([row[column.name] for row in rows]) for column in TABLES[kind]}
+        yield {**curve_columns(one, "angle"), **place(parameters, one.point, "angle", part), **about}
 
 
 def make(
@@ -144,7 +139,7 @@ def make(
     progress: str | None = None,
 ) -> dict[str, dict[str, np.ndarray]]:
     """The columns of both tables, by their kinds, for the section `sensitivity` of the config."""
-    parameters = conveyor(settings["model"])
+    parameters = grid.packed(settings["model"])
     chosen = selected(
         parameters, folds_and_doublings, cascade, settings["longest_period"], settings["curves"]["doublings"]
     )
@@ -155,12 +150,12 @@ def make(
     def work(begin, end):
         for n in range(begin, end):
             one, parameter = tasks[n]
-            found[n] = of_curve(parameters, one, parameter, followed(one.point, parameter, settings["curves"]))
+            found[n] = rows_of_curve(parameters, one, parameter, follow_curve(one.point, parameter, settings["curves"]))
 
     for_each_chunk(work, len(tasks), threads=threads, chunk=1, progress=progress)
     points = [row for rows, _ in found for row in rows]
-    points += [row for one in chosen for row in over_angle(parameters, one, settings["curves"])]
+    points += [row for one in chosen for row in rows_over_angle(parameters, one, settings["curves"])]
     return {
-        "continued": columns(points, "continued"),
-        "meetings": columns([row for _, rows in found for row in rows], "meetings"),
+        "continued": fields.columns(points, TABLES["continued"]),
+        "meetings": fields.columns([row for _, rows in found for row in rows], TABLES["meetings"]),
     }

@@ -19,8 +19,8 @@ from conveyor.analysis.groups import (
     units,
 )
 from conveyor.solver.model import ACCELERATION, PARAMETERS, UNITS, VZ0, Z0
-from pipeline import fields
-from sensitivity.selection import COLUMNS, Selected, at, conveyor, selected
+from pipeline import fields, grid
+from sensitivity.selection import COLUMNS, Selected, at, selected
 
 MOVED = (
     fields.text("kind", "fold, period_doubling, grazing, accumulation, critical_amplitude or critical_height"),
@@ -80,7 +80,7 @@ class Moved(NamedTuple):
         return self.kind.startswith("critical")
 
 
-def of_bifurcation(parameters: np.ndarray, one: Selected) -> Moved:
+def move_bifurcation(parameters: np.ndarray, one: Selected) -> Moved:
     """A bifurcation of an orbit."""
     moves = None if one.point is None else bifurcation_points.moves(one.point)
     here = at(parameters, one.acceleration)
@@ -111,7 +111,7 @@ def weights(a: float, b: float, c: float) -> np.ndarray:
     return np.array([(1.0 + part) ** 2, -2.0 * part * (1.0 + part), part**2])
 
 
-def of_accumulation(parameters: np.ndarray, doublings: list[Moved]) -> Moved | None:
+def move_accumulation(parameters: np.ndarray, doublings: list[Moved]) -> Moved | None:
     """Where the doublings accumulate; None where there are not four of them, or one was not found again."""
     if len(doublings) < 4 or any(one.by is None for one in doublings):
         return None
@@ -126,7 +126,7 @@ def of_accumulation(parameters: np.ndarray, doublings: list[Moved]) -> Moved | N
     return Moved("accumulation", 0, here, 0, False, "acceleration", by, again, "ok")
 
 
-def on_edge(kind: str, parameters: np.ndarray, unknown: int) -> Moved:
+def move_edge(kind: str, parameters: np.ndarray, unknown: int) -> Moved:
     """A start near the edge of a basin, moved onto it."""
     moved = "acceleration" if unknown == AMPLITUDE else "z0"
 
@@ -235,40 +235,34 @@ def group_rows(one: Moved) -> Iterator[dict]:
 
 def starts(critical: pd.DataFrame, settings: dict) -> Iterator[Moved]:
     """The critical amplitude of the start at rest, and critical heights."""
-    parameters = conveyor({**critical.attrs["model"], "z0": 0.0})
+    parameters = grid.packed({**critical.attrs["model"], "z0": 0.0})
     edges = critical[critical.is_critical].sort_values("acceleration")
     rest = parameters.copy()
     rest[Z0], rest[VZ0] = settings["rest"]["z0"], settings["rest"]["vz0"]
     if len(edges):
         # The start on the edge next to the one at rest is a guess of it.
         rest = at(rest, edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - rest[Z0])))])
-    yield on_edge("critical_amplitude", rest, AMPLITUDE)
+    yield move_edge("critical_amplitude", rest, AMPLITUDE)
     # Evenly among them, without the first and the last one.
     inner = np.linspace(0, len(edges) - 1, settings["heights"] + 2)[1:-1].round().astype(int)
     for edge in edges.iloc[np.unique(inner)].itertuples() if len(edges) else ():
         here = at(parameters, edge.acceleration)
         here[Z0] = edge.z0
-        yield on_edge("critical_height", here, HEIGHT)
-
-
-def columns(rows: list[dict], kind: str) -> dict[str, np.ndarray]:
-    """Rows as the columns of a kind of table."""
-    return {column.name: np.array([row[column.name] for row in rows]) for column in TABLES[kind]}
+        yield move_edge("critical_height", here, HEIGHT)
 
 
 def make(
     folds_and_doublings: pd.DataFrame, cascade: pd.DataFrame, critical: pd.DataFrame, settings: dict
 ) -> dict[str, dict[str, np.ndarray]]:
     """The columns of both tables, by their kinds, for the section `sensitivity` of the config."""
-    parameters = conveyor(settings["model"])
+    parameters = grid.packed(settings["model"])
     chosen = selected(parameters, folds_and_doublings, cascade, settings["longest_period"], settings["doublings"])
-    bifurcations = [of_bifurcation(parameters, one) for one in chosen]
-    accumulation = of_accumulation(parameters, [one for one in bifurcations if one.doubling])
+    bifurcations = [move_bifurcation(parameters, one) for one in chosen]
+    accumulation = move_accumulation(parameters, [one for one in bifurcations if one.doubling])
     moved = [*bifurcations, *([accumulation] if accumulation else []), *starts(critical, settings)]
+    physical = [row for one in moved for row in physical_rows(one, settings["difference"], settings["agreement"])]
+    groups = [row for one in moved for row in group_rows(one)]
     return {
-        "derivatives": columns(
-            [row for one in moved for row in physical_rows(one, settings["difference"], settings["agreement"])],
-            "derivatives",
-        ),
-        "groups": columns([row for one in moved for row in group_rows(one)], "groups"),
+        "derivatives": fields.columns(physical, TABLES["derivatives"]),
+        "groups": fields.columns(groups, TABLES["groups"]),
     }

@@ -9,7 +9,7 @@ from conveyor.analysis import bifurcation_points
 from conveyor.analysis.bifurcation_points import GRAZING, Point
 from conveyor.analysis.groups import groups_of
 from conveyor.solver.model import ACCELERATION
-from pipeline import fields, grid
+from pipeline import fields
 
 # A bifurcation solved again that is farther from its table, relative, is another one.
 SAME = 1e-6
@@ -30,11 +30,6 @@ class Selected(NamedTuple):
     point: Point | None  # None where Newton's iteration does not find it again
     doubling: int  # its number in the cascade, 0 for those that are not in it
     rides: bool  # of a grazing: whether the part never leaves the plate until then
-
-
-def conveyor(model: dict) -> np.ndarray:
-    """The packed conveyor of a model without an amplitude."""
-    return grid.product({"acceleration": [0.0]}, model)[1][0]
 
 
 def at(parameters: np.ndarray, acceleration: float) -> np.ndarray:

@@ -7,7 +7,7 @@ import numpy as np
 from conveyor import ensemble
 from conveyor.analysis.states import continued
 from pipeline import fields, grid
-from pipeline.motions import motions, search_beside
+from pipeline.motions import motions
 from pipeline.sizes import BLOCK
 
 TABLES = {
@@ -47,22 +47,20 @@ def columns(
         name: settings[name] for name in ("duration", "method", "tolerance", "step", "needs") if name in settings
     }
     axes, parameters = grid.product(settings["axes"], settings["model"], rows)
-    search = search_beside(parameters, settings, threads)
-    runs = ensemble.run(parameters, **options, threads=threads, beside=search, progress=progress)
-    known = search and search()
+    runs = ensemble.run(parameters, **options, threads=threads, progress=progress)
     ok = runs["status"] == "ok"
     those = slice(None) if ok.all() else ok  # no copies
     starts = parameters[those]
     continued(starts, runs["z_end"][those], runs["vz_end"][those], settings["duration"], out=starts)
-    found = motions(starts, settings, known=known, threads=threads, progress=progress)
+    found = motions(starts, settings, threads=threads, progress=progress)
     state, period, flight = (
-        everywhere(ok, values, missing)
+        fill_missing(ok, values, missing)
         for values, missing in ((found.state, "undecided"), (found.period, 0), (found.longest_flight, np.nan))
     )
     return axes | runs | {"state": state, "period": period, "longest_flight": flight}
 
 
-def everywhere(ok: np.ndarray, values: np.ndarray, missing: str | float) -> np.ndarray:
+def fill_missing(ok: np.ndarray, values: np.ndarray, missing: str | float) -> np.ndarray:
     """The `values` in the places where `ok`, of shape (n,), is true, and what is `missing` in the others."""
     if len(values) == len(ok):
         return values

@@ -3,9 +3,9 @@
 import numpy as np
 import pandas as pd
 import pytest
-from project import merged, read_config
+from project import ROOT, merged, read_config
 
-from accuracy import benchmark, precision, random_points, timing
+from accuracy import benchmark, precision, timing
 from conveyor.methods import heyoka_peer
 
 CONFIG = read_config()
@@ -34,11 +34,13 @@ def test_benchmark_is_as_accurate_as_wanted(cases):
     # A riding part repeats its steps, a chaotic one cannot; what is repeated is not counted as computed.
     repeated = dict(zip(found["case"], found["repeated_steps"], strict=True))
     assert repeated["D"] == 0 < repeated["B"]
-    text = benchmark.report(found, cases, 1)
+    template = (ROOT / "workflow/templates/benchmark.md").read_text(encoding="utf-8")
+    settings = {"cases": cases, "repeats": 1}
+    text = benchmark.report(template, found, settings)
     rows = [line.split(" | ")[0] for line in text.splitlines() if line.startswith("| ") and "Case" not in line]
     assert rows == [f"| {name}" for name in found["case"]]
     slow = {**found, "speed": np.full(len(rows), 1.0)}
-    assert "miss what is wanted: A (1 of" in benchmark.report(slow, cases, 1)
+    assert "miss what is wanted: A (1 of" in benchmark.report(template, slow, settings)
 
 
 @pytest.fixture(scope="module", params=["jumping", "riding", "bouncing"])
@@ -104,17 +106,3 @@ def test_runs_take_turns_until_enough_time_is_spent_on_them(monkeypatch):
     fast = ["fast"] * 2
     assert made == [*fast, "slow", "slowest", *fast, "slow", *fast]
     assert times == [[0.125] * 6, [0.5] * 2, [2.0]]
-
-
-def test_random_points_know_how_deep_they_get():
-    found = random_points.make(
-        {"count": {"around the paper": 300, "whole ranges": 50}, "seed": 3, "cycles": 3, "tolerance": 1e-8}
-    )
-    ok = found["status"] == "ok"
-    assert ok[:300].all()
-    assert np.isfinite(found["max_depth"][ok]).all()
-    assert (found["max_depth"][ok] <= found["allowed_depth"][ok] * (1.0 + 1e-9)).all()
-    # A part that starts on the plate and is pressed on gets into it.
-    on_plate = ok & np.isnan(found["z0"]) & (found["vz0"] < 0.0)
-    assert on_plate.any()
-    assert (found["max_depth"][on_plate] > 0.0).all()

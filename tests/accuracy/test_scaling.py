@@ -31,7 +31,7 @@ def folder(tmp_path_factory):
 
 def measured(case, folder):
     made = scaling.shards_of(case, folder)
-    return scaling.row(case, made, scaling.put_together(case, folder))
+    return scaling.row(case, made, scaling.gather_shards(case, folder))
 
 
 def test_all_shards_are_made_and_put_together(folder):
@@ -71,13 +71,13 @@ def test_sweeps_are_made_in_turns_until_they_have_taken_long_enough(monkeypatch)
         late = 0.1 * done.count(case["conveyors"])
         return [{"loading": 0.5, "computing": late, "memory": 100.0, "whole": case["whole"]}]
 
-    def put_together(case, _):
+    def gather_shards(case, _):
         together.append(case["conveyors"])
         return {"whole": 2.0, "memory": 50.0, "rows": 20, "bytes": 400}
 
     monkeypatch.setattr(scaling, "run", lambda **_: None)
     monkeypatch.setattr(scaling, "shards_of", shards_of)
-    monkeypatch.setattr(scaling, "put_together", put_together)
+    monkeypatch.setattr(scaling, "gather_shards", gather_shards)
     found = scaling.make({}, cases)
     assert done == [0, 1, 2, 0, 1, 0, 0, 0]
     assert together == [0, 1, 2]

@@ -461,3 +461,14 @@ def test_the_onset_by_dimension_is_half_way_between_both_ends():
     amplitudes = np.arange(30.0, 90.0)
     table = pd.DataFrame({"acceleration": amplitudes, "dimension": np.interp(amplitudes, [50.0, 70.0], [1.0, 2.0])})
     assert about_chaos.dimension_onset(table) == 61.0
+def test_the_page_explains_verdicts_and_has_dashes_for_missing_numbers():
+    template = (Path(__file__).parents[2] / "workflow/templates/claims.md").read_text(encoding="utf-8")
+    claim = {"where": "3.1", "statement": "", "quantities": quantities(onset=[1.0, 2.0])}
+    claim["quantities"]["onset"]["because"] = "why"
+    found = Finding({}, {"onset": 9.0}, "a note")
+    table = pd.DataFrame(verdicts.columns({"C1": claim}, {"C1": found}))
+    page = verdicts.report(template, table)
+    assert "| – | 9 | [1, 2] (why) | **not reproduced** |" in page
+    assert "## Reasons\n\n- **C1** onset: 9 by the converged solution is not in [1, 2]; a note.\n" in page
+    assert page.endswith("## Notes\n\n")
+    assert "an overlay without a prefix" in verdicts.report(template, table.iloc[:0])

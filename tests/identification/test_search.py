@@ -71,14 +71,14 @@ def test_the_values_of_a_profile_ascend_within_what_is_searched(parameter):
     assert low <= grid[0] * (1.0 + 1e-9) and grid[-1] <= high * (1.0 + 1e-9)
     assert np.log(grid[-1] / grid[0]) > 0.8 * np.log(high / low)
     for value in grid:
-        left = profiles.holding(parameter, value, BOUNDS, MODEL).bounds
+        left = profiles.hold(parameter, value, BOUNDS, MODEL).bounds
         assert (np.ptp(left, axis=0) > 0.0).all()
 
 
 @pytest.mark.parametrize("parameter", PARAMETERS)
 def test_a_held_parameter_is_held(parameter):
     value = float(values_of(CENTRE[None], MODEL)[0, list(PARAMETERS).index(parameter)])
-    space = profiles.holding(parameter, value, BOUNDS, MODEL)
+    space = profiles.hold(parameter, value, BOUNDS, MODEL)
     corners = np.stack(np.meshgrid(*space.bounds.T), axis=-1).reshape(-1, 3)
     whole = space.whole(corners)
     assert values_of(whole, MODEL)[:, list(PARAMETERS).index(parameter)] == pytest.approx(value)

@@ -219,8 +219,7 @@ def rows_at(acceleration: float) -> dict[str, list]:
 
 
 def made_up(amplitudes, settings, **options):
-    rows = pd.DataFrame([row for acceleration in amplitudes for row in rows_at(acceleration)])
-    return {name: rows[name].to_numpy() for name in rows}
+    return pd.DataFrame([row for acceleration in amplitudes for row in rows_at(acceleration)])
 
 
 SETTINGS = {**BOX, "acceleration": {"start": 20.0, "stop": 60.0, "num": 9}, "resolution": 0.2, "starts": 100}

@@ -8,6 +8,7 @@ import pytest
 from project import read_config
 
 from orbits import branches, exponents, seeds, strobes, witnesses
+from pipeline import grid
 
 MODEL = {
     "acceleration": 40.0,
@@ -85,7 +86,7 @@ def test_orbits_to_begin_with_are_found():
     section = read_config("orbits")["orbits"]
     settings = {**section, "limits": [35.0, 45.0], "max_period": 1, "cycles": 300, "model": MODEL}
     del settings["seeds"]
-    found = seeds.seeds(branches.parameters_of(settings), settings)
+    found = seeds.seeds(grid.packed(settings["model"]), settings)
     assert {orbit.period for orbit in found} == {1}
     assert {orbit.longest_flight > 0.5 for orbit in found} == {True, False}
     tables = branches.make(settings)
@@ -114,7 +115,7 @@ def test_orbits_of_a_doubled_branch_begin_no_other_one(monkeypatch):
         branches.orbits, "explore", lambda parameters, seeds, *rest: [one for seed in seeds for one in found[seed.name]]
     )
     settings = {"limits": [20.0, 90.0], "max_period": 2}
-    assert branches.explored(None, starts, settings) == ["once", "double", "apart"]
+    assert branches.explore_branches(None, starts, settings) == ["once", "double", "apart"]
 
 
 def test_an_exponent_within_its_error_is_no_witness_of_chaos(monkeypatch):

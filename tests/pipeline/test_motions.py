@@ -33,7 +33,7 @@ def test_all_states_are_there(labels):
 @pytest.mark.parametrize("conveyors", [1, 2])
 def test_labels_do_not_depend_on_batches(monkeypatch, starts, labels, conveyors):
     monkeypatch.setattr(motions, "CONVEYORS", conveyors)
-    assert len(motions.of_conveyors(starts)) == -(-3 // conveyors)
+    assert len(motions.batches_by_conveyor(starts)) == -(-3 // conveyors)
     assert equal(motions.motions(starts, SETTINGS, threads=2), labels)
 
 
@@ -48,5 +48,5 @@ def test_labels_do_not_depend_on_the_order_of_starts(monkeypatch, starts, labels
 def test_attractors_are_looked_for_where_starts_are_followed_long_enough(count, settling, sets):
     """One conveyor in chaos: with few starts, or short searches, each is followed by itself."""
     row = grid.product({"acceleration": [80.0]}, {})[1]
-    found = motions.known_of(row, count, {"settling": settling, "tolerance": 1e-8})
+    found = motions.shared_attractors(row, count, {"settling": settling, "tolerance": 1e-8})
     assert (len(found.chaotic.low), len(found.orbits.periods)) == (sets, 0)

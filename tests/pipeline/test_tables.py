@@ -1,10 +1,7 @@
 """Tables: kinds, units, equal bytes, all or nothing, errors that name the column or the file."""
 
 import json
-import subprocess
-import sys
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -12,7 +9,6 @@ import pytest
 
 from pipeline import fields, tables
 
-SCRIPTS = Path(tables.__file__).parents[1]
 SETTINGS = {"model": {"mass": 0.7e-3}, "duration": 1.0}
 SCHEMA = [fields.AXES["acceleration"], fields.number("lambda", "1/s", "an exponent")]
 
@@ -92,38 +88,13 @@ def test_a_table_is_replaced_at_once(path, monkeypatch):
     tables.write(path, made(estimates(2)))
     before = path.read_bytes()
 
-    def interrupted(table, place, **options):
-        with open(place, "wb") as file:
-            file.write(b"half a tab")
+    def interrupted(writer, table, **options):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(pq, "write_table", interrupted)
+    monkeypatch.setattr(pq.ParquetWriter, "write_table", interrupted)
     with pytest.raises(KeyboardInterrupt):
         tables.write(path, made())
     assert path.read_bytes() == before
-    assert [file.name for file in path.parent.iterdir()] == ["a.parquet"]
-
-
-def test_two_writers_of_a_table_have_files_of_their_own(path, monkeypatch):
-    places = []
-    monkeypatch.setattr(pq, "write_table", lambda table, place, **options: places.append(place))
-    for _ in range(2):
-        tables.write(path, made())
-    assert len(set(places)) == 2
-
-
-def test_a_killed_writer_leaves_no_file_behind_for_good(path):
-    """SIGKILL while a table is written, and the table written again."""
-    code = (
-        "import sys, time\nfrom pipeline import tables\n"
-        "with tables.replaced(sys.argv[1]): print(flush=True); time.sleep(60)"
-    )
-    with subprocess.Popen([sys.executable, "-c", code, str(path)], stdout=subprocess.PIPE, cwd=SCRIPTS) as process:
-        process.stdout.readline()
-        process.kill()
-    (left,) = path.parent.iterdir()
-    assert left.name.endswith(".part")
-    tables.write(path, made())
     assert [file.name for file in path.parent.iterdir()] == ["a.parquet"]
 
 

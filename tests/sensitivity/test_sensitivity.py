@@ -6,6 +6,7 @@ import pytest
 from project import read_config
 
 from conveyor.analysis import orbits
+from pipeline import grid
 from sensitivity import curves, derivatives, selection
 
 SETTINGS = read_config()["sensitivity"]
@@ -39,7 +40,7 @@ def made(tables):
 
 @pytest.fixture(scope="module")
 def chosen(tables):
-    return selection.selected(selection.conveyor(MODEL), *tables[:2], 1, 2)
+    return selection.selected(grid.packed(MODEL), *tables[:2], 1, 2)
 
 
 def test_every_bifurcation_is_chosen_once(chosen):
@@ -55,10 +56,10 @@ def test_every_bifurcation_is_chosen_once(chosen):
 
 def test_what_is_not_found_again_keeps_its_row_with_a_reason(tables):
     lost = tables[0].iloc[[1]].assign(acceleration=33.0)
-    parameters = selection.conveyor(MODEL)
+    parameters = grid.packed(MODEL)
     (one,) = selection.selected(parameters, lost, tables[1].iloc[:0], 1, 0)
     assert one.point is None
-    rows = list(derivatives.physical_rows(derivatives.of_bifurcation(parameters, one), 1e-4, 1e-5))
+    rows = list(derivatives.physical_rows(derivatives.move_bifurcation(parameters, one), 1e-4, 1e-5))
     assert {row["status"] for row in rows} == {"not found again"}
     assert all(np.isnan(row["derivative"]) for row in rows)
 

@@ -1,6 +1,5 @@
 """Sweeps from the config: columns and rows of an own one, and independence of how it is cut and shared."""
 
-import threading
 from functools import partial
 from itertools import pairwise
 
@@ -9,7 +8,6 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
-import pipeline.motions
 from conveyor import Conveyor, Start, ensemble, simulate
 from conveyor.solver.model import UNITS
 from pipeline import fields, grid, tables
@@ -159,36 +157,6 @@ def test_rows_do_not_depend_on_their_order(in_one):
     pd.testing.assert_frame_equal(
         found[list(expected)].sort_values(axes, ignore_index=True), expected, check_dtype=False, check_exact=True
     )
-
-
-def test_attractors_of_one_conveyor_are_found_while_its_starts_run(monkeypatch):
-    """Once, in another thread; what is found does not depend on it."""
-    axes = {"psi0": {"start": 0.0, "stop": 6.0, "num": 15}, "z0": {"start": 0.0, "stop": 0.5e-3, "num": 15}}
-    settings = {"axes": axes, "model": {"acceleration": 60.0}, "duration": 0.02, "settling": 500}
-    one = shards.columns(settings, threads=1)
-    assert set(one["state"]) == {"second", "chaos"}
-    true, true_chunks, threads, found = pipeline.motions.known_of, ensemble.for_each_chunk, [], threading.Event()
-
-    def known_of(*arguments, **options):
-        threads.append(threading.current_thread())
-        known = true(*arguments, **options)
-        found.set()
-        return known
-
-    def for_each_chunk(work, *arguments, **options):
-        """Starts wait for the search: which of the two is done first would else be an accident of the machine."""
-
-        def after_the_search(begin, end):
-            assert found.wait(60.0), "no other thread has begun with the search"
-            return work(begin, end)
-
-        true_chunks(after_the_search, *arguments, **options)
-
-    monkeypatch.setattr(pipeline.motions, "known_of", known_of)
-    monkeypatch.setattr(ensemble, "for_each_chunk", for_each_chunk)
-    two = shards.columns(settings, threads=2)
-    assert len(threads) == 1 and threads != [threading.current_thread()]
-    pd.testing.assert_frame_equal(pd.DataFrame(two), pd.DataFrame(one), check_exact=True)
 
 
 def test_a_run_that_failed_has_no_state(monkeypatch):

@@ -20,8 +20,6 @@ CALLS = {
         "orbits/strobes",
         "sweeps/shards",
     },
-    "accuracy/throughput": {"accuracy/precision"},
-    "accuracy/label_checks": {"accuracy/settling_times"},
     "accuracy/scaling": {"sweeps/shards"},
     "operating/shares": {"operating/regimes"},
     "identification/fronts": {"identification/edges"},

@@ -436,22 +436,7 @@ class SettlingTimes(TypedDict):
     seed: Seed
 
 
-class LabelChecks(TypedDict):
-    acceleration: Amplitudes
-    starts: Starts
-    unshared: whole("initial conditions that are followed without shared chaotic sets", 0, 10**6)
-    z0: Heights
-    seed: Seed
-
-
 Conveyors = whole("number of random conveyors", 1, 10**7)
-
-
-class RandomPoints(TypedDict):
-    count: mapping("conveyors by their ranges", {"around the paper": Conveyors, "whole ranges": Conveyors})
-    seed: Seed
-    cycles: number("length of a run", "excitation cycles", gt=0, le=1e6)
-    tolerance: Tolerance
 
 
 Factor = number("factor by which a parameter is increased and decreased", gt=1, le=1e3)
@@ -483,15 +468,6 @@ class Scaling(TypedDict):
     threads: many(whole("threads", 1, 256), "numbers of threads")
     shards: many(whole("shards", 1, 1000), "numbers of shards")
     shared_points: whole("points of the maps over threads and shards", 1000, 10**8)
-
-
-class Throughput(TypedDict):
-    starts: whole("initial conditions of Fig. 13", 4, 10**6)
-    peers: mapping("relative tolerance of each integrator", dict.fromkeys(INTEGRATORS, Tolerance), total=False)
-    batch: whole("initial conditions that heyoka integrates together", 1, 64)
-    max_evaluations: MaxEvaluations
-    repeats: Repeats
-    seconds: ProcessorTime
 
 
 class Operating(TypedDict):
@@ -649,11 +625,8 @@ class Config(TypedDict):
     scene_budget: Annotated[SceneBudget, Field(description="accuracy that each figure needs")]
     rigid_part: Annotated[RigidPart, Field(description="rigid bouncing part in place of the contact")]
     settling_times: Annotated[SettlingTimes, Field(description="time until a motion settles")]
-    label_checks: Annotated[LabelChecks, Field(description="independence of labels from other initial conditions")]
-    random_points: Annotated[RandomPoints, Field(description="random conveyors and initial conditions")]
     sensitivity: Annotated[Sensitivity, Field(description="derivatives of bifurcations and critical heights")]
     scaling: Annotated[Scaling, Field(description="cost of sweeps by size, threads and shards")]
-    throughput: Annotated[Throughput, Field(description="initial conditions per second, beside peers")]
     operating: Annotated[Operating, Field(description="shares of the attractors over the amplitude")]
     identification: Annotated[Identification, Field(description="parameters that the paper's numbers imply")]
     figures: Annotated[dict[Name, Figure], Field(description="figures")]

@@ -101,13 +101,6 @@ def scaling_cases(config: dict) -> list[dict]:
     ]
 
 
-def throughput_settings(config: dict) -> dict:
-    """The section `throughput` with the map of initial conditions that the throughput of methods is measured on."""
-    solver = {key: config["solver"][key] for key in ("duration", "tolerance", "step")}
-    axes = map_axes(config["throughput"]["starts"])
-    return {**config["throughput"], **solver, "map": scaling_case(config, "points", axes)["settings"]}
-
-
 def certificates_settings(config: dict) -> dict:
     return {**config["certificates"], "model": with_model(config, "orbits")["model"]}
 
@@ -147,7 +140,6 @@ TABLES = {
     **{f"identification/{name}": partial(of_identification, name) for name in IDENTIFICATION},
     "results/claims": lambda config: {"claims": config["claims"]},
     "results/benchmark": benchmark_settings,
-    "results/random_points": itemgetter("random_points"),
     "results/precision_estimates": itemgetter("precision_estimates"),
     "results/stability": itemgetter("stability"),
     "results/stability_estimates": lambda config: with_model(config, "stability_estimates"),
@@ -155,12 +147,10 @@ TABLES = {
     "results/budget_times": itemgetter("scene_budget"),
     "results/rigid_part": itemgetter("rigid_part"),
     "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED),
-    "results/label_checks": lambda config: with_model(config, "label_checks", solver=FOLLOWED),
     "results/scaling": lambda config: {**config["scaling"], "sharing": config["sharing"]},
-    "results/throughput": throughput_settings,
 }
 # Tables that only an explicit target makes.
-ON_REQUEST = ("results/label_checks", "results/scaling", "results/throughput")
+ON_REQUEST = ("results/scaling",)
 
 
 def references(config: dict) -> list[str]:

@@ -4,6 +4,8 @@ from workflow.config.tables import budgeted_entries, budgeted_tables, model_with
 
 
 rule benchmark:
+    input:
+        template=source("workflow/templates/benchmark.md"),
     output:
         benchmark=table("results/benchmark"),
         report=result("benchmark.md"),
@@ -23,7 +25,7 @@ rule benchmark:
         "../../scripts/make.py"
 
 
-# Tables that are made from the config alone. On request, because they take long: label_checks, throughput.
+# Tables that are made from the config alone.
 rule accuracy:
     output:
         table("results/{name}"),
@@ -32,7 +34,7 @@ rule accuracy:
     benchmark:
         benchmark_file("accuracy/{name}")
     wildcard_constraints:
-        name="random_points|stability|stability_estimates|settling_times|label_checks|throughput",
+        name="stability|stability_estimates|settling_times",
     resources:
         cpus_per_task=JOB_THREADS,
         mem_mb=2000,

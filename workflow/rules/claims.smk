@@ -17,6 +17,7 @@ TESTED_TABLES = [
 rule claims:
     input:
         read=map(table, references_of(config["claims"])),
+        template=source("workflow/templates/claims.md"),
     output:
         claims=table("results/claims"),
         report=result("claims.md"),
@@ -36,6 +37,7 @@ rule claims:
 rule claim:
     input:
         read=lambda wildcards: [table(reference) for reference in references_of(CLAIM[wildcards.name])],
+        template=source("workflow/templates/claims.md"),
     output:
         report=result("claims/{name}.md"),
     log:

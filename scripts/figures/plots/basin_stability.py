@@ -52,8 +52,8 @@ def plot(*, shares: pd.DataFrame) -> Figure:
     axes.set_xlim(amplitudes[0], amplitudes[-1])
     low, high = shares.mean_velocity.min(), shares.mean_velocity.max()
     axes.set_ylim(min(0.0, low) - 0.05 * (high - low), high + 0.08 * (high - low))
-    axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
-    axes.set_ylabel("mean feeding velocity in m/s")
+    axes.set_xlabel(style.AMPLITUDE)
+    axes.set_ylabel(style.VELOCITY)
     vertical_axis(axes, shares)
     handles = [
         Patch(color=style.STATE_COLOURS[state], label=state)

@@ -57,14 +57,7 @@ def plot(
     for place in accumulation:
         for axes in (diagram, exponents):
             axes.axvline(place, color="0.5", linewidth=0.6, linestyle=":")
-        exponents.annotate(
-            "doublings accumulate",
-            (place, 0.05),
-            xycoords=("data", "axes fraction"),
-            xytext=(3, 0),
-            textcoords="offset points",
-            size=7.0,
-        )
+        style.note(exponents, "doublings accumulate", (place, 0.05), (3, 0), xycoords=("data", "axes fraction"))
     for branch, rows in spectrum.groupby("branch", sort=False):
         exponents.plot(
             rows.acceleration, rows.lambda_1, color=DIRECTIONS[branch], linewidth=0.6, label=f"swept {branch}"
@@ -75,7 +68,7 @@ def plot(
     diagram.plot([], [], color="black", linewidth=0.5, linestyle=(0, (3, 2)), label="unstable orbit")
     diagram.set_ylabel("speed of approach $v$ at $\\psi$ = $\\psi_0$ in m/s")
     exponents.set_ylabel("$\\lambda_1$ in 1/s")
-    exponents.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    exponents.set_xlabel(style.AMPLITUDE)
     exponents.set_xlim(strobes.acceleration.min(), strobes.acceleration.max())
     figure.align_ylabels()
     handles = [*diagram.get_legend_handles_labels()[0], *exponents.get_legend_handles_labels()[0]]

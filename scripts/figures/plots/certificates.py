@@ -38,7 +38,7 @@ def plot(*, branches: pd.DataFrame, orbits: pd.DataFrame, bifurcations: pd.DataF
     for row in proved.itertuples():
         diagram.axvline(row.acceleration_low, color="black", linewidth=0.5, linestyle=":", zorder=0)
     diagram.set_xlim(branches.acceleration.min(), branches.acceleration.max())
-    diagram.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    diagram.set_xlabel(style.AMPLITUDE)
     diagram.set_ylabel("speed of approach $v$ at $\\psi$ = $\\psi_0$ in m/s")
     style.legend_above(figure, diagram, ncols=4)
 
@@ -48,7 +48,7 @@ def plot(*, branches: pd.DataFrame, orbits: pd.DataFrame, bifurcations: pd.DataF
         widths.plot(rows.acceleration, rows.half_width, ".", markersize=3.5, color=colour, label=f"{period}")
     widths.set_yscale("log")
     widths.set_xlim(diagram.get_xlim())
-    widths.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    widths.set_xlabel(style.AMPLITUDE)
     widths.set_ylabel("half-width of enclosures\nin $g/\\omega^2$ and $g/\\omega$")
     widths.legend(title="cycles", title_fontsize=7.0, ncols=5, loc="upper left", columnspacing=0.8, handletextpad=0.1)
     low, high = widths.get_ylim()
@@ -58,14 +58,7 @@ def plot(*, branches: pd.DataFrame, orbits: pd.DataFrame, bifurcations: pd.DataF
     sizes = (proved.acceleration_high - proved.acceleration_low).to_numpy()
     brackets.plot(sizes, np.arange(len(names)), "o", color="black", markersize=3.0)
     for place, row in enumerate(proved.itertuples()):
-        brackets.annotate(
-            f"{row.acceleration_low:.4f} m/s²",
-            (sizes[place], place),
-            xytext=(0, 4),
-            textcoords="offset points",
-            ha="center",
-            size=7.0,
-        )
+        style.note(brackets, f"{row.acceleration_low:.4f} m/s²", (sizes[place], place), (0, 4), ha="center")
     brackets.set_yticks(np.arange(len(names)), names)
     brackets.set_ylim(len(names) - 0.5, -0.9)
     brackets.set_xscale("log")

@@ -36,8 +36,8 @@ def plot(
     )
     if critical_acceleration is not None:
         style.mark(axes, critical_acceleration, f"{critical_acceleration:g} m/s²")
-    axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
-    axes.set_ylabel("mean feeding velocity in m/s")
+    axes.set_xlabel(style.AMPLITUDE)
+    axes.set_ylabel(style.VELOCITY)
     style.from_zero(axes)
     style.legend_above(figure, axes, ncols=2)
     return figure

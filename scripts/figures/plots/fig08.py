@@ -38,8 +38,8 @@ def plot(
     """Draw sweeps over acceleration and z0, and shade the interval `two_states` (m/s²)."""
     figure = style.figure(style.PAGE, 72.0)
     sweeps = style.drop_missing(euler=euler, converged=converged)
-    panels = figure.subplots(1, len(sweeps), sharex=True, sharey=True, squeeze=False)[0]
-    for axes, (role, sweep) in zip(panels, sweeps.items(), strict=True):
+    panels = style.method_panels(figure, sweeps, style.AMPLITUDE, style.VELOCITY)
+    for axes, sweep in zip(panels, sweeps.values(), strict=True):
         if two_states is not None:
             axes.axvspan(*two_states, color="0.93", linewidth=0.0)
         axes.plot(*plate_velocity(sweep), color=style.PLATE, linewidth=0.8, linestyle="--")
@@ -56,9 +56,6 @@ def plot(
                 size=7.0,
                 arrowprops={"arrowstyle": "->", "linewidth": 0.6, "shrinkB": 3.0},
             )
-        axes.set_title(style.PANELS[role])
-        axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
-    panels[0].set_ylabel("mean feeding velocity in m/s")
     for axes in panels:
         style.from_zero(axes)
     present = {state for sweep in sweeps.values() for state in sweep.state}

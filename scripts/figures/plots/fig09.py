@@ -12,8 +12,8 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame | None = None, critical
     """Draw sweeps over acceleration and z0, and mark `critical_height` (m)."""
     figure = style.figure(style.PAGE, 72.0)
     sweeps = style.drop_missing(euler=euler, converged=converged)
-    panels = figure.subplots(1, len(sweeps), sharex=True, sharey=True, squeeze=False)[0]
-    for axes, (role, sweep) in zip(panels, sweeps.items(), strict=True):
+    panels = style.method_panels(figure, sweeps, "initial height $z_0$ in mm", style.VELOCITY)
+    for axes, sweep in zip(panels, sweeps.values(), strict=True):
         curves = sweep.groupby("acceleration")
         # Without the palest end of the map, which would be lost on white.
         colours = colormaps["viridis"](np.linspace(0.0, 0.85, len(curves)))
@@ -21,9 +21,6 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame | None = None, critical
             axes.plot(1e3 * rows.z0, rows.mean_velocity, color=colour, linewidth=0.8, label=f"{acceleration:g} m/s²")
         if critical_height is not None:
             style.mark(axes, 1e3 * critical_height, f"{1e3 * critical_height:g} mm")
-        axes.set_title(style.PANELS[role])
-        axes.set_xlabel("initial height $z_0$ in mm")
-    panels[0].set_ylabel("mean feeding velocity in m/s")
     low, high = (pd.concat(sweeps.values()).mean_velocity.agg(name) for name in ("min", "max"))
     panels[0].set_ylim(1.15 * min(low, 0.0), 1.15 * high)
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside right center", title="$\\hat{a}$")

@@ -60,7 +60,7 @@ def plot(
             label="converged, back to the first state",
             **hollow,
         )
-    axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel("critical initial height $z_0$ in mm")
     axes.set_ylim(bottom=0.0)
     if edge.empty:

@@ -10,16 +10,13 @@ from figures import style
 def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, two_states: list[float]) -> Figure:
     """Draw sweeps over acceleration and z0, and shade the interval `two_states` (m/s²)."""
     figure = style.figure(style.PAGE, 66.0)
-    panels = figure.subplots(1, 2, sharex=True, sharey=True)
     sweeps = {"euler": euler, "converged": converged}
-    for axes, (role, sweep) in zip(panels, sweeps.items(), strict=True):
+    panels = style.method_panels(figure, sweeps, style.AMPLITUDE, style.VELOCITY)
+    for axes, sweep in zip(panels, sweeps.values(), strict=True):
         axes.axvspan(*two_states, color="0.93", linewidth=0.0)
         for state, rows in sweep.groupby("state"):
             colour = style.STATE_COLOURS[state]
             axes.plot(rows.acceleration, rows.mean_velocity, ".", markersize=2.0, markeredgewidth=0.0, color=colour)
-        axes.set_title(style.PANELS[role])
-        axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
-    panels[0].set_ylabel("mean feeding velocity in m/s")
     panels[0].set_ylim(bottom=0.0)
     wanted = Patch(color="0.93", label="two states wanted")
     panels[0].legend(handles=[*style.state_handles(euler, converged), wanted], loc="upper left")

@@ -11,7 +11,7 @@ def plot(*, map: pd.DataFrame) -> Figure:
     figure = style.figure(style.COLUMN, 70.0)
     axes = figure.subplots()
     style.state_map(axes, map.assign(z0=1e3 * map.z0), "acceleration", "z0")
-    axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel("initial height $z_0$ in mm")
     figure.legend(handles=style.state_handles(map), loc="outside upper center", ncols=4)
     return figure

@@ -10,13 +10,10 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame | None = None) -> Figur
     """Draw sweeps over z0."""
     figure = style.figure(style.PAGE, 60.0)
     sweeps = style.drop_missing(euler=euler, converged=converged)
-    panels = figure.subplots(1, len(sweeps), sharex=True, sharey=True, squeeze=False)[0]
+    panels = style.method_panels(figure, sweeps, "initial height $z_0$ in mm", style.VELOCITY)
     for axes, (role, rows) in zip(panels, sweeps.items(), strict=True):
         colour = style.CURVES[role]["color"]
         axes.plot(1e3 * rows.z0, rows.mean_velocity, ".-", color=colour, linewidth=0.4, markersize=2.5)
         axes.set_title(f"{style.PANELS[role]}, $\\hat{{a}}$ = {rows.attrs['model']['acceleration']:g} m/s²")
-        axes.set_xlabel("initial height $z_0$ in mm")
-    panels[0].set_ylabel("mean feeding velocity in m/s")
-    for axes in panels:
         style.from_zero(axes)
     return figure

@@ -24,26 +24,13 @@ def plot(
         axes.plot(table.acceleration, table["lambda"], color=colour, linewidth=0.8)
         if len(between):
             axes.axvspan(between.min(), between.max(), color="0.88", linewidth=0.0, zorder=0)
-            axes.annotate(
-                "two basins",
-                (between.max(), 0.08),
-                xycoords=("data", "axes fraction"),
-                xytext=(3, 0),
-                textcoords="offset points",
-                va="center",
-                size=7.0,
+            style.note(
+                axes, "two basins", (between.max(), 0.08), (3, 0), xycoords=("data", "axes fraction"), va="center"
             )
         if first_positive is not None:
             axes.axvline(first_positive, color="black", linewidth=0.6, linestyle=":")
-            axes.annotate(
-                f"{first_positive:g} m/s²",
-                (first_positive, 0.0),
-                xytext=(-3, -9),
-                textcoords="offset points",
-                ha="right",
-                size=7.0,
-            )
+            style.note(axes, f"{first_positive:g} m/s²", (first_positive, 0.0), (-3, -9), ha="right")
         axes.set_title(style.PANELS[role], color=colour)
         axes.set_ylabel("exponent of $z_p$ in 1/s")
-    panels[-1].set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    panels[-1].set_xlabel(style.AMPLITUDE)
     return figure

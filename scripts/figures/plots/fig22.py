@@ -18,7 +18,7 @@ def plot(
         axes.plot(table.acceleration, table["lambda"], label=style.PANELS[role], **look)
     if critical_acceleration is not None:
         style.mark(axes, critical_acceleration, f"{critical_acceleration:g} m/s²")
-    axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel("Lyapunov exponent of $\\dot{x}_p$ in 1/s")
     style.legend_above(figure, axes, ncols=2)
     return figure

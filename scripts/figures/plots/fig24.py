@@ -59,7 +59,7 @@ def plot(
     ends = [table.dimension + sign * table.error for table in tables.values() for sign in (-1.0, 1.0)]
     low, high = pd.concat(ends).min(), pd.concat(ends).max()
     axes.set_ylim(low - 0.12 * (high - low), high + 0.04 * (high - low))
-    axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel("dimension of the phase portrait")
     style.legend_above(figure, axes)
     return figure

@@ -24,15 +24,14 @@ def plot(*, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame,
     flat = valley[valley.error <= paper_error]
 
     errors.axhline(1e6 * paper_error**0.5, color="black", linewidth=0.6, linestyle=":")
-    errors.annotate(
+    style.note(
+        errors,
         "the paper",
         (1.0, 1e6 * paper_error**0.5),
+        (0, -2),
         xycoords=("axes fraction", "data"),
-        xytext=(0, -2),
-        textcoords="offset points",
         ha="right",
         va="top",
-        size=7.0,
     )
     fits = ((fit, style.CONVERGED, "converged data"), (fit_euler, style.EULER, "by the paper's method"))
     for table, colour, label in fits:
@@ -68,7 +67,7 @@ def plot(*, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame,
     heights.plot(
         edge.acceleration, 1e3 * edge.z0, ".", color="black", markersize=2.0, markeredgewidth=0.0, label="data"
     )
-    heights.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    heights.set_xlabel(style.AMPLITUDE)
     heights.set_ylabel("critical initial height $z_0$ in mm")
     heights.legend()
     for axes, letter in zip((errors, triples, heights), "abc", strict=True):

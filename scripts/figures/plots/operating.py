@@ -44,7 +44,7 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
         amplitudes, by_amplitude.mean_velocity.min(), color="0.5", linewidth=0.8, linestyle=":", label="slowest motion"
     )
     velocities.axhline(0.0, color="black", linewidth=0.4, zorder=0)
-    velocities.set_ylabel("mean feeding velocity in m/s")
+    velocities.set_ylabel(style.VELOCITY)
 
     share.fill_between(
         best.acceleration,
@@ -57,7 +57,7 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
     share.plot(best.acceleration, 100.0 * best.best_share, color="black", drawstyle="steps-mid")
     share.set_ylim(0.0, 104.0)
     share.set_ylabel("starts that get the\nfastest motion in %")
-    share.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    share.set_xlabel(style.AMPLITUDE)
     share.set_xlim(amplitudes[0], amplitudes[-1])
     figure.align_ylabels([velocities, share])
     handles = [Patch(**look, label=regime) for regime, look in LOOKS.items() if (regimes.regime == regime).any()]

@@ -8,6 +8,7 @@ from figures import style
 
 MM = 1e3
 SHADE = "0.93"
+OF_AXES = ("data", "axes fraction")
 
 
 def attractors(axes: Axes, strobes: pd.DataFrame) -> None:
@@ -40,21 +41,6 @@ def exponents(axes: Axes, spectrum: pd.DataFrame, estimate: pd.DataFrame) -> Non
     axes.legend(loc="lower left", bbox_to_anchor=(0.06, 0.56))
 
 
-def said(axes: Axes, x: float, height: float, text: str) -> None:
-    """A line at x, and what it means, left of it."""
-    axes.axvline(x, color="black", linewidth=0.6, linestyle=":")
-    axes.annotate(
-        text,
-        (x, height),
-        xycoords=("data", "axes fraction"),
-        xytext=(-2, 0),
-        textcoords="offset points",
-        ha="right",
-        va="top",
-        size=7.0,
-    )
-
-
 def plot(
     *,
     strobes: pd.DataFrame,
@@ -68,10 +54,7 @@ def plot(
 ) -> Figure:
     """Shade amplitudes from `critical_acceleration` (m/s²) on, and draw exponents above `lowest_exponent` (1/s)."""
     figure = style.figure(style.PAGE, 96.0)
-    both = figure.subplots(1, 2, width_ratios=(2.0, 1.0))
-    for axes in both:
-        axes.remove()
-    grid = both[0].get_gridspec()
+    grid = figure.add_gridspec(1, 2, width_ratios=(2.0, 1.0))
     left = grid[0].subgridspec(2, 1, height_ratios=(1.5, 1.0))
     diagram = figure.add_subplot(left[0])
     below = figure.add_subplot(left[1], sharex=diagram)
@@ -85,28 +68,20 @@ def plot(
         axes.axvspan(critical_acceleration, accumulation, color=SHADE, zorder=-1)
         axes.axvline(fold, color="black", linewidth=0.6, linestyle=":")
         axes.axvline(accumulation, color="black", linewidth=0.6, linestyle=":")
-    diagram.annotate(
-        "two stable motions",
-        (fold, 0.97),
-        xycoords=("data", "axes fraction"),
-        xytext=(2, 0),
-        textcoords="offset points",
-        va="top",
-        size=7.0,
-    )
-    said(diagram, accumulation, 0.97, "doublings\naccumulate")
-    below.annotate(
+    style.note(diagram, "two stable motions", (fold, 0.97), (2, 0), xycoords=OF_AXES, va="top")
+    style.note(diagram, "doublings\naccumulate", (accumulation, 0.97), (-2, 0), xycoords=OF_AXES, ha="right", va="top")
+    style.note(
+        below,
         "called\nchaos",
         (0.5 * (critical_acceleration + accumulation), 0.97),
-        xycoords=("data", "axes fraction"),
+        xycoords=OF_AXES,
         ha="center",
         va="top",
-        size=7.0,
     )
     diagram.tick_params(labelbottom=False)
     below.set_ylim(lowest_exponent, 1.5 * spectrum.lambda_1.max())
     below.set_xlim(strobes.acceleration.min(), strobes.acceleration.max())
-    below.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    below.set_xlabel(style.AMPLITUDE)
 
     style.state_map(starts, map.assign(z0=MM * map.z0), "z0", "psi0")
     style.phase_axis(starts.yaxis)

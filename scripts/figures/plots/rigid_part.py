@@ -20,7 +20,7 @@ def draw_velocities(axes: Axes, rows: pd.DataFrame) -> None:
         of = rows[rows.model == model]
         axes.plot(of.acceleration, of.mean_velocity, marker, color=colour, markersize=1.8, markeredgewidth=0)
     axes.set_title(f"start at $z_0$ = {1e3 * rows.z0.iloc[0]:g} mm")
-    axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    axes.set_xlabel(style.AMPLITUDE)
 
 
 def plot(*, rigid: pd.DataFrame) -> Figure:
@@ -31,7 +31,7 @@ def plot(*, rigid: pd.DataFrame) -> Figure:
     low, high = velocities.z0.min(), velocities.z0.max()
     for name, height in (("low", low), ("high", high)):
         draw_velocities(panels[name], velocities[velocities.z0 == height])
-    panels["low"].set_ylabel("mean feeding velocity in m/s")
+    panels["low"].set_ylabel(style.VELOCITY)
     panels["high"].sharey(panels["low"])
 
     places = panels["places"]
@@ -41,17 +41,16 @@ def plot(*, rigid: pd.DataFrame) -> Figure:
         if model == "contact":
             for bifurcation in found.itertuples():
                 fold = bifurcation.kind == "fold"
-                places.annotate(
+                style.note(
+                    places,
                     "fold" if fold else ORDINALS.get(bifurcation.number, str(bifurcation.number)),
                     (bifurcation.acceleration, row),
-                    xytext=(0, 5),
-                    textcoords="offset points",
+                    (0, 5),
                     ha="left" if bifurcation.number == len(ORDINALS) else "right",
-                    size=7.0,
                 )
     places.set_yticks([])
     places.set_ylim(len(MODELS) - 0.5, -0.8)
-    places.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    places.set_xlabel(style.AMPLITUDE)
     places.grid(axis="x", linewidth=0.3)
     style.legend_above(figure, places, ncols=3, fontsize=7.0)
     return figure

@@ -1,4 +1,4 @@
-"""What sweeps take: cost of a point, points in a second and memory of jobs, over points, threads and shards; peers."""
+"""What sweeps take: cost of a point, points in a second and memory of jobs, over points, threads and shards."""
 
 import numpy as np
 import pandas as pd
@@ -46,9 +46,7 @@ def over_counts(axes: Axes, rows: pd.DataFrame, varied: str, rates: pd.Series) -
     axes.plot(counts, rates, "o-", color=MAPS)
     if varied == "threads":
         axes.plot(counts, rates[0] * counts / counts[0], color="black", linewidth=0.6, linestyle=":")
-        axes.annotate(
-            "in proportion", (counts[-1], rates[0] * counts[-1] / counts[0]), ha="right", va="bottom", size=7.0
-        )
+        style.note(axes, "in proportion", (counts[-1], rates[0] * counts[-1] / counts[0]), ha="right", va="bottom")
     else:
         axes.set_xscale("log")
     axes.set_xticks(counts, [f"{count}" for count in counts])
@@ -57,35 +55,10 @@ def over_counts(axes: Axes, rows: pd.DataFrame, varied: str, rates: pd.Series) -
     axes.set_ylim(0.0, 1.1 * max(np.max(line.get_ydata()) for line in axes.lines))
 
 
-def name_of(method: str, treatment: str) -> str:
-    """The name of a bar: that of the method, and what its treatment says behind a comma."""
-    return ",\n".join([style.METHODS[method][1], *treatment.split(", ")[1:]])
-
-
-def beside_peers(axes: Axes, table: pd.DataFrame) -> None:
-    """Starts that a thread follows to their end in a second by each method, with the error of what it finds."""
-    rows = table[table.outcome == "ok"].iloc[::-1]
-    rates = ((rows.starts - rows.failed) / rows.seconds).to_numpy()
-    axes.barh(
-        [name_of(row.method, row.treatment) for row in rows.itertuples()],
-        rates,
-        color=[style.METHODS[method][0] for method in rows.method],
-        height=0.6,
-    )
-    for place, (one, row) in enumerate(zip(rates, rows.itertuples(), strict=True)):
-        label = f" {float(f'{one:.3g}'):g}/s, error {row.velocity_error:.0e}".replace("e-0", "e-")
-        axes.annotate(label + (f", {row.failed} given up" if row.failed else ""), (one, place), va="center", size=7.0)
-    axes.set_xscale("log")
-    axes.set_xlim(0.5 * rates[rates > 0.0].min(), 50.0 * rates.max())
-    axes.set_xlabel(f"starts followed for {table.attrs['duration']:g} s, per second of one thread")
-
-
-def plot(*, scaling: pd.DataFrame, throughput: pd.DataFrame) -> Figure:
-    """Draw costs of sweeps and the throughput of other programs."""
-    figure = style.figure(style.PAGE, 150.0)
-    rows = figure.add_gridspec(3, 2, height_ratios=(3, 3, 2))
-    left, right, threads, shards = (figure.add_subplot(rows[place]) for place in ((0, 0), (0, 1), (1, 0), (1, 1)))
-    beside_peers(figure.add_subplot(rows[2, :]), throughput)
+def plot(*, scaling: pd.DataFrame) -> Figure:
+    """Draw costs of sweeps."""
+    figure = style.figure(style.PAGE, 112.0)
+    (left, right), (threads, shards) = figure.subplots(2, 2)
     over_points(left, right, scaling)
     rows = scaling[scaling.varied == "threads"].sort_values("threads")
     over_counts(threads, rows, "threads", rows.computed / rows.computing_seconds)

@@ -110,14 +110,7 @@ def chart(axes: Axes, curves: pd.DataFrame, meetings: pd.DataFrame, parameter: s
     own = curves[curves.parameter == "angle"]
     if len(own):
         axes.axvline(own[group].iloc[0], color="black", linewidth=0.5, linestyle=":")
-        axes.annotate(
-            "this conveyor",
-            (own[group].iloc[0], 0.02),
-            xycoords=("data", "axes fraction"),
-            xytext=(2, 0),
-            textcoords="offset points",
-            size=7.0,
-        )
+        style.note(axes, "this conveyor", (own[group].iloc[0], 0.02), (2, 0), xycoords=("data", "axes fraction"))
     axes.set_xscale("log")
     axes.set_yscale("log")
     low, high = 0.15, 5.0

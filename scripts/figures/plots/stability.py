@@ -2,7 +2,6 @@
 
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -24,17 +23,7 @@ SMALLEST = 1e-18  # of a slip on a logarithmic axis
 
 def draw_map(axes: Axes, rows: pd.DataFrame, panel: str) -> None:
     """Outcome over the step and one other quantity, with the theoretical limit of stability."""
-    codes = rows.assign(code=rows.outcome.map(list(OUTCOMES).index)).pivot(index="y", columns="x", values="code")
-    axes.pcolormesh(
-        codes.columns.to_numpy(),
-        codes.index.to_numpy(),
-        codes.to_numpy(),
-        cmap=ListedColormap(list(OUTCOMES.values())),
-        vmin=-0.5,
-        vmax=len(OUTCOMES) - 0.5,
-        shading="nearest",
-        rasterized=True,
-    )
+    style.class_map(axes, rows.pivot(index="y", columns="x", values="outcome"), OUTCOMES)
     theory = rows.groupby("y").theory.first()
     axes.plot(theory, theory.index, **LIMIT)
     axes.set_xscale("log")
@@ -85,7 +74,7 @@ def draw_chatter(axes: Axes, table: pd.DataFrame) -> None:
     for method, label in {"euler": "Euler", "event": "this solver"}.items():
         rows = table[(table.panel == "chatter") & (table.method == method)]
         axes.loglog(rows.x, rows.y.clip(lower=SMALLEST), ".-", color=style.METHODS[method][0])
-        axes.annotate(label, (rows.x.iloc[0], rows.y.iloc[0]), xytext=(0, 5), textcoords="offset points", size=7.0)
+        style.note(axes, label, (rows.x.iloc[0], rows.y.iloc[0]), (0, 5))
     axes.set_xlabel("step in s")
     axes.set_ylabel("slip in stick in m/s")
 
@@ -97,13 +86,12 @@ def draw_hard(axes: Axes, table: pd.DataFrame) -> None:
         rows = table[table.panel == case].set_index("method")
         for method in ("euler", "event"):
             axes.semilogx(rows.y[method], place, "o", color=style.METHODS[method][0], markersize=4.0)
-        axes.annotate(
+        style.note(
+            axes,
             f"{case.removeprefix('hard: ')}; Euler: {rows.outcome['euler']}",
             (0.02, place),
+            (0, 4),
             xycoords=("axes fraction", "data"),
-            xytext=(0, 4),
-            textcoords="offset points",
-            size=7.0,
         )
     axes.set_ylim(len(cases) - 0.5, -0.9)
     axes.set_xlim(1e-15, 1e2)

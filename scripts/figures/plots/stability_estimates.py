@@ -59,14 +59,13 @@ def draw_dimensions(axes: Axes, rows: pd.DataFrame, column: str, label: str) -> 
             elinewidth=0.5,
         )
         if estimator == "boxes, as in the paper":
-            axes.annotate(
+            style.note(
+                axes,
                 NAMES.get(case, case),
                 (line[column].iloc[-1], line.value.iloc[-1]),
-                xytext=(-2, 3 if case == "chaos" else -3),
-                textcoords="offset points",
+                (-2, 3 if case == "chaos" else -3),
                 va="bottom" if case == "chaos" else "top",
                 ha="right",
-                size=7.0,
             )
     for truth in rows.truth.dropna().unique():
         axes.axhline(truth, **TRUTH)

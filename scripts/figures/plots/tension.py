@@ -2,7 +2,6 @@
 
 import numpy as np
 import pandas as pd
-from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
 from figures import style
@@ -32,36 +31,23 @@ def plot(*, sweep: pd.DataFrame, edge: pd.DataFrame) -> Figure:
             )
         rows = edge[(edge.tension == mode) & edge.is_critical]
         panels["edge"].plot(rows.acceleration, 1e3 * rows.z0, color=colour, linestyle=dashes, linewidth=width)
-    panels["velocity"].set_ylabel("mean feeding velocity in m/s")
+    panels["velocity"].set_ylabel(style.VELOCITY)
     panels["velocity"].set_ylim(bottom=0.0)
     panels["velocity"].set_title("motions with the period of the excitation")
     panels["edge"].set_ylabel("critical initial height in mm")
     panels["edge"].set_title("first state below, second above")
     for name in ("velocity", "edge"):
-        panels[name].set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+        panels[name].set_xlabel(style.AMPLITUDE)
 
-    axes, names = panels["states"], list(style.STATE_COLOURS)
+    axes = panels["states"]
     bars = [(mode, z0) for mode in MODES for z0 in sorted(sweep.z0.unique())]
-    amplitudes = np.sort(sweep.acceleration.unique())
-    codes = [
-        sweep[(sweep.tension == mode) & (sweep.z0 == z0)].sort_values("acceleration").state.map(names.index)
-        for mode, z0 in bars
-    ]
-    axes.pcolormesh(
-        amplitudes,
-        np.arange(len(bars)),
-        np.array(codes),
-        cmap=ListedColormap(list(style.STATE_COLOURS.values())),
-        vmin=-0.5,
-        vmax=len(names) - 0.5,
-        shading="nearest",
-        rasterized=True,
-    )
+    states = sweep.pivot(index=["tension", "z0"], columns="acceleration", values="state").loc[bars]
+    style.class_map(axes, states.reset_index(drop=True), style.STATE_COLOURS)
     for line in np.arange(1.5, len(bars) - 1.0, 2.0):
         axes.axhline(line, color="white", linewidth=2.0)
     axes.set_yticks(np.arange(len(bars)), [f"{MODES[mode][0]}, $z_0$ = {1e3 * z0:g} mm" for mode, z0 in bars])
     axes.invert_yaxis()
-    axes.set_xlabel("acceleration amplitude $\\hat{a}$ in m/s²")
+    axes.set_xlabel(style.AMPLITUDE)
     handles = [*panels["velocity"].get_legend_handles_labels()[0], *style.state_handles(sweep)]
     figure.legend(handles=handles, loc="outside upper center", ncols=3)
     return figure

@@ -78,16 +78,7 @@ def draw_failures(axes: Axes, table: pd.DataFrame, x: str) -> None:
         colour, _ = style.METHODS[method]
         least, most = failed[x].min(), failed[x].max()
         axes.plot([least, most], [line] * 2, color=colour, linewidth=0.8, marker="|", markersize=2.5)
-        axes.annotate(
-            FAILURES[outcome],
-            (most, line),
-            xytext=(3.0, 0.0),
-            textcoords="offset points",
-            color=colour,
-            size=7.0,
-            va="center",
-            annotation_clip=False,
-        )
+        style.note(axes, FAILURES[outcome], (most, line), (3.0, 0.0), color=colour, va="center", annotation_clip=False)
 
 
 def panel(axes: Axes, table: pd.DataFrame, x: str, y: str, paper_step: float) -> None:

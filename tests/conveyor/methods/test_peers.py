@@ -4,16 +4,15 @@ import numpy as np
 import pytest
 from project import read_config
 
-from accuracy import precision
 from conveyor.methods import peers
-from conveyor.solver.model import pack
+from pipeline import grid
 
 CONFIG = read_config()
 
 
 def scene(name):
     """The packed parameters of a scene of the config."""
-    return pack(*precision.scene({"model": CONFIG["model"] | CONFIG["precision"]["scenes"][name]}))
+    return grid.packed(CONFIG["model"] | CONFIG["precision"]["scenes"][name])
 
 
 @pytest.mark.parametrize("tolerance", [1e-6, 1e-8])
