@@ -86,7 +86,7 @@ def deepest(
 ) -> np.ndarray:
     """Largest penetration (m) at MOMENTS equidistant times of runs that take `durations` (s, shape (n,)).
 
-    Shape (n,); NaN for a run that does not reach its end. The other parameters are those of sweep.run.
+    Shape (n,); NaN for a run that does not reach its end. The other parameters are those of ensemble.run.
     """
     depths = np.empty(len(parameters))
 

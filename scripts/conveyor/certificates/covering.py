@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, arb_mat
 
-from ..analysis.orbits import ReturnMap
+from ..analysis.bifurcations.periodic_orbits import ReturnMap
 from .balls import Refused, between, middle
 from .law import Law
 from .motion import Accuracy, follow

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..analysis import stroboscope
+from ..analysis import stroboscopic_map
 from ..solver import contact
 from ..solver.model import PARAMETERS
 from ..solver.trajectory import OK
@@ -59,7 +59,7 @@ class Motion:
         }
         parameters = np.array([float(given.get(name, 0.0)) for name in PARAMETERS])
         self.constants, self.nodes = contact.constants(parameters, TOLERANCE), nodes
-        self.series, self.features = contact.workspace(), np.zeros(stroboscope.FEATURES)
+        self.series, self.features = contact.workspace(), np.zeros(stroboscopic_map.FEATURES)
 
     def piece(self, node: int, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """(δ, Y) at the next node, and its derivative, shape (2, 2)."""
@@ -68,7 +68,7 @@ class Motion:
         state = start.copy()
         state[1] -= c.damping * max(state[0], 0.0)
         begin = c.psi0 + turn * (node % self.nodes)
-        if stroboscope.advance(c, self.series, state, begin, turn, tangent, self.features) != OK:
+        if stroboscopic_map.advance(c, self.series, state, begin, turn, tangent, self.features) != OK:
             raise Refused("floating point cannot follow the motion")
         state[1] += c.damping * max(state[0], 0.0)
         return state, tangent.T
