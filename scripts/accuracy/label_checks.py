@@ -3,8 +3,8 @@
 import numpy as np
 
 from accuracy.settling_times import starts
-from conveyor.analysis import states
-from conveyor.analysis.known_attractors import known_attractors
+from conveyor.analysis.attractors import labels
+from conveyor.analysis.attractors.search import find_attractors
 from conveyor.solver.progress import bar
 from pipeline import fields
 
@@ -23,34 +23,32 @@ TABLES = {
 }
 
 
-def different(found: states.Motions, other: states.Motions) -> int:
+def different(found: labels.Labels, other: labels.Labels) -> int:
     """Number of starts whose state or period differ."""
     return int(np.count_nonzero((found.state != other.state) | (found.period != other.period)))
 
 
-def together(parts: list[states.Motions]) -> states.Motions:
-    """Motions of several starts below each other."""
-    return states.Motions(*map(np.concatenate, zip(*parts, strict=True)))
+def together(parts: list[labels.Labels]) -> labels.Labels:
+    """Labels of several starts below each other."""
+    return labels.Labels(*map(np.concatenate, zip(*parts, strict=True)))
 
 
 def row(acceleration: float, settings: dict, model: dict, options: dict) -> dict:
     """The comparison at one amplitude (m/s²)."""
     rows = starts(acceleration, settings, model)
-    known = known_attractors(rows, **options)
-    found = states.classify(rows, known=known, **options)
-    backwards = states.classify(rows[::-1], known=known, **options)
-    alone = [states.classify(rows[k : k + 1], known=known, **options) for k in range(len(rows))]
+    known = find_attractors(rows, **options)
+    found = labels.classify(rows, known=known, **options)
+    backwards = labels.classify(rows[::-1], known=known, **options)
+    alone = [labels.classify(rows[k : k + 1], known=known, **options) for k in range(len(rows))]
     few = slice(0, settings["unshared"])
     return {
         "acceleration": acceleration,
         "starts": len(rows),
         "chaotic": int(np.count_nonzero(found.state == "chaos")),
-        "reversed": different(found, states.Motions(*(column[::-1] for column in backwards))),
+        "reversed": different(found, labels.Labels(*(column[::-1] for column in backwards))),
         "alone": different(found, together(alone)),
         "unshared_starts": len(rows[few]),
-        "unshared": different(
-            states.Motions(*(column[few] for column in found)), states.classify(rows[few], **options)
-        ),
+        "unshared": different(labels.Labels(*(column[few] for column in found)), labels.classify(rows[few], **options)),
     }
 
 

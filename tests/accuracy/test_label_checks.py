@@ -26,7 +26,7 @@ def test_each_start_earns_its_own_label():
 
 def test_a_label_that_depends_on_the_order_is_seen(monkeypatch):
     """One that goes by the place in the list."""
-    true = label_checks.states.classify
+    true = label_checks.labels.classify
 
     def by_place(rows, **options):
         found = true(rows, **options)
