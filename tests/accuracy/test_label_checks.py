@@ -32,7 +32,7 @@ def test_a_label_that_depends_on_the_order_is_seen(monkeypatch):
         found = true(rows, **options)
         return found._replace(period=found.period + (rows[0, -2] > rows[-1, -2]))
 
-    monkeypatch.setattr(label_checks.states, "classify", by_place)
+    monkeypatch.setattr(label_checks.labels, "classify", by_place)
     few = SETTINGS | {"acceleration": [40.0]}
     table = pd.DataFrame(label_checks.make(few))
     assert table.reversed.tolist() == [8]

@@ -186,7 +186,7 @@ event.register("numba:compile", type("Listener", (event.Listener,), {
 })())
 
 from conveyor import Conveyor, Start
-from conveyor.analysis import states
+from conveyor.analysis.attractors import labels
 from conveyor.solver.model import pack
 
 labels.classify(np.array([pack(Conveyor(), Start(1e-6 * k)) for k in range(8)]), cycles=3)

@@ -74,10 +74,8 @@ def test_tests_of_bifurcations_are_determinants(branch):
     kinds = set()
     for orbit in branch.orbits[::10]:
         less_one = returns.residual(returns.scaled(orbit.acceleration, orbit.state))[1]
-        assert periodic_orbits.fold_test(orbit) == pytest.approx(np.linalg.det(less_one), abs=1e-6)
-        assert periodic_orbits.doubling_test(orbit) == pytest.approx(
-            np.linalg.det(less_one + 2.0 * np.eye(2)), abs=1e-6
-        )
+        assert continuation.fold_test(orbit) == pytest.approx(np.linalg.det(less_one), abs=1e-6)
+        assert continuation.doubling_test(orbit) == pytest.approx(np.linalg.det(less_one + 2.0 * np.eye(2)), abs=1e-6)
         kinds.add(orbit.multipliers[0].imag == 0.0)
     assert kinds == {True, False}
 
