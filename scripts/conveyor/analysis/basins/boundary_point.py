@@ -16,7 +16,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..bifurcations.bifurcation_points import FARTHEST, ITERATIONS, derivatives, solve
+from ..bifurcations.bifurcation_points import FARTHEST, ITERATIONS, derivatives
+from ..bifurcations.newton import newton, solve
 from ..dimensionless_groups import AMPLITUDE, DAMPING, EXPONENT, HEIGHT, NAMES, PHASE, STIFFNESS, VELOCITY, Groups
 
 # Images followed before a saddle is looked for, and the longest period of one, in cycles.
@@ -108,16 +109,12 @@ def find_saddle(launch: InitialCondition, groups: Groups) -> tuple[int, np.ndarr
 
 def find_fixed_point(groups: Groups, state: np.ndarray, period: int, psi0: float) -> np.ndarray | None:
     """The fixed point (x, y) of Pⁿ that Newton's iteration finds from a state, or None."""
-    here = np.array(state, dtype=np.float64)
-    for _ in range(ITERATIONS):
+
+    def step_at(here):
         found = derivatives(groups, here, period, psi0)
-        step = None if found is None else solve(found.first[:, :2] - np.eye(2), here - found.image)
-        if step is None or not np.abs(step).max() < FARTHEST:
-            return None
-        here = here + step
-        if np.abs(step).max() < CONVERGED:
-            return here
-    return None
+        return None if found is None else solve(found.first[:, :2] - np.eye(2), here - found.image)
+
+    return newton(step_at, state, converged=CONVERGED, iterations=ITERATIONS, largest=FARTHEST)
 
 
 def find_boundary_point(launch: InitialCondition, groups: Groups, unknown: int) -> BoundaryPoint | str:

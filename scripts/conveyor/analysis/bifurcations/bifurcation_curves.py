@@ -22,7 +22,8 @@ import numpy as np
 from scipy.optimize import root
 
 from ..dimensionless_groups import Groups
-from .bifurcation_points import GRAZING, SIGNS, Point, derivatives, find_bifurcation, solve, system, touch
+from .bifurcation_points import GRAZING, SIGNS, Point, derivatives, find_bifurcation, system, touch
+from .newton import follow_curve, newton, solve
 
 CONVERGED, ITERATIONS = 1e-10, 12
 FARTHEST = 1.0  # what a correction may move a point
@@ -110,20 +111,14 @@ class Following:
 
     def correct(self, guess: np.ndarray, direction: np.ndarray) -> np.ndarray | None:
         """The point of the curve in the plane through `guess` normal to `direction`, or None."""
-        unknown = guess.copy()
-        for _ in range(ITERATIONS):
+
+        def step_at(unknown):
             found = self.system(unknown)
             if found is None:
                 return None
-            step = solve(np.vstack([found[1], direction]), -np.append(found[0], direction @ (unknown - guess)))
-            if step is None:
-                return None
-            unknown = unknown + step
-            if not np.linalg.norm(unknown - guess) < FARTHEST:
-                return None
-            if np.abs(step).max() < CONVERGED:
-                return unknown
-        return None
+            return solve(np.vstack([found[1], direction]), -np.append(found[0], direction @ (unknown - guess)))
+
+        return newton(step_at, guess, converged=CONVERGED, iterations=ITERATIONS, farthest=FARTHEST)
 
     def halving(self, unknown: np.ndarray) -> np.ndarray:
         """(x, y) half a period later, less (x, y): it passes zero where the orbit's period halves."""
@@ -243,18 +238,10 @@ def follow_grazing(
 
 def _side(following, begin, direction, limits, longest_step, most):
     """Unknowns in the order in which they are met, and the reason of the end."""
-    here, unknowns = begin, [begin]
-    tangent = following.tangent(here, direction)
-    length = min(FIRST_STEP, longest_step)
-    while tangent is not None:
-        there = following.correct(here + length * tangent, tangent)
-        onwards = None if there is None else following.tangent(there, tangent)
-        # A step that turns sharply may have jumped to another curve.
-        if onwards is None or onwards @ tangent < STRAIGHT or np.linalg.norm(there - here) > 1.2 * length:
-            length *= 0.5
-            if length < SMALLEST_STEP:
-                return unknowns, STEP
-            continue
+    unknowns = [begin]
+    lengths = {"first": min(FIRST_STEP, longest_step), "smallest": SMALLEST_STEP, "largest": longest_step}
+    steps = follow_curve(following.correct, following.tangent, begin, direction, **lengths, straight=STRAIGHT)
+    for here, there, _, onwards, length in steps:
         if following.period % 2 == 0 and following.halving(here) @ following.halving(there) < 0.0:
             return unknowns, HALVED
         unknowns.append(there)
@@ -264,9 +251,7 @@ def _side(following, begin, direction, limits, longest_step, most):
             return [*unknowns, begin], CLOSED
         if len(unknowns) > most:
             return unknowns, LENGTH
-        here, tangent = there, onwards
-        length = min(1.3 * length, longest_step)
-    return unknowns, LOST
+    return unknowns, LOST if following.tangent(begin, direction) is None else STEP
 
 
 def _meetings(following, unknowns, forms, rights, impacts, ends) -> Iterable[CodimensionTwoPoint]:

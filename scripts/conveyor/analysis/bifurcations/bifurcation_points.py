@@ -18,6 +18,7 @@ from ...solver.model import PSI0
 from ...solver.trajectory import OK
 from .. import second_derivatives, stroboscopic_map
 from ..dimensionless_groups import Groups, groups_of, packed, units
+from .newton import newton, solve
 
 TOLERANCE = 1e-14
 # Newton's iteration: its last correction; below what, and how often, corrections that shrink no more are round-off (at
@@ -135,28 +136,14 @@ def touching(
 
 def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups) -> Point | None:
     """The bifurcation that Newton's iteration finds from a guess of its unknowns, or None."""
-    here, size, stagnant = np.array(unknown, dtype=np.float64), math.inf, 0
-    for _ in range(ITERATIONS):
+
+    def step_at(here):
         found = system(kind, period, here, groups)
-        step = None if found is None else solve(found[1][:, : len(here)], -found[0])
-        if step is None:
-            return None
-        here += step
-        previous, size = size, np.abs(step).max()
-        if not size < FARTHEST:
-            return None
-        stagnant += previous < STAGNANT and size > 0.1 * previous
-        if size < CONVERGED or stagnant == OFTEN:
-            return Point(kind, period, here, groups._replace(amplitude=float(here[-1])))
-    return None
+        return None if found is None else solve(found[1][:, : len(here)], -found[0])
 
-
-def solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray | None:
-    """The solution of a linear system, or None for a singular one."""
-    try:
-        return np.linalg.solve(matrix, right)
-    except np.linalg.LinAlgError:
-        return None
+    limits = {"largest": FARTHEST, "stagnant": STAGNANT, "often": OFTEN}
+    here = newton(step_at, unknown, converged=CONVERGED, iterations=ITERATIONS, **limits)
+    return None if here is None else Point(kind, period, here, groups._replace(amplitude=float(here[-1])))
 
 
 def moves(point: Point) -> np.ndarray | None:

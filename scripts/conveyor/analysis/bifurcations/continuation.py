@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
+from .newton import follow_curve
 from .periodic_orbits import Orbit, ReturnMap
 
 SAME = 1e-5  # orbits this close are one, in scaled unknowns
@@ -77,18 +78,10 @@ def _follow(parameters, orbit, limits, direction):
     returns = ReturnMap(parameters, orbit.period)
     here = returns.scaled(orbit.acceleration, orbit.state)
     beginning = returns.strobes(here)
-    tangent = returns.tangent(here, direction)
     orbits, bifurcations = [orbit], []
-    length = FIRST_STEP
-    while len(orbits) < MAX_ORBITS:
-        there = returns.correct(here + length * tangent, tangent)
-        following = None if there is None else returns.tangent(there, tangent)
-        # A step that turns sharply may have jumped to another branch.
-        if there is None or not following @ tangent > STRAIGHT or np.linalg.norm(there - here) > 1.2 * length:
-            length *= 0.5
-            if length < SMALLEST_STEP:
-                return orbits, bifurcations, "step", None
-            continue
+    lengths = {"first": FIRST_STEP, "smallest": SMALLEST_STEP, "largest": LARGEST_STEP}
+    steps = follow_curve(returns.correct, returns.tangent, here, direction, **lengths, straight=STRAIGHT)
+    for here, there, tangent, _, length in steps:
         if orbit.period % 2 == 0 and returns.halving(here) @ returns.halving(there) < 0.0:
             half = ReturnMap(parameters, orbit.period // 2)
             unknown = half.newton(0.5 * (here + there))
@@ -101,9 +94,9 @@ def _follow(parameters, orbit, limits, direction):
         aside = np.linalg.norm(beginning - here - advance[:, None] * tangent, axis=1)
         if len(orbits) > 3 and ((advance > 0.0) & (advance <= length) & (aside < 0.1 * length)).any():
             return orbits, bifurcations, "closed", None
-        here, tangent = there, following
-        length = min(1.3 * length, LARGEST_STEP)
-    return orbits, bifurcations, "length", None
+        if len(orbits) == MAX_ORBITS:
+            return orbits, bifurcations, "length", None
+    return orbits, bifurcations, "step", None
 
 
 def bifurcations_between(parameters: np.ndarray, before: Orbit, after: Orbit) -> list[Bifurcation]:

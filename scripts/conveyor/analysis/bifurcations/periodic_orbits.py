@@ -4,7 +4,6 @@ An orbit of period n is a fixed point of the n-th power of the stroboscopic map 
 """
 
 import cmath
-import math
 from collections.abc import Iterable
 from functools import reduce
 from typing import NamedTuple
@@ -15,6 +14,7 @@ from ...solver import contact
 from ...solver.model import ACCELERATION, DAMPING, MASS
 from ...solver.trajectory import OK
 from .. import stroboscopic_map
+from .newton import newton, solve
 
 TOLERANCE = 1e-13
 AMPLITUDE_STEP = 1e-6  # m/s², of the central difference ∂P/∂â
@@ -94,34 +94,26 @@ class ReturnMap:
         ahead = np.array([0.0, 0.0, AMPLITUDE_STEP])
         return (self.strobes(unknown + ahead)[-1, :2] - self.strobes(unknown - ahead)[-1, :2]) / (2.0 * AMPLITUDE_STEP)
 
-    def newton(self, unknown: np.ndarray, iterations: int = 30) -> np.ndarray | None:
-        """The fixed point that Newton's iteration at constant â finds from `unknown`, or None."""
-        unknown, size = unknown.copy(), math.inf
-        for _ in range(iterations):
-            residual, jacobian = self.residual(unknown)
-            step = _solve(jacobian, -residual)
-            unknown[:2] += step
-            previous, size = size, np.abs(step).max()
-            if not size < 1e3:
-                return None
-            # Close to the solution steps that shrink no more are round-off, which a long unstable orbit amplifies.
-            if size < CONVERGED or (previous < STAGNANT and size > 0.1 * previous):
-                return unknown
-        return None
+    def newton(self, guess: np.ndarray) -> np.ndarray | None:
+        """The fixed point that Newton's iteration at constant â finds from a guess, or None."""
 
-    def correct(self, guess: np.ndarray, direction: np.ndarray, iterations: int = 10) -> np.ndarray | None:
+        def step_at(unknown):
+            residual, jacobian = self.residual(unknown)
+            step = solve(jacobian, -residual)
+            return None if step is None else np.append(step, 0.0)
+
+        # Steps of a long unstable orbit end in round-off, which it amplifies.
+        return newton(step_at, guess, converged=CONVERGED, iterations=30, largest=1e3, stagnant=STAGNANT)
+
+    def correct(self, guess: np.ndarray, direction: np.ndarray) -> np.ndarray | None:
         """The fixed point in the plane through `guess` normal to `direction`, a unit vector, or None."""
-        unknown = guess.copy()
-        for _ in range(iterations):
+
+        def step_at(unknown):
             residual, jacobian = self.residual(unknown)
             system = np.vstack([np.column_stack([jacobian, self.slope(unknown)]), direction])
-            step = _solve(system, -np.append(residual, direction @ (unknown - guess)))
-            unknown = unknown + step
-            if not np.linalg.norm(unknown - guess) < 10.0:
-                return None
-            if np.abs(step).max() < CONVERGED:
-                return unknown
-        return None
+            return solve(system, -np.append(residual, direction @ (unknown - guess)))
+
+        return newton(step_at, guess, converged=CONVERGED, iterations=10, farthest=10.0)
 
     def tangent(self, unknown: np.ndarray, previous: np.ndarray) -> np.ndarray:
         """Unit vector along the branch through a fixed point, pointing on from `previous`."""
@@ -154,14 +146,6 @@ class ReturnMap:
             contact_time=float(features[:, stroboscopic_map.CONTACT_TIME].sum()),
             longest_flight=float(flights.max() / self.cycle),
         )
-
-
-def _solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """The solution of a linear system; NaN for a singular one (an orbit that never touches the plate)."""
-    try:
-        return np.linalg.solve(matrix, right)
-    except np.linalg.LinAlgError:
-        return np.full(len(right), np.nan)
 
 
 def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, period: int) -> Orbit | None:
