@@ -47,6 +47,15 @@ FUNCTIONS = {
     "Conveyor": {name: getattr(Conveyor(), name) for name in (*NUMBERS, "tension")},
     "Start": {"z": 0.0, "vz": 0.0},
 }
+# A perturbation underflows within one cycle.
+OVERDAMPED = {
+    "frequency": 7.14,
+    "angle": 0.056,
+    "acceleration": 51.8,
+    "damping": 1.12,
+    "mass": 1.45e-4,
+    "exponent": 1.0,
+}
 RUN = simulation.simulate(Conveyor(), duration=0.02)
 METHODS = {"mean_velocity": {"last": 0.5}, "sample": {"times": [0.0, 0.01]}}
 
@@ -101,7 +110,9 @@ def test_odd_arguments_of_a_run_are_named(name):
             call(getattr(RUN, name), name, METHODS[name], {argument: odd})
 
 
-@pytest.mark.parametrize("extreme", [{"damping": 1e6, "mass": 1e-12}, {"damping": 0.0}, {"acceleration": 0.0}])
+@pytest.mark.parametrize(
+    "extreme", [OVERDAMPED, {"damping": 1e6, "mass": 1e-12}, {"damping": 0.0}, {"acceleration": 0.0}]
+)
 def test_no_exponent_is_missing_without_a_reason(extreme):
     call(conveyor.lyapunov_spectrum, "lyapunov_spectrum", FUNCTIONS["lyapunov_spectrum"], extreme)
 

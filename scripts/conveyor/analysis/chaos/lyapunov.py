@@ -116,6 +116,8 @@ def spectrum(
     for_each_chunk(work, len(parameters), threads=threads, chunk=4, progress=progress)
     period = 1.0 / parameters[:, FREQUENCY]
     values, errors = stretching.exponents(stretches, blocks)
+    # Where damping is so strong that a perturbation underflows within a cycle, no exponent is known.
+    codes[(codes == trajectory.OK) & ~np.isfinite(values).all(axis=1)] = trajectory.NOT_FINITE
     lambda_1, lambda_2 = (values / period[:, None]).T
     contact_fraction = contact_times.mean(axis=1) / period
     return Spectrum(lambda_1, lambda_2, errors[:, 0] / period, contact_fraction, np.array(trajectory.STATUS)[codes])
