@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from accuracy.random_conveyors import around_the_paper, deepest, deepest_allowed, whole_ranges
 from conveyor import ensemble
-from conveyor.analysis.random_conveyors import around_the_paper, deepest, deepest_allowed, whole_ranges
 from conveyor.solver.model import FREQUENCY, PARAMETERS, TENSION, TENSION_MODES
 from pipeline import fields
 

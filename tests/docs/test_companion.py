@@ -16,8 +16,8 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
+from accuracy.random_conveyors import around_the_paper
 from conveyor.analysis.attractors import labels
-from conveyor.analysis.random_conveyors import around_the_paper
 from conveyor.methods import fixed_step
 from conveyor.simulation import Run, simulate
 from conveyor.solver import model

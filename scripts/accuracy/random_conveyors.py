@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
-from ..solver import model, trajectory
-from ..solver.horizontal import Z
-from ..solver.model import RANGES, Conveyor
-from ..solver.parallel import for_each_chunk
+from conveyor.solver import model, trajectory
+from conveyor.solver.horizontal import Z
+from conveyor.solver.model import RANGES, Conveyor
+from conveyor.solver.parallel import for_each_chunk
 
 # Moments of a run at which the penetration is looked at.
 MOMENTS = 401
@@ -86,7 +86,7 @@ def deepest(
 ) -> np.ndarray:
     """Largest penetration (m) at MOMENTS equidistant times of runs that take `durations` (s, shape (n,)).
 
-    Shape (n,); NaN for a run that does not reach its end. The other parameters are those of ensemble.run.
+    Shape (n,); NaN for a run that does not reach its end. The other parameters are those of `ensemble.run`.
     """
     depths = np.empty(len(parameters))
 
