@@ -7,7 +7,7 @@ With the length g/ω² and the time 1/ω, the penetration x = δ ω²/g and its 
     Γ = a_z/g,   D = d_c/(m ω),   K = (k_c/m) g^(p-1)/ω^(2p),
 
 and p and the reading of tension. Nothing else enters: the angle of throw acts through a_z = â sin φ only, and neither
-friction nor the horizontal motion act at all. A start adds ψ0, z0 ω²/g and ż0 ω/g.
+friction nor the horizontal motion act at all. An initial condition adds ψ0, z0 ω²/g and ż0 ω/g.
 """
 
 import math
@@ -18,7 +18,7 @@ import numpy as np
 from ..solver import model
 from ..solver.model import PARAMETERS
 
-# The groups in the order of their derivatives; the last three are those of a start: z0 ω²/g, ż0 ω/g and ψ0.
+# The groups in the order of their derivatives. The last three, z0 ω²/g, ż0 ω/g and ψ0, are the initial condition.
 NAMES = ("amplitude", "damping", "stiffness", "exponent", "height", "velocity", "phase")
 AMPLITUDE, DAMPING, STIFFNESS, EXPONENT, HEIGHT, VELOCITY, PHASE = range(len(NAMES))
 # A conveyor whose units are those of its groups: g = 1, ω = 1, m = 1, φ = 90°.
@@ -70,7 +70,7 @@ def amplitude_of(parameters: np.ndarray, ratio: float) -> float:
 
 
 def start_of(parameters: np.ndarray) -> tuple[float, float, float]:
-    """The groups of a start: z0 ω²/g, ż0 ω/g and ψ0 (rad)."""
+    """The groups of an initial condition: z0 ω²/g, ż0 ω/g and ψ0 (rad)."""
     length, velocity = units(parameters)
     return float(parameters[model.Z0] / length), float(parameters[model.VZ0] / velocity), float(parameters[model.PSI0])
 

@@ -1,7 +1,7 @@
 """The stroboscopic map: the vertical motion over exactly one excitation cycle, and its linearisation.
 
-A state is the pair (δ, v) at the phase ψ0: penetration δ = z_s - z_p (m, negative in flight) and its rate v (m/s). It
-says everything, since contact is δ > 0 and the sign of the contact force follows from δ and v.
+A state is the pair (δ, v) at the phase ψ0: penetration δ = z_s - z_p (m, negative in flight) and its rate v (m/s). The
+pair determines the motion, since contact is δ > 0 and the sign of the contact force follows from δ and v.
 
 Perturbations are those of (δ, Y) with Y = v + (d_c/m) max(δ, 0), for which the equations of motion
 
@@ -24,7 +24,7 @@ from ..solver.polynomial import ORDER, SIZE
 from ..solver.trajectory import BEGIN_OF_CYCLE, IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, patience
 from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, begin, motion_at, next_piece, shortened
 
-# What a cycle is characterised by.
+# The features of a cycle.
 IMPACTS, CONTACT_TIME, LONGEST_FLIGHT, AIRBORNE = range(4)
 FEATURES = 4
 # Rows of a perturbation's expansion.
@@ -33,7 +33,7 @@ ETA, ZETA, RATE = range(3)
 
 @kernel
 def initial_state(parameters, tolerance, state):
-    """Fill `state`, shape (2,), with δ (m) and v (m/s) of the start in a packed parameter vector."""
+    """Fill `state`, shape (2,), with δ (m) and v (m/s) of the initial condition in a packed parameter vector."""
     c = contact.constants(parameters, tolerance)
     q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)
     state[0] = -q
@@ -211,7 +211,7 @@ def cycle(c, series, state, tangent, features):
 
 @kernel
 def to_begin_of_cycle(parameters, tolerance, states):
-    """Fill `states`, shape (n, 2), with those of the starts of `parameters` when the plate is next at its top."""
+    """Fill `states`, shape (n, 2), with the states that `parameters` lead to when the plate is next at its top."""
     series = contact.workspace()
     no_tangent = np.empty((0, 2))
     features = np.zeros(FEATURES)
@@ -227,7 +227,8 @@ def to_begin_of_cycle(parameters, tolerance, states):
 def follow(parameters, tolerance, state, cycles, strobes, features):
     """Advance `state` by a number of cycles.
 
-    What has come back to a state bit for bit repeats itself from then on, and is copied. Settled motions mostly do.
+    A motion that has come back to a state bit for bit repeats itself from then on, and is copied. Settled motions
+    mostly do.
 
     strobes : float64, shape (cycles, 2), filled with δ and v after each cycle
     features : float64, shape (cycles, 4), filled with the features of each cycle
@@ -301,18 +302,18 @@ def monodromy(parameters, tolerance, state, matrices, features):
 
 
 def initial_states(parameters: np.ndarray, tolerance: float) -> np.ndarray:
-    """Stroboscopic states (δ in m, v in m/s), shape (n, 2), of the starts in `parameters`, shape (n, 13)."""
+    """States (δ in m, v in m/s), shape (n, 2), of the initial conditions in `parameters`, shape (n, 13)."""
     states = np.empty((len(parameters), 2))
     for row, state in zip(parameters, states, strict=True):
         initial_state(row, tolerance, state)
     return states
 
 
-def starts_of_states(parameters: np.ndarray, states: np.ndarray, tolerance: float) -> np.ndarray:
-    """Parameter vectors, shape (n, 13), that start at stroboscopic states (δ in m, v in m/s), shape (n, 2)."""
-    starts = np.array(parameters, dtype=np.float64)
-    for row, (delta, v) in zip(starts, states, strict=True):
+def pack_states(parameters: np.ndarray, states: np.ndarray, tolerance: float) -> np.ndarray:
+    """Parameter vectors, shape (n, 13), that begin at stroboscopic states (δ in m, v in m/s), shape (n, 2)."""
+    packed = np.array(parameters, dtype=np.float64)
+    for row, (delta, v) in zip(packed, states, strict=True):
         c = contact.constants(row, tolerance)
         row[Z0] = -delta - c.a_z / c.omega**2 * np.cos(row[PSI0])
         row[VZ0] = c.a_z / c.omega * np.sin(row[PSI0]) - v
-    return starts
+    return packed

@@ -11,30 +11,30 @@ import numpy as np
 from ...solver.model import PARAMETERS, PSI0, VZ0, Z0
 
 BOXES = 256  # of a chaotic set, along each axis
-# ψ0 only shifts the phase at which one looks, the start is no part of a conveyor.
-START = (PSI0, Z0, VZ0)
-CONVEYOR = [place for place in range(len(PARAMETERS)) if place not in START]
+# Places of the initial condition; ψ0 only shifts the phase at which a motion is observed.
+INITIAL_CONDITION = (PSI0, Z0, VZ0)
+CONVEYOR = [place for place in range(len(PARAMETERS)) if place not in INITIAL_CONDITION]
 
 
-def without_starts(parameters: np.ndarray) -> np.ndarray:
-    """The conveyors of rows, shape (n, 13): their phases and starts are zero."""
+def without_initial_conditions(parameters: np.ndarray) -> np.ndarray:
+    """The conveyors of rows, shape (n, 13): their phases and initial conditions are zero."""
     conveyors = np.array(parameters, dtype=np.float64)
-    conveyors[:, START] = 0.0
+    conveyors[:, INITIAL_CONDITION] = 0.0
     return conveyors
 
 
-def distinct(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def distinct_conveyors(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The conveyors of rows, shape (n, 13), sorted, shape (m, 13), and the number of each row's, int64, shape (n,)."""
-    # In most ensembles the starts of a conveyor follow each other; rows are slow to sort, and to copy.
+    # In most ensembles rows of one conveyor follow each other; rows are slow to sort, and to copy.
     follows = np.arange(len(parameters)) > 0
     for column in CONVEYOR:
         follows[1:] &= parameters[1:, column] == parameters[:-1, column]
     first = np.flatnonzero(~follows)
-    conveyors, index = np.unique(without_starts(parameters[first]), axis=0, return_inverse=True)
+    conveyors, index = np.unique(without_initial_conditions(parameters[first]), axis=0, return_inverse=True)
     return conveyors, np.repeat(index, np.diff(np.append(first, len(parameters))))
 
 
-def places(conveyors: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+def find_places(conveyors: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """Where each of the `wanted` conveyors, shape (n, 13), finds what is known of it: int64, shape (n, 2).
 
     conveyors : float64, shape (m, 13), of what is known, equal ones side by side
@@ -48,19 +48,19 @@ def places(conveyors: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 
 
 class AttractingOrbits(NamedTuple):
-    """m periodic orbits, each with a neighbourhood from which all starts end in it; of one conveyor side by side."""
+    """m periodic orbits, each with a trapping region; those of one conveyor side by side."""
 
-    conveyors: np.ndarray  # float64, shape (m, 13), packed, their phases and starts zero
+    conveyors: np.ndarray  # float64, shape (m, 13), packed, their phases and initial conditions zero
     centres: np.ndarray  # float64, shape (m, 2), δ (m) and Y (m/s) of a point at trajectory.BEGIN_OF_CYCLE
-    factors: np.ndarray  # float64, shape (m, 3), upper triangle of R: the neighbourhood is |R (x - centre)| ≤ 1
+    factors: np.ndarray  # float64, shape (m, 3), upper triangle of R: the trapping region is |R (x - centre)| ≤ 1
     periods: np.ndarray  # int64, shape (m,), excitation cycles
     flights: np.ndarray  # float64, shape (m,), s, longest flight
 
 
 class ChaoticSets(NamedTuple):
-    """m chaotic sets; of one conveyor side by side."""
+    """m chaotic sets; those of one conveyor side by side."""
 
-    conveyors: np.ndarray  # float64, shape (m, 13), packed, their phases and starts zero
+    conveyors: np.ndarray  # float64, shape (m, 13), packed, their phases and initial conditions zero
     low: np.ndarray  # float64, shape (m, 2), lower corner of the boxes: δ (m), v (m/s) at trajectory.BEGIN_OF_CYCLE
     size: np.ndarray  # float64, shape (m, 2), of a box
     cells: np.ndarray  # bool, shape (m, BOXES, BOXES): visited, or next to one that is
@@ -77,11 +77,11 @@ class AttractorTable(NamedTuple):
 
         First orbit and the one behind the last one, first chaotic set and the one behind the last one.
         """
-        conveyors, index = distinct(parameters)
-        return np.hstack([places(table.conveyors, conveyors) for table in self])[index]
+        conveyors, index = distinct_conveyors(parameters)
+        return np.hstack([find_places(table.conveyors, conveyors) for table in self])[index]
 
 
-def orbits_of(conveyor: np.ndarray, found: list[tuple[np.ndarray, np.ndarray, int, float]]) -> AttractingOrbits:
+def orbit_table(conveyor: np.ndarray, found: list[tuple[np.ndarray, np.ndarray, int, float]]) -> AttractingOrbits:
     """The table of orbits of one conveyor, shape (13,), from the centre, factor, period and flight of each."""
     centres, factors, periods, flights = zip(*found, strict=True) if found else ((), (), (), ())
     return AttractingOrbits(
@@ -93,7 +93,7 @@ def orbits_of(conveyor: np.ndarray, found: list[tuple[np.ndarray, np.ndarray, in
     )
 
 
-def chaotic_sets_of(conveyor: np.ndarray, found: list[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> ChaoticSets:
+def chaotic_set_table(conveyor: np.ndarray, found: list[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> ChaoticSets:
     """The table of chaotic sets of one conveyor, shape (13,), from the `low`, `size` and `cells` of each."""
     low, size, cells = zip(*found, strict=True) if found else ((), (), ())
     return ChaoticSets(
@@ -104,7 +104,7 @@ def chaotic_sets_of(conveyor: np.ndarray, found: list[tuple[np.ndarray, np.ndarr
     )
 
 
-def together(parts: list[AttractorTable]) -> AttractorTable:
+def concatenate(parts: list[AttractorTable]) -> AttractorTable:
     """The tables of several conveyors below each other."""
     orbits, chaotic = zip(*parts, strict=True)
     return AttractorTable(
@@ -114,4 +114,4 @@ def together(parts: list[AttractorTable]) -> AttractorTable:
 
 
 _NO_CONVEYOR = np.zeros(len(PARAMETERS))
-NO_ATTRACTORS = AttractorTable(orbits_of(_NO_CONVEYOR, []), chaotic_sets_of(_NO_CONVEYOR, []))
+NO_ATTRACTORS = AttractorTable(orbit_table(_NO_CONVEYOR, []), chaotic_set_table(_NO_CONVEYOR, []))

@@ -1,7 +1,7 @@
 """Where the chaotic attractors of a conveyor lie: boxes of the stroboscopic plane that their motions visit.
 
-Long trajectories visit them. Another start that stays within them and their neighbours for many cycles in a row has
-come to the same attractor.
+Long trajectories visit them. Another trajectory that stays within them and their neighbours for many cycles in a
+row has come to the same attractor.
 """
 
 import numpy as np
@@ -9,15 +9,15 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from ..chaos import lyapunov
 from . import sampling
-from .attractor_table import BOXES, NO_ATTRACTORS, ChaoticSets, chaotic_sets_of, together
+from .attractor_table import BOXES, NO_ATTRACTORS, ChaoticSets, chaotic_set_table, concatenate
 from .sampling import Trajectories
 from .settling import OPEN, SETTLED
 
-LATE = 0.1  # of the time: a start that settles later shows that chaos is a long transient here
+LATE = 0.1  # of the time: a trajectory that settles later shows that chaos is a long transient here
 MOST = 4  # chaotic sets of one conveyor
 
 
-def boxes_of(strobes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def cover_by_boxes(strobes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Lower corner, shape (2,), size of a box, shape (2,), and which boxes are visited or next to one, for a motion."""
     low, high = strobes.min(axis=0), strobes.max(axis=0)
     size = (high - low) / (BOXES - 3)  # an empty one on either side
@@ -28,20 +28,20 @@ def boxes_of(strobes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return low, size, sliding_window_view(np.pad(visited, 1), (3, 3)).any(axis=(2, 3))
 
 
-def sets_of_conveyors(
+def find_chaotic_sets(
     conveyors: np.ndarray, sampled: list[Trajectories], cycles: int, tolerance: float
 ) -> list[ChaoticSets]:
     """The chaotic sets of conveyors, shape (n, 13): of motions that do not settle within twice `cycles`.
 
-    None of a conveyor on which a start settles late: then chaos is a transient, and every start has to be followed to
-    its own end. Trajectories of a conveyor are looked at one after the other, those of several conveyors side by side.
+    A conveyor on which a trajectory settles late has none: then chaos is a transient, and every trajectory has to be
+    followed to its own end. Trajectories of one conveyor follow each other, those of several run side by side.
     """
     candidates = [list(trajectories.states[trajectories.outcomes == OPEN]) for trajectories in sampled]
-    nothing = [chaotic_sets_of(row, []) for row in conveyors]
+    nothing = [chaotic_set_table(row, []) for row in conveyors]
     found = list(nothing)
 
     def search(rows: list[int], states: np.ndarray, length: int, strobes: np.ndarray | None = None) -> Trajectories:
-        known = together([NO_ATTRACTORS, *(NO_ATTRACTORS._replace(chaotic=found[k]) for k in rows)])
+        known = concatenate([NO_ATTRACTORS, *(NO_ATTRACTORS._replace(chaotic=found[k]) for k in rows)])
         return sampling.follow(conveyors[rows], states, length, tolerance, known, strobes)
 
     while any(candidates):
@@ -64,6 +64,6 @@ def sets_of_conveyors(
         for k, visited in zip(rows[stretches], strobes[goes_on][stretches], strict=True):
             known = found[k]
             if len(known.low) < MOST:
-                sets = [*zip(known.low, known.size, known.cells, strict=True), boxes_of(visited)]
-                found[k] = chaotic_sets_of(conveyors[k], sets)
+                sets = [*zip(known.low, known.size, known.cells, strict=True), cover_by_boxes(visited)]
+                found[k] = chaotic_set_table(conveyors[k], sets)
     return found

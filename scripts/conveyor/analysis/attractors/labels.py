@@ -1,12 +1,13 @@
-"""States of motion: first (moves with the plate), second (jumps), chaos; each with its period, none by guess.
+"""Labels: the state of motion that a trajectory ends in, first (moves with the plate), second (jumps) or chaos.
 
 A trajectory is followed from excitation cycle to excitation cycle until it repeats itself with a period of up to 64
-cycles; the longest flight of the repeated motion tells the first state from the second. What has not repeated itself
-after a given number of cycles is chaos if its own largest Lyapunov exponent is positive by then, beyond its standard
-error; else it is a regular motion of a longer period, or `undecided`. Every start is followed by itself: its label
-depends on nothing but its conveyor and itself. What starts of one conveyor may share is which attractors it has (see
-`search`): a start that has come so near to a periodic orbit that it must end there, or into chaos to stay, need
-not be followed to the end.
+cycles. The longest flight of the repeated motion tells the first state from the second. A trajectory that has not
+repeated itself after a given number of cycles is chaos if its own largest Lyapunov exponent is positive, beyond its
+standard error; otherwise it is a regular motion of a longer period, or `undecided`.
+
+A label depends on nothing but the conveyor and the initial condition. Trajectories on one conveyor may share its known
+attractors (see `search`): one that has come so near to a periodic orbit that it must end there, or into a chaotic set
+to stay, need not be followed further.
 """
 
 import math
@@ -26,25 +27,25 @@ FIRST, SECOND, CHAOS, UNDECIDED = range(len(STATES))
 
 # The second state spends most of a cycle in the air; micro-bounces of the first last a small part of it.
 LONG_FLIGHT = 0.5
-# Excitation cycles after which a start that has not settled is followed no further.
+# Excitation cycles after which a trajectory that has not settled is followed no further.
 CYCLES = 20_000
-# Starts that a thread takes at a time: the last of them leave lanes idle.
+# Trajectories that a thread takes at a time: the last of them leave lanes idle.
 TOGETHER = 2048
 
 
 class Labels(NamedTuple):
-    """The motions that n starts end in; every field has the shape (n,)."""
+    """The labels of n trajectories; every field has the shape (n,)."""
 
     state: np.ndarray  # str, one of STATES
     period: np.ndarray  # int64, excitation cycles; 0 for none, or none of up to settling.MAX_PERIOD
-    longest_flight: np.ndarray  # excitation cycles, of the settled motion; NaN for none
-    cycles: np.ndarray  # int64, excitation cycles that the start was followed for
+    longest_flight: np.ndarray  # excitation cycles, of a settled motion; NaN for none
+    cycles: np.ndarray  # int64, excitation cycles that the trajectory was followed for
 
 
 def continued(
     parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, duration: float, *, out: np.ndarray | None = None
 ) -> np.ndarray:
-    """Parameter vectors, shape (n, 13), whose starts are the ends of runs of `duration` (s) of `parameters`.
+    """Parameter vectors, shape (n, 13), that go on where runs of `duration` (s) of `parameters` ended.
 
     out : where they are written, which may be `parameters`; None for a new array
     """
@@ -67,13 +68,13 @@ def classify(
     threads: int = 1,
     progress: str | None = None,
 ) -> Labels:
-    """The motion that each start ends in.
+    """The label of each trajectory.
 
     Parameters
     ----------
     parameters : float64, shape (n, 13), rows as from model.pack; after a run, those of `continued`
-    cycles : excitation cycles after which a start that has not settled is followed no further
-    known : attractors of conveyors; with none of them each start is followed to its own end
+    cycles : excitation cycles after which a trajectory that has not settled is followed no further
+    known : attractors of conveyors; without them each trajectory is followed to its own end
     tolerance : of the contact steps
     threads, progress : as in ensemble.run
     """

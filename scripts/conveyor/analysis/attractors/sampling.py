@@ -1,6 +1,6 @@
-"""What motions a conveyor has: some starts that spread over all that a part may do, and where they lead.
+"""Sampled initial conditions of a conveyor, and the attractors that they lead to.
 
-Which ones they are depends on the conveyor alone, so that every start finds the same, whoever else asks.
+The samples depend on the conveyor alone, so that the attractors that are found do not depend on who asks.
 """
 
 import math
@@ -16,7 +16,7 @@ from . import settling_lanes
 from .attractor_table import NO_ATTRACTORS, AttractorTable
 
 SAMPLES = 32
-SETTLING = 400  # cycles within which a start that leads elsewhere than to chaos has mostly settled
+SETTLING = 400  # cycles within which a trajectory that does not end in chaos has mostly settled
 
 
 class Trajectories(NamedTuple):
@@ -51,7 +51,7 @@ def follow(
     known: AttractorTable = NO_ATTRACTORS,
     strobes: np.ndarray | None = None,
 ) -> Trajectories:
-    """Follow a motion of each of n conveyors, shape (n, 13), until it settles, at most `cycles`.
+    """Follow a trajectory on each of n conveyors, shape (n, 13), until it settles, for at most `cycles`.
 
     states : float64, shape (n, 2), δ (m), v (m/s) at trajectory.BEGIN_OF_CYCLE
     strobes : float64, shape (n, cycles, 2), filled with the states after each cycle
@@ -59,10 +59,10 @@ def follow(
     n = len(states)
     at_top = np.array(parameters)
     at_top[:, PSI0] = BEGIN_OF_CYCLE
-    starts = stroboscopic_map.starts_of_states(at_top, states, tolerance)
+    rows = stroboscopic_map.pack_states(at_top, states, tolerance)
     found = Trajectories(np.empty((n, 2)), *(np.empty(n, kind) for kind in (np.int64, np.int64, np.float64, np.int64)))
     strobes = np.empty((n, 0, 2)) if strobes is None else strobes
-    settling_lanes.settle_points(starts, tolerance, cycles, known, known.of(starts), tuple(found), strobes)
+    settling_lanes.settle_points(rows, tolerance, cycles, known, known.of(rows), tuple(found), strobes)
     return found
 
 

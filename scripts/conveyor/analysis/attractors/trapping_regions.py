@@ -1,4 +1,4 @@
-"""Attracting periodic orbits of a conveyor, and around each a neighbourhood from which all starts end in it.
+"""Attracting periodic orbits of a conveyor, and trapping regions: all motions from there end in the orbit.
 
 The stroboscopic map is a homeomorphism of the plane. A closed curve whose image lies inside another one takes what it
 surrounds inside as well, so that only its points need to be looked at. The first curve is an ellipse so small that the
@@ -16,7 +16,7 @@ from ...solver.jit import kernel
 from ...solver.model import PSI0
 from ...solver.trajectory import BEGIN_OF_CYCLE, OK
 from .. import stroboscopic_map
-from .attractor_table import AttractingOrbits, orbits_of
+from .attractor_table import AttractingOrbits, orbit_table
 from .sampling import Trajectories
 from .settling import SETTLED, measure
 
@@ -107,8 +107,8 @@ def neighbourhood(
     return (centre, factor / (0.5 * radius)) if radius > SMALLEST else None
 
 
-def orbits_of_conveyor(parameters: np.ndarray, trajectories: Trajectories, tolerance: float) -> AttractingOrbits:
-    """The attracting orbits of a conveyor, shape (13,), that trajectories have come to, each with a neighbourhood."""
+def find_attracting_orbits(parameters: np.ndarray, trajectories: Trajectories, tolerance: float) -> AttractingOrbits:
+    """The attracting orbits of a conveyor, shape (13,), that trajectories have come to, each with a trapping region."""
     c = contact.constants(parameters, tolerance)
     unit = np.array([c.gravity / c.omega**2, c.gravity / c.omega])
     at_top = parameters.copy()
@@ -125,4 +125,4 @@ def orbits_of_conveyor(parameters: np.ndarray, trajectories: Trajectories, toler
         around = neighbourhood(parameters, tolerance, state, period)
         if around is not None:
             found.append((*around, period, float(trajectories.flights[k])))
-    return orbits_of(parameters, found)
+    return orbit_table(parameters, found)

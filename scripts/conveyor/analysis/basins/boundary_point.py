@@ -1,14 +1,14 @@
-"""The edge of a basin as the stable manifold of a saddle, and how it moves: an implicit function.
+"""The boundary of a basin as the stable manifold of a saddle, and how it moves: an implicit function.
 
-A start on the edge between two states ends in neither: it comes to an orbit with one multiplier outside the unit circle
-and one inside, a saddle X_s. With l the left eigenvector of the unstable multiplier, the start and its images
-X_{k+1} = Pⁿ(X_k) are determined by
+An initial condition on the boundary between two basins leads to neither attractor. It leads to a saddle X_s, an orbit
+with one multiplier outside the unit circle and one inside. With l the left eigenvector of the unstable multiplier, the
+initial state and its images X_{k+1} = Pⁿ(X_k) are determined by
 
-    X_0 = start,   X_{k+1} - Pⁿ(X_k) = 0,   l·(X_N - X_s) = 0,
+    X_0 = initial state,   X_{k+1} - Pⁿ(X_k) = 0,   l·(X_N - X_s) = 0,
 
 an error of the order |X_N - X_s|², which shrinks like the stable multiplier to the power N. All images are unknowns,
 so that none of them is amplified by the unstable multiplier (multiple shooting). The last unknown is the height of the
-start or the amplitude at which it lies on the edge.
+initial condition or the amplitude at which it lies on the boundary.
 """
 
 import math
@@ -29,7 +29,7 @@ MOST = 200
 
 
 class InitialCondition(NamedTuple):
-    """A start in the units g/ω² and g/ω."""
+    """An initial condition in the units g/ω² and g/ω."""
 
     height: float  # z0 ω²/g
     velocity: float  # ż0 ω/g
@@ -37,14 +37,14 @@ class InitialCondition(NamedTuple):
 
 
 class BoundaryPoint(NamedTuple):
-    """A start on the edge of a basin."""
+    """An initial condition on the boundary of a basin."""
 
     launch: InitialCondition
     groups: Groups
     period: int  # of the saddle, excitation cycles
     saddle: np.ndarray  # (x, y) at the phase ψ0
     multipliers: tuple[float, float]  # of the saddle, the unstable one first
-    images: np.ndarray  # of the start, shape (N + 1, 2)
+    images: np.ndarray  # of the initial condition, shape (N + 1, 2)
     moves: (
         np.ndarray
     )  # derivatives of what was unknown by all groups in the order of groups.NAMES, shape (7,); its own 0
@@ -55,12 +55,12 @@ OTHERS = (DAMPING, STIFFNESS, EXPONENT, VELOCITY, PHASE)
 
 
 def launched(launch: InitialCondition, groups: Groups) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The scaled state (x, y) of a start at its phase, and its derivatives.
+    """The scaled state (x, y) of an initial condition at its phase, and its derivatives.
 
     Returns
     -------
     state, shape (2,); derivatives by (height, Γ), shape (2, 2), and by OTHERS, shape (2, 5): that by ψ0 is the one
-    of the state at the *unchanged* phase which the start with a changed one passes through
+    of the state at the *unchanged* phase which the motion with a changed one passes through
     """
     sine, cosine = math.sin(launch.psi0), math.cos(launch.psi0)
     x = -launch.height - groups.amplitude * cosine
@@ -85,7 +85,7 @@ def launched(launch: InitialCondition, groups: Groups) -> tuple[np.ndarray, np.n
 
 
 def find_saddle(launch: InitialCondition, groups: Groups) -> tuple[int, np.ndarray, int] | None:
-    """The saddle that a start comes nearest to: its period, (x, y), and after how many of its periods; or None."""
+    """The saddle that a trajectory comes nearest to: its period, (x, y), and after how many of its periods; or None."""
     state, _, _ = launched(launch, groups)
     found = derivatives(groups, state, SEARCHED, launch.psi0)
     if found is None:
@@ -94,7 +94,7 @@ def find_saddle(launch: InitialCondition, groups: Groups) -> tuple[int, np.ndarr
     nearest = []
     for period in range(1, LONGEST + 1):
         moved = np.linalg.norm(strobes[period:] - strobes[:-period], axis=1)
-        # The first of the closest returns: behind it lie those of the state that the start ends in.
+        # The first of the closest returns: behind it lie those of the attractor.
         turns = np.flatnonzero((moved[1:-1] < moved[:-2]) & (moved[1:-1] <= moved[2:])) + 1
         nearest += [(period, int(turn)) for turn in turns[:3]]
     for period, turn in nearest:
@@ -118,9 +118,9 @@ def find_fixed_point(groups: Groups, state: np.ndarray, period: int, psi0: float
 
 
 def find_boundary_point(launch: InitialCondition, groups: Groups, unknown: int) -> BoundaryPoint | str:
-    """The start on the edge of a basin next to a start that is nearly on it, or why there is none.
+    """The point of a basin's boundary next to an initial condition that is nearly on it, or why there is none.
 
-    unknown : groups.HEIGHT or groups.AMPLITUDE, what is changed so that the start lies on the edge
+    unknown : dimensionless_groups.HEIGHT or AMPLITUDE, which is changed until the motion begins on the boundary
     """
     near = find_saddle(launch, groups)
     if near is None:

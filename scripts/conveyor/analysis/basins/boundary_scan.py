@@ -1,6 +1,6 @@
-"""Edges of basins over the initial height: at which z0 does the state of motion that a part ends in change?
+"""Boundaries of basins over the initial height: at which z0 does the label change?
 
-A scan of z0 shows all changes between neighbours, bisection makes each of them sharp. More than one change is possible:
+A scan of z0 shows the changes between neighbours; bisection encloses each of them. More than one change is possible:
 seen along z0 the basins of the states are stripes, which become narrow where a state has just appeared.
 """
 
@@ -17,8 +17,8 @@ class Crossings(NamedTuple):
 
     point: np.ndarray  # int64, row of the conveyor
     height: np.ndarray  # m, the highest z0 found to lead to the state below
-    below: np.ndarray  # str, state of motion that starts just below lead to
-    above: np.ndarray  # str, and just above
+    below: np.ndarray  # str, label just below
+    above: np.ndarray  # str, label just above
 
 
 def find_crossings(

@@ -1,4 +1,4 @@
-"""The first impact (Eqs. 16 to 18), and the start on the plate from which the motion goes on in the same way."""
+"""The first impact (Eqs. 16 to 18), and the initial condition on the plate that leads to the same motion."""
 
 import math
 from typing import NamedTuple
@@ -15,9 +15,9 @@ TIME, VELOCITY, PHASE = range(3)
 
 
 class FirstImpact(NamedTuple):
-    """Time t1 (s), velocity ż1 of the part (m/s) and phase ψ1 = ωt1 + ψ0 (rad) of n starts; float64, shape (n,).
+    """Time t1 (s), velocity ż1 of the part (m/s) and phase ψ1 = ωt1 + ψ0 (rad) of n motions; float64, shape (n,).
 
-    A start on the plate that presses on it has t1 = 0; a start below the plate's surface has no impact, all three NaN.
+    A part that begins on the plate and presses on it has t1 = 0. One that begins below the surface has no impact: NaN.
     """
 
     time: np.ndarray
@@ -45,14 +45,14 @@ def fill_first_impacts(parameters, out):
 
 
 def first_impacts(parameters: np.ndarray) -> FirstImpact:
-    """First impacts of the starts in `parameters`, float64, shape (n, 13), rows as from model.pack."""
+    """First impacts of the initial conditions in `parameters`, float64, shape (n, 13), rows as from model.pack."""
     out = np.empty((len(parameters), 3))
     fill_first_impacts(np.ascontiguousarray(parameters, dtype=np.float64), out)
     return FirstImpact(*out.T)
 
 
 def on_conveyor(parameters: np.ndarray, impacts: FirstImpact) -> np.ndarray:
-    """The starts on the conveyor, shape (n, 13), with phase and velocity of the first impacts of `parameters`."""
+    """The same motions, shape (n, 13), begun on the conveyor with phase and velocity of their first impacts."""
     mapped = np.array(parameters, dtype=np.float64)
     mapped[:, PSI0] = impacts.phase % (2.0 * math.pi)
     mapped[:, Z0] = math.nan

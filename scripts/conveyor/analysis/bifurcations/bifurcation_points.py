@@ -62,8 +62,8 @@ def derivatives(
     count = second_derivatives.QUANTITIES if exponent else second_derivatives.EXPONENT
     first, second = np.empty((period, 2, count)), np.empty((period, 2, 2, count))
     states, impacts = np.empty((period, 2)), np.empty(period, dtype=np.int64)
-    start = velocity_for_y(groups, np.array(state, dtype=np.float64))
-    if second_derivatives.cycles(packed(groups, psi0), TOLERANCE, start, first, second, states, impacts) != OK:
+    begin = velocity_for_y(groups, np.array(state, dtype=np.float64))
+    if second_derivatives.cycles(packed(groups, psi0), TOLERANCE, begin, first, second, states, impacts) != OK:
         return None
     states[:, 1] += groups.damping * np.maximum(states[:, 0], 0.0)
     # What (x, y, Γ, D, K, p) at the begin does to itself later on, and to the second derivatives: the chain rule.

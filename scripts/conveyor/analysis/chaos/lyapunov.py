@@ -22,7 +22,7 @@ from . import stretching
 
 # Cycles within which a motion near its attractor repeats itself bit for bit, if it ever does.
 SETTLING = 400
-# Excitation cycles after which a sign is looked for: chaos mostly shows in the first look, weak chaos in the second.
+# Excitation cycles after which the sign is decided: chaos mostly shows after the first, weak chaos after the second.
 LOOKS = (400, 2000)
 BLOCKS = 20
 SIGNIFICANT = 3.0  # standard errors by which an exponent with a sign differs from zero
@@ -84,7 +84,7 @@ def spectrum(
     Parameters
     ----------
     parameters : float64, shape (n, 13), rows as from model.pack
-    states : float64, shape (n, 2), stroboscopic states to begin with (default: the starts in `parameters`)
+    states : float64, shape (n, 2), stroboscopic states to begin with (default: the initial conditions in `parameters`)
     begin_of_cycle : whether `states` are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
     transient : excitation cycles that are followed and not counted
     cycles, blocks : `blocks` ≥ 2 blocks of `cycles` excitation cycles are counted
@@ -132,7 +132,7 @@ def spectrum_from(
 
 
 def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threads: int = 1) -> np.ndarray:
-    """Whether the larger exponents of motions are positive, 1, or negative, -1, int64, shape (n,); 0 where none shows.
+    """The signs of the larger exponents of motions, 1 or -1, int64, shape (n,); 0 where neither is significant.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threa
     for cycles in LOOKS:
         rows = np.flatnonzero(found < 1)
         of_them = spectrum_from(parameters[rows], states[rows], cycles, tolerance=tolerance, threads=threads)
-        # A motion without a sign has a bad status, and NaN here; what a short look calls regular is looked at again.
+        # A failed motion has NaN here and keeps the sign 0. What is regular after few cycles is followed for more.
         different = np.abs(of_them.lambda_1) > SIGNIFICANT * of_them.stderr
         found[rows] = np.where(different, np.sign(of_them.lambda_1), 0.0)
     return found
@@ -187,8 +187,8 @@ def spectrum_on_attractors(
 ) -> Spectrum:
     """Both vertical Lyapunov exponents of motions that begin on their attractors, or close to them.
 
-    Those of a motion that repeats itself within SETTLING cycles, bit for bit, are told by its Floquet multipliers, and
-    their standard error is 0. The others are followed: see `spectrum`, with the same arguments.
+    A motion that repeats itself within SETTLING cycles, bit for bit, has the exponents of its Floquet multipliers,
+    with a standard error of 0. Any other motion is followed: see `spectrum`, with the same arguments.
     """
     states = stroboscopic_map.initial_states(parameters, tolerance)
     logarithms, contact_times = np.empty((len(parameters), 2)), np.empty(len(parameters))

@@ -85,7 +85,7 @@ def test_sweep_keeps_to_its_attractor():
         strobes, status = bifurcation_diagram.follow_attractor(parameters, transient=300, strobes=4, tolerance=1e-10)
         assert (status == "ok").all()
         assert np.ptp(strobes, axis=1) == pytest.approx(0.0, abs=1e-7)
-        starts = stroboscopic_map.starts_of_states(parameters, strobes[:, -1], 1e-10)
+        starts = stroboscopic_map.pack_states(parameters, strobes[:, -1], 1e-10)
         assert stroboscopic_map.initial_states(starts, 1e-10) == pytest.approx(strobes[:, -1], abs=1e-14)
         assert set(labels.classify(starts).state) == {state}
 
@@ -158,7 +158,7 @@ def test_chaos_that_some_starts_leave_late_is_no_attractor(cycles):
 @pytest.mark.parametrize("settles_after", [None, 3])
 def test_a_start_that_settles_in_the_second_half_settles_late(monkeypatch, settles_after):
     """A start at 80 m/s², where chaos is known; it is made to settle some cycles after the first half of the search."""
-    row, cycles = attractor_table.without_starts(random_starts(80.0, 1)), 2000
+    row, cycles = attractor_table.without_initial_conditions(random_starts(80.0, 1)), 2000
     follow, halves = sampling.follow, []
 
     def interrupted(parameters, states, count, *rest):
@@ -171,7 +171,7 @@ def test_a_start_that_settles_in_the_second_half_settles_late(monkeypatch, settl
 
     probed = sampling.sample_conveyors(row, sampling.SETTLING, 1e-8)
     monkeypatch.setattr(sampling, "follow", interrupted)
-    (found,) = chaotic_sets.sets_of_conveyors(row, probed, cycles, 1e-8)
+    (found,) = chaotic_sets.find_chaotic_sets(row, probed, cycles, 1e-8)
     assert (len(found.low) == 0 and len(halves) == 2) if settles_after else len(found.low) > 0
 
 
@@ -184,8 +184,8 @@ def test_conveyors_that_are_probed_side_by_side_do_not_disturb_each_other(monkey
     options = {"cycles": 2000, "tolerance": 1e-6}
     found = search.find_attractors(rows, **options)
     assert len(found.chaotic.low) >= 4
-    alone = [search.find_attractors(row[None], **options) for row in attractor_table.distinct(rows)[0]]
-    for table, wanted in zip(found, attractor_table.together(alone), strict=True):
+    alone = [search.find_attractors(row[None], **options) for row in attractor_table.distinct_conveyors(rows)[0]]
+    for table, wanted in zip(found, attractor_table.concatenate(alone), strict=True):
         for column, expected in zip(table, wanted, strict=True):
             np.testing.assert_array_equal(column, expected)
 

@@ -95,21 +95,21 @@ def test_places_of_conveyors_in_any_order():
     index = generator.integers(0, 3, 40)
     rows = of_each[index]
     rows[:, PSI0] = generator.uniform(0.0, 6.0, 40)
-    sorted_rows, numbers = attractor_table.distinct(rows)
+    sorted_rows, numbers = attractor_table.distinct_conveyors(rows)
     assert sorted_rows[:, 0].tolist() == [30.0, 40.0, 50.0]
-    np.testing.assert_array_equal(sorted_rows[numbers], attractor_table.without_starts(rows))
-    table = attractor_table.orbits_of(of_each[2], [(np.zeros(2), np.ones(3), 1, 0.0)] * 2)
-    places = attractor_table.places(np.concatenate([of_each[:1], table.conveyors]), sorted_rows)
+    np.testing.assert_array_equal(sorted_rows[numbers], attractor_table.without_initial_conditions(rows))
+    table = attractor_table.orbit_table(of_each[2], [(np.zeros(2), np.ones(3), 1, 0.0)] * 2)
+    places = attractor_table.find_places(np.concatenate([of_each[:1], table.conveyors]), sorted_rows)
     assert places.tolist() == [[0, 0], [1, 3], [0, 1]]
     places = attractor_table.AttractorTable(table, attractor_table.NO_ATTRACTORS.chaotic).of(rows)
     assert [tuple(places[k]) for k in range(40)] == [{0: (0, 0), 1: (0, 0), 2: (0, 2)}[k] + (0, 0) for k in index]
-    assert attractor_table.distinct(rows[:0])[0].shape == (0, 13)
+    assert attractor_table.distinct_conveyors(rows[:0])[0].shape == (0, 13)
 
 
 @pytest.mark.parametrize("name", [name for name in PARAMETERS if name not in ("psi0", "z0", "vz0")])
 def test_a_conveyor_is_another_one_if_any_parameter_is(name):
     rows = np.tile(conveyor_of(40.0), (4, 1))
     rows[2:, PARAMETERS.index(name)] += 1.0
-    sorted_rows, numbers = attractor_table.distinct(rows)
+    sorted_rows, numbers = attractor_table.distinct_conveyors(rows)
     assert numbers.tolist() == [0, 0, 1, 1]
-    np.testing.assert_array_equal(sorted_rows, attractor_table.without_starts(rows[::2]))
+    np.testing.assert_array_equal(sorted_rows, attractor_table.without_initial_conditions(rows[::2]))
