@@ -38,7 +38,7 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
     orbit, _ = periodic_orbits.settled_orbit(rows[0], settings["acceleration"], state, (1, 2, 4), 1000)
     cycle = 1.0 / model["frequency"]
     truth = math.log(abs(orbit.multipliers[0])) / (orbit.period * cycle)
-    here = stroboscopic_map.starts_of_states(rows, orbit.state[None], TOLERANCE)
+    here = stroboscopic_map.pack_states(rows, orbit.state[None], TOLERANCE)
     there = here.copy()
     unit = model["gravity"] / (2.0 * math.pi * model["frequency"]) ** 2
     there[:, Z0] += settings["epsilon"] * unit

@@ -13,4 +13,4 @@ def starts_on_attractors(strobes: pd.DataFrame, settings: dict) -> tuple[pd.Data
     _, parameters = grid.product({"acceleration": [0.0]}, settings["model"])
     parameters = np.repeat(parameters, len(last), axis=0)
     parameters[:, 0] = last.acceleration
-    return last, stroboscopic_map.starts_of_states(parameters, last[["delta", "v"]].to_numpy(), settings["tolerance"])
+    return last, stroboscopic_map.pack_states(parameters, last[["delta", "v"]].to_numpy(), settings["tolerance"])

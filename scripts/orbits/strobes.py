@@ -40,7 +40,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     for_each_chunk(work, len(BRANCHES), threads=threads, chunk=1)
     points, status = (np.stack(columns) for columns in zip(*swept, strict=True))
     rows = len(BRANCHES) * len(amplitudes)
-    starts = stroboscopic_map.starts_of_states(np.tile(upwards, (2, 1)), points[:, :, -1].reshape(rows, 2), tolerance)
+    starts = stroboscopic_map.pack_states(np.tile(upwards, (2, 1)), points[:, :, -1].reshape(rows, 2), tolerance)
     found = labels.classify(
         starts, cycles=settings["settling"], tolerance=tolerance, threads=threads, progress=progress
     )

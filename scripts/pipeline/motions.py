@@ -6,7 +6,7 @@ from functools import cache, partial
 
 import numpy as np
 
-from conveyor.analysis.attractors.attractor_table import NO_ATTRACTORS, AttractorTable, distinct
+from conveyor.analysis.attractors.attractor_table import NO_ATTRACTORS, AttractorTable, distinct_conveyors
 from conveyor.analysis.attractors.labels import Labels, classify, continued
 from conveyor.analysis.attractors.search import find_attractors
 from conveyor.simulation import DEFAULT_TOLERANCE
@@ -52,7 +52,7 @@ def search_beside(parameters: np.ndarray, settings: dict, threads: int) -> Calla
 
 def of_conveyors(parameters: np.ndarray) -> list[np.ndarray]:
     """Rows of `parameters`, shape (n, 13), in batches that hold all starts of their conveyors."""
-    _, conveyor = distinct(parameters)
+    _, conveyor = distinct_conveyors(parameters)
     order = np.argsort(conveyor, kind="stable")
     batch = conveyor[order] // CONVEYORS
     return np.split(order, np.flatnonzero(np.diff(batch)) + 1)
