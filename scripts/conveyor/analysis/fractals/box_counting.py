@@ -5,6 +5,7 @@ which there are fewer and fewer, and not from the points.
 """
 
 from collections.abc import Iterable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,6 +24,26 @@ NEIGHBOURS = 64  # boxes along a Z-curve that lie side by side in a hash table
 FRESH = 1 << 30  # numbers of boxes after which a hash table is cleared, as they have 32 bits
 # A set of points has parts, each in the one before: all, half, a quarter. A point of h halvings is in the first h + 1.
 PARTS = 3
+# Positions of each grid over which box counts are averaged, in boxes: a Fibonacci lattice. As 13 is odd, doubling only
+# changes their order: grids within each other have the same positions at each scale.
+SHIFTS = np.modf(np.arange(13)[:, None] * np.array([1.0, 8.0]) / 13.0)[0]
+
+
+class Samples(NamedTuple):
+    """Points and the grids in which they are counted."""
+
+    points: np.ndarray  # float64, shape (n, 2), in the unit square
+    halvings: np.ndarray  # int64, shape (n,), see PARTS
+    scales: np.ndarray  # float64, shape (k,), sizes of boxes, descending, each half of the one `step` before it
+    step: int  # one of k relates none to another
+
+
+class Workspace(NamedTuple):
+    """Arrays that chains of grids use again; see `merge`."""
+
+    owners: np.ndarray  # int32
+    boxes: np.ndarray  # int64, shape (n,)
+    deepest: np.ndarray  # int8, shape (n,)
 
 
 @inlined
@@ -93,7 +114,7 @@ def merge(boxes, deepest, n, owners, first):
 
 
 @kernel
-def count_chain(points, halvings, scales, finest, step, shift, owners, first, boxes, deepest, totals):
+def count_chain(samples, finest, shift, first, workspace, totals):
     """Add the numbers of boxes that hold a point of each part to `totals`, shape (PARTS, k), for a chain of grids.
 
     Its scales are number `finest`, the one `step` before it, of twice the size, and so on; of the last and largest one
@@ -101,19 +122,21 @@ def count_chain(points, halvings, scales, finest, step, shift, owners, first, bo
 
     Parameters
     ----------
+    samples, workspace : see Samples and Workspace
     first : as in `merge`; that of the next chain is returned
     """
-    n = len(points)
+    owners, boxes, deepest = workspace.owners, workspace.boxes, workspace.deepest
+    n = len(samples.points)
     # Slices would bring in the text functions of their errors, which take long to compile.
     if first > FRESH:
         for i in range(len(owners)):
             owners[i] = -1
         first = 0
-    positions = 2.0 ** (finest // step)
-    boxes_of(points, scales[finest], shift[0] * positions, shift[1] * positions, boxes)
+    positions = 2.0 ** (finest // samples.step)
+    boxes_of(samples.points, samples.scales[finest], shift[0] * positions, shift[1] * positions, boxes)
     for i in range(n):
-        deepest[i] = halvings[i]
-    for k in range(finest, -1, -step):
+        deepest[i] = samples.halvings[i]
+    for k in range(finest, -1, -samples.step):
         kept = merge(boxes, deepest, n, owners, first)
         first += n
         n = kept
@@ -125,27 +148,21 @@ def count_chain(points, halvings, scales, finest, step, shift, owners, first, bo
 
 
 @kernel
-def box_counts(points, halvings, scales, step, shifts, samples_per_box):
+def box_counts(samples, shifts, samples_per_box):
     """Mean numbers of occupied boxes over shifted grids for all points and their parts, shape (PARTS, k).
-
-    Parameters
-    ----------
-    points : shape (n, 2), in the unit square
-    halvings : of each point, int64, shape (n,)
-    scales, step : descending, shape (k,), each half of the one `step` before it; a step of k relates none to another
 
     Zero from the first scale on whose boxes hold fewer than `samples_per_box` samples that the finest scale tells
     apart; in a part as many fewer as it is smaller.
     """
+    n, scales, step = len(samples.points), samples.scales, samples.step
     length = NEIGHBOURS
-    while length < 2 * len(points):
+    while length < 2 * n:
         length *= 2
-    owners = np.empty(length, np.int32)
-    boxes, deepest = np.empty(len(points), np.int64), np.empty(len(points), np.int8)
+    workspace = Workspace(np.empty(length, np.int32), np.empty(n, np.int64), np.empty(n, np.int8))
     # One chain tells which scales may be resolved: none behind the one that is an octave finer than its last that is.
     totals = np.zeros((PARTS, len(scales)), np.int64)
     finest = len(scales) - 1
-    first = count_chain(points, halvings, scales, finest, step, shifts[0], owners, FRESH + 1, boxes, deepest, totals)
+    first = count_chain(samples, finest, shifts[0], FRESH + 1, workspace, totals)
     distinct = np.zeros(PARTS, np.int64)
     for part in range(PARTS):
         distinct[part] = totals[part, finest]
@@ -156,7 +173,7 @@ def box_counts(points, halvings, scales, step, shifts, samples_per_box):
     totals = np.zeros((PARTS, len(scales)), np.int64)
     for s in range(len(shifts)):
         for k in range(max(end - step, 0), end):
-            first = count_chain(points, halvings, scales, k, step, shifts[s], owners, first, boxes, deepest, totals)
+            first = count_chain(samples, k, shifts[s], first, workspace, totals)
     counts = np.zeros((PARTS, len(scales)))
     resolved = np.ones(PARTS, np.bool_)
     for k in range(end):
@@ -168,11 +185,6 @@ def box_counts(points, halvings, scales, step, shifts, samples_per_box):
         if not resolved[0]:
             break
     return counts
-
-
-# Positions of each grid over which box counts are averaged, in boxes: a Fibonacci lattice. As 13 is odd, doubling only
-# changes their order: grids within each other have the same positions at each scale.
-SHIFTS = np.modf(np.arange(13)[:, None] * np.array([1.0, 8.0]) / 13.0)[0]
 
 
 def box_dimension(points: np.ndarray) -> Dimension:
@@ -189,7 +201,8 @@ def box_dimension(points: np.ndarray) -> Dimension:
     points = points[np.random.default_rng(0).permutation(len(points))]
     order = along_boxes(points, FINEST_SCALE)
     halvings = np.sum([order < len(points) // part for part in (2, 4)], axis=0)
-    counts, half, quarter = box_counts(points[order], halvings, SCALES, SCALES_PER_OCTAVE, SHIFTS, SAMPLES_PER_BOX)
+    samples = Samples(points[order], halvings, SCALES, SCALES_PER_OCTAVE)
+    counts, half, quarter = box_counts(samples, SHIFTS, SAMPLES_PER_BOX)
     resolved = (counts > 0.0) & (half > 0.0) & (quarter > 0.0)
     scales, counts, half, quarter = (column[resolved] for column in (SCALES, counts, half, quarter))
     last, before = counts - half, half - quarter
@@ -206,7 +219,7 @@ def box_dimension_of_paper(points: np.ndarray, sizes: Iterable[float] = tuple(0.
     """
     # A copy lies in memory in its own order: `box_counts` would be compiled once more for a reversed view.
     scales = np.sort(np.asarray(sizes, dtype=np.float64))[::-1].copy()
-    unshifted = np.zeros((1, 2))
-    counts = box_counts(normalise(points), np.zeros(len(points), np.int64), scales, len(scales), unshifted, 0.0)[0]
+    samples = Samples(normalise(points), np.zeros(len(points), np.int64), scales, len(scales))
+    counts = box_counts(samples, np.zeros((1, 2)), 0.0)[0]
     (slope, _), covariance = np.polyfit(np.log(scales), np.log(counts), 1, cov=True)
     return Dimension(-slope, 2.0 * np.sqrt(covariance[0, 0]), scales[-1], scales[0], scales, counts)

@@ -8,7 +8,8 @@ from conveyor.analysis.fractals import box_counting
 
 def counts_of(points, scales, *arguments, step=None):
     """Box counts of points without parts, of scales that need not be related."""
-    return box_counting.box_counts(points, np.zeros(len(points), np.int64), scales, step or len(scales), *arguments)[0]
+    samples = box_counting.Samples(points, np.zeros(len(points), np.int64), scales, step or len(scales))
+    return box_counting.box_counts(samples, *arguments)[0]
 
 
 def test_box_counts_are_exact():
@@ -48,13 +49,14 @@ def test_grids_within_each_other_agree_with_sets_of_boxes():
 
 def test_a_hash_table_is_cleared_before_its_numbers_end():
     rng = np.random.default_rng(6)
-    points, scales = rng.random((200, 2)), np.array([0.2, 0.1, 0.05])
+    scales = np.array([0.2, 0.1, 0.05])
+    samples = box_counting.Samples(rng.random((200, 2)), np.zeros(200, np.int64), scales, 1)
     found = []
     for first in (0, box_counting.FRESH + 1):
         owners = np.full(512, np.iinfo(np.int32).max, np.int32) if first else np.full(512, -1, np.int32)
-        totals, boxes, deepest = np.zeros((3, 3), np.int64), np.empty(200, np.int64), np.empty(200, np.int8)
-        halvings, shift = np.zeros(200, np.int64), np.zeros(2)
-        after = box_counting.count_chain(points, halvings, scales, 2, 1, shift, owners, first, boxes, deepest, totals)
+        totals = np.zeros((3, 3), np.int64)
+        workspace = box_counting.Workspace(owners, np.empty(200, np.int64), np.empty(200, np.int8))
+        after = box_counting.count_chain(samples, 2, np.zeros(2), first, workspace, totals)
         found.append((after, totals.tolist()))
     assert found[0] == found[1]
 
@@ -66,7 +68,7 @@ def test_parts_are_counted_as_if_alone(scales, step):
     rng = np.random.default_rng(4)
     points, shifts = rng.random((3000, 2)) ** 2, rng.random((3, 2))
     halvings = rng.integers(0, 3, 3000)
-    found = box_counting.box_counts(points, halvings, scales, step, shifts, 5.0)
+    found = box_counting.box_counts(box_counting.Samples(points, halvings, scales, step), shifts, 5.0)
     for part in range(3):
         alone = counts_of(points[halvings >= part], scales, shifts, 5.0 / 2**part, step=step)
         resolved = found[part] > 0.0
