@@ -243,7 +243,7 @@ rule site:
     input:
         article=result("article.pdf"),
         companion=page("companion.html"),
-        pages=rules.site_pages.output,
+        pages=[*rules.site_pages.output, source("scripts/conveyor/README.md")],
         style=source("scripts/docs/site.css"),
         pdf=figure_files(),
         png=figure_files("png"),
