@@ -16,7 +16,7 @@ DEFAULT_TOLERANCE = 3e-10
 DEFAULT_STEP = 5e-7  # s, Sect. 3 of the paper
 LAST = 0.25  # share of the run over which the paper takes mean values (Sect. 3.1)
 LONGEST = 1e6  # s, of a run
-MOST_STEPS = 10**9  # fixed steps of a run, which take about half a minute
+MOST_STEPS = 10**10  # fixed steps of a run, which take minutes
 
 EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U14")])
 

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 import conveyor
-from conveyor import Conveyor, Start, interface, simulation
+from conveyor import Conveyor, Start, ensemble, interface, simulation
 from conveyor.parameters import RANGES
+from conveyor.solver.model import pack
 
 ODD = (
     *(float("nan"), float("inf"), -float("inf"), None, 1e308, -1e308, -1, 0, 10**30, 1e-308, True, 1j),
@@ -148,3 +149,10 @@ def test_a_basin_has_the_labels_of_its_initial_conditions():
     assert (found.state == alone.state).all()
     assert (found.period == alone.period).all()
     assert set(found.state.flat) == {"first", "second"}
+
+
+@pytest.mark.parametrize("argument", ["duration", "method", "tolerance", "step", "needs", "threads", "chunk"])
+def test_odd_arguments_of_ensembles_are_named(argument):
+    rows = np.array([pack(Conveyor(), Start())])
+    for odd in ODD:
+        call(ensemble.run, "run", {"parameters": rows, "duration": 0.01}, {argument: odd})
