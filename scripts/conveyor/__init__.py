@@ -1,4 +1,7 @@
-"""Dynamics of a point mass on a vibratory conveyor: exact events, and the analysis of the motion."""
+"""Dynamics of a point mass on a vibratory conveyor: exact events, and the analysis of the motion.
+
+`README.md` beside this file says how the library works and what to read first.
+"""
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
