@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from accuracy.timing import in_turns
-from conveyor.analysis import states
+from conveyor.analysis.attractors import labels
 from conveyor.methods import fixed_step, peers
 from conveyor.simulation import simulate
 from conveyor.solver.model import conveyor_motion, pack
@@ -109,8 +109,8 @@ def follow(method: Method, settings: dict) -> Result:
 def leads_to(settings: dict, end: np.ndarray) -> str:
     """State of motion that a run with this end leads to."""
     parameters = grid.packed(settings["model"])[None]
-    later = states.continued(parameters, end[1:2], end[2:3], settings["duration"])
-    return str(states.classify(later).state[0])
+    later = labels.continued(parameters, end[1:2], end[2:3], settings["duration"])
+    return str(labels.classify(later).state[0])
 
 
 def outcome(result: Result, error: float, settings: dict, state: str) -> str:

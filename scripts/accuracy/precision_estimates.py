@@ -5,8 +5,12 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis import dimension, lyapunov, orbits, regression, stroboscope
-from conveyor.analysis.known_sets import DIMENSIONS
+from conveyor.analysis import stroboscopic_map
+from conveyor.analysis.basins import hyperbola_fit
+from conveyor.analysis.bifurcations import periodic_orbits
+from conveyor.analysis.chaos import lyapunov
+from conveyor.analysis.fractals import box_counting, correlation_sum
+from conveyor.analysis.fractals.reference_sets import DIMENSIONS
 from conveyor.solver.model import Z0
 from pipeline import fields, grid
 
@@ -30,11 +34,11 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
     """Three estimates of the exponent of a settled orbit, which its Floquet multiplier tells exactly."""
     start = {name: [settings[name]] for name in ("acceleration", "z0")}
     _, rows = grid.product(start, model)
-    state = stroboscope.initial_states(rows, TOLERANCE)[0]
-    orbit, _ = orbits.settled_orbit(rows[0], settings["acceleration"], state, (1, 2, 4), 1000)
+    state = stroboscopic_map.initial_states(rows, TOLERANCE)[0]
+    orbit, _ = periodic_orbits.settled_orbit(rows[0], settings["acceleration"], state, (1, 2, 4), 1000)
     cycle = 1.0 / model["frequency"]
     truth = math.log(abs(orbit.multipliers[0])) / (orbit.period * cycle)
-    here = stroboscope.starts_of_states(rows, orbit.state[None], TOLERANCE)
+    here = stroboscopic_map.pack_states(rows, orbit.state[None], TOLERANCE)
     there = here.copy()
     unit = model["gravity"] / (2.0 * math.pi * model["frequency"]) ** 2
     there[:, Z0] += settings["epsilon"] * unit
@@ -70,9 +74,9 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
 def dimension_rows(settings: dict, seed: int) -> list[dict]:
     """Median error of both dimensions over sets of known dimension."""
     ways = {
-        "boxes": dimension.box_dimension,
-        "boxes, as in the paper": dimension.box_dimension_of_paper,
-        "correlation sum": lambda points: dimension.correlation_dimension(points, 0),
+        "boxes": box_counting.box_dimension,
+        "boxes, as in the paper": box_counting.box_dimension_of_paper,
+        "correlation sum": lambda points: correlation_sum.correlation_dimension(points, 0),
     }
     found = []
     for name, estimate in ways.items():
@@ -94,8 +98,8 @@ def fit_rows(settings: dict, data: pd.DataFrame, fit: dict, seed: int) -> list[d
     values = rows.acceleration.to_numpy(), rows.z0.to_numpy()
     bounds = {name: tuple(interval) for name, interval in fit["bounds"].items()}
     found = {
-        "CMA-ES (pymoo)": regression.fit_pymoo(*values, bounds, seed, settings["evaluations"]),
-        "least squares": regression.fit_least_squares(*values, bounds["B"]),
+        "CMA-ES (pymoo)": hyperbola_fit.fit_pymoo(*values, bounds, seed, settings["evaluations"]),
+        "least squares": hyperbola_fit.fit_least_squares(*values, bounds["B"]),
     }
     best = min(one.error for one in found.values())
     return [

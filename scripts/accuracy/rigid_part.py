@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis import states
+from conveyor.analysis.attractors import labels
 from conveyor.methods import rigid_part_motion
 from conveyor.methods.rigid_part_orbits import RigidOrbit, rigid_orbit
 from conveyor.solver.model import (
@@ -66,7 +66,7 @@ def state_of(row: np.ndarray, restitution: tuple[np.ndarray, np.ndarray], cycles
     times = times_of_periods(row, duration, MAX_PERIOD)
     samples, hits = rigid_part_motion.samples_and_impacts(row, times, restitution)
     flights = np.diff(hits[hits["time"] > duration - 2.0 * MAX_PERIOD * cycle]["time"])
-    if len(flights) == 0 or flights.max() < states.LONG_FLIGHT * cycle:
+    if len(flights) == 0 or flights.max() < labels.LONG_FLIGHT * cycle:
         return "first"
     return "second" if period_of(samples["z"], range(1, MAX_PERIOD + 1)) else "undecided"
 

@@ -24,7 +24,7 @@ import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 
-from conveyor.analysis import settling_lanes
+from conveyor.analysis.attractors import settling_lanes
 from conveyor.solver.progress import bar
 from pipeline import fields, tables
 from sweeps import shards

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from conveyor.analysis import states
+from conveyor.analysis.attractors import labels
 from conveyor.solver.model import PSI0, Z0
 from pipeline import fields, grid
 
@@ -35,7 +35,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     """The columns of the table of settling times, from the section of the config with model and tolerance."""
     amplitudes = settings["acceleration"]
     parameters = np.concatenate([starts(acceleration, settings, settings["model"]) for acceleration in amplitudes])
-    found = states.classify(
+    found = labels.classify(
         parameters, cycles=settings["cycles"], tolerance=settings["tolerance"], threads=threads, progress=progress
     )
     return {

@@ -8,9 +8,12 @@ import math
 
 import numpy as np
 
-from conveyor.analysis import dimension, lyapunov, orbits, stroboscope
-from conveyor.analysis.dimension import Dimension
-from conveyor.analysis.known_sets import DIMENSIONS
+from conveyor.analysis import stroboscopic_map
+from conveyor.analysis.bifurcations import periodic_orbits
+from conveyor.analysis.chaos import lyapunov
+from conveyor.analysis.fractals import box_counting, correlation_sum
+from conveyor.analysis.fractals.reference_sets import DIMENSIONS
+from conveyor.analysis.fractals.scaling_region import Dimension
 from conveyor.simulation import DEFAULT_TOLERANCE, simulate
 from conveyor.solver.model import PARAMETERS, unpack
 from conveyor.solver.progress import bar
@@ -52,8 +55,8 @@ def exponent_in_truth(case: dict, parameters: np.ndarray, model: dict) -> float:
     A shift of the phase is a shift in time and neither grows nor dies on an orbit; another perturbation follows the
     larger Floquet multiplier there, and both the larger Lyapunov exponent in chaos.
     """
-    state = stroboscope.initial_states(parameters, DEFAULT_TOLERANCE)[0]
-    orbit, _ = orbits.settled_orbit(parameters[0], case["acceleration"], state, PERIODS, SETTLING)
+    state = stroboscopic_map.initial_states(parameters, DEFAULT_TOLERANCE)[0]
+    orbit, _ = periodic_orbits.settled_orbit(parameters[0], case["acceleration"], state, PERIODS, SETTLING)
     if orbit is None:
         return float(lyapunov.spectrum(parameters, state[None]).lambda_1[0])
     if case["perturb"] == "psi0":
@@ -103,14 +106,14 @@ def portrait(parameters: np.ndarray, times: np.ndarray, method: str) -> np.ndarr
 
 def as_in_the_paper(points: np.ndarray, settings: dict) -> Dimension:
     """The dimension as the paper counts boxes."""
-    return dimension.box_dimension_of_paper(points, 0.5 ** np.arange(1, settings["octaves"] + 1))
+    return box_counting.box_dimension_of_paper(points, 0.5 ** np.arange(1, settings["octaves"] + 1))
 
 
 def estimates(points: np.ndarray, theiler: int, settings: dict) -> dict[str, Dimension]:
     """The dimension of points by all ways that can bear their number."""
-    found = {"boxes": dimension.box_dimension(points), "boxes, as in the paper": as_in_the_paper(points, settings)}
+    found = {"boxes": box_counting.box_dimension(points), "boxes, as in the paper": as_in_the_paper(points, settings)}
     if len(points) <= settings["correlated"]:
-        found["correlation sum"] = dimension.correlation_dimension(points, theiler)
+        found["correlation sum"] = correlation_sum.correlation_dimension(points, theiler)
     return found
 
 

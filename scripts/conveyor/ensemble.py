@@ -4,8 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from .arguments import check_array, check_choice, check_count
 from .methods import euler_lanes, fixed_step
-from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, METHODS
+from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, LONGEST, check_run
 from .solver import trajectory
 from .solver.parallel import for_each_chunk
 
@@ -92,16 +93,19 @@ def run(
     max_gap (m), impacts (int64), contact_fraction (1), and status (str; "ok", or why the point has no result: its
     numbers are then NaN where they are not known)
     """
-    if needs not in NEEDS:
-        raise ValueError(f"needs = {needs!r} is not one of {', '.join(NEEDS)}")
-    if method not in METHODS:
-        raise ValueError(f"method = {method!r} is not one of {', '.join(METHODS)}")
-    if method != "event" and np.ndim(duration) > 0:
-        raise ValueError("only the event-driven method takes a duration for each point")
+    check_choice("needs", needs, NEEDS)
+    check_count("threads", threads, 1, 1024)
+    check_count("chunk", chunk, 1, 10**9)
+    durations = check_array("duration", duration, np.finfo(np.float64).tiny, LONGEST, "s", least=0)
+    check_run(durations.max() if durations.size else LONGEST, method, tolerance, step)
+    if method != "event" and durations.ndim > 0:
+        raise ValueError("duration: only the event-driven method takes one for each point")
     parameters = np.ascontiguousarray(parameters, dtype=np.float64)
+    if durations.ndim > 0 and durations.shape != (len(parameters),):
+        raise ValueError(f"duration has the shape {durations.shape}, but there are {len(parameters)} points")
     out = np.empty((CODE + 1, len(parameters)))
     feeding = needs == "feeding"
-    durations = np.broadcast_to(np.asarray(duration, dtype=np.float64), len(parameters)).copy()
+    durations = np.broadcast_to(durations, len(parameters)).copy()
 
     def work(begin, end):
         if method == "event":

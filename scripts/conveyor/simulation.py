@@ -1,11 +1,11 @@
 """One call for every method: `simulate` follows one part on one conveyor."""
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from .arguments import check_array, check_choice, check_flag, check_number, check_type
 from .methods import fixed_step
 from .solver import trajectory
 from .solver.horizontal import EVENTS, SAMPLES, X
@@ -15,6 +15,8 @@ METHODS = ("event", *fixed_step.METHODS)
 DEFAULT_TOLERANCE = 3e-10
 DEFAULT_STEP = 5e-7  # s, Sect. 3 of the paper
 LAST = 0.25  # share of the run over which the paper takes mean values (Sect. 3.1)
+LONGEST = 1e6  # s, of a run
+MOST_STEPS = 10**10  # fixed steps of a run, which take minutes
 
 EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U14")])
 
@@ -57,8 +59,7 @@ class Run:
 
     def mean_velocity(self, last: float = LAST) -> float:
         """Mean feeding velocity over the last part of the run, (x(T) - x((1 - last) T)) / (last T), m/s (Sect. 3.1)."""
-        if not 0.0 < last <= 1.0:
-            raise ValueError(f"last = {last!r} must be a share of the run in (0, 1]")
+        check_number("last", last, 0.0, 1.0, above=True)
         x_before = self.x_last
         if last != LAST:
             x_before = float(self.sample(np.array([(1.0 - last) * self.duration]))["x"][0])
@@ -72,9 +73,7 @@ class Run:
         dict of float64 arrays of the shape of `times`: x, z (m), vx, vz (m/s), contact_force, friction_force (N);
         NaN behind the point where a run ended early
         """
-        times = np.asarray(times, dtype=np.float64)
-        if not ((times >= 0.0) & (times <= self.duration)).all():
-            raise ValueError(f"times must lie within the run, 0 to {self.duration!r} s")
+        times = check_array("times", times, 0.0, self.duration, "s", least=0)
         if self.method != "event":
             return fixed_step.sample(pack(self.conveyor, self.start), times, self.step, self.method)
         moments, place = np.unique(times, return_inverse=True)
@@ -101,6 +100,16 @@ class Run:
         return events
 
 
+def check_run(duration: float, method: str, tolerance: float, step: float) -> None:
+    """ValueError that names the argument of `simulate` that cannot be used."""
+    check_number("duration", duration, 0.0, LONGEST, "s", above=True)
+    check_choice("method", method, METHODS)
+    check_number("tolerance", tolerance, 1e-14, 1e-2)
+    check_number("step", step, 0.0, LONGEST, "s", above=True)
+    if method != "event" and duration / step > MOST_STEPS:
+        raise ValueError(f"step = {step!r} s makes more than {MOST_STEPS:g} steps of the duration of {duration!r} s")
+
+
 def simulate(
     conveyor: Conveyor,
     start: Start = Start(),  # noqa: B008 - immutable
@@ -116,7 +125,7 @@ def simulate(
     Parameters
     ----------
     conveyor, start : see model.Conveyor and model.Start
-    duration : s, > 0
+    duration : s, above 0 and up to 1e6
     method : "event" for the exact event loop, or one of fixed_step: "euler" (the paper's), "semi_implicit_euler", "rk4"
     tolerance : relative error per Taylor step, 1e-14 to 1e-2; used by "event"
     step : step size in s, of which the duration is a whole number; used by the fixed-step methods
@@ -128,17 +137,25 @@ def simulate(
 
     Raises
     ------
-    ValueError
+    ValueError, TypeError
         names the argument that cannot be used
+
+    Examples
+    --------
+    >>> run = simulate(Conveyor(acceleration=40.0), Start(z=3e-4), duration=0.5)
+    >>> run.status, run.impacts
+    ('ok', 25)
+    >>> run.sample(np.array([0.0, 0.25]))["z"].shape  # m
+    (2,)
+    >>> run.events["kind"][0].item()
+    'impact'
     """
-    if not 0.0 < duration < math.inf:
-        raise ValueError(f"duration = {duration!r} s must be positive and finite")
-    if method not in METHODS:
-        raise ValueError(f"method = {method!r} is not one of {', '.join(METHODS)}")
+    check_type("conveyor", conveyor, Conveyor)
+    check_type("start", start, Start)
+    check_run(duration, method, tolerance, step)
+    check_flag("reuse", reuse)
     parameters = pack(conveyor, start)
     if method == "event":
-        if not 1e-14 <= tolerance <= 1e-2:
-            raise ValueError(f"tolerance = {tolerance!r} must lie in [1e-14, 1e-2]")
         times = np.array([[(1.0 - LAST) * duration, duration]])
         (samples,), (results,) = trajectory.integrate(parameters[None], times, tolerance=tolerance, reuse=reuse)
         code, event_count, impacts, contact_time, max_gap, work, repeats = results

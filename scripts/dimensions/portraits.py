@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from conveyor.analysis import dimension
-from conveyor.analysis.dimension import Dimension
+from conveyor.analysis.fractals import box_counting, correlation_sum
+from conveyor.analysis.fractals.scaling_region import Dimension
 from conveyor.methods import fixed_step
 from conveyor.simulation import DEFAULT_STEP, DEFAULT_TOLERANCE
 from conveyor.solver import trajectory
@@ -45,11 +45,11 @@ def estimate(points: np.ndarray, settings: dict) -> Dimension:
     """The dimension of a portrait by the estimator that the settings name."""
     match settings["estimator"]:
         case "paper":
-            return dimension.box_dimension_of_paper(points, 0.5 ** np.arange(1, settings["octaves"] + 1))
+            return box_counting.box_dimension_of_paper(points, 0.5 ** np.arange(1, settings["octaves"] + 1))
         case "box":
-            return dimension.box_dimension(points)
+            return box_counting.box_dimension(points)
         case "correlation":
-            return dimension.correlation_dimension(points, settings["theiler"])
+            return correlation_sum.correlation_dimension(points, settings["theiler"])
     raise ValueError(f"estimator = {settings['estimator']!r} is not one of paper, box, correlation")
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from conveyor.analysis.states import classify
+from conveyor.analysis.attractors.labels import classify
 from conveyor.solver.model import ACCELERATION, PARAMETERS, TENSION, TENSION_MODES
 from pipeline import fields, grid
 

@@ -14,7 +14,7 @@ import pandas as pd
 from scipy.interpolate import CubicSpline, NdBSpline, make_interp_spline
 
 from conveyor import ensemble
-from conveyor.analysis.hyperbola import Hyperbola, mean_squared_error
+from conveyor.analysis.basins.hyperbola import Hyperbola, mean_squared_error
 from conveyor.solver.model import ACCELERATION, ANGLE, DAMPING, STIFFNESS, Z0
 from identification.edges import VERTICAL, VERTICAL_OF, impact_loss
 from identification.search_space import packed

@@ -4,8 +4,8 @@ import numpy as np
 import pandas as pd
 
 from conveyor import ensemble
-from conveyor.analysis.known import NOTHING
-from conveyor.analysis.regression import fit_least_squares
+from conveyor.analysis.attractors.attractor_table import NO_ATTRACTORS
+from conveyor.analysis.basins.hyperbola_fit import fit_least_squares
 from conveyor.solver.model import ANGLE, Z0
 from identification import edges as of_edges
 from identification import measures
@@ -46,7 +46,7 @@ def edges_at(values: np.ndarray, reading: str, method: str, settings: dict, thre
     if method == CONVERGED:
         return found
     return of_edges.edges_of(
-        rows, settings, lambda some: decide(some, settings["euler"], NOTHING, threads), found + AROUND[:, None]
+        rows, settings, lambda some: decide(some, settings["euler"], NO_ATTRACTORS, threads), found + AROUND[:, None]
     )
 
 

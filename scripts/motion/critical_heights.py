@@ -3,9 +3,9 @@
 import numpy as np
 
 from conveyor import ensemble
-from conveyor.analysis import critical
-from conveyor.analysis.known import KnownAttractors
-from conveyor.analysis.states import classify, continued
+from conveyor.analysis.attractors.attractor_table import AttractorTable
+from conveyor.analysis.attractors.labels import classify, continued
+from conveyor.analysis.basins import boundary_scan
 from pipeline import fields, grid
 from pipeline.motions import shared_attractors, tolerance_of
 
@@ -20,7 +20,7 @@ TABLES = {
 }
 
 
-def decide(parameters: np.ndarray, settings: dict, known: KnownAttractors, threads: int) -> np.ndarray:
+def decide(parameters: np.ndarray, settings: dict, known: AttractorTable, threads: int) -> np.ndarray:
     """The state of motion that each start leads to.
 
     A fixed-step method is followed for the duration, as the paper does; the converged solution goes on from its end.
@@ -41,7 +41,7 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     axes, parameters = grid.product(settings["axes"], settings["model"])
     heights = grid.axis_values("z0", settings["scan"])
     known = shared_attractors(parameters, len(heights), settings, threads=threads)
-    found = critical.crossings(
+    found = boundary_scan.find_crossings(
         parameters, heights, lambda rows: decide(rows, settings, known, threads), settings["resolution"]
     )
     first_row = np.searchsorted(found.point, found.point)
@@ -51,5 +51,5 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
         "crossing": np.arange(len(found.point)) - first_row + 1,
         "state_below": found.below,
         "state_above": found.above,
-        "is_critical": critical.critical(found),
+        "is_critical": boundary_scan.select_critical(found),
     }

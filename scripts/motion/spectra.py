@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from conveyor.analysis.spectrum import Spectrum, harmonics, windowed
+from conveyor.analysis.amplitude_spectrum import Spectrum, harmonics, windowed
 from conveyor.simulation import Run, simulate
 from conveyor.solver.model import unpack
 from pipeline import fields, grid

@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis.states import Motions
+from conveyor.analysis.attractors.labels import Labels
 from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
 from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, GRAVITY, PSI0, VZ0, Z0
@@ -59,7 +59,7 @@ def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np
     return rows
 
 
-def groups(found: Motions) -> np.ndarray:
+def groups(found: Labels) -> np.ndarray:
     """The number of each start's motion, int64, shape (n,): state and period are one, longest flights neighbours."""
     flights = np.nan_to_num(found.longest_flight, nan=-1.0)
     order = np.lexsort((flights, found.period, found.state))
@@ -142,7 +142,7 @@ def motions_at(
     rows, chosen, numbers = [], [], []
     for k in range(len(amplitudes)):
         own = slice(k * len(starts), (k + 1) * len(starts))
-        number = groups(Motions(*(column[own] for column in found)))
+        number = groups(Labels(*(column[own] for column in found)))
         for motion in range(number.max() + 1):
             members = own.start + np.flatnonzero(number == motion)
             soonest = members[np.argsort(found.cycles[members], kind="stable")][: settings["followed"]]

@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from conveyor.analysis import orbits
-from conveyor.analysis.orbits import Bifurcation, Branch, Orbit, ReturnMap
-from conveyor.analysis.states import LONG_FLIGHT
+from conveyor.analysis.attractors.labels import LONG_FLIGHT
+from conveyor.analysis.bifurcations import continuation, doubling_cascade
+from conveyor.analysis.bifurcations.continuation import Bifurcation, Branch
+from conveyor.analysis.bifurcations.periodic_orbits import Orbit, ReturnMap
 from orbits.seeds import seeds
 from pipeline import fields, grid
 
@@ -89,12 +90,14 @@ def explore_branches(parameters: np.ndarray, starts: list[Orbit], settings: dict
     """
     options = tuple(settings["limits"]), settings["max_period"]
     if "seeds" in settings:
-        return orbits.explore(parameters, starts, *options)
+        return continuation.explore(parameters, starts, *options)
     branches = []
     for period in sorted({orbit.period for orbit in starts}):
         new = [orbit for orbit in starts if orbit.period == period]
-        new = [orbit for orbit in new if not any(orbits.on_branch(parameters, branch, orbit) for branch in branches)]
-        branches += orbits.explore(parameters, new, *options)
+        new = [
+            orbit for orbit in new if not any(continuation.on_branch(parameters, branch, orbit) for branch in branches)
+        ]
+        branches += continuation.explore(parameters, new, *options)
     return branches
 
 
@@ -112,7 +115,7 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
         if the branches do not reach them
     """
     begin = jumping.acceleration
-    own = [branch for branch in branches if orbits.on_branch(parameters, branch, jumping)]
+    own = [branch for branch in branches if continuation.on_branch(parameters, branch, jumping)]
     first = next(
         (b for branch in own for b in branch.bifurcations if doubles(b) and b.orbit.acceleration > begin), None
     )
@@ -122,10 +125,10 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
             f"the jumping orbit of {begin:g} m/s² (the last of orbits.seeds) is followed to {end:g} m/s² and does "
             "not double its period: the upper one of orbits.limits must lie behind its first doubling"
         )
-    if (double := orbits.doubled(parameters, first)) is None:
+    if (double := continuation.doubled(parameters, first)) is None:
         raise ValueError(f"no orbit of twice the period was found at the doubling at {first.orbit.acceleration:g} m/s²")
     span = (first.orbit.acceleration - 1.0, first.orbit.acceleration + 20.0)
-    following = orbits.follow_branch(parameters, double, span)
+    following = continuation.follow_branch(parameters, double, span)
     second = min(filter(doubles, following.bifurcations), key=lambda b: b.orbit.acceleration, default=None)
     if second is None:
         raise ValueError(
@@ -140,14 +143,14 @@ def cascade_of(
 ) -> list[Bifurcation]:
     """The doubling cascade of the last one of given seeds, or of the first jumping orbit that has one; else nothing."""
     if "seeds" in settings:
-        return orbits.doubling_cascade(parameters, *first_doublings(parameters, branches, starts[-1]))
+        return doubling_cascade.doubling_cascade(parameters, *first_doublings(parameters, branches, starts[-1]))
     jumps = [orbit for orbit in starts if orbit.longest_flight >= LONG_FLIGHT]
     for orbit in sorted(jumps, key=lambda orbit: (orbit.period, orbit.acceleration)):
         try:
             doublings = first_doublings(parameters, branches, orbit)
         except ValueError:
             continue
-        return orbits.doubling_cascade(parameters, *doublings)
+        return doubling_cascade.doubling_cascade(parameters, *doublings)
     return []
 
 
@@ -156,10 +159,10 @@ def cascade_rows(cascade: list[Bifurcation]) -> list[dict]:
     if not cascade:
         return []
     amplitudes = np.array([b.orbit.acceleration for b in cascade])
-    ratios = [np.nan, *orbits.ratios(amplitudes), np.nan]
+    ratios = [np.nan, *doubling_cascade.ratios(amplitudes), np.nan]
     rows = []
     for n, (bifurcation, ratio) in enumerate(zip(cascade, ratios, strict=True), start=1):
-        limit, error = orbits.accumulation(amplitudes[:n]) if n >= 4 else (np.nan, np.nan)
+        limit, error = doubling_cascade.accumulation(amplitudes[:n]) if n >= 4 else (np.nan, np.nan)
         about = {"number": n, "multiplier": bifurcation.multiplier, "ratio": ratio}
         rows.append({**describe(bifurcation.orbit), **about, "accumulation": limit, "accumulation_error": error})
     return rows

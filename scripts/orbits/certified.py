@@ -12,8 +12,9 @@ import numpy as np
 import pandas as pd
 from pyarrow import Field
 
-from conveyor.analysis import orbits
-from conveyor.analysis.orbits import Bifurcation, Orbit, ReturnMap
+from conveyor.analysis.bifurcations import continuation, periodic_orbits
+from conveyor.analysis.bifurcations.continuation import Bifurcation
+from conveyor.analysis.bifurcations.periodic_orbits import Orbit, ReturnMap
 from conveyor.certificates.balls import Refused, bounds, exactly, precision
 from conveyor.certificates.brackets import bracket_doubling, bracket_fold
 from conveyor.certificates.covering import prove_horseshoe
@@ -160,7 +161,7 @@ def crossings(parameters: np.ndarray, branch: int, line: Line, acceleration: flo
         unknown = returns.newton(guess)
         unknown = guess if unknown is None else unknown
         distances = [np.abs(other.strobes - unknown[:2]).max(axis=1).min() for other in found]
-        if min(distances, default=np.inf) > orbits.SAME:
+        if min(distances, default=np.inf) > continuation.SAME:
             found.append(known(branch, returns, unknown))
     return found
 
@@ -182,9 +183,11 @@ def doubled_lines(
     for row in cascade.itertuples():
         period = 2 * int(row.period)
         if longest[0] < period <= longest[1] and limits[0] < row.acceleration < limits[1]:
-            orbit = orbits.find_orbit(parameters, row.acceleration, np.array([row.delta, row.v]), int(row.period))
-            new = orbits.doubled(parameters, Bifurcation("period_doubling", orbit, -1.0))
-            branch = orbits.follow_branch(parameters, new, limits).orbits
+            orbit = periodic_orbits.find_orbit(
+                parameters, row.acceleration, np.array([row.delta, row.v]), int(row.period)
+            )
+            new = continuation.doubled(parameters, Bifurcation("period_doubling", orbit, -1.0))
+            branch = continuation.follow_branch(parameters, new, limits).orbits
             found.append(Line(period, np.array([[*orbit.state, orbit.acceleration] for orbit in branch])))
     return found
 

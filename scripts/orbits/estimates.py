@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from conveyor.analysis import lyapunov
+from conveyor.analysis.chaos import lyapunov
 from conveyor.solver.model import PARAMETERS
 from pipeline import fields, grid
 

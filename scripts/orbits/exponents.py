@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis import lyapunov
+from conveyor.analysis.chaos import lyapunov
 from orbits.starts import starts_on_attractors
 from pipeline import fields
 

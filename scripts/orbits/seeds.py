@@ -4,8 +4,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from conveyor.analysis import orbits, probes, stroboscope
-from conveyor.analysis.orbits import Orbit
+from conveyor.analysis import stroboscopic_map
+from conveyor.analysis.attractors import sampling
+from conveyor.analysis.bifurcations import periodic_orbits
+from conveyor.analysis.bifurcations.periodic_orbits import Orbit
 from conveyor.solver.model import ACCELERATION
 from pipeline import grid
 
@@ -25,8 +27,8 @@ def follow_seeds(parameters: np.ndarray, settings: dict) -> list[Orbit]:
     found = []
     for start in settings["seeds"]:
         row = grid.product({name: [value] for name, value in start.items()}, settings["model"])[1]
-        state = stroboscope.initial_states(row, orbits.TOLERANCE)[0]
-        orbit, _ = orbits.settled_orbit(
+        state = stroboscopic_map.initial_states(row, periodic_orbits.TOLERANCE)[0]
+        orbit, _ = periodic_orbits.settled_orbit(
             row[0], start["acceleration"], state, range(1, settings["max_period"] + 1), settings["cycles"]
         )
         if orbit is None:
@@ -43,10 +45,10 @@ def search_seeds(parameters: np.ndarray, settings: dict) -> Iterator[Orbit]:
     for acceleration in np.linspace(*settings["limits"], AMPLITUDES + 2)[1:-1]:
         row = parameters.copy()
         row[ACCELERATION] = acceleration
-        at_rest = stroboscope.initial_states(row[None], orbits.TOLERANCE)
+        at_rest = stroboscopic_map.initial_states(row[None], periodic_orbits.TOLERANCE)
         seen = set()
-        for state in np.vstack([at_rest, probes.starts(row)[:STARTS]]):
-            orbit, _ = orbits.settled_orbit(
+        for state in np.vstack([at_rest, sampling.initial_conditions(row)[:STARTS]]):
+            orbit, _ = periodic_orbits.settled_orbit(
                 parameters, acceleration, state, range(1, settings["max_period"] + 1), settings["cycles"]
             )
             if orbit is not None and (key := (orbit.period, round(orbit.longest_flight, DIGITS))) not in seen:

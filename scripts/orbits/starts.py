@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis import stroboscope
+from conveyor.analysis import stroboscopic_map
 from pipeline import grid
 
 
@@ -12,4 +12,4 @@ def starts_on_attractors(strobes: pd.DataFrame, settings: dict) -> tuple[pd.Data
     last = strobes[strobes.cycle == strobes.cycle.max()].reset_index(drop=True)
     parameters = np.tile(grid.packed(settings["model"]), (len(last), 1))
     parameters[:, 0] = last.acceleration
-    return last, stroboscope.starts_of_states(parameters, last[["delta", "v"]].to_numpy(), settings["tolerance"])
+    return last, stroboscopic_map.pack_states(parameters, last[["delta", "v"]].to_numpy(), settings["tolerance"])

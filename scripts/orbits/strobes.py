@@ -2,7 +2,9 @@
 
 import numpy as np
 
-from conveyor.analysis import attractors, states, stroboscope
+from conveyor.analysis import stroboscopic_map
+from conveyor.analysis.attractors import labels
+from conveyor.analysis.bifurcations import bifurcation_diagram
 from conveyor.solver.parallel import for_each_chunk
 from pipeline import fields, grid
 
@@ -30,7 +32,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
 
     def work(begin, end):
         for k in range(begin, end):
-            found = attractors.sweep(
+            found = bifurcation_diagram.follow_attractor(
                 upwards[orders[k]], transient=settings["transient"], strobes=count, tolerance=tolerance
             )
             swept[k] = [column[orders[k]] for column in found]
@@ -38,8 +40,8 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     for_each_chunk(work, len(BRANCHES), threads=threads, chunk=1)
     points, status = (np.stack(columns) for columns in zip(*swept, strict=True))
     rows = len(BRANCHES) * len(amplitudes)
-    starts = stroboscope.starts_of_states(np.tile(upwards, (2, 1)), points[:, :, -1].reshape(rows, 2), tolerance)
-    found = states.classify(
+    starts = stroboscopic_map.pack_states(np.tile(upwards, (2, 1)), points[:, :, -1].reshape(rows, 2), tolerance)
+    found = labels.classify(
         starts, cycles=settings["settling"], tolerance=tolerance, threads=threads, progress=progress
     )
     return {

@@ -3,9 +3,9 @@
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis import stroboscope
-from conveyor.analysis.settling import MAX_PERIOD
-from conveyor.analysis.zero_one import zero_one
+from conveyor.analysis import stroboscopic_map
+from conveyor.analysis.attractors.settling import MAX_PERIOD
+from conveyor.analysis.chaos.zero_one import zero_one
 from conveyor.solver.parallel import for_each_chunk
 from orbits.starts import starts_on_attractors
 from pipeline import fields
@@ -36,11 +36,11 @@ def zero_one_values(parameters: np.ndarray, settings: dict, *, threads: int, pro
 
     def work(begin, end):
         strobes = np.empty((settings["strobes"], 2))
-        features = np.empty((settings["strobes"], stroboscope.FEATURES))
+        features = np.empty((settings["strobes"], stroboscopic_map.FEATURES))
         for i in range(begin, end):
             state = np.empty(2)
-            stroboscope.initial_state(parameters[i], settings["tolerance"], state)
-            stroboscope.follow(parameters[i], settings["tolerance"], state, settings["strobes"], strobes, features)
+            stroboscopic_map.initial_state(parameters[i], settings["tolerance"], state)
+            stroboscopic_map.follow(parameters[i], settings["tolerance"], state, settings["strobes"], strobes, features)
             found[i] = zero_one(strobes[:, 1], settings["seed"], RESOLUTION).value
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=8, progress=progress)

@@ -4,10 +4,9 @@ import math
 
 import numpy as np
 
-from conveyor.analysis.conveyors import distinct
-from conveyor.analysis.known import NOTHING, KnownAttractors
-from conveyor.analysis.known_attractors import known_attractors
-from conveyor.analysis.states import Motions, classify, continued
+from conveyor.analysis.attractors.attractor_table import NO_ATTRACTORS, AttractorTable, distinct_conveyors
+from conveyor.analysis.attractors.labels import Labels, classify, continued
+from conveyor.analysis.attractors.search import find_attractors
 from conveyor.simulation import DEFAULT_TOLERANCE
 from conveyor.solver.model import PARAMETERS, PSI0, VZ0, Z0
 from pipeline import grid
@@ -30,18 +29,18 @@ def tolerance_of(settings: dict) -> float:
 
 def shared_attractors(
     parameters: np.ndarray, starts: int, settings: dict, *, threads: int = 1, progress: str | None = None
-) -> KnownAttractors:
+) -> AttractorTable:
     """The attractors of conveyors, shape (n, 13), that are worth finding for so many starts of each of them."""
     if starts < CHAOS_SHARED or starts * settings["settling"] < CYCLES_SHARED:
-        return NOTHING
+        return NO_ATTRACTORS
     options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
     progress = progress and f"{progress}: attractors"
-    return known_attractors(parameters, orbits=starts >= ORBITS_SHARED, **options, progress=progress)
+    return find_attractors(parameters, orbits=starts >= ORBITS_SHARED, **options, progress=progress)
 
 
 def batches_by_conveyor(parameters: np.ndarray) -> list[np.ndarray]:
     """Rows of `parameters`, shape (n, 13), in batches that hold all starts of their conveyors."""
-    _, conveyor = distinct(parameters)
+    _, conveyor = distinct_conveyors(parameters)
     order = np.argsort(conveyor, kind="stable")
     batch = conveyor[order] // CONVEYORS
     return np.split(order, np.flatnonzero(np.diff(batch)) + 1)
@@ -54,7 +53,7 @@ def motions_of_starts(
     starts: int,
     threads: int = 1,
     progress: str | None = None,
-) -> Motions:
+) -> Labels:
     """The motions that starts end in; what those of a conveyor share is found first if they are many.
 
     Parameters
@@ -71,10 +70,10 @@ def motions_of_starts(
         known = shared_attractors(parameters[rows], starts, settings, threads=threads, progress=label)
         parts.append(classify(parameters[rows], known=known, **options, progress=label))
     order = np.argsort(np.concatenate(batches))
-    return Motions(*(np.concatenate(column)[order] for column in zip(*parts, strict=True)))
+    return Labels(*(np.concatenate(column)[order] for column in zip(*parts, strict=True)))
 
 
-def motions(parameters: np.ndarray, settings: dict, **options) -> Motions:
+def motions(parameters: np.ndarray, settings: dict, **options) -> Labels:
     """The motions that the starts of `parameters`, shape (n, 13), end in; `settings` are those of their entry.
 
     options : `threads` and `progress`, as in motions_of_starts
@@ -82,6 +81,6 @@ def motions(parameters: np.ndarray, settings: dict, **options) -> Motions:
     return motions_of_starts(parameters, settings, starts=starts_per_conveyor(settings["axes"]), **options)
 
 
-def motions_after(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, settings: dict, **options) -> Motions:
+def motions_after(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, settings: dict, **options) -> Labels:
     """The motions that runs of `parameters` with these ends (m, m/s) go on to, by whichever method they were made."""
     return motions(continued(parameters, z_end, vz_end, settings["duration"]), settings, **options)

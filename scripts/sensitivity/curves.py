@@ -5,10 +5,10 @@ from collections.abc import Iterator
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis import bifurcation_curves
-from conveyor.analysis.bifurcation_curves import Curve, Path
-from conveyor.analysis.bifurcation_points import GRAZING, Point
-from conveyor.analysis.groups import amplitude_of
+from conveyor.analysis.bifurcations import bifurcation_curves
+from conveyor.analysis.bifurcations.bifurcation_curves import Curve, Path
+from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, Point
+from conveyor.analysis.dimensionless_groups import amplitude_of
 from conveyor.solver.model import ANGLE, PARAMETERS, UNITS
 from conveyor.solver.parallel import for_each_chunk
 from pipeline import fields, grid
@@ -97,7 +97,7 @@ def follow_curve(point: Point, parameter: str, settings: dict) -> Curve:
     reach = np.log(settings["factors"][parameter])
     limits = tuple(settings["amplitude"]), (-reach, reach)
     if point.kind == GRAZING:
-        return bifurcation_curves.follow_touch(point, path, *limits, step=0.5 * settings["step"])
+        return bifurcation_curves.follow_grazing(point, path, *limits, step=0.5 * settings["step"])
     return bifurcation_curves.follow(point, path, *limits, longest_step=settings["step"], most=settings["points"])
 
 

@@ -6,9 +6,10 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis import basin_edge, bifurcation_points, orbits
-from conveyor.analysis.basin_edge import Launch
-from conveyor.analysis.groups import (
+from conveyor.analysis.basins import boundary_point
+from conveyor.analysis.basins.boundary_point import InitialCondition
+from conveyor.analysis.bifurcations import bifurcation_points, doubling_cascade
+from conveyor.analysis.dimensionless_groups import (
     AMPLITUDE,
     HEIGHT,
     NAMES,
@@ -98,7 +99,9 @@ def move_bifurcation(parameters: np.ndarray, one: Selected) -> Moved:
         groups = groups_of(row)
         if (key := groups[1:]) not in found:
             change = np.array(key[:3]) - one.point.groups[1:4]
-            there = bifurcation_points.solved(one.kind, one.period, one.point.unknown + moves @ change, groups)
+            there = bifurcation_points.find_bifurcation(
+                one.kind, one.period, one.point.unknown + moves @ change, groups
+            )
             found[key] = np.nan if there is None else there.groups.amplitude
         return amplitude_of(row, found[key])
 
@@ -120,33 +123,33 @@ def move_accumulation(parameters: np.ndarray, doublings: list[Moved]) -> Moved |
     by = weights(*amplitudes[1:]) @ np.array([one.by for one in last[1:]])
 
     def again(row):
-        return orbits.accumulation(np.array([one.again(row) for one in last]))[0]
+        return doubling_cascade.accumulation(np.array([one.again(row) for one in last]))[0]
 
-    here = at(parameters, orbits.accumulation(amplitudes)[0])
+    here = at(parameters, doubling_cascade.accumulation(amplitudes)[0])
     return Moved("accumulation", 0, here, 0, False, "acceleration", by, again, "ok")
 
 
-def move_edge(kind: str, parameters: np.ndarray, unknown: int) -> Moved:
+def find_boundary_point(kind: str, parameters: np.ndarray, unknown: int) -> Moved:
     """A start near the edge of a basin, moved onto it."""
     moved = "acceleration" if unknown == AMPLITUDE else "z0"
 
-    def solved(row):
-        return basin_edge.on_edge(Launch(*start_of(row)), groups_of(row), unknown)
+    def find_bifurcation(row):
+        return boundary_point.find_boundary_point(InitialCondition(*start_of(row)), groups_of(row), unknown)
 
-    edge = solved(parameters)
+    edge = find_bifurcation(parameters)
     if isinstance(edge, str):
         return Moved(kind, 0, parameters, 0, False, moved, None, lambda row: np.nan, edge)
     here = parameters.copy()
     here[PARAMETERS.index(moved)] = value_of(edge, parameters, unknown)
 
     def again(row):
-        there = solved(row)
+        there = find_bifurcation(row)
         return np.nan if isinstance(there, str) else value_of(there, row, unknown)
 
     return Moved(kind, edge.period, here, 0, False, moved, edge.moves, again, "ok")
 
 
-def value_of(edge: basin_edge.Edge, row: np.ndarray, unknown: int) -> float:
+def value_of(edge: boundary_point.BoundaryPoint, row: np.ndarray, unknown: int) -> float:
     """What was unknown of an edge, in m/s² or m."""
     if unknown == AMPLITUDE:
         return amplitude_of(row, edge.groups.amplitude)
@@ -242,13 +245,18 @@ def starts(critical: pd.DataFrame, settings: dict) -> Iterator[Moved]:
     if len(edges):
         # The start on the edge next to the one at rest is a guess of it.
         rest = at(rest, edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - rest[Z0])))])
-    yield move_edge("critical_amplitude", rest, AMPLITUDE)
+    yield find_boundary_point("critical_amplitude", rest, AMPLITUDE)
     # Evenly among them, without the first and the last one.
     inner = np.linspace(0, len(edges) - 1, settings["heights"] + 2)[1:-1].round().astype(int)
     for edge in edges.iloc[np.unique(inner)].itertuples() if len(edges) else ():
         here = at(parameters, edge.acceleration)
         here[Z0] = edge.z0
-        yield move_edge("critical_height", here, HEIGHT)
+        yield find_boundary_point("critical_height", here, HEIGHT)
+
+
+def columns(rows: list[dict], kind: str) -> dict[str, np.ndarray]:
+    """Rows as the columns of a kind of table."""
+    return {column.name: np.array([row[column.name] for row in rows]) for column in TABLES[kind]}
 
 
 def make(

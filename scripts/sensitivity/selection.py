@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis import bifurcation_points
-from conveyor.analysis.bifurcation_points import GRAZING, Point
-from conveyor.analysis.groups import groups_of
+from conveyor.analysis.bifurcations import bifurcation_points
+from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, Point
+from conveyor.analysis.dimensionless_groups import groups_of
 from conveyor.solver.model import ACCELERATION
 from pipeline import fields
 
@@ -49,7 +49,7 @@ def solved_again(parameters: np.ndarray, row: pd.Series) -> Point | None:
         return None
     touches = kind == GRAZING
     guess = bifurcation_points.touch(groups, state, period) if touches else np.append(state, groups.amplitude)
-    point = None if guess is None else bifurcation_points.solved(kind, period, guess, groups)
+    point = None if guess is None else bifurcation_points.find_bifurcation(kind, period, guess, groups)
     near = point is not None and abs(point.groups.amplitude / groups.amplitude - 1.0) < SAME
     return point if near else None
 

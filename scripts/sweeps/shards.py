@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from conveyor import ensemble
-from conveyor.analysis.states import continued
+from conveyor.analysis.attractors.labels import continued
 from pipeline import fields, grid
 from pipeline.motions import motions
 from pipeline.sizes import BLOCK

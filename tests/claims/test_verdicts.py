@@ -461,6 +461,8 @@ def test_the_onset_by_dimension_is_half_way_between_both_ends():
     amplitudes = np.arange(30.0, 90.0)
     table = pd.DataFrame({"acceleration": amplitudes, "dimension": np.interp(amplitudes, [50.0, 70.0], [1.0, 2.0])})
     assert about_chaos.dimension_onset(table) == 61.0
+
+
 def test_the_page_explains_verdicts_and_has_dashes_for_missing_numbers():
     template = (Path(__file__).parents[2] / "workflow/templates/claims.md").read_text(encoding="utf-8")
     claim = {"where": "3.1", "statement": "", "quantities": quantities(onset=[1.0, 2.0])}

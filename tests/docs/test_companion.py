@@ -16,8 +16,8 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
-from conveyor.analysis import states
-from conveyor.analysis.random_conveyors import around_the_paper
+from accuracy.random_conveyors import around_the_paper
+from conveyor.analysis.attractors import labels
 from conveyor.methods import fixed_step
 from conveyor.simulation import Run, simulate
 from conveyor.solver import model
@@ -41,7 +41,7 @@ def coarse_map(name: str) -> pd.DataFrame:
     settings = resolve(CONFIG, "sweeps", name)
     settings["axes"] = {axis: {**values, "num": 12} for axis, values in settings["axes"].items()}
     axes, parameters = grid.product(settings["axes"], settings["model"], (0, 144))
-    table = pd.DataFrame(axes | {"state": states.classify(parameters, tolerance=settings["tolerance"]).state})
+    table = pd.DataFrame(axes | {"state": labels.classify(parameters, tolerance=settings["tolerance"]).state})
     table.attrs = settings
     return table
 
@@ -222,7 +222,7 @@ def test_states_of_motion_are_those_of_the_library(browser):
     # 55 m/s²: an orbit of two cycles; 80 m/s²: chaos, which the page must not claim.
     points = np.concatenate([near_the_paper(40, 3), np.tile(pack(Conveyor(), Start()), (2, 1))])
     points[-2:, model.ACCELERATION] = 55.0, 80.0
-    truth, periods, *_ = states.classify(points)
+    truth, periods, *_ = labels.classify(points)
     assert {"first", "second", "chaos"} <= set(truth)
     browser.open()
     script = "return arguments[0].map((parameters) => solver.settle(parameters, 500, {tolerance: arguments[1]}))"

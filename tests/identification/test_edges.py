@@ -5,7 +5,7 @@ import pytest
 from project import read_config
 
 from conveyor import Conveyor, Start
-from conveyor.analysis.states import classify
+from conveyor.analysis.attractors.labels import classify
 from conveyor.solver.model import ACCELERATION, ANGLE, FRICTION, PARAMETERS, Z0, pack
 from identification import edges
 

@@ -7,8 +7,8 @@ from project import read_config
 
 from claims import about_states
 from conveyor import ensemble
-from conveyor.analysis.hyperbola import Hyperbola, critical_height, mean_squared_error
-from conveyor.analysis.states import classify
+from conveyor.analysis.attractors.labels import classify
+from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height, mean_squared_error
 from identification import edges, measures, printed
 from identification.search_space import PARAMETERS, packed
 from identification.settings import NUMBERS_OF_CLAIMS

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from conveyor.analysis.first_impact import first_impacts, on_conveyor
+from conveyor.analysis.basins.first_impact import first_impacts, on_conveyor
 from motion import impacts
 from pipeline import grid
 from pipeline.motions import motions

@@ -8,7 +8,7 @@ import pytest
 from project import ROOT, read_config
 
 from conveyor import Start, ensemble, simulate
-from conveyor.analysis.states import Motions, classify
+from conveyor.analysis.attractors.labels import Labels, classify
 from conveyor.solver.model import Conveyor, conveyor_motion, pack
 from operating import chart, regimes, shares
 from pipeline.motions import motions
@@ -45,7 +45,7 @@ def test_starts_fill_the_box_and_follow_the_seed():
 
 
 def test_motions_are_told_apart_by_state_period_and_flight():
-    found = Motions(
+    found = Labels(
         state=np.array(["second", "first", "second", "chaos", "second", "second", "chaos"]),
         period=np.array([1, 1, 2, 0, 1, 1, 0]),
         longest_flight=np.array([0.92, 0.0, 0.92, np.nan, 1.9, 0.9201, np.nan]),
@@ -159,7 +159,7 @@ def test_a_run_that_fails_says_why_there_is_no_velocity():
 def test_velocities_of_a_motion_are_put_together(monkeypatch, states, statuses, wanted):
     def motions_found(parameters, *_, **__):
         n = len(parameters)
-        return Motions(np.full(n, states), np.ones(n, np.int64), np.zeros(n), np.arange(n))
+        return Labels(np.full(n, states), np.ones(n, np.int64), np.zeros(n), np.arange(n))
 
     monkeypatch.setattr(shares, "motions_of_starts", motions_found)
     monkeypatch.setattr(shares, "velocities", lambda *_, **__: (np.array([1.0, 3.0]), np.array(statuses, dtype=object)))

@@ -110,9 +110,11 @@ def test_orbits_of_a_doubled_branch_begin_no_other_one(monkeypatch):
     periods = {"double": 2, "once": 1, "apart": 2}
     starts = [SimpleNamespace(name=name, period=period) for name, period in periods.items()]
     found = {"once": ["once", "double"], "apart": ["apart"], "double": ["double"]}
-    monkeypatch.setattr(branches.orbits, "on_branch", lambda parameters, branch, orbit: branch == orbit.name)
+    monkeypatch.setattr(branches.continuation, "on_branch", lambda parameters, branch, orbit: branch == orbit.name)
     monkeypatch.setattr(
-        branches.orbits, "explore", lambda parameters, seeds, *rest: [one for seed in seeds for one in found[seed.name]]
+        branches.continuation,
+        "explore",
+        lambda parameters, seeds, *rest: [one for seed in seeds for one in found[seed.name]],
     )
     settings = {"limits": [20.0, 90.0], "max_period": 2}
     assert branches.explore_branches(None, starts, settings) == ["once", "double", "apart"]

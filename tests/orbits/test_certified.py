@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from conveyor.analysis import orbits, stroboscope
+from conveyor.analysis import stroboscopic_map
+from conveyor.analysis.bifurcations import periodic_orbits
 from conveyor.solver.model import Conveyor, Start, pack
 from orbits import certified
 
@@ -13,9 +14,9 @@ SETTINGS = {"model": {}, "bits": 128, "order": 24, "tolerance": 1e-22, "closenes
 def test_the_row_of_a_riding_part():
     """It is never in the air; its penetration, speed of approach and period are those of floating point."""
     row = pack(Conveyor(acceleration=30.0), Start())
-    state = stroboscope.initial_states(row[None], orbits.TOLERANCE)[0]
-    orbit, _ = orbits.settled_orbit(row, 30.0, state, (1,), 1000)
-    returns = orbits.ReturnMap(row, 1)
+    state = stroboscopic_map.initial_states(row[None], periodic_orbits.TOLERANCE)[0]
+    orbit, _ = periodic_orbits.settled_orbit(row, 30.0, state, (1,), 1000)
+    returns = periodic_orbits.ReturnMap(row, 1)
     about = certified.known(7, returns, returns.scaled(30.0, orbit.state))
     found, _ = certified.timed(SETTINGS, certified.Work(certified.prove_known, (about,)))
     assert found["contained"]

@@ -1,4 +1,4 @@
-"""Labels of starts of several conveyors, in batches and in any order."""
+"""Motions of starts of several conveyors, in batches and in any order."""
 
 import numpy as np
 import pytest

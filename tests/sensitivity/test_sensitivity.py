@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 from project import read_config
 
-from conveyor.analysis import orbits
+from conveyor.analysis.bifurcations import doubling_cascade
 from pipeline import grid
 from sensitivity import curves, derivatives, selection
 
@@ -100,7 +100,7 @@ def test_weights_are_the_derivatives_of_aitkens_process():
         for sign in (1.0, -1.0):
             changed = amplitudes.copy()
             changed[1 + place] += sign * 1e-6
-            ends.append(orbits.accumulation(changed)[0])
+            ends.append(doubling_cascade.accumulation(changed)[0])
         assert found[place] == pytest.approx((ends[0] - ends[1]) / 2e-6, rel=1e-5)
 
 

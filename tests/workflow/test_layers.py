@@ -8,7 +8,14 @@ from scripts.pipeline import source_hash
 
 # Rooms of the library, from the ground up; `conveyor` itself has what leads to solver and methods: simulate, ensembles.
 # The module `parameters` imports nothing and stands below them.
-ROOMS = ("conveyor.solver", "conveyor.methods", "conveyor", "conveyor.analysis", "conveyor.certificates")
+ROOMS = (
+    "conveyor.solver",
+    "conveyor.methods",
+    "conveyor",
+    "conveyor.analysis",
+    "conveyor.certificates",
+    "conveyor.interface",
+)
 FLOORS = ("conveyor.parameters", *ROOMS, "pipeline", *STAGES, "builds", "report", "")
 
 

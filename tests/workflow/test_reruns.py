@@ -38,12 +38,12 @@ def test_simulations_after_the_contact(edited):
 
 
 def test_labels_after_the_exponents(edited):
-    project = edited("scripts/conveyor/analysis/lyapunov.py", *REMARK)
+    project = edited("scripts/conveyor/analysis/chaos/lyapunov.py", *REMARK)
     assert project.planned(*TARGETS) == {"shards": 2, "sweeps": 2, "estimates": 2, **PLOTS}
 
 
 def test_no_exponent_after_the_states(edited):
-    project = edited("scripts/conveyor/analysis/states.py", *REMARK)
+    project = edited("scripts/conveyor/analysis/attractors/labels.py", *REMARK)
     assert project.planned("figures/fig08.pdf") == {"shards": 2, "sweeps": 2, "plot": 1}
 
 

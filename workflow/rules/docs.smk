@@ -196,7 +196,7 @@ rule site:
     input:
         article=result("article.pdf"),
         companion=f"{DOCS}companion.html",
-        pages=rules.site_pages.output,
+        pages=[*rules.site_pages.output, source("scripts/conveyor/README.md")],
         style=source("scripts/docs/site.css"),
         pdf=figure_files(),
         png=figure_files("png"),

@@ -1,1 +1,1 @@
-"""What the motion is: stroboscopic map, states, orbits, exponents, dimensions, spectra, fits."""
+"""What the motion is: the stroboscopic map, and attractors, bifurcations, basins, chaos and fractals from it."""

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..analysis.orbits import ReturnMap
+from ..analysis.bifurcations.periodic_orbits import ReturnMap
 from .balls import Refused
 
 # Where the tried excursions begin, and how near to the fixed point they must return, in the scaled unknowns; how many

@@ -87,7 +87,7 @@ class Conveyor:
     def __post_init__(self):
         for name, value in zip(PARAMETERS, numbers_of(self), strict=False):
             check_parameter(name, value)
-        if self.tension not in TENSION_MODES:
+        if not isinstance(self.tension, str) or self.tension not in TENSION_MODES:
             raise ValueError(f"tension = {self.tension!r} is not one of {', '.join(TENSION_MODES)}")
 
 
@@ -102,7 +102,7 @@ class Start:
     vz: float = 0.0
 
     def __post_init__(self):
-        if self.z != "conveyor":
+        if not isinstance(self.z, str) or self.z != "conveyor":
             check_parameter("z0", self.z)
         check_parameter("vz0", self.vz)
 

@@ -1,7 +1,7 @@
 """The vertical motion, piece by piece: a flight, a moment of rest at the plate's surface, or one step of the contact.
 
 `next_piece` finds the piece that begins now and `arrive` the motion at its end. What a consumer adds (slip, stick and
-samples in `trajectory`, perturbations in `stroboscope`) happens in between. Time counts from the beginning of an
+samples in `trajectory`, perturbations in `stroboscopic_map`) happens in between. Time counts from the beginning of an
 excitation cycle, at which the excitation has the phase `origin` of the consumer.
 """
 

@@ -5,7 +5,7 @@ import pandas as pd
 from matplotlib import colormaps
 from matplotlib.figure import Figure
 
-from conveyor.analysis.hyperbola import Hyperbola, critical_height
+from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
 from figures import style
 
 MARKERS = {

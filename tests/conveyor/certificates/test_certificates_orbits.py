@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from flint import arb, arb_mat
 
-from conveyor.analysis import orbits, stroboscope
+from conveyor.analysis import stroboscopic_map
+from conveyor.analysis.bifurcations import continuation, periodic_orbits
 from conveyor.certificates import brackets, covering
 from conveyor.certificates.balls import Refused, bounds, exactly, precision
 from conveyor.certificates.brackets import bracket_doubling, bracket_fold
@@ -30,21 +31,21 @@ def arithmetic():
 def settled(acceleration: float, z0: float, period: int) -> np.ndarray:
     """Strobes (δ, Y) of the stable orbit that a start ends in, in units of the law."""
     row = pack(Conveyor(acceleration=acceleration), Start(z0))
-    state = stroboscope.initial_states(row[None], orbits.TOLERANCE)[0]
-    orbit, _ = orbits.settled_orbit(row, acceleration, state, (period,), 1000)
+    state = stroboscopic_map.initial_states(row[None], periodic_orbits.TOLERANCE)[0]
+    orbit, _ = periodic_orbits.settled_orbit(row, acceleration, state, (period,), 1000)
     return strobes(acceleration, orbit.state, period)
 
 
 def strobes(acceleration: float, state: np.ndarray, period: int) -> np.ndarray:
-    returns = orbits.ReturnMap(PARAMETERS, period)
+    returns = periodic_orbits.ReturnMap(PARAMETERS, period)
     unknown = returns.scaled(acceleration, state)
     return np.vstack([unknown[:2], returns.strobes(unknown)[:-1, :2]])
 
 
-def stored(acceleration: float, start: np.ndarray, period: int) -> orbits.Orbit:
+def stored(acceleration: float, start: np.ndarray, period: int) -> periodic_orbits.Orbit:
     """The orbit of these strobes in floating point."""
-    state = orbits.ReturnMap(PARAMETERS, period).state(np.append(start[0], acceleration))
-    return orbits.find_orbit(PARAMETERS, acceleration, state, period)
+    state = periodic_orbits.ReturnMap(PARAMETERS, period).state(np.append(start[0], acceleration))
+    return periodic_orbits.find_orbit(PARAMETERS, acceleration, state, period)
 
 
 def shooting(period: int, law=None, accuracy=FINE) -> Shooting:
@@ -81,7 +82,7 @@ def test_stable_orbits_are_proved(acceleration, z0, period, impacts):
 
 def test_an_unstable_orbit_is_proved_unstable():
     stable = stored(54.0, settled(54.0, 3e-4, 1), 1)
-    beyond = orbits.find_orbit(PARAMETERS, 56.0, stable.state, 1)
+    beyond = periodic_orbits.find_orbit(PARAMETERS, 56.0, stable.state, 1)
     orbit = proved(56.0, strobes(56.0, beyond.state, 1))
     assert orbit.stability == "unstable"
     assert orbit.doubling_test < 0
@@ -176,7 +177,7 @@ def test_a_map_with_a_sign_turned_around_is_refused(jumping):
 
 def test_an_orbit_that_grazes_is_refused():
     """Amplitudes at some of which the riding part just leaves the plate."""
-    riding = orbits.follow_branch(PARAMETERS, stored(45.0, settled(45.0, 0.0, 1), 1), (44.9, 46.0))
+    riding = continuation.follow_branch(PARAMETERS, stored(45.0, settled(45.0, 0.0, 1), 1), (44.9, 46.0))
     grazing = bifurcation(riding, "grazing")
     equations = shooting(1)
     gamma = equations.law.gamma(exactly(grazing.acceleration) + arb(0, 1e-7))
@@ -186,7 +187,7 @@ def test_an_orbit_that_grazes_is_refused():
 
 @pytest.fixture(scope="module")
 def branch():
-    return orbits.follow_branch(PARAMETERS, stored(40.0, settled(40.0, 3e-4, 1), 1), (23.0, 56.0))
+    return continuation.follow_branch(PARAMETERS, stored(40.0, settled(40.0, 3e-4, 1), 1), (23.0, 56.0))
 
 
 def bifurcation(branch, kind):
@@ -240,8 +241,8 @@ CHAOS = Accuracy(order=16, tolerance=1e-14)
 @pytest.fixture(scope="module")
 def horseshoe_plan():
     """Sets along an excursion from the strongest saddle of one cycle at 80 m/s²."""
-    rides = orbits.follow_branch(PARAMETERS, stored(45.0, settled(45.0, 0.0, 1), 1), (44.9, 80.5)).orbits
-    returns = orbits.ReturnMap(PARAMETERS, 1)
+    rides = continuation.follow_branch(PARAMETERS, stored(45.0, settled(45.0, 0.0, 1), 1), (44.9, 80.5)).orbits
+    returns = periodic_orbits.ReturnMap(PARAMETERS, 1)
     near = [orbit for orbit in rides if abs(orbit.acceleration - 80.0) < 0.2]
     found = [returns.newton(returns.scaled(80.0, orbit.state)) for orbit in near]
     fixed = next(unknown for unknown in found if unknown is not None)

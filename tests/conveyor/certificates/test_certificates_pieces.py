@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from flint import arb, arb_mat
 
-from conveyor.analysis import stroboscope
-from conveyor.analysis.orbits import ReturnMap
+from conveyor.analysis import stroboscopic_map
+from conveyor.analysis.bifurcations.periodic_orbits import ReturnMap
 from conveyor.certificates import double_double, taylor
 from conveyor.certificates.balls import Refused, bounds, exactly, precision
 from conveyor.certificates.flight import Flight
@@ -42,8 +42,8 @@ def after_a_cycle(conveyor: Conveyor, state: np.ndarray) -> tuple[np.ndarray, np
     row = pack(conveyor, Start())
     returns = ReturnMap(row, 1)
     unknown = np.append(state, conveyor.acceleration)
-    end, matrices, features = returns.state(unknown), np.empty((1, 2, 2)), np.empty((1, stroboscope.FEATURES))
-    stroboscope.monodromy(row, RUN, end, matrices, features)
+    end, matrices, features = returns.state(unknown), np.empty((1, 2, 2)), np.empty((1, stroboscopic_map.FEATURES))
+    stroboscopic_map.monodromy(row, RUN, end, matrices, features)
     unit = returns.unit[:2]
     return returns.scaled(conveyor.acceleration, end)[:2], matrices[0] * unit / unit[:, None], features[0]
 
@@ -70,8 +70,8 @@ def test_enclosures_hold_the_solver_on_random_cycles():
         assert found.delta.contains(float(end[0]))
         assert found.y.contains(float(end[1]))
         assert all(found.matrix[i, j].overlaps(arb(float(matrix[i, j]), 1e-7)) for i in range(2) for j in range(2))
-        assert len(found.impacts) == features[stroboscope.IMPACTS]
-        assert float(found.contact / law.omega) == pytest.approx(features[stroboscope.CONTACT_TIME], abs=1e-9)
+        assert len(found.impacts) == features[stroboscopic_map.IMPACTS]
+        assert float(found.contact / law.omega) == pytest.approx(features[stroboscopic_map.CONTACT_TIME], abs=1e-9)
         assert found.delta.rad() < 1e-3
         held += 1
     assert held >= 30

@@ -101,14 +101,14 @@ def test_a_search_that_gets_lost_says_so(monkeypatch):
 LOST = """
 import numpy as np
 from conveyor import Conveyor, Start, simulate
-from conveyor.analysis import attractors
+from conveyor.analysis.bifurcations import bifurcation_diagram
 from conveyor.methods import rigid_part_motion
 from conveyor.solver.model import pack
 
 conveyor, start = Conveyor(acceleration=20.0), Start(z=3e-4)
 run = simulate(conveyor, start, duration=0.1)
 print(run.status, np.isnan(run.z_end), np.isnan(run.mean_velocity()), sep=", ")
-print(attractors.sweep(pack(conveyor, start)[None], transient=0, strobes=1, tolerance=1e-8)[1][0])
+print(bifurcation_diagram.follow_attractor(pack(conveyor, start)[None], transient=0, strobes=1, tolerance=1e-8)[1][0])
 print(rigid_part_motion.run(pack(conveyor, start), 0.1, 0.5).status)
 """
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import HealthCheck, Phase, example, given, settings
 from hypothesis import strategies as st
 
+from accuracy.random_conveyors import around_the_paper, deepest_allowed, whole_ranges
 from conveyor import Conveyor, Start, ensemble, simulate
-from conveyor.analysis.random_conveyors import around_the_paper, deepest_allowed, whole_ranges
 from conveyor.solver.model import FREQUENCY, RANGES, TENSION_MODES, conveyor_motion, pack, unpack
 
 # A failing example is printed as it is found: shrinking runs that end with `contact too stiff` would take minutes.

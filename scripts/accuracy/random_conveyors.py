@@ -1,0 +1,129 @@
+"""Random conveyors and starts, to find out whether any of them breaks the solver."""
+
+import math
+
+import numpy as np
+
+from conveyor.solver import model, trajectory
+from conveyor.solver.horizontal import Z
+from conveyor.solver.model import RANGES, Conveyor
+from conveyor.solver.parallel import for_each_chunk
+
+# Moments of a run at which the penetration is looked at.
+MOMENTS = 401
+# How many of the random points have a usual exponent, a part that starts on the plate, a still plate or no damping.
+SHARE = 0.1
+
+
+def tension_and_exponent(points: np.ndarray, generator: np.random.Generator) -> None:
+    """Fill the columns of tension and exponent: all readings, all of [1, 3], Hooke, Hertz and whole ones more often."""
+    count = len(points)
+    usual = generator.choice([1.0, 1.5, 1.5, 2.0, 3.0], count)
+    low, high = RANGES["exponent"]
+    points[:, model.EXPONENT] = np.where(generator.random(count) < 0.5, usual, generator.uniform(low, high, count))
+    points[:, model.TENSION] = generator.integers(len(model.TENSION_MODES), size=count)
+
+
+def around_the_paper(count: int, seed: int) -> np.ndarray:
+    """Packed parameters, shape (count, 13): log-uniform over two decades around the defaults where that has a meaning.
+
+    Amplitudes reach 150 m/s², frequencies 5 to 500 Hz; every tenth start lies on the plate.
+    """
+    generator = np.random.default_rng(seed)
+    default = Conveyor()
+
+    def around(value):
+        return value * 10.0 ** generator.uniform(-1.0, 1.0, count)
+
+    points = np.empty((count, len(model.PARAMETERS)))
+    points[:, model.ACCELERATION] = np.minimum(around(default.acceleration), 150.0)
+    points[:, model.ANGLE] = np.minimum(around(default.angle), 0.5 * math.pi)
+    points[:, model.FREQUENCY] = around(default.frequency)
+    points[:, model.PSI0] = generator.uniform(0.0, 2.0 * math.pi, count)
+    points[:, model.STIFFNESS] = around(default.stiffness)
+    points[:, model.DAMPING] = around(default.damping)
+    points[:, model.FRICTION] = around(default.friction)
+    points[:, model.MASS] = around(default.mass)
+    points[:, model.GRAVITY] = default.gravity
+    tension_and_exponent(points, generator)
+    points[:, model.Z0] = np.where(generator.random(count) < SHARE, np.nan, generator.uniform(-1e-4, 5e-3, count))
+    points[:, model.VZ0] = generator.normal(0.0, 0.2, count)
+    return points
+
+
+def whole_ranges(count: int, seed: int) -> np.ndarray:
+    """Packed parameters, shape (count, 13), over all of model.RANGES, evenly in the logarithm or, for angles, as such.
+
+    What may be zero reaches down to a millionth of its largest value, and is zero in every tenth point; so do heights
+    and velocities of either sign, and every tenth start lies on the plate.
+    """
+    generator = np.random.default_rng(seed)
+    points = np.empty((count, len(model.PARAMETERS)))
+    for place, name in enumerate(model.PARAMETERS):
+        if name not in RANGES:
+            continue
+        low, high = RANGES[name]
+        if name in ("angle", "psi0"):
+            points[:, place] = generator.uniform(low, high, count)
+            continue
+        size = np.exp(generator.uniform(math.log(max(low, 1e-6 * high)), math.log(high), count))
+        if low == 0.0:
+            size[generator.random(count) < SHARE] = 0.0
+        sign = generator.choice([-1.0, 1.0], count) if low < 0.0 else 1.0
+        points[:, place] = np.clip(sign * size, low, high)
+    tension_and_exponent(points, generator)
+    points[generator.random(count) < SHARE, model.Z0] = np.nan
+    return points
+
+
+def deepest(
+    parameters: np.ndarray,
+    durations: np.ndarray,
+    tolerance: float,
+    *,
+    threads: int = 1,
+    progress: str | None = None,
+) -> np.ndarray:
+    """Largest penetration (m) at MOMENTS equidistant times of runs that take `durations` (s, shape (n,)).
+
+    Shape (n,); NaN for a run that does not reach its end. The other parameters are those of `ensemble.run`.
+    """
+    depths = np.empty(len(parameters))
+
+    def work(begin, end):
+        rows = parameters[begin:end]
+        times = np.linspace(0.0, durations[begin:end], MOMENTS, axis=1)
+        samples, _ = trajectory.integrate(rows, times, tolerance=tolerance, feeding=False)
+        omega = 2.0 * math.pi * rows[:, model.FREQUENCY, None]
+        stroke = rows[:, model.ACCELERATION, None] * np.sin(rows[:, model.ANGLE, None]) / omega**2
+        plate = -stroke * np.cos(omega * times + rows[:, model.PSI0, None])  # Eq. 4
+        depths[begin:end] = np.max(plate - samples[:, :, Z], axis=1)
+
+    for_each_chunk(work, len(parameters), threads=threads, progress=progress)
+    return depths
+
+
+def deepest_allowed(parameters: np.ndarray, max_gap: np.ndarray) -> np.ndarray:
+    """Penetration (m), shape (n,), that no run can exceed whose largest gap is `max_gap` (m, shape (n,)).
+
+    Seen from the plate the part is pulled down with g + a_z at most. It hits the plate no faster than it does from the
+    largest gap under this pull, the speed of the start added in squares, and is stopped where the spring has taken up
+    that energy, the pull's work on the way, and what a start inside the plate has stored. Damping only takes energy.
+    While it rides, the pull changes: twice the penetration under the largest one is the most that a part can reach
+    without having left the plate in between.
+    """
+    rows = parameters.T
+    omega = 2.0 * math.pi * rows[model.FREQUENCY]
+    a_z = rows[model.ACCELERATION] * np.sin(rows[model.ANGLE])
+    pull = rows[model.GRAVITY] + a_z
+    start = rows[model.VZ0] - a_z / omega * np.sin(rows[model.PSI0])
+    inside = np.fmax(-a_z / omega**2 * np.cos(rows[model.PSI0]) - rows[model.Z0], 0.0)
+    power = rows[model.EXPONENT] + 1.0
+    spring = rows[model.STIFFNESS] / rows[model.MASS] / power
+    energy = 0.5 * start**2 + pull * max_gap + spring * inside**power
+    rest = (pull * power / spring / power) ** (1.0 / rows[model.EXPONENT])
+    # spring δ^(p+1) = energy + pull δ: the iteration from above falls to its root.
+    depth = (2.0 * energy / spring) ** (1.0 / power) + (2.0 * pull / spring) ** (1.0 / rows[model.EXPONENT])
+    for _ in range(50):
+        depth = ((energy + pull * depth) / spring) ** (1.0 / power)
+    return np.fmax(np.fmax(depth, 2.0 * rest), inside)

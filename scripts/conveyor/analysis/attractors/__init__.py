@@ -1,0 +1,1 @@
+"""Finding attractors, and the label of the attractor that an initial condition leads to."""

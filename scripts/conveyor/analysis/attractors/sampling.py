@@ -1,0 +1,75 @@
+"""Sampled initial conditions of a conveyor, and the attractors that they lead to.
+
+The samples depend on the conveyor alone, so that the attractors that are found do not depend on who asks.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ...solver import contact
+from ...solver.model import PSI0
+from ...solver.trajectory import BEGIN_OF_CYCLE
+from .. import stroboscopic_map
+from . import settling_lanes
+from .attractor_table import NO_ATTRACTORS, AttractorTable
+
+SAMPLES = 32
+SETTLING = 400  # cycles within which a trajectory that does not end in chaos has mostly settled
+
+
+class Trajectories(NamedTuple):
+    """How trajectories of conveyors ended; every field is of length n."""
+
+    states: np.ndarray  # float64, shape (n, 2), δ (m), v (m/s) at trajectory.BEGIN_OF_CYCLE, at the end of the search
+    outcomes: np.ndarray  # int64, what ended it: settling.SETTLED, …
+    periods: np.ndarray  # int64, excitation cycles
+    flights: np.ndarray  # float64, s, longest flight
+    followed: np.ndarray  # int64, excitation cycles
+
+
+def initial_conditions(parameters: np.ndarray) -> np.ndarray:
+    """Initial conditions of one conveyor, shape (13,): (δ, v) in the air at the plate's top, shape (SAMPLES, 2).
+
+    A part that leaves the plate has at most its speed and half of g T or so to jump over a cycle or two: their sum
+    bounds the velocities, and what a part reaches with it the heights. The points are those of an R2 sequence.
+    """
+    c = contact.constants(parameters, 1e-8)
+    fastest = math.pi * (c.gravity + c.a_z) / c.omega
+    highest = 0.5 * fastest * fastest / c.gravity
+    golden = 1.324717957244746  # the real root of x³ = x + 1
+    share = np.modf(np.arange(1, SAMPLES + 1)[:, None] * np.array([1.0 / golden, 1.0 / golden**2]))[0]
+    return np.column_stack([-highest * share[:, 0], fastest * (2.0 * share[:, 1] - 1.0)])
+
+
+def follow(
+    parameters: np.ndarray,
+    states: np.ndarray,
+    cycles: int,
+    tolerance: float,
+    known: AttractorTable = NO_ATTRACTORS,
+    strobes: np.ndarray | None = None,
+) -> Trajectories:
+    """Follow a trajectory on each of n conveyors, shape (n, 13), until it settles, for at most `cycles`.
+
+    states : float64, shape (n, 2), δ (m), v (m/s) at trajectory.BEGIN_OF_CYCLE
+    strobes : float64, shape (n, cycles, 2), filled with the states after each cycle
+    """
+    n = len(states)
+    at_top = np.array(parameters)
+    at_top[:, PSI0] = BEGIN_OF_CYCLE
+    rows = stroboscopic_map.pack_states(at_top, states, tolerance)
+    found = Trajectories(np.empty((n, 2)), *(np.empty(n, kind) for kind in (np.int64, np.int64, np.float64, np.int64)))
+    strobes = np.empty((n, 0, 2)) if strobes is None else strobes
+    settling_lanes.settle_points(rows, tolerance, cycles, known, known.of(rows), tuple(found), strobes)
+    return found
+
+
+def sample_conveyors(conveyors: np.ndarray, cycles: int, tolerance: float) -> list[Trajectories]:
+    """The trajectories of each of n conveyors, shape (n, 13), from its `initial_conditions`, for at most `cycles`."""
+    states = np.concatenate([initial_conditions(row) for row in conveyors])
+    found = follow(np.repeat(conveyors, SAMPLES, axis=0), states, cycles, tolerance)
+    return [
+        Trajectories(*(column[begin : begin + SAMPLES] for column in found)) for begin in range(0, len(states), SAMPLES)
+    ]

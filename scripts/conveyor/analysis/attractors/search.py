@@ -1,0 +1,46 @@
+"""Find the attractors of conveyors from where sampled initial conditions lead."""
+
+import numpy as np
+
+from ...solver.parallel import for_each_chunk
+from . import sampling
+from .attractor_table import NO_ATTRACTORS, AttractorTable, concatenate, distinct_conveyors
+from .chaotic_sets import find_chaotic_sets
+from .trapping_regions import find_attracting_orbits
+
+# Conveyors whose trajectories are followed side by side.
+TOGETHER = 16
+
+
+def find_attractors(
+    parameters: np.ndarray,
+    *,
+    cycles: int,
+    orbits: bool = True,
+    tolerance: float = 1e-8,
+    threads: int = 1,
+    progress: str | None = None,
+) -> AttractorTable:
+    """The attractors of the conveyors in `parameters`, shape (n, 13), whatever their initial conditions are.
+
+    Parameters
+    ----------
+    cycles : excitation cycles after which a motion that has not settled is followed no further, as in labels.classify
+    orbits : whether trapping regions of periodic orbits are wanted: each takes some thousand cycles
+    tolerance, threads, progress : as in labels.classify
+    """
+    conveyors, _ = distinct_conveyors(parameters)
+    found = [NO_ATTRACTORS] * len(conveyors)
+
+    def work(begin, end):
+        some = conveyors[begin:end]
+        sampled = sampling.sample_conveyors(some, min(sampling.SETTLING, cycles), tolerance)
+        chaotic = find_chaotic_sets(some, sampled, cycles, tolerance)
+        for k, (row, of_row, sets) in enumerate(zip(some, sampled, chaotic, strict=True), start=begin):
+            found[k] = AttractorTable(
+                find_attracting_orbits(row, of_row, tolerance) if orbits else NO_ATTRACTORS.orbits, sets
+            )
+
+    chunk = TOGETHER if len(conveyors) >= TOGETHER * threads else 1
+    for_each_chunk(work, len(conveyors), threads=threads, chunk=chunk, progress=progress)
+    return concatenate([NO_ATTRACTORS, *found])

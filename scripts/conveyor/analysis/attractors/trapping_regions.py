@@ -1,0 +1,128 @@
+"""Attracting periodic orbits of a conveyor, and trapping regions: all motions from there end in the orbit.
+
+The stroboscopic map is a homeomorphism of the plane. A closed curve whose image lies inside another one takes what it
+surrounds inside as well, so that only its points need to be looked at. The first curve is an ellipse so small that the
+motion is linear there; each following one is twice as large and has to come into the last one. Around a point of an
+orbit ellipses are those of a norm in which its linearisation contracts in each period, not only in the long run.
+"""
+
+import math
+from functools import reduce
+
+import numpy as np
+
+from ...solver import contact
+from ...solver.jit import kernel
+from ...solver.model import PSI0
+from ...solver.trajectory import BEGIN_OF_CYCLE, OK
+from .. import stroboscopic_map
+from .attractor_table import AttractingOrbits, orbit_table
+from .sampling import Trajectories
+from .settling import SETTLED, measure
+
+POINTS = 32  # of a curve
+PERIODS = 32  # within which a curve has to come into the one before
+# Lengths of the longer half-axes of the ellipses, in g/ω² and g/ω.
+SMALLEST, LARGEST = 1e-3, 64.0
+# Spectral radii of a linearisation: a smaller one counts as this one, and with a larger one no curve halves in time.
+FASTEST, SLOWEST = 1e-4, 0.98
+LONGEST = 8  # excitation cycles: around longer orbits nothing is looked for
+
+
+@kernel
+def comes_inside(parameters, tolerance, centre, factor, period, radius):
+    """Whether the ellipse of a `radius` about a point of an orbit comes into that of half the radius, all at once.
+
+    centre, factor : see AttractingOrbits
+    period : excitation cycles, of the orbit
+
+    Neighbouring points have to be closer to each other then than any is to the ellipse that they have come into.
+    """
+    c, series = contact.constants(parameters, tolerance), contact.workspace()
+    no_tangent, features = np.empty((0, 2)), np.zeros(stroboscopic_map.FEATURES)
+    states, images = np.empty((POINTS, 2)), np.empty((POINTS, 2))
+    for i in range(POINTS):
+        angle = 2.0 * math.pi * i / POINTS
+        across = radius * math.sin(angle) / factor[2]
+        states[i, 0] = centre[0] + (radius * math.cos(angle) - factor[1] * across) / factor[0]
+        states[i, 1] = centre[1] + across - c.damping * max(states[i, 0], 0.0)
+    before = math.inf
+    for _ in range(PERIODS):
+        size = gap = 0.0
+        for i in range(POINTS):
+            for _ in range(period):
+                status = stroboscopic_map.advance(c, series, states[i], BEGIN_OF_CYCLE, c.period, no_tangent, features)
+                if status != OK:
+                    return False
+            images[i, 0], images[i, 1] = measure(c, centre, factor, states[i])
+            size = max(size, math.hypot(images[i, 0], images[i, 1]))
+        for i in range(POINTS):
+            gap = max(gap, math.hypot(images[i, 0] - images[i - 1, 0], images[i, 1] - images[i - 1, 1]))
+        if size + gap <= 0.5 * radius:
+            return True
+        # A curve that has left itself and does not come back is mostly out of the basin: it is not waited for.
+        if size > radius and size >= before:
+            return False
+        before = size
+    return False
+
+
+def contracting_norm(matrix: np.ndarray) -> np.ndarray | None:
+    """Upper triangular R, shape (2, 2), with |R M x| < |R x| for a matrix M and all x ≠ 0, and |x| ≤ |R x|.
+
+    From Lyapunov's equation of M divided by the root of its spectral radius. None if M contracts too slowly, or not.
+    """
+    radius = np.abs(np.linalg.eigvals(matrix)).max()
+    if not radius <= SLOWEST:
+        return None
+    # As scipy.linalg solves it, to the last digit; to load that takes every job some tenths of a second.
+    map_of = (matrix / math.sqrt(max(radius, FASTEST))).T
+    square = np.linalg.solve(np.eye(4) - np.kron(map_of, map_of), np.eye(2).ravel()).reshape(2, 2)
+    return np.linalg.cholesky(square / np.linalg.eigvalsh(square)[0], upper=True)
+
+
+def neighbourhood(
+    parameters: np.ndarray, tolerance: float, state: np.ndarray, period: int
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """Centre, shape (2,), and factor, shape (3,), of the largest neighbourhood of a point of an orbit; None for none.
+
+    state : δ (m), v (m/s), shape (2,), at trajectory.BEGIN_OF_CYCLE
+    """
+    c = contact.constants(parameters, tolerance)
+    unit = np.array([c.gravity / c.omega**2, c.gravity / c.omega])
+    matrices, features = np.empty((period, 2, 2)), np.empty((period, stroboscopic_map.FEATURES))
+    at_top = parameters.copy()
+    at_top[PSI0] = BEGIN_OF_CYCLE
+    if stroboscopic_map.monodromy(at_top, tolerance, state.copy(), matrices, features) != OK:
+        return None
+    matrix = reduce(lambda product, following: following @ product, matrices)
+    norm = contracting_norm(matrix * unit / unit[:, None])
+    if norm is None:
+        return None
+    centre = np.array([state[0], state[1] + c.damping * max(state[0], 0.0)])
+    factor = (norm / unit)[np.triu_indices(2)]
+    radius = SMALLEST
+    while radius <= LARGEST and comes_inside(parameters, tolerance, centre, factor, period, radius):
+        radius *= 2.0
+    return (centre, factor / (0.5 * radius)) if radius > SMALLEST else None
+
+
+def find_attracting_orbits(parameters: np.ndarray, trajectories: Trajectories, tolerance: float) -> AttractingOrbits:
+    """The attracting orbits of a conveyor, shape (13,), that trajectories have come to, each with a trapping region."""
+    c = contact.constants(parameters, tolerance)
+    unit = np.array([c.gravity / c.omega**2, c.gravity / c.omega])
+    at_top = parameters.copy()
+    at_top[PSI0] = BEGIN_OF_CYCLE
+    seen, found = np.empty((0, 2)), []
+    for k in np.flatnonzero((trajectories.outcomes == SETTLED) & (trajectories.periods <= LONGEST)):
+        state, period = trajectories.states[k], int(trajectories.periods[k])
+        if (np.abs((seen - state) / unit).max(axis=1) < SMALLEST).any():
+            continue
+        strobes, features = np.empty((period, 2)), np.empty((period, stroboscopic_map.FEATURES))
+        if stroboscopic_map.follow(at_top, tolerance, state.copy(), period, strobes, features) != OK:
+            continue
+        seen = np.concatenate([seen, strobes])
+        around = neighbourhood(parameters, tolerance, state, period)
+        if around is not None:
+            found.append((*around, period, float(trajectories.flights[k])))
+    return orbit_table(parameters, found)

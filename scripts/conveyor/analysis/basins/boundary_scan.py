@@ -1,0 +1,74 @@
+"""Boundaries of basins over the initial height: at which z0 does the label change?
+
+A scan of z0 shows the changes between neighbours; bisection encloses each of them. More than one change is possible:
+seen along z0 the basins of the states are stripes, which become narrow where a state has just appeared.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from ...solver.model import Z0
+
+
+class Crossings(NamedTuple):
+    """Changes of state along z0, sorted by conveyor and height; every field has the shape (k,)."""
+
+    point: np.ndarray  # int64, row of the conveyor
+    height: np.ndarray  # m, the highest z0 found to lead to the state below
+    below: np.ndarray  # str, label just below
+    above: np.ndarray  # str, label just above
+
+
+def find_crossings(
+    parameters: np.ndarray,
+    heights: np.ndarray,
+    decide: Callable[[np.ndarray], np.ndarray],
+    resolution: float = 1e-9,
+) -> Crossings:
+    """All changes of state that a scan of z0 shows, each located by bisection.
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 13), rows as from model.pack; their z0 is not used
+    heights : z0 of the scan, m, ascending, shape (h,); stripes narrower than their distance may be missed
+    decide : state of motion, str, shape (m,), for parameters of shape (m, 13)
+    resolution : width, m, to which a change is enclosed
+    """
+    heights = np.asarray(heights, dtype=np.float64)
+    if heights.ndim != 1 or len(heights) < 2 or not (np.diff(heights) > 0.0).all():
+        raise ValueError("heights must be ascending and at least two")
+    if not resolution > 2.0 * np.spacing(np.abs(heights).max()):
+        raise ValueError(f"resolution = {resolution!r} m is below the distance of numbers in double precision")
+
+    def states_at(points: np.ndarray, z0: np.ndarray) -> np.ndarray:
+        rows = np.array(parameters[points], dtype=np.float64)
+        rows[:, Z0] = z0
+        return decide(rows)
+
+    scan = states_at(np.repeat(np.arange(len(parameters)), len(heights)), np.tile(heights, len(parameters)))
+    scan = scan.reshape(len(parameters), len(heights))
+    point, left = np.nonzero(scan[:, 1:] != scan[:, :-1])
+    low, high = heights[left], heights[left + 1]
+    below, above = scan[point, left], scan[point, left + 1]
+    while (wide := np.flatnonzero(high - low > resolution)).size:
+        middle = 0.5 * (low[wide] + high[wide])
+        state = states_at(point[wide], middle)
+        lower = state == below[wide]
+        low[wide[lower]] = middle[lower]
+        high[wide[~lower]], above[wide[~lower]] = middle[~lower], state[~lower]
+    return Crossings(point, low, below, above)
+
+
+def select_critical(found: Crossings) -> np.ndarray:
+    """Which of the crossings is the critical z0 of its conveyor: bool, shape (k,).
+
+    It is the lowest crossing at which the first state ends: a part released lower is certain to move with the plate.
+    (The height above which *only* the second state is found need not exist: where the second state is young, parts that
+    fall from still higher land in the first state again.)
+    """
+    leaves = np.flatnonzero(found.below == "first")
+    chosen = np.zeros(len(found.point), dtype=bool)
+    chosen[leaves[np.unique(found.point[leaves], return_index=True)[1]]] = True
+    return chosen

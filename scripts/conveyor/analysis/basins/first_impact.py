@@ -1,0 +1,60 @@
+"""The first impact (Eqs. 16 to 18), and the initial condition on the plate that leads to the same motion."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ...solver import contact
+from ...solver.flight import next_impact
+from ...solver.jit import kernel
+from ...solver.model import PSI0, VZ0, Z0
+from ...solver.vertical import begin, in_contact
+
+TIME, VELOCITY, PHASE = range(3)
+
+
+class FirstImpact(NamedTuple):
+    """Time t1 (s), velocity ż1 of the part (m/s) and phase ψ1 = ωt1 + ψ0 (rad) of n motions; float64, shape (n,).
+
+    A part that begins on the plate and presses on it has t1 = 0. One that begins below the surface has no impact: NaN.
+    """
+
+    time: np.ndarray
+    velocity: np.ndarray
+    phase: np.ndarray
+
+
+@kernel
+def fill_first_impacts(parameters, out):
+    """Fill the rows of `out`, shape (n, 3), for `parameters`, shape (n, 13)."""
+    out[:] = np.nan
+    for i in range(parameters.shape[0]):
+        c = contact.constants(parameters[i], 1e-10)
+        height, theta, vz = c.a_z / (c.omega * c.omega), c.psi0, parameters[i, VZ0]
+        q, rate = begin(c, parameters[i, Z0], vz, theta)
+        if q < 0.0:
+            continue
+        t1 = 0.0
+        if not in_contact(c, q, rate, theta):
+            z = q - height * math.cos(theta)
+            # By then the part would be below the lowest point of the plate.
+            longest = 1.1 * (vz + math.sqrt(vz * vz + 2.0 * c.gravity * (z + height))) / c.gravity
+            t1, _ = next_impact(z, vz, q, rate, theta, c.gravity, c.a_z, c.omega, longest)
+        out[i, TIME], out[i, VELOCITY], out[i, PHASE] = t1, vz - c.gravity * t1, theta + c.omega * t1
+
+
+def first_impacts(parameters: np.ndarray) -> FirstImpact:
+    """First impacts of the initial conditions in `parameters`, float64, shape (n, 13), rows as from model.pack."""
+    out = np.empty((len(parameters), 3))
+    fill_first_impacts(np.ascontiguousarray(parameters, dtype=np.float64), out)
+    return FirstImpact(*out.T)
+
+
+def on_conveyor(parameters: np.ndarray, impacts: FirstImpact) -> np.ndarray:
+    """The same motions, shape (n, 13), begun on the conveyor with phase and velocity of their first impacts."""
+    mapped = np.array(parameters, dtype=np.float64)
+    mapped[:, PSI0] = impacts.phase % (2.0 * math.pi)
+    mapped[:, Z0] = math.nan
+    mapped[:, VZ0] = impacts.velocity
+    return mapped

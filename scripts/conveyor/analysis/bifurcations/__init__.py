@@ -1,0 +1,1 @@
+"""Periodic orbits, their branches and bifurcations, in one parameter and in two."""

@@ -1,0 +1,196 @@
+"""Branches of periodic orbits in the amplitude â, and the bifurcations on them.
+
+Branches are followed by pseudo-arclength (Keller 1977), so that they pass folds. Where a multiplier passes +1 a branch
+folds, where one passes -1 its period doubles, and where a contact begins or ceases to exist an impact grazes. The
+product of the multipliers is positive and at most 1, so that no other bifurcation of a single orbit is generic.
+"""
+
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+from .newton import follow_curve
+from .periodic_orbits import Orbit, ReturnMap
+
+SAME = 1e-5  # orbits this close are one, in scaled unknowns
+# Following a branch: arclength of a step in scaled unknowns, about that in â (m/s²), its first part and its smallest.
+LARGEST_STEP, FIRST_STEP, SMALLEST_STEP = 0.1, 1e-3, 1e-7
+STRAIGHT = 0.95  # cosine of the largest turn of a branch within one step
+MAX_ORBITS = 5000
+
+
+class Bifurcation(NamedTuple):
+    """A point of a branch at which its stability or its impacts change."""
+
+    kind: str  # fold, period_doubling, grazing
+    orbit: Orbit
+    multiplier: float  # the real multiplier at +1 or -1; for a grazing the one of larger modulus
+
+
+class Branch(NamedTuple):
+    """A branch of periodic orbits in the order of its arclength, what was found on it, and why it ends."""
+
+    orbits: list[Orbit]
+    bifurcations: list[Bifurcation]
+    ends: tuple[str, str]  # at the first and at the last orbit: limit, closed, period halving, step, length
+    parent: Orbit | None  # the orbit of half the period where it ends in one
+
+
+def fold_test(orbit: Orbit) -> float:
+    """(1 - μ1)(1 - μ2), real for complex multipliers too: zero where a multiplier is +1."""
+    first, second = orbit.multipliers
+    return ((1.0 - first) * (1.0 - second)).real
+
+
+def doubling_test(orbit: Orbit) -> float:
+    """(1 + μ1)(1 + μ2), real for complex multipliers too: zero where a multiplier is -1."""
+    first, second = orbit.multipliers
+    return ((1.0 + first) * (1.0 + second)).real
+
+
+def follow_branch(parameters: np.ndarray, orbit: Orbit, limits: tuple[float, float]) -> Branch:
+    """Follow the branch of `orbit` in â to both sides by pseudo-arclength.
+
+    Parameters
+    ----------
+    parameters : float64, shape (13,); its amplitude is ignored
+    orbit : an orbit within the limits
+    limits : lowest and highest â, m/s²
+
+    Returns
+    -------
+    Branch, with folds, period doublings and grazings located to about 1e-9 m/s²
+    """
+    upwards = np.array([0.0, 0.0, 1.0])
+    orbits, found, last, parent = _follow(parameters, orbit, limits, upwards)
+    if last == "closed":
+        return Branch(orbits, found, (last, last), None)
+    before, found_before, first, other = _follow(parameters, orbit, limits, -upwards)
+    return Branch(
+        [*before[:0:-1], *orbits], [*reversed(found_before), *found], (first, last), parent if other is None else other
+    )
+
+
+def _follow(parameters, orbit, limits, direction):
+    """Orbits and bifurcations in the order in which they are met, the reason of the end and the orbit's parent."""
+    returns = ReturnMap(parameters, orbit.period)
+    here = returns.scaled(orbit.acceleration, orbit.state)
+    beginning = returns.strobes(here)
+    orbits, bifurcations = [orbit], []
+    lengths = {"first": FIRST_STEP, "smallest": SMALLEST_STEP, "largest": LARGEST_STEP}
+    steps = follow_curve(returns.correct, returns.tangent, here, direction, **lengths, straight=STRAIGHT)
+    for here, there, tangent, _, length in steps:
+        if orbit.period % 2 == 0 and returns.halving(here) @ returns.halving(there) < 0.0:
+            half = ReturnMap(parameters, orbit.period // 2)
+            unknown = half.newton(0.5 * (here + there))
+            return orbits, bifurcations, "period halving", None if unknown is None else half.describe(unknown)
+        orbits.append(returns.describe(there))
+        bifurcations += bifurcations_between(parameters, *orbits[-2:])
+        if not limits[0] <= orbits[-1].acceleration <= limits[1]:
+            return orbits, bifurcations, "limit", None
+        advance = (beginning - here) @ tangent
+        aside = np.linalg.norm(beginning - here - advance[:, None] * tangent, axis=1)
+        if len(orbits) > 3 and ((advance > 0.0) & (advance <= length) & (aside < 0.1 * length)).any():
+            return orbits, bifurcations, "closed", None
+        if len(orbits) == MAX_ORBITS:
+            return orbits, bifurcations, "length", None
+    return orbits, bifurcations, "step", None
+
+
+def bifurcations_between(parameters: np.ndarray, before: Orbit, after: Orbit) -> list[Bifurcation]:
+    """Bifurcations between two neighbouring orbits of a branch, in the order in which they are met."""
+    returns = ReturnMap(parameters, before.period)
+    begin, end = (returns.scaled(orbit.acceleration, orbit.state) for orbit in (before, after))
+    direction = (end - begin) / np.linalg.norm(end - begin)
+
+    def at(part: float) -> Orbit | None:
+        unknown = returns.correct(begin + part * (end - begin), direction)
+        return None if unknown is None else returns.describe(unknown)
+
+    found = []
+    for kind, test, sign in (("fold", fold_test, 1.0), ("period_doubling", doubling_test, -1.0)):
+        if test(before) * test(after) < 0.0 and (part := _zero(at, test)) is not None:
+            orbit = at(part)
+            multiplier = min(orbit.multipliers, key=lambda value, sign=sign: abs(value - sign))
+            found.append((part, Bifurcation(kind, orbit, multiplier.real)))
+    if before.impacts != after.impacts:
+        part = _zero(at, lambda orbit: 0.5 - (orbit.impacts != before.impacts))
+        if part is not None:
+            orbit = at(part)
+            found.append((part, Bifurcation("grazing", orbit, orbit.multipliers[0].real)))
+    return [bifurcation for _, bifurcation in sorted(found, key=lambda item: item[0])]
+
+
+def _zero(at: Callable[[float], Orbit | None], test: Callable[[Orbit], float]) -> float | None:
+    """Where a test function of the orbits along a step, parts 0 … 1, is zero; None if an orbit is not found there."""
+
+    def value(part):
+        orbit = at(part)
+        if orbit is None:
+            raise ArithmeticError("no orbit")
+        return test(orbit)
+
+    try:
+        return brentq(value, 0.0, 1.0, xtol=1e-12, rtol=1e-12)
+    except (ArithmeticError, ValueError):
+        return None
+
+
+def doubled(parameters: np.ndarray, bifurcation: Bifurcation, distance: float = 0.02) -> Orbit | None:
+    """An orbit of twice the period near a period doubling, `distance` (scaled) from it along the eigenvector of -1."""
+    orbit = bifurcation.orbit
+    single, double = ReturnMap(parameters, orbit.period), ReturnMap(parameters, 2 * orbit.period)
+    unknown = single.scaled(orbit.acceleration, orbit.state)
+    values, vectors = np.linalg.eig(single.residual(unknown)[1] + np.eye(2))
+    along = np.append(vectors[:, np.argmin(np.abs(values + 1.0))].real, 0.0)
+    along /= np.linalg.norm(along)
+    found = double.correct(unknown + distance * along, along)
+    return None if found is None else double.describe(found)
+
+
+def on_branch(parameters: np.ndarray, branch: Branch, orbit: Orbit) -> bool:
+    """Whether an orbit, at any of its phases, lies on a branch."""
+    if branch.orbits[0].period != orbit.period:
+        return False
+    returns = ReturnMap(parameters, orbit.period)
+    strobes = returns.strobes(returns.scaled(orbit.acceleration, orbit.state))
+    points = np.array([returns.scaled(other.acceleration, other.state) for other in branch.orbits])
+    above = points[:, 2] > strobes[0, 2]
+    for i in np.flatnonzero(above[1:] != above[:-1]):
+        part = (strobes[0, 2] - points[i, 2]) / (points[i + 1, 2] - points[i, 2])
+        guess = points[i] + part * (points[i + 1] - points[i])
+        if np.linalg.norm(strobes - guess, axis=1).min() < LARGEST_STEP:
+            unknown = returns.newton(guess)
+            if unknown is not None and np.linalg.norm(strobes - unknown, axis=1).min() < SAME:
+                return True
+    return False
+
+
+def explore(
+    parameters: np.ndarray, seeds: Iterable[Orbit], limits: tuple[float, float], max_period: int
+) -> list[Branch]:
+    """All branches that hang together with the seeds through period doublings, each once.
+
+    Parameters
+    ----------
+    parameters : float64, shape (13,); its amplitude is ignored
+    seeds : orbits to begin with
+    limits : lowest and highest â, m/s²
+    max_period : longer orbits are left out
+    """
+    branches: list[Branch] = []
+    waiting = list(seeds)
+    while waiting:
+        orbit = waiting.pop(0)
+        if any(on_branch(parameters, branch, orbit) for branch in branches):
+            continue
+        branch = follow_branch(parameters, orbit, limits)
+        branches.append(branch)
+        if branch.parent is not None:
+            waiting.append(branch.parent)
+        if 2 * orbit.period <= max_period:
+            doublings = [b for b in branch.bifurcations if b.kind == "period_doubling"]
+            waiting += [new for b in doublings if (new := doubled(parameters, b)) is not None]
+    return branches

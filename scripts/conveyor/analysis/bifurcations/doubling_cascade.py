@@ -1,0 +1,54 @@
+"""Cascades of period doublings: their doublings, Feigenbaum's ratios and where they accumulate."""
+
+import numpy as np
+
+from .continuation import Bifurcation, doubling_test
+from .periodic_orbits import find_orbit, settled_orbit
+
+FEIGENBAUM = 4.669201609102990
+RESOLVED = 1e-6  # of 1 + μ at a doubling of the cascade: six digits of its distance to the next one
+SECANT_STEPS = 12  # after which a doubling of the cascade is not resolved
+
+
+def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurcation) -> list[Bifurcation]:
+    """The period doublings that follow two successive ones, as far as double precision resolves them.
+
+    Each doubling lies by Feigenbaum's ratio closer to the last one than that to its predecessor. Halfway there the
+    doubled orbit is about superstable: a trajectory comes to it at once, and Newton's iteration follows it in â to
+    where its multiplier is -1.
+    """
+    cascade = [first, second]
+    while True:
+        last = cascade[-1].orbit
+        gap = (last.acceleration - cascade[-2].orbit.acceleration) / FEIGENBAUM
+        period = 2 * last.period
+        before, _ = settled_orbit(parameters, last.acceleration + 0.5 * gap, last.state, (period,), 30 * period)
+        if before is None:
+            return cascade
+        here = find_orbit(parameters, last.acceleration + 0.6 * gap, before.state, period)
+        for _ in range(SECANT_STEPS):
+            if here is None or abs(doubling_test(here)) <= RESOLVED:
+                break
+            # A secant step in â, from which Newton's iteration starts on the secant of the states.
+            part = doubling_test(here) / (doubling_test(before) - doubling_test(here))
+            acceleration = here.acceleration + part * (here.acceleration - before.acceleration)
+            state = here.state + part * (here.state - before.state)
+            before, here = here, find_orbit(parameters, acceleration, state, period)
+            if abs(acceleration - last.acceleration - gap) > 0.5 * abs(gap) or acceleration == before.acceleration:
+                return cascade
+        if here is None or abs(doubling_test(here)) > RESOLVED:
+            return cascade
+        cascade.append(Bifurcation("period_doubling", here, min(value.real for value in here.multipliers)))
+
+
+def ratios(amplitudes: np.ndarray) -> np.ndarray:
+    """Feigenbaum's ratios (d_n - d_(n-1))/(d_(n+1) - d_n) of successive doublings, shape (n - 2,)."""
+    gaps = np.diff(amplitudes)
+    return gaps[:-1] / gaps[1:]
+
+
+def accumulation(amplitudes: np.ndarray) -> tuple[float, float]:
+    """Limit of successive doublings by Aitken's process, and its error: how far the last doubling moved it."""
+    before, gap = amplitudes[:-2], np.diff(amplitudes)
+    limits = before - gap[:-1] ** 2 / (gap[1:] - gap[:-1])
+    return float(limits[-1]), float(abs(limits[-1] - limits[-2]))

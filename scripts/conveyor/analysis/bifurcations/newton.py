@@ -1,0 +1,99 @@
+"""Newton's iteration, and the curve of zeros that it follows by pseudo-arclength (Keller 1977)."""
+
+import math
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+# A step that turns or lengthens more may have jumped to another curve.
+LONGER = 1.2
+GROWTH = 1.3  # of the step after a success
+
+
+def solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray | None:
+    """The solution of a linear system, or None for a singular one."""
+    try:
+        return np.linalg.solve(matrix, right)
+    except np.linalg.LinAlgError:
+        return None
+
+
+def newton(
+    step_at: Callable[[np.ndarray], np.ndarray | None],
+    guess: np.ndarray,
+    *,
+    converged: float,
+    iterations: int,
+    largest: float = math.inf,
+    farthest: float = math.inf,
+    stagnant: float = 0.0,
+    often: int = 1,
+) -> np.ndarray | None:
+    """The zero that Newton's iteration finds from a guess, shape (k,), or None.
+
+    Parameters
+    ----------
+    step_at : Newton's step from a point, shape (k,); None, or NaN in it, where there is none
+    converged : largest component of the last step
+    iterations : after which the search gives up
+    largest, farthest : component of a step, and distance from the guess, from which on the search gives up
+    stagnant, often : steps below `stagnant` that shrink no more are round-off; `often` of them end the search
+    """
+    here, size, stalls = np.array(guess, dtype=np.float64), math.inf, 0
+    for _ in range(iterations):
+        step = step_at(here)
+        if step is None:
+            return None
+        here = here + step
+        previous, size = size, np.abs(step).max()
+        if not (size < largest and np.linalg.norm(here - guess) < farthest):
+            return None
+        stalls += previous < stagnant and size > 0.1 * previous
+        if size < converged or stalls == often:
+            return here
+    return None
+
+
+class Step(NamedTuple):
+    """A step along a curve."""
+
+    here: np.ndarray
+    there: np.ndarray
+    tangent: np.ndarray  # unit vector along the curve at `here`
+    onwards: np.ndarray  # and at `there`
+    length: float
+
+
+def follow_curve(
+    correct: Callable[[np.ndarray, np.ndarray], np.ndarray | None],
+    tangent_at: Callable[[np.ndarray, np.ndarray], np.ndarray | None],
+    here: np.ndarray,
+    direction: np.ndarray,
+    *,
+    first: float,
+    smallest: float,
+    largest: float,
+    straight: float,
+) -> Iterator[Step]:
+    """Steps along a curve from a point of it, until none is possible any more.
+
+    Parameters
+    ----------
+    correct : the point of the curve in the plane through a guess that is normal to a unit vector, or None
+    tangent_at : unit vector along the curve at a point, pointing on from a previous one; None where there is none
+    first, smallest, largest : arclengths of steps
+    straight : cosine of the largest turn within a step
+    """
+    tangent, length = tangent_at(here, direction), first
+    while tangent is not None:
+        there = correct(here + length * tangent, tangent)
+        following = None if there is None else tangent_at(there, tangent)
+        if following is None or not following @ tangent > straight or np.linalg.norm(there - here) > LONGER * length:
+            length *= 0.5
+            if length < smallest:
+                return
+            continue
+        yield Step(here, there, tangent, following, length)
+        here, tangent = there, following
+        length = min(GROWTH * length, largest)

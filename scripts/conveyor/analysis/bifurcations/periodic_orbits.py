@@ -1,0 +1,186 @@
+"""Periodic orbits: Newton's iteration on the stroboscopic map, and Floquet multipliers.
+
+An orbit of period n is a fixed point of the n-th power of the stroboscopic map in (δ, Y) (see stroboscopic_map).
+"""
+
+import cmath
+from collections.abc import Iterable
+from functools import reduce
+from typing import NamedTuple
+
+import numpy as np
+
+from ...solver import contact
+from ...solver.model import ACCELERATION, DAMPING, MASS
+from ...solver.trajectory import OK
+from .. import stroboscopic_map
+from .newton import newton, solve
+
+TOLERANCE = 1e-13
+AMPLITUDE_STEP = 1e-6  # m/s², of the central difference ∂P/∂â
+CONVERGED = 1e-10  # of Newton's last correction, in scaled unknowns
+STAGNANT = 1e-6  # corrections below this that converge no further are round-off
+
+
+class Orbit(NamedTuple):
+    """A periodic orbit of the vertical motion at one amplitude."""
+
+    acceleration: float  # m/s²
+    state: np.ndarray  # (δ in m, v in m/s) at the phase ψ0
+    period: int  # excitation cycles
+    multipliers: tuple[complex, complex]  # Floquet multipliers, the larger modulus first
+    determinant: float  # their product, from the monodromy matrix
+    impacts: int  # per period
+    contact_time: float  # s per period
+    longest_flight: float  # excitation cycles
+
+    @property
+    def stable(self) -> bool:
+        """Whether both multipliers lie inside the unit circle."""
+        return abs(self.multipliers[0]) < 1.0
+
+
+class ReturnMap:
+    """The n-th power of the stroboscopic map and its fixed points, in scaled unknowns u = (δ, Y, â).
+
+    The units are g/ω² (m), g/ω (m/s) and 1 m/s², which makes the three comparable. A map that fails gives NaN.
+    """
+
+    def __init__(self, parameters: np.ndarray, period: int):
+        c = contact.constants(parameters, TOLERANCE)
+        self.parameters = parameters.copy()
+        self.period = period
+        self.cycle = c.period
+        self.damping = parameters[DAMPING] / parameters[MASS]
+        self.unit = np.array([c.gravity / c.omega**2, c.gravity / c.omega, 1.0])
+
+    def scaled(self, acceleration: float, state: np.ndarray) -> np.ndarray:
+        """The unknowns of a state (δ in m, v in m/s) at an amplitude."""
+        return np.array([state[0], state[1] + self.damping * max(state[0], 0.0), acceleration]) / self.unit
+
+    def state(self, unknown: np.ndarray) -> np.ndarray:
+        """The state (δ in m, v in m/s) of unknowns."""
+        delta, y, _ = unknown * self.unit
+        return np.array([delta, y - self.damping * max(delta, 0.0)])
+
+    def row(self, unknown: np.ndarray) -> np.ndarray:
+        """The packed parameters at the amplitude of unknowns."""
+        row = self.parameters.copy()
+        row[ACCELERATION] = unknown[2] * self.unit[2]
+        return row
+
+    def strobes(self, unknown: np.ndarray) -> np.ndarray:
+        """Unknowns after 1 … n cycles, shape (n, 3)."""
+        states, features = np.empty((self.period, 2)), np.empty((self.period, stroboscopic_map.FEATURES))
+        stroboscopic_map.follow(self.row(unknown), TOLERANCE, self.state(unknown), self.period, states, features)
+        return np.array([self.scaled(unknown[2] * self.unit[2], state) for state in states])
+
+    def linearised(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """(δ, Y) after n cycles in their units, the matrices (SI units) and the features of all cycles."""
+        state, matrices = self.state(unknown), np.empty((self.period, 2, 2))
+        features = np.zeros((self.period, stroboscopic_map.FEATURES))
+        if stroboscopic_map.monodromy(self.row(unknown), TOLERANCE, state, matrices, features) != OK:
+            return np.full(2, np.nan), np.full((self.period, 2, 2), np.nan), features
+        return self.scaled(unknown[2], state)[:2], matrices, features
+
+    def residual(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """P(X) - X, shape (2,), and its derivative by (δ, Y), shape (2, 2), scaled."""
+        image, matrices, _ = self.linearised(unknown)
+        matrix = reduce(lambda product, following: following @ product, matrices)
+        return image - unknown[:2], matrix * self.unit[:2] / self.unit[:2, None] - np.eye(2)
+
+    def slope(self, unknown: np.ndarray) -> np.ndarray:
+        """Derivative of P by â, scaled, shape (2,)."""
+        ahead = np.array([0.0, 0.0, AMPLITUDE_STEP])
+        return (self.strobes(unknown + ahead)[-1, :2] - self.strobes(unknown - ahead)[-1, :2]) / (2.0 * AMPLITUDE_STEP)
+
+    def newton(self, guess: np.ndarray) -> np.ndarray | None:
+        """The fixed point that Newton's iteration at constant â finds from a guess, or None."""
+
+        def step_at(unknown):
+            residual, jacobian = self.residual(unknown)
+            step = solve(jacobian, -residual)
+            return None if step is None else np.append(step, 0.0)
+
+        # Steps of a long unstable orbit end in round-off, which it amplifies.
+        return newton(step_at, guess, converged=CONVERGED, iterations=30, largest=1e3, stagnant=STAGNANT)
+
+    def correct(self, guess: np.ndarray, direction: np.ndarray) -> np.ndarray | None:
+        """The fixed point in the plane through `guess` normal to `direction`, a unit vector, or None."""
+
+        def step_at(unknown):
+            residual, jacobian = self.residual(unknown)
+            system = np.vstack([np.column_stack([jacobian, self.slope(unknown)]), direction])
+            return solve(system, -np.append(residual, direction @ (unknown - guess)))
+
+        return newton(step_at, guess, converged=CONVERGED, iterations=10, farthest=10.0)
+
+    def tangent(self, unknown: np.ndarray, previous: np.ndarray) -> np.ndarray:
+        """Unit vector along the branch through a fixed point, pointing on from `previous`."""
+        _, jacobian = self.residual(unknown)
+        slope = self.slope(unknown)
+        vector = np.cross(np.append(jacobian[0], slope[0]), np.append(jacobian[1], slope[1]))
+        vector /= np.linalg.norm(vector)
+        return vector if vector @ previous >= 0.0 else -vector
+
+    def halving(self, unknown: np.ndarray) -> np.ndarray:
+        """Distance to the point half a period later, shape (3,): it passes zero where the orbit's period halves."""
+        return self.strobes(unknown)[self.period // 2 - 1] - unknown
+
+    def describe(self, unknown: np.ndarray) -> Orbit:
+        """The Orbit of a fixed point."""
+        _, matrices, features = self.linearised(unknown)
+        matrix = reduce(lambda product, following: following @ product, matrices)
+        trace, determinant = float(np.trace(matrix)), float(np.prod(np.linalg.det(matrices)))
+        root = cmath.sqrt(0.25 * trace * trace - determinant)
+        first = max(0.5 * trace + root, 0.5 * trace - root, key=abs)
+        second = determinant / first if first != 0.0 else 0.0j
+        flights = features[:, [stroboscopic_map.LONGEST_FLIGHT, stroboscopic_map.AIRBORNE]]
+        return Orbit(
+            acceleration=float(unknown[2] * self.unit[2]),
+            state=self.state(unknown),
+            period=self.period,
+            multipliers=(first, second),
+            determinant=determinant,
+            impacts=int(features[:, stroboscopic_map.IMPACTS].sum()),
+            contact_time=float(features[:, stroboscopic_map.CONTACT_TIME].sum()),
+            longest_flight=float(flights.max() / self.cycle),
+        )
+
+
+def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, period: int) -> Orbit | None:
+    """The orbit of `period` cycles that Newton's iteration finds from `state` (δ in m, v in m/s), or None.
+
+    An orbit whose period is a part of `period` is one of `period` cycles, too.
+    """
+    found = ReturnMap(parameters, period)
+    unknown = found.newton(found.scaled(acceleration, state))
+    return None if unknown is None else found.describe(unknown)
+
+
+def settled_orbit(
+    parameters: np.ndarray, acceleration: float, state: np.ndarray, periods: Iterable[int], cycles: int
+) -> tuple[Orbit | None, np.ndarray]:
+    """The stable orbit that a trajectory from `state` ends in, and the state after `cycles` cycles.
+
+    Parameters
+    ----------
+    parameters : float64, shape (13,); its amplitude is ignored
+    acceleration : amplitude, m/s²
+    state : δ (m) and v (m/s)
+    periods : that are tried, in this order; the orbit is None if it has none of them
+    cycles : excitation cycles after which the motion has come near its orbit; Newton's iteration does the rest
+    """
+    row = parameters.copy()
+    row[ACCELERATION] = acceleration
+    end = np.array(state, dtype=np.float64)
+    strobes, features = np.empty((cycles, 2)), np.empty((cycles, stroboscopic_map.FEATURES))
+    if stroboscopic_map.follow(row, TOLERANCE, end, cycles, strobes, features) != OK:
+        return None, end
+    unit = ReturnMap(parameters, 1).unit[:2]
+    for period in periods:
+        if np.abs((strobes[-1] - strobes[-1 - period]) / unit).max() < 1e-2:
+            orbit = find_orbit(parameters, acceleration, end, period)
+            if orbit is not None and orbit.stable and np.abs((orbit.state - end) / unit).max() < 0.1:
+                return orbit, end
+    return None, end

@@ -1,0 +1,305 @@
+"""Lyapunov exponents: from the variational equation, from pairs of trajectories, and as in the paper.
+
+The variational exponents multiply the exact linearisation of the stroboscopic map. They satisfy
+λ1 + λ2 = -(d_c/m) × (share of time with contact force) identically.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ... import ensemble
+from ...methods import fixed_step
+from ...simulation import DEFAULT_STEP, DEFAULT_TOLERANCE
+from ...solver import contact, trajectory
+from ...solver.horizontal import SAMPLES
+from ...solver.jit import kernel
+from ...solver.model import FREQUENCY
+from ...solver.parallel import for_each_chunk
+from .. import stroboscopic_map
+from . import stretching
+
+# Cycles within which a motion near its attractor repeats itself bit for bit, if it ever does.
+SETTLING = 400
+# Excitation cycles after which the sign is decided: chaos mostly shows after the first, weak chaos after the second.
+LOOKS = (400, 2000)
+BLOCKS = 20
+SIGNIFICANT = 3.0  # standard errors by which an exponent with a sign differs from zero
+
+
+class Spectrum(NamedTuple):
+    """Vertical exponents of n trajectories; every field has the shape (n,)."""
+
+    lambda_1: np.ndarray  # 1/s, the larger one
+    lambda_2: np.ndarray  # 1/s
+    stderr: np.ndarray  # 1/s, standard error of lambda_1 from means over blocks of cycles; 0 from Floquet multipliers
+    contact_fraction: np.ndarray  # share of the time with contact force
+    status: np.ndarray  # "ok", or why there is no result
+
+
+@kernel
+def stretches_of_points(parameters, states, tolerance, begin_of_cycle, transient, stretches, contact_times, codes):
+    """Follow trajectories from `states`, shape (n, 2), and fill rows of arrays with what happens in their cycles.
+
+    begin_of_cycle : whether the states are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
+    stretches : float64, shape (n, cycles, 2), see stretching; NaN from a failure on
+    contact_times : float64, shape (n, cycles), s
+    codes : int64, shape (n,), status codes of trajectory.STATUS
+    """
+    series = contact.workspace()
+    features = np.zeros(stroboscopic_map.FEATURES)
+    discarded = np.empty(2)
+    stretches[:] = np.nan
+    for i in range(parameters.shape[0]):
+        c = contact.constants(parameters[i], tolerance)
+        phase = trajectory.BEGIN_OF_CYCLE if begin_of_cycle else c.psi0
+        # Velocities count in units of ω × length, which makes both directions comparable.
+        tangent = np.eye(2)
+        for n in range(-transient, stretches.shape[1]):
+            tangent[:, 1] *= c.omega
+            codes[i] = stroboscopic_map.advance(c, series, states[i], phase, c.period, tangent, features)
+            if codes[i] != trajectory.OK:
+                break
+            tangent[:, 1] /= c.omega
+            stretching.orthonormalise(tangent, stretches[i, n] if n >= 0 else discarded)
+            if n >= 0:
+                contact_times[i, n] = features[stroboscopic_map.CONTACT_TIME]
+
+
+def spectrum(
+    parameters: np.ndarray,
+    states: np.ndarray | None = None,
+    *,
+    begin_of_cycle: bool = False,
+    transient: int = 200,
+    cycles: int = 100,
+    blocks: int = 20,
+    tolerance: float = DEFAULT_TOLERANCE,
+    threads: int = 1,
+    progress: str | None = None,
+) -> Spectrum:
+    """Both vertical Lyapunov exponents from the variational equation.
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 13), rows as from model.pack
+    states : float64, shape (n, 2), stroboscopic states to begin with (default: the initial conditions in `parameters`)
+    begin_of_cycle : whether `states` are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
+    transient : excitation cycles that are followed and not counted
+    cycles, blocks : `blocks` ≥ 2 blocks of `cycles` excitation cycles are counted
+    tolerance, threads, progress : as in ensemble.run
+    """
+    if blocks < 2 or cycles < 1 or transient < 0:
+        raise ValueError("blocks must be at least 2, cycles at least 1, transient not negative")
+    parameters = np.ascontiguousarray(parameters, dtype=np.float64)
+    states = (
+        stroboscopic_map.initial_states(parameters, tolerance) if states is None else np.array(states, dtype=np.float64)
+    )
+    stretches = np.empty((len(parameters), blocks * cycles, 2))
+    contact_times = np.full((len(parameters), blocks * cycles), np.nan)
+    codes = np.zeros(len(parameters), dtype=np.int64)
+
+    def work(begin, end):
+        rows = slice(begin, end)
+        stretches_of_points(
+            parameters[rows],
+            states[rows],
+            tolerance,
+            begin_of_cycle,
+            transient,
+            stretches[rows],
+            contact_times[rows],
+            codes[rows],
+        )
+
+    for_each_chunk(work, len(parameters), threads=threads, chunk=4, progress=progress)
+    period = 1.0 / parameters[:, FREQUENCY]
+    values, errors = stretching.exponents(stretches, blocks)
+    # Where damping is so strong that a perturbation underflows within a cycle, no exponent is known.
+    codes[(codes == trajectory.OK) & ~np.isfinite(values).all(axis=1)] = trajectory.NOT_FINITE
+    lambda_1, lambda_2 = (values / period[:, None]).T
+    contact_fraction = contact_times.mean(axis=1) / period
+    return Spectrum(lambda_1, lambda_2, errors[:, 0] / period, contact_fraction, np.array(trajectory.STATUS)[codes])
+
+
+def spectrum_from(
+    parameters: np.ndarray, states: np.ndarray, cycles: int, *, tolerance: float, threads: int = 1
+) -> Spectrum:
+    """Exponents of motions over a number of cycles, from `states`, shape (n, 2), at trajectory.BEGIN_OF_CYCLE."""
+    counted = {"transient": 0, "cycles": cycles // BLOCKS, "blocks": BLOCKS}
+    return spectrum(parameters, states, begin_of_cycle=True, **counted, tolerance=tolerance, threads=threads)
+
+
+def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threads: int = 1) -> np.ndarray:
+    """The signs of the larger exponents of motions, 1 or -1, int64, shape (n,); 0 where neither is significant.
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 13), rows as from model.pack
+    states : float64, shape (n, 2), stroboscopic states at trajectory.BEGIN_OF_CYCLE
+    tolerance, threads : as in ensemble.run
+    """
+    found = np.zeros(len(parameters), dtype=np.int64)
+    for cycles in LOOKS:
+        rows = np.flatnonzero(found < 1)
+        of_them = spectrum_from(parameters[rows], states[rows], cycles, tolerance=tolerance, threads=threads)
+        # A failed motion has NaN here and keeps the sign 0. What is regular after few cycles is followed for more.
+        different = np.abs(of_them.lambda_1) > SIGNIFICANT * of_them.stderr
+        found[rows] = np.where(different, np.sign(of_them.lambda_1), 0.0)
+    return found
+
+
+@kernel
+def multipliers_of_points(parameters, states, tolerance, logarithms, contact_times, periods):
+    """Where motions from `states`, shape (n, 2), at ψ0 repeat themselves bit for bit; rows of the others say nothing.
+
+    logarithms : float64, shape (n, 2), filled with those of the moduli of the Floquet multipliers, the larger one first
+    contact_times : float64, shape (n,), filled: s, in one period
+    periods : int64, shape (n,), filled with cycles after which a motion repeats itself, or 0
+    """
+    strobes, features = np.empty((SETTLING, 2)), np.empty((SETTLING, stroboscopic_map.FEATURES))
+    for i in range(parameters.shape[0]):
+        periods[i] = 0
+        if stroboscopic_map.follow(parameters[i], tolerance, states[i], SETTLING, strobes, features) != trajectory.OK:
+            continue
+        period = stroboscopic_map.repeated(strobes)
+        matrices = np.empty((period, 2, 2))
+        if (
+            stroboscopic_map.monodromy(parameters[i], tolerance, states[i], matrices, features[:period])
+            != trajectory.OK
+        ):
+            continue
+        logarithms[i, 0], logarithms[i, 1] = stretching.log_multipliers(matrices)
+        contact_times[i] = features[:period, stroboscopic_map.CONTACT_TIME].sum()
+        if math.isfinite(logarithms[i, 0]):
+            periods[i] = period
+
+
+def spectrum_on_attractors(
+    parameters: np.ndarray,
+    *,
+    cycles: int,
+    blocks: int,
+    tolerance: float = DEFAULT_TOLERANCE,
+    threads: int = 1,
+    progress: str | None = None,
+) -> Spectrum:
+    """Both vertical Lyapunov exponents of motions that begin on their attractors, or close to them.
+
+    A motion that repeats itself within SETTLING cycles, bit for bit, has the exponents of its Floquet multipliers,
+    with a standard error of 0. Any other motion is followed: see `spectrum`, with the same arguments.
+    """
+    states = stroboscopic_map.initial_states(parameters, tolerance)
+    logarithms, contact_times = np.empty((len(parameters), 2)), np.empty(len(parameters))
+    periods = np.zeros(len(parameters), dtype=np.int64)
+
+    def work(begin, end):
+        rows = slice(begin, end)
+        found = logarithms[rows], contact_times[rows], periods[rows]
+        multipliers_of_points(parameters[rows], states[rows], tolerance, *found)
+
+    for_each_chunk(work, len(parameters), threads=threads, chunk=4)
+    followed = spectrum(
+        parameters[periods == 0],
+        transient=0,
+        cycles=cycles,
+        blocks=blocks,
+        tolerance=tolerance,
+        threads=threads,
+        progress=progress,
+    )
+    time = np.maximum(periods, 1) / parameters[:, FREQUENCY]
+    lambda_1, lambda_2 = (logarithms / time[:, None]).T
+    status = np.full(len(time), trajectory.STATUS[trajectory.OK], followed.status.dtype)
+    found = Spectrum(lambda_1, lambda_2, np.zeros(len(time)), contact_times / time, status)
+    for column, values in zip(found, followed, strict=True):
+        column[periods == 0] = values
+    return found
+
+
+def renormalised_pair(
+    parameters: np.ndarray,
+    state: np.ndarray,
+    *,
+    distance: float = 1e-9,
+    transient: int = 200,
+    cycles: int = 2000,
+    tolerance: float = 1e-12,
+) -> float:
+    """Largest exponent (1/s) of one trajectory from a neighbour that is set back to `distance` after every cycle.
+
+    An independent witness for `spectrum` that uses no variational equation. `distance` is relative to the scales of the
+    part at rest, `state` is a stroboscopic state of shape (2,).
+    """
+    c = contact.constants(parameters, tolerance)
+    scale = np.array([c.scale_w**2, c.scale_v])
+    strobes, features = np.empty((1, 2)), np.empty((1, stroboscopic_map.FEATURES))
+    here = np.array(state, dtype=np.float64)
+    there = here + distance * scale / math.sqrt(2.0)
+    total = 0.0
+    for n in range(transient + cycles):
+        stroboscopic_map.follow(parameters, tolerance, here, 1, strobes, features)
+        stroboscopic_map.follow(parameters, tolerance, there, 1, strobes, features)
+        separation = (there - here) / scale
+        stretch = float(np.hypot(*separation)) / distance
+        there = here + separation / stretch * scale
+        if n >= transient:
+            total += math.log(stretch)
+    return total / (cycles * c.period)
+
+
+def finite_difference_estimate(
+    parameters: np.ndarray,
+    perturbed: np.ndarray,
+    epsilon: float,
+    *,
+    output: str = "vx",
+    duration: float = 1.0,
+    last: float = 0.25,
+    samples: int = 501,
+    method: str = "event",
+    tolerance: float = DEFAULT_TOLERANCE,
+    step: float = DEFAULT_STEP,
+    threads: int = 1,
+    progress: str | None = None,
+) -> np.ndarray:
+    """The paper's estimate of the Lyapunov exponent, (1/t) log(|Δ output| / ε) (Eq. 23), averaged over a run's end.
+
+    Parameters
+    ----------
+    parameters, perturbed : float64, shape (n, 13): the trajectories and their neighbours
+    epsilon : size of the perturbation, in the unit of the perturbed parameter
+    output : the signal that is compared, one of horizontal.SAMPLES
+    last, samples : the mean is taken over `samples` equidistant times in the last part of the run
+    duration, method, tolerance, step, threads, progress : as in ensemble.run
+
+    Returns
+    -------
+    float64, shape (n,), 1/s. A difference below the resolution of the signal counts as that resolution.
+    """
+    if not 0.0 < last < 1.0:
+        raise ValueError(f"last = {last!r} must be a share of the run in (0, 1): at its beginning Eq. 23 has no value")
+    column = SAMPLES.index(output)
+    feeding = output not in ("z", "vz", "contact_force")
+    times = np.linspace((1.0 - last) * duration, duration, samples)
+    if method != "event":
+        indices = np.rint(times / step).astype(np.int64)
+        times = indices * step
+    both = np.ascontiguousarray(np.stack([parameters, perturbed], axis=1).reshape(-1, parameters.shape[1]))
+    signals = np.empty((len(both), len(times)))
+
+    def work(begin, end):
+        rows = slice(begin, end)
+        if method == "event":
+            ensemble.samples_by_events(both[rows], times, tolerance, column, feeding, signals[rows])
+        else:
+            code = fixed_step.METHODS.index(method)
+            ensemble.samples_by_steps(both[rows], indices, step, code, column, signals[rows])
+
+    # Fixed steps fill the lanes of a register.
+    for_each_chunk(work, len(both), threads=threads, chunk=2 if method == "event" else 8, progress=progress)
+    here, there = signals[0::2], signals[1::2]
+    resolution = np.finfo(np.float64).eps * np.maximum(np.abs(here), np.abs(there)).max(axis=1, keepdims=True)
+    difference = np.maximum(np.abs(there - here), resolution)
+    return np.mean(np.log(difference / epsilon) / times, axis=1)

@@ -1,0 +1,136 @@
+"""The dimensionless groups of the vertical motion: what makes the vertical motion of two conveyors the same.
+
+With the length g/ω² and the time 1/ω, the penetration x = δ ω²/g and its rate obey
+
+    ẋ = y - D max(x, 0),   ẏ = 1 + Γ cos θ - K max(x, 0)^p,
+
+    Γ = a_z/g,   D = d_c/(m ω),   K = (k_c/m) g^(p-1)/ω^(2p),
+
+and p and the reading of tension. Nothing else enters: the angle of throw acts through a_z = â sin φ only, and neither
+friction nor the horizontal motion act at all. An initial condition adds ψ0, z0 ω²/g and ż0 ω/g.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ..solver import model
+from ..solver.model import PARAMETERS
+
+# The groups in the order of their derivatives. The last three, z0 ω²/g, ż0 ω/g and ψ0, are the initial condition.
+NAMES = ("amplitude", "damping", "stiffness", "exponent", "height", "velocity", "phase")
+AMPLITUDE, DAMPING, STIFFNESS, EXPONENT, HEIGHT, VELOCITY, PHASE = range(len(NAMES))
+# A conveyor whose units are those of its groups: g = 1, ω = 1, m = 1, φ = 90°.
+FREQUENCY_OF_ONE = 0.5 / math.pi
+
+
+class Groups(NamedTuple):
+    """The groups of a vertical motion."""
+
+    amplitude: float  # Γ = a_z/g
+    damping: float  # D = d_c/(m ω)
+    stiffness: float  # K = (k_c/m) g^(p-1)/ω^(2p)
+    exponent: float  # p
+    tension: int  # code of the reading of tension, see model.TENSION_MODES
+
+
+def groups_of(parameters: np.ndarray) -> Groups:
+    """The groups of packed parameters, shape (13,)."""
+    acceleration, angle, frequency, _, stiffness, damping, _, mass, exponent, gravity, tension, *_ = parameters
+    omega = 2.0 * math.pi * frequency
+    return Groups(
+        float(acceleration * math.sin(angle) / gravity),
+        float(damping / (mass * omega)),
+        float(stiffness / mass * gravity ** (exponent - 1.0) / omega ** (2.0 * exponent)),
+        float(exponent),
+        int(tension),
+    )
+
+
+def packed(groups: Groups, psi0: float = 0.0) -> np.ndarray:
+    """Packed parameters, shape (13,), of the conveyor with g = ω = m = 1 that has these groups."""
+    row = np.zeros(len(PARAMETERS))
+    row[model.ACCELERATION], row[model.ANGLE], row[model.FREQUENCY] = groups.amplitude, 0.5 * math.pi, FREQUENCY_OF_ONE
+    row[model.STIFFNESS], row[model.DAMPING], row[model.EXPONENT] = groups.stiffness, groups.damping, groups.exponent
+    row[model.MASS] = row[model.GRAVITY] = 1.0
+    row[model.TENSION], row[model.PSI0] = groups.tension, psi0
+    return row
+
+
+def units(parameters: np.ndarray) -> tuple[float, float]:
+    """The units of length, g/ω² (m), and velocity, g/ω (m/s), of packed parameters."""
+    omega, gravity = 2.0 * math.pi * parameters[model.FREQUENCY], parameters[model.GRAVITY]
+    return float(gravity / omega**2), float(gravity / omega)
+
+
+def amplitude_of(parameters: np.ndarray, ratio: float) -> float:
+    """The amplitude â (m/s²) at which a_z/g is `ratio`, for packed parameters."""
+    return float(ratio * parameters[model.GRAVITY] / math.sin(parameters[model.ANGLE]))
+
+
+def start_of(parameters: np.ndarray) -> tuple[float, float, float]:
+    """The groups of an initial condition: z0 ω²/g, ż0 ω/g and ψ0 (rad)."""
+    length, velocity = units(parameters)
+    return float(parameters[model.Z0] / length), float(parameters[model.VZ0] / velocity), float(parameters[model.PSI0])
+
+
+def slopes(parameters: np.ndarray) -> dict[str, np.ndarray]:
+    """Derivatives of all groups, in the order of NAMES, by each parameter that is a number: shape (7,).
+
+    That by the exponent is at constant k_c in N/m^p, whose unit changes with p.
+    """
+    groups = groups_of(parameters)
+    height, velocity_ratio, _ = start_of(parameters)
+    value = dict(zip(PARAMETERS, map(float, parameters), strict=True))
+    length, velocity = units(parameters)
+    ratio, damping, stiffness, p, _ = groups
+    sine, cosine = math.sin(value["angle"]), math.cos(value["angle"])
+    frequency, gravity, mass = value["frequency"], value["gravity"], value["mass"]
+    by = {
+        "acceleration": {AMPLITUDE: sine / gravity},
+        "angle": {AMPLITUDE: value["acceleration"] * cosine / gravity},
+        "frequency": {
+            DAMPING: -damping / frequency,
+            STIFFNESS: -2.0 * p * stiffness / frequency,
+            HEIGHT: 2.0 * height / frequency,
+            VELOCITY: velocity_ratio / frequency,
+        },
+        "psi0": {PHASE: 1.0},
+        "stiffness": {STIFFNESS: stiffness / value["stiffness"]},
+        "damping": {DAMPING: 1.0 / (2.0 * math.pi * frequency * mass)},
+        "friction": {},
+        "mass": {DAMPING: -damping / mass, STIFFNESS: -stiffness / mass},
+        "exponent": {STIFFNESS: stiffness * math.log(length), EXPONENT: 1.0},
+        "gravity": {
+            AMPLITUDE: -ratio / gravity,
+            STIFFNESS: (p - 1.0) * stiffness / gravity,
+            HEIGHT: -height / gravity,
+            VELOCITY: -velocity_ratio / gravity,
+        },
+        "z0": {HEIGHT: 1.0 / length},
+        "vz0": {VELOCITY: 1.0 / velocity},
+    }
+    found = {name: np.zeros(len(NAMES)) for name in by}
+    for name, entries in by.items():
+        for group, slope in entries.items():
+            found[name][group] = slope
+    return found
+
+
+def derivatives_of(moved: str, parameters: np.ndarray, by: np.ndarray) -> dict[str, float]:
+    """Derivatives of a parameter that an equation between the groups determines, by each of the others.
+
+    Parameters
+    ----------
+    moved : "acceleration" or "z0"
+    parameters : packed, shape (13,), at which the equation holds
+    by : derivatives of the group of `moved`, Γ or z0 ω²/g, by all groups in the order of NAMES, shape (7,); its own 0
+
+    Returns
+    -------
+    by the names of the parameters, in units of `moved` per unit of the parameter
+    """
+    of = slopes(parameters)
+    own = AMPLITUDE if moved == "acceleration" else HEIGHT
+    return {name: float((by @ slope - slope[own]) / of[moved][own]) for name, slope in of.items() if name != moved}

@@ -1,0 +1,1 @@
+"""Dimensions of attractors: box counting and the correlation sum."""

@@ -1,0 +1,321 @@
+"""The stroboscopic map to second order: what its linearisation does when the state or a parameter changes.
+
+Perturbations are those of (δ, Y) (see stroboscopic_map) by five quantities, in this order:
+
+    δ and Y at the beginning of the cycle, a_z (m/s²), d_c/m (1/s), k_c/m (of its unit), p.
+
+The first derivatives solve the linearised equations of motion with the forces that a change of a parameter adds. The
+second ones, by a state and any of the six, solve those equations again, driven by products of the first ones. They
+jump where δ passes zero with the rate v: the equations of (δ, Y) have a kink in their damping there, whose second
+derivative is a Dirac function, and so is the one of the spring where p = 1. `clip` adds the kink where the force
+begins to pull or ceases to.
+"""
+
+import math
+
+import numpy as np
+
+from ..solver import contact, polynomial
+from ..solver.contact import FIRST, FORCE_SIGN, SEPARATION
+from ..solver.jit import borrowed, inlined, kernel, spliced
+from ..solver.model import TENSION_CLIP
+from ..solver.polynomial import ORDER, SIZE
+from ..solver.trajectory import IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, patience
+from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, motion_at, next_piece, shortened
+from .stroboscopic_map import tangent_length
+
+# What is perturbed; the first two are the state.
+DELTA, Y, AMPLITUDE, DAMPING, STIFFNESS, EXPONENT = range(6)
+QUANTITIES = 6
+# Products of perturbations ring at twice the frequency of each: their steps are half as long.
+PART = 0.5
+# The derivative of w^(2p+1) by p has the factor log w, singular at w = 0: a step covers this part of the distance to
+# it, and below this part of the √penetration at rest, where it weighs nothing, it is left out.
+PART_OF_RADIUS = 0.2
+LOG_EDGE = 1e-5
+
+
+@kernel
+def power_series(c, series, exponent, out):
+    """Fill `out`, shape (SIZE,), with the Taylor coefficients of w^exponent of a contact step, 0 if w begins at 0."""
+    w = FIRST + contact.W
+    series[contact.SCRATCH, :] = 0.0
+    if series[w, 0] > c.edge_w:
+        series[contact.SCRATCH, 0] = series[w, 0] ** exponent
+        for n in range(1, ORDER):
+            series[contact.SCRATCH, n] = contact.power_term(series, w, contact.SCRATCH, exponent, n)
+    for n in range(SIZE):  # to copy a slice takes seconds to compile: it would check the shapes, and word the error
+        out[n] = series[contact.SCRATCH, n]
+
+
+@kernel
+def log_series(c, series, out):
+    """Fill `out`, shape (SIZE,), with the Taylor coefficients of 2 log w of a contact step, 0 where w is left out."""
+    w = series[FIRST + contact.W]
+    out[:] = 0.0
+    if w[0] > branch_edge(c):
+        out[0] = math.log(w[0])
+        for n in range(1, ORDER):
+            total = n * w[n]
+            for k in range(1, n):
+                total -= k * out[k] * w[n - k]
+            out[n] = total / (n * w[0])
+        for n in range(ORDER):
+            out[n] *= 2.0
+
+
+@inlined
+def branch_edge(c):
+    """The √penetration (√m) from which on steps keep away from the branch point at w = 0."""
+    return c.edge_w if c.edge_w > 0.0 else LOG_EDGE * c.scale_w
+
+
+@inlined
+def product(a, b, n):
+    """Coefficient n of the product of two series."""
+    total = 0.0
+    for k in range(n + 1):
+        total += a[k] * b[n - k]
+    return total
+
+
+@kernel
+def expand(c, series, first, second, free, count):
+    """Taylor coefficients in s of the perturbations along a contact step, from their values at s = 0.
+
+    first : shape (6, 2, SIZE), of δ and Y by each quantity
+    second : shape (2, 6, 2, SIZE), of δ and Y by a state and a quantity
+    free : whether the contact force is left out
+    count : how many of the quantities are wanted, from the first one on
+    """
+    series, first, second = borrowed(series), borrowed(first), borrowed(second)
+    w, square = series[FIRST + contact.W], series[FIRST + contact.SQUARE]
+    spring, cosine_w = series[FIRST + contact.SPRING], series[FIRST + contact.COSINE_W]
+    damping = 0.0 if free else c.damping
+    stiffness = 0.0 if free else c.stiffness
+    # w^(2p-1) and w^(2p-3), the first and second derivatives of the spring times w.
+    slope, bend = np.zeros(SIZE), np.zeros(SIZE)
+    if c.exponent == 1.5:
+        slope = square  # and w^(2p-3) is 1
+    elif c.exponent == 1.0:
+        slope = w
+    else:
+        power_series(c, series, 2.0 * c.exponent - 1.0, slope)
+        power_series(c, series, 2.0 * c.exponent - 3.0, bend)
+    # log w² itself, and times the spring's slope: with 1/p times that slope the derivative of p w^(2p-1) by p, over p.
+    log, slope_by_exponent = np.zeros(SIZE), np.zeros(SIZE)
+    by_exponent = count > EXPONENT
+    if by_exponent:
+        log_series(c, series, log)
+    products = np.zeros((2, QUANTITIES, SIZE))
+    for n in range(ORDER):
+        if by_exponent:
+            slope_by_exponent[n] = product(slope, log, n) + slope[n] / c.exponent
+        for j in range(count):
+            delta, y = first[j, 0], first[j, 1]
+            drift = product(w, y, n) - damping * product(w, delta, n)
+            push = -c.exponent * stiffness * product(slope, delta, n)
+            if j == AMPLITUDE:
+                push += cosine_w[n]
+            elif j == DAMPING and not free:
+                drift -= product(w, square, n)
+            elif j == STIFFNESS and not free:
+                push -= spring[n]
+            elif j == EXPONENT:
+                push -= stiffness * product(spring, log, n)
+            for i in range(2):
+                if i > j:
+                    continue  # it is the one by the same two states in the other order
+                of_both = second[i, j]
+                products[i, j, n] = product(first[i, 0], delta, n)
+                drift_of_both = product(w, of_both[1], n) - damping * product(w, of_both[0], n)
+                curvature = products[i, j, n] if c.exponent == 1.5 else product(bend, products[i, j], n)
+                pull = stiffness * ((c.exponent - 1.0) * curvature + product(slope, of_both[0], n))
+                if j == DAMPING and not free:
+                    drift_of_both -= product(w, first[i, 0], n)
+                elif j == STIFFNESS and not free:
+                    pull += product(slope, first[i, 0], n)
+                elif j == EXPONENT:
+                    pull += stiffness * product(slope_by_exponent, first[i, 0], n)
+                of_both[0, n + 1] = drift_of_both / (n + 1)
+                of_both[1, n + 1] = -c.exponent * pull / (n + 1)
+                if i < j < 2:
+                    second[j, i, 0, n + 1], second[j, i, 1, n + 1] = of_both[0, n + 1], of_both[1, n + 1]
+            delta[n + 1] = drift / (n + 1)
+            y[n + 1] = push / (n + 1)
+
+
+@kernel
+def cross_surface(c, first, second, speed, w):
+    """Jump of second derivatives where δ passes zero at a speed (m/s): that of the kinks of damping and spring.
+
+    The spring's is its share up to the √penetration `w` where it is switched on: all of it for p = 1, none for p = 3/2.
+    """
+    stiffness = c.stiffness * c.exponent * w ** (2.0 * c.exponent - 2.0)
+    for i in range(2):
+        for j in range(QUANTITIES):
+            both = first[i, 0, 0] * first[j, 0, 0] / speed
+            second[i, j, 0, 0] -= c.damping * both
+            second[i, j, 1, 0] -= stiffness * both
+
+
+@kernel
+def switch(c, first, second, delta, pulled):
+    """Take v = Y - (d_c/m) δ in place of Y where `clip` begins to switch the damping off (`pulled`), and back."""
+    sign = -1.0 if pulled else 1.0
+    # The second derivatives by d_c/m contain a first one by the state: before it changes.
+    for i in range(2):
+        for j in range(QUANTITIES):
+            second[i, j, 1, 0] += sign * c.damping * second[i, j, 0, 0]
+        second[i, DAMPING, 1, 0] += sign * first[i, 0, 0]
+    for j in range(QUANTITIES):
+        first[j, 1, 0] += sign * c.damping * first[j, 0, 0]
+    first[DAMPING, 1, 0] += sign * delta
+
+
+@kernel
+def cross_force(c, first, second, w, v, acceleration):
+    """Jump of second derivatives where `clip` cuts the force, in (δ, v); `acceleration` is that of δ there (m/s²)."""
+    delta = w * w
+    slope = c.stiffness * c.exponent * delta ** (c.exponent - 1.0)
+    rate = abs(slope * v + c.damping * acceleration)
+    change = np.empty(QUANTITIES)
+    for j in range(QUANTITIES):
+        change[j] = slope * first[j, 0, 0] + c.damping * first[j, 1, 0]
+    change[DAMPING] += v
+    change[STIFFNESS] += delta**c.exponent
+    change[EXPONENT] += c.stiffness * delta**c.exponent * math.log(delta)
+    for i in range(2):
+        for j in range(QUANTITIES):
+            second[i, j, 1, 0] -= change[i] * change[j] / rate
+
+
+@kernel
+def fly(c, first, second, motion, piece):
+    """Advance the perturbations along a piece without a contact force."""
+    tau = piece.duration
+    for j in range(QUANTITIES):
+        first[j, 0, 0] += tau * first[j, 1, 0]
+        for i in range(2):
+            second[i, j, 0, 0] += tau * second[i, j, 1, 0]
+    # ∫ cos θ and its integral over the piece.
+    first[AMPLITUDE, 0, 0] += (motion.cosine - piece.cosine) / c.omega**2 - motion.sine * tau / c.omega
+    first[AMPLITUDE, 1, 0] += (piece.sine - motion.sine) / c.omega
+
+
+@spliced
+def press(c, series, first, second, motion, piece, count):
+    """Advance the perturbations along a contact step; return the piece up to where they could go."""
+    expand(c, series, first, second, motion.pulled and c.tension == TENSION_CLIP, count)
+    longest = PART * tangent_length(c, first[: Y + 1])
+    edge = branch_edge(c)
+    if c.edge_w == 0.0 and count <= EXPONENT:
+        pass  # nothing has a branch point
+    elif motion.w > edge:
+        longest = min(longest, PART_OF_RADIUS * motion.w / abs(0.5 * motion.v))
+    else:
+        longest = min(longest, piece.length)
+        while polynomial.value(series, FIRST + contact.W, longest) > 4.0 * edge:
+            longest *= 0.5
+    if longest < piece.length:
+        duration = polynomial.value(series, FIRST + contact.T, longest)
+        piece = shortened(series, FIRST, longest, duration, contact.NOTHING)
+    for j in range(count):
+        for of in range(2):
+            first[j, of, 0] = polynomial.value(first[j], of, piece.length)
+            for i in range(2):
+                second[i, j, of, 0] = polynomial.value(second[i, j], of, piece.length)
+    return piece
+
+
+@kernel
+def cycle(parameters, tolerance, state, first, second, count):
+    """Advance `state` by one excitation cycle, and fill the first coefficients of `first` and `second`.
+
+    Parameters
+    ----------
+    parameters, tolerance, state : see `cycles`
+    first : float64, shape (6, 2, SIZE), filled with the derivatives of δ and Y by each quantity
+    second : float64, shape (2, 6, 2, SIZE), filled with those by a state and a quantity
+    count : how many of the quantities are wanted; the one by p, the last, takes several times as long as the others
+
+    Returns
+    -------
+    status code of trajectory.STATUS, number of impacts
+    """
+    c = contact.constants(parameters, tolerance)
+    series = contact.workspace()
+    first[:] = 0.0
+    second[:] = 0.0
+    first[DELTA, 0, 0] = first[Y, 1, 0] = 1.0
+    motion = motion_at(c, -state[0], -state[1], 0.0, c.psi0)
+    clip = c.tension == TENSION_CLIP
+    if motion.pulled and clip:
+        switch(c, first, second, state[0], True)
+    most = patience(c)
+    lone = impacts = 0
+    for _ in range(MAX_PIECES):
+        piece = next_piece(c, series, FIRST, motion, c.period - motion.t)
+        if piece.kind == CONTACT:
+            piece = press(c, series, first, second, motion, piece, count)
+        else:
+            if piece.kind == FLIGHT and piece.end == LOST:
+                return IMPACT_LOST, impacts
+            impacts += piece.end == IMPACT
+            fly(c, first, second, motion, piece)
+        following = arrive(c, motion, piece, c.psi0)
+        free = motion.pulled and clip
+        if piece.end == IMPACT or (piece.end == SEPARATION and not following.touching and not free):
+            if piece.v != 0.0:
+                switched = c.edge_w if piece.end == IMPACT else min(c.edge_w, motion.w)
+                cross_surface(c, first, second, abs(piece.v), switched)
+        elif piece.end == FORCE_SIGN and clip:
+            delta = piece.w * piece.w
+            if not motion.pulled:
+                switch(c, first, second, delta, True)
+            cross_force(c, first, second, piece.w, piece.v, c.gravity + c.a_z * piece.cosine)
+            if motion.pulled:
+                switch(c, first, second, delta, False)
+        lone = lone + 1 if piece.end == contact.NOTHING else 0
+        if lone > 2 * most:
+            return TOO_STIFF, impacts
+        motion = following
+        if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)):
+            return NOT_FINITE, impacts
+        if piece.end == LIMIT:
+            state[0] = motion.w * motion.w if motion.touching else -max(motion.q, 0.0)
+            state[1] = motion.v if motion.touching else -motion.rate
+            if motion.pulled and clip:
+                switch(c, first, second, state[0], False)
+            return OK, impacts
+    return TOO_STIFF, impacts
+
+
+def cycles(parameters, tolerance, state, first, second, states, impacts):
+    """Advance `state` by n cycles, with the derivatives of each.
+
+    Parameters
+    ----------
+    parameters : float64, shape (13,); tolerance per step
+    state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced
+    first : float64, shape (n, 2, k), k = 5 or 6, filled with ∂(δ, Y) at the end of each cycle by the first k
+        quantities at its begin; those by p take several times as long as all others
+    second : float64, shape (n, 2, 2, k), filled with the derivatives of first[..., :2] by the same quantities
+    states : float64, shape (n, 2), filled with δ and v after each cycle
+    impacts : int64, shape (n,), filled with the number of impacts in each cycle
+
+    Returns
+    -------
+    status code of trajectory.STATUS
+    """
+    # Not a kernel: it would compile all of `cycle` once more.
+    of_one = np.empty((QUANTITIES, 2, SIZE))
+    of_two = np.empty((2, QUANTITIES, 2, SIZE))
+    for n in range(first.shape[0]):
+        status, impacts[n] = cycle(parameters, tolerance, state, of_one, of_two, first.shape[2])
+        states[n] = state
+        first[n] = of_one[: first.shape[2], :, 0].T
+        second[n] = of_two[:, : first.shape[2], :, 0].transpose(2, 0, 1)
+        if status != OK:
+            return status
+    return OK

@@ -1,0 +1,319 @@
+"""The stroboscopic map: the vertical motion over exactly one excitation cycle, and its linearisation.
+
+A state is the pair (δ, v) at the phase ψ0: penetration δ = z_s - z_p (m, negative in flight) and its rate v (m/s). The
+pair determines the motion, since contact is δ > 0 and the sign of the contact force follows from δ and v.
+
+Perturbations are those of (δ, Y) with Y = v + (d_c/m) max(δ, 0), for which the equations of motion
+
+    δ̇ = Y - (d_c/m) max(δ, 0),   Ẏ = g + a_z cos θ - (k_c/m) max(δ, 0)^p
+
+are continuous across impact and separation, so that the linearised flow needs no jump there. Its determinant over a
+cycle is exp(-(d_c/m) T_contact), with T_contact the time with a contact force. `clip` switches the damping off while
+the force would pull; the force is continuous there, and v takes the place of Y.
+"""
+
+import math
+
+import numpy as np
+
+from ..solver import contact, polynomial
+from ..solver.contact import FIRST
+from ..solver.jit import borrowed, inlined, kernel, spliced
+from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
+from ..solver.polynomial import ORDER, SIZE
+from ..solver.trajectory import BEGIN_OF_CYCLE, IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, patience
+from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, begin, motion_at, next_piece, shortened
+
+# The features of a cycle.
+IMPACTS, CONTACT_TIME, LONGEST_FLIGHT, AIRBORNE = range(4)
+FEATURES = 4
+# Rows of a perturbation's expansion.
+ETA, ZETA, RATE = range(3)
+
+
+@kernel
+def initial_state(parameters, tolerance, state):
+    """Fill `state`, shape (2,), with δ (m) and v (m/s) of the initial condition in a packed parameter vector."""
+    c = contact.constants(parameters, tolerance)
+    q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)
+    state[0] = -q
+    state[1] = -rate
+
+
+@kernel
+def expand_tangents(c, series, expansions, free):
+    """Fill the Taylor coefficients of two perturbations along a contact step from η and ζ at s = 0.
+
+    With the derivative in s, η' = w (ζ - (d_c/m) η) and ζ' = -p (k_c/m) w^(2p-1) η.
+
+    Parameters
+    ----------
+    c, series : contact.Constants, and the workspace with the step's series
+    expansions : float64, shape (2, 3, SIZE), for each perturbation the rows ETA, ZETA, and RATE, ζ - (d_c/m) η
+    free : leaves the contact force out
+    """
+    w, stiff = series[FIRST + contact.W], series[contact.SCRATCH]
+    damping = 0.0 if free else c.damping
+    stiffness = 0.0 if free else c.exponent * c.stiffness
+    if c.exponent == 1.5:
+        stiff = series[FIRST + contact.SQUARE]
+    elif c.exponent == 1.0:
+        stiff = w
+    else:
+        power = 2.0 * c.exponent - 1.0
+        stiff[:] = 0.0
+        if w[0] > c.edge_w:
+            stiff[0] = w[0] ** power
+            for n in range(1, ORDER):
+                stiff[n] = contact.power_term(series, FIRST + contact.W, contact.SCRATCH, power, n)
+    w_0, stiff_0 = w[0], stiff[0]
+    eta_1, eta_2 = expansions[0, ETA, 0], expansions[1, ETA, 0]
+    zeta_1, zeta_2 = expansions[0, ZETA, 0], expansions[1, ZETA, 0]
+    for n in range(ORDER):
+        rate_1, rate_2 = zeta_1 - damping * eta_1, zeta_2 - damping * eta_2
+        expansions[0, RATE, n], expansions[1, RATE, n] = rate_1, rate_2
+        # The newest coefficients are still in registers. The sums of both perturbations do not wait for each other.
+        drift_1, drift_2 = w_0 * rate_1, w_0 * rate_2
+        pull_1, pull_2 = stiff_0 * eta_1, stiff_0 * eta_2
+        for k in range(1, n + 1):
+            drift_1 += w[k] * expansions[0, RATE, n - k]
+            drift_2 += w[k] * expansions[1, RATE, n - k]
+            pull_1 += stiff[k] * expansions[0, ETA, n - k]
+            pull_2 += stiff[k] * expansions[1, ETA, n - k]
+        eta_1, eta_2 = drift_1 / (n + 1), drift_2 / (n + 1)
+        zeta_1, zeta_2 = -stiffness * pull_1 / (n + 1), -stiffness * pull_2 / (n + 1)
+        expansions[0, ETA, n + 1], expansions[1, ETA, n + 1] = eta_1, eta_2
+        expansions[0, ZETA, n + 1], expansions[1, ZETA, n + 1] = zeta_1, zeta_2
+
+
+@kernel
+def tangent_length(c, expansions):
+    """Length in s at which the last two terms of all perturbations' expansions, rows η and ζ, are below the tolerance.
+
+    A perturbation rings at the frequency of the contact, also where the motion itself is slow or at rest.
+    """
+    length = 1e300
+    for order in (ORDER - 1, ORDER):
+        allowed = math.inf
+        for i in range(expansions.shape[0]):
+            scale = c.omega * abs(expansions[i, ETA, 0]) + abs(expansions[i, ZETA, 0])
+            last = max(c.omega * abs(expansions[i, ETA, order]), abs(expansions[i, ZETA, order]))
+            if last > 0.0:
+                allowed = min(allowed, c.tolerance * scale / last)
+        length = min(length, allowed ** (1.0 / order))
+    return length
+
+
+@inlined
+def advance_tangent(c, series, tangent, expansions, motion, piece):
+    """Advance perturbations of (δ, Y), rows of `tangent`, along a piece; return the piece up to where they could go.
+
+    A step in which a perturbation changes faster than the motion is cut there.
+    """
+    if piece.kind != CONTACT:
+        # Flights, and the moments of rest at the surface, in which the plate does not push.
+        for i in range(tangent.shape[0]):
+            tangent[i, 0] += tangent[i, 1] * piece.duration
+        return piece
+    if tangent.shape[0] == 0:
+        return piece
+    for i in range(tangent.shape[0]):
+        expansions[i, ETA, 0], expansions[i, ZETA, 0] = tangent[i, 0], tangent[i, 1]
+    expand_tangents(c, series, expansions, motion.pulled and c.tension == TENSION_CLIP)
+    longest = tangent_length(c, expansions)
+    if longest < piece.length:
+        duration = polynomial.value(series, FIRST + contact.T, longest)
+        piece = shortened(series, FIRST, longest, duration, contact.NOTHING)
+    for i in range(tangent.shape[0]):
+        tangent[i, 0] = polynomial.value(expansions[i], ETA, piece.length)
+        tangent[i, 1] = polynomial.value(expansions[i], ZETA, piece.length)
+    if piece.end == contact.FORCE_SIGN:
+        switch_damping(c, tangent, not motion.pulled)
+    return piece
+
+
+@inlined
+def switch_damping(c, tangent, pulled):
+    """Take v in place of Y in perturbations where `clip` begins to switch the damping off, and back."""
+    if c.tension == TENSION_CLIP:
+        sign = -1.0 if pulled else 1.0
+        for i in range(tangent.shape[0]):
+            tangent[i, 1] += sign * c.damping * tangent[i, 0]
+
+
+@inlined
+def delta_and_v(motion):
+    """The state, δ (m) and v (m/s), of a Motion."""
+    if motion.touching:
+        return motion.w * motion.w, motion.v
+    # A flight that goes on has been proved to be above the plate, up to rounding.
+    return -max(motion.q, 0.0), -motion.rate
+
+
+@kernel
+def advance(c, series, state, phase, duration, tangent, features):
+    """Advance `state` from a phase of the excitation by a time of at most one cycle, exactly.
+
+    Parameters
+    ----------
+    c, series : contact.Constants and a contact.workspace to work in
+    state : float64, shape (2,), δ (m) and v (m/s) at `phase` (rad); replaced
+    duration : s
+    tangent : float64, shape (2, 2), two perturbations of (δ, Y), replaced; shape (0, 2) where none are wanted
+    features : float64, shape (4,), replaced but for AIRBORNE, the time (s) since the last separation, which goes on:
+        number of impacts, time with contact force (s), longest flight that ended (s)
+
+    Returns
+    -------
+    status code of trajectory.STATUS
+    """
+    series, state, tangent, features = borrowed(series), borrowed(state), borrowed(tangent), borrowed(features)
+    # Numbers of both perturbations lie side by side: one instruction works on both.
+    expansions = np.zeros((SIZE, 3, tangent.shape[0])).T
+    features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = 0.0
+    motion = motion_at(c, -state[0], -state[1], 0.0, phase)
+    if motion.pulled:
+        switch_damping(c, tangent, True)
+    most = patience(c)
+    lone = 0
+    for _ in range(MAX_PIECES):
+        piece = next_piece(c, series, FIRST, motion, duration - motion.t)
+        piece = advance_tangent(c, series, tangent, expansions, motion, piece)
+        if piece.kind == FLIGHT:
+            if piece.end == LOST:
+                return IMPACT_LOST
+            features[AIRBORNE] += piece.duration
+            if piece.end == IMPACT:
+                features[IMPACTS] += 1.0
+                features[LONGEST_FLIGHT] = max(features[LONGEST_FLIGHT], features[AIRBORNE])
+                features[AIRBORNE] = 0.0
+        elif piece.kind == CONTACT and not (motion.pulled and c.tension == TENSION_CLIP):
+            features[CONTACT_TIME] += piece.duration
+        lone = lone + 1 if piece.end == contact.NOTHING else 0
+        if lone > most:
+            return TOO_STIFF
+        motion = arrive(c, motion, piece, phase)
+        if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)):
+            return NOT_FINITE
+        if piece.end == LIMIT:
+            if motion.pulled:
+                switch_damping(c, tangent, False)
+            state[0], state[1] = delta_and_v(motion)
+            return OK
+    return TOO_STIFF
+
+
+@spliced
+def cycle(c, series, state, tangent, features):
+    """Advance `state`, at the phase ψ0, by one excitation cycle: see `advance`."""
+    return advance(c, series, state, c.psi0, c.period, tangent, features)
+
+
+@kernel
+def to_begin_of_cycle(parameters, tolerance, states):
+    """Fill `states`, shape (n, 2), with the states that `parameters` lead to when the plate is next at its top."""
+    series = contact.workspace()
+    no_tangent = np.empty((0, 2))
+    features = np.zeros(FEATURES)
+    for i in range(parameters.shape[0]):
+        c = contact.constants(parameters[i], tolerance)
+        initial_state(parameters[i], tolerance, states[i])
+        remaining = ((BEGIN_OF_CYCLE - c.psi0) % (2.0 * math.pi)) / c.omega
+        if advance(c, series, states[i], c.psi0, remaining, no_tangent, features) != OK:
+            states[i, :] = np.nan
+
+
+@kernel
+def follow(parameters, tolerance, state, cycles, strobes, features):
+    """Advance `state` by a number of cycles.
+
+    A motion that has come back to a state bit for bit repeats itself from then on, and is copied. Settled motions
+    mostly do.
+
+    strobes : float64, shape (cycles, 2), filled with δ and v after each cycle
+    features : float64, shape (cycles, 4), filled with the features of each cycle
+    Returns the status code; rows behind a failure are NaN.
+    """
+    c = contact.constants(parameters, tolerance)
+    series = contact.workspace()
+    no_tangent = np.empty((0, 2))
+    found = np.zeros(FEATURES)
+    strobes[:] = np.nan
+    features[:] = np.nan
+    mark = 0  # 0, 1, 3, 7, …: one of them lies in the repeated part and as long before n as it lasts (Brent 1980)
+    for n in range(cycles):
+        status = cycle(c, series, state, no_tangent, found)
+        if status != OK:
+            return status
+        strobes[n, :] = state
+        features[n, :] = found
+        if mark < n and same(strobes, features, n, mark):
+            for later in range(n + 1, cycles):
+                before = later - n + mark
+                for k in range(2):
+                    strobes[later, k] = strobes[before, k]
+                for k in range(FEATURES):
+                    features[later, k] = features[before, k]
+            state[0], state[1] = strobes[cycles - 1, 0], strobes[cycles - 1, 1]
+            return OK
+        if n == 2 * mark + 1:
+            mark = n
+    return OK
+
+
+@inlined
+def same(strobes, features, n, mark):
+    """Whether what follows two cycles is the same, bit for bit: the motion, and the time since the last separation."""
+    return (
+        strobes[n, 0] == strobes[mark, 0]
+        and strobes[n, 1] == strobes[mark, 1]
+        and features[n, AIRBORNE] == features[mark, AIRBORNE]
+    )
+
+
+@kernel
+def repeated(strobes):
+    """After how many cycles the motion of `follow` comes back to its last state, bit for bit; 0 for never so far."""
+    last = strobes.shape[0] - 1
+    for cycles in range(1, last + 1):
+        if strobes[last, 0] == strobes[last - cycles, 0] and strobes[last, 1] == strobes[last - cycles, 1]:
+            return cycles
+    return 0
+
+
+@kernel
+def monodromy(parameters, tolerance, state, matrices, features):
+    """Advance `state` by n cycles and fill `matrices`, shape (n, 2, 2), with ∂(δ, Y)_end/∂(δ, Y)_start of each cycle.
+
+    The monodromy matrix is their product; its determinant is the product of theirs without loss of digits.
+    features : float64, shape (n, 4), filled with the features of each cycle. Returns the status code.
+    """
+    c = contact.constants(parameters, tolerance)
+    series = contact.workspace()
+    found = np.zeros(FEATURES)
+    for n in range(matrices.shape[0]):
+        tangent = np.eye(2)
+        status = cycle(c, series, state, tangent, found)
+        features[n, :] = found
+        matrices[n, :, :] = tangent.T
+        if status != OK:
+            return status
+    return OK
+
+
+def initial_states(parameters: np.ndarray, tolerance: float) -> np.ndarray:
+    """States (δ in m, v in m/s), shape (n, 2), of the initial conditions in `parameters`, shape (n, 13)."""
+    states = np.empty((len(parameters), 2))
+    for row, state in zip(parameters, states, strict=True):
+        initial_state(row, tolerance, state)
+    return states
+
+
+def pack_states(parameters: np.ndarray, states: np.ndarray, tolerance: float) -> np.ndarray:
+    """Parameter vectors, shape (n, 13), that begin at stroboscopic states (δ in m, v in m/s), shape (n, 2)."""
+    packed = np.array(parameters, dtype=np.float64)
+    for row, (delta, v) in zip(packed, states, strict=True):
+        c = contact.constants(row, tolerance)
+        row[Z0] = -delta - c.a_z / c.omega**2 * np.cos(row[PSI0])
+        row[VZ0] = c.a_z / c.omega * np.sin(row[PSI0]) - v
+    return packed

@@ -1,0 +1,91 @@
+"""Checks of the arguments of public functions: each error names the argument and the values that are admissible."""
+
+from collections.abc import Collection
+
+import numpy as np
+
+from .parameters import RANGES, UNITS
+
+MOST_VALUES = 10**8  # of an array, or of arrays that are combined
+
+
+def check_type(name: str, value: object, kind: type) -> None:
+    """TypeError unless `value` is of a `kind`."""
+    if not isinstance(value, kind):
+        raise TypeError(f"{name} must be a {kind.__name__}, got {value!r}")
+
+
+def check_choice(name: str, value: object, choices: Collection[str]) -> str:
+    """`value`, which must be one of the `choices`."""
+    if not isinstance(value, str) or value not in choices:
+        raise ValueError(f"{name} = {value!r} is not one of {', '.join(choices)}")
+    return value
+
+
+def check_flag(name: str, value: object) -> bool:
+    """`value`, which must be True or False."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"{name} = {value!r} is neither True nor False")
+    return bool(value)
+
+
+def check_number(
+    name: str, value: object, low: float, high: float, unit: str = "", *, above: bool = False, below: bool = False
+) -> float:
+    """`value` as a float; it must lie in [low, high], not on `low` where it has to lie `above`, nor on `high` `below`.
+
+    Raises
+    ------
+    ValueError
+        names the argument, its unit and its interval
+    """
+    interval = f"{'(' if above else '['}{low:g}, {high:g}{')' if below else ']'} {unit}".rstrip()
+    number = isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
+    if not (number and low <= value <= high) or (above and value == low) or (below and value == high):
+        raise ValueError(f"{name} = {value!r} must be a number in {interval}")
+    return float(value)
+
+
+def check_count(name: str, value: object, low: int, high: int) -> int:
+    """`value` as an int; it must be a whole number from `low` to `high`."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
+        raise ValueError(f"{name} = {value!r} must be a whole number from {low} to {high}")
+    return int(value)
+
+
+def check_array(name: str, values: object, low: float, high: float, unit: str = "", *, least: int = 1) -> np.ndarray:
+    """`values` as a float64 array of `least` values or more, none of them NaN or outside [low, high]."""
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name} must be an array of numbers: {error}") from None
+    if array.size and array.dtype.kind not in "iuf":
+        raise ValueError(f"{name} must be an array of numbers, got the type {array.dtype}")
+    if not least <= array.size <= MOST_VALUES:
+        raise ValueError(f"{name} must have {least} to {MOST_VALUES:g} values, got the shape {array.shape}")
+    outside = ~((array >= low) & (array <= high))
+    if outside.any():
+        raise ValueError(f"{name} = {array[outside].flat[0]!s} is outside [{low:g}, {high:g}] {unit}".rstrip())
+    return np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
+
+
+def check_parameters(values: dict[str, object], names: Collection[str]) -> dict[str, np.ndarray]:
+    """`values` of parameters as float64 arrays of one shape, that to which they broadcast.
+
+    names : those that are admissible; the ranges are parameters.RANGES, that of `z` is the one of z0, of `vz` vz0's
+    """
+    for name in values:
+        if name not in names:
+            raise TypeError(f"{name} is not one of {', '.join(names)}")
+    arrays = []
+    for name, value in values.items():
+        parameter = {"z": "z0", "vz": "vz0"}.get(name, name)
+        arrays.append(check_array(name, value, *RANGES[parameter], UNITS[parameter]))
+    try:
+        shape = np.broadcast_shapes(*(array.shape for array in arrays))
+    except ValueError:
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(values, arrays, strict=True))
+        raise ValueError(f"the shapes of the arrays do not broadcast: {shapes}") from None
+    if np.prod(shape, dtype=np.float64) > MOST_VALUES:
+        raise ValueError(f"{', '.join(values)} have the shape {shape}: more than {MOST_VALUES:g} points")
+    return {name: np.broadcast_to(array, shape) for name, array in zip(values, arrays, strict=True)}

@@ -1,0 +1,335 @@
+"""The public functions of the library besides `simulate`: they take a Conveyor and plain arrays, and check both.
+
+Keyword arrays take the place of single parameters, by the names of the fields of Conveyor and Start; they broadcast
+against each other, and results have their shape. Each function only checks, packs the parameters, and calls the module
+where the method is described.
+"""
+
+from dataclasses import fields
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import ensemble
+from .analysis import stroboscopic_map
+from .analysis.attractors import labels, search
+from .analysis.attractors.labels import Labels
+from .analysis.bifurcations import continuation, periodic_orbits
+from .analysis.bifurcations.continuation import Branch
+from .analysis.bifurcations.periodic_orbits import Orbit
+from .analysis.chaos import lyapunov
+from .analysis.chaos.lyapunov import Spectrum
+from .analysis.fractals import box_counting, correlation_sum
+from .analysis.fractals.scaling_region import Dimension
+from .arguments import check_array, check_count, check_number, check_parameters, check_type
+from .parameters import PARAMETERS, RANGES
+from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, check_run
+from .solver.model import Conveyor, Start, pack
+
+AXES = (*(field.name for field in fields(Conveyor) if field.name in RANGES), "z", "vz")
+MOST_CYCLES = 10**6
+MOST_THREADS = 256
+LARGEST_PERIOD = 1024
+LARGEST_COORDINATE = 1e100
+AT_REST = Start()
+
+
+class Runs(NamedTuple):
+    """The ends of trajectories; every field has the shape of the arrays that `sweep` was given."""
+
+    mean_velocity: np.ndarray  # m/s, feeding velocity over the last quarter of the run (Sect. 3.1)
+    z_end: np.ndarray  # m
+    vz_end: np.ndarray  # m/s
+    x_end: np.ndarray  # m
+    vx_end: np.ndarray  # m/s
+    max_gap: np.ndarray  # m, largest distance between part and plate
+    impacts: np.ndarray  # int64
+    contact_fraction: np.ndarray  # share of the duration with a contact force
+    status: np.ndarray  # str, "ok", or why the run ended early
+
+
+class Basin(NamedTuple):
+    """The labels of a grid of initial conditions on one conveyor."""
+
+    z: np.ndarray  # m, shape (n,)
+    vz: np.ndarray  # m/s, shape (m,)
+    state: np.ndarray  # str, shape (n, m): "first", "second", "chaos" or "undecided"
+    period: np.ndarray  # int64, shape (n, m), excitation cycles; 0 for none
+
+
+def pack_all(conveyor: Conveyor, start: Start, values: dict[str, ArrayLike]) -> tuple[np.ndarray, tuple[int, ...]]:
+    """Packed parameters, shape (n, 13), one row for each point of the `values`, and the shape of these."""
+    check_type("conveyor", conveyor, Conveyor)
+    check_type("start", start, Start)
+    arrays = check_parameters(values, AXES)
+    shape = next(iter(arrays.values())).shape if arrays else ()
+    rows = np.tile(pack(conveyor, start), (int(np.prod(shape)), 1))
+    for name, array in arrays.items():
+        rows[:, PARAMETERS.index({"z": "z0", "vz": "vz0"}.get(name, name))] = array.ravel()
+    return rows, shape
+
+
+def reshape(record: NamedTuple, shape: tuple[int, ...]) -> NamedTuple:
+    """The record with all of its fields, of the shape (n,), in the shape of the points."""
+    return type(record)(*(column.reshape(shape) for column in record))
+
+
+def check_threads(threads: int) -> int:
+    return check_count("threads", threads, 1, MOST_THREADS)
+
+
+def check_tolerance(tolerance: float) -> float:
+    return check_number("tolerance", tolerance, 1e-14, 1e-2)
+
+
+def sweep(
+    conveyor: Conveyor,
+    start: Start = AT_REST,
+    *,
+    duration: float = 1.0,
+    method: str = "event",
+    tolerance: float = DEFAULT_TOLERANCE,
+    step: float = DEFAULT_STEP,
+    threads: int = 1,
+    **values: ArrayLike,
+) -> Runs:
+    """Follow a part for each point of some arrays of parameters.
+
+    Parameters
+    ----------
+    conveyor, start, duration, method, tolerance, step : as in `simulate`
+    threads : the results do not depend on it
+    values : arrays by the names of Conveyor's and Start's numbers, in their units
+
+    Raises
+    ------
+    ValueError, TypeError
+        name the argument that cannot be used
+
+    Examples
+    --------
+    >>> runs = sweep(Conveyor(), duration=0.5, acceleration=np.array([20.0, 40.0])[:, None], z=[0.0, 3e-4])
+    >>> runs.mean_velocity.shape
+    (2, 2)
+    >>> runs.status.tolist()
+    [['ok', 'ok'], ['ok', 'ok']]
+    >>> bool(runs.mean_velocity[1, 1] > runs.mean_velocity[1, 0])  # at 40 m/s² a part that jumps is faster
+    True
+    """
+    check_run(duration, method, tolerance, step)
+    threads = check_threads(threads)
+    rows, shape = pack_all(conveyor, start, values)
+    options = {"duration": float(duration), "method": method, "tolerance": tolerance, "step": step}
+    columns = ensemble.run(rows, **options, threads=threads)
+    return reshape(Runs(**columns), shape)
+
+
+def classify(
+    conveyor: Conveyor,
+    start: Start = AT_REST,
+    *,
+    cycles: int = labels.CYCLES,
+    tolerance: float = 1e-8,
+    threads: int = 1,
+    **values: ArrayLike,
+) -> Labels:
+    """The label of the attractor that each initial condition leads to: its state of motion and its period.
+
+    Parameters
+    ----------
+    conveyor, start : where `values` say nothing
+    cycles : excitation cycles after which a trajectory that has not settled is followed no further, up to 1e6
+    tolerance, threads, values : as in `sweep`
+
+    Returns
+    -------
+    Labels, whose fields have the shape of the `values`; see attractors.labels for how they are decided
+
+    Examples
+    --------
+    >>> found = classify(Conveyor(), acceleration=[40.0, 57.0, 80.0], z=3e-4)
+    >>> list(zip(found.state.tolist(), found.period.tolist()))
+    [('second', 1), ('second', 2), ('chaos', 0)]
+    """
+    cycles = check_count("cycles", cycles, 1, MOST_CYCLES)
+    tolerance, threads = check_tolerance(tolerance), check_threads(threads)
+    rows, shape = pack_all(conveyor, start, values)
+    return reshape(labels.classify(rows, cycles=cycles, tolerance=tolerance, threads=threads), shape)
+
+
+def basin(
+    conveyor: Conveyor,
+    z: ArrayLike,
+    vz: ArrayLike = 0.0,
+    *,
+    cycles: int = labels.CYCLES,
+    tolerance: float = 1e-8,
+    threads: int = 1,
+) -> Basin:
+    """The basins of attraction on a grid of initial conditions.
+
+    The attractors of the conveyor are found first: a trajectory is followed until it must end in one of them.
+
+    Parameters
+    ----------
+    z, vz : initial heights (m) and velocities (m/s), each of shape (n,) or a number; the grid is their product
+    cycles, tolerance, threads : as in `classify`
+
+    Examples
+    --------
+    >>> found = basin(Conveyor(acceleration=40.0), z=[0.0, 2e-4, 4e-4])
+    >>> found.state[:, 0].tolist()
+    ['first', 'second', 'second']
+    """
+    check_type("conveyor", conveyor, Conveyor)
+    heights, speeds = (
+        np.atleast_1d(check_array(name, values, *RANGES[f"{name}0"], unit))
+        for name, values, unit in (("z", z, "m"), ("vz", vz, "m/s"))
+    )
+    for name, array in (("z", heights), ("vz", speeds)):
+        if array.ndim > 1:
+            raise ValueError(f"{name} must be a number or of shape (n,), got the shape {array.shape}")
+    cycles = check_count("cycles", cycles, 1, MOST_CYCLES)
+    tolerance, threads = check_tolerance(tolerance), check_threads(threads)
+    rows, shape = pack_all(conveyor, AT_REST, {"z": heights[:, None], "vz": speeds})
+    known = search.find_attractors(rows[:1], cycles=cycles, tolerance=tolerance, threads=threads)
+    found = labels.classify(rows, cycles=cycles, known=known, tolerance=tolerance, threads=threads)
+    return Basin(heights, speeds, found.state.reshape(shape), found.period.reshape(shape))
+
+
+def lyapunov_spectrum(
+    conveyor: Conveyor,
+    start: Start = AT_REST,
+    *,
+    transient: int = 200,
+    cycles: int = 100,
+    blocks: int = 20,
+    tolerance: float = DEFAULT_TOLERANCE,
+    threads: int = 1,
+    **values: ArrayLike,
+) -> Spectrum:
+    """Both Lyapunov exponents of the vertical motion, from its linearisation.
+
+    Parameters
+    ----------
+    conveyor, start : where `values` say nothing
+    transient : excitation cycles that are followed first and not counted, up to 1e6
+    cycles, blocks : `blocks` (2 to 1000) of `cycles` (1 to 1e5) are counted, which give the standard error
+    tolerance, threads, values : as in `sweep`
+
+    Returns
+    -------
+    Spectrum, whose fields have the shape of the `values`
+
+    Examples
+    --------
+    >>> found = lyapunov_spectrum(Conveyor(), acceleration=[40.0, 80.0], z=3e-4)
+    >>> (found.lambda_1 > 0.0).tolist()  # 1/s: chaos at 80 m/s²
+    [False, True]
+    >>> bool(np.allclose(found.lambda_1 + found.lambda_2, -0.3 / 0.7e-3 * found.contact_fraction))
+    True
+    """
+    counts = {
+        "transient": check_count("transient", transient, 0, MOST_CYCLES),
+        "cycles": check_count("cycles", cycles, 1, 10**5),
+        "blocks": check_count("blocks", blocks, 2, 1000),
+    }
+    tolerance, threads = check_tolerance(tolerance), check_threads(threads)
+    rows, shape = pack_all(conveyor, start, values)
+    return reshape(lyapunov.spectrum(rows, **counts, tolerance=tolerance, threads=threads), shape)
+
+
+def periodic_orbit(
+    conveyor: Conveyor, start: Start = AT_REST, *, period: int = 1, transient: int = 1000
+) -> Orbit | None:
+    """The periodic orbit of the vertical motion that Newton's iteration finds from the end of a trajectory.
+
+    Parameters
+    ----------
+    conveyor, start : the beginning of the trajectory
+    period : excitation cycles of the orbit, 1 to 1024; an orbit of a part of them is one of `period`, too
+    transient : excitation cycles of the trajectory, up to 1e6; with 0 the iteration begins at `start`, which unstable
+        orbits need
+
+    Returns
+    -------
+    Orbit with its Floquet multipliers, at the phase ψ0; None where the iteration finds none
+
+    Examples
+    --------
+    >>> orbit = periodic_orbit(Conveyor(acceleration=40.0), Start(z=3e-4))
+    >>> orbit.period, orbit.impacts, orbit.stable
+    (1, 1, True)
+    """
+    period = check_count("period", period, 1, LARGEST_PERIOD)
+    transient = check_count("transient", transient, 0, MOST_CYCLES)
+    rows, _ = pack_all(conveyor, start, {})
+    state = stroboscopic_map.initial_states(rows, periodic_orbits.TOLERANCE)[0]
+    strobes, features = np.empty((transient, 2)), np.empty((transient, stroboscopic_map.FEATURES))
+    stroboscopic_map.follow(rows[0], periodic_orbits.TOLERANCE, state, transient, strobes, features)
+    return periodic_orbits.find_orbit(rows[0], conveyor.acceleration, state, period)
+
+
+def continue_orbit(conveyor: Conveyor, orbit: Orbit, *, low: float, high: float) -> Branch:
+    """The branch of an orbit in the amplitude of the excitation, with its folds, period doublings and grazings.
+
+    Parameters
+    ----------
+    conveyor : all parameters but the amplitude, which is the orbit's
+    orbit : from `periodic_orbit`
+    low, high : amplitudes in m/s² at which the branch ends, on either side of the orbit's
+
+    Examples
+    --------
+    >>> conveyor = Conveyor(acceleration=50.0)
+    >>> branch = continue_orbit(conveyor, periodic_orbit(conveyor, Start(z=3e-4)), low=45.0, high=56.0)
+    >>> [(point.kind, round(point.orbit.acceleration, 2)) for point in branch.bifurcations]
+    [('period_doubling', 54.22)]
+    """
+    check_type("conveyor", conveyor, Conveyor)
+    check_type("orbit", orbit, Orbit)
+    acceleration = check_number("orbit.acceleration", orbit.acceleration, *RANGES["acceleration"], "m/s²")
+    check_count("orbit.period", orbit.period, 1, LARGEST_PERIOD)
+    state = check_array("orbit.state", orbit.state, -LARGEST_COORDINATE, LARGEST_COORDINATE)
+    if state.shape != (2,):
+        raise ValueError(f"orbit.state must be δ (m) and v (m/s), got the shape {state.shape}")
+    low = check_number("low", low, RANGES["acceleration"][0], acceleration, "m/s²")
+    high = check_number("high", high, acceleration, RANGES["acceleration"][1], "m/s²")
+    return continuation.follow_branch(pack(conveyor, AT_REST), orbit, (low, high))
+
+
+def box_dimension(points: ArrayLike) -> Dimension:
+    """The box-counting dimension of `points`, shape (n, 2), see fractals.box_counting.
+
+    Examples
+    --------
+    >>> points = np.random.default_rng(1).random((20_000, 2))  # a filled square
+    >>> found = box_dimension(points)
+    >>> bool(abs(found.value - 2.0) < found.error)
+    True
+    """
+    return box_counting.box_dimension(check_points(points))
+
+
+def correlation_dimension(points: ArrayLike, theiler: int = 0) -> Dimension:
+    """The correlation dimension of consecutive `points`, shape (n, 2), see fractals.correlation_sum.
+
+    theiler : pairs at most this number of samples apart are left out, 0 to n - 1
+
+    Examples
+    --------
+    >>> angle = np.random.default_rng(1).uniform(0.0, 2.0 * np.pi, 10_000)
+    >>> found = correlation_dimension(np.column_stack([np.cos(angle), np.sin(angle)]))
+    >>> bool(abs(found.value - 1.0) < found.error < 0.1)
+    True
+    """
+    points = check_points(points)
+    return correlation_sum.correlation_dimension(points, check_count("theiler", theiler, 0, len(points) - 1))
+
+
+def check_points(points: ArrayLike) -> np.ndarray:
+    points = check_array("points", points, -LARGEST_COORDINATE, LARGEST_COORDINATE)
+    if points.ndim != 2 or points.shape[1] != 2:
+        raise ValueError(f"points must have the shape (n, 2), got {points.shape}")
+    return points

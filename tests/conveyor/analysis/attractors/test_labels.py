@@ -1,0 +1,234 @@
+"""States of motion and attractors: those that are known, however cut or started."""
+
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start, ensemble
+from conveyor.analysis import stroboscopic_map
+from conveyor.analysis.attractors import attractor_table, chaotic_sets, labels, sampling, search, settling
+from conveyor.analysis.bifurcations import bifurcation_diagram
+from conveyor.solver import contact
+from conveyor.solver.model import PSI0, Z0, pack
+from pipeline import grid
+
+KNOWN = {
+    (30.0, 0.0): ("first", 1),
+    (40.0, 0.0): ("first", 1),
+    (40.0, 3e-4): ("second", 1),
+    (57.0, 3e-4): ("second", 2),
+    (62.0, 3e-4): ("second", 4),
+    (71.0, 0.0): ("second", 3),
+    (80.0, 0.0): ("chaos", 0),
+}
+
+
+def points():
+    return np.array([pack(Conveyor(acceleration=a), Start(z0)) for a, z0 in KNOWN])
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_known_states(threads):
+    found = labels.classify(points(), threads=threads)[:2]
+    assert list(zip(*map(list, found), strict=True)) == list(KNOWN.values())
+
+
+def test_state_does_not_depend_on_when_the_run_is_cut():
+    for duration in (0.013, 0.2, 1.0):
+        runs = ensemble.run(points(), duration=duration)
+        later = labels.continued(points(), runs["z_end"], runs["vz_end"], duration)
+        assert list(labels.classify(later).state) == [state for state, _ in KNOWN.values()]
+
+
+def test_a_run_goes_on_in_place_or_elsewhere():
+    true = points()
+    runs = ensemble.run(true, duration=0.013)
+    ends = runs["z_end"], runs["vz_end"], 0.013
+    later = labels.continued(true, *ends)
+    np.testing.assert_array_equal(true, points())
+    assert (later != true).any(axis=1).all()
+    there = np.zeros_like(true)
+    assert labels.continued(true, *ends, out=there) is there
+    assert labels.continued(true, *ends, out=true) is true
+    np.testing.assert_array_equal(there, later)
+    np.testing.assert_array_equal(true, later)
+
+
+def test_slow_transients_are_followed():
+    """Just above the doubling a period of two is approached very slowly; it is neither chaos nor undecided."""
+    state, period, *_ = labels.classify(np.array([pack(Conveyor(acceleration=54.25), Start(3e-4))]))
+    assert (state[0], period[0]) == ("second", 2)
+
+
+def test_part_that_cannot_be_followed_is_undecided():
+    row = pack(Conveyor(), Start())
+    row[0] = np.nan
+    assert labels.classify(row[None]).state[0] == "undecided"
+
+
+def test_an_exponent_of_zero_is_no_state():
+    """A part that rides undamped on a spring swings for ever, with two exponents of zero: neither settled nor chaos."""
+    conveyor = Conveyor(acceleration=0.0, damping=0.0, exponent=1.0, stiffness=3e3)
+    depth = conveyor.mass * conveyor.gravity / conveyor.stiffness  # at rest
+    found = labels.classify(np.array([pack(conveyor, Start(z=-share * depth)) for share in (0.5, 0.9)]), cycles=400)
+    assert list(found.state) == ["undecided"] * 2
+    assert (found.cycles == 400).all()
+
+
+def test_sweep_keeps_to_its_attractor():
+    """Up from rest the part rides beyond 45 m/s², down from jumping it jumps below: hysteresis."""
+    for amplitudes, z0, state in (
+        (np.linspace(38.0, 45.0, 15), 0.0, "first"),
+        (np.linspace(45.0, 38.0, 15), 3e-4, "second"),
+    ):
+        model = {"z0": z0}
+        _, parameters = grid.product({"acceleration": list(amplitudes)}, model)
+        strobes, status = bifurcation_diagram.follow_attractor(parameters, transient=300, strobes=4, tolerance=1e-10)
+        assert (status == "ok").all()
+        assert np.ptp(strobes, axis=1) == pytest.approx(0.0, abs=1e-7)
+        starts = stroboscopic_map.pack_states(parameters, strobes[:, -1], 1e-10)
+        assert stroboscopic_map.initial_states(starts, 1e-10) == pytest.approx(strobes[:, -1], abs=1e-14)
+        assert set(labels.classify(starts).state) == {state}
+
+
+# Amplitudes (m/s²) at which labels have been wrong: long transients, coexisting chaos, two chaotic attractors.
+HARD = (52.5, 53.0, 53.25, 60.0, 61.0, 61.25, 64.84, 65.0, 72.0, 72.19, 72.97, 73.0, 83.25)
+
+
+def random_starts(acceleration, count):
+    """Starts of one conveyor as on the maps, with any phase."""
+    generator = np.random.default_rng(int(100 * acceleration))
+    rows = np.tile(pack(Conveyor(acceleration=acceleration), Start()), (count, 1))
+    rows[:, Z0] = generator.uniform(0.0, 5e-4, count)
+    rows[:, PSI0] = generator.uniform(0.0, 2.0 * np.pi, count)
+    return rows
+
+
+@pytest.fixture(scope="module")
+def hard():
+    return np.concatenate([random_starts(acceleration, 8) for acceleration in HARD])
+
+
+def test_a_label_is_its_starts_own(hard):
+    """Alone, together, in reverse order and in threads, with and without what starts of a conveyor share."""
+    together = labels.classify(hard, threads=2)
+    backwards = labels.classify(hard[::-1])
+    alone = [labels.classify(row[None]) for row in hard]
+    shared_by = search.find_attractors(hard, cycles=labels.CYCLES)
+    shared = labels.classify(hard, known=shared_by)
+    one_by_one = [labels.classify(row[None], known=shared_by) for row in hard[::3]]
+    for name in ("state", "period", "longest_flight"):
+        wanted = getattr(together, name)
+        np.testing.assert_array_equal(getattr(backwards, name)[::-1], wanted)
+        np.testing.assert_array_equal(np.concatenate([getattr(one, name) for one in alone]), wanted)
+        found = getattr(shared, name)
+        np.testing.assert_array_equal(np.concatenate([getattr(one, name) for one in one_by_one]), found[::3])
+        if name == "longest_flight":  # that of the orbit, to which the others have come close
+            np.testing.assert_allclose(found, wanted, rtol=0.0, atol=1e-6)
+        else:
+            np.testing.assert_array_equal(found, wanted)
+    assert shared.cycles.sum() < 0.8 * together.cycles.sum()
+    assert {"first", "second", "chaos"} <= set(together.state)
+
+
+def test_long_transients_are_not_chaos():
+    """At 73 m/s² all starts settle to a period of 8, most of them after thousands of cycles."""
+    found = labels.classify(random_starts(73.0, 12), cycles=60_000)
+    assert set(found.period) == {8}
+    assert np.median(found.cycles) > 1000
+    early = labels.classify(random_starts(73.0, 12), cycles=400)
+    assert (early.state == "chaos").any()  # what has not settled by then has a positive exponent so far
+
+
+def test_a_conveyor_may_have_two_chaotic_attractors():
+    rows = random_starts(53.0, 1)
+    for tolerance in (1e-6, 1e-8):  # the exponent of one of them is small, and needs time to be told from zero
+        found = search.find_attractors(rows, cycles=labels.CYCLES, tolerance=tolerance)
+        assert len(found.chaotic.low) == 2
+    assert len(search.find_attractors(random_starts(40.0, 1), cycles=labels.CYCLES).chaotic.low) == 0
+    # At 72.97 m/s² chaos is a long transient: no start may be called chaos before its time is over.
+    assert len(search.find_attractors(random_starts(72.97, 1), cycles=labels.CYCLES).chaotic.low) == 0
+
+
+@pytest.mark.parametrize("cycles", [500, 1000, 2000])
+def test_chaos_that_some_starts_leave_late_is_no_attractor(cycles):
+    """At 73 m/s² all starts settle in the end: those that do late show it, though others have not settled by then."""
+    assert len(search.find_attractors(random_starts(73.0, 1), cycles=cycles).chaotic.low) == 0
+
+
+@pytest.mark.parametrize("settles_after", [None, 3])
+def test_a_start_that_settles_in_the_second_half_settles_late(monkeypatch, settles_after):
+    """A start at 80 m/s², where chaos is known; it is made to settle some cycles after the first half of the search."""
+    row, cycles = attractor_table.without_initial_conditions(random_starts(80.0, 1)), 2000
+    follow, halves = sampling.follow, []
+
+    def interrupted(parameters, states, count, *rest):
+        found = follow(parameters, states, count, *rest)
+        if count == cycles:
+            halves.append(count)
+            if len(halves) == 2 and settles_after:
+                found.outcomes[0], found.followed[0] = settling.SETTLED, settles_after
+        return found
+
+    probed = sampling.sample_conveyors(row, sampling.SETTLING, 1e-8)
+    monkeypatch.setattr(sampling, "follow", interrupted)
+    (found,) = chaotic_sets.find_chaotic_sets(row, probed, cycles, 1e-8)
+    assert (len(found.low) == 0 and len(halves) == 2) if settles_after else len(found.low) > 0
+
+
+@pytest.mark.parametrize("together", [1, 3, 16])
+def test_conveyors_that_are_probed_side_by_side_do_not_disturb_each_other(monkeypatch, together):
+    """Some have chaotic sets, one or two, some have none, some would not do in lanes."""
+    monkeypatch.setattr(search, "TOGETHER", together)
+    alike = [Conveyor(acceleration=a) for a in (40.0, 53.0, 65.0, 73.0, 80.0, 89.0)]
+    rows = np.array([pack(one, Start()) for one in (*alike, Conveyor(acceleration=80.0, tension="clip"))])
+    options = {"cycles": 2000, "tolerance": 1e-6}
+    found = search.find_attractors(rows, **options)
+    assert len(found.chaotic.low) >= 4
+    alone = [search.find_attractors(row[None], **options) for row in attractor_table.distinct_conveyors(rows)[0]]
+    for table, wanted in zip(found, attractor_table.concatenate(alone), strict=True):
+        for column, expected in zip(table, wanted, strict=True):
+            np.testing.assert_array_equal(column, expected)
+
+
+def test_a_period_is_the_shortest():
+    """Next to its period doubling a motion comes back after twice its period first, from the other side."""
+    found = labels.classify(np.array([pack(Conveyor(acceleration=72.98), Start(2.3e-4))]))
+    assert found.period[0] == 2
+
+
+def test_longest_flight_is_that_of_the_end_of_the_search():
+    """A part that falls from high up onto a hardly damped contact bounces high at first, and less at last."""
+    parameters = pack(Conveyor(acceleration=5.0, damping=0.05, psi0=np.pi), Start(z=0.05))
+    c, series = contact.constants(parameters, 1e-8), contact.workspace()
+    state, count = np.empty(2), 200
+    stroboscopic_map.initial_state(parameters, 1e-8, state)
+    strobes, features = np.empty((count, 2)), np.empty((count, stroboscopic_map.FEATURES))
+    stroboscopic_map.follow(parameters, 1e-8, state.copy(), count, strobes, features)
+    flights = features[:, [stroboscopic_map.LONGEST_FLIGHT, stroboscopic_map.AIRBORNE]].max(axis=1)
+    nowhere = np.zeros(4, dtype=np.int64)
+    outcome, _, longest, _ = settling.settle(
+        c, series, state, count, attractor_table.NO_ATTRACTORS, nowhere, np.empty((0, 2))
+    )
+    assert outcome == settling.OPEN
+    assert flights[: settling.MAX_PERIOD].max() > 2.0 * flights[-settling.MAX_PERIOD :].max()
+    assert longest == pytest.approx(flights[-settling.MAX_PERIOD :].max(), rel=1e-6)
+
+
+def test_motions_of_one_state_are_told_apart():
+    """At 50.5 m/s² a part jumps over one cycle or over two, with velocities of 0.066 and 0.126 m/s."""
+    rows = np.array([pack(Conveyor(acceleration=50.5), Start(z)) for z in (0.0, 0.05e-3)])
+    found = labels.classify(rows)
+    assert list(found.state) == ["second", "second"]
+    assert found.longest_flight[1] > 1.0 > found.longest_flight[0]
+
+
+def test_boxes_hold_a_motion_and_its_neighbourhood():
+    """A point within a box's size of any strobe, on every side, lies in a box that counts as visited."""
+    strobes = np.random.default_rng(2).normal(size=(500, 2)) * [1e-5, 0.1]
+    low, size, visited = chaotic_sets.cover_by_boxes(strobes)
+    for shift in ((0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (-1.0, -1.0)):
+        places = np.floor((strobes + np.array(shift) * size * (1.0 - 1e-9) - low) / size).astype(int)
+        assert places.min() >= 0
+        assert places.max() < len(visited)
+        assert visited[places[:, 0], places[:, 1]].all()
+    assert visited.mean() < 0.1

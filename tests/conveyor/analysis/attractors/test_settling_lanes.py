@@ -1,0 +1,205 @@
+"""Starts that settle side by side: the bits of those that are followed one by one, whoever their neighbours are."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start
+from conveyor.analysis.attractors import labels, search, settling, settling_lanes
+from conveyor.analysis.attractors.attractor_table import NO_ATTRACTORS
+from conveyor.solver.model import PSI0, STIFFNESS, TENSION_MODES, Z0, pack
+
+TOLERANCE = 1e-7
+
+
+def room(n):
+    """Points, outcomes, periods, flights and followed of n starts."""
+    kinds = (np.int64, np.int64, np.float64, np.int64)
+    return np.full((n, 2), np.nan), *(np.zeros(n, kind) for kind in kinds)
+
+
+def no_strobes(parameters):
+    return np.empty((len(parameters), 0, 2))
+
+
+def one_by_one(parameters, cycles, known=NO_ATTRACTORS):
+    found, strobes = room(len(parameters)), no_strobes(parameters)
+    settling.settle_points(parameters, TOLERANCE, cycles, known, known.of(parameters), found, strobes)
+    return found
+
+
+def together(parameters, cycles, known=NO_ATTRACTORS, lanes=settling_lanes.LANES):
+    found, left, strobes = room(len(parameters)), np.ones(len(parameters), dtype=np.bool_), no_strobes(parameters)
+    settling_lanes.in_lanes(parameters, TOLERANCE, cycles, known, known.of(parameters), found, strobes, left, lanes)
+    return found, left
+
+
+def assert_same(found, wanted, rows=slice(None)):
+    for column, expected in zip(found, wanted, strict=True):
+        np.testing.assert_array_equal(column[rows], expected[rows])
+
+
+def random_starts(count, seed):
+    """Starts on conveyors of all kinds, each its own: in the plate, on it, above it; every fourth not for lanes."""
+    rng = np.random.default_rng(seed)
+    rows = []
+    for k in range(count):
+        conveyor = Conveyor(
+            acceleration=rng.uniform(0.0, 90.0) * (rng.random() < 0.9),
+            angle=rng.uniform(0.05, 0.5),
+            frequency=rng.uniform(20.0, 100.0),
+            psi0=rng.choice([rng.uniform(-12.0, 12.0), -np.pi, 0.0]),
+            stiffness=10.0 ** rng.uniform(4.0, 6.5),
+            damping=rng.uniform(0.0, 1.0),
+            exponent=1.0 if k % 8 == 3 else 1.5,
+            tension=TENSION_MODES[1 + rng.integers(2)] if k % 8 == 7 else "allow",
+        )
+        height = [rng.uniform(-1e-4, 0.0), rng.uniform(0.0, 1e-3), "conveyor"][rng.integers(3)]
+        rows.append(pack(conveyor, Start(height, rng.uniform(-0.2, 0.2))))
+    return np.array(rows)
+
+
+def map_of(acceleration, count=40):
+    """Starts of one conveyor as on the maps."""
+    rng = np.random.default_rng(int(acceleration))
+    rows = np.tile(pack(Conveyor(acceleration=acceleration), Start()), (count, 1))
+    rows[:, Z0], rows[:, PSI0] = rng.uniform(0.0, 5e-4, count), rng.uniform(0.0, 2.0 * np.pi, count)
+    return rows
+
+
+@pytest.mark.parametrize("lanes", [1, 2, 4, 8])
+def test_bits_do_not_depend_on_lanes(lanes):
+    parameters = random_starts(60, seed=1)
+    wanted = one_by_one(parameters, 150)
+    found, left = together(parameters, 150, lanes=lanes)
+    assert left.tolist() == [k % 4 == 3 for k in range(60)]
+    assert_same(found, wanted, ~left)
+    assert {settling.SETTLED, settling.OPEN} <= set(found[1])
+
+
+@pytest.mark.parametrize("acceleration", [40.0, 50.5, 53.0, 80.0])
+def test_bits_of_maps_with_known_attractors(acceleration):
+    parameters = map_of(acceleration)
+    known = search.find_attractors(parameters, cycles=4000, tolerance=TOLERANCE)
+    assert len(known.orbits.periods) + len(known.chaotic.low) > 0
+    found, left = together(parameters, 4000, known)
+    assert not left.any()
+    assert_same(found, one_by_one(parameters, 4000, known))
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 9])
+def test_lanes_may_be_more_than_starts_and_starts_in_any_order(count):
+    parameters = map_of(53.0, count)
+    wanted, _ = together(parameters, 300)
+    backwards, _ = together(parameters[::-1].copy(), 300)
+    assert_same([column[::-1] for column in backwards], wanted)
+    assert_same(wanted, one_by_one(parameters, 300))
+
+
+@pytest.mark.parametrize("side_by_side", [4, 1000])
+def test_strobes_are_the_states_after_the_first_cycles(monkeypatch, side_by_side):
+    """At 56 m/s² some starts settle soon; what follows then stays as it was."""
+    monkeypatch.setattr(settling_lanes, "SIDE_BY_SIDE", side_by_side)
+    parameters = map_of(56.0, 10)
+    parameters[3] = random_starts(8, seed=3)[7]  # not for lanes
+    found, strobes = room(10), np.full((10, 70, 2), np.nan)
+    places = NO_ATTRACTORS.of(parameters)
+    settling_lanes.settle_points(parameters, TOLERANCE, 90, NO_ATTRACTORS, places, found, strobes)
+    followed = found[4]
+    assert followed.min() < 70 < followed.max()
+    for k in range(10):
+        assert np.isnan(strobes[k, followed[k] :]).all()
+        for cycles in (1, 2, 40, 70):
+            if cycles <= followed[k]:
+                shorter = one_by_one(parameters[k : k + 1], cycles)
+                np.testing.assert_array_equal(strobes[k, cycles - 1], shorter[0][0])
+
+
+@pytest.mark.parametrize("cycles", [1, 2])
+def test_flights_count_from_the_first_whole_cycle_on(cycles):
+    parameters = map_of(80.0)
+    found, left = together(parameters, cycles)
+    assert not left.any()
+    assert found[3].max() > 0.5 / 50.0
+    assert_same(found, one_by_one(parameters, cycles))
+
+
+def test_no_start_or_no_cycle_is_left_to_others():
+    assert together(np.empty((0, 13)), 10)[1].tolist() == []
+    assert together(map_of(40.0, 3), 0)[1].tolist() == [True] * 3
+
+
+def test_failures_keep_their_row_and_disturb_nobody():
+    calm = map_of(40.0, 24)
+    parameters = calm.copy()
+    parameters[[0, 5, 23], 0] = np.nan
+    parameters[7, STIFFNESS] = np.inf
+    parameters[8, STIFFNESS] = 1e300
+    parameters[9, Z0] = np.inf
+    bad = [0, 5, 7, 8, 9, 23]
+    good = np.setdiff1d(np.arange(24), bad)
+    found, left = together(parameters, 200)
+    assert set(np.flatnonzero(left)) <= set(bad)
+    assert_same(found, one_by_one(parameters, 200), ~left)
+    assert_same(found, one_by_one(calm, 200), good)
+    found_labels = labels.classify(parameters, cycles=200, tolerance=TOLERANCE)
+    assert set(found_labels.state[good]) <= {"first", "second"}
+    assert_same(
+        [found_labels.period, found_labels.cycles], [one_by_one(parameters, 200)[2], one_by_one(parameters, 200)[4]]
+    )
+
+
+def test_a_contact_too_stiff_to_be_followed_ends(monkeypatch):
+    """A heavily damped contact takes too many steps in a cycle: the lane gives it up as the scalar code does."""
+    parameters = map_of(40.0, 8)
+    parameters[3] = pack(Conveyor(damping=1e6, stiffness=1e15), Start())
+    found, left = together(parameters, 50)
+    wanted = one_by_one(parameters, 50)
+    assert wanted[1][3] == settling.FAILED
+    assert left.tolist() == [k == 3 for k in range(8)]
+    assert_same(found, wanted, ~left)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_labels_do_not_depend_on_threads_or_chunks(threads, monkeypatch):
+    parameters = np.concatenate([random_starts(70, seed=2), map_of(80.0, 30)])
+    monkeypatch.setattr(settling_lanes, "SIDE_BY_SIDE", 1000)
+    wanted = labels.classify(parameters, cycles=300, tolerance=TOLERANCE)
+    monkeypatch.undo()
+    for length in (16, 64, 2048):
+        monkeypatch.setattr(labels, "TOGETHER", length)
+        assert_same(labels.classify(parameters, cycles=300, tolerance=TOLERANCE, threads=threads), wanted)
+
+
+# Says what it has to compile.
+LABELS = """
+import numpy as np
+from numba.core import event
+
+compiled = []
+event.register("numba:compile", type("Listener", (event.Listener,), {
+    "on_start": lambda self, told: compiled.append(told.data["dispatcher"].py_func.__qualname__),
+    "on_end": lambda self, told: None,
+})())
+
+from conveyor import Conveyor, Start
+from conveyor.analysis.attractors import labels
+from conveyor.solver.model import pack
+
+labels.classify(np.array([pack(Conveyor(), Start(1e-6 * k)) for k in range(8)]), cycles=3)
+print(*compiled)
+"""
+
+
+def test_a_process_finds_what_another_one_compiled(tmp_path):
+    environment = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
+    environment |= {"XDG_CACHE_HOME": str(tmp_path), "PYTHONPATH": os.pathsep.join(sys.path)}
+    first, second = (
+        subprocess.run([sys.executable, "-c", LABELS], env=environment, check=True, capture_output=True, text=True)
+        for _ in range(2)
+    )
+    assert "follow" in first.stdout
+    assert second.stdout.split() == []

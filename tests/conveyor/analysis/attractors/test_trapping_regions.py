@@ -1,0 +1,115 @@
+"""Neighbourhoods of attracting orbits: what starts there ends there; and which conveyor a start is on."""
+
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start
+from conveyor.analysis.attractors import attractor_table, sampling, settling, trapping_regions
+from conveyor.analysis.attractors.search import find_attractors
+from conveyor.solver import contact
+from conveyor.solver.model import PARAMETERS, PSI0, pack
+
+TOLERANCE = 1e-6
+
+
+def conveyor_of(acceleration, **rest):
+    row = pack(Conveyor(acceleration=acceleration, **rest), Start())
+    row[PSI0] = 0.0
+    return row
+
+
+def inside(row, centre, factor, count):
+    """Random states (δ, v) in a neighbourhood, half of them at its edge, shape (count, 2)."""
+    generator = np.random.default_rng(1)
+    damping = contact.constants(row, TOLERANCE).damping
+    angle = generator.uniform(0.0, 2.0 * np.pi, count)
+    size = np.where(np.arange(count) % 2 == 0, 1.0, np.sqrt(generator.uniform(0.0, 1.0, count)))
+    across = size * np.sin(angle) / factor[2]
+    delta = centre[0] + (size * np.cos(angle) - factor[1] * across) / factor[0]
+    return np.column_stack([delta, centre[1] + across - damping * np.maximum(delta, 0.0)])
+
+
+@pytest.fixture(scope="module", params=[(30.0, {}), (40.0, {}), (53.0, {}), (56.0, {}), (40.0, {"tension": "clip"})])
+def found(request):
+    acceleration, rest = request.param
+    row = conveyor_of(acceleration, **rest)
+    return row, find_attractors(row[None], cycles=500, tolerance=TOLERANCE).orbits
+
+
+def share_that_ends_there(row, orbits, k, scale):
+    """Of starts in the neighbourhood of orbit k, enlarged, that are followed in full."""
+    starts = inside(row, orbits.centres[k], orbits.factors[k] / scale, 60)
+    motions = sampling.follow(np.tile(row, (60, 1)), starts, 1000, TOLERANCE)
+    same = (motions.outcomes == settling.SETTLED) & (motions.periods == orbits.periods[k])
+    return np.mean(same & (np.abs(motions.flights - orbits.flights[k]) < 1e-8))
+
+
+def test_what_starts_in_a_neighbourhood_ends_in_its_orbit(found):
+    row, orbits = found
+    assert len(orbits.periods) >= 2
+    assert [share_that_ends_there(row, orbits, k, 1.0) for k in range(len(orbits.periods))] == [1.0] * len(
+        orbits.periods
+    )
+
+
+def test_neighbourhoods_are_not_much_smaller_than_basins(found):
+    row, orbits = found
+    assert min(share_that_ends_there(row, orbits, k, 32.0) for k in range(len(orbits.periods))) < 1.0
+
+
+def test_a_curve_far_out_does_not_come_inside():
+    row = conveyor_of(40.0)
+    (motions,) = sampling.sample_conveyors(row[None], 400, TOLERANCE)
+    k = int(np.argmax(motions.flights))
+    centre, factor = trapping_regions.neighbourhood(row, TOLERANCE, motions.states[k], 1)
+    assert trapping_regions.comes_inside(row, TOLERANCE, centre, factor, 1, 1.0)
+    assert not trapping_regions.comes_inside(row, TOLERANCE, centre, factor, 1, 8.0)
+
+
+def test_an_orbit_that_does_not_attract_has_no_neighbourhood():
+    """A part on an undamped spring swings for ever."""
+    row = conveyor_of(0.0, damping=0.0, exponent=1.0, stiffness=3e3)
+    state = np.array([1.5 * 0.7e-3 * 9.81 / 3e3, 0.0])
+    assert trapping_regions.neighbourhood(row, TOLERANCE, state, 1) is None
+
+
+def test_norm_contracts_in_each_step():
+    generator = np.random.default_rng(1)
+    for _ in range(200):
+        matrix = generator.normal(size=(2, 2)) * [[1.0, 20.0], [1.0, 1.0]]
+        matrix *= generator.uniform(0.0, 0.98) / np.abs(np.linalg.eigvals(matrix)).max()
+        norm = trapping_regions.contracting_norm(matrix)
+        assert np.linalg.norm(norm @ matrix @ np.linalg.inv(norm), 2) < 1.0
+        assert np.linalg.norm(np.linalg.inv(norm), 2) <= 1.0 + 1e-9
+        for radius in (0.999, 1.0, 2.0):
+            assert trapping_regions.contracting_norm(matrix * radius / np.abs(np.linalg.eigvals(matrix)).max()) is None
+
+
+def test_orbits_are_left_out_where_they_are_not_wanted():
+    assert len(find_attractors(conveyor_of(40.0)[None], cycles=500, orbits=False).orbits.periods) == 0
+
+
+def test_places_of_conveyors_in_any_order():
+    generator = np.random.default_rng(1)
+    of_each = np.array([conveyor_of(a) for a in (50.0, 30.0, 40.0)])
+    index = generator.integers(0, 3, 40)
+    rows = of_each[index]
+    rows[:, PSI0] = generator.uniform(0.0, 6.0, 40)
+    sorted_rows, numbers = attractor_table.distinct_conveyors(rows)
+    assert sorted_rows[:, 0].tolist() == [30.0, 40.0, 50.0]
+    np.testing.assert_array_equal(sorted_rows[numbers], attractor_table.without_initial_conditions(rows))
+    table = attractor_table.orbit_table(of_each[2], [(np.zeros(2), np.ones(3), 1, 0.0)] * 2)
+    places = attractor_table.find_places(np.concatenate([of_each[:1], table.conveyors]), sorted_rows)
+    assert places.tolist() == [[0, 0], [1, 3], [0, 1]]
+    places = attractor_table.AttractorTable(table, attractor_table.NO_ATTRACTORS.chaotic).of(rows)
+    assert [tuple(places[k]) for k in range(40)] == [{0: (0, 0), 1: (0, 0), 2: (0, 2)}[k] + (0, 0) for k in index]
+    assert attractor_table.distinct_conveyors(rows[:0])[0].shape == (0, 13)
+
+
+@pytest.mark.parametrize("name", [name for name in PARAMETERS if name not in ("psi0", "z0", "vz0")])
+def test_a_conveyor_is_another_one_if_any_parameter_is(name):
+    rows = np.tile(conveyor_of(40.0), (4, 1))
+    rows[2:, PARAMETERS.index(name)] += 1.0
+    sorted_rows, numbers = attractor_table.distinct_conveyors(rows)
+    assert numbers.tolist() == [0, 0, 1, 1]
+    np.testing.assert_array_equal(sorted_rows, attractor_table.without_initial_conditions(rows[::2]))

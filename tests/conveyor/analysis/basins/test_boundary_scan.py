@@ -1,0 +1,84 @@
+"""Edges of basins over z0: toys with known edges, and the paper's two critical heights."""
+
+import numpy as np
+import pytest
+
+from conveyor.analysis.attractors import labels
+from conveyor.analysis.basins import boundary_scan
+from conveyor.solver.model import ACCELERATION, Z0
+from pipeline import grid
+
+HEIGHTS = np.linspace(0.0, 5e-4, 51)
+
+
+def conveyors(*accelerations):
+    return grid.product({"acceleration": list(accelerations)}, {})[1]
+
+
+def monotone(rows):
+    """The first state below z0 = 4 mm m/s² / â."""
+    return np.where(rows[:, Z0] < 4e-3 / rows[:, ACCELERATION], "first", "second")
+
+
+def striped(rows):
+    """First, second, first again, chaos; the edges are at 0.1, 0.2 and 0.333 mm."""
+    return np.array(["first", "second", "first", "chaos"])[np.searchsorted([1e-4, 2e-4, 1e-3 / 3.0], rows[:, Z0])]
+
+
+def test_the_edge_of_a_monotone_toy_is_enclosed_to_the_resolution():
+    accelerations = np.array([20.0, 33.3, 77.0])
+    for resolution in (1e-6, 1e-9, 1e-12):
+        found = boundary_scan.find_crossings(conveyors(*accelerations), HEIGHTS, monotone, resolution)
+        np.testing.assert_array_equal(found.point, [0, 1, 2])
+        short = 4e-3 / accelerations - found.height
+        assert ((short > 0.0) & (short <= resolution)).all()
+        assert (found.below == "first").all() and (found.above == "second").all()
+
+
+def test_every_stripe_is_reported_and_the_lowest_end_of_the_first_state_is_critical():
+    found = boundary_scan.find_crossings(conveyors(30.0, 40.0), HEIGHTS, striped, 1e-9)
+    np.testing.assert_array_equal(found.point, [0, 0, 0, 1, 1, 1])
+    np.testing.assert_allclose(found.height, np.tile([1e-4, 2e-4, 1e-3 / 3.0], 2), atol=1e-9)
+    assert list(found.above[:3]) == ["second", "first", "chaos"]
+    np.testing.assert_array_equal(boundary_scan.select_critical(found), [True, False, False] * 2)
+
+
+def test_a_start_in_the_second_state_is_not_critical():
+    found = boundary_scan.find_crossings(
+        conveyors(30.0), HEIGHTS, lambda rows: np.where(rows[:, Z0] < 2e-4, "second", "first"), 1e-9
+    )
+    assert len(found.point) == 1 and not boundary_scan.select_critical(found).any()
+
+
+def test_a_third_state_inside_an_interval_takes_the_place_of_the_state_above():
+    def decide(rows):
+        return np.where(rows[:, Z0] < 1.04e-4, "first", np.where(rows[:, Z0] < 1.08e-4, "undecided", "second"))
+
+    found = boundary_scan.find_crossings(conveyors(30.0), HEIGHTS, decide, 1e-9)
+    np.testing.assert_allclose(found.height, 1.04e-4, atol=1e-9)
+    assert list(found.above) == ["undecided"]
+
+
+def test_one_state_everywhere_has_no_crossing():
+    found = boundary_scan.find_crossings(conveyors(30.0, 40.0), HEIGHTS, lambda rows: np.full(len(rows), "first"), 1e-9)
+    assert len(found.point) == 0 and len(boundary_scan.select_critical(found)) == 0
+
+
+@pytest.mark.parametrize(("heights", "resolution"), [([0.0], 1e-9), ([1e-4, 0.0], 1e-9), ([0.0, 1e-4], 0.0)])
+def test_unusable_arguments_are_named(heights, resolution):
+    with pytest.raises(ValueError, match=r"heights|resolution"):
+        boundary_scan.find_crossings(conveyors(30.0), np.array(heights), monotone, resolution)
+
+
+def test_the_paper_s_critical_heights():
+    """0.13 mm at 35 m/s² and 0.07 mm at 40 m/s² (Sect. 3.2); starts on either side end in different states."""
+    parameters = conveyors(35.0, 40.0)
+    found = boundary_scan.find_crossings(
+        parameters, HEIGHTS, lambda rows: labels.classify(rows, tolerance=1e-10).state, 1e-9
+    )
+    np.testing.assert_array_equal(found.point, [0, 1])
+    np.testing.assert_allclose(found.height, [0.13e-3, 0.07e-3], atol=0.01e-3)
+    for offset, state in ((-1e-9, "first"), (2e-9, "second")):
+        rows = parameters.copy()
+        rows[:, Z0] = found.height + offset
+        assert (labels.classify(rows, tolerance=1e-10).state == state).all()

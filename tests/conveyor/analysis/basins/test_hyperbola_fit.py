@@ -1,0 +1,115 @@
+"""Fits of Eq. 13 to data made by it."""
+
+import numpy as np
+import pytest
+
+from conveyor.analysis.basins.hyperbola_fit import (
+    Hyperbola,
+    critical_height,
+    fit_least_squares,
+    fit_pymoo,
+    mean_squared_error,
+    profile,
+)
+
+ACCELERATION = np.linspace(29.0, 47.0, 25)
+PAPER = Hyperbola(0.004116, -19.54145, -0.0001354)
+TRIPLES = [PAPER, Hyperbola(0.02, 5.0, -4e-4), Hyperbola(-0.01, 30.0, 3e-4), Hyperbola(0.001, -26.0, 0.0)]
+BOUNDS = {"A": (-0.05, 0.1), "B": (-28.5, 60.0), "C": (-2e-3, 1e-3)}
+SCATTER = 1e-6 * np.random.default_rng(0).standard_normal(25)
+
+
+def test_formula():
+    assert critical_height(np.array([40.0]), PAPER) == pytest.approx([0.004116 / (40.0 - 19.54145) - 0.0001354])
+    assert critical_height(ACCELERATION, np.array(TRIPLES).reshape(2, 2, 3)).shape == (2, 2, 25)
+
+
+def test_mean_squared_error_is_that_of_each_triple():
+    height = critical_height(ACCELERATION, PAPER)
+    shifted = np.array([PAPER, PAPER._replace(C=PAPER.C + 2e-6)])
+    assert mean_squared_error(ACCELERATION, height, shifted) == pytest.approx([0.0, 4e-12])
+
+
+@pytest.mark.parametrize("triple", TRIPLES)
+def test_least_squares_recovers_the_triple(triple):
+    fit = fit_least_squares(ACCELERATION, critical_height(ACCELERATION, triple), BOUNDS["B"])
+    assert fit.parameters == pytest.approx(triple, rel=1e-7, abs=1e-12)
+    assert fit.error < 1e-24
+
+
+def test_least_squares_has_no_gradient_left():
+    """An independent look: no change of a parameter, alone or along the valley, lowers the error."""
+    height = critical_height(ACCELERATION, PAPER) + SCATTER
+    fit = fit_least_squares(ACCELERATION, height, BOUNDS["B"])
+    steps = np.vstack([np.diag(np.abs(fit.parameters)), -np.diag(np.abs(fit.parameters))]) * 1e-4
+    assert (mean_squared_error(ACCELERATION, height, fit.parameters + steps) > fit.error).all()
+    _, valley = profile(ACCELERATION, height, np.linspace(*BOUNDS["B"], 2001))
+    assert fit.error <= valley.min()
+    assert valley.min() < 1.001 * fit.error
+
+
+def test_profile_is_the_best_for_each_b():
+    height = critical_height(ACCELERATION, PAPER) + SCATTER
+    b = np.array([-25.0, -19.0, 0.0, 40.0])
+    parameters, error = profile(ACCELERATION, height, b)
+    for i in range(len(b)):
+        design = np.column_stack([1.0 / (b[i] + ACCELERATION), np.ones(25)])
+        (a, c), residual, *_ = np.linalg.lstsq(design, height, rcond=None)
+        assert parameters[i] == pytest.approx([a, b[i], c], rel=1e-8)
+        assert error[i] == pytest.approx(residual[0] / 25, rel=1e-8)
+
+
+def test_valley_is_flat():
+    """Triples that differ by a fifth in A fit 25 points with 6.4 µm scatter (the paper's error) equally well."""
+    scatter = 6.4e-6 / SCATTER.std() * SCATTER
+    height = critical_height(ACCELERATION, PAPER) + scatter
+    parameters, error = profile(ACCELERATION, height, np.linspace(*BOUNDS["B"], 2001))
+    equal = parameters[error < 1.05 * error.min()]
+    assert equal[:, 0].max() > 1.2 * equal[:, 0].min()
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+@pytest.mark.parametrize("triple", TRIPLES)
+def test_pymoo_reaches_the_least_squares_error(triple, seed):
+    height = critical_height(ACCELERATION, triple) + SCATTER
+    best = fit_least_squares(ACCELERATION, height, BOUNDS["B"])
+    fit = fit_pymoo(ACCELERATION, height, BOUNDS, seed, 5000)
+    assert best.error * (1 - 1e-9) <= fit.error <= 1.01 * best.error
+    for name, value in fit.parameters._asdict().items():
+        assert BOUNDS[name][0] <= value <= BOUNDS[name][1]
+
+
+def test_history_counts_evaluations_and_only_improves():
+    height = critical_height(ACCELERATION, PAPER) + SCATTER
+    fit = fit_pymoo(ACCELERATION, height, BOUNDS, 1, 500)
+    evaluations, error = fit.history.T
+    assert (np.diff(evaluations) > 0).all()
+    assert (np.diff(error) <= 0).all()
+    assert fit.evaluations == evaluations[-1] <= 520
+    assert error[-1] == pytest.approx(fit.error, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", [0, 7])
+def test_same_seed_same_result(seed):
+    height = critical_height(ACCELERATION, PAPER) + SCATTER
+    first, second = (fit_pymoo(ACCELERATION, height, BOUNDS, seed, 600) for _ in range(2))
+    assert first.parameters == second.parameters
+    assert (first.history == second.history).all()
+    assert fit_pymoo(ACCELERATION, height, BOUNDS, seed + 1, 600).parameters != first.parameters
+
+
+@pytest.mark.parametrize(
+    ("acceleration", "height", "bounds", "message"),
+    [
+        (ACCELERATION, np.zeros(24), BOUNDS["B"], "one shape"),
+        (np.full(25, 30.0), np.zeros(25), BOUNDS["B"], "three different"),
+        (ACCELERATION, np.full(25, np.nan), BOUNDS["B"], "finite"),
+        (ACCELERATION, np.zeros(25), (-35.0, 10.0), "bounds of B"),
+        (ACCELERATION, np.zeros(25), (10.0, -10.0), "bounds of B"),
+    ],
+)
+def test_data_and_bounds_are_checked(acceleration, height, bounds, message):
+    with pytest.raises(ValueError, match=message):
+        fit_least_squares(acceleration, height, bounds)
+    with pytest.raises(ValueError, match=message):
+        fit_pymoo(acceleration, height, {**BOUNDS, "B": bounds}, 1, 100)

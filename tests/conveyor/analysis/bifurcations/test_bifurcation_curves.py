@@ -1,0 +1,88 @@
+"""Curves of bifurcations: every point is one, closed forms, and points of codimension two from both sides."""
+
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start
+from conveyor.analysis.bifurcations import bifurcation_curves
+from conveyor.analysis.bifurcations.bifurcation_curves import Path, follow, follow_grazing, normal_form
+from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, SIGNS, derivatives, find_bifurcation
+from conveyor.analysis.dimensionless_groups import Groups, groups_of
+from conveyor.solver.model import pack
+
+GROUPS = groups_of(pack(Conveyor(), Start()))
+FOLD, DOUBLING = (-3.41, 1.614, 0.50815), (-6.257, 0.5009, 1.1491)
+LIMITS = {"amplitude": (0.1, 5.0), "longest_step": 0.1, "most": 400}
+ALONG = np.array([1.0, 0.0])
+
+
+@pytest.fixture(scope="module")
+def fold_over_damping():
+    """Up to the cusp and back."""
+    point = find_bifurcation("fold", 1, FOLD, GROUPS)
+    return follow(point, Path(1.0, 0.0), reach=(-0.5, np.log(8.0)), **LIMITS)
+
+
+@pytest.mark.parametrize("kind", ["fold", "period_doubling"])
+@pytest.mark.parametrize("path", [Path(0.0, 1.0), Path(-1.0, -3.0)])
+def test_every_point_of_a_curve_is_a_bifurcation(kind, path):
+    point = find_bifurcation(kind, 1, FOLD if kind == "fold" else DOUBLING, GROUPS)
+    curve = follow(point, path, reach=(-0.5, 0.5), **LIMITS)
+    assert curve.ends == ("limit", "limit")
+    assert np.ptp(curve.parts) > 1.0
+    for one, part in zip(curve.points[::4], curve.parts[::4], strict=True):
+        found = derivatives(one.groups, one.unknown[:2], 1)
+        assert found.image == pytest.approx(one.unknown[:2], abs=1e-9)
+        multipliers = np.linalg.eigvals(found.first[:, :2])
+        assert np.abs(multipliers - SIGNS[kind]).min() < 1e-7
+        assert one.groups.damping == pytest.approx(GROUPS.damping * np.exp(path.damping * part))
+        assert one.groups.stiffness == pytest.approx(GROUPS.stiffness * np.exp(path.stiffness * part))
+
+
+def test_the_curve_turns_back_at_its_cusp(fold_over_damping):
+    """There it is the largest damping of the curve, which begins and ends at smaller ones, and two folds meet."""
+    (cusp,) = [one for one in fold_over_damping.meetings if one.kind == "cusp"]
+    assert cusp.status == "ok"
+    assert fold_over_damping.parts.max() <= cusp.part + 1e-9
+    assert cusp.part == pytest.approx(fold_over_damping.parts.max(), abs=1e-3)
+    at_cusp, _ = normal_form(cusp.point, ALONG)
+    assert abs(at_cusp) < 1e-6
+    assert fold_over_damping.normal_forms[0] * fold_over_damping.normal_forms[-1] < 0.0
+
+
+def test_normal_form_tells_the_stable_cascade():
+    """The doubled orbit of the paper's conveyor is stable: its cubic coefficient is positive."""
+    value, right = normal_form(find_bifurcation("period_doubling", 1, DOUBLING, GROUPS), ALONG)
+    assert value > 0.0
+    assert np.linalg.norm(right) == pytest.approx(1.0)
+
+
+def test_normal_form_of_a_fold_turns_with_its_eigenvector():
+    point = find_bifurcation("fold", 1, FOLD, GROUPS)
+    value, right = normal_form(point, ALONG)
+    other, turned = normal_form(point, -ALONG)
+    assert turned == pytest.approx(-right)
+    assert other == pytest.approx(-value)
+
+
+def test_lift_off_of_a_linear_contact_over_damping_and_stiffness():
+    """Γ = |K - 1 + iD|/K."""
+    damping, stiffness = 1.3, 70.0
+    response = stiffness - 1.0 + 1j * damping
+    groups = Groups(abs(response) / stiffness, damping, stiffness, 1.0, 0)
+    phase = (np.pi + np.angle(response)) % (2.0 * np.pi)
+    point = find_bifurcation(GRAZING, 1, (phase, groups.amplitude), groups)
+    curve = follow_grazing(point, Path(1.0, -1.0), (0.1, 5.0), (-2.0, 2.0), step=0.1)
+    assert curve.ends == ("limit", "limit")
+    for one in curve.points:
+        exact = abs(one.groups.stiffness - 1.0 + 1j * one.groups.damping) / one.groups.stiffness
+        assert one.groups.amplitude == pytest.approx(exact, rel=1e-7)
+
+
+def test_a_curve_says_why_it_ends():
+    point = find_bifurcation("fold", 1, FOLD, GROUPS)
+    short = follow(point, Path(1.0, 0.0), reach=(-3.0, 3.0), amplitude=(0.1, 5.0), longest_step=0.02, most=10)
+    assert short.ends == (bifurcation_curves.LENGTH, bifurcation_curves.LENGTH)
+    low = follow(point, Path(1.0, 0.0), reach=(-3.0, 3.0), amplitude=(0.4, 0.6), longest_step=0.1, most=100)
+    assert low.ends == (bifurcation_curves.LIMIT, bifurcation_curves.LIMIT)
+    assert 0.3 < low.points[0].groups.amplitude <= 0.4

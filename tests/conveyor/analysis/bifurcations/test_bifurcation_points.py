@@ -1,0 +1,179 @@
+"""How bifurcations move: against closed forms (linear contact, rigid ball), dimensional analysis, and solving again."""
+
+import math
+
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start
+from conveyor.analysis import stroboscopic_map
+from conveyor.analysis.bifurcations import bifurcation_points, continuation, periodic_orbits
+from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, find_bifurcation, moves
+from conveyor.analysis.dimensionless_groups import (
+    Groups,
+    amplitude_of,
+    derivatives_of,
+    groups_of,
+    packed,
+    slopes,
+    start_of,
+    units,
+)
+from conveyor.solver import contact
+from conveyor.solver.model import PARAMETERS, pack
+
+PAPER = pack(Conveyor(), Start())
+# (x, y, Γ) close to the first fold and the first doubling of the paper's conveyor.
+GUESSES = {"fold": (-3.41, 1.614, 0.50815), "period_doubling": (-6.257, 0.5009, 1.1491)}
+
+
+def of_paper(kind):
+    return find_bifurcation(kind, 1, GUESSES[kind], groups_of(PAPER))
+
+
+@pytest.mark.parametrize(("damping", "stiffness"), [(1.3, 70.0), (0.4, 5.0), (0.05, 300.0)])
+def test_lift_off_of_a_linear_contact(damping, stiffness):
+    """It rides as x = 1/K + Γ/|K - 1 + iD| cos(θ - φ), and leaves the plate where both terms are equal."""
+    response = stiffness - 1.0 + 1j * damping
+    exact = abs(response) / stiffness
+    phase = (math.pi + np.angle(response)) % (2.0 * math.pi)
+    groups = Groups(exact, damping, stiffness, 1.0, 0)
+    point = find_bifurcation(GRAZING, 1, (phase + 1e-3, 1.001 * exact), groups)
+    assert point.groups.amplitude == pytest.approx(exact, rel=1e-8)
+    by_damping, by_stiffness, _ = moves(point)[-1]
+    assert by_damping == pytest.approx(damping / (abs(response) * stiffness), rel=1e-6, abs=1e-8)
+    by_response = (stiffness - 1.0) / abs(response) / stiffness
+    assert by_stiffness == pytest.approx(by_response - exact / stiffness, rel=1e-6, abs=1e-9)
+
+
+def rigid(kind, damping_ratio):
+    """Γ of a ball with the restitution of a linear contact, and its derivative by the log of the damping ratio."""
+
+    def amplitude(ratio):
+        restitution = math.exp(-math.pi * ratio / math.sqrt(1.0 - ratio**2))
+        speed = math.pi * (1.0 - restitution) / (1.0 + restitution)
+        push = 0.0 if kind == "fold" else -2.0 * (1.0 + restitution**2) / (1.0 + restitution) ** 2
+        return speed, push
+
+    step = 1e-5
+    ends = [math.hypot(*amplitude(damping_ratio * math.exp(part))) for part in (step, -step)]
+    return *amplitude(damping_ratio), math.log(ends[0] / ends[1]) / (2.0 * step)
+
+
+@pytest.mark.parametrize("kind", ["fold", "period_doubling"])
+@pytest.mark.parametrize("ratio", [0.1, 0.3])
+def test_a_stiff_linear_contact_is_the_rigid_bouncing_ball(kind, ratio):
+    """Fold and doubling of the ball are known in closed form; its restitution is that of D/(2 √K)."""
+    speed, push, elasticity = rigid(kind, ratio)
+    amplitude, phase = math.hypot(speed, push), math.atan2(speed, push)
+    stiffness = 1e9
+    groups = Groups(amplitude, 2.0 * ratio * math.sqrt(stiffness), stiffness, 1.0, 0)
+    flown = 2.0 * math.pi - phase
+    state = (push - math.pi * flown + 0.5 * flown**2 - amplitude, flown - math.pi)
+    point = find_bifurcation(kind, 1, (*state, amplitude), groups)
+    assert point.groups.amplitude == pytest.approx(amplitude, rel=3e-4)
+    by = moves(point)[-1] * np.array(point.groups[1:4]) / point.groups.amplitude
+    assert by[0] == pytest.approx(elasticity, rel=2e-3)
+    assert by[1] == pytest.approx(-0.5 * elasticity, rel=2e-3)
+
+
+@pytest.mark.parametrize("kind", GUESSES)
+def test_a_bifurcation_solved_again_moves_as_its_derivatives_say(kind):
+    point = of_paper(kind)
+    exact = moves(point)
+    for place in range(3):
+        step = 1e-4 * point.groups[1 + place]
+        ends = []
+        for sign in (1.0, -1.0):
+            values = list(point.groups)
+            values[1 + place] += sign * step
+            ends.append(find_bifurcation(kind, 1, point.unknown, Groups(*values)).unknown)
+        assert exact[:, place] == pytest.approx((ends[0] - ends[1]) / (2.0 * step), rel=1e-6)
+
+
+@pytest.mark.parametrize("kind", GUESSES)
+def test_elasticities_obey_dimensional_analysis(kind):
+    """â is m/s², k_c kg m^(1-p)/s², d_c kg/s: a change of the units of mass, length and time changes nothing else."""
+    point = of_paper(kind)
+    row = PAPER.copy()
+    row[0] = amplitude_of(PAPER, point.groups.amplitude)
+    by = np.concatenate([[0.0], moves(point)[-1], np.zeros(3)])
+    value = dict(zip(PARAMETERS, row, strict=True))
+    found = {name: slope * value[name] / row[0] for name, slope in derivatives_of("acceleration", row, by).items()}
+    p = value["exponent"]
+    assert found["mass"] + found["stiffness"] + found["damping"] == pytest.approx(0.0, abs=1e-12)
+    assert found["gravity"] + (1.0 - p) * found["stiffness"] == pytest.approx(1.0)
+    time = -found["frequency"] - 2.0 * found["gravity"] - 2.0 * found["stiffness"] - found["damping"]
+    assert time == pytest.approx(-2.0)
+    assert found["angle"] == pytest.approx(-value["angle"] / math.tan(value["angle"]))
+    assert found["friction"] == found["psi0"] == 0.0
+
+
+def alike(groups, **changed):
+    """Another conveyor with the same groups D, K and p."""
+    other = Conveyor(**changed)
+    omega = 2.0 * math.pi * other.frequency
+    stiffness = (
+        groups.stiffness * other.mass * omega ** (2.0 * groups.exponent) / other.gravity ** (groups.exponent - 1)
+    )
+    damping = groups.damping * other.mass * omega
+    return pack(Conveyor(**changed, stiffness=stiffness, damping=damping), Start())
+
+
+def test_two_conveyors_with_the_same_groups_have_the_same_scaled_fold():
+    """By the continuation in SI units, which knows no groups: a bowl feeder on the Moon with other friction."""
+    groups = groups_of(PAPER)
+    other = alike(groups, frequency=100.0, angle=0.35, mass=5e-3, gravity=1.62, friction=0.4)
+    assert groups_of(other)[1:] == pytest.approx(groups[1:])
+    start = stroboscopic_map.initial_states(pack(Conveyor(), Start(3e-4))[None], 1e-13)[0]
+    jumping, _ = periodic_orbits.settled_orbit(PAPER, 40.0, start, (1,), 400)
+    ratios = []
+    for parameters in (PAPER, other):
+        state = jumping.state / units(PAPER) * units(parameters)
+        orbit = periodic_orbits.find_orbit(parameters, amplitude_of(parameters, groups.amplitude), state, 1)
+        assert orbit.multipliers == pytest.approx(jumping.multipliers, rel=1e-7)
+        limits = amplitude_of(parameters, 0.505), amplitude_of(parameters, 1.0)
+        branch = continuation.follow_branch(parameters, orbit, limits)
+        (fold,) = [found for found in branch.bifurcations if found.kind == "fold"]
+        ratios.append(fold.orbit.acceleration / amplitude_of(parameters, 1.0))
+    assert ratios[0] == pytest.approx(ratios[1], rel=1e-8)
+    assert ratios[0] == pytest.approx(of_paper("fold").groups.amplitude, rel=1e-8)
+
+
+def test_groups_of_the_scaled_conveyor_are_its_own():
+    groups = groups_of(PAPER)
+    assert groups_of(packed(groups)) == pytest.approx(groups)
+
+
+def test_slopes_of_the_groups():
+    row = PAPER.copy()
+    row[PARAMETERS.index("z0")], row[PARAMETERS.index("vz0")] = 1e-4, 0.02
+
+    def all_groups(parameters):
+        return np.array([*groups_of(parameters)[:4], *start_of(parameters)])
+
+    for name, slope in slopes(row).items():
+        place = PARAMETERS.index(name)
+        step = 1e-6 * max(abs(row[place]), 1e-4)
+        ahead, behind = row.copy(), row.copy()
+        ahead[place] += step
+        behind[place] -= step
+        difference = (all_groups(ahead) - all_groups(behind)) / (2.0 * step)
+        assert slope == pytest.approx(difference, rel=1e-6, abs=1e-9)
+
+
+def test_a_state_at_another_phase_is_brought_to_phase_zero():
+    orbit = periodic_orbits.find_orbit(PAPER, 40.0, np.array([-6.2e-4 * 0.9, 0.03]), 1)
+    assert orbit is not None
+    row = PAPER.copy()
+    row[0] = 40.0
+    length, _ = units(row)
+    here = bifurcation_points.at_phase_zero(row, orbit.state)
+    assert here[0] == pytest.approx(orbit.state[0] / length)
+    # A cycle that begins a quarter later.
+    later = row.copy()
+    later[PARAMETERS.index("psi0")] = 0.5 * math.pi
+    c = contact.constants(row, 1e-13)
+    state, features = orbit.state.copy(), np.zeros(stroboscopic_map.FEATURES)
+    stroboscopic_map.advance(c, contact.workspace(), state, 0.0, 0.25 * c.period, np.empty((0, 2)), features)
+    assert bifurcation_points.at_phase_zero(later, state) == pytest.approx(here, rel=1e-8)

@@ -1,0 +1,169 @@
+"""Periodic orbits: multipliers against a trace identity and finite differences, bifurcations against iteration."""
+
+import math
+
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start
+from conveyor.analysis import stroboscopic_map
+from conveyor.analysis.bifurcations import continuation, doubling_cascade, periodic_orbits
+from conveyor.solver.model import pack
+
+CONVEYOR = Conveyor()
+PARAMETERS = pack(CONVEYOR, Start())
+DECAY = CONVEYOR.damping / CONVEYOR.mass
+
+
+def settled(acceleration, z0, max_period=4, cycles=800):
+    row = pack(Conveyor(acceleration=acceleration), Start(z0))
+    state = stroboscopic_map.initial_states(row[None], periodic_orbits.TOLERANCE)[0]
+    return periodic_orbits.settled_orbit(row, acceleration, state, range(1, max_period + 1), cycles)[0]
+
+
+@pytest.fixture(scope="module")
+def jumping():
+    return settled(40.0, 3e-4)
+
+
+@pytest.fixture(scope="module")
+def branch(jumping):
+    return continuation.follow_branch(PARAMETERS, jumping, (23.0, 64.0))
+
+
+def test_orbit_repeats_itself(jumping):
+    state = jumping.state.copy()
+    strobes, features = np.empty((5, 2)), np.empty((5, stroboscopic_map.FEATURES))
+    stroboscopic_map.follow(pack(Conveyor(), Start()), periodic_orbits.TOLERANCE, state, 5, strobes, features)
+    assert strobes == pytest.approx(np.tile(jumping.state, (5, 1)), rel=1e-8)
+    assert jumping.stable
+    assert jumping.period == 1
+
+
+@pytest.mark.parametrize(
+    ("acceleration", "z0", "period"), [(25.0, 0.0, 1), (40.0, 3e-4, 1), (58.0, 3e-4, 2), (62.0, 3e-4, 4)]
+)
+def test_known_periods(acceleration, z0, period):
+    assert settled(acceleration, z0, cycles=2000).period == period
+
+
+def test_product_of_multipliers_is_that_of_the_time_in_contact(branch):
+    determinants = np.array([orbit.determinant for orbit in branch.orbits])
+    wanted = np.exp([-DECAY * orbit.contact_time for orbit in branch.orbits])
+    assert determinants == pytest.approx(wanted, abs=1e-9)
+    products = [math.prod(orbit.multipliers).real for orbit in branch.orbits]
+    assert products == pytest.approx(wanted, abs=1e-9)
+
+
+def test_multipliers_are_those_of_finite_differences(jumping):
+    returns = periodic_orbits.ReturnMap(PARAMETERS, 1)
+    unknown = returns.scaled(40.0, jumping.state)
+    columns = []
+    for direction in np.eye(3)[:2]:
+        ahead, behind = (returns.strobes(unknown + sign * 1e-6 * direction)[-1, :2] for sign in (1.0, -1.0))
+        columns.append((ahead - behind) / 2e-6)
+    values = np.linalg.eigvals(np.column_stack(columns))
+    assert sorted(values, key=lambda value: value.imag) == pytest.approx(
+        sorted(jumping.multipliers, key=lambda value: value.imag), abs=1e-7
+    )
+
+
+def test_tests_of_bifurcations_are_determinants(branch):
+    """det(M - 1) = (1 - μ1)(1 - μ2) and det(M + 1) = (1 + μ1)(1 + μ2), with real multipliers and with complex ones."""
+    returns = periodic_orbits.ReturnMap(PARAMETERS, 1)
+    kinds = set()
+    for orbit in branch.orbits[::10]:
+        less_one = returns.residual(returns.scaled(orbit.acceleration, orbit.state))[1]
+        assert continuation.fold_test(orbit) == pytest.approx(np.linalg.det(less_one), abs=1e-6)
+        assert continuation.doubling_test(orbit) == pytest.approx(np.linalg.det(less_one + 2.0 * np.eye(2)), abs=1e-6)
+        kinds.add(orbit.multipliers[0].imag == 0.0)
+    assert kinds == {True, False}
+
+
+def test_jumping_exists_down_to_its_fold(branch):
+    """Below the fold a part that jumps just above it comes to ride; at the fold a multiplier is +1."""
+    fold = next(b for b in branch.bifurcations if b.kind == "fold")
+    assert fold.multiplier == pytest.approx(1.0, abs=1e-6)
+    stable = [orbit for orbit in branch.orbits if orbit.stable]
+    near = min(stable, key=lambda orbit: abs(orbit.acceleration - fold.orbit.acceleration - 0.05))
+    for change, jumps in ((0.05, True), (-0.05, False)):
+        state = near.state.copy()
+        strobes, features = np.empty((4000, 2)), np.empty((4000, stroboscopic_map.FEATURES))
+        row = pack(Conveyor(acceleration=fold.orbit.acceleration + change), Start())
+        stroboscopic_map.follow(row, 1e-11, state, 4000, strobes, features)
+        assert (features[-1, stroboscopic_map.IMPACTS] > 0) == jumps
+
+
+def test_a_branch_is_followed_around_its_turns(monkeypatch):
+    """A closed branch, a circle half as large as the largest step: chords between its points keep to it within 2 %."""
+    radius = 0.5 * continuation.LARGEST_STEP
+
+    class Circle(periodic_orbits.ReturnMap):
+        def residual(self, unknown):
+            x, y, a = unknown
+            return np.array([x * x + (a - 1.0) ** 2 - radius**2, y]), np.diag([2.0 * x, 1.0])
+
+        def slope(self, unknown):
+            return np.array([2.0 * (unknown[2] - 1.0), 0.0])
+
+        def strobes(self, unknown):
+            return unknown[None]
+
+        def describe(self, unknown):
+            return periodic_orbits.Orbit(
+                float(unknown[2]), self.state(unknown), 1, (0.5 + 0j, 0.1 + 0j), 0.05, 1, 0.0, 0.5
+            )
+
+    monkeypatch.setattr(continuation, "ReturnMap", Circle)
+    circle = Circle(PARAMETERS, 1)
+    found = continuation.follow_branch(PARAMETERS, circle.describe(np.array([radius, 0.0, 1.0])), (0.0, 2.0))
+    assert found.ends == ("closed", "closed")
+    points = np.array([circle.scaled(orbit.acceleration, orbit.state) for orbit in found.orbits]) - [0.0, 0.0, 1.0]
+    assert np.linalg.norm(points, axis=1) == pytest.approx(radius, rel=1e-6)
+    middles = 0.5 * (points[1:] + points[:-1])
+    assert np.linalg.norm(middles, axis=1).min() > 0.98 * radius
+
+
+def test_period_doubles_where_iteration_says(branch):
+    doubling = next(b for b in branch.bifurcations if b.kind == "period_doubling")
+    assert doubling.multiplier == pytest.approx(-1.0, abs=1e-6)
+    for change, period in ((-0.05, 1), (0.05, 2)):
+        assert settled(doubling.orbit.acceleration + change, 3e-4, cycles=6000).period == period
+
+
+def test_doubled_orbit_is_one_of_twice_the_period(branch):
+    doubling = next(b for b in branch.bifurcations if b.kind == "period_doubling")
+    double = continuation.doubled(PARAMETERS, doubling)
+    assert double.period == 2
+    returns = periodic_orbits.ReturnMap(PARAMETERS, 2)
+    first, second = returns.strobes(returns.scaled(double.acceleration, double.state))
+    assert np.abs(first - second).max() > 1e-3
+
+
+def test_feigenbaum_of_a_geometric_sequence():
+    amplitudes = 10.0 - 3.0 * doubling_cascade.FEIGENBAUM ** -np.arange(6.0)
+    assert doubling_cascade.ratios(amplitudes) == pytest.approx(np.full(4, doubling_cascade.FEIGENBAUM))
+    limit, error = doubling_cascade.accumulation(amplitudes)
+    assert limit == pytest.approx(10.0)
+    assert error < 1e-12
+
+
+def test_feigenbaums_ratio_is_that_of_the_logistic_map():
+    """Of the parameters a of 1 - a x² at which 0 comes back to itself after 2, 4, … cycles."""
+    superstable = [0.0, 1.0, 1.31]
+    for n in range(2, 12):
+        a = superstable[n]
+        for _ in range(8):
+            x = slope = 0.0
+            for _ in range(2**n):
+                x, slope = 1.0 - a * x * x, -x * x - 2.0 * a * x * slope
+            a -= x / slope
+        superstable[n] = a
+        superstable.append(a + (a - superstable[n - 1]) ** 2 / (superstable[n - 1] - superstable[n - 2]))
+    assert doubling_cascade.ratios(np.array(superstable[:-1]))[-1] == pytest.approx(
+        doubling_cascade.FEIGENBAUM, rel=1e-6
+    )
+
+
+def test_no_orbit_is_found_where_there_is_none():
+    assert settled(80.0, 0.0) is None

@@ -1,0 +1,122 @@
+"""Lyapunov exponents: the trace identity, an independent pair of trajectories, known limits, and what rides."""
+
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start
+from conveyor.analysis import stroboscopic_map
+from conveyor.analysis.bifurcations import periodic_orbits
+from conveyor.analysis.chaos import lyapunov
+from conveyor.solver.model import ACCELERATION, FREQUENCY, VZ0, pack
+
+DECAY = Conveyor().damping / Conveyor().mass
+
+
+def points(*pairs, **model):
+    return np.array([pack(Conveyor(acceleration=a, **model), Start(z0)) for a, z0 in pairs])
+
+
+PAIRS = ((25.0, 0.0), (40.0, 0.0), (40.0, 3e-4), (47.0, 0.0), (62.0, 0.0), (80.0, 0.0))
+
+
+@pytest.mark.parametrize("tension", ["allow", "frictionless", "clip"])
+def test_sum_of_exponents_is_that_of_the_time_in_contact(tension):
+    found = lyapunov.spectrum(points(*PAIRS, tension=tension), cycles=50, tolerance=1e-12)
+    assert found.lambda_1 + found.lambda_2 == pytest.approx(-DECAY * found.contact_fraction, abs=1e-8)
+    # Both moduli of a complex pair are equal, and any of them may come out as the larger one in a finite run.
+    assert (found.lambda_1 >= found.lambda_2 - 0.5).all()
+
+
+def test_chaos_regular_motion_and_a_pair_of_trajectories():
+    """Against two trajectories whose distance is set back each cycle: no variational equation."""
+    rows = points((62.0, 0.0), (80.0, 0.0))
+    found = lyapunov.spectrum(rows, transient=300, cycles=200)
+    states = stroboscopic_map.initial_states(rows, 1e-12)
+    pair = [
+        lyapunov.renormalised_pair(row, state, transient=300, cycles=4000)
+        for row, state in zip(rows, states, strict=True)
+    ]
+    assert pair[0] == pytest.approx(found.lambda_1[0], abs=0.2)
+    assert abs(pair[1] - found.lambda_1[1]) < 5.0 * found.stderr[1]
+    assert found.lambda_1[0] < 0.0 < found.lambda_1[1]
+
+
+def test_signs(monkeypatch):
+    """Of chaos, of what settles, of an undamped swing, for which none shows, and of what cannot be followed."""
+    spring = Conveyor(acceleration=0.0, damping=0.0, exponent=1.0, stiffness=3e3)
+    rest = spring.mass * spring.gravity / spring.stiffness
+    rows = np.array([*points((80.0, 0.0), (40.0, 3e-4)), pack(spring, Start()), pack(spring, Start())])
+    states = np.array([[-1e-4, -0.05], [-1e-4, -0.05], [0.5 * rest, 0.0], [np.nan, 0.0]])
+    assert lyapunov.signs(rows, states, tolerance=1e-8, threads=2).tolist() == [1, -1, 0, 0]
+    looks, spectrum = [], lyapunov.spectrum_from
+
+    def seen(parameters, states, cycles, **options):
+        """Weak chaos, which does not show in the first look; and a start that leaves the regular one."""
+        looks.append((cycles, len(parameters)))
+        found = spectrum(parameters, states, cycles, **options)
+        values = [1.0, -10.0, 10.0] if len(looks) == 1 else [10.0, 10.0]
+        return found._replace(lambda_1=np.array(values), stderr=np.ones(len(values)))
+
+    monkeypatch.setattr(lyapunov, "spectrum_from", seen)
+    assert lyapunov.signs(rows[:3], states[:3], tolerance=1e-8).tolist() == [1, 1, 1]
+    assert looks == [(400, 3), (2000, 2)]
+
+
+def test_rider_is_a_damped_oscillator():
+    """A part on a plate at rest: both exponents have the real part -d_c/(2m), whatever the stiffness."""
+    rows = points((0.0, 0.0), exponent=1.0, stiffness=1e4)
+    found = lyapunov.spectrum(rows, transient=20, cycles=100, tolerance=1e-13)
+    assert found.lambda_1 == pytest.approx(-0.5 * DECAY, abs=1.0)
+    assert found.lambda_1 + found.lambda_2 == pytest.approx(-DECAY, abs=1e-7)
+
+
+def test_what_repeats_itself_has_the_exponents_of_its_multipliers():
+    """Against Newton's orbit, and chaos bit for bit as it is followed. Riding, d_c/(2m) is lost in either direction."""
+    rows = points((25.0, 0.0), (40.0, 3e-4), (62.0, 0.0), (80.0, 0.0))
+    begun, periods = rows.copy(), (1, 1, 4)
+    wanted = []
+    for row, (acceleration, period) in zip(begun, zip(rows[:3, ACCELERATION], periods, strict=True), strict=False):
+        start = stroboscopic_map.initial_states(row[None], 1e-12)[0]
+        orbit, end = periodic_orbits.settled_orbit(row, acceleration, start, (period,), 400)
+        row[:] = stroboscopic_map.pack_states(row[None], end[None], 1e-12)
+        wanted.append(np.log(np.abs(orbit.multipliers)) * row[FREQUENCY] / period)
+    options = {"cycles": 20, "blocks": 5, "tolerance": 1e-12}
+    found = lyapunov.spectrum_on_attractors(begun, **options, threads=2)
+    assert np.transpose(found[:2])[:3] == pytest.approx(np.array(wanted), rel=1e-6)
+    assert found.lambda_1[0] == found.lambda_2[0] == pytest.approx(-0.5 * DECAY, rel=1e-9)
+    assert found.lambda_1 + found.lambda_2 == pytest.approx(-DECAY * found.contact_fraction, abs=1e-8)
+    assert (found.stderr[:3] == 0.0).all()
+    followed = lyapunov.spectrum(begun, transient=0, **options)
+    assert [column[3] for column in found] == [column[3] for column in followed]
+    assert followed.stderr[3] > 0.0
+    # With nothing to follow.
+    assert (lyapunov.spectrum_on_attractors(begun[:3], **options).lambda_1 == found.lambda_1[:3]).all()
+    # A perturbation that turns is as long as its direction lets it be at the end of a run.
+    assert found.lambda_1[:3] == pytest.approx(followed.lambda_1[:3], abs=5.0)
+
+
+def test_standard_error_shrinks_with_the_run():
+    rows = points((80.0, 0.0))
+    errors = [lyapunov.spectrum(rows, cycles=cycles).stderr[0] for cycles in (20, 320)]
+    assert 2.0 < errors[0] / errors[1] < 8.0  # 4 for independent blocks
+
+
+def test_exponents_do_not_depend_on_threads():
+    one, two = (lyapunov.spectrum(points(*PAIRS), cycles=10, threads=threads) for threads in (1, 2))
+    assert all((a == b).all() for a, b in zip(one, two, strict=True))
+
+
+@pytest.mark.parametrize("method", ["event", "rk4"])
+def test_the_papers_estimate_of_a_flight(method):
+    """In the air a push ε shifts the velocity by ε and the height by ε t: Eq. 23 gives 0 and log(t) / t."""
+    here, times = points((20.0, 10.0)), np.linspace(0.75, 1.0, 501)
+    pushed = here.copy()
+    pushed[:, VZ0] += 1e-3
+    for output, wanted in (("vz", 0.0), ("z", np.mean(np.log(times) / times))):
+        found = lyapunov.finite_difference_estimate(here, pushed, 1e-3, output=output, method=method, step=5e-4)
+        assert found == pytest.approx([wanted], abs=1e-9)
+
+
+def test_settings_are_checked():
+    with pytest.raises(ValueError, match="blocks must be at least 2"):
+        lyapunov.spectrum(points((40.0, 0.0)), blocks=1)

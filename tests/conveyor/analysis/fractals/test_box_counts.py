@@ -1,0 +1,88 @@
+"""Numbers of boxes against sets of boxes, and of sets that are known exactly."""
+
+import numpy as np
+import pytest
+
+from conveyor.analysis.fractals import box_counting
+
+
+def counts_of(points, scales, *arguments, step=None):
+    """Box counts of points without parts, of scales that need not be related."""
+    samples = box_counting.Samples(points, np.zeros(len(points), np.int64), scales, step or len(scales))
+    return box_counting.box_counts(samples, *arguments)[0]
+
+
+def test_box_counts_are_exact():
+    """Boxes of 1/3^k hold the Cantor set's 2^k intervals, boxes of 1/2^k all of a square's 4^k."""
+    unshifted = np.zeros((1, 2))
+    left_ends = np.zeros(1)
+    for k in range(1, 9):
+        left_ends = np.concatenate([left_ends, left_ends + 2.0 / 3.0**k])
+    inside = np.column_stack([left_ends + 0.5 / 3.0**8, np.zeros(2**8)])
+    counts = counts_of(inside, 1.0 / 3.0 ** np.arange(1, 9), unshifted, 0.0)
+    assert counts.tolist() == [2.0**k for k in range(1, 9)]
+
+    middles = (np.arange(64) + 0.5) / 64
+    grid = np.column_stack([np.repeat(middles, 64), np.tile(middles, 64)])
+    counts = counts_of(grid, 0.5 ** np.arange(1, 7), unshifted, 0.0)
+    assert counts.tolist() == [4.0**k for k in range(1, 7)]
+
+
+def test_box_counts_agree_with_sets_of_boxes():
+    rng = np.random.default_rng(3)
+    points, scales, shifts = rng.random((500, 2)) ** 2, np.array([0.3, 0.1, 0.01, 1e-6]), rng.random((3, 2))
+    expected = [np.mean([len(np.unique(np.floor(points / e + s), axis=0)) for s in shifts]) for e in scales]
+    assert counts_of(points, scales, shifts, 0.0) == pytest.approx(expected, abs=1e-12)
+
+
+def test_grids_within_each_other_agree_with_sets_of_boxes():
+    """The coarsest grid of an octave chain is shifted as asked for; the finer ones are its halves."""
+    rng = np.random.default_rng(5)
+    points, shifts, step = rng.random((500, 2)) ** 2, rng.random((3, 2)), 2
+    scales = 0.3 * 0.5 ** (np.arange(9) / step)
+    expected = [
+        np.mean([len(np.unique(np.floor(points / e + s * 2.0 ** (k // step)), axis=0)) for s in shifts])
+        for k, e in enumerate(scales)
+    ]
+    assert counts_of(points, scales, shifts, 0.0, step=step) == pytest.approx(expected, abs=1e-12)
+
+
+def test_a_hash_table_is_cleared_before_its_numbers_end():
+    rng = np.random.default_rng(6)
+    scales = np.array([0.2, 0.1, 0.05])
+    samples = box_counting.Samples(rng.random((200, 2)), np.zeros(200, np.int64), scales, 1)
+    found = []
+    for first in (0, box_counting.FRESH + 1):
+        owners = np.full(512, np.iinfo(np.int32).max, np.int32) if first else np.full(512, -1, np.int32)
+        totals = np.zeros((3, 3), np.int64)
+        workspace = box_counting.Workspace(owners, np.empty(200, np.int64), np.empty(200, np.int8))
+        after = box_counting.count_chain(samples, 2, np.zeros(2), first, workspace, totals)
+        found.append((after, totals.tolist()))
+    assert found[0] == found[1]
+
+
+@pytest.mark.parametrize(
+    ("scales", "step"), [(np.array([0.3, 0.1, 0.05, 0.02, 0.01, 1e-3, 1e-6]), 7), (0.3 * 0.5 ** (np.arange(41) / 2), 2)]
+)
+def test_parts_are_counted_as_if_alone(scales, step):
+    rng = np.random.default_rng(4)
+    points, shifts = rng.random((3000, 2)) ** 2, rng.random((3, 2))
+    halvings = rng.integers(0, 3, 3000)
+    found = box_counting.box_counts(box_counting.Samples(points, halvings, scales, step), shifts, 5.0)
+    for part in range(3):
+        alone = counts_of(points[halvings >= part], scales, shifts, 5.0 / 2**part, step=step)
+        resolved = found[part] > 0.0
+        assert resolved.any()
+        assert not resolved.all()
+        assert found[part, resolved].tolist() == alone[resolved].tolist()
+        # The search ends where boxes of the whole set are empty by chance.
+        assert (alone[~resolved] == 0.0).all() or (found[0, ~resolved] == 0.0).all()
+
+
+def test_points_along_boxes_are_the_same_points_and_lie_box_by_box():
+    points = np.random.default_rng(1).random((4096, 2))
+    found = points[box_counting.along_boxes(points, 2.0**-20)]
+    assert np.array_equal(np.sort(found.view("f8,f8"), axis=0), np.sort(points.view("f8,f8"), axis=0))
+    # In a grid of 16 by 16, each box is entered once.
+    boxes = (16 * found).astype(int) @ [16, 1]
+    assert np.count_nonzero(np.diff(boxes)) + 1 == len(np.unique(boxes)) == 256

@@ -1,0 +1,59 @@
+"""Spectra of sums of cosines, whose lines are known."""
+
+import numpy as np
+import pytest
+
+from conveyor.analysis.amplitude_spectrum import harmonics, windowed
+
+LINES = {0.0: 0.06, 50.0: 0.3, 100.0: 0.02, 275.0: 0.005}  # Hz: m/s
+
+
+def signal(times, lines=LINES):
+    return sum(a * np.cos(2 * np.pi * f * times + f) for f, a in lines.items())
+
+
+@pytest.mark.parametrize("n", [400, 401])
+def test_harmonics_are_exact_and_do_not_leak(n):
+    duration = 0.04
+    spectrum = harmonics(signal(np.arange(n) * duration / n), duration)
+    expected = np.zeros_like(spectrum.frequency)
+    for frequency, amplitude in LINES.items():
+        expected[round(frequency * duration)] = amplitude
+    assert spectrum.frequency == pytest.approx(np.arange(n // 2 + 1) / duration)
+    assert spectrum.amplitude == pytest.approx(expected, abs=1e-14)
+
+
+def test_highest_frequency_is_not_doubled():
+    spectrum = harmonics(0.7 * np.cos(np.pi * np.arange(10)), 1.0)
+    assert spectrum.amplitude[-1] == pytest.approx(0.7)
+
+
+def test_window_keeps_amplitudes_of_lines_on_bins():
+    duration, n = 1.0, 4000
+    spectrum = windowed(signal(np.arange(n) * duration / n), duration)
+    for frequency, amplitude in LINES.items():
+        assert spectrum.amplitude[round(frequency * duration)] == pytest.approx(amplitude, rel=1e-9)
+
+
+@pytest.mark.parametrize("offset", [0.1, 0.25, 0.5])
+def test_window_lowers_lines_between_bins_by_its_transform(offset):
+    n = 4000
+    samples = 2.0 + 0.3 * np.cos(2 * np.pi * (50.0 + offset) * np.arange(n) / n)
+    spectrum = windowed(samples, 1.0)
+    assert spectrum.amplitude[1:].max() == pytest.approx(0.3 * np.sinc(offset) / (1.0 - offset**2), rel=1e-5)
+    assert spectrum.amplitude[0] == pytest.approx(2.0, abs=1e-3)
+
+
+def test_window_leaks_less_than_none():
+    n = 1000
+    samples = np.cos(2 * np.pi * 50.5 * np.arange(n) / n)
+    far = slice(200, None)
+    assert windowed(samples, 1.0).amplitude[far].max() < 1e-3 * harmonics(samples, 1.0).amplitude[far].max()
+
+
+@pytest.mark.parametrize("samples", [np.zeros(1), np.zeros((4, 4)), np.full(8, np.inf)])
+def test_samples_are_checked(samples):
+    with pytest.raises(ValueError, match="samples must be finite"):
+        harmonics(samples, 1.0)
+    with pytest.raises(ValueError, match="samples must be finite"):
+        windowed(samples, 1.0)

@@ -1,0 +1,112 @@
+"""The stroboscopic map against `simulate`: two consumers of one engine, one motion."""
+
+import math
+
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start, simulate
+from conveyor.analysis import stroboscopic_map
+from conveyor.solver import contact, trajectory
+from conveyor.solver.model import TENSION_MODES, conveyor_motion, pack
+
+CYCLES = 6
+STIFFNESS = {1.0: 3e3, 1.3: 5e4, 1.5: 5e5, 2.0: 5e7, 2.5: 2e10, 3.0: 5e12}
+
+
+def strobes_of(conveyor, start, tolerance=1e-12):
+    """δ (m) and v (m/s) after each cycle, and the features of the cycles."""
+    parameters = pack(conveyor, start)
+    state, strobes = np.empty(2), np.empty((CYCLES, 2))
+    features = np.empty((CYCLES, stroboscopic_map.FEATURES))
+    stroboscopic_map.initial_state(parameters, tolerance, state)
+    code = stroboscopic_map.follow(parameters, tolerance, state, CYCLES, strobes, features)
+    assert trajectory.STATUS[code] == "ok"
+    return strobes, features
+
+
+@pytest.mark.parametrize("tension", TENSION_MODES)
+@pytest.mark.parametrize("exponent", STIFFNESS)
+@pytest.mark.parametrize(("acceleration", "z0", "psi0"), [(30.0, 0.0, 0.0), (47.0, 0.0, 2.0), (60.0, 3e-4, 4.0)])
+def test_map_is_the_motion_at_whole_cycles(tension, exponent, acceleration, z0, psi0):
+    """States, impacts, time in contact and longest flight of a riding, a bouncing and a jumping part."""
+    conveyor = Conveyor(
+        acceleration=acceleration, psi0=psi0, tension=tension, exponent=exponent, stiffness=STIFFNESS[exponent]
+    )
+    strobes, features = strobes_of(conveyor, Start(z0))
+    duration = CYCLES / conveyor.frequency
+    run = simulate(conveyor, Start(z0), duration=duration, tolerance=1e-12)
+    times = np.arange(1, CYCLES + 1) / conveyor.frequency
+    times[-1] = duration
+    sample, plate = run.sample(times), conveyor_motion(conveyor, times)
+    unit = 9.81 / (2.0 * math.pi * conveyor.frequency)
+    assert strobes[:, 0] == pytest.approx(plate["z"] - sample["z"], abs=1e-8 * unit / 314.0)
+    assert strobes[:, 1] == pytest.approx(plate["vz"] - sample["vz"], abs=1e-8 * unit)
+    # An impact or a stop at the very end of a cycle may fall on either side.
+    impacts = run.events[run.events["kind"] == "impact"]["time"]
+    assert features[:, stroboscopic_map.IMPACTS].sum() == len(impacts) == run.impacts
+    assert features[:, stroboscopic_map.CONTACT_TIME].sum() == pytest.approx(run.contact_fraction * duration, rel=1e-9)
+    leaving = run.events[run.events["kind"] == "separation"]["time"]
+    flights = [(impacts[impacts > begin] - begin).min() for begin in leaving if (impacts > begin).any()]
+    if z0 > plate["z"][0]:
+        flights.append(impacts[0])  # the start is in the air
+    if flights:
+        assert features[:, stroboscopic_map.LONGEST_FLIGHT].max() == pytest.approx(max(flights), rel=1e-6)
+
+
+@pytest.mark.parametrize("tension", TENSION_MODES)
+@pytest.mark.parametrize("exponent", STIFFNESS)
+def test_linearised_map_is_the_derivative_of_the_map(tension, exponent):
+    """Columns of the monodromy matrix in (δ, Y) against central differences of the map itself."""
+    conveyor = Conveyor(acceleration=60.0, tension=tension, exponent=exponent, stiffness=STIFFNESS[exponent])
+    parameters = pack(conveyor, Start())
+    decay = conveyor.damping / conveyor.mass
+
+    def advanced(q, y):
+        """(δ, Y) one cycle after a state in the air with (δ, Y) = (q, y)."""
+        state, strobes = np.array([q, y]), np.empty((1, 2))
+        stroboscopic_map.follow(parameters, 1e-13, state, 1, strobes, np.empty((1, stroboscopic_map.FEATURES)))
+        delta, v = strobes[0]
+        clipped = conveyor.tension == "clip" and delta > 0.0
+        assert not clipped or conveyor.stiffness * delta**exponent + conveyor.damping * v > 0.0
+        return np.array([delta, v + decay * max(delta, 0.0)])
+
+    here = np.array([-2e-4, 0.05])
+    matrices, features = np.empty((1, 2, 2)), np.empty((1, stroboscopic_map.FEATURES))
+    stroboscopic_map.monodromy(parameters, 1e-13, here.copy(), matrices, features)
+    assert features[0, stroboscopic_map.IMPACTS] > 0
+    for column, step in enumerate((1e-9, 1e-6)):
+        ahead = np.zeros(2)
+        ahead[column] = step
+        slope = (advanced(*(here + ahead)) - advanced(*(here - ahead))) / (2.0 * step)
+        assert matrices[0][:, column] == pytest.approx(slope, rel=2e-5)
+
+
+@pytest.mark.parametrize(
+    ("acceleration", "z0", "period"), [(30.0, 0.0, 1), (40.0, 3e-4, 1), (55.0, 3e-4, 2), (62.0, 0.0, 4), (80.0, 0.0, 0)]
+)
+def test_what_repeats_itself_is_copied_bit_for_bit(acceleration, z0, period):
+    """Riding, jumping with one, two and four cycles, and chaos, against each cycle followed."""
+    parameters, tolerance, cycles = pack(Conveyor(acceleration=acceleration), Start(z0)), 1e-10, 500
+    state, found = np.empty(2), np.zeros(stroboscopic_map.FEATURES)
+    strobes, features = np.empty((cycles, 2)), np.empty((cycles, stroboscopic_map.FEATURES))
+    stroboscopic_map.initial_state(parameters, tolerance, state)
+    end = state.copy()
+    assert stroboscopic_map.follow(parameters, tolerance, end, cycles, strobes, features) == trajectory.OK
+    c, series = contact.constants(parameters, tolerance), contact.workspace()
+    for n in range(cycles):
+        stroboscopic_map.cycle(c, series, state, np.empty((0, 2)), found)
+        np.testing.assert_array_equal(strobes[n], state)
+        np.testing.assert_array_equal(features[n], found)
+    np.testing.assert_array_equal(end, state)
+    repeated = stroboscopic_map.repeated(strobes)
+    assert repeated % period == 0 < repeated if period else repeated == 0
+    assert stroboscopic_map.repeated(strobes[:1]) == 0
+
+
+def test_time_in_the_air_goes_on_over_cycles():
+    """A flight of many cycles is one flight."""
+    conveyor = Conveyor(acceleration=1.0)
+    _, features = strobes_of(conveyor, Start(z=0.05))
+    assert (features[:, stroboscopic_map.IMPACTS][:-1] == 0.0).all()
+    assert features[:-1, stroboscopic_map.AIRBORNE] == pytest.approx(np.arange(1, CYCLES) / conveyor.frequency)

@@ -1,0 +1,158 @@
+"""The public interface: its examples run, and no odd argument makes it hang, give NaN with "ok" or a nameless error."""
+
+import doctest
+import inspect
+import random
+import signal
+
+import numpy as np
+import pytest
+
+import conveyor
+from conveyor import Conveyor, Start, ensemble, interface, simulation
+from conveyor.parameters import RANGES
+from conveyor.solver.model import pack
+
+ODD = (
+    *(float("nan"), float("inf"), -float("inf"), None, 1e308, -1e308, -1, 0, 10**30, 1e-308, True, 1j),
+    *("", "event", "conveyor", b"x", [], {}, (), object()),
+    *(
+        np.array([]),
+        np.array([np.nan, 1.0]),
+        np.zeros((2, 3, 4)),
+        np.array(["a"]),
+        np.array([None]),
+        [[1.0], [1.0, 2.0]],
+    ),
+)
+SECONDS = 20  # a call takes at most about two, once its kernels are compiled
+ORBIT = interface.periodic_orbit(Conveyor(), Start(3e-4), transient=100)
+POINTS = np.random.default_rng(1).random((200, 2))
+NUMBERS = [*(name for name in RANGES if name not in ("z0", "vz0"))]
+# Arguments with which each function is quick.
+FUNCTIONS = {
+    "simulate": {"conveyor": Conveyor(), "start": Start(), "duration": 0.02, "method": "event", "tolerance": 1e-8}
+    | {"step": 1e-5, "reuse": True},
+    "sweep": {"conveyor": Conveyor(), "start": Start(), "duration": 0.02, "method": "euler", "tolerance": 1e-8}
+    | {"step": 1e-5, "threads": 1, "z": [0.0, 1e-4], "acceleration": 40.0},
+    "classify": {"conveyor": Conveyor(), "start": Start(), "cycles": 10, "tolerance": 1e-8, "threads": 1}
+    | dict.fromkeys(("z", "vz"), 0.0)
+    | {name: getattr(Conveyor(), name) for name in NUMBERS},
+    "lyapunov_spectrum": {"conveyor": Conveyor(), "start": Start(), "transient": 10, "cycles": 5, "blocks": 2}
+    | {"tolerance": 1e-8, "threads": 1, "psi0": 0.0, "damping": 0.3},
+    "periodic_orbit": {"conveyor": Conveyor(), "start": Start(), "period": 1, "transient": 10},
+    "continue_orbit": {"conveyor": Conveyor(), "orbit": ORBIT, "low": 39.99, "high": 40.01},
+    "basin": {"conveyor": Conveyor(), "z": [0.0, 1e-4], "vz": 0.0, "cycles": 10, "tolerance": 1e-8, "threads": 1},
+    "box_dimension": {"points": POINTS},
+    "correlation_dimension": {"points": POINTS, "theiler": 0},
+    "Conveyor": {name: getattr(Conveyor(), name) for name in (*NUMBERS, "tension")},
+    "Start": {"z": 0.0, "vz": 0.0},
+}
+# A perturbation underflows within one cycle.
+OVERDAMPED = {
+    "frequency": 7.14,
+    "angle": 0.056,
+    "acceleration": 51.8,
+    "damping": 1.12,
+    "mass": 1.45e-4,
+    "exponent": 1.0,
+}
+RUN = simulation.simulate(Conveyor(), duration=0.02)
+METHODS = {"mean_velocity": {"last": 0.5}, "sample": {"times": [0.0, 0.01]}}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def compiled():
+    """To compile takes longer than any call may."""
+    for name, arguments in FUNCTIONS.items():
+        getattr(conveyor, name)(**arguments)
+    conveyor.classify(Conveyor(), cycles=10, acceleration=[80.0] * 8)
+
+
+def call(function, name, arguments, changed):
+    """Call a function with odd arguments; an error must name one of them, a result must not hide a NaN."""
+
+    def stop(*_):
+        raise AssertionError(f"{name} hangs for {changed}")
+
+    signal.signal(signal.SIGALRM, stop)
+    signal.alarm(SECONDS)
+    try:
+        found = function(**arguments | changed)
+    except (ValueError, TypeError) as error:
+        assert any(argument in str(error) for argument in changed), f"{name} does not name {changed}: {error}"
+        return
+    finally:
+        signal.alarm(0)
+    status = getattr(found, "status", None)
+    if status is not None:
+        for field in set(found._fields if hasattr(found, "_fields") else ()) - {"status"}:
+            assert not (np.isnan(getattr(found, field)) & (np.asarray(status) == "ok")).any(), (name, changed, field)
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_odd_arguments_are_named(name):
+    arguments = FUNCTIONS[name]
+    function = getattr(conveyor, name)
+    for argument in arguments:
+        for odd in ODD:
+            call(function, name, arguments, {argument: odd})
+    call(function, name, arguments, {"accelerations": 1.0})
+    generator = random.Random(name)
+    for _ in range(30):
+        chosen = generator.sample(list(arguments), k=min(2, len(arguments)))
+        call(function, name, arguments, {argument: generator.choice(ODD) for argument in chosen})
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_odd_arguments_of_a_run_are_named(name):
+    for argument in METHODS[name]:
+        for odd in ODD:
+            call(getattr(RUN, name), name, METHODS[name], {argument: odd})
+
+
+@pytest.mark.parametrize(
+    "extreme", [OVERDAMPED, {"damping": 1e6, "mass": 1e-12}, {"damping": 0.0}, {"acceleration": 0.0}]
+)
+def test_no_exponent_is_missing_without_a_reason(extreme):
+    call(conveyor.lyapunov_spectrum, "lyapunov_spectrum", FUNCTIONS["lyapunov_spectrum"], extreme)
+
+
+@pytest.mark.parametrize("module", [interface, simulation])
+def test_examples(module):
+    found = doctest.testmod(module, extraglobs={"Conveyor": Conveyor, "Start": Start, "np": np})
+    assert found.attempted > 0
+    assert not found.failed
+
+
+def test_every_public_function_has_an_example():
+    for name in conveyor.__all__:
+        public = getattr(conveyor, name)
+        if inspect.isfunction(public):
+            assert ">>>" in public.__doc__, name
+
+
+def test_arrays_broadcast_and_results_have_their_shape():
+    heights = np.array([0.0, 3e-4])
+    runs = conveyor.sweep(Conveyor(), duration=0.1, acceleration=np.array([20.0, 40.0, 50.0])[:, None], z=heights)
+    assert {field.shape for field in runs} == {(3, 2)}
+    one = conveyor.simulate(Conveyor(acceleration=50.0), Start(3e-4), duration=0.1)
+    assert runs.z_end[2, 1] == one.z_end
+    assert runs.mean_velocity[2, 1] == one.mean_velocity()
+    assert conveyor.sweep(Conveyor(), duration=0.1).status.shape == ()
+
+
+def test_a_basin_has_the_labels_of_its_initial_conditions():
+    heights, speeds = np.linspace(0.0, 5e-4, 6), np.array([-0.05, 0.05])
+    found = conveyor.basin(Conveyor(), heights, speeds)
+    alone = conveyor.classify(Conveyor(), z=heights[:, None], vz=speeds)
+    assert (found.state == alone.state).all()
+    assert (found.period == alone.period).all()
+    assert set(found.state.flat) == {"first", "second"}
+
+
+@pytest.mark.parametrize("argument", ["duration", "method", "tolerance", "step", "needs", "threads", "chunk"])
+def test_odd_arguments_of_ensembles_are_named(argument):
+    rows = np.array([pack(Conveyor(), Start())])
+    for odd in ODD:
+        call(ensemble.run, "run", {"parameters": rows, "duration": 0.01}, {argument: odd})
