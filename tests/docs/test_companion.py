@@ -11,12 +11,12 @@ import pandas as pd
 import pytest
 from browser import chromium
 from project import read_config
+from random_conveyors import around_the_paper
 from selenium import webdriver
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
-from accuracy.random_conveyors import around_the_paper
 from conveyor.analysis.attractors import labels
 from conveyor.methods import fixed_step
 from conveyor.simulation import Run, simulate

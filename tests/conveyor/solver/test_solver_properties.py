@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, Phase, example, given, settings
 from hypothesis import strategies as st
+from random_conveyors import around_the_paper, deepest_allowed, whole_ranges
 
-from accuracy.random_conveyors import around_the_paper, deepest_allowed, whole_ranges
 from conveyor import Conveyor, Start, ensemble, simulate
 from conveyor.solver.model import FREQUENCY, RANGES, TENSION_MODES, conveyor_motion, pack, unpack
 

@@ -4,13 +4,9 @@ import math
 
 import numpy as np
 
-from conveyor.solver import model, trajectory
-from conveyor.solver.horizontal import Z
+from conveyor.solver import model
 from conveyor.solver.model import RANGES, Conveyor
-from conveyor.solver.parallel import for_each_chunk
 
-# Moments of a run at which the penetration is looked at.
-MOMENTS = 401
 # How many of the random points have a usual exponent, a part that starts on the plate, a still plate or no damping.
 SHARE = 0.1
 
@@ -74,33 +70,6 @@ def whole_ranges(count: int, seed: int) -> np.ndarray:
     tension_and_exponent(points, generator)
     points[generator.random(count) < SHARE, model.Z0] = np.nan
     return points
-
-
-def deepest(
-    parameters: np.ndarray,
-    durations: np.ndarray,
-    tolerance: float,
-    *,
-    threads: int = 1,
-    progress: str | None = None,
-) -> np.ndarray:
-    """Largest penetration (m) at MOMENTS equidistant times of runs that take `durations` (s, shape (n,)).
-
-    Shape (n,); NaN for a run that does not reach its end. The other parameters are those of `ensemble.run`.
-    """
-    depths = np.empty(len(parameters))
-
-    def work(begin, end):
-        rows = parameters[begin:end]
-        times = np.linspace(0.0, durations[begin:end], MOMENTS, axis=1)
-        samples, _ = trajectory.integrate(rows, times, tolerance=tolerance, feeding=False)
-        omega = 2.0 * math.pi * rows[:, model.FREQUENCY, None]
-        stroke = rows[:, model.ACCELERATION, None] * np.sin(rows[:, model.ANGLE, None]) / omega**2
-        plate = -stroke * np.cos(omega * times + rows[:, model.PSI0, None])  # Eq. 4
-        depths[begin:end] = np.max(plate - samples[:, :, Z], axis=1)
-
-    for_each_chunk(work, len(parameters), threads=threads, progress=progress)
-    return depths
 
 
 def deepest_allowed(parameters: np.ndarray, max_gap: np.ndarray) -> np.ndarray:
