@@ -18,8 +18,8 @@ TURN = 2.0 * math.pi
 # A gap below zero by more than this many roundings is no rounding.
 LOST = 1e6
 
-# A flight by its take-off: height z (m) and vertical velocity vz (m/s) of the part, phase theta (rad) of the excitation;
-# gravity, a_z (m/s²), omega (rad/s).
+# A flight by its take-off: height z (m), vertical velocity vz (m/s), phase theta (rad); and gravity, a_z (m/s²), omega
+# (rad/s).
 Flight = namedtuple("Flight", "z vz theta gravity a_z omega")
 
 
