@@ -26,6 +26,7 @@ from ..solver.contact_lanes import (
     enter,
     fetch,
     possible,
+    return_to_lane,
     room,
     step,
 )
@@ -115,13 +116,6 @@ def stopped_motion(lane, steps):
     """The Motion in contact, without what only flights need, at which a lane left the others."""
     t, w, v = steps[TIME, lane], steps[W, lane], steps[V, lane]
     return Motion(t, 0.0, steps[SINE, lane], steps[COSINE, lane], True, w, v, False, 0.0, 0.0, 0.0, 0.0)
-
-
-@spliced
-def return_to_lane(motion, lane, steps):
-    """Let a Motion in contact go on with the others."""
-    steps[TIME, lane], steps[W, lane], steps[V, lane] = motion.t, motion.w, motion.v
-    steps[SINE, lane], steps[COSINE, lane] = motion.sine, motion.cosine
 
 
 @spliced

@@ -12,7 +12,7 @@ the margin of stick are polynomials.
 import math
 
 from . import polynomial
-from .contact import SCRATCH, SINE, T, V, expand_force
+from .contact import SCRATCH, SINE, T, V, expand_force, impulse_of_tension
 from .jit import inlined, spliced
 from .polynomial import ORDER
 
@@ -26,13 +26,13 @@ def keeps_slipping(c, segment, piece, slip, plate, gain, fastest):
     segment, piece : the horizontal.Segment, and the vertical.Piece in which it lies
     slip, plate : slip velocity at its beginning and the change of ẋ_s until the end, times the slip's sign, m/s
     gain : ∫ F_c/m dt, m/s
-    fastest : m/s; the speed of separation stays below it plus what gravity and the plate add
+    fastest : m/s, as in contact.impulse_of_tension
 
     Friction lowers the slip by μ times the impulse of the force, and raises it again where the force pulls. The plate
     changes its velocity one way while cos θ keeps its sign.
     """
     lapse = piece.duration - segment.t
-    pull = c.damping * (fastest + 2.0 * (c.gravity + c.a_z) * lapse) * lapse
+    pull = impulse_of_tension(c, fastest, lapse)
     turn = c.omega * lapse
     rise, fall = max(plate, 0.0), max(-plate, 0.0)
     if segment.cosine * piece.cosine <= 0.0 or turn > 1.0:

@@ -21,26 +21,34 @@ PLACES = 40
 CLOSE = 0.1
 
 # Columns of a kept step: its beginning, then what was found.
-BEGIN_T, BEGIN_W, BEGIN_V, PULLED, DURATION, LENGTH, END, END_W, END_V, END_SINE, END_COSINE = range(11)
+BEGIN_T, BEGIN_W, BEGIN_V, BEGIN_SINE, BEGIN_COSINE, PULLED = range(6)
+DURATION, LENGTH, END, END_W, END_V, END_SINE, END_COSINE = range(6, 13)
+COLUMNS = 13
 
 
-# What is kept: the series of PLACES steps, a workspace (see contact), and the columns above, shape (PLACES, 11).
+# What is kept: the series of PLACES steps, a workspace (see contact), and the columns above, shape (PLACES, COLUMNS).
 Memory = namedtuple("Memory", "series steps")
 
 
 def room() -> tuple[np.ndarray, np.ndarray]:
     """Room for the two fields of a Memory."""
-    return np.empty((FIRST + PLACES * ROWS, SIZE)), np.empty((PLACES, END_COSINE + 1))
+    return np.empty((FIRST + PLACES * ROWS, SIZE)), np.empty((PLACES, COLUMNS))
+
+
+@inlined
+def forget(kept):
+    """Forget all steps."""
+    for place in range(PLACES):
+        kept.steps[place, BEGIN_T] = np.inf
 
 
 @inlined
 def clear(kept):
-    """Forget all steps."""
+    """Forget all steps, and clear the rows that they share."""
     for row in range(FIRST):
         for n in range(SIZE):
             kept.series[row, n] = 0.0
-    for place in range(PLACES):
-        kept.steps[place, BEGIN_T] = np.inf
+    forget(kept)
 
 
 @inlined
@@ -72,8 +80,16 @@ def keep(kept, place, motion, piece):
     """Keep the contact step `piece` that begins with `motion`."""
     step = kept.steps[place]
     step[BEGIN_T], step[BEGIN_W], step[BEGIN_V], step[PULLED] = motion.t, motion.w, motion.v, motion.pulled
+    step[BEGIN_SINE], step[BEGIN_COSINE] = motion.sine, motion.cosine
     step[DURATION], step[LENGTH], step[END] = piece.duration, piece.length, piece.end
     step[END_W], step[END_V], step[END_SINE], step[END_COSINE] = piece.w, piece.v, piece.sine, piece.cosine
+
+
+@inlined
+def beginning(kept, place):
+    """w, v, sine and cosine from which the series of a kept step is expanded."""
+    step = kept.steps[place]
+    return step[BEGIN_W], step[BEGIN_V], step[BEGIN_SINE], step[BEGIN_COSINE]
 
 
 @inlined

@@ -236,7 +236,8 @@ def follow_part(parameters, options, record, result, kept):
             pieces = place = 0
         if piece.kind == FLIGHT and options.feeding:
             x, vx, _ = horizontal
-            sigma = slip_direction(c, motion.sine, motion.cosine, vx, c.damping * motion.v, c.friction)
+            force = contact.force(c, motion.w, motion.v)
+            sigma = slip_direction(c, motion.sine, motion.cosine, vx, force, c.friction)
             horizontal = Horizontal(x, vx, sigma)
     if not options.feeding:
         samples[:, X] = samples[:, VX] = samples[:, FRICTION_FORCE] = np.nan
