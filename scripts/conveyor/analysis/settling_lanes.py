@@ -25,7 +25,7 @@ from ..solver.contact_lanes import (
     W,
     enter,
     fetch,
-    possible,
+    first_from,
     return_to_lane,
     room,
     step,
@@ -86,15 +86,6 @@ def uncounted(known):
             borrowed(chaotic.conveyors), borrowed(chaotic.low), borrowed(chaotic.size), borrowed(chaotic.cells)
         ),
     )
-
-
-@spliced
-def first_from(row, parameters, tolerance, left):
-    """The first row, from number `row` on, that lanes can follow, or the number of rows; those before are `left`."""
-    while row < len(parameters) and not possible(contact.constants(parameters[row], tolerance)):
-        left[row] = True
-        row += 1
-    return row
 
 
 @spliced

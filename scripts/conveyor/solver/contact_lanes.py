@@ -14,7 +14,7 @@ from numba.core import cgutils, types
 from numba.extending import intrinsic
 
 from . import contact, model, unrolled
-from .jit import inlined, kernel
+from .jit import inlined, kernel, spliced
 from .polynomial import ORDER, SIZE
 from .vectors import FLOAT, INTEGER, Memory, Vector, anywhere, call, fused, where
 
@@ -129,6 +129,15 @@ def room(lanes):
 def possible(c):
     """Whether steps of a conveyor with these contact.Constants can be taken here."""
     return contact.is_hertz(c) and c.tension == model.TENSION_ALLOW
+
+
+@spliced
+def first_from(row, parameters, tolerance, left):
+    """The first row, from number `row` on, that lanes can follow, or the number of rows; those before are `left`."""
+    while row < len(parameters) and not possible(contact.constants(parameters[row], tolerance)):
+        left[row] = True
+        row += 1
+    return row
 
 
 @inlined

@@ -12,7 +12,7 @@ import numpy as np
 
 from . import contact, memory, trajectory
 from .contact import FIRST, NOTHING
-from .contact_lanes import COSINE, END, LAPSE, LENGTH, SINE, V, W, enter, fetch, possible, return_to_lane, room, step
+from .contact_lanes import COSINE, END, LAPSE, LENGTH, SINE, V, W, enter, fetch, first_from, return_to_lane, room, step
 from .flight import highest_gap
 from .horizontal import SAMPLES, Horizontal, Step, first_segment, sample_contact
 from .jit import borrowed, inlined, kernel, spliced
@@ -46,6 +46,8 @@ MARGIN = 1e-6
 # Steps that a lane may take: their number is looked at here.
 ANY = 1e300
 
+# For a lane that has none yet.
+NO_PIECE = Piece(CONTACT, 0.0, 0.0, NOTHING, 0.0, 0.0, 0.0, 0.0)
 # What a piece leads to.
 GOES_ON, OVER, FAILED = range(3)
 
@@ -107,9 +109,41 @@ def count(c, kept, motion, piece, again, run, sample):
     return FAILED if 2.0 * run[PIECES] > min(MAX_PIECES, patience(c)) else GOES_ON
 
 
+@spliced
+def advance(c, kept, motion, piece, again, run, steps, lane, sample):
+    """What a Piece that begins with `motion` leads to, and the Motion at its end."""
+    answer = count(c, kept, motion, piece, again, run, sample)
+    if answer == GOES_ON:
+        motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
+        if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
+            answer = FAILED
+    if answer == GOES_ON:
+        motion, cycles = next_cycle(c, motion, piece)
+        if cycles > 0:
+            run[CYCLE] += cycles
+            begin_cycle(c, run, steps, lane)
+    return answer, motion
+
+
+@spliced
+def step_of_lane(c, kept, motion, run, steps, lane, is_stopped):
+    """The contact step, kept, that a lane took with the others, or that it has to take alone if it `is_stopped`."""
+    if is_stopped:
+        fetch(steps, lane, kept.series, FIRST)
+        piece = press(c, kept.series, FIRST, motion, steps[LENGTH, lane], c.period - motion.t)
+    else:
+        w, v, sine, cosine = steps[W, lane], steps[V, lane], steps[SINE, lane], steps[COSINE, lane]
+        piece = Piece(CONTACT, steps[LAPSE, lane], steps[LENGTH, lane], NOTHING, w, v, sine, cosine)
+    memory.keep(kept, int(run[PLACE]), motion, piece)
+    return piece
+
+
 @functools.cache
 def side_by_side(lanes: int):
-    """The kernel for a number of lanes; see settling_lanes.side_by_side."""
+    """The kernel for a number of lanes.
+
+    It has nothing but that number from around it: with another kernel there, numba would find no compiled code again.
+    """
 
     @kernel
     def follow(parameters, tolerance, durations, samples, results, left, work):
@@ -120,54 +154,27 @@ def side_by_side(lanes: int):
         constants = [contact.constants(parameters[0], tolerance)] * lanes
         motions = [motion_at(constants[0], 0.0, 0.0, 0.0, 0.0)] * lanes
         waiting = running = 0
-        stopped = (1 << lanes) - 1  # a bit for each lane
+        stopped = 0  # a bit for each lane
         while True:
             for lane in range(lanes):
                 i, c, motion, run = rows[lane], constants[lane], motions[lane], runs[lane]
                 kept = memory.Memory(series, kept_steps[lane])
-                if i == NONE and waiting == len(parameters):
-                    continue
                 again = False
-                piece = Piece(
-                    CONTACT,
-                    steps[LAPSE, lane],
-                    steps[LENGTH, lane],
-                    NOTHING,
-                    steps[W, lane],
-                    steps[V, lane],
-                    steps[SINE, lane],
-                    steps[COSINE, lane],
-                )
+                piece = NO_PIECE
                 if i != NONE:
-                    if (stopped >> lane) & 1:
-                        fetch(steps, lane, series, FIRST)
-                        piece = press(c, series, FIRST, motion, steps[LENGTH, lane], c.period - motion.t)
-                    memory.keep(kept, int(run[PLACE]), motion, piece)
+                    piece = step_of_lane(c, kept, motion, run, steps, lane, (stopped >> lane) & 1)
                 while True:
                     answer = OVER
                     if i != NONE:
-                        answer = count(c, kept, motion, piece, again, run, samples[i])
-                    if i != NONE and answer == OVER:
-                        results[i, trajectory.CODE] = trajectory.OK
-                        results[i, trajectory.IMPACTS], results[i, trajectory.MAX_GAP] = run[IMPACTS], run[MAX_GAP]
-                        results[i, trajectory.CONTACT_TIME] = run[CONTACT_TIME]
-                    if answer == GOES_ON:
-                        motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
-                        if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
-                            answer = FAILED
-                    if answer == FAILED:
-                        left[i] = True
-                    if answer == GOES_ON:
-                        motion, cycles = next_cycle(c, motion, piece)
-                        if cycles > 0:
-                            run[CYCLE] += cycles
-                            begin_cycle(c, run, steps, lane)
-                    else:
-                        while waiting < len(parameters) and not possible(
-                            contact.constants(parameters[waiting], tolerance)
-                        ):
-                            left[waiting] = True
-                            waiting += 1
+                        answer, motion = advance(c, kept, motion, piece, again, run, steps, lane, samples[i])
+                        if answer == FAILED:
+                            left[i] = True
+                        elif answer == OVER:
+                            results[i, trajectory.CODE] = trajectory.OK
+                            results[i, trajectory.IMPACTS], results[i, trajectory.MAX_GAP] = run[IMPACTS], run[MAX_GAP]
+                            results[i, trajectory.CONTACT_TIME] = run[CONTACT_TIME]
+                    if answer != GOES_ON:
+                        waiting = first_from(waiting, parameters, tolerance, left)
                         if waiting == len(parameters):
                             rows[lane] = NONE
                             running &= ~(1 << lane)
@@ -181,14 +188,14 @@ def side_by_side(lanes: int):
                     again = motion.touching and memory.repeats(c, kept, place, motion)
                     if again:
                         piece = memory.recall(kept, place)
-                    elif motion.touching and not grazing(c, motion):
+                    elif not motion.touching:
+                        piece = fly(c, motion, run[DURATION] - (run[BASE] + motion.t))
+                    elif grazing(c, motion):
+                        piece = graze(c, motion)
+                    else:
                         return_to_lane(motion, lane, steps)
                         motions[lane] = motion
                         break
-                    elif motion.touching:
-                        piece = graze(c, motion)
-                    else:
-                        piece = fly(c, motion, run[DURATION] - (run[BASE] + motion.t))
             if running == 0:
                 return
             stopped = step(lanes, steps) & running
