@@ -7,7 +7,8 @@ import numpy as np
 from .arguments import check_array, check_choice, check_count
 from .methods import euler_lanes, fixed_step
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, LONGEST, check_run
-from .solver import trajectory
+from .solver import trajectory, vertical_lanes
+from .solver.horizontal import VX, VZ, X, Z
 from .solver.parallel import for_each_chunk
 
 STATUS = trajectory.STATUS
@@ -19,11 +20,16 @@ COLUMNS = ("mean_velocity", "z_end", "vz_end", "x_end", "vx_end", "max_gap", "im
 
 def follow_by_events(parameters, durations, tolerance, feeding, out):
     """Fill `out`, shape (9, n), for `parameters`, shape (n, 13), and `durations` (s), by events."""
-    times = np.column_stack([(1.0 - LAST) * durations, durations])
-    samples, results = trajectory.integrate(parameters, times, tolerance=tolerance, feeding=feeding)
-    out[MEAN_VELOCITY] = (samples[:, 1, 0] - samples[:, 0, 0]) / (LAST * durations)
-    for column, place in enumerate((X_END, VX_END, Z_END, VZ_END)):
-        out[place] = samples[:, 1, column]
+    if feeding:
+        times = np.column_stack([(1.0 - LAST) * durations, durations])
+        samples, results = trajectory.integrate(parameters, times, tolerance=tolerance)
+        before, after = samples[:, 0], samples[:, 1]
+        out[MEAN_VELOCITY] = (after[:, X] - before[:, X]) / (LAST * durations)
+        out[X_END], out[VX_END] = after[:, X], after[:, VX]
+    else:
+        after, results = vertical_lanes.integrate(parameters, durations, tolerance=tolerance)
+        out[[MEAN_VELOCITY, X_END, VX_END]] = np.nan
+    out[Z_END], out[VZ_END] = after[:, Z], after[:, VZ]
     out[MAX_GAP] = results[:, trajectory.MAX_GAP]
     out[IMPACTS] = results[:, trajectory.IMPACTS]
     out[CONTACT_FRACTION] = results[:, trajectory.CONTACT_TIME] / durations

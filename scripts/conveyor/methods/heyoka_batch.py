@@ -14,6 +14,7 @@ import numpy as np
 from ..solver.jit import kernel
 from ..solver.model import EXPONENT, PARAMETERS, TENSION, TENSION_ALLOW, VZ0, Z0
 from . import heyoka_peer, peers
+from .force_law import spring_and_damper
 
 # Events, by the places of their functions.
 GAP, SLIP, GRIP_BACKWARD, GRIP_FORWARD = range(4)
@@ -71,7 +72,7 @@ def system(exponent: float, tolerance: float, lanes: int) -> Any:
     contact, slides, sticks = (hy.par[place] for place in (CONTACT, SLIDES, STICKS))
     # A power of a negative depth is no number, and no switch makes one of it.
     depth = hy.select(hy.gt(contact, 0.5), -gap, 1.0)
-    push = contact * (p["stiffness"] * depth**exponent - p["damping"] * rate) / p["mass"]
+    push = contact * spring_and_damper(p["stiffness"], depth**exponent, p["damping"], rate) / p["mass"]
     rub = p["friction"] * push
     # Each falls through zero where its event is; where its mode is another, it is a constant.
     ends = (
