@@ -1,7 +1,5 @@
 """Many trajectories: one row per point, in the order of the points, whatever fails and however the work is shared."""
 
-from collections.abc import Callable
-
 import numpy as np
 
 from .arguments import check_array, check_choice, check_count
@@ -79,7 +77,6 @@ def run(
     needs: str = "feeding",
     threads: int = 1,
     chunk: int = 1024,
-    beside: Callable[[], object] | None = None,
     progress: str | None = None,
 ) -> dict[str, np.ndarray]:
     """Follow every point for `duration` (s); the event-driven method takes one for each point, too, shape (n,).
@@ -90,7 +87,6 @@ def run(
     duration, method, tolerance, step : as in simulation.simulate
     needs : "feeding", or "vertical" where nothing horizontal is wanted (event-driven method: its columns are NaN)
     threads, chunk : how the work is shared; the result does not depend on them
-    beside : what another thread begins with, if one comes to it, as in solver.parallel.for_each_chunk; or None
     progress : name of a progress bar on stderr, or None
 
     Returns
@@ -121,7 +117,7 @@ def run(
             follow_by_steps(parameters[begin:end], duration, step, fixed_step.METHODS.index(method), out[:, begin:end])
         return np.count_nonzero(out[CODE, begin:end] != trajectory.OK)
 
-    for_each_chunk(work, len(parameters), threads=threads, chunk=chunk, beside=beside, progress=progress)
+    for_each_chunk(work, len(parameters), threads=threads, chunk=chunk, progress=progress)
     columns = dict(zip(COLUMNS, out, strict=False))
     if not feeding:
         for name in ("mean_velocity", "x_end", "vx_end"):
