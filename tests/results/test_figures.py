@@ -80,8 +80,9 @@ def drawn(request, tmp_path_factory):
     figure = draw(request.param, paths, expected, entry.get("settings", {}))
     copy = tmp_path_factory.mktemp("page") / "page.pdf"
     style.save(figure, [str(copy)])
-    FigureCanvasAgg(figure)  # measures texts, which the layout was made for at this resolution
-    figure.dpi = style.RESOLUTION
+    FigureCanvasAgg(figure)  # measures texts
+    figure.dpi = style.RESOLUTION  # of the layout
+    figure.draw_without_rendering()
     return Drawn(request.param, figure, copy.read_bytes())
 
 
