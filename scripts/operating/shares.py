@@ -12,7 +12,7 @@ import pandas as pd
 from conveyor.analysis.attractors.labels import Labels
 from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
-from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, GRAVITY, PSI0, VZ0, Z0
+from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, GRAVITY, INCLINATION, PSI0, VZ0, Z0
 from conveyor.solver.parallel import for_each_chunk
 from operating.regimes import regimes_of
 from pipeline import fields, grid
@@ -49,7 +49,7 @@ def starts_of_box(settings: dict) -> np.ndarray:
 
 
 def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:
-    """Packed parameters of all starts, shape (n, 3), at each of m amplitudes, shape (m n, 13)."""
+    """Packed parameters of all starts, shape (n, 3), at each of m amplitudes, shape (m n, 16)."""
     _, conveyors = grid.product({"acceleration": list(amplitudes)}, model)
     rows = np.repeat(conveyors, len(starts), axis=0)
     height, velocity, phase = np.tile(starts, (len(amplitudes), 1)).T
@@ -104,7 +104,7 @@ def velocities(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13)
+    parameters : float64, shape (n, 16)
     period : of the motion in excitation cycles, 0 for none
     settled : excitation cycles after which the vertical motion has settled
     """
@@ -168,10 +168,11 @@ def motions_at(
             error[row] = each[own].std(ddof=1) / math.sqrt(sizes[row]) if sizes[row] > 1 else np.nan
     share = count / len(starts)
     acceleration = parameters[first, ACCELERATION]
+    normal_gravity = parameters[first, GRAVITY] * np.cos(parameters[first, INCLINATION])
     table = pd.DataFrame(
         {
             "acceleration": acceleration,
-            "vertical": acceleration * np.sin(parameters[first, ANGLE]) / parameters[first, GRAVITY],
+            "vertical": acceleration * np.sin(parameters[first, ANGLE]) / normal_gravity,
             "state": found.state[first],
             "period": found.period[first],
             "longest_flight": found.longest_flight[first],
