@@ -115,7 +115,7 @@ const solver = (() => {
   }
 
   /* First root in (start, end] of a polynomial that is positive just behind `start`; Infinity if there is none. */
-  function firstRoot(p, start, end) {
+  function firstRoot(p, start, end, leave) {
     let reach = 0;
     let power = end;
     for (let n = 1; n <= ORDER; n++) {
@@ -124,7 +124,7 @@ const solver = (() => {
     }
     if (p[0] > reach || reach === 0) return Infinity;
     const noise = NOISE * (Math.abs(p[0]) + reach);
-    let { answer, s, shortest } = search(p, start, end, LEAVE * end, noise);
+    let { answer, s, shortest } = search(p, start, end, leave * end, noise);
     let piece = end - s;
     for (let k = 0; k < 1000; k++) {
       if (answer === FOUND) return s;
@@ -147,7 +147,8 @@ const solver = (() => {
     const omega = 2 * Math.PI * parameters.frequency;
     const aX = parameters.acceleration * Math.cos(parameters.angle);
     const aZ = parameters.acceleration * Math.sin(parameters.angle);
-    const { gravity, mass, exponent, friction, tension, psi0 } = parameters;
+    const { mass, exponent, friction, tension, psi0, inclination, phase_shift: shift } = parameters;
+    const gravity = parameters.gravity * Math.cos(inclination);
     const stiffness = parameters.stiffness / mass;
     const depth = Math.pow(gravity / stiffness, 1 / exponent); // static penetration
     const scaleV = Math.sqrt(2 * gravity * depth);
@@ -160,12 +161,16 @@ const solver = (() => {
       speedX: aX / omega,
       speedZ: aZ / omega,
       height: aZ / (omega * omega),
-      gravity,
+      sineShift: Math.sin(shift),
+      cosineShift: Math.cos(shift),
+      gravity, // normal to the track
+      downhill: parameters.gravity * Math.sin(inclination),
       mass,
       stiffness,
       damping: parameters.damping / mass,
       exponent,
       friction,
+      staticFriction: parameters.static_friction ?? friction,
       tension,
       tolerance,
       scaleW: Math.sqrt(depth),
@@ -178,12 +183,24 @@ const solver = (() => {
     };
   }
 
+  /* Motion of the plate along the track at a phase θ that is given by its sine and cosine: position x = -(a_x/ω²)
+     cos(θ + ε), velocity vx, and the friction force per mass ẍ_s + g sin α that lets the part stick. */
+  function alongTrack(c, sine, cosine) {
+    const shiftedSine = sine * c.cosineShift + cosine * c.sineShift;
+    const shiftedCosine = cosine * c.cosineShift - sine * c.sineShift;
+    return {
+      x: (-c.speedX / c.omega) * shiftedCosine,
+      vx: c.speedX * shiftedSine,
+      holding: c.aX * shiftedCosine + c.downhill,
+    };
+  }
+
   /* Position and velocity of the plate (Eqs. 3, 4 and 10) at a time. */
   function plate(c, time) {
     const theta = c.omega * time + c.psi0;
-    const sine = Math.sin(theta);
-    const cosine = Math.cos(theta);
-    return { x: (-c.speedX / c.omega) * cosine, vx: c.speedX * sine, z: -c.height * cosine, vz: c.speedZ * sine };
+    const [sine, cosine] = [Math.sin(theta), Math.cos(theta)];
+    const { x, vx } = alongTrack(c, sine, cosine);
+    return { x, vx, z: -c.height * cosine, vz: c.speedZ * sine };
   }
 
   // -------------------------------------------------------------------------------------------------------- flight
@@ -260,7 +277,8 @@ const solver = (() => {
   const LEAVE_IMPACT = 1e-6;
 
   // Room for what is needed while a step is made only: w², w^(2p+1), the phase, and a polynomial to search.
-  const [sines, cosines, squares, springs, cosinesW, scratch] = Array.from({ length: 6 }, () => new Float64Array(SIZE));
+  const rooms = Array.from({ length: 7 }, () => new Float64Array(SIZE));
+  const [sines, cosines, squares, springs, sinesW, cosinesW, scratch] = rooms;
 
   /* Contact force per mass at w = √penetration and the speed of approach v (Eq. 9). */
   function force(c, w, v) {
@@ -304,8 +322,9 @@ const solver = (() => {
       else if (c.exponent === 1) springs[n] = product(squares, w, n);
       else if (w0 <= c.edgeW) springs[n] = 0;
       else springs[n] = n === 0 ? Math.pow(w0, exponent) : powerTerm(w, springs, exponent, n);
+      sinesW[n] = product(sines, w, n);
       cosinesW[n] = product(cosines, w, n);
-      cosines[n + 1] = -c.omega * product(sines, w, n) * inverse;
+      cosines[n + 1] = -c.omega * sinesW[n] * inverse;
       sines[n + 1] = c.omega * cosinesW[n] * inverse;
       // With the derivative v w of w², the damping needs no product of v and w.
       v[n + 1] = (c.gravity * w[n] + c.aZ * cosinesW[n] - stiffness * springs[n]) * inverse - damping * squares[n + 1];
@@ -313,11 +332,10 @@ const solver = (() => {
     return { w, t, v };
   }
 
-  /* Fill `scratch` with the series of w (scale F_c/m + plate cos θ + slack), of the sign of the bracket. */
-  function expandForce(c, w, scale, plateAmplitude, slack) {
+  /* Fill `scratch` with the series of w F_c/m, times `scale`. */
+  function expandForce(c, scale) {
     for (let n = 0; n < ORDER; n++) {
-      const forceW = c.stiffness * springs[n] + c.damping * (n + 1) * squares[n + 1];
-      scratch[n] = scale * forceW + plateAmplitude * cosinesW[n] + slack * w[n];
+      scratch[n] = scale * (c.stiffness * springs[n] + c.damping * (n + 1) * squares[n + 1]);
     }
     scratch[ORDER] = 0;
   }
@@ -353,23 +371,23 @@ const solver = (() => {
     if (c.edgeW > 0 && w0 <= c.edgeW && wEnd > c.edgeW) {
       for (let n = 0; n < SIZE; n++) scratch[n] = -w[n];
       scratch[0] += c.edgeW * (1 + 1e-9);
-      length = Math.min(length, firstRoot(scratch, 0, length));
+      length = Math.min(length, firstRoot(scratch, 0, length, LEAVE));
     } else if (wEnd <= 0) {
       // w starts upwards at an impact and falls through zero once: w'' has the sign of w where the plate presses on.
       length = rootOfCrossing(w, w0 > 0 ? 0 : LEAVE_IMPACT * length, length);
       event = SEPARATION;
     } else if (v0 < 0 && vEnd > 0) {
-      const root = firstRoot(w, 0, length);
+      const root = firstRoot(w, 0, length, LEAVE);
       if (root <= length) {
         length = root;
         event = SEPARATION;
       }
     }
     if (c.tension !== "allow" && c.damping > 0) {
-      expandForce(c, w, pulled ? -1 : 1, 0, 0);
+      expandForce(c, pulled ? -1 : 1);
       // The series has the factor w, and so a root of its own at a separation.
       const end = event === SEPARATION ? length * (1 - LEAVE_IMPACT) : length;
-      const root = firstRoot(scratch, 0, end);
+      const root = firstRoot(scratch, 0, end, LEAVE);
       if (root < end) {
         length = root;
         event = FORCE_SIGN;
@@ -398,47 +416,88 @@ const solver = (() => {
     return s;
   }
 
+  // Parts of a contact step in each of which the force has at most one maximum, and the share of the step to which its
+  // place is found: the relative error of the force is about the square of it.
+  const PARTS = 4;
+  const PEAK_WIDTH = 1e-8;
+
+  /* Largest contact force per mass in a part of a contact step. */
+  function largestForce(c, step, begin, end) {
+    const forceAt = (s) => force(c, value(step.w, s), value(step.v, s));
+    const places = Array.from({ length: PARTS + 1 }, (_, k) => begin + ((end - begin) * k) / PARTS);
+    const forces = places.map(forceAt);
+    const best = forces.indexOf(Math.max(...forces));
+    let [low, high] = [places[Math.max(best - 1, 0)], places[Math.min(best + 1, PARTS)]];
+    while (high - low > PEAK_WIDTH * step.length) {
+      const third = (high - low) / 3;
+      if (forceAt(low + third) < forceAt(high - third)) low += third;
+      else high -= third;
+    }
+    return Math.max(forces[best], forceAt(0.5 * (low + high)));
+  }
+
   // ------------------------------------------------------------------------------------------------------ friction
 
-  /* Where, in (start, length] of a step, the slip velocity reaches zero: a polynomial, since F_c/m = z̈_p + g. */
-  function slipEnd(c, step, start, length, slip, sigma, mu) {
-    const plateAmplitude = sigma * c.speedX - mu * c.speedZ;
+  /* Where, in (start, length] of a step, the slip velocity reaches zero: a polynomial, because F_c/m = z̈_p + g cos α.
+     `leave` is the part of the step by which a root at `start` is left behind. */
+  function slipEnd(c, step, start, length, slip, sigma, mu, leave) {
+    const speedX = sigma * c.speedX;
+    const fall = mu * c.gravity - sigma * c.downhill;
     for (let n = 0; n <= ORDER; n++) {
-      scratch[n] = plateAmplitude * sines[n] + mu * step.v[n] - mu * c.gravity * step.t[n];
+      const plateSlip = speedX * (sines[n] * c.cosineShift + cosines[n] * c.sineShift);
+      scratch[n] = plateSlip + mu * (step.v[n] - c.speedZ * sines[n]) - fall * step.t[n];
     }
     scratch[0] = 0;
     scratch[0] = sigma * slip - value(scratch, start);
-    return firstRoot(scratch, start, length);
+    return firstRoot(scratch, start, length, leave);
   }
 
-  /* Where, in (start, length], |ẍ_s| outgrows μ F_c/m, and whether it stays so until the end; |ẍ_s| = a_x |cos θ|
-     has one branch where cos θ agrees in sign at both ends. */
-  function stickEnd(c, step, start, length, cosine, cosineEnd) {
+  /* Where, in (start, length], |ẍ_s + g sin α| exceeds μ_s F_c/m, and whether it stays so until the end. */
+  function stickEnd(c, step, start, length) {
     let end = Infinity;
     let lasting = false;
     for (const direction of [-1, 1]) {
-      if (direction * cosine > 0 && direction * cosineEnd > 0) continue;
-      expandForce(c, step.w, c.friction, direction * c.aX, c.friction * c.restForce);
-      const root = firstRoot(scratch, start, length);
+      expandForce(c, c.staticFriction);
+      for (let n = 0; n < ORDER; n++) {
+        const plateW = c.aX * (cosinesW[n] * c.cosineShift - sinesW[n] * c.sineShift) + c.downhill * step.w[n];
+        scratch[n] += direction * plateW + c.staticFriction * c.restForce * step.w[n];
+      }
+      const root = firstRoot(scratch, start, length, LEAVE);
       if (root < end) {
         for (let n = 0; n < ORDER; n++) scratch[n] = -scratch[n];
         end = root;
-        lasting = firstRoot(scratch, root, length) === Infinity;
+        lasting = firstRoot(scratch, root, length, LEAVE) === Infinity;
       }
     }
     return [end, lasting];
   }
 
-  /* Sign of the slip that follows when the slip velocity is zero, or 0 for stick (Filippov's condition). */
-  function directionAtRest(c, plateAcceleration, contactForce, mu) {
-    // The little that the force may lack keeps a part that barely touches from sticking and slipping without end.
-    if (mu > 0 && Math.abs(plateAcceleration) <= mu * (contactForce + c.restForce)) return 0;
-    return plateAcceleration < 0 ? -1 : 1;
+  /* Sign of the slip that follows when the slip velocity is zero, or 0 for stick (Filippov's condition). `holding` is
+     the friction force per mass that stick takes, `grip` the coefficient of static friction that acts. */
+  function directionAtRest(c, holding, contactForce, grip) {
+    // The slack in the force keeps a part that barely touches from sticking and slipping without end.
+    if (grip > 0 && Math.abs(holding) <= grip * (contactForce + c.restForce)) return 0;
+    return holding < 0 ? -1 : 1;
   }
 
-  /* Sign of the slip at an impact or a start in contact. */
-  function direction(c, slip, cosine, contactForce) {
-    return slip !== 0 ? Math.sign(slip) : directionAtRest(c, c.aX * cosine, contactForce, c.friction);
+  /* Sign of the slip at an impact or at the beginning of a run in contact. */
+  function direction(c, sine, cosine, vx, contactForce) {
+    const track = alongTrack(c, sine, cosine);
+    return Math.sign(track.vx - vx) || directionAtRest(c, track.holding, contactForce, c.staticFriction);
+  }
+
+  /* Position and velocity of the part along the track after the time `tau` of a piece in contact. */
+  function moved(c, piece, tau, sine, cosine, z, vz) {
+    if (piece.sigma === 0) {
+      const track = alongTrack(c, sine, cosine);
+      return { x: piece.x + track.x - alongTrack(c, piece.sine, piece.cosine).x, vx: track.vx };
+    }
+    const rub = piece.sigma * piece.mu;
+    const path = z - piece.z - piece.vz * tau + 0.5 * c.gravity * tau * tau;
+    return {
+      x: piece.x + (piece.vx - 0.5 * c.downhill * tau) * tau + rub * path,
+      vx: piece.vx - c.downhill * tau + rub * (vz - piece.vz + c.gravity * tau),
+    };
   }
 
   // --------------------------------------------------------------------------------------------------- event loop
@@ -477,13 +536,31 @@ const solver = (() => {
     meanVelocity(last) {
       return (this.at(this.duration).x - this.at((1 - last) * this.duration).x) / (last * this.duration);
     }
+
+    /* Largest normal approach speed of the impacts in the last part of the run; 0 if there is none. */
+    impactSpeed(last) {
+      const from = (1 - last) * this.duration;
+      return Math.max(0, ...this.impacts().map(({ time, speed }) => (time >= from ? speed : 0)));
+    }
+
+    /* Largest contact force in the last part of the run; 0 if there is none. */
+    peakForce(last) {
+      const from = (1 - last) * this.duration;
+      let largest = 0;
+      this.pieces.forEach(({ begin, step, pressing }, k) => {
+        if (!step || !pressing || step === this.pieces[k - 1]?.step) return;
+        const [low, high] = [from, this.duration].map((time) => invertTime(step, step.length, time - begin));
+        if (low < step.length) largest = Math.max(largest, largestForce(this.c, step, low, high));
+      });
+      return this.c.mass * largest;
+    }
   }
 
   function inFlight(c, piece, time) {
     const tau = time - piece.base - piece.t;
     return {
-      x: piece.x + piece.vx * tau,
-      vx: piece.vx,
+      x: piece.x + (piece.vx - 0.5 * c.downhill * tau) * tau,
+      vx: piece.vx - c.downhill * tau,
       z: piece.z + (piece.vz - 0.5 * c.gravity * tau) * tau,
       vz: piece.vz - c.gravity * tau,
       contactForce: 0,
@@ -497,29 +574,15 @@ const solver = (() => {
     const lapse = time - piece.base - piece.t;
     const s = invertTime(step, step.length, lapse);
     const theta = piece.theta + c.omega * lapse;
-    const w = value(step.w, s);
-    const v = value(step.v, s);
-    const sine = Math.sin(theta);
-    const cosine = Math.cos(theta);
+    const [w, v] = [value(step.w, s), value(step.v, s)];
+    const [sine, cosine] = [Math.sin(theta), Math.cos(theta)];
     const z = -c.height * cosine - w * w;
     const vz = c.speedZ * sine - v;
     const contactForce = piece.pressing ? c.mass * force(c, w, v) : 0;
-    if (sigma === 0) {
-      const x = piece.x - (c.speedX / c.omega) * (cosine - piece.cosine);
-      return { x, vx: c.speedX * sine, z, vz, contactForce, frictionForce: c.mass * c.aX * cosine, motion: "stick" };
-    }
-    const tau = lapse - piece.here;
-    const path = z - piece.z - piece.vz * tau + 0.5 * c.gravity * tau * tau;
-    return {
-      x: piece.x + piece.vx * tau + sigma * mu * path,
-      vx: piece.vx + sigma * mu * (vz - piece.vz + c.gravity * tau),
-      z,
-      vz,
-      contactForce,
-      frictionForce: sigma * mu * contactForce,
-      // The slip velocity ẋ_s - ẋ_p is positive where the plate is the faster one.
-      motion: sigma > 0 ? "lags" : "leads",
-    };
+    const frictionForce = sigma === 0 ? c.mass * alongTrack(c, sine, cosine).holding : sigma * mu * contactForce;
+    // The slip velocity ẋ_s - ẋ_p is positive where the plate is the faster one.
+    const motion = sigma === 0 ? "stick" : sigma > 0 ? "lags" : "leads";
+    return { ...moved(c, piece, lapse - piece.here, sine, cosine, z, vz), z, vz, contactForce, frictionForce, motion };
   }
 
   /* Follow one part for a `duration`. `feeding`: whether the horizontal motion is wanted. */
@@ -573,7 +636,7 @@ const solver = (() => {
       w = Math.sqrt(-q);
       v = -rate;
       pulled = c.tension !== "allow" && force(c, w, v) < 0;
-      sigma = direction(c, c.speedX * sine, cosine, force(c, w, v));
+      sigma = direction(c, sine, cosine, vx, force(c, w, v));
     }
 
     while (base + t < duration) {
@@ -582,7 +645,8 @@ const solver = (() => {
         const { tau, speed } = nextImpact(c, z, vz, q, rate, theta, duration - base - t);
         if (tau === Infinity) return;
         if (!(tau >= 0)) throw new GaveUp("not finite");
-        x += vx * tau;
+        x += (vx - 0.5 * c.downhill * tau) * tau;
+        vx -= c.downhill * tau;
         t += tau;
         touching = true;
         record({ time: base + t, kind: "impact", speed, flight: base + t - leftPlate });
@@ -592,7 +656,7 @@ const solver = (() => {
         theta = BEGIN_OF_CYCLE + c.omega * t;
         sine = Math.sin(theta);
         cosine = Math.cos(theta);
-        sigma = direction(c, c.speedX * sine - vx, cosine, c.damping * v);
+        sigma = direction(c, sine, cosine, vx, c.damping * v);
       } else {
         if (w === 0 && v <= c.restSpeed) {
           // Grazing: the part touches with no speed and is either pressed on or left behind by the plate.
@@ -627,50 +691,45 @@ const solver = (() => {
 
         // The segments of constant slip direction within this step.
         const pressing = !(pulled && c.tension === "clip");
-        const mu = pulled ? 0 : c.friction;
+        const [mu, grip] = pulled ? [0, 0] : [c.friction, c.staticFriction];
         let here = { s: 0, w, v, t: 0, sine, cosine };
-        let slip = c.speedX * sine - vx;
-        let released = false;
+        let released = !feeding;
+        let leave = LEAVE;
         for (;;) {
-          const zHere = -c.height * here.cosine - here.w * here.w;
-          const vzHere = c.speedZ * here.sine - here.v;
-          keep({
-            ...{ begin: base + t + here.t, base, t, theta, step, here: here.t, cosine: here.cosine },
-            ...{ sigma, mu, pressing, x, vx, z: zHere, vz: vzHere },
-          });
+          const piece = {
+            ...{ begin: base + t + here.t, base, t, theta, step, here: here.t, sine: here.sine, cosine: here.cosine },
+            ...{ sigma, mu, pressing, x, vx, z: -c.height * here.cosine - here.w * here.w, vz: c.speedZ * here.sine - here.v },
+          };
+          keep(piece);
           let change = Infinity;
-          if (feeding && !released) {
-            if (sigma === 0) [change, released] = stickEnd(c, step, here.s, length, here.cosine, cosineEnd);
-            else change = slipEnd(c, step, here.s, length, slip, sigma, mu);
+          if (!released) {
+            const slip = alongTrack(c, here.sine, here.cosine).vx - vx;
+            if (sigma === 0) [change, released] = stickEnd(c, step, here.s, length);
+            else change = slipEnd(c, step, here.s, length, slip, sigma, mu, leave);
           }
           const changed = change < length;
-          let there = { s: length, w: wEnd, v: vEnd, t: lapse, sine: sineEnd, cosine: cosineEnd };
+          here = { s: length, w: wEnd, v: vEnd, t: lapse, sine: sineEnd, cosine: cosineEnd };
           if (changed) {
             const elapsed = value(step.t, change);
             const phase = theta + c.omega * elapsed;
-            there = { s: change, w: value(step.w, change), v: value(step.v, change), t: elapsed };
-            there.sine = Math.sin(phase);
-            there.cosine = Math.cos(phase);
+            const [sine, cosine] = [Math.sin(phase), Math.cos(phase)];
+            here = { s: change, w: value(step.w, change), v: value(step.v, change), t: elapsed, sine, cosine };
           }
-          if (feeding && sigma === 0) {
-            x -= (c.speedX / c.omega) * (there.cosine - here.cosine);
-            vx = c.speedX * there.sine;
-          } else if (feeding) {
-            const tau = there.t - here.t;
-            const zThere = -c.height * there.cosine - there.w * there.w;
-            const vzThere = c.speedZ * there.sine - there.v;
-            x += vx * tau + sigma * mu * (zThere - zHere - vzHere * tau + 0.5 * c.gravity * tau * tau);
-            vx += sigma * mu * (vzThere - vzHere + c.gravity * tau);
-          }
+          const [z, vz] = [-c.height * here.cosine - here.w * here.w, c.speedZ * here.sine - here.v];
+          ({ x, vx } = moved(c, piece, here.t - piece.here, here.sine, here.cosine, z, vz));
           if (!changed) break;
-          vx = c.speedX * there.sine;
-          slip = 0;
-          const stuck = sigma === 0;
-          sigma = stuck
-            ? Math.sign(there.cosine) || 1
-            : directionAtRest(c, c.aX * there.cosine, force(c, there.w, there.v), mu);
-          record({ time: base + t + there.t, kind: stuck ? "slip" : sigma === 0 ? "stick" : "slip reversal" });
-          here = there;
+          const track = alongTrack(c, here.sine, here.cosine);
+          vx = track.vx; // exactly
+          if (sigma === 0) sigma = Math.sign(track.holding) || 1;
+          else sigma = directionAtRest(c, track.holding, force(c, here.w, here.v), grip);
+          if (sigma === piece.sigma) {
+            // No reversal: the slip cannot be told from zero here, and leaves it further on.
+            leave *= 2;
+          } else {
+            leave = LEAVE;
+            const kind = piece.sigma === 0 ? "slip" : sigma === 0 ? "stick" : "slip reversal";
+            record({ time: base + t + here.t, kind });
+          }
         }
 
         t = atEnd ? c.period : t + lapse;
