@@ -12,7 +12,7 @@ from figures import style
 
 HERE = Path(__file__).parent
 # What page.html is filled with; each stands there as the only comment of its name.
-PARTS = ("page.css", "solver.js", "page.js")
+PARTS = ("page.css", "solver.js", "shared.js", "controls.js", "state_maps.js", "plots.js", "scene.js", "page.js")
 STATES = tuple(style.STATE_COLOURS)
 LAST = 0.25  # share of the run over which the paper takes mean velocities (Sect. 3.1)
 
@@ -65,7 +65,8 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
     """
     own = settings["companion"]
     data = {
-        "model": {name: settings["model"][name] for name in PARAMETERS},
+        # The static friction coefficient is null where it equals the friction coefficient.
+        "model": {name: settings["model"].get(name) for name in PARAMETERS},
         "ranges": RANGES,
         "solver": {name: settings["solver"][name] for name in ("duration", "step")},
         "tolerance": own["tolerance"],
