@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from conveyor.solver.model import PARAMETERS, RANGES
+from conveyor.parameters import PARAMETERS, RANGES, TANGENTIAL
 from figures import style
 
 HERE = Path(__file__).parent
@@ -68,6 +68,7 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
         # The static friction coefficient is null where it equals the friction coefficient.
         "model": {name: settings["model"].get(name) for name in PARAMETERS},
         "ranges": RANGES,
+        "tangential": TANGENTIAL,
         "solver": {name: settings["solver"][name] for name in ("duration", "step")},
         "tolerance": own["tolerance"],
         "cycles": own["cycles"],

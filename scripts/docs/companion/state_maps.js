@@ -1,7 +1,5 @@
 /* State maps: the state of motion over two parameters, from the project's tables. */
 
-// Parameters that do not act on the motion normal to the track, and so not on the state of motion.
-const TANGENTIAL = ["friction", "static_friction", "phase_shift"];
 const INITIAL = ["psi0", "z0", "vz0"];
 // A state with fewer points than this is hard to see on a map: the legend gives their number.
 const FEW = 100;
@@ -35,9 +33,9 @@ const onAxis = (axis) =>
 const reach = (axis) => [axis.start - 0.5 * cell(axis), axis.stop + 0.5 * cell(axis)];
 const within = (axis) => onAxis(axis) >= reach(axis)[0] && onAxis(axis) <= reach(axis)[1];
 
-/* Parameters of a map that differ from the chosen ones and act on the state of motion. */
+/* Parameters of a map that differ from the chosen ones. The tangential ones do not act on the state of motion. */
 function differences(one) {
-  const acting = Object.keys(one.model).filter((name) => !TANGENTIAL.includes(name));
+  const acting = Object.keys(one.model).filter((name) => !data.tangential.includes(name));
   return acting.filter((name) => !same(chosen[name], one.model[name]));
 }
 
@@ -57,7 +55,7 @@ function mapTitle(one) {
 /* Choose a point of the map, with the other parameters of the map. */
 function moveTo(x, y) {
   const inside = (axis, value) => plain(Math.min(Math.max(value, axis.start), axis.stop));
-  const kept = Object.fromEntries(TANGENTIAL.map((name) => [name, chosen[name]]));
+  const kept = Object.fromEntries(data.tangential.map((name) => [name, chosen[name]]));
   choose({ ...map.model, ...kept, [map.x.name]: inside(map.x, x), [map.y.name]: inside(map.y, y) });
 }
 
