@@ -11,8 +11,10 @@ from conveyor.parameters import PARAMETERS, RANGES, TANGENTIAL
 from figures import style
 
 HERE = Path(__file__).parent
-# What page.html is filled with; each stands there as the only comment of its name.
-PARTS = ("page.css", "solver.js", "shared.js", "controls.js", "state_maps.js", "plots.js", "scene.js", "page.js")
+# Files that go into page.html, each in place of the comment with its name.
+SOLVER = ("polynomials", "conveyor", "flight", "contact", "friction", "trajectory", "attractor", "euler")
+SCRIPTS = ("shared", "controls", "state_maps", "plots", "scene", "page")
+PARTS = ("page.css", *(f"solver/{name}.js" for name in SOLVER), *(f"{name}.js" for name in SCRIPTS))
 STATES = tuple(style.STATE_COLOURS)
 LAST = 0.25  # share of the run over which the paper takes mean velocities (Sect. 3.1)
 
