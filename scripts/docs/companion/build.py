@@ -1,4 +1,4 @@
-"""The companion: one HTML file that computes the motion of the part by itself, offline."""
+"""The companion: one HTML file that computes the trajectory of a part in the browser, offline."""
 
 import base64
 import json

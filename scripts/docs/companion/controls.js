@@ -36,7 +36,7 @@ function shownAs(name, value) {
   if (isAutomatic(name, value)) return CONTROLS[name].automatic.label;
   if (typeof value === "string") return value;
   const { factor, unit } = CONTROLS[name];
-  return signed(`${digits(value * factor, 6)} ${unit}`.trim());
+  return signed(`${digits(value * factor, 6)} ${unit}`.trim().replace(" °", "°"));
 }
 
 /* What is wrong with the value of a parameter among others, or nothing. */

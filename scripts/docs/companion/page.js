@@ -54,7 +54,8 @@ function compute() {
     failure = `The solver gave up after ${digits(run.end, 4)} s of ${duration} s: ${run.status}. `;
     failure += "The page draws nothing, because the trajectory after that time is unknown.";
   } else if (twin && twin.status !== "ok") {
-    failure = `The page does not draw the second part: the solver gave up after ${digits(twin.end, 4)} s, ${twin.status}.`;
+    const end = digits(twin.end, 4);
+    failure = `The page does not draw the second part: the solver gave up after ${end} s, ${twin.status}.`;
     twin = undefined;
   }
   byId("failure").textContent = failure;
@@ -109,7 +110,8 @@ function statedState() {
 
 function showResults() {
   const ok = run.status === "ok";
-  byId("state").replaceChildren(swatch(colours[stated.name]), stated.text, element("small", { textContent: stated.note }));
+  const note = element("small", { textContent: stated.note });
+  byId("state").replaceChildren(swatch(colours[stated.name]), stated.text, note);
   // Where rounding determines the impacts, the values belong to one trajectory among many.
   const sharp = ok && known === run.impacts().length;
   const doubt = sharp || !ok ? "" : "of this trajectory only: rounding decides";
@@ -159,8 +161,8 @@ function showImpacts() {
   const notes = [];
   if (impacts.length > ROWS) notes.push(`The table lists the first ${ROWS} of ${impacts.length} impacts.`);
   if (known < impacts.length) {
-    const moved = `an initial height ${power10(Math.log10(BLUR))} m larger moves these times by more than ${1e6 * SHARP} µs`;
-    notes.push(`From No. ${known + 1} on, rounding decides: ${moved}.`);
+    const blur = `an initial height ${power10(Math.log10(BLUR))} m larger`;
+    notes.push(`From No. ${known + 1} on, rounding decides: ${blur} moves these times by more than ${1e6 * SHARP} µs.`);
   }
   byId("impacts-note").textContent = notes.join(" ");
 }

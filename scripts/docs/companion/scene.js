@@ -15,7 +15,8 @@ function drawScene() {
   const [sine, cosine] = [Math.sin(chosen.inclination), Math.cos(chosen.inclination)];
   const turned = (x, z) => [x * cosine - z * sine, x * sine + z * cosine];
   const [across, up] = turned(centre, 0);
-  const shape = frame(canvas, [across - 0.5 * width, across + 0.5 * width], [up + low - margin, up + high + 2 * radius]);
+  const heights = [up + low - margin, up + high + 2 * radius];
+  const shape = frame(canvas, [across - 0.5 * width, across + 0.5 * width], heights);
   const { context } = shape;
   const path = (points, closed = false) => {
     context.beginPath();
@@ -89,6 +90,7 @@ function drawScene() {
 function describeScene() {
   const { aX, aZ, sineShift } = run.c;
   const drive = aX && aZ && Math.abs(sineShift) > 1e-6 ? "along an ellipse" : "along a straight line";
-  const track = chosen.inclination ? `a track inclined by ${shownAs("inclination", chosen.inclination)}` : "a level track";
+  const { inclination } = chosen;
+  const track = inclination ? `a track inclined by ${shownAs("inclination", inclination)}` : "a level track";
   byId("scene").setAttribute("aria-label", `The part on ${track}; the plate moves ${drive}.`);
 }

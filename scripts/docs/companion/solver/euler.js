@@ -1,5 +1,5 @@
-/* The trajectory by the published method, explicit Euler with a fixed step (Sect. 3 of the paper): it steps over impacts,
-   and its friction chatters where the part should stick. It keeps every `stride`th step. */
+/* The trajectory by the published method, explicit Euler with a fixed step (Sect. 3 of the paper). It steps over
+   impacts, and its friction chatters where the part should stick. It keeps every `stride`th step. */
 class EulerRun {
   constructor(duration, step, stride, states) {
     this.duration = duration;

@@ -120,10 +120,11 @@ function advance(run, parameters, feeding) {
   }
 }
 
-/* The state of the part at t = 0. `base` is the time at which the present `cycle` began, `t` the time since then; `theta`
-   is the phase, with its `sine` and `cosine`. In flight the part has the height z, the velocity vz, the gap q and its
-   rate; in contact w = √penetration and the approach speed v. Along the track it has x, vx and the sign `sigma` of the
-   slip, 0 for stick. `pulled`: the contact force is negative. `leftPlate` is when the present flight began. */
+/* The state of the part at t = 0. `base` is the time at which the present `cycle` began, `t` the time since then, and
+   `theta` the phase with its `sine` and `cosine`. In flight, the part has the height z, the velocity vz, the gap q and
+   its rate; `leftPlate` is the time at which the flight began. In contact, it has w = √penetration and the approach
+   speed v; `pulled` is true while the contact force is negative. Along the track, it has x, vx and the sign `sigma` of
+   the slip, 0 for stick. */
 function atBegin(c, parameters) {
   const turn = 2 * Math.PI;
   const offset = ((((c.psi0 - BEGIN_OF_CYCLE) % turn) + turn) % turn) / c.omega;
@@ -131,8 +132,9 @@ function atBegin(c, parameters) {
   const q = parameters.z0 === "conveyor" ? 0 : parameters.z0 + c.height * cosine;
   const rate = parameters.vz0 - c.speedZ * sine;
   const motion = {
-    ...{ cycle: 0, offset, base: -offset, t: offset, theta: c.psi0, sine, cosine, q, rate, z: q - c.height * cosine, vz: parameters.vz0 },
-    ...{ w: 0, v: 0, x: 0, vx: 0, sigma: 0, pulled: false, leftPlate: 0 },
+    ...{ cycle: 0, offset, base: -offset, t: offset, theta: c.psi0, sine, cosine },
+    ...{ q, rate, z: q - c.height * cosine, vz: parameters.vz0, leftPlate: 0 },
+    ...{ w: 0, v: 0, pulled: false, x: 0, vx: 0, sigma: 0 },
     touching: q !== 0 ? q < 0 : rate !== 0 ? rate < 0 : c.gravity + c.aZ * cosine > 0,
   };
   if (!motion.touching) return motion;
@@ -230,8 +232,11 @@ function feed(run, motion, step, end, feeding) {
   let leave = LEAVE;
   for (;;) {
     const { sine, cosine } = here;
-    const piece = { begin: base + t + here.t, base, t, theta, step, here: here.t, sine, cosine, sigma, mu, pressing, x, vx };
-    run.keep(Object.assign(piece, normalMotion(c, here)));
+    const piece = {
+      ...{ begin: base + t + here.t, base, t, theta, step, here: here.t, sine, cosine, sigma, mu, pressing, x, vx },
+      ...normalMotion(c, here),
+    };
+    run.keep(piece);
     let change = Infinity;
     if (!released && sigma === 0) [change, released] = stickEnd(c, step, here.s);
     else if (!released) change = slipEnd(c, step, here.s, alongTrack(c, sine, cosine).vx - vx, sigma, mu, leave);
