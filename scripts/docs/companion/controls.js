@@ -139,7 +139,7 @@ function takeAddress() {
 
 function addPreset([name, values]) {
   const title = STATE_NAMES[name] || name.replaceAll("_", " ").replace(/^./, (letter) => letter.toUpperCase());
-  const button = element("button", { type: "button" }, swatch(colours[name]), title);
+  const button = element("button", { type: "button" }, ...(colours[name] ? [swatch(colours[name])] : []), title);
   button.addEventListener("click", () => chooseAll({ ...model, ...values }));
   byId("presets").append(button);
 }

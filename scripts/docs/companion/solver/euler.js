@@ -1,5 +1,6 @@
 /* The trajectory by the published method, explicit Euler with a fixed step (Sect. 3 of the paper). It steps over
-   impacts, and its friction chatters where the part should stick. It keeps every `stride`th step. */
+   impacts, and its friction chatters where the part should stick: only where the static friction exceeds the friction, a
+   part whose slip changes its sign may take on the velocity of the plate. It keeps every `stride`th step. */
 class EulerRun {
   constructor(duration, step, stride, states) {
     this.duration = duration;
@@ -30,18 +31,25 @@ function euler(parameters, duration, step, stride) {
   const run = new EulerRun(duration, step, stride, states);
   let x = 0;
   let vx = 0;
+  let lastSlip = alongTrack(c, Math.sin(c.psi0), Math.cos(c.psi0)).vx;
   let z = parameters.z0 === "conveyor" ? -c.height * Math.cos(c.psi0) : parameters.z0;
   let vz = parameters.vz0;
   const start = z;
   for (let i = 0; i <= steps; i++) {
     const phase = c.omega * (i * step) + c.psi0;
-    const sine = Math.sin(phase);
-    const q = z + c.height * Math.cos(phase);
+    const [sine, cosine] = [Math.sin(phase), Math.cos(phase)];
+    const q = z + c.height * cosine;
     let push = 0;
     if (q <= 0) push = force(c, Math.sqrt(-q), c.speedZ * sine - vz);
     if (push < 0 && c.tension === "clip") push = 0;
     const mu = push < 0 && c.tension === "frictionless" ? 0 : c.friction;
-    const rub = mu * push * Math.sign(c.speedX * sine - vx);
+    const track = alongTrack(c, sine, cosine);
+    let slip = track.vx - vx;
+    let rub = mu * push * Math.sign(slip);
+    if (c.staticFriction > c.friction && q <= 0 && lastSlip * slip <= 0) {
+      if (Math.abs(track.holding) <= c.staticFriction * push) [vx, slip, rub] = [track.vx, 0, track.holding];
+    }
+    lastSlip = slip;
     if (i % stride === 0) {
       if (!(Math.abs(z - start) < FAR)) {
         run.status = "blows up";
@@ -50,7 +58,7 @@ function euler(parameters, duration, step, stride) {
       states.set([x, vx, z, vz, c.mass * push, c.mass * rub], 6 * (i / stride));
     }
     x += step * vx;
-    vx += step * rub;
+    vx += step * (rub - c.downhill);
     z += step * vz;
     vz += step * (push - c.gravity);
   }
