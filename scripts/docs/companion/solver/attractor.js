@@ -1,9 +1,9 @@
 const MAX_PERIOD = 64;
 // A motion is periodic if it returns to this distance in each cycle of one period, in units of the part at rest.
 const REPEATED = 1e-6;
-// A motion that doubles its period slowly is near twice its period first: parts of a period this close are one.
+// Near a period doubling, convergence is slow and the doubled period appears first: half-periods this close are equal.
 const SAME = 1e-4;
-// The second state spends most of a cycle in the air; micro-bounces of the first last a small part of it.
+// The second state spends most of a cycle in the air; the micro-bounces of the first state are much shorter.
 const LONG_FLIGHT = 0.5;
 
 /* The state of motion to which an initial condition converges within a number of excitation cycles. The motion, seen

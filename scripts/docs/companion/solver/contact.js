@@ -5,19 +5,19 @@
 
    Each step is one Taylor polynomial in s; impact, separation, slip and stick are roots of polynomials. */
 
-// What ends a contact step before its full length.
+// Events that end a contact step before its full length.
 const NOTHING = 0;
 const SEPARATION = 1;
 const FORCE_SIGN = 2;
 const END_OF_CYCLE = 3;
-// A separation is searched for behind this part of a step that begins with an impact, where w = 0 as well.
+// In a step that begins with an impact, where w = 0 as well, the search for a separation skips this part.
 const LEAVE_IMPACT = 1e-6;
 
-// Room for what is needed while a step is made only: w², w^(2p+1), the phase, and a polynomial to search.
+// Series that only the current step needs: the phase, w², w^(2p+1), products with w, and a polynomial to search.
 const rooms = Array.from({ length: 7 }, () => new Float64Array(SIZE));
 const [sines, cosines, squares, springs, sinesW, cosinesW, scratch] = rooms;
 
-/* Contact force per mass at w = √penetration and the speed of approach v (Eq. 9). */
+/* Contact force per mass at w = √penetration and the approach speed v (Eq. 9). */
 function force(c, w, v) {
   const spring = c.exponent === 1.5 ? w * w * w : Math.pow(Math.max(w, 0), 2 * c.exponent);
   return c.stiffness * spring + c.damping * v;
@@ -78,7 +78,7 @@ function expandForce(c, scale) {
 }
 
 /* Length in s at which the last two terms of the series are below the tolerance, relative to the speed of an impact
-   with the present energy, and never to less than that of the part at rest. */
+   with the present energy or to that of the part at rest, whichever is larger. */
 function stepLength(c, v, w0, v0) {
   const potential = Math.pow(w0, 2 * c.exponent + 2);
   const scale = Math.max(Math.sqrt(v0 * v0 + (2 * c.stiffness * potential) / (c.exponent + 1)), c.scaleV);
@@ -90,7 +90,7 @@ function stepLength(c, v, w0, v0) {
   if (before > 0) length = Math.pow(allowed / before, 1 / (ORDER - 1));
   if (last * length > before) length = Math.min(length, Math.pow(allowed / last, 1 / ORDER));
   if (c.edgeW > 0 && springs[0] > 0) {
-    // Behind the radius of convergence of w^(2p+1) v may still be right, but not the sign of the force.
+    // Beyond the radius of convergence of w^(2p+1), v may still be accurate, but not the sign of the force.
     const ofSpring = c.stiffness * Math.abs(springs[ORDER - 1]);
     const share = c.tolerance * (c.stiffness * springs[0] + w0 * (c.damping * Math.abs(v0) + c.gravity));
     length = Math.min(length, Math.pow(share / ofSpring, 1 / (ORDER - 1)));
@@ -136,7 +136,7 @@ function contactStep(c, w0, v0, sine0, cosine0, pulled) {
 /* The s in [0, length] of a contact step at which the time since its start is `tau`. */
 function invertTime(step, length, tau) {
   const total = value(step.t, length);
-  if (tau >= total) return length; // also a step that is too short to take time
+  if (tau >= total) return length; // also for a step that is too short to take time
   let low = 0;
   let high = length;
   let s = length * Math.max(tau / total, 0);

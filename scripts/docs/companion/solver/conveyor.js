@@ -1,6 +1,6 @@
 const TENSIONS = ["allow", "frictionless", "clip"];
 
-/* The constants of one conveyor in the form in which the equations need them, forces per mass. */
+/* The constants of one conveyor that the equations need, with forces per mass. */
 function constants(parameters, tolerance) {
   const omega = 2 * Math.PI * parameters.frequency;
   const aX = parameters.acceleration * Math.cos(parameters.angle);
@@ -33,16 +33,16 @@ function constants(parameters, tolerance) {
     tolerance,
     scaleW: Math.sqrt(depth),
     scaleV,
-    // Below this w a spring of any other power than these weighs nothing, and is switched off: see `expand`.
+    // Below this w the force of a spring of any other power is negligible, and `expand` leaves it out.
     edgeW: exponent === 1.5 || exponent === 1 ? 0 : Math.pow((tolerance * gravity) / stiffness, 0.5 / exponent),
-    // Slower impacts and separations cannot be told from rest at this tolerance, nor weaker contact forces from none.
+    // At this tolerance, slower impacts and separations count as rest, and weaker contact forces as zero.
     restSpeed: 10 * tolerance * scaleV,
     restForce: 10 * tolerance * gravity,
   };
 }
 
 /* Motion of the plate along the track at a phase θ that is given by its sine and cosine: position x = -(a_x/ω²)
-   cos(θ + ε), velocity vx, and the friction force per mass ẍ_s + g sin α that lets the part stick. */
+   cos(θ + ε), velocity vx, and the friction force per mass ẍ_s + g sin α that sticking takes. */
 function alongTrack(c, sine, cosine) {
   const shiftedSine = sine * c.cosineShift + cosine * c.sineShift;
   const shiftedCosine = cosine * c.cosineShift - sine * c.sineShift;

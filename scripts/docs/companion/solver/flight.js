@@ -9,24 +9,24 @@ function gap(c, z, vz, tau, theta) {
   ];
 }
 
-/* Time in which a part with an upward velocity falls by a height ≥ 0, without cancellation. */
+/* Time in which a part with the given upward velocity falls by a height ≥ 0, without cancellation. */
 function timeOfFall(velocity, height, gravity) {
   const root = Math.sqrt(velocity * velocity + 2 * gravity * height);
   return velocity > 0 ? (velocity + root) / gravity : (2 * height) / (root - velocity);
 }
 
-// Steps after which a search for an impact is lost, and so is a gap below zero by more than this many roundings.
+// A search for an impact fails after this many steps, or at a gap below zero by more than LOST rounding errors.
 const MAX_STEPS = 100000;
 const LOST = 1e6;
 
-/* Duration of a flight from the gap q ≥ 0 with its rate, and the speed of approach at its end; infinite if there is
-   no impact before `limit`. Above the plate's highest point nothing can be hit. Below it the parabola of the bound
-   q̈ ≥ -(g + a_z) reaches the plate before the part does: steps to its root cannot jump over an impact. */
+/* Duration of a flight from the gap q ≥ 0 with its rate, and the approach speed at its end; infinite if there is
+   no impact before `limit`. Above the plate's highest point there is no impact. Below it, the parabola of the bound
+   q̈ ≥ -(g cos α + a_z) reaches the plate before the part does, so a step to its root misses no impact. */
 function nextImpact(c, z, vz, q, rate, theta, limit) {
   const bound = c.gravity + c.aZ;
   let tau = 0;
   if (q <= 4 * EPSILON * (Math.abs(z) + c.height)) {
-    // From the plate the parabola has no room; the bound a_z ω of the third derivative and the actual q̈ do.
+    // At the plate, that parabola allows no step. The bound a_z ω of the third derivative and the actual q̈ do.
     tau = (2 * Math.max(rate, 0)) / bound;
     const jerk = c.aZ * c.omega;
     const half = -0.5 * (c.gravity + c.aZ * Math.cos(theta));
@@ -40,7 +40,7 @@ function nextImpact(c, z, vz, q, rate, theta, limit) {
   for (let k = 0; k < MAX_STEPS; k++) {
     const velocity = vz - c.gravity * tau;
     const height = z + 0.5 * (vz + velocity) * tau;
-    // What the longest way so far, up or down, has lost of its digits.
+    // Rounding error of the longest path so far, up or down.
     const lengths = Math.abs(z) + Math.abs(vz * tau) + 0.5 * c.gravity * tau * tau + c.height;
     const rounding = 4 * EPSILON * lengths;
     if (q <= rounding && rate <= 0) return { tau, speed: -rate };

@@ -4,11 +4,11 @@ const SIZE = ORDER + 2; // the last coefficient is zero, so that `search` can ta
 /* The solver cannot follow the part any further. */
 class GaveUp extends Error {}
 
-// A root that a search starts on is left behind by at least this part of the step, so that it is not found twice.
+// A search that begins at a root skips at least this part of the step, so that it does not find the root again.
 const LEAVE = 1e-6;
-// Corrections of this relative size end an iteration that converges quadratically: the next one would be its square.
+// An iteration that converges quadratically ends at corrections of this relative size.
 const CLOSE = 1e-9;
-// Values below this part of the sum of all terms have no sign that one could trust.
+// The sign of a value below this part of the sum of all terms is rounding noise.
 const NOISE = 1e-15;
 const FOUND = 0;
 const ABSENT = 1;
@@ -52,9 +52,9 @@ function rootOfCrossing(p, low, high) {
   return s;
 }
 
-/* Look for the first root in (start, end] with parabolas that lie below the polynomial: no root can be jumped over,
-   whatever the signs at the ends are. While `shortest` > 0 the search leaves a root on which it began. The answer is
-   FOUND with the root, ABSENT, or OPEN where the parabolas are too narrow to get on. */
+/* Search for the first root in (start, end] with parabolas that lie below the polynomial, so that no root is missed.
+   While `shortest` > 0, the search is still leaving the root at which it began. The answer is FOUND with the root,
+   ABSENT, or OPEN where the parabolas are too narrow to advance. */
 function search(p, start, end, shortest, noise) {
   let second = 0;
   let third = 0;
@@ -73,7 +73,7 @@ function search(p, start, end, shortest, noise) {
     const highest = Math.min(second, bend + third * left);
     if (slope >= 0 && slope + Math.min(lowest, 0) * left >= 0) return { answer: ABSENT, s: end, shortest: 0 };
     if (slope + Math.max(highest, 0) * left < 0) {
-      // Falling from here on: the sign at the end decides.
+      // The polynomial falls from here on, so its sign at the end decides.
       const low = s + shortest;
       if (low >= end || value(p, end) > (shortest > 0 ? -noise : 0)) return { answer: ABSENT, s: end, shortest: 0 };
       return { answer: FOUND, s: value(p, low) <= 0 ? low : rootOfCrossing(p, low, end), shortest: 0 };
@@ -93,7 +93,7 @@ function search(p, start, end, shortest, noise) {
   return { answer: OPEN, s, shortest };
 }
 
-/* First root in (start, end] of a polynomial that is positive just behind `start`; Infinity if there is none. */
+/* First root in (start, end] of a polynomial that is positive just after `start`; Infinity if there is none. */
 function firstRoot(p, start, end, leave) {
   let reach = 0;
   let power = end;
@@ -108,7 +108,7 @@ function firstRoot(p, start, end, leave) {
   for (let k = 0; k < 1000; k++) {
     if (answer === FOUND) return s;
     if (answer === ABSENT && s >= end) return Infinity;
-    // Bounds on a shorter piece, from the expansion about its start, are tighter.
+    // Expand about s: the bounds on a shorter piece are tighter.
     piece = Math.min(piece * (answer === ABSENT ? 2 : 0.25), end - s);
     shifted.set(p);
     for (let i = 0; i < ORDER; i++) for (let n = ORDER - 1; n >= i; n--) shifted[n] += s * shifted[n + 1];
