@@ -54,8 +54,8 @@ function drawScene() {
     context.stroke();
   }
 
-  // The path of one point of the plate: a line or an ellipse, and where the point is now.
-  const beside = centre + 0.25 * width;
+  // The path of one point of the plate, a line or an ellipse, within the view; and its present position.
+  const beside = centre + Math.max(0, Math.min(0.25 * width, 0.46 * width - run.c.speedX / run.c.omega));
   const cycle = Array.from({ length: 73 }, (_, k) => solver.plate(run.c, (k * period) / 72));
   context.strokeStyle = context.fillStyle = style("ink");
   context.lineWidth = 1.5;
