@@ -78,7 +78,7 @@ rule claims_page:
 
 rule companion:
     input:
-        [source(f"scripts/docs/companion/{name}") for name in ("page.html", "page.css", "solver.js", "page.js")],
+        sources("scripts/docs/companion/**/*.js") + sources("scripts/docs/companion/page.*"),
         maps=[table(f"sweeps/{name}") for name in config["companion"]["maps"]],
     output:
         f"{DOCS}companion.html",

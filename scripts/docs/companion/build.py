@@ -1,4 +1,4 @@
-"""The companion: one HTML file that computes the motion of the part by itself, offline."""
+"""The companion: one HTML file that computes the trajectory of a part in the browser, offline."""
 
 import base64
 import json
@@ -7,12 +7,14 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from conveyor.solver.model import PARAMETERS, RANGES
+from conveyor.parameters import PARAMETERS, RANGES, TANGENTIAL
 from figures import style
 
 HERE = Path(__file__).parent
-# What page.html is filled with; each stands there as the only comment of its name.
-PARTS = ("page.css", "solver.js", "page.js")
+# Files that go into page.html, each in place of the comment with its name.
+SOLVER = ("polynomials", "conveyor", "flight", "contact", "friction", "trajectory", "attractor", "euler")
+SCRIPTS = ("shared", "controls", "state_maps", "plots", "scene", "page")
+PARTS = ("page.css", *(f"solver/{name}.js" for name in SOLVER), *(f"{name}.js" for name in SCRIPTS))
 STATES = tuple(style.STATE_COLOURS)
 LAST = 0.25  # share of the run over which the paper takes mean velocities (Sect. 3.1)
 
@@ -65,8 +67,10 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
     """
     own = settings["companion"]
     data = {
-        "model": {name: settings["model"][name] for name in PARAMETERS if name in settings["model"]},
+        # The static friction coefficient is null where it equals the friction coefficient.
+        "model": {name: settings["model"].get(name) for name in PARAMETERS},
         "ranges": RANGES,
+        "tangential": TANGENTIAL,
         "solver": {name: settings["solver"][name] for name in ("duration", "step")},
         "tolerance": own["tolerance"],
         "cycles": own["cycles"],
