@@ -93,11 +93,13 @@ def search_numbers(shares: pd.DataFrame) -> dict[str, str]:
     }
 
 
-def rows_of(regimes: pd.DataFrame, resolution: float) -> list[list[str]]:
+def rows_of(regimes: pd.DataFrame, shares: pd.DataFrame) -> list[list[str]]:
     """The cells of the table, a row for each interval of amplitudes."""
+    unit = shares.vertical.iloc[0] / shares.acceleration.iloc[0]
     return [
         [
-            places([row.begin], [row.end], resolution),
+            places([row.begin], [row.end], shares.attrs["resolution"]),
+            numbers(row.begin, row.end, unit),
             row.regime,
             row.states,
             numbers(row.best_low, row.best_high),
@@ -112,4 +114,4 @@ def make(template: str, shares: pd.DataFrame, regimes: pd.DataFrame) -> str:
     """The page from its template and the tables of shares and regimes."""
     resolution = shares.attrs["resolution"]
     values = regular(shares, regimes) | irregular(regimes, resolution) | search_numbers(shares)
-    return render(template, values | {"rows": rows_of(regimes, resolution)})
+    return render(template, values | {"rows": rows_of(regimes, shares)})

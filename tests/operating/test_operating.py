@@ -310,4 +310,4 @@ def test_nothing_is_said_that_is_not_there(refined):
     assert "At no amplitude does every start" in page
     assert "No start of the box ends in chaos" in page
     assert "At 20.0 m/s² a motion could not be decided" in page
-    assert "| 20.0 | unknown | undecided | not known | not known | not known |" in page
+    assert "| 20.0 | 0.426 | unknown | undecided | not known | not known | not known |" in page

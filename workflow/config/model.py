@@ -484,6 +484,12 @@ class Operating(TypedDict):
     tolerance: Tolerance
 
 
+class Throws(TypedDict):
+    throw_number: span(number("throw number a_z/(g cos α)", gt=0, le=100), "throw numbers")
+    starts: whole("random initial conditions per throw number", 16, 10**6)
+    followed: whole("initial conditions per attractor whose mean velocity is computed", 2, 1000)
+
+
 NumberOfClaim = Annotated[Literal[NUMBERS_OF_CLAIMS], Field(description="quantity of a claim, as CLAIM.QUANTITY")]
 NumbersOfClaims = many(NumberOfClaim, "quantities of claims")
 
@@ -628,6 +634,7 @@ class Config(TypedDict):
     sensitivity: Annotated[Sensitivity, Field(description="derivatives of bifurcations and critical heights")]
     scaling: Annotated[Scaling, Field(description="cost of sweeps by size, threads and shards")]
     operating: Annotated[Operating, Field(description="shares of the attractors over the amplitude")]
+    throws: Annotated[Throws, Field(description="comparison with the textbook theory of throw conveyors")]
     identification: Annotated[Identification, Field(description="parameters that the paper's numbers imply")]
     figures: Annotated[dict[Name, Figure], Field(description="figures")]
     figures_on_request: Annotated[dict[Name, Figure], Field(description="figures that only an explicit target makes")]

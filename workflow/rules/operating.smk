@@ -35,6 +35,25 @@ rule regimes:
         "../../scripts/make.py"
 
 
+rule throws:
+    input:
+        examples=sources("config/examples/*.yaml"),
+    output:
+        **tables_of("operating/throws"),
+    log:
+        log_file("operating/throws"),
+    benchmark:
+        benchmark_file("operating/throws")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("operating.throws", "operating/throws"),
+    message:
+        "Motions of several conveyors over the throw number"
+    script:
+        "../../scripts/make.py"
+
+
 rule operating_chart:
     input:
         **tables_of("operating/shares", "operating/regimes"),

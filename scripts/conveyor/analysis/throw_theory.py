@@ -38,15 +38,13 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-# The parameters of the conveyor that the theory knows, besides the amplitude.
-PARAMETERS = ("angle", "frequency", "gravity", "inclination", "phase_shift")
 LONGEST_THROW = math.sqrt(1.0 + math.pi**2)  # Γ at which the flight fills the cycle
 SHORT = 5e-3  # rad, half the turn N below which its power series is free of cancellation
 HALVINGS = 60  # of [0, 1], beyond the precision of n
 
 
 def throw_number(
-    acceleration: ArrayLike, *, angle: float, gravity: float, inclination: float = 0.0, **others: float
+    acceleration: ArrayLike, *, angle: float, gravity: float, inclination: float = 0.0, **others: float | str
 ) -> np.ndarray:
     """The throw number Γ = a_z/(g cos α) at amplitudes (m/s²) of any shape; `others` do not matter."""
     return np.asarray(acceleration) * math.sin(angle) / (gravity * math.cos(inclination))
@@ -82,10 +80,11 @@ def mean_velocity(
     gravity: float,
     inclination: float = 0.0,
     phase_shift: float = 0.0,
+    **others: float | str,
 ) -> np.ndarray:
-    """Mean feeding velocity (m/s) at amplitudes (m/s²) of any shape.
+    """Mean feeding velocity (m/s) at amplitudes (m/s²) of any shape; `others` do not matter.
 
-    0 without a throw, NaN where the flight fills the cycle.
+    0 without a throw, NaN where the flight is longer than a cycle.
 
     Examples
     --------
