@@ -17,7 +17,7 @@ COLUMNS = ("mean_velocity", "z_end", "vz_end", "x_end", "vx_end", "max_gap", "im
 
 
 def follow_by_events(parameters, durations, tolerance, feeding, out):
-    """Fill `out`, shape (9, n), for `parameters`, shape (n, 13), and `durations` (s), by events."""
+    """Fill `out`, shape (9, n), for `parameters`, shape (n, 16), and `durations` (s), by events."""
     if feeding:
         times = np.column_stack([(1.0 - LAST) * durations, durations])
         samples, results = trajectory.integrate(parameters, times, tolerance=tolerance)
@@ -35,7 +35,7 @@ def follow_by_events(parameters, durations, tolerance, feeding, out):
 
 
 def follow_by_steps(parameters, duration, step, method, out):
-    """Fill `out`, shape (9, n), for `parameters`, shape (n, 13), with a fixed-step method."""
+    """Fill `out`, shape (9, n), for `parameters`, shape (n, 16), with a fixed-step method."""
     count = fixed_step.step_count(duration, step)
     first = min(round((1.0 - LAST) * count), count - 1)
     n = parameters.shape[0]
@@ -83,7 +83,7 @@ def run(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13), rows as from model.pack
+    parameters : float64, shape (n, 16), rows as from model.pack
     duration, method, tolerance, step : as in simulation.simulate
     needs : "feeding", or "vertical" where nothing horizontal is wanted (event-driven method: its columns are NaN)
     threads, chunk : how the work is shared; the result does not depend on them

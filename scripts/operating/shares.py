@@ -51,7 +51,7 @@ def starts_of_box(settings: dict) -> np.ndarray:
 
 
 def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:
-    """Packed parameters of all starts, shape (n, 3), at each of m amplitudes, shape (m n, 13)."""
+    """Packed parameters of all starts, shape (n, 3), at each of m amplitudes, shape (m n, 16)."""
     _, conveyors = grid.product({"acceleration": list(amplitudes)}, model)
     rows = np.repeat(conveyors, len(starts), axis=0)
     height, velocity, phase = np.tile(starts, (len(amplitudes), 1)).T
@@ -106,7 +106,7 @@ def velocities(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13)
+    parameters : float64, shape (n, 16)
     period : of the motion in excitation cycles, 0 for none
     settled : excitation cycles after which the vertical motion has settled
     """

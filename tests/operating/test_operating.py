@@ -25,7 +25,7 @@ BOX = {
 def test_heights_are_above_the_plate_at_the_phase_of_the_start():
     starts = np.array([[1e-4, 0.1, 0.0], [0.0, -0.2, 1.0], [3e-4, 0.0, 4.0]])
     rows = shares.parameters_of(np.array([30.0, 50.0]), starts, {"angle": 0.3})
-    assert rows.shape == (6, 13)
+    assert rows.shape == (6, 16)
     for row, acceleration, (height, velocity, phase) in zip(
         rows, np.repeat([30.0, 50.0], 3), np.tile(starts, (2, 1)), strict=True
     ):

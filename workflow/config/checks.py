@@ -74,6 +74,36 @@ def axes(config: dict, defaults: dict) -> Iterator[str]:
         yield f"operating.starts makes {starts:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
 
 
+def models(config: dict) -> Iterator[tuple[str, list, list]]:
+    """All models with a static friction of their own: the key, the values of friction and of static_friction."""
+    base = config["model"]
+    own = {"model": base}
+    for section in ENTRIES:
+        for name, entry in config[section].items():
+            axes = {key: ends(axis) for key, axis in entry.get("axes", {}).items()}
+            own[f"{section}.{name}"] = base | entry.get("model", {}) | axes
+    own |= {
+        f"benchmark.cases.{name}.model": base | case["model"] for name, case in config["benchmark"]["cases"].items()
+    }
+    own |= {f"companion.presets.{name}": base | preset for name, preset in config["companion"]["presets"].items()}
+    own |= {f"identification.told.{name}": base | told for name, told in config["identification"]["told"].items()}
+    for key, model in own.items():
+        if "static_friction" in model:
+            frictions, statics = (
+                value if isinstance(value, list) else [value] for value in (model["friction"], model["static_friction"])
+            )
+            yield key, frictions, statics
+
+
+def friction(config: dict, defaults: dict) -> Iterator[str]:
+    for key, frictions, statics in models(config):
+        if min(statics) < max(frictions):
+            yield (
+                f"{key} has static_friction = {min(statics)!r} below friction = {max(frictions)!r}; give a larger "
+                "static_friction, or leave it out to make both equal"
+            )
+
+
 def sweeps(config: dict, defaults: dict) -> Iterator[str]:
     limit = config["sharing"]["core_hours"]
     for name, entry in config["sweeps"].items():
@@ -297,7 +327,7 @@ def tighter_names(config: dict) -> Iterator[str]:
 
 
 CHECKS = (
-    *(prefix, methods, axes, sweeps, steps, perturbations, critical, times, orbits, dimensions),
+    *(prefix, methods, axes, friction, sweeps, steps, perturbations, critical, times, orbits, dimensions),
     *(unknown_references, figures, unused_keys, identification),
 )
 

@@ -74,7 +74,7 @@ def fill_defaults(config: dict, section: str, entry: dict) -> dict:
         filled["settling"] = config["solver"]["settling"]
     filled["model"] = {**config["model"], **entry.get("model", {})}
     for axis in entry.get("axes", ()):
-        del filled["model"][axis]
+        filled["model"].pop(axis, None)
     del filled["step" if filled["method"] == "event" else "tolerance"]
     return filled
 

@@ -11,6 +11,7 @@ from scripts.identification.settings import NUMBERS_OF_CLAIMS
 from .types import (
     AXIS_TYPES,
     LONGEST_NAME,
+    MODEL_KEYS,
     MODEL_TYPES,
     MOST_POINTS,
     NAME,
@@ -605,7 +606,7 @@ class Config(TypedDict):
         f"(|{NAME})",
         f"a folder name of at most {LONGEST_NAME} letters, digits, - and _, or nothing",
     )
-    model: mapping("the conveyor and the part", MODEL_TYPES)
+    model: mapping("the conveyor and the part", MODEL_KEYS)
     solver: Annotated[Solver, Field(description="default settings of all trajectories")]
     sharing: Annotated[Sharing, Field(description="division of sweeps into jobs")]
     sweeps: Annotated[dict[Name, Sweep], Field(description="trajectories for all combinations of axes")]

@@ -276,7 +276,7 @@ def integrate(parameters, step, n_steps, sample_indices, samples, events, result
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13), rows packed as in `model.PARAMETERS`
+    parameters : float64, shape (n, 16), rows packed as in `model.PARAMETERS`
     step : Δt, s
     n_steps : number of steps
     sample_indices : int64, shape (k,), ascending step numbers in [0, n_steps] to be sampled

@@ -105,7 +105,7 @@ def fill_phases(phases, first, step, omega, psi0, method):
 def integrate(parameters, step, n_steps, method, sample_indices, samples, events, results):
     """Follow n trajectories over plates that share their phase; the rest as in `integrate_all`.
 
-    parameters : float64, shape (n, 13), of one frequency and ψ0
+    parameters : float64, shape (n, 16), of one frequency and ψ0
     method : the code of one of METHODS, not EULER
     """
     if not EULER < method <= LAST_CODE:
@@ -255,7 +255,7 @@ def step_count(duration: float, step: float) -> int:
 
 
 def _integrate(parameters, step, n_steps, method, indices=(), n_events=0):
-    """Follow trajectories, shape (n, 13): their results as lists, samples (NaN where none was reached) and events."""
+    """Follow trajectories, shape (n, 16): their results as lists, samples (NaN where none was reached) and events."""
     if method not in METHODS:
         raise ValueError(f"method = {method!r} is not one of {', '.join(METHODS)}")
     indices = np.asarray(indices, dtype=np.int64)
@@ -268,7 +268,7 @@ def _integrate(parameters, step, n_steps, method, indices=(), n_events=0):
 
 
 def run(parameters: np.ndarray, duration: float, step: float, method: str = "euler", last: float = 0.25) -> Summary:
-    """Integrate one trajectory from t = 0, packed as by `model.pack`, shape (13,); the rest as in `run_all`."""
+    """Integrate one trajectory from t = 0, packed as by `model.pack`, shape (16,); the rest as in `run_all`."""
     return run_all(parameters[np.newaxis], duration, step, method, last)[0]
 
 
@@ -279,7 +279,7 @@ def run_all(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13), rows from `model.pack`
+    parameters : float64, shape (n, 16), rows from `model.pack`
     duration : s, a whole number of steps
     step : Δt, s
     method : one of METHODS
@@ -310,7 +310,7 @@ def sample(parameters: np.ndarray, times: np.ndarray, step: float, method: str =
 
     Parameters
     ----------
-    parameters : float64, shape (13,), from `model.pack`
+    parameters : float64, shape (16,), from `model.pack`
     times : s, not negative, any shape and order
     step : Δt, s
     method : one of METHODS

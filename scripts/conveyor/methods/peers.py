@@ -277,7 +277,7 @@ def run(
 
     Parameters
     ----------
-    parameters : float64, shape (13,), from `model.pack`
+    parameters : float64, shape (16,), from `model.pack`
     duration : s
     integrator : one of INTEGRATORS, methods of scipy's solve_ivp but the last one
     treatment : one of TREATMENTS; heyoka knows "modes" only

@@ -190,7 +190,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
 
     Parameters
     ----------
-    parameters : float64, shape (13,), packed as in `model.PARAMETERS`; a start below the plate is one on the plate
+    parameters : float64, shape (16,), packed as in `model.PARAMETERS`; a start below the plate is one on the plate
     speeds, coefficients : float64, shape (k,), ascending speeds of approach (m/s), their coefficients of restitution
     times : float64, shape (n,), s, ascending
     samples : float64, shape (n, 4), filled in the order of SAMPLE_COLUMNS (m, m/s)
@@ -380,7 +380,7 @@ def run(parameters: np.ndarray, duration: float, restitution, last: float = 0.25
 
     Parameters
     ----------
-    parameters : float64, shape (13,), from `model.pack`; stiffness, damping, mass, exponent and tension have no effect
+    parameters : float64, shape (16,), from `model.pack`; stiffness, damping, mass, exponent and tension have no effect
     duration : s
     restitution : coefficient of restitution in [0, 1], or a pair of arrays (speeds of approach in m/s, coefficients)
     last : share of the run, in (0, 1], over which the mean velocity is taken

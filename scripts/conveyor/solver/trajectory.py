@@ -83,7 +83,7 @@ def integrate(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13), see model.PARAMETERS
+    parameters : float64, shape (n, 16), see model.PARAMETERS
     times : float64, shape (n, k), s, ascending, ≥ 0; a run ends at its last one
     tolerance : relative error per step of the contact
     feeding : whether the horizontal motion is wanted; without it its columns are NaN
@@ -156,7 +156,7 @@ def next_cycle(c, motion, piece):
 
 @spliced
 def follow_part(parameters, options, record, result, kept):
-    """Follow the part of a row of `parameters`, shape (13,); fill its Record and `result`, shape (7,)."""
+    """Follow the part of a row of `parameters`, shape (16,); fill its Record and `result`, shape (7,)."""
     memory.clear(kept)
     c = contact.constants(parameters, options.tolerance)
     most = patience(c)

@@ -62,7 +62,7 @@ def begin_cycle(c, run, steps, lane):
 
 @spliced
 def load(c, parameters, duration, run, steps, lane, kept):
-    """The Motion at the beginning of a trajectory, shape (13,), that comes into a lane."""
+    """The Motion at the beginning of a trajectory, shape (16,), that comes into a lane."""
     memory.forget(kept)
     enter(steps, lane, c, ANY)
     q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)

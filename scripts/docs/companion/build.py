@@ -65,7 +65,7 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
     """
     own = settings["companion"]
     data = {
-        "model": {name: settings["model"][name] for name in PARAMETERS},
+        "model": {name: settings["model"][name] for name in PARAMETERS if name in settings["model"]},
         "ranges": RANGES,
         "solver": {name: settings["solver"][name] for name in ("duration", "step")},
         "tolerance": own["tolerance"],
