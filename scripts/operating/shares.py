@@ -12,7 +12,7 @@ import pandas as pd
 from conveyor.analysis.attractors.labels import Labels
 from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
-from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, GRAVITY, PSI0, VZ0, Z0
+from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, GRAVITY, INCLINATION, PSI0, VZ0, Z0
 from conveyor.solver.parallel import for_each_chunk
 from operating.regimes import regimes_of
 from pipeline import fields, grid
@@ -170,10 +170,11 @@ def motions_at(
             error[row] = each[own].std(ddof=1) / math.sqrt(sizes[row]) if sizes[row] > 1 else np.nan
     share = count / len(starts)
     acceleration = parameters[first, ACCELERATION]
+    gravity = parameters[first, GRAVITY] * np.cos(parameters[first, INCLINATION])
     table = pd.DataFrame(
         {
             "acceleration": acceleration,
-            "vertical": acceleration * np.sin(parameters[first, ANGLE]) / parameters[first, GRAVITY],
+            "vertical": acceleration * np.sin(parameters[first, ANGLE]) / gravity,
             "state": found.state[first],
             "period": found.period[first],
             "longest_flight": found.longest_flight[first],

@@ -1,8 +1,10 @@
 """The motions of several conveyors over the throw number, to compare them with the textbook theory.
 
-The conveyors are that of the config and the examples. At equal throw number, initial heights fill the same box in units
-of g/ω², and velocities in g/ω.
+The conveyors are that of the config and those of the examples. Initial heights fill the same box in units of g cos α/ω²
+(initial velocities: g cos α/ω).
 """
+
+import math
 
 import numpy as np
 import pandas as pd
@@ -23,9 +25,15 @@ TABLES = {
 
 def settings_of_conveyor(settings: dict, model: dict) -> dict:
     """The settings of `shares` for a conveyor whose parameters differ from those of the config by `model`."""
-    own = settings["model"] | model
-    ratio = settings["model"]["frequency"] / own["frequency"]
-    box = {"height": [ratio**2 * end for end in settings["height"]], "vz0": [ratio * end for end in settings["vz0"]]}
+    base = settings["model"]
+    own = base | model
+    gravity = own["gravity"] * math.cos(own["inclination"]) / (base["gravity"] * math.cos(base["inclination"]))
+    period = base["frequency"] / own["frequency"]
+    speed = gravity * period
+    box = {
+        "height": [speed * period * end for end in settings["height"]],
+        "vz0": [speed * end for end in settings["vz0"]],
+    }
     return {**settings, **box, "model": own}
 
 

@@ -5,12 +5,13 @@ import math
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
 from project import ROOT, read_config
 
 from conveyor import Start, ensemble, simulate
 from conveyor.analysis.attractors.labels import Labels, classify
-from conveyor.solver.model import Conveyor, conveyor_motion, pack
-from operating import chart, regimes, shares
+from conveyor.solver.model import PSI0, VZ0, Z0, Conveyor, conveyor_motion, pack
+from operating import chart, regimes, shares, throws
 from pipeline.motions import motions
 
 BOX = {
@@ -30,8 +31,8 @@ def test_heights_are_above_the_plate_at_the_phase_of_the_start():
         rows, np.repeat([30.0, 50.0], 3), np.tile(starts, (2, 1)), strict=True
     ):
         plate = conveyor_motion(Conveyor(acceleration=acceleration, angle=0.3, psi0=phase), np.zeros(1))["z"][0]
-        assert row[11] - plate == pytest.approx(height, abs=1e-15)
-        assert (row[12], row[3]) == (velocity, phase)
+        assert row[Z0] - plate == pytest.approx(height, abs=1e-15)
+        assert (row[VZ0], row[PSI0]) == (velocity, phase)
 
 
 def test_starts_fill_the_box_and_follow_the_seed():
@@ -311,3 +312,24 @@ def test_nothing_is_said_that_is_not_there(refined):
     assert "No start of the box ends in chaos" in page
     assert "At 20.0 m/s² a motion could not be decided" in page
     assert "| 20.0 | 0.426 | unknown | undecided | not known | not known | not known |" in page
+
+
+def test_conveyors_with_equal_groups_have_equal_motions_over_the_throw_number():
+    """An example that is the config's conveyor in other units of length and time, on a climbing track."""
+    gravity, frequency = math.cos(0.4), 2.0
+    paper, unit = Conveyor(), math.cos(0.4) / 4.0
+    example = {
+        "inclination": 0.4,
+        "frequency": frequency * paper.frequency,
+        "damping": frequency * paper.damping,
+        "stiffness": gravity / unit**paper.exponent * paper.stiffness,
+    }
+    settings = {**BOX, "throw_number": {"start": 0.5, "stop": 1.1, "num": 3}, "starts": 32}
+    settings["model"] = {name: getattr(paper, name) for name in ("frequency", "gravity", "inclination", "angle")}
+    found = throws.make([yaml.safe_dump({"prefix": "other", "model": example})], settings)
+    one, other = (found[found.conveyor == name].sort_values(["vertical", "starts"]) for name in ("paper", "other"))
+    assert one.vertical.unique() == pytest.approx([0.5, 0.8, 1.1])
+    assert other.vertical.tolist() == pytest.approx(one.vertical.tolist())
+    for name in ("state", "period", "starts"):
+        assert one[name].tolist() == other[name].tolist()
+    assert ((one.textbook > 0.0) == (one.vertical > 1.0)).all()
