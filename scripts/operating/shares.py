@@ -21,9 +21,7 @@ from pipeline.motions import motions_of_starts
 TABLES = {
     "shares": (
         fields.number("acceleration", "m/s²", "amplitude of the excitation"),
-        fields.number(
-            "vertical", "1", "throw number Γ: largest acceleration of the plate across the track, in g cos α"
-        ),
+        fields.number("vertical", "1", "throw number Γ: largest acceleration of the plate across the track, in g cos α"),
         fields.count("motion", "number of the motion at this amplitude, the fastest one first"),
         *fields.STATE,
         fields.number("longest_flight", "1", "of the motion, in excitation cycles; null for none"),
@@ -170,11 +168,11 @@ def motions_at(
             error[row] = each[own].std(ddof=1) / math.sqrt(sizes[row]) if sizes[row] > 1 else np.nan
     share = count / len(starts)
     acceleration = parameters[first, ACCELERATION]
-    gravity = parameters[first, GRAVITY] * np.cos(parameters[first, INCLINATION])
+    normal_gravity = parameters[first, GRAVITY] * np.cos(parameters[first, INCLINATION])
     table = pd.DataFrame(
         {
             "acceleration": acceleration,
-            "vertical": acceleration * np.sin(parameters[first, ANGLE]) / gravity,
+            "vertical": acceleration * np.sin(parameters[first, ANGLE]) / normal_gravity,
             "state": found.state[first],
             "period": found.period[first],
             "longest_flight": found.longest_flight[first],

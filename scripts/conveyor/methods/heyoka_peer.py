@@ -37,7 +37,7 @@ def quantities(state: tuple) -> tuple[dict[str, Any], Any, Any, Any, Any]:
 
     Returns
     -------
-    p, gap, rate, slip, pull : the parameters by their names; gap (m), its rate (m/s), velocity of the plate along x
+    p, gap, rate, slip, forward : the parameters by their names; gap (m), its rate (m/s), velocity of the plate along x
         against the part (m/s) and acceleration of the plate along x (m/s²)
     """
     import heyoka as hy
@@ -49,7 +49,8 @@ def quantities(state: tuple) -> tuple[dict[str, Any], Any, Any, Any, Any]:
     a_x, a_z = p["acceleration"] * hy.cos(p["angle"]), p["acceleration"] * hy.sin(p["angle"])
     gap = z + a_z / omega**2 * hy.cos(phase)
     rate = vz - a_z / omega * hy.sin(phase)
-    return p, gap, rate, a_x / omega * hy.sin(phase) - vx, a_x * hy.cos(phase)
+    along = phase + p["phase_shift"]
+    return p, gap, rate, a_x / omega * hy.sin(along) - vx, a_x * hy.cos(along)
 
 
 @lru_cache(maxsize=64)
@@ -59,7 +60,7 @@ def systems(exponent: float, tolerance: float) -> dict[str, Any]:
 
     state = hy.make_vars("x", "vx", "z", "vz")
     x, vx, z, vz = state
-    p, gap, rate, slip, pull = quantities(state)
+    p, gap, rate, slip, forward = quantities(state)
     push = spring_and_damper(p["stiffness"], (-gap) ** exponent, p["damping"], rate) / p["mass"]
     rub = p["friction"] * push
     up, down = hy.event_direction.positive, hy.event_direction.negative
@@ -72,12 +73,13 @@ def systems(exponent: float, tolerance: float) -> dict[str, Any]:
             t_events=[hy.t_event(function, direction=direction) for function, direction in ends],
         )
 
-    pressed = push - p["gravity"]
+    normal, downhill = p["gravity"] * hy.cos(p["inclination"]), p["gravity"] * hy.sin(p["inclination"])
+    pressed, held, pull = push - normal, p["static_friction"] * push, forward + downhill
     return {
-        FLIGHT: system(0.0 * x, -p["gravity"], (gap, down)),
-        FORWARD: system(rub, pressed, (gap, up), (slip, down)),
-        BACKWARD: system(-rub, pressed, (gap, up), (slip, up)),
-        STICK: system(pull, pressed, (gap, up), (rub - pull, down), (rub + pull, down)),
+        FLIGHT: system(0.0 * x - downhill, -normal, (gap, down)),
+        FORWARD: system(rub - downhill, pressed, (gap, up), (slip, down)),
+        BACKWARD: system(-rub - downhill, pressed, (gap, up), (slip, up)),
+        STICK: system(forward, pressed, (gap, up), (held - pull, down), (held + pull, down)),
     }
 
 

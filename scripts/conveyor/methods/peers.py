@@ -57,8 +57,20 @@ def plate_motion(parameters, t):
     phase = omega * t + parameters[model.PSI0]
     a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
     a_x = parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE])
-    sine, cosine = math.sin(phase), math.cos(phase)
-    return -a_z / omega**2 * cosine, a_z / omega * sine, a_x / omega * sine, a_x * cosine
+    along = phase + parameters[model.PHASE_SHIFT]
+    return (
+        -a_z / omega**2 * math.cos(phase),
+        a_z / omega * math.sin(phase),
+        a_x / omega * math.sin(along),
+        a_x * math.cos(along),
+    )
+
+
+@kernel
+def gravity_of(parameters):
+    """The components of gravity normal to the track and down along it, m/s²."""
+    gravity, inclination = parameters[model.GRAVITY], parameters[model.INCLINATION]
+    return gravity * math.cos(inclination), gravity * math.sin(inclination)
 
 
 @kernel
@@ -85,8 +97,9 @@ def rates(t, state, parameters, mode):
     if mode == FLIGHT or (mode == SIGN and gap > 0.0):
         push = 0.0
     _, _, vx, ax = plate_motion(parameters, t)
+    normal, downhill = gravity_of(parameters)
     if mode == STICK:
-        rub = ax
+        forward = ax
     else:
         slip = vx - state[1]
         if mode == FORWARD:
@@ -94,7 +107,8 @@ def rates(t, state, parameters, mode):
         elif mode == BACKWARD:
             slip = -1.0
         rub = friction_acceleration(push, slip, parameters[model.FRICTION], parameters[model.TENSION])
-    return np.array([state[1], rub, state[3], push - parameters[model.GRAVITY]])
+        forward = rub - downhill
+    return np.array([state[1], forward, state[3], push - normal])
 
 
 @kernel
@@ -110,10 +124,16 @@ def slip_of(t, state, parameters):
 
 
 @kernel
+def pull_of(parameters, t):
+    """What a part that sticks needs from friction, m/s²."""
+    return plate_motion(parameters, t)[3] + gravity_of(parameters)[1]
+
+
+@kernel
 def grip_of(t, state, parameters):
-    """What friction can hold beyond what the plate asks of a part that sticks, m/s²."""
+    """What friction can hold beyond what a part that sticks needs, m/s²."""
     _, push = normal_force(parameters, t, state)
-    return parameters[model.FRICTION] * push - abs(plate_motion(parameters, t)[3])
+    return parameters[model.STATIC_FRICTION] * push - abs(pull_of(parameters, t))
 
 
 # The event functions that end each mode, and the direction of their zeros.
@@ -128,13 +148,13 @@ ENDS: dict[int, tuple[tuple[Callable, float], ...]] = {
 
 def next_mode(parameters: np.ndarray, t: float, state: np.ndarray, ended: Callable | None, mode: int) -> int:
     """The mode that follows `mode` after the event `ended`; None for both at the start."""
-    z, _, vx, ax = plate_motion(parameters, t)
+    z, _, vx, _ = plate_motion(parameters, t)
     if state[2] > z if ended is None else ended is gap_of and mode != FLIGHT:
         return FLIGHT
     slips = ended not in (slip_of, grip_of) and state[1] != vx
     if not slips and ended is not grip_of and grip_of(t, state, parameters) >= 0.0:
         return STICK
-    return FORWARD if (vx - state[1] if slips else ax) > 0.0 else BACKWARD
+    return FORWARD if (vx - state[1] if slips else pull_of(parameters, t)) > 0.0 else BACKWARD
 
 
 def put_beside(

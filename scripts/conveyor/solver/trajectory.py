@@ -30,6 +30,7 @@ from .horizontal import (
     Z,
     feed,
     note,
+    slid,
     slip_direction,
 )
 from .jit import borrowed, inlined, kernel, spliced
@@ -129,7 +130,7 @@ def follow(parameters, options, records, results, room):
 @spliced
 def sample_flight(c, motion, horizontal, tau, sample):
     """Fill a `sample`, shape (6,), at the time tau (s) of a flight."""
-    sample[X], sample[VX] = horizontal.x + horizontal.vx * tau, horizontal.vx
+    sample[X], sample[VX] = slid(c, horizontal.x, horizontal.vx, tau)
     sample[Z], sample[VZ] = motion.z + (motion.vz - 0.5 * c.gravity * tau) * tau, motion.vz - c.gravity * tau
     sample[CONTACT_FORCE] = sample[FRICTION_FORCE] = 0.0
 
@@ -170,7 +171,7 @@ def follow_part(parameters, options, record, result, kept):
     horizontal = Horizontal(0.0, 0.0, 0.0)
     if motion.touching:
         force = contact.force(c, motion.w, motion.v)
-        horizontal = Horizontal(0.0, 0.0, slip_direction(c, motion.sine, motion.cosine, 0.0, force, c.friction))
+        horizontal = Horizontal(0.0, 0.0, slip_direction(c, motion.sine, motion.cosine, 0.0, force, c.static_friction))
     sampled = events = impacts = steps = repeats = pieces = lone = place = 0
     contact_time = 0.0
     max_gap = max(q, 0.0)
@@ -220,8 +221,8 @@ def follow_part(parameters, options, record, result, kept):
                 status = TOO_MANY_EVENTS
                 break
         if piece.kind != CONTACT:
-            x, vx, sigma = horizontal
-            horizontal = Horizontal(x + vx * piece.duration, vx, sigma)
+            x, vx = slid(c, horizontal.x, horizontal.vx, piece.duration)
+            horizontal = Horizontal(x, vx, horizontal.sigma)
         pulled = motion.pulled
         motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
         if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
@@ -237,7 +238,7 @@ def follow_part(parameters, options, record, result, kept):
         if piece.kind == FLIGHT and options.feeding:
             x, vx, _ = horizontal
             force = contact.force(c, motion.w, motion.v)
-            sigma = slip_direction(c, motion.sine, motion.cosine, vx, force, c.friction)
+            sigma = slip_direction(c, motion.sine, motion.cosine, vx, force, c.static_friction)
             horizontal = Horizontal(x, vx, sigma)
     if not options.feeding:
         samples[:, X] = samples[:, VX] = samples[:, FRICTION_FORCE] = np.nan
