@@ -13,12 +13,11 @@ from conveyor import ensemble
 from conveyor.analysis import throw_theory
 from conveyor.analysis.attractors.labels import Labels, continued
 from conveyor.solver.model import FREQUENCY, VZ0
-from operating.regimes import ONE, SEVERAL, best_of, regimes_of
+from operating.regimes import CERTAIN, FAST, ONE, SEVERAL, best_of, regimes_of
 from operating.shares import APART, FORGOTTEN, motions_at, parameters_of, starts_of_box
 from pipeline import fields
 from pipeline.motions import motions_of_starts
 
-CERTAIN, FAST = AIMS = ("certain", "fast")
 AIM = fields.text("aim", f"{CERTAIN}: one velocity for all starts, {FAST}: largest velocity times share, without chaos")
 TABLES = {
     "advice": (
@@ -106,13 +105,21 @@ def mean_over_starts(table: pd.DataFrame) -> float:
     return float((table.share * table.mean_velocity).sum(skipna=False))
 
 
+def with_parameter(model: dict, parameter: str, value: float) -> dict:
+    """A model with another value of one parameter; the static friction is not left below the friction."""
+    changed = {**model, parameter: value}
+    if "static_friction" in model:
+        changed["static_friction"] = max(changed["static_friction"], changed["friction"])
+    return changed
+
+
 def changes_at(acceleration: float, settings: dict, changes: dict[str, float], *, threads: int = 1) -> list[dict]:
     """What the starts end in if one parameter at a time is increased or decreased."""
     before = mean_over_starts(motions_at(np.array([acceleration]), settings, threads=threads))
     rows = []
     for parameter, change in changes.items():
         for value in (settings["model"][parameter] - change, settings["model"][parameter] + change):
-            changed = {**settings, "model": {**settings["model"], parameter: value}}
+            changed = {**settings, "model": with_parameter(settings["model"], parameter, value)}
             table = motions_at(np.array([acceleration]), changed, threads=threads)
             _, (regime,) = regimes_of(table, settings["same_velocity"])
             after = mean_over_starts(table)

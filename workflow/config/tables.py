@@ -143,6 +143,8 @@ TABLES = {
     "sensitivity/meetings": curves_settings,
     "operating/shares": operating_settings,
     "operating/regimes": lambda config: None,  # made from other tables only
+    "operating/advice": itemgetter("advice"),
+    "operating/changes": itemgetter("advice"),
     "operating/throws": throws_settings,
     **{f"identification/{name}": partial(of_identification, name) for name in IDENTIFICATION},
     "results/claims": lambda config: {"claims": config["claims"]},
