@@ -46,6 +46,8 @@ class Runs(NamedTuple):
     max_gap: np.ndarray  # m, largest distance between part and plate
     impacts: np.ndarray  # int64
     contact_fraction: np.ndarray  # share of the duration with a contact force
+    impact_speed: np.ndarray  # m/s, largest speed of approach at an impact over the last quarter; 0 if there is none
+    peak_force: np.ndarray  # N, largest contact force over the last quarter; 0 if there is none
     status: np.ndarray  # str, "ok", or why the run ended early
 
 
