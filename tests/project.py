@@ -40,6 +40,8 @@ SINGLE = (
     "archive",
     "sensitivity",
     "operating",
+    "throws",
+    "advice",
     "identification",
 )
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}

@@ -11,12 +11,14 @@ from accuracy.stability import VELOCITY
 from claims.about_chaos import positive_onset
 from claims.about_states import runs_of, second_from_rest, written_runs
 from claims.finding import lowest
+from figures.plots.throw import proved_fold
 from identification import findings
 from operating.chart import search_numbers
 from pipeline.templates import render
 
 MM = 1e3
 SMALL_ELASTICITY = 1e-3  # errors of smaller ones are told by no relative number
+TEXTBOOK_AGREES = 0.1  # relative difference up to which the caption says that the textbook velocity is right
 SIGNIFICANT = 3.0  # standard errors by which an exponent is positive
 
 
@@ -211,6 +213,22 @@ def box_numbers(*, shares: pd.DataFrame) -> dict[str, str]:
     return search_numbers(shares) | {"largest_error": f"{100.0 * shares.stderr.max():.1f}"}
 
 
+def throw(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> dict[str, str]:
+    jumps = throws[(throws.state == "second") & (throws.vertical < 1.0)].groupby("conveyor", sort=False).vertical.min()
+    most = throws.loc[throws.groupby(["conveyor", "vertical"], sort=False).share.idxmax()]
+    most = most[(most.vertical > 1.0) & most.textbook.notna()]
+    close = (most.mean_velocity - most.textbook).abs() <= TEXTBOOK_AGREES * most.textbook
+    agree = close.groupby(most.conveyor, sort=False).agg(["sum", "count"])
+    fold = proved_fold(throws, bifurcations)
+    return {
+        "starts": str(throws.attrs["starts"]),
+        "jumps": ", ".join(f"{throw:.2f} ({name})" for name, throw in jumps.items()),
+        "fold": "" if np.isnan(fold) else f"{fold:.3f}",
+        "within": f"{100.0 * TEXTBOOK_AGREES:g}",
+        "agree": ", ".join(f"{right} of {all_} ({name})" for name, right, all_ in agree.itertuples()),
+    }
+
+
 def identification(
     *, front: pd.DataFrame, profiles: pd.DataFrame, frictions: pd.DataFrame, generations: pd.DataFrame
 ) -> dict[str, str]:
@@ -248,6 +266,7 @@ NUMBERS: dict[str, Callable[..., dict[str, str]]] = {
     "scaling": scaling,
     "settling": settling,
     "stability": stability_maps,
+    "throw": throw,
 }
 
 

@@ -12,6 +12,8 @@ ONE, SEVERAL, BESIDE, CHAOS, UNKNOWN = REGIMES = (
     "chaos only",
     "unknown",
 )
+# What a recommended amplitude aims at, see `advice`.
+CERTAIN, FAST = AIMS = ("certain", "fast")
 
 TABLES = {
     "regimes": (

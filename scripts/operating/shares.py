@@ -21,7 +21,7 @@ from pipeline.motions import motions_of_starts
 TABLES = {
     "shares": (
         fields.number("acceleration", "m/s²", "amplitude of the excitation"),
-        fields.number("vertical", "1", "largest vertical acceleration of the plate, in g"),
+        fields.number("vertical", "1", "throw number Γ: largest acceleration of the plate normal to it, in g cos α"),
         fields.count("motion", "number of the motion at this amplitude, the fastest one first"),
         *fields.STATE,
         fields.number("longest_flight", "1", "of the motion, in excitation cycles; null for none"),

@@ -5,7 +5,7 @@ from typing import Annotated, Literal, NotRequired
 from pydantic import AfterValidator, ConfigDict, Field, Strict, TypeAdapter
 from typing_extensions import TypedDict
 
-from scripts.conveyor.parameters import DESCRIPTIONS, FIXED_STEP_METHODS
+from scripts.conveyor.parameters import DESCRIPTIONS, FIXED_STEP_METHODS, UNITS
 from scripts.identification.settings import NUMBERS_OF_CLAIMS
 
 from .types import (
@@ -485,6 +485,27 @@ class Operating(TypedDict):
     tolerance: Tolerance
 
 
+class Advice(TypedDict):
+    margin: number("relative error of the amplitude within which the advice must hold", gt=0, lt=1)
+    phases: whole("phases of the motion at which its velocity is changed", 1, 1000)
+    smallest_kick: number("smallest velocity change, in parts of the largest initial velocity", gt=0, lt=1)
+    kicks: whole("sizes of velocity changes that are tried in both directions", 2, 10**4)
+    changes: mapping(
+        "changes of single parameters, up and down",
+        {
+            name: number(f"change of {name}", UNITS[name], gt=0)
+            for name in ("angle", "frequency", "friction", "inclination", "phase_shift")
+        },
+    )
+    part_length: NotRequired[number("length of a part in the feeding direction", "m", gt=0, le=10)]
+
+
+class Throws(TypedDict):
+    throw_number: span(number("throw number a_z/(g cos α)", gt=0, le=100), "throw numbers")
+    starts: whole("random initial conditions per throw number", 16, 10**6)
+    followed: whole("initial conditions per attractor whose mean velocity is computed", 2, 1000)
+
+
 NumberOfClaim = Annotated[Literal[NUMBERS_OF_CLAIMS], Field(description="quantity of a claim, as CLAIM.QUANTITY")]
 NumbersOfClaims = many(NumberOfClaim, "quantities of claims")
 
@@ -629,6 +650,8 @@ class Config(TypedDict):
     sensitivity: Annotated[Sensitivity, Field(description="derivatives of bifurcations and critical heights")]
     scaling: Annotated[Scaling, Field(description="cost of sweeps by size, threads and shards")]
     operating: Annotated[Operating, Field(description="shares of the attractors over the amplitude")]
+    advice: Annotated[Advice, Field(description="advice on where to run the conveyor")]
+    throws: Annotated[Throws, Field(description="comparison with the textbook theory of throw conveyors")]
     identification: Annotated[Identification, Field(description="parameters that the paper's numbers imply")]
     figures: Annotated[dict[Name, Figure], Field(description="figures")]
     figures_on_request: Annotated[dict[Name, Figure], Field(description="figures that only an explicit target makes")]

@@ -39,6 +39,12 @@ def operating_settings(config: dict) -> dict:
     return {**config["operating"], "settling": config["solver"]["settling"], "model": model}
 
 
+def throws_settings(config: dict) -> dict:
+    """The box and the search of the operating section at the throw numbers of the section `throws`."""
+    own = {key: value for key, value in operating_settings(config).items() if key not in ("acceleration", "resolution")}
+    return own | config["throws"]
+
+
 def precision_settings(config: dict, scene: str) -> dict:
     """One scene of the section `precision`."""
     precision = config["precision"]
@@ -137,6 +143,9 @@ TABLES = {
     "sensitivity/meetings": curves_settings,
     "operating/shares": operating_settings,
     "operating/regimes": lambda config: None,  # made from other tables only
+    "operating/advice": itemgetter("advice"),
+    "operating/changes": itemgetter("advice"),
+    "operating/throws": throws_settings,
     **{f"identification/{name}": partial(of_identification, name) for name in IDENTIFICATION},
     "results/claims": lambda config: {"claims": config["claims"]},
     "results/benchmark": benchmark_settings,

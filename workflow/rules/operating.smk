@@ -35,9 +35,47 @@ rule regimes:
         "../../scripts/make.py"
 
 
+rule advice:
+    input:
+        **tables_of("operating/shares"),
+    output:
+        **tables_of("operating/advice", "operating/changes"),
+    log:
+        log_file("operating/advice"),
+    benchmark:
+        benchmark_file("operating/advice")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("operating.advice", "operating/advice"),
+    message:
+        "Where to run the conveyor, and what makes it faster"
+    script:
+        "../../scripts/make.py"
+
+
+rule throws:
+    input:
+        examples=sources("config/examples/*.yaml"),
+    output:
+        **tables_of("operating/throws"),
+    log:
+        log_file("operating/throws"),
+    benchmark:
+        benchmark_file("operating/throws")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("operating.throws", "operating/throws"),
+    message:
+        "Motions of several conveyors over the throw number"
+    script:
+        "../../scripts/make.py"
+
+
 rule operating_chart:
     input:
-        **tables_of("operating/shares", "operating/regimes"),
+        **tables_of("operating/shares", "operating/regimes", "operating/advice", "operating/changes"),
         template=source("workflow/templates/operating_chart.md"),
     output:
         chart=result("operating/chart.md"),
