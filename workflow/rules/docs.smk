@@ -125,6 +125,7 @@ use rule findings as kept_pages with:
         **FACTS,
         templates=[source(f"workflow/templates/{name}") for name in KEPT_PAGES],
         findings=result("findings.md"),
+        costs=result("costs.json"),
     output:
         [f"{PROJECT}{name}" for name in KEPT_PAGES],
     log:
