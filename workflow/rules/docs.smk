@@ -14,6 +14,7 @@ PAGES = {
     "identification": tables_of(
         *(name for name in TABLES if name.startswith("identification/") and name != "identification/edges")
     ),
+    "tables": {},
 }
 # The tables behind the numbers of the other pages, by their roles in scripts/docs/facts.py.
 FACTS = {
@@ -33,6 +34,7 @@ ARTICLE_PARTS = {
     "uncertainty": result("uncertainty.json"),
     "proved": f"{DOCS}certificates.md",
 }
+DIAGRAMS = {name: result(f"diagrams/{name}.png") for name in ("cycle", "contact", "friction", "states")}
 ARTICLE = source("workflow/templates/article.md")
 SITE_PAGES = [ARTICLE, *sources("workflow/templates/site/*.md")]
 LIBRARY = [
@@ -125,6 +127,7 @@ use rule findings as kept_pages with:
         **FACTS,
         templates=[source(f"workflow/templates/{name}") for name in KEPT_PAGES],
         findings=result("findings.md"),
+        costs=result("costs.json"),
     output:
         [f"{PROJECT}{name}" for name in KEPT_PAGES],
     log:
@@ -159,6 +162,7 @@ use rule findings as site_pages with:
         **ARTICLE_PARTS,
         templates=SITE_PAGES,
         schema=source("config/schema.json"),
+        columns=f"{DOCS}tables.md",
     output:
         [result(f"site_pages/{Path(file).name}") for file in SITE_PAGES],
     log:
@@ -171,6 +175,22 @@ use rule findings as site_pages with:
         library=LIBRARY,
     message:
         "The pages of the site"
+
+
+# The pictures that explain how the solver works.
+rule diagrams:
+    output:
+        **DIAGRAMS,
+    log:
+        log_file("docs/diagrams"),
+    benchmark:
+        benchmark_file("docs/diagrams")
+    params:
+        **stage("docs.diagrams"),
+    message:
+        "The diagrams of the site"
+    script:
+        "../../scripts/make.py"
 
 
 rule article:
@@ -199,7 +219,7 @@ rule site:
         pages=[*rules.site_pages.output, source("scripts/conveyor/README.md")],
         style=source("scripts/docs/site.css"),
         pdf=figure_files(),
-        png=figure_files("png"),
+        png=[*figure_files("png"), *DIAGRAMS.values()],
     output:
         directory(result("site")),
     log:
