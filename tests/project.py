@@ -35,6 +35,7 @@ SINGLE = (
     "scene_budget",
     "settling_times",
     "rigid_part",
+    "theory",
     "scaling",
     "companion",
     "archive",

@@ -428,6 +428,16 @@ class RigidPart(TypedDict):
     resolution: Resolution
 
 
+RelativeDifference = number("accepted relative difference", gt=0, le=1)
+
+
+class Theory(TypedDict):
+    restitution: many(number("coefficient of restitution of a rigid ball", gt=0, lt=1), "coefficients of restitution")
+    stiffness: many(MODEL_TYPES["stiffness"], "stiffnesses of linear contacts", least=3, check=check_ascending)
+    speed: many(number("impact velocity", "m/s", gt=0, le=100), "velocities of isolated impacts")
+    accepted: mapping("accepted differences", dict.fromkeys(("rigid", "cascade", "impact"), RelativeDifference))
+
+
 class SettlingTimes(TypedDict):
     acceleration: Amplitudes
     starts: Starts
@@ -624,6 +634,7 @@ class Config(TypedDict):
     stability_estimates: Annotated[StabilityEstimates, Field(description="limits of the paper's estimates")]
     scene_budget: Annotated[SceneBudget, Field(description="accuracy that each figure needs")]
     rigid_part: Annotated[RigidPart, Field(description="rigid bouncing part in place of the contact")]
+    theory: Annotated[Theory, Field(description="quantities with a published closed form")]
     settling_times: Annotated[SettlingTimes, Field(description="time until a motion settles")]
     sensitivity: Annotated[Sensitivity, Field(description="derivatives of bifurcations and critical heights")]
     scaling: Annotated[Scaling, Field(description="cost of sweeps by size, threads and shards")]

@@ -132,6 +132,23 @@ rule rigid_part:
         "../../scripts/make.py"
 
 
+rule theory:
+    input:
+        **tables_of("orbits/cascade"),
+    output:
+        theory=table("results/theory"),
+    log:
+        log_file("accuracy/theory"),
+    benchmark:
+        benchmark_file("accuracy/theory")
+    params:
+        **stage("accuracy.theory", "results/theory"),
+    message:
+        "The solver against published theory"
+    script:
+        "../../scripts/make.py"
+
+
 # On request, because it takes minutes: snakemake figures/scaling.pdf
 rule scaling:
     output:

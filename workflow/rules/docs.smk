@@ -9,6 +9,7 @@ DOCS, PROJECT = (result("docs/"), result("docs/")) if PREFIX else ("docs/", "")
 # What fills the template of each page on one topic.
 PAGES = {
     "certificates": tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
+    "checked": tables_of("results/theory"),
     "cluster": tables_of("results/scaling"),
     "figures": {"costs": result("costs.json")},
     "identification": tables_of(
@@ -158,6 +159,7 @@ use rule findings as site_pages with:
         **FACTS,
         **ARTICLE_PARTS,
         templates=SITE_PAGES,
+        checked=f"{DOCS}checked.md",
         schema=source("config/schema.json"),
     output:
         [result(f"site_pages/{Path(file).name}") for file in SITE_PAGES],
