@@ -438,6 +438,19 @@ class Theory(TypedDict):
     accepted: mapping("accepted differences", dict.fromkeys(("rigid", "cascade", "impact"), RelativeDifference))
 
 
+class MapCheck(TypedDict):
+    maps: many(Name, "sweeps over two parameters")
+    points: whole("points of each map", 1, MOST_POINTS)
+    boundary: number("share of the points next to another label", ge=0, le=1)
+    seed: Seed
+    tolerance: Tolerance
+    close: number("distance of a repeated state, in units of the plate's motion", gt=0, le=1)
+    repeats: whole("repeated cycles after which a motion is periodic", 1, 128, "excitation cycles")
+    cycles: Cycles
+    significant: number("standard errors by which an exponent is positive", ge=0, le=1e6)
+    accepted: number("accepted share of different labels", ge=0, le=1)
+
+
 class SettlingTimes(TypedDict):
     acceleration: Amplitudes
     starts: Starts
@@ -635,6 +648,7 @@ class Config(TypedDict):
     scene_budget: Annotated[SceneBudget, Field(description="accuracy that each figure needs")]
     rigid_part: Annotated[RigidPart, Field(description="rigid bouncing part in place of the contact")]
     theory: Annotated[Theory, Field(description="quantities with a published closed form")]
+    map_check: Annotated[MapCheck, Field(description="check of state maps by brute force")]
     settling_times: Annotated[SettlingTimes, Field(description="time until a motion settles")]
     sensitivity: Annotated[Sensitivity, Field(description="derivatives of bifurcations and critical heights")]
     scaling: Annotated[Scaling, Field(description="cost of sweeps by size, threads and shards")]

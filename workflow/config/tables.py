@@ -147,6 +147,7 @@ TABLES = {
     "results/budget_times": itemgetter("scene_budget"),
     "results/rigid_part": itemgetter("rigid_part"),
     "results/theory": lambda config: with_model(config, "theory"),
+    "results/map_check": itemgetter("map_check"),
     "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED),
     "results/scaling": lambda config: {**config["scaling"], "sharing": config["sharing"]},
 }

@@ -9,7 +9,7 @@ DOCS, PROJECT = (result("docs/"), result("docs/")) if PREFIX else ("docs/", "")
 # What fills the template of each page on one topic.
 PAGES = {
     "certificates": tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
-    "checked": tables_of("results/theory"),
+    "checked": tables_of("results/theory", "results/map_check"),
     "cluster": tables_of("results/scaling"),
     "figures": {"costs": result("costs.json")},
     "identification": tables_of(
