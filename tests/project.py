@@ -29,6 +29,7 @@ SINGLE = (
     "uncertainty",
     "benchmark",
     "precision",
+    "published_scenes",
     "precision_estimates",
     "stability",
     "stability_estimates",

@@ -14,7 +14,7 @@ A template is Markdown (or YAML) with Jinja's fields. What it may ask for: the f
     keys              all keys of the config, by their sections, with the values of the default config
     entries           entries of a section of the paper's config, with the comments above them
     modules           modules of the library, by the rooms they stand in
-    proved, checked   the pages of what is proved, and of how it was checked
+    proved            the page of what is proved
     findings          the page of what was found beyond the paper
     figure(name)      a figure with its caption, as the medium wants it
     cell(text)        a text for a cell of a table
@@ -150,7 +150,6 @@ def context(
     costs: str,
     uncertainty: str,
     proved: str,
-    checked: str,
     findings: str,
     medium: str,
     folder: str,
@@ -173,7 +172,6 @@ def context(
         "verdicts": Counter(claim["verdict"] for claim in claims.values()),
         "costs": json.loads(costs) if costs else {},
         "proved": proved,
-        "checked": checked,
         "findings": findings,
         "gaps": of_gaps(defaults),
         "keys": of_keys(known, defaults),
@@ -193,7 +191,6 @@ def make(
     costs: str = "",
     uncertainty: str = "",
     proved: str = "",
-    checked: str = "",
     findings: str = "",
     medium: str = "site",
     folder: str = "",
@@ -211,7 +208,7 @@ def make(
     captions : of all figures, in their order
     costs : of figures and claims, as JSON
     uncertainty : by how much tighter tolerances change the claims, as JSON
-    proved, checked : the pages of what is proved, and of how it was checked
+    proved : the page of what is proved
     findings : the page of what was found beyond the paper
     medium : print or site
     folder : where the figures are, as the page says it
@@ -230,7 +227,6 @@ def make(
         costs,
         uncertainty,
         proved,
-        checked,
         findings,
         medium,
         folder,

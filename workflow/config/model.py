@@ -309,6 +309,18 @@ class Precision(TypedDict):
     seconds: ProcessorTime
 
 
+class PublishedScene(TypedDict):
+    model: Model
+    duration: Duration
+
+
+class PublishedScenes(TypedDict):
+    samples: whole("reference states of each scene", 2, 10**5)
+    tolerance: Tolerance
+    compared: many(Tolerance, "tolerances of the solutions that give the error bars")
+    further: Annotated[dict[Name, PublishedScene], Field(description="scenes besides those of `precision`")]
+
+
 class ExponentPairs(TypedDict):
     acceleration: Acceleration
     z0: Height
@@ -642,6 +654,7 @@ class Config(TypedDict):
     uncertainty: Annotated[Uncertainty, Field(description="check of the claims with tighter tolerances")]
     benchmark: Annotated[Benchmark, Field(description="speed and error of the solver and of the paper's method")]
     precision: Annotated[Precision, Field(description="error against cost of all methods")]
+    published_scenes: Annotated[PublishedScenes, Field(description="benchmark for other solvers")]
     precision_estimates: Annotated[PrecisionEstimates, Field(description="error against cost of derived quantities")]
     stability: Annotated[Stability, Field(description="limits of stability of the methods")]
     stability_estimates: Annotated[StabilityEstimates, Field(description="limits of the paper's estimates")]
