@@ -12,7 +12,6 @@ if __name__ == "__main__":
     os.environ["NUMBA_DISABLE_JIT"] = "1"
     with logged(snakemake.log[0]), tempfile.TemporaryDirectory() as folder:
         given = snakemake.input
-        site.gather(
-            folder, given.pages, given.style, given.png, {"figures": given.pdf, "": [given.article, given.companion]}
-        )
+        extra = {"figures": given.pdf, "": [given.article, given.companion], "benchmark": given.scenes}
+        site.gather(folder, given.pages, given.style, given.png, extra)
         site.build(folder, snakemake.output[0])

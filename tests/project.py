@@ -29,12 +29,15 @@ SINGLE = (
     "uncertainty",
     "benchmark",
     "precision",
+    "published_scenes",
     "precision_estimates",
     "stability",
     "stability_estimates",
     "scene_budget",
     "settling_times",
     "rigid_part",
+    "theory",
+    "map_check",
     "scaling",
     "companion",
     "archive",
@@ -80,7 +83,8 @@ def small_config() -> dict:
     """The project's config with FIGURES and their tables only, on coarse axes."""
     config = merged(read_config(), TINY)
     config["figures"] = {figure: config["figures"][figure] for figure in FIGURES}
-    config["companion"]["maps"] = ["amplitudes"]
+    config["companion"]["maps"] = config["map_check"]["maps"] = ["amplitudes"]
+    config["map_check"] |= {"points": 4, "cycles": 512}
     config["uncertainty"]["claims"] = []
     used = {table for entry in config["figures"].values() for table in entry["tables"].values()}
     used.add(f"critical/{config['sensitivity']['critical']}")

@@ -246,7 +246,8 @@ def unknown_references(config: dict, defaults: dict) -> Iterator[str]:
     used += [("scene_budget.reasons", table, tables) for table in config["scene_budget"]["reasons"]]
     used += [(f"regressions.{name}.critical", one["critical"], fitted) for name, one in config["regressions"].items()]
     used += [("sensitivity.critical", config["sensitivity"]["critical"], fitted)]
-    used += [(f"companion.maps[{place}]", name, single["sweeps"]) for place, name in enumerate(companion["maps"])]
+    for user in ("companion", "map_check"):
+        used += [(f"{user}.maps[{place}]", name, single["sweeps"]) for place, name in enumerate(config[user]["maps"])]
     used += [("companion.opening", companion["opening"], companion["presets"])]
     used += [("uncertainty.claims", name, config["claims"]) for name in config["uncertainty"]["claims"]]
     for key, name, known in used:

@@ -310,6 +310,18 @@ class Precision(TypedDict):
     seconds: ProcessorTime
 
 
+class PublishedScene(TypedDict):
+    model: Model
+    duration: Duration
+
+
+class PublishedScenes(TypedDict):
+    samples: whole("reference states of each scene", 2, 10**5)
+    tolerance: Tolerance
+    compared: many(Tolerance, "tolerances of the solutions that give the error bars")
+    further: Annotated[dict[Name, PublishedScene], Field(description="scenes besides those of `precision`")]
+
+
 class ExponentPairs(TypedDict):
     acceleration: Acceleration
     z0: Height
@@ -427,6 +439,29 @@ class RigidPart(TypedDict):
     close: number("distance at which a motion repeats itself, in parts of the jump height", gt=0, le=1)
     margin: number("amplitude steps in which a period is followed", "m/s²", gt=0, le=1e4)
     resolution: Resolution
+
+
+RelativeDifference = number("accepted relative difference", gt=0, le=1)
+
+
+class Theory(TypedDict):
+    restitution: many(number("coefficient of restitution of a rigid ball", gt=0, lt=1), "coefficients of restitution")
+    stiffness: many(MODEL_TYPES["stiffness"], "stiffnesses of linear contacts", least=3, check=check_ascending)
+    speed: many(number("impact velocity", "m/s", gt=0, le=100), "velocities of isolated impacts")
+    accepted: mapping("accepted differences", dict.fromkeys(("rigid", "cascade", "impact"), RelativeDifference))
+
+
+class MapCheck(TypedDict):
+    maps: many(Name, "sweeps over two parameters")
+    points: whole("points of each map", 1, MOST_POINTS)
+    boundary: number("share of the points next to another label", ge=0, le=1)
+    seed: Seed
+    tolerance: Tolerance
+    close: number("distance of a repeated state, in units of the plate's motion", gt=0, le=1)
+    repeats: whole("repeated cycles after which a motion is periodic", 1, 128, "excitation cycles")
+    cycles: Cycles
+    significant: number("standard errors by which an exponent is positive", ge=0, le=1e6)
+    accepted: number("accepted share of different labels", ge=0, le=1)
 
 
 class SettlingTimes(TypedDict):
@@ -641,11 +676,14 @@ class Config(TypedDict):
     uncertainty: Annotated[Uncertainty, Field(description="check of the claims with tighter tolerances")]
     benchmark: Annotated[Benchmark, Field(description="speed and error of the solver and of the paper's method")]
     precision: Annotated[Precision, Field(description="error against cost of all methods")]
+    published_scenes: Annotated[PublishedScenes, Field(description="benchmark for other solvers")]
     precision_estimates: Annotated[PrecisionEstimates, Field(description="error against cost of derived quantities")]
     stability: Annotated[Stability, Field(description="limits of stability of the methods")]
     stability_estimates: Annotated[StabilityEstimates, Field(description="limits of the paper's estimates")]
     scene_budget: Annotated[SceneBudget, Field(description="accuracy that each figure needs")]
     rigid_part: Annotated[RigidPart, Field(description="rigid bouncing part in place of the contact")]
+    theory: Annotated[Theory, Field(description="quantities with a published closed form")]
+    map_check: Annotated[MapCheck, Field(description="check of state maps by brute force")]
     settling_times: Annotated[SettlingTimes, Field(description="time until a motion settles")]
     sensitivity: Annotated[Sensitivity, Field(description="derivatives of bifurcations and critical heights")]
     scaling: Annotated[Scaling, Field(description="cost of sweeps by size, threads and shards")]

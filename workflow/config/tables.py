@@ -52,6 +52,17 @@ def precision_settings(config: dict, scene: str) -> dict:
     return {**shared, "model": {**config["model"], **precision["scenes"][scene]}}
 
 
+def published_scenes(config: dict) -> dict[str, dict]:
+    """The settings of each scene that is published for other solvers."""
+    shared = {name: config["published_scenes"][name] for name in ("samples", "tolerance", "compared")}
+    precision = config["precision"]
+    scenes = {name: {"model": model, "duration": precision["duration"]} for name, model in precision["scenes"].items()}
+    return {
+        name: {"scene": name, **shared, **scene, "model": {**config["model"], **scene["model"]}}
+        for name, scene in {**scenes, **config["published_scenes"]["further"]}.items()
+    }
+
+
 def benchmark_settings(config: dict) -> dict:
     """The cases of the benchmark with all defaults filled in."""
     solver = {key: config["solver"][key] for key in ("duration", "step")}
@@ -155,6 +166,8 @@ TABLES = {
     "results/scene_budget": itemgetter("scene_budget"),
     "results/budget_times": itemgetter("scene_budget"),
     "results/rigid_part": itemgetter("rigid_part"),
+    "results/theory": lambda config: with_model(config, "theory"),
+    "results/map_check": itemgetter("map_check"),
     "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED),
     "results/scaling": lambda config: {**config["scaling"], "sharing": config["sharing"]},
 }

@@ -132,6 +132,42 @@ rule rigid_part:
         "../../scripts/make.py"
 
 
+rule theory:
+    input:
+        **tables_of("orbits/cascade"),
+    output:
+        theory=table("results/theory"),
+    log:
+        log_file("accuracy/theory"),
+    benchmark:
+        benchmark_file("accuracy/theory")
+    params:
+        **stage("accuracy.theory", "results/theory"),
+    message:
+        "The solver against published theory"
+    script:
+        "../../scripts/make.py"
+
+
+rule map_check:
+    input:
+        maps=[table(f"sweeps/{name}") for name in config["map_check"]["maps"]],
+    output:
+        map_check=table("results/map_check"),
+    log:
+        log_file("accuracy/map_check"),
+    benchmark:
+        benchmark_file("accuracy/map_check")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("accuracy.map_check", "results/map_check"),
+    message:
+        "State maps by brute force"
+    script:
+        "../../scripts/make.py"
+
+
 # On request, because it takes minutes: snakemake figures/scaling.pdf
 rule scaling:
     output:

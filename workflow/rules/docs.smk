@@ -2,13 +2,17 @@
 from pathlib import Path
 
 from workflow.config.schema import json_schema
-from workflow.config.tables import TABLES
+from workflow.config.tables import TABLES, published_scenes
 
 # Pages made from the paper's config are part of the repository: in docs/, some of them in the project's folder.
 DOCS, PROJECT = (result("docs/"), result("docs/")) if PREFIX else ("docs/", "")
+SCENES = published_scenes(config)
+SCENE_FILES = [f"{DOCS}benchmark/{scene}.json" for scene in SCENES]
 # What fills the template of each page on one topic.
 PAGES = {
+    "add_your_solver": {"scenes": SCENE_FILES, "example": source("scripts/accuracy/example_solver.py")},
     "certificates": tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
+    "checked": tables_of("results/theory", "results/map_check"),
     "cluster": tables_of("results/scaling"),
     "figures": {"costs": result("costs.json")},
     "identification": tables_of(
@@ -60,6 +64,24 @@ rule page:
         **stage("docs.{page}_page"),
     message:
         "The page {wildcards.page}.md"
+    script:
+        "../../scripts/make.py"
+
+
+rule published_scene:
+    output:
+        f"{DOCS}benchmark/{{scene}}.json",
+    log:
+        log_file("docs/benchmark/{scene}"),
+    benchmark:
+        benchmark_file("docs/benchmark/{scene}")
+    wildcard_constraints:
+        scene=one_of(SCENES),
+    params:
+        **stage("accuracy.published_scene"),
+        settings=lambda wildcards: SCENES[wildcards.scene],
+    message:
+        "The scene {wildcards.scene} for other solvers"
     script:
         "../../scripts/make.py"
 
@@ -216,7 +238,13 @@ rule site:
     input:
         article=result("article.pdf"),
         companion=f"{DOCS}companion.html",
-        pages=[*rules.site_pages.output, source("scripts/conveyor/README.md")],
+        pages=[
+            *rules.site_pages.output,
+            source("scripts/conveyor/README.md"),
+            f"{DOCS}checked.md",
+            f"{DOCS}add_your_solver.md",
+        ],
+        scenes=SCENE_FILES,
         style=source("scripts/docs/site.css"),
         pdf=figure_files(),
         png=[*figure_files("png"), *DIAGRAMS.values()],

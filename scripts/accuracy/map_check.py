@@ -1,0 +1,183 @@
+"""State maps by brute force: random points of maps, followed at a tight tolerance until their attractor is certain.
+
+The labels of a map come from a fast search: a loose tolerance, many parts at a time, and an end as soon as a part must
+stay at an attractor that is already known. Here every part is followed alone by the event-driven solver, and no step,
+orbit or chaotic set is used again. An attractor is certain in two cases:
+
+- The part has repeated its height and velocity at the end of a cycle, with one period, for many cycles in a row.
+- It has not done so within the largest number of cycles, and its largest Lyapunov exponent is positive by several
+  standard errors: chaos.
+
+Anything else is `undecided` and counts as a different label.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from conveyor.analysis.attractors.labels import CHAOS, FIRST, LONG_FLIGHT, SECOND, STATES, UNDECIDED
+from conveyor.analysis.attractors.settling import MAX_PERIOD
+from conveyor.analysis.chaos import lyapunov
+from conveyor.methods import peers
+from conveyor.solver import trajectory
+from conveyor.solver.horizontal import IMPACT, SEPARATED, VZ, Z
+from conveyor.solver.model import FREQUENCY, VZ0, Z0
+from conveyor.solver.parallel import for_each_chunk
+from pipeline import fields, grid
+
+TABLES = {
+    "map_check": (
+        fields.text("map", "sweep whose label is checked"),
+        fields.count("row", "row of the sweep"),
+        fields.flag("near_boundary", "whether a neighbour in the map has another label"),
+        fields.text("label", "state of motion in the map"),
+        fields.text("state", "state of motion by brute force"),
+        fields.count("period", "excitation cycles; 0 for none"),
+        fields.count("cycles", "excitation cycles that were followed"),
+        fields.number("exponent", "1/s", "largest Lyapunov exponent; null for periodic motions"),
+        fields.number("exponent_error", "1/s", "its standard error; null for periodic motions"),
+    ),
+}
+
+BLOCK = 256  # cycles that are followed at a time
+EXPONENT = {"transient": 0, "cycles": 100, "blocks": 20}  # blocks of cycles behind the exponent
+MOST_EVENTS = 100  # in a cycle, for which there is room
+
+
+class Followed(NamedTuple):
+    """What one part comes to."""
+
+    period: int  # cycles; 0 for none
+    cycles: int  # that were followed
+    end: np.ndarray  # z (m), ż (m/s)
+
+
+def is_near_boundary(labels: np.ndarray) -> np.ndarray:
+    """Whether one of the four neighbours in a map of labels, shape (n, m), has another label."""
+    near = np.zeros(labels.shape, bool)
+    rows, columns = labels[1:] != labels[:-1], labels[:, 1:] != labels[:, :-1]
+    near[1:] |= rows
+    near[:-1] |= rows
+    near[:, 1:] |= columns
+    near[:, :-1] |= columns
+    return near
+
+
+def draw(near: np.ndarray, points: int, share: float, random: np.random.Generator) -> np.ndarray:
+    """Random rows of a map, a share of them near a boundary; fewer where the map has not so many.
+
+    Parameters
+    ----------
+    near : bool, shape (n,)
+    points : number of rows
+    share : of the rows near a boundary
+    """
+    close, far = np.flatnonzero(near), np.flatnonzero(~near)
+    wanted = min(round(share * points), len(close))
+    others = min(points - wanted, len(far))
+    return np.sort(
+        np.concatenate([random.choice(close, wanted, replace=False), random.choice(far, others, replace=False)])
+    )
+
+
+def repeated_period(strobes: np.ndarray, scale: np.ndarray, close: float, repeats: int) -> int:
+    """The least period with which the last `repeats` of some strobes, shape (n, 2), repeat earlier ones; 0 for none."""
+    scaled = strobes / scale
+    last = scaled[-repeats:]
+    for period in range(1, min(MAX_PERIOD, len(scaled) - repeats) + 1):
+        if np.abs(last - scaled[-repeats - period : len(scaled) - period]).max() <= close:
+            return period
+    return 0
+
+
+def follow(row: np.ndarray, settings: dict) -> Followed:
+    """Follow one part from the start in its parameter vector, shape (13,), until it repeats itself."""
+    row = row.copy()
+    scale = peers.scales(row)[2:]
+    times = np.arange(1, BLOCK + 1)[None] / row[FREQUENCY]
+    options = {"tolerance": settings["tolerance"], "feeding": False, "reuse": False}
+    period = cycles = 0
+    while not period and cycles < settings["cycles"]:
+        samples, results = trajectory.integrate(row[None], times, **options)
+        if results[0, trajectory.CODE] != trajectory.OK:
+            break
+        strobes = samples[0][:, [Z, VZ]]
+        row[Z0], row[VZ0] = strobes[-1]
+        cycles += BLOCK
+        period = repeated_period(strobes, scale, settings["close"], settings["repeats"])
+    return Followed(period, cycles, row[[Z0, VZ0]])
+
+
+def longest_flight(row: np.ndarray, period: int, tolerance: float) -> float:
+    """The longest flight (excitation cycles) of a periodic motion on which a parameter vector starts."""
+    cycles = 2 * period + 1  # a flight may begin before the start and be longer than a cycle
+    room = MOST_EVENTS * cycles
+    times, kinds = np.full((1, room), np.inf), np.full((1, room), -1, np.int8)
+    end = np.array([[cycles / row[FREQUENCY]]])
+    trajectory.integrate(
+        row[None], end, tolerance=tolerance, feeding=False, reuse=False, event_times=times, event_kinds=kinds
+    )
+    flights, separation = [0.0], None
+    for time, kind in zip(times[0], kinds[0], strict=True):
+        if kind == SEPARATED:
+            separation = time
+        elif kind == IMPACT and separation is not None:
+            flights.append(time - separation)
+    return max(flights) * row[FREQUENCY]
+
+
+def brute_force(rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict:
+    """State, period, followed cycles and exponent of each parameter vector, rows of shape (n, 13)."""
+    found: list[Followed] = [None] * len(rows)
+    flights = np.zeros(len(rows))
+    ends = rows.copy()
+
+    def work(begin, end):
+        for k in range(begin, end):
+            found[k] = follow(rows[k], settings)
+            ends[k, [Z0, VZ0]] = found[k].end
+            if found[k].period:
+                flights[k] = longest_flight(ends[k], found[k].period, settings["tolerance"])
+
+    for_each_chunk(work, len(rows), threads=threads, chunk=1, progress=progress)
+    period = np.array([one.period for one in found])
+    codes = np.where(flights >= LONG_FLIGHT, SECOND, FIRST)
+    exponent, error = np.full((2, len(rows)), np.nan)
+    open_rows = np.flatnonzero(period == 0)
+    if len(open_rows):
+        spectrum = lyapunov.spectrum(ends[open_rows], **EXPONENT, tolerance=settings["tolerance"], threads=threads)
+        exponent[open_rows], error[open_rows] = spectrum.lambda_1, spectrum.stderr
+        is_chaos = spectrum.lambda_1 > settings["significant"] * spectrum.stderr
+        codes[open_rows] = np.where(is_chaos, CHAOS, UNDECIDED)
+    return {
+        "state": np.array(STATES, dtype=object)[codes],
+        "period": period,
+        "cycles": np.array([one.cycles for one in found]),
+        "exponent": exponent,
+        "exponent_error": error,
+    }
+
+
+def make(
+    settings: dict, maps: list[pd.DataFrame], *, threads: int = 1, progress: str | None = None
+) -> dict[str, np.ndarray]:
+    """The columns of the table of checked points.
+
+    Parameters
+    ----------
+    settings : the section `map_check` of the config
+    maps : tables of the sweeps over two parameters that it names, in their order
+    threads, progress : as in conveyor.ensemble.run
+    """
+    random = np.random.default_rng(settings["seed"])
+    chosen, parameters = [], []
+    for name, table in zip(settings["maps"], maps, strict=True):
+        axes = table.attrs["axes"]
+        near = is_near_boundary(table.state.to_numpy().reshape([grid.count_values(axis) for axis in axes.values()]))
+        rows = draw(near.ravel(), settings["points"], settings["boundary"], random)
+        label, near_boundary = table.state.to_numpy()[rows], near.ravel()[rows]
+        chosen.append(pd.DataFrame({"map": name, "row": rows, "near_boundary": near_boundary, "label": label}))
+        parameters += [grid.product(axes, table.attrs["model"], (row, row + 1))[1] for row in rows.tolist()]
+    found = brute_force(np.concatenate(parameters), settings, threads=threads, progress=progress)
+    return pd.concat(chosen, ignore_index=True).to_dict("list") | found

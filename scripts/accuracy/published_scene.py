@@ -1,0 +1,72 @@
+"""One scene of the open benchmark as JSON: parameters, initial state, reference states with error bars, and events."""
+
+import json
+
+import numpy as np
+
+from conveyor.methods import peers
+from conveyor.parameters import DESCRIPTIONS, PARAMETERS, UNITS
+from conveyor.simulation import Run, simulate
+from conveyor.solver.model import Conveyor, Start, pack
+from pipeline import grid
+
+STATE = {"x": "m", "vx": "m/s", "z": "m", "vz": "m/s"}
+ROUNDING = 4.0 * np.finfo(np.float64).eps  # of the largest value: no error bar is smaller
+
+
+def error_bars(reference: np.ndarray, others: list[np.ndarray]) -> np.ndarray:
+    """The largest difference of other solutions from the reference up to each time, each of shape (n,)."""
+    differences = np.max([np.abs(other - reference) for other in others], axis=0)
+    return np.maximum.accumulate(np.maximum(differences, ROUNDING * np.abs(reference).max()))
+
+
+def event_rows(run: Run, others: list[Run]) -> list[dict]:
+    """Time (s), error bar (s) and kind of each event; no error bar if another solution has other kinds of events."""
+    events = run.events
+    same = all(np.array_equal(other.events["kind"], events["kind"]) for other in others)
+    bars = error_bars(events["time"], [other.events["time"] for other in others]) if same and len(events) else None
+    return [
+        {"time": float(event["time"]), "error": None if bars is None else float(bars[k]), "kind": str(event["kind"])}
+        for k, event in enumerate(events)
+    ]
+
+
+def start_of(conveyor: Conveyor, start: Start) -> dict[str, float]:
+    """The initial state: the part is at rest along the track."""
+    state = simulate(conveyor, start, duration=1e-9).sample(np.zeros(1))
+    return {name: float(state[name][0]) for name in STATE}
+
+
+def scene(settings: dict) -> dict:
+    """The content of the file; `settings` are those of the scene in the config."""
+    conveyor, start = grid.conveyor_and_start(settings["model"])
+    options = {"duration": settings["duration"], "reuse": False}
+    run, *others = (
+        simulate(conveyor, start, tolerance=tolerance, **options)
+        for tolerance in (settings["tolerance"], *settings["compared"])
+    )
+    times = np.linspace(0.0, settings["duration"], settings["samples"] + 1)[1:]
+    reference, *compared = (one.sample(times) for one in (run, *others))
+    scales = dict(zip(STATE, peers.scales(pack(conveyor, start)).tolist(), strict=True))
+    parameters = {name: getattr(conveyor, name) for name in PARAMETERS if name not in ("z0", "vz0")}
+    return {
+        "scene": settings["scene"],
+        "parameters": {
+            name: {"value": value, "unit": UNITS[name], "description": DESCRIPTIONS[name]}
+            for name, value in parameters.items()
+        },
+        "units": {"times": "s", "events": "s", **STATE},
+        "initial": start_of(conveyor, start),
+        "duration": settings["duration"],
+        "scales": scales,
+        "times": times.tolist(),
+        "reference": {name: reference[name].tolist() for name in STATE},
+        "error": {name: error_bars(reference[name], [one[name] for one in compared]).tolist() for name in STATE},
+        "events": event_rows(run, others),
+    }
+
+
+def make(settings: dict) -> str:
+    """The file of one scene, a key on each line."""
+    lines = (f"{json.dumps(key)}: {json.dumps(value, ensure_ascii=False)}" for key, value in scene(settings).items())
+    return "{\n" + ",\n".join(lines) + "\n}\n"

@@ -1,0 +1,273 @@
+"""Quantities with a published closed form beside the same quantities from the solver.
+
+An isolated impact has neither weight nor a moving plate. The contact of a rigid ball is the limit of a stiff linear
+contact whose damping keeps the coefficient of restitution constant.
+"""
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+from scipy.integrate import solve_ivp
+from scipy.optimize import minimize_scalar
+
+from conveyor import Conveyor, Start, continue_orbit, periodic_orbit
+from conveyor.solver import trajectory
+from conveyor.solver.horizontal import CONTACT_FORCE, EVENTS, IMPACT, SEPARATED, VZ
+from conveyor.solver.model import ACCELERATION, GRAVITY, conveyor_motion, pack
+from pipeline import fields, grid
+
+TABLES = {
+    "theory": (
+        fields.text("kind", "rigid, cascade or impact: the key of its accepted difference"),
+        fields.text("quantity", "what is compared"),
+        fields.text("case", "for which parameters"),
+        fields.text("unit", "of theory, computed and error"),
+        fields.number("theory", "see unit", "published value or closed form"),
+        fields.number("computed", "see unit", "the same quantity from the solver"),
+        fields.number("error", "see unit", "estimated error of the computed value; null where it is not estimated"),
+        fields.number("difference", "1", "relative difference of computed and theory"),
+        fields.number("accepted", "1", "largest accepted relative difference"),
+        fields.text("source", "of the closed form; the page lists the sources"),
+    ),
+}
+
+# Limit of the ratios of successive distances of period doublings (Feigenbaum 1978; digits: Briggs 1991).
+FEIGENBAUM = 4.669201609102990672
+TOLERANCE = 1e-14  # of contact steps
+LIGHT = 1e-5  # dimensionless damping at which the loss of speed is proportional to the damping
+RUN = 20.0  # duration of a run in durations of an undamped impact
+REFERENCE = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-15}  # of the dimensionless impact
+CYCLES = 200  # until the stiff part is near its orbit
+
+
+class Impact(NamedTuple):
+    """One isolated impact."""
+
+    duration: float  # s
+    peak: float  # N, largest contact force
+    restitution: float
+
+
+def compression(conveyor: Conveyor, speed: float) -> float:
+    """Largest penetration (m) of an undamped impact at a speed (m/s), from the conservation of energy."""
+    power = conveyor.exponent + 1.0
+    return (power * conveyor.mass * speed**2 / (2.0 * conveyor.stiffness)) ** (1.0 / power)
+
+
+def undamped_duration(conveyor: Conveyor, speed: float) -> float:
+    """Duration (s) of an undamped impact at a speed (m/s) (Hertz 1882 for p = 1.5; any p by the same integral)."""
+    share = 1.0 / (conveyor.exponent + 1.0)
+    integral = math.sqrt(math.pi) * math.gamma(1.0 + share) / math.gamma(0.5 + share)
+    return 2.0 * compression(conveyor, speed) / speed * integral
+
+
+def light_loss(exponent: float) -> float:
+    """(1 - e)/β of a light damper: the work of F = d δ̇ along the undamped motion, 2 ∫ √(1 - x^(p+1)) dx over [0, 1]."""
+    share = 1.0 / (exponent + 1.0)
+    return 2.0 * share * math.gamma(share) * math.gamma(1.5) / math.gamma(share + 1.5)
+
+
+def reduced_restitution(exponent: float, beta: float) -> float:
+    """Coefficient of restitution of X'' = -(p+1)/2 X^p - β X' from X = 0, X' = 1 back to X = 0.
+
+    X is the penetration over the undamped `compression`, and β = (d_c/m) compression/speed, so that the coefficient
+    depends on nothing but p and β (dimensional analysis as in Ramírez et al. 1999).
+    """
+
+    def rates(_, state):
+        return state[1], -0.5 * (exponent + 1.0) * max(state[0], 0.0) ** exponent - beta * state[1]
+
+    def separation(_, state):
+        return state[0]
+
+    separation.terminal, separation.direction = True, -1.0
+    run = solve_ivp(rates, (0.0, 100.0), (0.0, 1.0), events=separation, **REFERENCE)
+    return -run.y_events[0][0][1]
+
+
+def impact(conveyor: Conveyor, speed: float) -> Impact:
+    """Follow one impact at a speed (m/s) on a plate at rest, without gravity.
+
+    Raises
+    ------
+    ArithmeticError
+        if the part has not separated after RUN durations of an undamped impact
+    """
+    row = pack(conveyor, Start(z=compression(conveyor, speed), vz=-speed))
+    row[ACCELERATION] = row[GRAVITY] = 0.0  # below the range of a conveyor's gravity, which the kernels do not need
+    end = RUN * undamped_duration(conveyor, speed)
+    instants, kinds = np.empty((1, 8)), np.full((1, 8), -1, np.int8)
+    options = {"tolerance": TOLERANCE, "reuse": False}
+    samples, _ = trajectory.integrate(row[None], np.array([[end]]), event_times=instants, event_kinds=kinds, **options)
+    times = {EVENTS[kind]: time for time, kind in zip(instants[0], kinds[0], strict=True) if kind >= 0}
+    if EVENTS[SEPARATED] not in times:
+        raise ArithmeticError(f"an impact at {speed:g} m/s does not end within {end:g} s; take less damping")
+    begin, separation = times[EVENTS[IMPACT]], times[EVENTS[SEPARATED]]
+
+    def push(time: float) -> float:
+        return -trajectory.integrate(row[None], np.array([[time]]), **options)[0][0, 0, CONTACT_FORCE]
+
+    peak = -minimize_scalar(push, bounds=(begin, separation), method="bounded", options={"xatol": 1e-9 * end}).fun
+    return Impact(separation - begin, peak, samples[0, 0, VZ] / speed)
+
+
+def damping_ratio(restitution: float) -> float:
+    """Damping ratio of a linear contact that ends with the penetration, e = exp(-π ζ/√(1 - ζ²))."""
+    loss = -math.log(restitution)
+    return loss / math.hypot(math.pi, loss)
+
+
+def linear(model: dict, stiffness: float, restitution: float, **changes: float | str) -> Conveyor:
+    """A conveyor with a linear contact of a given stiffness (N/m) and coefficient of restitution."""
+    damping = 2.0 * damping_ratio(restitution) * math.sqrt(stiffness * model["mass"])
+    contact = {"exponent": 1.0, "stiffness": stiffness, "damping": damping, "tension": "allow"}
+    return grid.conveyor_and_start({**model, **contact, **changes})[0]
+
+
+def without_pull(restitution: float) -> float:
+    """Coefficient of restitution of the same linear contact where it ends with the force (Schwager, Pöschel 2007)."""
+    ratio = damping_ratio(restitution)
+    frequency = math.sqrt(1.0 - ratio**2)
+    return math.exp(-ratio / frequency * (math.pi - math.atan2(2.0 * ratio * frequency, frequency**2 - ratio**2)))
+
+
+def rigid_range(restitution: float) -> tuple[float, float]:
+    """a_z/g between which a rigid ball's motion with one impact per cycle is stable (Luo, Han 1996).
+
+    It is born in a fold at the lower end and doubles its period at the upper one. For e = 1 the upper end is that of
+    the approximate map of Holmes (1982).
+    """
+    fold = math.pi * (1.0 - restitution) / (1.0 + restitution)
+    return fold, math.hypot(fold, 2.0 * (1.0 + restitution**2) / (1.0 + restitution) ** 2)
+
+
+def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[float, float]:
+    """The same of a part with a stiff linear contact, by continuation of its orbit.
+
+    Raises
+    ------
+    ArithmeticError
+        if the orbit, its fold or its period doubling is not found
+    """
+    low, high = rigid_range(restitution)
+    gravity, vertical = model["gravity"], math.sin(model["angle"])
+    middle = 0.5 * (low + high)
+    # The rigid orbit leaves the plate with the velocity g T/2 while the plate moves with g T (1 - e)/(1 + e)/2.
+    phase = math.pi - math.asin(low / middle)
+    conveyor = linear(model, stiffness, restitution, acceleration=middle * gravity / vertical, psi0=phase)
+    plate = conveyor_motion(conveyor, np.zeros(1))["z"][0]
+    start = Start(z=plate, vz=0.5 * gravity / model["frequency"])
+    orbit = periodic_orbit(conveyor, start, transient=CYCLES)
+    if orbit is None or orbit.impacts != 1:
+        raise ArithmeticError(f"no orbit with one impact per cycle for e = {restitution:g}; take a stiffer contact")
+    scale = gravity / vertical
+    branch = continue_orbit(conveyor, orbit, low=0.9 * low * scale, high=1.1 * high * scale)
+    ends = {point.kind: point.orbit.acceleration / scale for point in branch.bifurcations}
+    if not {"fold", "period_doubling"} <= ends.keys():
+        raise ArithmeticError(f"the branch of e = {restitution:g} has only {sorted(ends)}; take a stiffer contact")
+    return ends["fold"], ends["period_doubling"]
+
+
+def limit(places: np.ndarray, values: np.ndarray) -> tuple[float, float]:
+    """Value at 0 of the polynomial through `values` at `places`, shape (n,), and its change by the first of them."""
+    weights = [math.prod(other / (other - place) for other in places if other != place) for place in places]
+    fewer = [math.prod(other / (other - place) for other in places[1:] if other != place) for place in places[1:]]
+    value = float(np.dot(weights, values))
+    return value, abs(value - float(np.dot(fewer, values[1:])))
+
+
+def rigid_rows(settings: dict) -> Iterator[dict]:
+    """Stable range of a bouncing ball, from contacts of growing stiffness k: an impact lasts as long as 1/√k."""
+    stiffness = np.array(settings["stiffness"])
+    for restitution in settings["restitution"]:
+        ranges = np.array([stiff_range(settings["model"], k, restitution) for k in stiffness])
+        names = ("fold: least a_z/g of one impact per cycle", "first period doubling: a_z/g")
+        for name, theory, values in zip(names, rigid_range(restitution), ranges.T, strict=True):
+            computed, error = limit(stiffness**-0.5, values)
+            case, source = f"rigid ball, e = {restitution:g}", "Luo and Han 1996"
+            yield row(settings, "rigid", name, case, "1", theory, computed, source, error)
+
+
+def cascade_row(settings: dict, cascade: pd.DataFrame) -> dict:
+    """Feigenbaum's constant: the last ratio of the stored cascade, whose error is its last change."""
+    ratios = cascade.sort_values("number").ratio.dropna()
+    before, last = ratios.iloc[-2:]
+    case, source = f"{len(cascade)} period doublings", "Feigenbaum 1978"
+    error = abs(last - before)
+    return row(settings, "cascade", "Feigenbaum's constant", case, "1", FEIGENBAUM, last, source, error)
+
+
+def impact_rows(settings: dict) -> Iterator[dict]:
+    """Duration, peak force and restitution of isolated impacts."""
+    model = settings["model"] | {"tension": "allow"}
+    damped, _ = grid.conveyor_and_start(model)
+    elastic, _ = grid.conveyor_and_start(model | {"damping": 0.0})
+    for speed in settings["speed"]:
+        found, depth = impact(elastic, speed), compression(elastic, speed)
+        case = f"undamped, {speed:g} m/s"
+        duration = undamped_duration(elastic, speed)
+        force = elastic.stiffness * depth**elastic.exponent
+        yield row(settings, "impact", "duration of an impact", case, "s", duration, found.duration, "Hertz 1882")
+        yield row(settings, "impact", "peak force of an impact", case, "N", force, found.peak, "Hertz 1882")
+    for speed in settings["speed"]:
+        beta = damped.damping / damped.mass * compression(damped, speed) / speed
+        theory, found = reduced_restitution(damped.exponent, beta), impact(damped, speed)
+        case, source = f"F = k δ^p + d δ̇, {speed:g} m/s", "reduced equation, SciPy"
+        yield row(settings, "impact", "coefficient of restitution", case, "1", theory, found.restitution, source)
+    speed = settings["speed"][0]
+    unit = elastic.mass * speed / compression(elastic, speed)  # damping with β = 1
+
+    def loss(beta: float) -> float:
+        light, _ = grid.conveyor_and_start(model | {"damping": beta * unit})
+        return (1.0 - impact(light, speed).restitution) / beta
+
+    computed, error = limit(np.array([2.0 * LIGHT, LIGHT]), np.array([loss(2.0 * LIGHT), loss(LIGHT)]))
+    theory, source = light_loss(elastic.exponent), "work of the damper"
+    name, case = "loss of speed (1 - e)/β", "F = k δ^p + d δ̇, β → 0"
+    yield row(settings, "impact", name, case, "1", theory, computed, source, error)
+    for restitution in settings["restitution"]:
+        for tension, theory in (("allow", restitution), ("clip", without_pull(restitution))):
+            contact = linear(model, settings["stiffness"][0], restitution, tension=tension)
+            found, case = impact(contact, speed), f"F = k δ + d δ̇, ζ = {damping_ratio(restitution):.3g}, {tension}"
+            source = "Schwager and Pöschel 2007"
+            yield row(settings, "impact", "coefficient of restitution", case, "1", theory, found.restitution, source)
+
+
+def row(
+    settings: dict,
+    kind: str,
+    quantity: str,
+    case: str,
+    unit: str,
+    theory: float,
+    computed: float,
+    source: str,
+    error: float = math.nan,
+) -> dict:
+    return {
+        "kind": kind,
+        "quantity": quantity,
+        "case": case,
+        "unit": unit,
+        "theory": theory,
+        "computed": computed,
+        "error": error,
+        "difference": abs(computed / theory - 1.0),
+        "accepted": settings["accepted"][kind],
+        "source": source,
+    }
+
+
+def make(settings: dict, cascade: pd.DataFrame) -> dict[str, list]:
+    """The columns of the table of theory.
+
+    Parameters
+    ----------
+    settings : the section `theory` of the config with the model
+    cascade : table of period doublings
+    """
+    rows = [*rigid_rows(settings), cascade_row(settings, cascade), *impact_rows(settings)]
+    return fields.columns(rows, TABLES["theory"])

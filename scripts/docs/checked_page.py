@@ -1,0 +1,64 @@
+"""The page that says how the numbers were checked."""
+
+import math
+
+import pandas as pd
+
+from pipeline.templates import render
+
+
+def in_unit(name: str, unit: str) -> str:
+    return name if unit == "1" else f"{name} in {unit}"
+
+
+ROUNDING = 1e-13  # smaller differences are rounding errors, whose digits mean nothing
+
+
+def order(value: float) -> str:
+    """An error or a difference in one digit, a dash for none."""
+    if math.isnan(value):
+        return "–"
+    return f"{value:.0e}" if value >= ROUNDING else f"below {ROUNDING:g}"
+
+
+def theory_row(row) -> list[str]:
+    """The cells of a row of the table of theory."""
+    return [
+        in_unit(row.quantity, row.unit),
+        row.case,
+        f"{row.theory:.12g}",
+        f"{row.computed:.12g}",
+        *map(order, (row.error, row.difference, row.accepted)),
+        row.source,
+    ]
+
+
+def map_rows(points: pd.DataFrame) -> list[list]:
+    """The cells of each map: points, those near a boundary, in chaos, with another label, and both."""
+    differs = points.label != points.state
+    counts = points.assign(
+        points=1, chaos=points.label == "chaos", different=differs, different_near=differs & points.near_boundary
+    ).groupby("map", sort=False)
+    return (
+        counts[["points", "near_boundary", "chaos", "different", "different_near"]].sum().reset_index().values.tolist()
+    )
+
+
+def make(template: str, theory: pd.DataFrame, map_check: pd.DataFrame) -> str:
+    """The page from its template, the quantities with a closed form, and the checked points of maps."""
+    settings = map_check.attrs
+    return render(
+        template,
+        {
+            "theory": [theory_row(row) for row in theory.itertuples()],
+            "compared": len(theory),
+            "agreeing": int((theory.difference <= theory.accepted).sum()),
+            **{name: settings[name] for name in ("repeats", "cycles")},
+            **{name: f"{settings[name]:g}" for name in ("tolerance", "close", "significant")},
+            "accepted_share": f"{settings['accepted']:g}",
+            "points": len(map_check),
+            "different": int((map_check.label != map_check.state).sum()),
+            "undecided": int((map_check.state == "undecided").sum()),
+            "maps": map_rows(map_check),
+        },
+    )

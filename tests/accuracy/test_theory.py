@@ -1,0 +1,70 @@
+"""Closed forms against each other, and the solver's isolated impacts against them."""
+
+import math
+
+import numpy as np
+import pytest
+
+from accuracy import theory
+from conveyor import Conveyor
+from conveyor.methods.rigid_part_orbits import rigid_orbit
+
+MODEL = {"frequency": 50.0, "angle": 0.2, "gravity": 9.81, "mass": 0.7e-3}
+
+
+@pytest.mark.parametrize("restitution", [0.2, 0.8])
+def test_the_range_of_the_rigid_ball_is_that_of_the_library(restitution):
+    conveyor = Conveyor(frequency=50.0, angle=0.2)
+    orbit = rigid_orbit(conveyor, lambda speed: restitution)
+    scale = math.sin(conveyor.angle) / conveyor.gravity
+    assert theory.rigid_range(restitution) == pytest.approx((orbit.fold * scale, orbit.doubling * scale), rel=1e-7)
+
+
+def test_an_elastic_ball_has_the_range_of_the_approximate_map():
+    assert theory.rigid_range(1.0) == (0.0, 1.0)
+
+
+def test_a_stiff_contact_is_nearly_rigid():
+    """An impact that takes a 7600th of a cycle moves both ends by less than a thousandth."""
+    assert theory.stiff_range(MODEL, 1e9, 0.5) == pytest.approx(theory.rigid_range(0.5), rel=1e-3)
+
+
+def test_the_limit_of_a_polynomial_is_exact():
+    places = np.array([0.3, 0.2, 0.1])
+    value, error = theory.limit(places, 2.0 - 3.0 * places + 4.0 * places**2)
+    assert value == pytest.approx(2.0, abs=1e-13)
+    assert error == pytest.approx(4.0 * 0.2 * 0.1)  # of the line through the last two places
+
+
+@pytest.mark.parametrize("speed", [0.01, 2.0])
+def test_an_undamped_impact_is_that_of_hertz(speed):
+    conveyor = Conveyor(damping=0.0)
+    found, depth = theory.impact(conveyor, speed), (1.25 * 0.7e-3 * speed**2 / 5e5) ** 0.4
+    assert found.duration == pytest.approx(2.943275 * depth / speed, rel=1e-6)
+    assert found.peak == pytest.approx(5e5 * depth**1.5, rel=1e-12)
+    assert found.restitution == pytest.approx(1.0, abs=1e-13)
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.5])
+def test_the_reduced_equation_of_a_linear_contact_has_a_closed_form(ratio):
+    """X'' = -X - 2 ζ X', whose velocity falls by exp(-π ζ/√(1 - ζ²)) in half a period."""
+    expected = math.exp(-math.pi * ratio / math.sqrt(1.0 - ratio**2))
+    assert theory.reduced_restitution(1.0, 2.0 * ratio) == pytest.approx(expected, rel=1e-11)
+    assert theory.damping_ratio(expected) == pytest.approx(ratio)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5])
+def test_light_damping_loses_the_work_of_the_damper(exponent):
+    loss = (1.0 - theory.reduced_restitution(exponent, 1e-5)) / 1e-5
+    assert loss == pytest.approx(theory.light_loss(exponent), rel=1e-4)
+
+
+def test_a_contact_that_cannot_pull_ends_sooner_and_keeps_more_speed():
+    contact = theory.linear(MODEL, 1e5, 0.3, tension="clip")
+    assert theory.impact(contact, 0.2).restitution == pytest.approx(theory.without_pull(0.3), rel=1e-12)
+    assert theory.without_pull(0.3) > 0.3
+
+
+def test_an_impact_that_never_ends_is_an_error():
+    with pytest.raises(ArithmeticError, match="less damping"):
+        theory.impact(Conveyor(damping=100.0), 0.1)

@@ -1,0 +1,50 @@
+"""The page of checks: what does not agree with theory or with brute force is shown, and not counted as agreeing."""
+
+import pandas as pd
+from project import ROOT
+
+from docs import checked_page
+
+TEMPLATE = (ROOT / "workflow/templates/checked.md").read_text(encoding="utf-8")
+ROW = {
+    "kind": "impact",
+    "quantity": "duration",
+    "case": "undamped",
+    "unit": "s",
+    "theory": 0.25,
+    "computed": 0.25,
+    "error": float("nan"),
+    "difference": 1e-16,
+    "accepted": 1e-9,
+    "source": "Hertz 1882",
+}
+
+POINTS = pd.DataFrame(
+    {
+        "map": ["high", "low", "high"],
+        "near_boundary": [True, False, False],
+        "label": ["chaos", "first", "second"],
+        "state": ["undecided", "first", "second"],
+    }
+)
+POINTS.attrs = {
+    "tolerance": 1e-13,
+    "repeats": 64,
+    "close": 1e-9,
+    "cycles": 2000,
+    "significant": 3.0,
+    "accepted": 0.01,
+}
+
+
+def test_a_quantity_that_does_not_agree_is_shown_and_not_counted():
+    text = checked_page.make(TEMPLATE, pd.DataFrame([ROW, ROW | {"computed": 0.5, "difference": 1.0}]), POINTS)
+    assert "1 of 2 quantities agree" in text
+    assert "| duration in s | undamped | 0.25 | 0.25 | – | below 1e-13 | 1e-09 | Hertz 1882 |" in text
+    assert "| duration in s | undamped | 0.25 | 0.5 | – | 1e+00 | 1e-09 | Hertz 1882 |" in text
+
+
+def test_an_undecided_label_counts_as_different():
+    text = checked_page.make(TEMPLATE, pd.DataFrame([ROW]), POINTS)
+    assert "**1 of 3 labels differ**, 1 of them because the motion is undecided" in text
+    assert "| high | 2 | 1 | 1 | 1 | 1 |\n| low | 1 | 0 | 0 | 0 | 0 |" in text

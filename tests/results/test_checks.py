@@ -1,0 +1,16 @@
+"""What the page of checks says: the solver agrees with published theory, and maps with brute force."""
+
+
+def test_all_quantities_agree_with_theory(result):
+    table = result("theory")
+    assert set(table.kind) == set(table.attrs["accepted"])
+    assert (table.difference <= table.accepted).all(), table[table.difference > table.accepted].to_string()
+
+
+def test_labels_of_maps_are_those_of_brute_force(result):
+    table = result("map_check")
+    assert (table.label != table.state).mean() <= table.attrs["accepted"]
+    chaos = table[table.state == "chaos"]
+    assert (chaos.cycles >= table.attrs["cycles"]).all()
+    assert (chaos.exponent > table.attrs["significant"] * chaos.exponent_error).all()
+    assert (table[table.state.isin(["first", "second"])].period > 0).all()
