@@ -582,7 +582,7 @@ def test_a_page_with_real_maps_is_small_enough():
 
 def test_a_map_has_two_even_axes(maps):
     table = maps[0].copy()
-    with pytest.raises(ValueError, match="z0 are not evenly spaced"):
+    with pytest.raises(ValueError, match="z0 must be evenly spaced"):
         build.encode(table.assign(z0=table.z0.replace(table.z0.max(), 1.0)))
     table.attrs = {**table.attrs, "axes": {"z0": {}}}
     with pytest.raises(ValueError, match="has two axes"):

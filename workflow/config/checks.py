@@ -111,8 +111,8 @@ def sweeps(config: dict, defaults: dict) -> Iterator[str]:
             shared = plan(config["sharing"], fill_defaults(config, "sweeps", variant))
             if shared.core_hours > limit:
                 yield (
-                    f"sweeps.{name}.axes makes {shared.points:,} points, some {shared.core_hours:.2g} hours of one "
-                    f"core in {shared.shards} jobs of {shared.memory / 1000.0:.2g} GB; give a smaller num, or raise "
+                    f"sweeps.{name}.axes makes {shared.points:,} points, about {shared.core_hours:.2g} core "
+                    f"hours in {shared.shards} jobs of {shared.memory / 1000.0:.2g} GB; give a smaller num, or raise "
                     f"sharing.core_hours = {limit:g}"
                 )
 
@@ -181,7 +181,7 @@ def perturbations(config: dict, defaults: dict) -> Iterator[str]:
     for key, perturb, epsilon, values in perturbed_runs(config):
         if "conveyor" in values:
             remedy = "give z0 a height in m, or perturb another parameter"
-            yield f"{key}.perturb = {perturb!r} perturbs nothing where z0 is the word conveyor; {remedy}"
+            yield f"{key}.perturb = {perturb!r} has no effect because z0 is the word conveyor; {remedy}"
         elif any(abs(value + epsilon - value - epsilon) > 0.5 * epsilon for value in values):
             yield f"{key}.epsilon = {epsilon!r} is lost in the rounding of {perturb}; give a larger one"
 
@@ -198,7 +198,7 @@ def critical(config: dict, defaults: dict) -> Iterator[str]:
     name, single = config["sensitivity"]["critical"], by_methods(config)
     entry = resolve(single, "critical", name) if name in single["critical"] else None
     if entry and (set(entry["axes"]) != {"acceleration"} or entry["method"] != "event"):
-        yield f"sensitivity.critical = {name!r} is not over the acceleration alone, by the method event; name another"
+        yield f"sensitivity.critical = {name!r} must name an entry over acceleration alone, with the method event"
 
 
 def times(config: dict, defaults: dict) -> Iterator[str]:
@@ -264,7 +264,7 @@ def figures(config: dict, defaults: dict) -> Iterator[str]:
                     yield f"{section}.{figure} has no {file}; a figure needs a plot script and a caption of its name"
             for reference in entry["tables"].values():
                 if entry["needs"] == "feeding" and entry_of(tables, reference).get("needs") == "vertical":
-                    yield f"{section}.{figure} needs feeding, but {reference} is computed for vertical needs only"
+                    yield f"{section}.{figure} needs feeding, but {reference} has needs: vertical; remove it there"
 
 
 def default_claim(name: str, claim: dict, defaults: dict) -> dict:
@@ -286,7 +286,7 @@ def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
             parts.append((f"claims.{name}", claim, default, ("tables", "quantities", "settings")))
         else:
             remedy = suggest_name(claim["finding"], [one["finding"] for one in defaults["claims"].values()])
-            yield f"claims.{name}.finding = {claim['finding']!r} is no finding of the default config; {remedy}"
+            yield f"claims.{name}.finding = {claim['finding']!r} is not a finding of the default config; {remedy}"
     may_lack = is_own_machine(defaults, config)
     for place, entry, default, keys in parts:
         for key in keys:
@@ -306,14 +306,14 @@ def identification(config: dict, defaults: dict) -> Iterator[str]:
         for number in evidence["without"]:
             if number not in searched:
                 remedy = suggest_name(number, searched)
-                yield f"identification.evidence.{name}.without = {number!r} is in no objective; {remedy}"
+                yield f"identification.evidence.{name}.without = {number!r} is in none of the objectives; {remedy}"
         left = len(searched) - len(evidence["without"])
         if left <= len(own["bounds"]):
             yield f"identification.evidence.{name}.without leaves {left} numbers for {len(own['bounds'])} parameters"
     if own["search"]["population"] <= (weights := own["search"]["weights"] + 1) * (weights + 1) // 2:
         yield (
-            f"identification.search.population = {own['search']['population']} holds no more than the triples of "
-            f"weights, {weights * (weights + 1) // 2}; give more, or fewer weights"
+            f"identification.search.population = {own['search']['population']} is not larger than the number of weight "
+            f"triples, {weights * (weights + 1) // 2}; give more, or fewer weights"
         )
 
 

@@ -120,7 +120,7 @@ def scale_config(paper: dict, overlay: dict) -> dict:
     """
     own = paper["model"] | {name: float(value) for name, value in overlay["model"].items() if name in MACHINE}
     if math.sin(own["angle"]) == 0.0:
-        raise ConfigError(["model.angle = 0.0 lets no amplitude lift a part; give a larger angle"])
+        raise ConfigError(["model.angle = 0.0 means that no amplitude can lift a part; give a larger angle"])
     ratios = scale_ratios(paper["model"], own)
     config = scale(MODEL.validate_python(paper), full_schema(), ratios)
     config["model"] |= {name: own[name] for name in MACHINE if name in own}
