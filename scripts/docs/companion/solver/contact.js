@@ -156,7 +156,7 @@ function invertTime(step, length, tau) {
 // Parts of a contact step in each of which the force has at most one maximum, and the share of the step to which its
 // place is found: the relative error of the force is about the square of it.
 const PARTS = 4;
-const PEAK_WIDTH = 1e-8;
+const PEAK_WIDTH = 1e-6;
 
 /* Largest contact force per mass in a part of a contact step. */
 function largestForce(c, step, begin, end) {
