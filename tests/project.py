@@ -41,6 +41,7 @@ SINGLE = (
     "sensitivity",
     "operating",
     "throws",
+    "track",
     "advice",
     "identification",
 )
