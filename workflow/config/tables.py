@@ -11,7 +11,7 @@ from operator import itemgetter
 
 from scripts.identification.settings import IDENTIFICATION, identification_settings
 
-from .entries import ENTRIES, fill_defaults, resolve, roles_of_solution, tighter_reference
+from .entries import ENTRIES, fill_defaults, resolve, roles_of_solution, tighter_reference, without_tangential
 from .sharing import THREADS, plan, seconds_of
 
 
@@ -26,6 +26,12 @@ def with_model(config: dict, *sections: str, solver: tuple[str, ...] = ()) -> di
     for section in sections:
         settings |= config[section]
     return {**settings, "model": {**model_without_acceleration(config), **settings.get("model", {})}}
+
+
+def with_normal_model(config: dict, *sections: str, solver: tuple[str, ...] = ()) -> dict:
+    """The same for tables that follow from the motion normal to the track alone."""
+    settings = with_model(config, *sections, solver=solver)
+    return settings | {"model": without_tangential(settings["model"])}
 
 
 def sensitivity_settings(config: dict) -> dict:
@@ -109,7 +115,7 @@ def scaling_cases(config: dict) -> list[dict]:
 
 
 def certificates_settings(config: dict) -> dict:
-    return {**config["certificates"], "model": with_model(config, "orbits")["model"]}
+    return {**config["certificates"], "model": with_normal_model(config, "orbits")["model"]}
 
 
 def derivatives_settings(config: dict) -> dict:
@@ -117,11 +123,13 @@ def derivatives_settings(config: dict) -> dict:
 
 
 def curves_settings(config: dict) -> dict:
-    return {key: sensitivity_settings(config)[key] for key in ("longest_period", "curves", "model")}
+    settings = sensitivity_settings(config) | {"model": with_normal_model(config, "orbits")["model"]}
+    return {key: settings[key] for key in ("longest_period", "curves", "model")}
 
 
 def of_identification(table: str, config: dict) -> dict:
-    return identification_settings(config, table, model_without_acceleration(config))
+    model = model_without_acceleration(config)
+    return identification_settings(config, table, without_tangential(model) if table == "edges" else model)
 
 
 FOLLOWED = ("tolerance", "settling")
@@ -129,15 +137,15 @@ FOLLOWED = ("tolerance", "settling")
 TABLES = {
     **dict.fromkeys(
         ("orbits/branches", "orbits/folds_and_doublings", "orbits/cascade"),
-        lambda config: with_model(config, "orbits", solver=("tolerance",)),
+        lambda config: with_normal_model(config, "orbits", solver=("tolerance",)),
     ),
     "orbits/certificates": certificates_settings,
     "orbits/certified_bifurcations": certificates_settings,
     "orbits/certified_chaos": certificates_settings,
     "orbits/certificate_times": certificates_settings,
-    "attractors/strobes": lambda config: with_model(config, "attractors", solver=FOLLOWED),
-    "lyapunov/spectrum": lambda config: with_model(config, "attractors", "lyapunov", solver=FOLLOWED),
-    "lyapunov/witnesses": lambda config: with_model(config, "attractors", "witnesses", solver=FOLLOWED),
+    "attractors/strobes": lambda config: with_normal_model(config, "attractors", solver=FOLLOWED),
+    "lyapunov/spectrum": lambda config: with_normal_model(config, "attractors", "lyapunov", solver=FOLLOWED),
+    "lyapunov/witnesses": lambda config: with_normal_model(config, "attractors", "witnesses", solver=FOLLOWED),
     "sensitivity/derivatives": derivatives_settings,
     "sensitivity/groups": derivatives_settings,
     "sensitivity/continued": curves_settings,
@@ -157,7 +165,7 @@ TABLES = {
     "results/scene_budget": itemgetter("scene_budget"),
     "results/budget_times": itemgetter("scene_budget"),
     "results/rigid_part": itemgetter("rigid_part"),
-    "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED),
+    "results/settling_times": lambda config: with_normal_model(config, "settling_times", solver=FOLLOWED),
     "results/scaling": lambda config: {**config["scaling"], "sharing": config["sharing"]},
 }
 # Tables that only an explicit target makes.

@@ -179,11 +179,13 @@ def expand_force(c, series, at, scale, plate, slack):
 
     The product of sin θ and w follows from (cos θ)' = -ω w sin θ.
     """
-    cosine, sine = plate * c.cos_shift, plate * c.sin_shift / c.omega
+    plate, turned = plate * c.cos_shift, plate * c.sin_shift / c.omega
     for n in range(ORDER):
         force = c.stiffness * series[at + SPRING, n] + c.damping * (n + 1) * series[at + SQUARE, n + 1]
-        turned = sine * (n + 1) * series[at + COSINE, n + 1]
-        series[SCRATCH, n] = scale * force + cosine * series[at + COSINE_W, n] + slack * series[at + W, n] + turned
+        series[SCRATCH, n] = scale * force + plate * series[at + COSINE_W, n] + slack * series[at + W, n]
+    if turned != 0.0:
+        for n in range(ORDER):
+            series[SCRATCH, n] += turned * (n + 1) * series[at + COSINE, n + 1]
     series[SCRATCH, ORDER] = 0.0
 
 

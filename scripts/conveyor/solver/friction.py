@@ -72,10 +72,10 @@ def slip_end(c, step, segment, slip, leave):
     plate, turned = speed * c.cos_shift - mu * c.a_z / c.omega, speed * c.sin_shift
     fall = mu * c.gravity - segment.sigma * c.downhill
     for n in range(ORDER + 1):
-        of_plate = plate * series[at + SINE, n]
-        series[SCRATCH, n] = (
-            of_plate + mu * series[at + V, n] - fall * series[at + T, n] + turned * series[at + COSINE, n]
-        )
+        series[SCRATCH, n] = plate * series[at + SINE, n] + mu * series[at + V, n] - fall * series[at + T, n]
+    if turned != 0.0:  # not on the paper's conveyor, which a longer loop would delay
+        for n in range(ORDER + 1):
+            series[SCRATCH, n] += turned * series[at + COSINE, n]
     series[SCRATCH, 0] = 0.0
     series[SCRATCH, 0] = segment.sigma * slip - polynomial.value(series, SCRATCH, segment.s)
     return polynomial.first_root(series, SCRATCH, segment.s, step.piece.length, leave)

@@ -5,12 +5,12 @@ negative in between, the largest force lies at a root of the rate along the step
 """
 
 from . import contact
-from .jit import inlined, spliced
+from .jit import inlined, kernel
 from .polynomial import value
 from .vertical import invert_time
 
 # Relative accuracy of the place of the largest force: that of the force is its square.
-CLOSE = 1e-7
+CLOSE = 1e-5
 MAX_ITERATIONS = 60
 # Halvings of a step behind an impact, in search of a place where the force rises.
 MAX_HALVINGS = 30
@@ -43,7 +43,7 @@ def is_monotonic(c, motion, piece):
     return force_rate(c, motion.w, motion.v, motion.cosine) <= 0.0 and motion.w != 0.0
 
 
-@spliced
+@kernel
 def largest_force(c, series, at, low, high):
     """Largest F_c/m (m/s²) between the places `low` and `high` of a contact step."""
     force_low, rate_low = force_and_rate(c, series, at, low)
@@ -88,7 +88,7 @@ def largest_force_at_ends(c, motion, piece):
     return max(contact.force(c, motion.w, motion.v), contact.force(c, piece.w, piece.v))
 
 
-@spliced
+@kernel
 def largest_force_between(c, series, at, piece, first, last):
     """Largest F_c/m (m/s²) of a contact step between the times `first` and `last` (s) since it began."""
     low = 0.0 if first <= 0.0 else invert_time(series, at, piece.length, first)
