@@ -44,6 +44,7 @@ SINGLE = (
     "sensitivity",
     "operating",
     "throws",
+    "track",
     "advice",
     "identification",
 )

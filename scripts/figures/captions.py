@@ -2,6 +2,7 @@
 
 import inspect
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -229,6 +230,14 @@ def throw(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> dict[str, str]
     }
 
 
+def track(*, track: pd.DataFrame) -> dict[str, Any]:
+    steepest = track[track.mean_velocity > 0.0].groupby("state").inclination.max()
+    return {
+        "acceleration": f"{track.attrs['acceleration']:g}",
+        "limits": [(state, f"{np.degrees(limit):.1f}") for state, limit in steepest.items()],
+    }
+
+
 def identification(
     *, front: pd.DataFrame, profiles: pd.DataFrame, frictions: pd.DataFrame, generations: pd.DataFrame
 ) -> dict[str, str]:
@@ -245,7 +254,7 @@ def identification(
     }
 
 
-NUMBERS: dict[str, Callable[..., dict[str, str]]] = {
+NUMBERS: dict[str, Callable[..., dict[str, Any]]] = {
     "fig03": fig03,
     "fig08": fig08,
     "fig10": fig10,
@@ -267,6 +276,7 @@ NUMBERS: dict[str, Callable[..., dict[str, str]]] = {
     "settling": settling,
     "stability": stability_maps,
     "throw": throw,
+    "track": track,
 }
 
 

@@ -11,10 +11,10 @@ import pandas as pd
 
 from conveyor import ensemble
 from conveyor.analysis import throw_theory
-from conveyor.analysis.attractors.labels import Labels, continued
-from conveyor.solver.model import FREQUENCY, VZ0
+from conveyor.analysis.attractors.labels import Labels
+from conveyor.solver.model import VZ0
 from operating.regimes import CERTAIN, FAST, ONE, SEVERAL, best_of, regimes_of
-from operating.shares import APART, FORGOTTEN, motions_at, parameters_of, starts_of_box
+from operating.shares import APART, continue_settled, motions_at, parameters_of, starts_of_box
 from pipeline import fields
 from pipeline.motions import motions_of_starts
 
@@ -78,12 +78,9 @@ def settled(motion: pd.Series, settings: dict, phases: int, *, threads: int = 1)
     rows = parameters_of(np.array([motion.acceleration]), starts_of_box(settings), settings["model"])
     found = motions_of_starts(rows, settings, starts=len(rows), threads=threads)
     members = np.flatnonzero(is_motion(found, motion))
-    soonest = members[found.cycles[members].argmin()]
-    cycles = found.cycles[soonest] + FORGOTTEN + np.arange(phases) / phases
-    row = np.repeat(rows[soonest : soonest + 1], phases, axis=0)
-    durations = cycles / row[:, FREQUENCY]
-    ends = ensemble.run(row, duration=durations, tolerance=settings["tolerance"], needs="vertical", threads=threads)
-    return continued(row, ends["z_end"], ends["vz_end"], durations)
+    chosen = np.full(phases, members[found.cycles[members].argmin()])
+    later = np.arange(phases) / phases
+    return continue_settled(rows[chosen], Labels(*(c[chosen] for c in found)), settings, later, threads=threads)
 
 
 def smallest_knock(

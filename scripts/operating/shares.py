@@ -9,7 +9,8 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis.attractors.labels import Labels
+from conveyor import ensemble
+from conveyor.analysis.attractors.labels import Labels, continued
 from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
 from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, GRAVITY, INCLINATION, PSI0, VZ0, Z0
@@ -71,6 +72,19 @@ def groups(found: Labels) -> np.ndarray:
     number = np.empty(len(order), dtype=np.int64)
     number[order] = np.concatenate([[0], np.cumsum(~same)])
     return number
+
+
+def continue_settled(
+    rows: np.ndarray, found: Labels, settings: dict, later: np.ndarray | float = 0.0, *, threads: int = 1
+) -> np.ndarray:
+    """Packed parameters, shape (n, 16), that go on from settled trajectories.
+
+    rows, found : packed parameters of the trajectories, shape (n, 16), and their labels
+    later : excitation cycles by which each trajectory is followed further, a number or of shape (n,)
+    """
+    durations = (found.cycles + later + FORGOTTEN) / rows[:, FREQUENCY]
+    ends = ensemble.run(rows, duration=durations, tolerance=settings["tolerance"], needs="vertical", threads=threads)
+    return continued(rows, ends["z_end"], ends["vz_end"], durations)
 
 
 def last_quarters(

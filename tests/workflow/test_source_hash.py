@@ -23,6 +23,7 @@ CALLS = {
     "accuracy/scaling": {"sweeps/shards"},
     "operating/shares": {"operating/regimes"},
     "operating/advice": {"operating/regimes", "operating/shares"},
+    "operating/track": {"operating/regimes", "operating/shares"},
     "operating/throws": {"operating/regimes", "operating/shares"},
     "identification/fronts": {"identification/edges"},
     "identification/printed": {"identification/edges", "motion/critical_heights"},

@@ -541,6 +541,14 @@ class Throws(TypedDict):
     followed: whole("initial conditions per attractor whose mean velocity is computed", 2, 1000)
 
 
+class Track(TypedDict):
+    acceleration: Acceleration
+    inclination: span(MODEL_TYPES["inclination"], "inclinations of the track")
+    phase_shift: span(MODEL_TYPES["phase_shift"], "phase shifts of the drive")
+    starts: whole("random initial conditions per inclination", 2, 10**6)
+    cycles: whole("cycles that the feeding motion is followed for, at least", 4, 10**6, "excitation cycles")
+
+
 NumberOfClaim = Annotated[Literal[NUMBERS_OF_CLAIMS], Field(description="quantity of a claim, as CLAIM.QUANTITY")]
 NumbersOfClaims = many(NumberOfClaim, "quantities of claims")
 
@@ -689,6 +697,7 @@ class Config(TypedDict):
     scaling: Annotated[Scaling, Field(description="cost of sweeps by size, threads and shards")]
     operating: Annotated[Operating, Field(description="shares of the attractors over the amplitude")]
     advice: Annotated[Advice, Field(description="advice on where to run the conveyor")]
+    track: Annotated[Track, Field(description="velocity over inclination and phase shift")]
     throws: Annotated[Throws, Field(description="comparison with the textbook theory of throw conveyors")]
     identification: Annotated[Identification, Field(description="parameters that the paper's numbers imply")]
     figures: Annotated[dict[Name, Figure], Field(description="figures")]

@@ -45,10 +45,11 @@ def operating_settings(config: dict) -> dict:
     return {**config["operating"], "settling": config["solver"]["settling"], "model": model}
 
 
-def throws_settings(config: dict) -> dict:
-    """The box and the search of the operating section at the throw numbers of the section `throws`."""
+def of_box(section: str, config: dict) -> dict:
+    """A section that follows the initial conditions of the operating section's box, at other conveyors."""
     own = {key: value for key, value in operating_settings(config).items() if key not in ("acceleration", "resolution")}
-    return own | config["throws"]
+    own = own | config[section]
+    return {**own, "model": {name: value for name, value in own["model"].items() if name not in config[section]}}
 
 
 def precision_settings(config: dict, scene: str) -> dict:
@@ -164,7 +165,8 @@ TABLES = {
     "operating/regimes": lambda config: None,  # made from other tables only
     "operating/advice": itemgetter("advice"),
     "operating/changes": itemgetter("advice"),
-    "operating/throws": throws_settings,
+    "operating/throws": partial(of_box, "throws"),
+    "operating/track": partial(of_box, "track"),
     **{f"identification/{name}": partial(of_identification, name) for name in IDENTIFICATION},
     "results/claims": lambda config: {"claims": config["claims"]},
     "results/benchmark": benchmark_settings,

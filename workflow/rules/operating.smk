@@ -73,6 +73,19 @@ rule throws:
         "../../scripts/make.py"
 
 
+use rule operating as track with:
+    output:
+        **tables_of("operating/track"),
+    log:
+        log_file("operating/track"),
+    benchmark:
+        benchmark_file("operating/track")
+    params:
+        **stage("operating.track", "operating/track"),
+    message:
+        "Velocities over inclination and phase shift"
+
+
 rule operating_chart:
     input:
         **tables_of("operating/shares", "operating/regimes", "operating/advice", "operating/changes"),
