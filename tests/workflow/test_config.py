@@ -250,7 +250,7 @@ WRONG = [
     ),
     (
         {"sweeps": {"map_height": {"axes": {"psi0": {"num": 1.0e6}, "z0": {"num": 1.0e6}}}}},
-        "sweeps.map_height.axes makes 1,000,000,000,000 points, some",
+        "sweeps.map_height.axes makes 1,000,000,000,000 points, about",
     ),
 ]
 
