@@ -41,6 +41,7 @@ SINGLE = (
     "sensitivity",
     "operating",
     "throws",
+    "drive",
     "track",
     "advice",
     "identification",
