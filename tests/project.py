@@ -44,6 +44,7 @@ SINGLE = (
     "sensitivity",
     "operating",
     "throws",
+    "drive",
     "track",
     "advice",
     "identification",

@@ -146,24 +146,27 @@ def velocities(
     return found, status
 
 
-def motions_at(
-    amplitudes: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None
+def motions_of_conveyors(
+    parameters: np.ndarray, starts: int, settings: dict, *, threads: int = 1, progress: str | None = None
 ) -> pd.DataFrame:
-    """The table for some amplitudes (m/s²), ascending, shape (m,)."""
-    starts = starts_of_box(settings)
-    parameters = parameters_of(amplitudes, starts, settings["model"])
-    found = motions_of_starts(parameters, settings, starts=len(starts), threads=threads, progress=progress)
+    """The motions that `starts` initial conditions of each of k conveyors end in, a row for each motion.
+
+    parameters : packed, shape (k starts, 16)
+    Returns, besides columns of the table, `conveyor`, its number, and of the trajectory that settles first its
+    `place` in `parameters` and the `cycles` until then.
+    """
+    found = motions_of_starts(parameters, settings, starts=starts, threads=threads, progress=progress)
     rows, chosen, numbers = [], [], []
-    for k in range(len(amplitudes)):
-        own = slice(k * len(starts), (k + 1) * len(starts))
+    for k in range(len(parameters) // starts):
+        own = slice(k * starts, (k + 1) * starts)
         number = groups(Labels(*(column[own] for column in found)))
         for motion in range(number.max() + 1):
             members = own.start + np.flatnonzero(number == motion)
             soonest = members[np.argsort(found.cycles[members], kind="stable")][: settings["followed"]]
             chosen.append(soonest)
             numbers.append(np.full(len(soonest), len(rows)))
-            rows.append((members[0], len(members)))
-    first, count = np.array(rows).T
+            rows.append((k, members[0], soonest[0], len(members)))
+    conveyor, first, place, count = np.array(rows).T
     chosen, numbers = np.concatenate(chosen), np.concatenate(numbers)
     period, cycles = found.period[chosen], found.cycles[chosen]
     # What has no period is no more settled later on.
@@ -180,11 +183,14 @@ def motions_at(
         if status[row] == "ok":
             velocity[row] = each[own].mean()
             error[row] = each[own].std(ddof=1) / math.sqrt(sizes[row]) if sizes[row] > 1 else np.nan
-    share = count / len(starts)
+    share = count / starts
     acceleration = parameters[first, ACCELERATION]
     normal_gravity = parameters[first, GRAVITY] * np.cos(parameters[first, INCLINATION])
-    table = pd.DataFrame(
+    return pd.DataFrame(
         {
+            "conveyor": conveyor,
+            "place": place,
+            "cycles": found.cycles[place],
             "acceleration": acceleration,
             "vertical": acceleration * np.sin(parameters[first, ANGLE]) / normal_gravity,
             "state": found.state[first],
@@ -192,12 +198,23 @@ def motions_at(
             "longest_flight": found.longest_flight[first],
             "starts": count,
             "share": share,
-            "stderr": np.sqrt(share * (1.0 - share) / len(starts)),
+            "stderr": np.sqrt(share * (1.0 - share) / starts),
             "mean_velocity": velocity,
             "velocity_stderr": error,
             "status": status,
         }
-    ).sort_values(["acceleration", "mean_velocity", "starts"], ascending=[True, False, False], ignore_index=True)
+    )
+
+
+def motions_at(
+    amplitudes: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None
+) -> pd.DataFrame:
+    """The table for some amplitudes (m/s²), ascending, shape (m,)."""
+    starts = starts_of_box(settings)
+    parameters = parameters_of(amplitudes, starts, settings["model"])
+    table = motions_of_conveyors(parameters, len(starts), settings, threads=threads, progress=progress)
+    order = {"by": ["acceleration", "mean_velocity", "starts"], "ascending": [True, False, False]}
+    table = table.drop(columns=["conveyor", "place", "cycles"]).sort_values(**order, ignore_index=True)
     return table.assign(motion=table.groupby("acceleration").cumcount() + 1)
 
 

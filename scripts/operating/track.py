@@ -2,6 +2,9 @@
 
 The motion normal to the track depends on the inclination, through g cos α, and not on the phase shift. Therefore each
 state is settled once per inclination; for each phase shift, only the feeding motion is followed from there.
+
+On average over a period, the contact force is m g cos α. Where |tan α| exceeds the friction coefficient, friction
+cannot hold a part in any periodic motion: it slides downhill faster and faster, and has no mean velocity.
 """
 
 import numpy as np
@@ -9,6 +12,7 @@ import numpy as np
 from conveyor import ensemble
 from conveyor.analysis.attractors.labels import Labels
 from conveyor.solver.model import FREQUENCY, PHASE_SHIFT
+from operating.regimes import SLIDES_AWAY
 from operating.shares import continue_settled, parameters_of, starts_of_box
 from pipeline import fields, grid
 from pipeline.motions import motions_of_starts
@@ -19,7 +23,8 @@ TABLES = {
         fields.number("inclination", "rad", "inclination of the track"),
         fields.number("phase_shift", "rad", "phase by which the motion along the track leads"),
         *fields.STATE,
-        fields.number("mean_velocity", "m/s", "mean feeding velocity; null where no start settles to the state"),
+        fields.number("mean_velocity", "m/s", "mean feeding velocity; null where there is none"),
+        fields.text("status", f"ok, no start settles to the state, or {SLIDES_AWAY}"),
     )
 }
 
@@ -61,6 +66,9 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
         run = ensemble.run(rows, duration=duration, tolerance=settings["tolerance"], threads=threads, progress=label)
         for (number, state, _), means in zip(chosen, run["mean_velocity"].reshape(len(chosen), -1), strict=True):
             velocity[number, state], period[number, state] = means, cycles
+    model, status = settings["model"], np.where(period > 0, "ok", "no start settles to the state").astype(object)
+    steep = np.abs(np.tan(inclinations)) > model.get("static_friction", model["friction"])
+    velocity[steep], status[steep] = np.nan, SLIDES_AWAY
     alpha, state, shift = np.indices(shape)
     return {
         "inclination": inclinations[alpha.ravel()],
@@ -68,4 +76,5 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
         "state": np.array(STATES)[state.ravel()],
         "period": period.ravel(),
         "mean_velocity": velocity.ravel(),
+        "status": status.ravel(),
     }

@@ -304,8 +304,10 @@ def test_advice_must_hold_within_the_margin(refined):
     found = advice.recommended(refined, 0.01)
     assert 20.0 <= found["certain"] <= 31.4 / 1.01
     assert 40.0 <= found["fast"] <= 50.0 / 1.01
-    # Within twice their amplitude there is chaos around all of them.
-    assert advice.recommended(refined, 0.99) == {}
+    # Up to twice their amplitude there are two velocities everywhere, and chaos from 50 m/s² on.
+    wide = advice.recommended(refined, 0.99)
+    assert wide.keys() == {"fast"}
+    assert wide["fast"] <= 50.0 / 1.99
 
 
 def test_worst_of_neighbours():

@@ -24,6 +24,7 @@ CALLS = {
     "operating/shares": {"operating/regimes"},
     "operating/advice": {"operating/regimes", "operating/shares"},
     "operating/track": {"operating/regimes", "operating/shares"},
+    "operating/drive": {"operating/regimes", "operating/shares"},
     "operating/throws": {"operating/regimes", "operating/shares"},
     "identification/fronts": {"identification/edges"},
     "identification/printed": {"identification/edges", "motion/critical_heights"},

@@ -549,6 +549,32 @@ class Track(TypedDict):
     cycles: whole("cycles that the feeding motion is followed for, at least", 4, 10**6, "excitation cycles")
 
 
+class DriveSearch(TypedDict):
+    starts: whole("random initial conditions per design", 8, 10**6)
+    settling: Cycles
+    followed: whole("initial conditions per attractor whose mean velocity is computed", 2, 1000)
+    cycles: whole("cycles over which a mean velocity is taken", 10, 10**6, "excitation cycles")
+
+
+class Drive(TypedDict):
+    bounds: mapping(
+        "search interval of each parameter",
+        {
+            name: interval(MODEL_TYPES[name], DESCRIPTIONS[name])
+            for name in ("acceleration", "frequency", "angle", "phase_shift")
+        },
+    )
+    displacement: number("largest amplitude of the drive's displacement, â/ω²", "m", gt=0, le=1)
+    impact_speed: number("impact speed from which a design has no value", "m/s", gt=0, le=100)
+    share: number("least share of initial conditions that reach one velocity", gt=0, le=1)
+    search: Annotated[DriveSearch, Field(description="initial conditions of each design of the search")]
+    population: whole("population of NSGA-II", 4, 10**4)
+    generations: whole("generations of NSGA-II", 2, 10**5)
+    seeds: many(Seed, "seeds of the random numbers")
+    checked: whole("designs of the front that get a full operating run", 1, 1000)
+    recommended: whole("recommended settings", 1, 100)
+
+
 NumberOfClaim = Annotated[Literal[NUMBERS_OF_CLAIMS], Field(description="quantity of a claim, as CLAIM.QUANTITY")]
 NumbersOfClaims = many(NumberOfClaim, "quantities of claims")
 
@@ -699,6 +725,7 @@ class Config(TypedDict):
     advice: Annotated[Advice, Field(description="advice on where to run the conveyor")]
     track: Annotated[Track, Field(description="velocity over inclination and phase shift")]
     throws: Annotated[Throws, Field(description="comparison with the textbook theory of throw conveyors")]
+    drive: Annotated[Drive, Field(description="search for the settings of the drive")]
     identification: Annotated[Identification, Field(description="parameters that the paper's numbers imply")]
     figures: Annotated[dict[Name, Figure], Field(description="figures")]
     figures_on_request: Annotated[dict[Name, Figure], Field(description="figures that only an explicit target makes")]

@@ -52,6 +52,12 @@ def of_box(section: str, config: dict) -> dict:
     return {**own, "model": {name: value for name, value in own["model"].items() if name not in config[section]}}
 
 
+def drive_settings(config: dict) -> dict:
+    """The drive's searched parameters come from the bounds."""
+    own = of_box("drive", config)
+    return {**own, "model": {name: value for name, value in own["model"].items() if name not in own["bounds"]}}
+
+
 def precision_settings(config: dict, scene: str) -> dict:
     """One scene of the section `precision`."""
     precision = config["precision"]
@@ -167,6 +173,8 @@ TABLES = {
     "operating/changes": itemgetter("advice"),
     "operating/throws": partial(of_box, "throws"),
     "operating/track": partial(of_box, "track"),
+    "operating/front": drive_settings,
+    "operating/generations": drive_settings,
     **{f"identification/{name}": partial(of_identification, name) for name in IDENTIFICATION},
     "results/claims": lambda config: {"claims": config["claims"]},
     "results/benchmark": benchmark_settings,

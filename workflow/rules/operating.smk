@@ -102,3 +102,34 @@ rule operating_chart:
         "The operating chart in words"
     script:
         "../../scripts/make.py"
+
+
+use rule operating as front with:
+    output:
+        **tables_of("operating/front", "operating/generations"),
+    log:
+        log_file("operating/front"),
+    benchmark:
+        benchmark_file("operating/front")
+    params:
+        **stage("operating.drive", "operating/front"),
+    message:
+        "Search for the settings of the drive"
+
+
+rule drive_page:
+    input:
+        **tables_of("operating/front", "operating/generations"),
+        template=source("workflow/templates/drive.md"),
+    output:
+        page=result("drive.md"),
+    log:
+        log_file("operating/drive_page"),
+    benchmark:
+        benchmark_file("operating/drive_page")
+    params:
+        **stage("operating.drive_page"),
+    message:
+        "The recommended settings of the drive in words"
+    script:
+        "../../scripts/make.py"

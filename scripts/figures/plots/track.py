@@ -5,6 +5,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from figures import style
+from operating.regimes import SLIDES_AWAY
 
 PHASES = {"-π": -np.pi, "-π/2": -0.5 * np.pi, "0": 0.0, "π/2": 0.5 * np.pi, "π": np.pi}
 
@@ -21,6 +22,7 @@ def plot(*, track: pd.DataFrame) -> Figure:
         image = axes.pcolormesh(
             x, y, own, cmap="PuOr_r", vmin=-largest, vmax=largest, shading="nearest", rasterized=True
         )
+        axes.set_facecolor("0.85")
         axes.contour(x, y, own, levels=[0.0], colors="black", linewidths=1.0)
         axes.axhline(0.0, color="black", linewidth=0.4, linestyle=":")
         axes.axvline(0.0, color="black", linewidth=0.4, linestyle=":")
@@ -28,6 +30,10 @@ def plot(*, track: pd.DataFrame) -> Figure:
         axes.set_xlabel("phase shift $\\varepsilon$ in rad")
         axes.set_xticks(list(PHASES.values()), PHASES)
         axes.set_xlim(x[0], x[-1])
+        steep = np.degrees(track.inclination[(track.status == SLIDES_AWAY) & (track.inclination > 0.0)])
+        if len(steep):
+            middle = (0.0, 0.5 * (steep.min() + steep.max()))
+            style.note(axes, "parts slide away faster and faster", middle, ha="center", va="center")
     panels[0].set_ylabel("inclination $\\alpha$ in °")
     if states:
         figure.colorbar(image, ax=list(panels), label=style.VELOCITY)
