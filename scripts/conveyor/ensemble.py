@@ -1,13 +1,12 @@
 """Many trajectories: one row per point, in the order of the points, whatever fails and however the work is shared."""
 
-from collections.abc import Callable
-
 import numpy as np
 
 from .arguments import check_array, check_choice, check_count
 from .methods import euler_lanes, fixed_step
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, LONGEST, check_run
-from .solver import trajectory
+from .solver import trajectory, vertical_lanes
+from .solver.horizontal import VX, VZ, X, Z
 from .solver.parallel import for_each_chunk
 
 STATUS = trajectory.STATUS
@@ -19,11 +18,16 @@ COLUMNS = ("mean_velocity", "z_end", "vz_end", "x_end", "vx_end", "max_gap", "im
 
 def follow_by_events(parameters, durations, tolerance, feeding, out):
     """Fill `out`, shape (9, n), for `parameters`, shape (n, 13), and `durations` (s), by events."""
-    times = np.column_stack([(1.0 - LAST) * durations, durations])
-    samples, results = trajectory.integrate(parameters, times, tolerance=tolerance, feeding=feeding)
-    out[MEAN_VELOCITY] = (samples[:, 1, 0] - samples[:, 0, 0]) / (LAST * durations)
-    for column, place in enumerate((X_END, VX_END, Z_END, VZ_END)):
-        out[place] = samples[:, 1, column]
+    if feeding:
+        times = np.column_stack([(1.0 - LAST) * durations, durations])
+        samples, results = trajectory.integrate(parameters, times, tolerance=tolerance)
+        before, after = samples[:, 0], samples[:, 1]
+        out[MEAN_VELOCITY] = (after[:, X] - before[:, X]) / (LAST * durations)
+        out[X_END], out[VX_END] = after[:, X], after[:, VX]
+    else:
+        after, results = vertical_lanes.integrate(parameters, durations, tolerance=tolerance)
+        out[[MEAN_VELOCITY, X_END, VX_END]] = np.nan
+    out[Z_END], out[VZ_END] = after[:, Z], after[:, VZ]
     out[MAX_GAP] = results[:, trajectory.MAX_GAP]
     out[IMPACTS] = results[:, trajectory.IMPACTS]
     out[CONTACT_FRACTION] = results[:, trajectory.CONTACT_TIME] / durations
@@ -73,7 +77,6 @@ def run(
     needs: str = "feeding",
     threads: int = 1,
     chunk: int = 1024,
-    beside: Callable[[], object] | None = None,
     progress: str | None = None,
 ) -> dict[str, np.ndarray]:
     """Follow every point for `duration` (s); the event-driven method takes one for each point, too, shape (n,).
@@ -84,7 +87,6 @@ def run(
     duration, method, tolerance, step : as in simulation.simulate
     needs : "feeding", or "vertical" where nothing horizontal is wanted (event-driven method: its columns are NaN)
     threads, chunk : how the work is shared; the result does not depend on them
-    beside : what another thread begins with, if one comes to it, as in solver.parallel.for_each_chunk; or None
     progress : name of a progress bar on stderr, or None
 
     Returns
@@ -115,7 +117,7 @@ def run(
             follow_by_steps(parameters[begin:end], duration, step, fixed_step.METHODS.index(method), out[:, begin:end])
         return np.count_nonzero(out[CODE, begin:end] != trajectory.OK)
 
-    for_each_chunk(work, len(parameters), threads=threads, chunk=chunk, beside=beside, progress=progress)
+    for_each_chunk(work, len(parameters), threads=threads, chunk=chunk, progress=progress)
     columns = dict(zip(COLUMNS, out, strict=False))
     if not feeding:
         for name in ("mean_velocity", "x_end", "vx_end"):

@@ -81,6 +81,8 @@ def drawn(request, tmp_path_factory):
     copy = tmp_path_factory.mktemp("page") / "page.pdf"
     style.save(figure, [str(copy)])
     FigureCanvasAgg(figure)  # measures texts
+    figure.dpi = style.RESOLUTION  # of the layout
+    figure.draw_without_rendering()
     return Drawn(request.param, figure, copy.read_bytes())
 
 
@@ -124,7 +126,7 @@ def in_words(axis):
 
 def streams(page):
     """The streams of a page with their numbers to 1e-4 (35 nm): a layout's last digits differ from run to run."""
-    found = re.findall(rb"stream\r?\n(.*?)\r?\nendstream", page, re.DOTALL)
+    found = re.findall(rb"stream\n(.*?)\nendstream", page, re.DOTALL)
     plain = [zlib.decompress(one) if one.startswith(b"\x78") else one for one in found]
     return [re.sub(rb"-?\d*\.\d{5,}", lambda match: b"%.4f" % (round(float(match[0]), 4) + 0.0), one) for one in plain]
 

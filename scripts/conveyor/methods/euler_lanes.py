@@ -21,6 +21,7 @@ from numba.extending import intrinsic
 from ..solver import model
 from ..solver.jit import kernel
 from ..solver.vectors import BIT, FLOAT, INTEGER, Memory, Vector, anywhere, call, fused, lanes_of_processor, where
+from .force_law import spring_and_damper
 
 CHECK = 256  # steps between checks that the state is finite
 STATUSES = ("ok", "not finite")
@@ -124,7 +125,7 @@ def forces(typing_context, lanes, memory):
         gap = at[Z] + at[PLATE_Z] * cosine
         flying = gap > 0.0
         length = spring_length(-gap, at[EXPONENT], flying)
-        force = at[STIFFNESS] * length - at[DAMPING] * (at[VZ] - at[PLATE_VZ] * sine)
+        force = spring_and_damper(at[STIFFNESS], length, at[DAMPING], at[VZ] - at[PLATE_VZ] * sine)
         push = where(~flying, where(at[LEAST_PUSH] > force, at[LEAST_PUSH], force), 0.0)
         bound = at[FRICTION] * where(at[LEAST_RUB] > push, at[LEAST_RUB], push)
         slip = at[PLATE_VX] * sine - at[VX]

@@ -6,6 +6,14 @@ from ..solver import model
 from ..solver.jit import kernel
 
 
+def spring_and_damper(stiffness, spring, damping, gap_velocity):
+    """F_c of a closed contact from k_c, δ^p, d_c and q̇ (Eq. 7), also for vectors of lanes and for symbols."""
+    return stiffness * spring - damping * gap_velocity
+
+
+spring_and_damper_of_numbers = kernel(spring_and_damper)
+
+
 @kernel
 def contact_acceleration(gap, gap_velocity, stiffness, damping, exponent, tension):
     """F_c/m in m/s² from q (m), q̇ (m/s), k_c/m and d_c/m (Eq. 7; zero in flight)."""
@@ -18,7 +26,7 @@ def contact_acceleration(gap, gap_velocity, stiffness, damping, exponent, tensio
         spring = depth
     else:
         spring = depth**exponent
-    force = stiffness * spring - damping * gap_velocity
+    force = spring_and_damper_of_numbers(stiffness, spring, damping, gap_velocity)
     if tension == model.TENSION_CLIP and force < 0.0:
         return 0.0
     return force

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..solver.model import EXPONENT, PARAMETERS, TENSION, TENSION_ALLOW
+from .force_law import spring_and_damper
 
 # Names of the systems, and of the event functions that end them.
 FLIGHT, FORWARD, BACKWARD, STICK = "flight", "forward", "backward", "stick"
@@ -59,7 +60,7 @@ def systems(exponent: float, tolerance: float) -> dict[str, Any]:
     state = hy.make_vars("x", "vx", "z", "vz")
     x, vx, z, vz = state
     p, gap, rate, slip, pull = quantities(state)
-    push = (p["stiffness"] * (-gap) ** exponent - p["damping"] * rate) / p["mass"]
+    push = spring_and_damper(p["stiffness"], (-gap) ** exponent, p["damping"], rate) / p["mass"]
     rub = p["friction"] * push
     up, down = hy.event_direction.positive, hy.event_direction.negative
 

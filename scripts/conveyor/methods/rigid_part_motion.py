@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..solver import contact, model
-from ..solver.flight import gap, highest_gap, next_impact
+from ..solver.flight import Flight, gap, highest_gap, next_impact
 from ..solver.jit import kernel
 
 STATUSES = ("ok", "too many events", "impact not found")
@@ -293,31 +293,24 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
                 vx = plate.a_x / omega * math.sin(theta)
                 sigma = slip_direction(plate, theta, 0.0)
         else:
+            flight = Flight(z, vz, theta, gravity, a_z, omega)
             if skip > 0.0:
-                q, rate = gap(z, vz, skip, theta, gravity, a_z, omega)
+                q, rate = gap(flight, skip)
                 if q <= 0.0:
                     # The plate is back before it has really left.
                     x, vx = rest_motion(plate, theta, x, vx, sigma, skip)
                     t += skip
                     resting = True
                     continue
-            tau, speed = next_impact(
-                z + (vz - 0.5 * gravity * skip) * skip,
-                vz - gravity * skip,
-                q,
-                rate,
-                theta + omega * skip,
-                gravity,
-                a_z,
-                omega,
-                end - base - t - skip,
-            )
+            z_then, vz_then = z + (vz - 0.5 * gravity * skip) * skip, vz - gravity * skip
+            ahead = Flight(z_then, vz_then, theta + omega * skip, gravity, a_z, omega)
+            tau, speed = next_impact(ahead, q, rate, end - base - t - skip)
             tau += skip
             if not tau <= math.inf:
                 samples[n_sampled:] = math.nan
                 return n_impacts, max_gap, IMPACT_NOT_FOUND
             flown = min(tau, end - base - t)
-            max_gap = max(max_gap, highest_gap(z, vz, theta, gravity, a_z, omega, flown))
+            max_gap = max(max_gap, highest_gap(flight, flown))
             while n_sampled < len(times) and base + t + tau >= times[n_sampled]:
                 ahead = times[n_sampled] - base - t
                 samples[n_sampled] = (

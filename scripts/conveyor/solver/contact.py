@@ -94,6 +94,21 @@ def force(c, w, v):
     return c.stiffness * max(w, 0.0) ** (2.0 * c.exponent) + c.damping * v
 
 
+@inlined
+def impulse_of_tension(c, fastest, lapse):
+    """Bound on the impulse per mass (m/s) of a force that pulls during a time `lapse` (s).
+
+    fastest : m/s; the speed of separation stays below it plus what gravity and the plate add
+    """
+    return c.damping * (fastest + 2.0 * (c.gravity + c.a_z) * lapse) * lapse
+
+
+@inlined
+def is_hertz(c):
+    """Whether the generated code holds for this contact."""
+    return c.exponent == 1.5
+
+
 expand_hertz = kernel(unrolled.expand_hertz)
 
 
@@ -103,7 +118,7 @@ def expand(c, series, at, w0, v0, sine0, cosine0, free):
     stiffness = 0.0 if free else c.stiffness
     damping = 0.0 if free else c.damping
     gravity, a_z, omega = c.gravity, c.a_z, c.omega
-    if c.exponent == 1.5:
+    if is_hertz(c):
         expand_hertz(w0, v0, sine0, cosine0, gravity, a_z, omega, stiffness, damping, series, at)
         return
     w, t, v, sine, cosine = at + W, at + T, at + V, at + SINE, at + COSINE

@@ -14,7 +14,7 @@ from numba.core import cgutils, types
 from numba.extending import intrinsic
 
 from . import contact, model, unrolled
-from .jit import inlined, kernel
+from .jit import inlined, kernel, spliced
 from .polynomial import ORDER, SIZE
 from .vectors import FLOAT, INTEGER, Memory, Vector, anywhere, call, fused, where
 
@@ -22,10 +22,10 @@ from .vectors import FLOAT, INTEGER, Memory, Vector, anywhere, call, fused, wher
 # penetration (√m), speed of approach (m/s), sine and cosine of the phase; the constants of contact.Constants.
 W, V, SINE, COSINE, GRAVITY, A_Z, OMEGA, STIFFNESS, DAMPING = range(9)
 # Further constants; the time and when it is over (s); the steps that were taken and how many may be; the length in s up
-# to which the series is good.
-TOLERANCE, SCALE_V, TIME, END, STEPS, MOST, LENGTH = range(9, 16)
+# to which the series is good, and the time (s) that a step of this length takes.
+TOLERANCE, SCALE_V, TIME, END, STEPS, MOST, LENGTH, LAPSE = range(9, 17)
 # Row SERIES + SIZE k + n holds coefficient n of row k of a workspace's step.
-SERIES = 16
+SERIES = 17
 KEPT = (contact.W, contact.T, contact.V, contact.SINE, contact.COSINE)
 ROWS = SERIES + SIZE * len(KEPT)
 
@@ -104,6 +104,7 @@ def step(typing_context, lanes, memory):
         new_w, new_v, lapse, new_sine, new_cosine = (
             value(series, row, length) for row in (contact.W, contact.V, contact.T, contact.SINE, contact.COSINE)
         )
+        at[LAPSE] = lapse
         # What is no number is not smaller than any.
         proper = (new_w < HUGE) & (abs(new_v) < HUGE) & (lapse <= at[END] - at[TIME]) & (at[STEPS] < at[MOST])
         taken = proper & (new_w > 0.0) & ~((v < 0.0) & (new_v > 0.0))
@@ -127,7 +128,16 @@ def room(lanes):
 @kernel
 def possible(c):
     """Whether steps of a conveyor with these contact.Constants can be taken here."""
-    return c.exponent == 1.5 and c.tension == model.TENSION_ALLOW
+    return contact.is_hertz(c) and c.tension == model.TENSION_ALLOW
+
+
+@spliced
+def first_from(row, parameters, tolerance, left):
+    """The first row, from number `row` on, that lanes can follow, or the number of rows; those before are `left`."""
+    while row < len(parameters) and not possible(contact.constants(parameters[row], tolerance)):
+        left[row] = True
+        row += 1
+    return row
 
 
 @inlined
@@ -141,6 +151,13 @@ def enter(memory, lane, c, most):
     memory[TOLERANCE, lane] = c.tolerance
     memory[SCALE_V, lane] = c.scale_v
     memory[MOST, lane] = most
+
+
+@inlined
+def return_to_lane(motion, lane, memory):
+    """Let a vertical.Motion in contact go on with the others."""
+    memory[TIME, lane], memory[W, lane], memory[V, lane] = motion.t, motion.w, motion.v
+    memory[SINE, lane], memory[COSINE, lane] = motion.sine, motion.cosine
 
 
 @inlined

@@ -6,6 +6,7 @@ the lower bound reaches the plate before the part does, and a step to its root i
 """
 
 import math
+from collections import namedtuple
 
 from .jit import inlined, kernel
 
@@ -17,10 +18,15 @@ TURN = 2.0 * math.pi
 # A gap below zero by more than this many roundings is no rounding.
 LOST = 1e6
 
+# A flight by its take-off: height z (m), vertical velocity vz (m/s), phase theta (rad); and gravity, a_z (m/s²), omega
+# (rad/s).
+Flight = namedtuple("Flight", "z vz theta gravity a_z omega")
+
 
 @inlined
-def gap(z, vz, tau, theta, gravity, a_z, omega):
-    """Gap (m) and its rate (m/s) after the time `tau` of a flight from z, vz at the phase `theta`."""
+def gap(flight, tau):
+    """Gap (m) and its rate (m/s) after the time `tau` (s) of a flight."""
+    z, vz, theta, gravity, a_z, omega = flight
     phase = theta + omega * tau
     q = z + (vz - 0.5 * gravity * tau) * tau + a_z / (omega * omega) * math.cos(phase)
     rate = vz - gravity * tau - a_z / omega * math.sin(phase)
@@ -35,21 +41,20 @@ def time_of_fall(velocity, height, gravity):
 
 
 @inlined
-def next_impact(z, vz, q, rate, theta, gravity, a_z, omega, limit):
-    """Duration (s) of the flight from gap q ≥ 0 (m) with its rate (m/s), and approach speed at its end.
+def next_impact(flight, q, rate, limit):
+    """Duration (s) of a Flight from a gap q ≥ 0 (m) with its rate (m/s), and approach speed at its end.
 
     Parameters
     ----------
-    z, vz : height (m) and vertical velocity (m/s) of the part at take-off
+    flight : its take-off
     q, rate : gap (m) and its rate (m/s) there; q = 0 exactly after a separation
-    theta : phase of the excitation at take-off, rad
-    gravity, a_z, omega : m/s², m/s², rad/s
     limit : s, time at which the search ends
 
     Returns
     -------
     tau, speed : s, m/s (≥ 0); tau is infinite if there is no impact before `limit`, NaN if the search got lost
     """
+    z, vz, theta, gravity, a_z, omega = flight
     bound = gravity + a_z
     top = a_z / (omega * omega)
     rounding = 4.0 * EPSILON * (abs(z) + top)
@@ -68,7 +73,7 @@ def next_impact(z, vz, q, rate, theta, gravity, a_z, omega, limit):
         tau = max(tau, 1e-9 / omega)
         if tau >= limit:
             return math.inf, 0.0
-        q, rate = gap(z, vz, tau, theta, gravity, a_z, omega)
+        q, rate = gap(flight, tau)
     for _ in range(MAX_STEPS):
         velocity = vz - gravity * tau
         height = z + 0.5 * (vz + velocity) * tau
@@ -88,24 +93,22 @@ def next_impact(z, vz, q, rate, theta, gravity, a_z, omega, limit):
         tau += advance
         if tau >= limit:
             return math.inf, 0.0
-        q, rate = gap(z, vz, tau, theta, gravity, a_z, omega)
+        q, rate = gap(flight, tau)
     return math.nan, 0.0
 
 
 @kernel
-def highest_gap(z, vz, theta, gravity, a_z, omega, duration):
-    """Largest gap (m) of a flight from z (m), vz (m/s) at the phase `theta` (rad) that takes `duration` (s).
+def highest_gap(flight, duration):
+    """Largest gap (m) of a Flight that takes `duration` (s).
 
     Within an excitation cycle of the top of the parabola the plate is at its lowest point once, and a gap further away
     is smaller than the one there. The gap's rate falls monotonically where g + a_z cos θ > 0, around each such point:
     there a largest gap, if there is one, is bracketed.
     """
+    _, vz, theta, gravity, a_z, omega = flight
     top = min(max(vz / gravity, 0.0), duration)
     begin, end = max(top - TURN / omega, 0.0), min(top + TURN / omega, duration)
-    highest = max(
-        gap(z, vz, begin, theta, gravity, a_z, omega)[0],
-        gap(z, vz, end, theta, gravity, a_z, omega)[0],
-    )
+    highest = max(gap(flight, begin)[0], gap(flight, end)[0])
     falling = math.pi if a_z <= gravity else math.acos(-gravity / a_z)  # half-width of such a stretch, rad
     lowest = math.ceil((theta + omega * begin - falling) / TURN)
     while TURN * lowest - falling < theta + omega * end:
@@ -114,17 +117,17 @@ def highest_gap(z, vz, theta, gravity, a_z, omega, duration):
         lowest += 1
         if not low < high:
             continue
-        if gap(z, vz, low, theta, gravity, a_z, omega)[1] > 0.0 > gap(z, vz, high, theta, gravity, a_z, omega)[1]:
-            highest = max(highest, summit(z, vz, low, high, theta, gravity, a_z, omega))
+        if gap(flight, low)[1] > 0.0 > gap(flight, high)[1]:
+            highest = max(highest, summit(flight, low, high))
     return highest
 
 
 @inlined
-def summit(z, vz, low, high, theta, gravity, a_z, omega):
+def summit(flight, low, high):
     """Largest gap between two times of a flight, its rate positive at the first one, by safeguarded Newton steps."""
     tau = 0.5 * (low + high)
     for _ in range(60):
-        q, rate = gap(z, vz, tau, theta, gravity, a_z, omega)
+        q, rate = gap(flight, tau)
         if rate > 0.0:
             low = tau
         else:
@@ -132,6 +135,6 @@ def summit(z, vz, low, high, theta, gravity, a_z, omega):
         # The gap is flat at its summit: a rate this small no longer changes its height.
         if abs(rate) * (high - low) <= 1e-14 * q:
             break
-        newton = tau + rate / (gravity + a_z * math.cos(theta + omega * tau))
+        newton = tau + rate / (flight.gravity + flight.a_z * math.cos(flight.theta + flight.omega * tau))
         tau = newton if low < newton < high else 0.5 * (low + high)
     return q

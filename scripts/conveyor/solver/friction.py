@@ -12,64 +12,65 @@ the margin of stick are polynomials.
 import math
 
 from . import polynomial
-from .contact import SCRATCH, SINE, T, V, expand_force
+from .contact import SCRATCH, SINE, T, V, expand_force, impulse_of_tension
 from .jit import inlined, spliced
 from .polynomial import ORDER
 
 
 @inlined
-def keeps_slipping(c, slip, plate, gain, lapse, cosine, cosine_end, fastest, mu):
-    """Whether bounds alone show that the slip velocity does not vanish during a time `lapse` (s) of contact.
+def keeps_slipping(c, segment, piece, slip, plate, gain, fastest):
+    """Whether bounds alone show that the slip velocity does not vanish until a contact step ends.
 
     Parameters
     ----------
-    slip, plate : slip velocity at the beginning and the change of ẋ_s until the end, times the slip's sign, m/s
+    segment, piece : the horizontal.Segment, and the vertical.Piece in which it lies
+    slip, plate : slip velocity at its beginning and the change of ẋ_s until the end, times the slip's sign, m/s
     gain : ∫ F_c/m dt, m/s
-    cosine, cosine_end : cos θ at both ends
-    fastest : m/s; the speed of separation stays below it plus what gravity and the plate add
-    mu : friction coefficient that acts
+    fastest : m/s, as in contact.impulse_of_tension
 
     Friction lowers the slip by μ times the impulse of the force, and raises it again where the force pulls. The plate
     changes its velocity one way while cos θ keeps its sign.
     """
-    pull = c.damping * (fastest + 2.0 * (c.gravity + c.a_z) * lapse) * lapse
+    lapse = piece.duration - segment.t
+    pull = impulse_of_tension(c, fastest, lapse)
     turn = c.omega * lapse
     rise, fall = max(plate, 0.0), max(-plate, 0.0)
-    if cosine * cosine_end <= 0.0 or turn > 1.0:
-        rise = fall = c.a_x * min(max(abs(cosine), abs(cosine_end)) + turn, 1.0) * lapse
-    forward = slip - fall - mu * (gain + pull)
-    backward = slip + plate - mu * gain - rise - mu * pull
+    if segment.cosine * piece.cosine <= 0.0 or turn > 1.0:
+        rise = fall = c.a_x * min(max(abs(segment.cosine), abs(piece.cosine)) + turn, 1.0) * lapse
+    forward = slip - fall - segment.mu * (gain + pull)
+    backward = slip + plate - segment.mu * gain - rise - segment.mu * pull
     return max(forward, backward) > 0.0
 
 
 @spliced
-def slip_end(c, series, at, start, length, slip, sigma, mu, leave):
-    """Where, in (start, length] of a contact step, the slip velocity reaches zero; infinity if it does not.
+def slip_end(c, step, segment, slip, leave):
+    """Where, in the rest of a contact step, the slip velocity of a segment reaches zero; infinity if it does not.
 
-    `at` is the first row of the step, `slip` the slip velocity at `start` (m/s), `sigma` its sign (±1), `mu` the
-    friction coefficient that acts, `leave` as in polynomial.first_root.
+    `slip` is the slip velocity at the segment's beginning (m/s), `leave` as in polynomial.first_root.
     """
-    plate = sigma * c.a_x / c.omega - mu * c.a_z / c.omega
+    series, at, mu = step.series, step.at, segment.mu
+    plate = segment.sigma * c.a_x / c.omega - mu * c.a_z / c.omega
     fall = mu * c.gravity
     for n in range(ORDER + 1):
         series[SCRATCH, n] = plate * series[at + SINE, n] + mu * series[at + V, n] - fall * series[at + T, n]
     series[SCRATCH, 0] = 0.0
-    series[SCRATCH, 0] = sigma * slip - polynomial.value(series, SCRATCH, start)
-    return polynomial.first_root(series, SCRATCH, start, length, leave)
+    series[SCRATCH, 0] = segment.sigma * slip - polynomial.value(series, SCRATCH, segment.s)
+    return polynomial.first_root(series, SCRATCH, segment.s, step.piece.length, leave)
 
 
 @spliced
-def stick_end(c, series, at, start, length, cosine, cosine_end):
-    """Where, in (start, length] of a contact step, |ẍ_s| outgrows μ F_c/m, and whether it stays so until the end.
+def stick_end(c, step, segment):
+    """Where, in the rest of a contact step, |ẍ_s| outgrows μ F_c/m, and whether it stays so until the end.
 
-    `cosine` and `cosine_end` are cos θ at the ends: |ẍ_s| = a_x |cos θ| has one branch where they agree in sign. The
-    answer is infinity where the part sticks on. While |ẍ_s| > μ F_c/m the slip that begins cannot end.
+    |ẍ_s| = a_x |cos θ| has one branch where cos θ has the same sign at both ends. The answer is infinity where the part
+    sticks on. While |ẍ_s| > μ F_c/m the slip that begins cannot end.
     """
+    series, at, length = step.series, step.at, step.piece.length
     end, lasting = math.inf, False
     for direction in (-1.0, 1.0):
-        if direction * cosine <= 0.0 or direction * cosine_end <= 0.0:
+        if direction * segment.cosine <= 0.0 or direction * step.piece.cosine <= 0.0:
             expand_force(c, series, at, c.friction, direction * c.a_x, c.friction * c.rest_force)
-            root = polynomial.first_root(series, SCRATCH, start, length, polynomial.LEAVE)
+            root = polynomial.first_root(series, SCRATCH, segment.s, length, polynomial.LEAVE)
             if root < end:
                 for n in range(ORDER):
                     series[SCRATCH, n] *= -1.0

@@ -23,17 +23,26 @@ EVENTS = ("impact", "separation", "slip reversal", "stick", "slip", "tension beg
 # Segments in one contact step after which a run is given up.
 MAX_SEGMENTS = 10_000
 
+# The horizontal motion at a time: position x (m), velocity vx (m/s) and sign sigma of the slip, 0 for stick.
+Horizontal = namedtuple("Horizontal", "x vx sigma")
+# A contact step: the workspace with its series and their first row in it, the vertical.Motion at its beginning, the
+# vertical.Piece that it is, and the time (s) of its beginning.
+Step = namedtuple("Step", "series at motion piece begin")
+# What is recorded of one trajectory, arrays to be filled: `samples`, shape (k, 6), at the `times` (s), shape (k,); time
+# (s) and kind of the first m events, shape (m,).
+Record = namedtuple("Record", "times samples event_times event_kinds")
+
 # The beginning of a segment: sign of the slip (0 for stick) and the friction coefficient that acts; x (m), ẋ (m/s); its
 # place s in the step and the time t (s) since the step began; sine and cosine of the phase; z, ż, w and v.
 Segment = namedtuple("Segment", "sigma mu x vx s t sine cosine z vz w v")
 
 
 @inlined
-def note(event_times, event_kinds, events, time, kind):
+def note(record, events, time, kind):
     """Record an event (s, one of EVENTS) while there is room; the number of events with it."""
-    if events < event_times.size:
-        event_times[events] = time
-        event_kinds[events] = kind
+    if events < record.event_times.size:
+        record.event_times[events] = time
+        record.event_kinds[events] = kind
     return events + 1
 
 
@@ -58,89 +67,79 @@ def moved(c, segment, tau, sine, cosine, z, vz):
 
 
 @spliced
-def segment_end(c, series, at, segment, piece, released, fastest, leave):
+def segment_end(c, step, segment, released, fastest, leave):
     """Where in s a segment ends (infinity: not in this step), and whether slip that follows lasts to its end.
 
     A slip that begins at rest is left behind by the part `leave` of the step.
     """
     if released:
         return math.inf, True
+    piece = step.piece
     if segment.sigma == 0.0:
-        return friction.stick_end(c, series, at, segment.s, piece.length, segment.cosine, piece.cosine)
+        return friction.stick_end(c, step, segment)
     speed_x, speed_z = c.a_x / c.omega, c.a_z / c.omega
-    sigma, ahead = segment.sigma, piece.duration - segment.t
     slip = speed_x * segment.sine - segment.vx
     turn = piece.sine - segment.sine
+    ahead = piece.duration - segment.t
     gain = speed_z * turn - piece.v + segment.v + c.gravity * ahead
-    if friction.keeps_slipping(
-        c, sigma * slip, sigma * speed_x * turn, gain, ahead, segment.cosine, piece.cosine, fastest, segment.mu
-    ):
+    plate = segment.sigma * speed_x * turn
+    if friction.keeps_slipping(c, segment, piece, segment.sigma * slip, plate, gain, fastest):
         return math.inf, False
-    return friction.slip_end(c, series, at, segment.s, piece.length, slip, sigma, segment.mu, leave), False
+    return friction.slip_end(c, step, segment, slip, leave), False
 
 
 @spliced
-def sample_contact(c, series, at, motion, piece, segment, pressing, tau, samples, n):
-    """Fill the row n of `samples` at the time tau (s) since a contact step began, within a segment."""
+def sample_contact(c, step, segment, tau, sample):
+    """Fill a `sample`, shape (6,), at the time tau (s) since a contact step began, within a segment."""
+    series, at, motion = step.series, step.at, step.motion
     speed_z = c.a_z / c.omega
-    s = invert_time(series, at, piece.length, tau)
+    s = invert_time(series, at, step.piece.length, tau)
     phase = motion.theta + c.omega * tau
     sine, cosine = math.sin(phase), math.cos(phase)
     w, v = value(series, at + contact.W, s), value(series, at + contact.V, s)
     z, vz = -speed_z / c.omega * cosine - w * w, speed_z * sine - v
-    force = contact.force(c, w, v) if pressing else 0.0
+    force = 0.0 if motion.pulled and c.tension == TENSION_CLIP else contact.force(c, w, v)
     rub = c.a_x * cosine if segment.sigma == 0.0 else segment.sigma * segment.mu * force
-    samples[n, X], samples[n, VX] = moved(c, segment, tau - segment.t, sine, cosine, z, vz)
-    samples[n, Z], samples[n, VZ] = z, vz
-    samples[n, CONTACT_FORCE] = c.mass * force
-    samples[n, FRICTION_FORCE] = c.mass * rub
+    sample[X], sample[VX] = moved(c, segment, tau - segment.t, sine, cosine, z, vz)
+    sample[Z], sample[VZ] = z, vz
+    sample[CONTACT_FORCE] = c.mass * force
+    sample[FRICTION_FORCE] = c.mass * rub
+
+
+@inlined
+def first_segment(c, motion, horizontal):
+    """The Segment that begins with a contact step."""
+    speed_z = c.a_z / c.omega
+    mu = 0.0 if motion.pulled else c.friction
+    z, vz = -speed_z / c.omega * motion.cosine - motion.w * motion.w, speed_z * motion.sine - motion.v
+    x, vx, sigma = horizontal
+    return Segment(sigma, mu, x, vx, 0.0, 0.0, motion.sine, motion.cosine, z, vz, motion.w, motion.v)
 
 
 @spliced
-def feed(
-    c,
-    series,
-    at,
-    motion,
-    piece,
-    begin,
-    x,
-    vx,
-    sigma,
-    feeding,
-    times,
-    samples,
-    sampled,
-    event_times,
-    event_kinds,
-    events,
-):
-    """Follow the horizontal motion along a contact step, and sample it.
+def feed(c, step, horizontal, feeding, record, sampled, events):
+    """Follow the horizontal motion along a contact Step, and sample it.
 
     Parameters
     ----------
-    c, series, at, motion, piece : the contact step as in vertical.next_piece
-    begin : s, time of its beginning
-    x, vx, sigma : position (m), velocity (m/s) and sign of the slip then
+    horizontal : the Horizontal motion at its beginning
     feeding : whether the horizontal motion is wanted at all
-    times, samples, sampled : as in trajectory.integrate; rows from `sampled` on are waiting
-    event_times, event_kinds, events : the same for events
+    record, sampled, events : the Record, and numbers of samples and events in it so far
 
     Returns
     -------
-    x, vx, sigma, sampled, events, segments : at the end of the step; MAX_SEGMENTS segments if it was given up
+    horizontal, sampled, events, segments : at the end of the step; MAX_SEGMENTS segments if it was given up
     """
+    series, at, motion, piece, begin = step
     speed_x, speed_z = c.a_x / c.omega, c.a_z / c.omega
-    pressing = not (motion.pulled and c.tension == TENSION_CLIP)
-    mu = 0.0 if motion.pulled else c.friction
-    z, vz = -speed_z / c.omega * motion.cosine - motion.w * motion.w, speed_z * motion.sine - motion.v
-    segment = Segment(sigma, mu, x, vx, 0.0, 0.0, motion.sine, motion.cosine, z, vz, motion.w, motion.v)
+    segment = first_segment(c, motion, horizontal)
+    x, vx, sigma = horizontal
     fastest = max(-motion.v, -piece.v, 0.0)
     released = not feeding
     segments, leave = 0, LEAVE
     while True:
         segments += 1
-        change, released = segment_end(c, series, at, segment, piece, released, fastest, leave)
+        change, released = segment_end(c, step, segment, released, fastest, leave)
         s, t, w, v, sine, cosine = piece.length, piece.duration, piece.w, piece.v, piece.sine, piece.cosine
         changed = change < piece.length
         if changed:
@@ -149,10 +148,10 @@ def feed(
             w, v = value(series, at + contact.W, s), value(series, at + contact.V, s)
             phase = motion.theta + c.omega * t
             sine, cosine = math.sin(phase), math.cos(phase)
-        while sampled < times.size and begin + t >= times[sampled]:
-            sample_contact(c, series, at, motion, piece, segment, pressing, times[sampled] - begin, samples, sampled)
+        while sampled < record.times.size and begin + t >= record.times[sampled]:
+            sample_contact(c, step, segment, record.times[sampled] - begin, record.samples[sampled])
             sampled += 1
-        if sampled == times.size or not feeding:
+        if sampled == record.times.size or not feeding:
             break
         z, vz = -speed_z / c.omega * cosine - w * w, speed_z * sine - v
         x, vx = moved(c, segment, t - segment.t, sine, cosine, z, vz)
@@ -162,15 +161,15 @@ def feed(
             sigma = math.copysign(1.0, cosine)
             kind = SLIP
         else:
-            sigma = friction.direction_at_rest(c, c.a_x * cosine, contact.force(c, w, v), mu)
+            sigma = friction.direction_at_rest(c, c.a_x * cosine, contact.force(c, w, v), segment.mu)
             kind = STICK if sigma == 0.0 else SLIP_REVERSAL
         if sigma == segment.sigma:
             # No reversal: the slip cannot be told from zero here, and leaves it further on.
             leave *= 2.0
         else:
             leave = LEAVE
-            events = note(event_times, event_kinds, events, begin + t, kind)
+            events = note(record, events, begin + t, kind)
         # The part has the velocity of the plate here, exactly.
         vx = speed_x * sine
-        segment = Segment(sigma, mu, x, vx, s, t, sine, cosine, z, vz, w, v)
-    return x, vx, sigma, sampled, events, segments
+        segment = Segment(sigma, segment.mu, x, vx, s, t, sine, cosine, z, vz, w, v)
+    return Horizontal(x, vx, sigma), sampled, events, segments

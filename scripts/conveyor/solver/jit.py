@@ -6,9 +6,6 @@ from numba.extending import intrinsic
 
 from . import machine_code  # noqa: F401 - says where compiled code is kept
 
-# Neighbouring operations share an instruction. Their order stays, and with it every digit.
-numba.config.SLP_VECTORIZE = 1
-
 
 def kernel(function, **options):
     """Compile a function when it is called first, once for all values of its arguments.

@@ -6,6 +6,8 @@ error that a step may make, is that step. Orbits that contract are followed to t
 come as close.
 """
 
+from collections import namedtuple
+
 import numpy as np
 
 from .contact import FIRST, ROWS
@@ -19,67 +21,80 @@ PLACES = 40
 CLOSE = 0.1
 
 # Columns of a kept step: its beginning, then what was found.
-BEGIN_T, BEGIN_W, BEGIN_V, PULLED, DURATION, LENGTH, END, END_W, END_V, END_SINE, END_COSINE = range(11)
+BEGIN_T, BEGIN_W, BEGIN_V, BEGIN_SINE, BEGIN_COSINE, PULLED = range(6)
+DURATION, LENGTH, END, END_W, END_V, END_SINE, END_COSINE = range(6, 13)
+COLUMNS = 13
+
+
+# What is kept: the series of PLACES steps, a workspace (see contact), and the columns above, shape (PLACES, COLUMNS).
+Memory = namedtuple("Memory", "series steps")
 
 
 def room() -> tuple[np.ndarray, np.ndarray]:
-    """Room for the series of PLACES steps (see contact), and for what else is kept of them, shape (PLACES, 11)."""
-    return np.empty((FIRST + PLACES * ROWS, SIZE)), np.empty((PLACES, END_COSINE + 1))
+    """Room for the two fields of a Memory."""
+    return np.empty((FIRST + PLACES * ROWS, SIZE)), np.empty((PLACES, COLUMNS))
 
 
 @inlined
-def clear(series, kept):
+def forget(kept):
     """Forget all steps."""
+    for place in range(PLACES):
+        kept.steps[place, BEGIN_T] = np.inf
+
+
+@inlined
+def clear(kept):
+    """Forget all steps, and clear the rows that they share."""
     for row in range(FIRST):
         for n in range(SIZE):
-            series[row, n] = 0.0
-    for place in range(PLACES):
-        kept[place, BEGIN_T] = np.inf
+            kept.series[row, n] = 0.0
+    forget(kept)
 
 
 @inlined
-def first_row(series, kept, place):
+def first_row(kept, place):
     """The first row of a step's series. Most places are never used, so a place is cleared when it first is."""
     row = FIRST + place * ROWS
-    if kept[place, BEGIN_T] == np.inf:
+    if kept.steps[place, BEGIN_T] == np.inf:
         for k in range(row, row + ROWS):
             for n in range(SIZE):
-                series[k, n] = 0.0
+                kept.series[k, n] = 0.0
     return row
 
 
 @inlined
 def repeats(c, kept, place, motion):
     """Whether the contact step that begins with a Motion begins where the kept one began."""
+    step = kept.steps[place]
     close = CLOSE * c.tolerance
     return (
-        abs(kept[place, BEGIN_T] - motion.t) <= close / c.omega
-        and abs(kept[place, BEGIN_W] - motion.w) <= close * c.scale_w
-        and abs(kept[place, BEGIN_V] - motion.v) <= close * c.scale_v
-        and kept[place, PULLED] == motion.pulled
+        abs(step[BEGIN_T] - motion.t) <= close / c.omega
+        and abs(step[BEGIN_W] - motion.w) <= close * c.scale_w
+        and abs(step[BEGIN_V] - motion.v) <= close * c.scale_v
+        and step[PULLED] == motion.pulled
     )
 
 
 @inlined
 def keep(kept, place, motion, piece):
     """Keep the contact step `piece` that begins with `motion`."""
-    kept[place, BEGIN_T], kept[place, BEGIN_W] = motion.t, motion.w
-    kept[place, BEGIN_V], kept[place, PULLED] = motion.v, motion.pulled
-    kept[place, DURATION], kept[place, LENGTH], kept[place, END] = piece.duration, piece.length, piece.end
-    kept[place, END_W], kept[place, END_V] = piece.w, piece.v
-    kept[place, END_SINE], kept[place, END_COSINE] = piece.sine, piece.cosine
+    step = kept.steps[place]
+    step[BEGIN_T], step[BEGIN_W], step[BEGIN_V], step[PULLED] = motion.t, motion.w, motion.v, motion.pulled
+    step[BEGIN_SINE], step[BEGIN_COSINE] = motion.sine, motion.cosine
+    step[DURATION], step[LENGTH], step[END] = piece.duration, piece.length, piece.end
+    step[END_W], step[END_V], step[END_SINE], step[END_COSINE] = piece.w, piece.v, piece.sine, piece.cosine
+
+
+@inlined
+def beginning(kept, place):
+    """w, v, sine and cosine from which the series of a kept step is expanded."""
+    step = kept.steps[place]
+    return step[BEGIN_W], step[BEGIN_V], step[BEGIN_SINE], step[BEGIN_COSINE]
 
 
 @inlined
 def recall(kept, place):
     """The Piece that is kept."""
-    return Piece(
-        CONTACT,
-        kept[place, DURATION],
-        kept[place, LENGTH],
-        int(kept[place, END]),
-        kept[place, END_W],
-        kept[place, END_V],
-        kept[place, END_SINE],
-        kept[place, END_COSINE],
-    )
+    step = kept.steps[place]
+    end = int(step[END])
+    return Piece(CONTACT, step[DURATION], step[LENGTH], end, step[END_W], step[END_V], step[END_SINE], step[END_COSINE])

@@ -39,7 +39,6 @@ def for_each_chunk(
     *,
     threads: int = 1,
     chunk: int = 64,
-    beside: Callable[[], object] | None = None,
     progress: str | None = None,
 ) -> None:
     """Call `work(begin, end)` for consecutive ranges that cover range(count), on `threads` threads.
@@ -47,7 +46,6 @@ def for_each_chunk(
     Ranges have the length `chunk`; those of several threads get shorter towards the end, so that none waits long for
     another. `work` must write only what belongs to its range, so that the result depends neither on `threads` nor on
     `chunk`; it may return how many of its points have failed. An exception in it ends the loop and is raised here.
-    `beside` is what another thread begins with; where none comes to it, it is not called.
     `progress` names what is shown on stderr: rate, time left and failed points; None shows nothing.
     """
     ranges = list(ranges_of(count, threads, chunk))
@@ -71,10 +69,7 @@ def for_each_chunk(
                 ranges.clear()  # nothing is left for the others
                 raise
 
-        jobs = [take] * (min(threads, len(ranges)) - 1)
-        if beside is not None and threads > 1:
-            jobs.insert(0, beside)
-        asked = [other_threads(threads - 1).submit(job) for job in jobs]
+        asked = [other_threads(threads - 1).submit(take) for _ in range(min(threads, len(ranges)) - 1)]
         try:
             # The present thread works, too: who asks for its processor time gets it all where it is the only one.
             take()

@@ -5,6 +5,7 @@ same precision.
 """
 
 import math
+from collections import namedtuple
 
 import numpy as np
 
@@ -22,15 +23,18 @@ from .horizontal import (
     TENSION_ENDS,
     VX,
     VZ,
+    Horizontal,
+    Record,
+    Step,
     X,
     Z,
     feed,
     note,
     slip_direction,
 )
-from .jit import borrowed, kernel
+from .jit import borrowed, inlined, kernel, spliced
 from .model import TENSION_CLIP, VZ0, Z0
-from .vertical import CONTACT, FLIGHT, LIMIT, LOST, arrive, begin, in_cycle, motion_at, next_piece
+from .vertical import CONTACT, FLIGHT, LIMIT, LOST, arrive, begin, in_cycle, motion_at, next_piece, take_off
 
 # Phase at which a cycle is taken to begin, rad: the plate's top, where a part that leaves the plate is in the air.
 BEGIN_OF_CYCLE = -math.pi
@@ -60,6 +64,9 @@ def patience(c):
 # Columns of the results of runs: the status code, numbers of events and of impacts, the time with contact force (s),
 # the largest gap (m), numbers of contact steps that were computed and repeated.
 CODE, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, STEPS, REPEATS = range(7)
+
+# The arguments of `integrate` that are the same for all runs.
+Options = namedtuple("Options", "tolerance feeding reuse")
 
 
 def integrate(
@@ -92,133 +99,149 @@ def integrate(
     samples, results = np.empty((n, k, len(SAMPLES))), np.empty((n, REPEATS + 1))
     if event_times is None or event_kinds is None:
         event_times, event_kinds = np.empty((n, 0)), np.empty((n, 0), np.int8)
-    room = memory.room()
-    follow(parameters, tolerance, feeding, reuse, times, samples, event_times, event_kinds, results, *room)
+    # Plain tuples: numba takes several microseconds of each call to see the type of a named one.
+    records = (times, samples, event_times, event_kinds)
+    follow(parameters, (tolerance, feeding, reuse), records, results, memory.room())
     return samples, results
 
 
 @kernel
-def follow(rows, tolerance, feeding, reuse, moments, values, instants, kinds, results, series, kept):
-    """`integrate` with its arrays in order, and the room for contact steps that `memory` gives.
+def follow(parameters, options, records, results, room):
+    """`integrate` with its arrays in order.
+
+    Parameters
+    ----------
+    options, records : the fields of Options, and those of a Record with one more axis in front, that of the runs
+    results : filled, see `integrate`
+    room : memory.room
 
     All that follows runs is this one kernel, which nothing compiled calls: it would be compiled into each caller.
     """
-    series, kept = borrowed(series), borrowed(kept)
-    for i in range(rows.shape[0]):
-        memory.clear(series, kept)
-        times, samples = borrowed(moments[i]), borrowed(values[i])
-        event_times, event_kinds = borrowed(instants[i]), borrowed(kinds[i])
-        c = contact.constants(rows[i], tolerance)
-        most = patience(c)
-        end = times[-1]
-        offset = ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega
-        cycle = 0
-        base = -offset
-        q, rate = begin(c, rows[i, Z0], rows[i, VZ0], c.psi0)
-        motion = motion_at(c, q, rate, offset, c.psi0)
-        x = vx = sigma = 0.0
-        if motion.touching:
+    tolerance, feeding, reuse = options
+    times, samples, event_times, event_kinds = records
+    series, steps = room
+    kept = memory.Memory(borrowed(series), borrowed(steps))
+    for i in range(parameters.shape[0]):
+        record = Record(borrowed(times[i]), borrowed(samples[i]), borrowed(event_times[i]), borrowed(event_kinds[i]))
+        follow_part(parameters[i], Options(tolerance, feeding, reuse), record, borrowed(results[i]), kept)
+
+
+@spliced
+def sample_flight(c, motion, horizontal, tau, sample):
+    """Fill a `sample`, shape (6,), at the time tau (s) of a flight."""
+    sample[X], sample[VX] = horizontal.x + horizontal.vx * tau, horizontal.vx
+    sample[Z], sample[VZ] = motion.z + (motion.vz - 0.5 * c.gravity * tau) * tau, motion.vz - c.gravity * tau
+    sample[CONTACT_FORCE] = sample[FRICTION_FORCE] = 0.0
+
+
+@inlined
+def note_end(record, events, time, piece, pulled, motion):
+    """Record what ends a contact step, `pulled` before it and `motion` behind it; the number of events with it."""
+    if piece.end == SEPARATION and not motion.touching:
+        return note(record, events, time, SEPARATED)
+    if piece.end == FORCE_SIGN:
+        return note(record, events, time, TENSION_ENDS if pulled else TENSION_BEGINS)
+    return events
+
+
+@inlined
+def next_cycle(c, motion, piece):
+    """The same Motion in the cycle in which a Piece ends, and the number of cycles that begin until then."""
+    if motion.t < c.period and piece.end != LIMIT:
+        return motion, 0
+    cycles = 1 if piece.end == LIMIT else int(motion.t / c.period)
+    t = 0.0 if piece.end == LIMIT else max(motion.t - cycles * c.period, 0.0)
+    return in_cycle(c, motion, t, BEGIN_OF_CYCLE), cycles
+
+
+@spliced
+def follow_part(parameters, options, record, result, kept):
+    """Follow the part of a row of `parameters`, shape (13,); fill its Record and `result`, shape (7,)."""
+    memory.clear(kept)
+    c = contact.constants(parameters, options.tolerance)
+    most = patience(c)
+    times, samples = record.times, record.samples
+    end = times[-1]
+    offset = ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega
+    cycle = 0
+    base = -offset
+    q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)
+    motion = motion_at(c, q, rate, offset, c.psi0)
+    horizontal = Horizontal(0.0, 0.0, 0.0)
+    if motion.touching:
+        force = contact.force(c, motion.w, motion.v)
+        horizontal = Horizontal(0.0, 0.0, slip_direction(c, motion.sine, motion.cosine, 0.0, force, c.friction))
+    sampled = events = impacts = steps = repeats = pieces = lone = place = 0
+    contact_time = 0.0
+    max_gap = max(q, 0.0)
+    status = OK
+
+    while sampled < times.size:
+        pieces += 1
+        if pieces > MAX_PIECES or lone > most:
+            status = TOO_STIFF
+            break
+        at = memory.first_row(kept, place)
+        begins = base + motion.t
+        if options.reuse and motion.touching and memory.repeats(c, kept, place, motion):
+            piece = memory.recall(kept, place)
+            repeats += 1
+        else:
+            limit = c.period - motion.t if motion.touching else end - begins
+            piece = next_piece(c, kept.series, at, motion, limit)
+            if piece.kind == CONTACT:
+                memory.keep(kept, place, motion, piece)
+                steps += 1
+        lone = lone + 1 if piece.end == NOTHING else 0
+        ends = begins + piece.duration
+        if piece.kind == FLIGHT:
+            if piece.end == LOST:
+                status = IMPACT_LOST
+                break
+            max_gap = max(max_gap, highest_gap(take_off(c, motion), piece.duration))
+            while sampled < times.size and (ends >= times[sampled] or piece.end == LIMIT):
+                sample_flight(c, motion, horizontal, times[sampled] - begins, samples[sampled])
+                sampled += 1
+            if sampled == times.size:
+                break
+            impacts += 1
+            events = note(record, events, ends, IMPACT)
+        elif piece.kind == CONTACT:
+            place = min(place + 1, memory.PLACES - 1)
+            if not (motion.pulled and c.tension == TENSION_CLIP):
+                # A repeated step has the duration of the one it repeats; what counts is where the cycle ends.
+                lasts = c.period - motion.t if piece.end == LIMIT else piece.duration
+                contact_time += min(lasts, end - begins)
+            step = Step(kept.series, at, motion, piece, begins)
+            horizontal, sampled, events, segments = feed(c, step, horizontal, options.feeding, record, sampled, events)
+            if sampled == times.size:
+                break
+            if segments == MAX_SEGMENTS:
+                status = TOO_MANY_EVENTS
+                break
+        if piece.kind != CONTACT:
+            x, vx, sigma = horizontal
+            horizontal = Horizontal(x + vx * piece.duration, vx, sigma)
+        pulled = motion.pulled
+        motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
+        if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
+            status = NOT_FINITE
+            break
+        events = note_end(record, events, ends, piece, pulled, motion)
+        # Every cycle begins with a step of its own, so that its steps are comparable with the last one's.
+        motion, cycles = next_cycle(c, motion, piece)
+        if cycles > 0:
+            cycle += cycles
+            base = cycle * c.period - offset
+            pieces = place = 0
+        if piece.kind == FLIGHT and options.feeding:
+            x, vx, _ = horizontal
             force = contact.force(c, motion.w, motion.v)
             sigma = slip_direction(c, motion.sine, motion.cosine, vx, force, c.friction)
-        sampled = 0
-        events = impacts = steps = repeats = pieces = lone = place = 0
-        contact_time = 0.0
-        max_gap = max(q, 0.0)
-        status = OK
-
-        while sampled < times.size:
-            pieces += 1
-            if pieces > MAX_PIECES or lone > most:
-                status = TOO_STIFF
-                break
-            at = memory.first_row(series, kept, place)
-            begins = base + motion.t
-            if reuse and motion.touching and memory.repeats(c, kept, place, motion):
-                piece = memory.recall(kept, place)
-                repeats += 1
-            else:
-                limit = c.period - motion.t if motion.touching else end - begins
-                piece = next_piece(c, series, at, motion, limit)
-                if piece.kind == CONTACT:
-                    memory.keep(kept, place, motion, piece)
-                    steps += 1
-            lone = lone + 1 if piece.end == NOTHING else 0
-            ends = begins + piece.duration
-            if piece.kind == FLIGHT:
-                if piece.end == LOST:
-                    status = IMPACT_LOST
-                    break
-                highest = highest_gap(motion.z, motion.vz, motion.theta, c.gravity, c.a_z, c.omega, piece.duration)
-                max_gap = max(max_gap, highest)
-                while sampled < times.size and (ends >= times[sampled] or piece.end == LIMIT):
-                    tau = times[sampled] - begins
-                    samples[sampled, X] = x + vx * tau
-                    samples[sampled, VX] = vx
-                    samples[sampled, Z] = motion.z + (motion.vz - 0.5 * c.gravity * tau) * tau
-                    samples[sampled, VZ] = motion.vz - c.gravity * tau
-                    samples[sampled, CONTACT_FORCE] = samples[sampled, FRICTION_FORCE] = 0.0
-                    sampled += 1
-                if sampled == times.size:
-                    break
-                impacts += 1
-                events = note(event_times, event_kinds, events, ends, IMPACT)
-            elif piece.kind == CONTACT:
-                place = min(place + 1, memory.PLACES - 1)
-                if not (motion.pulled and c.tension == TENSION_CLIP):
-                    # A repeated step has the duration of the one it repeats; what counts is where the cycle ends.
-                    lasts = c.period - motion.t if piece.end == LIMIT else piece.duration
-                    contact_time += min(lasts, end - begins)
-                x, vx, sigma, sampled, events, segments = feed(
-                    c,
-                    series,
-                    at,
-                    motion,
-                    piece,
-                    begins,
-                    x,
-                    vx,
-                    sigma,
-                    feeding,
-                    times,
-                    samples,
-                    sampled,
-                    event_times,
-                    event_kinds,
-                    events,
-                )
-                if sampled == times.size:
-                    break
-                if segments == MAX_SEGMENTS:
-                    status = TOO_MANY_EVENTS
-                    break
-            if piece.kind != CONTACT:
-                x += vx * piece.duration
-            pulled = motion.pulled
-            motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
-            if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
-                status = NOT_FINITE
-                break
-            if piece.end == SEPARATION and not motion.touching:
-                events = note(event_times, event_kinds, events, ends, SEPARATED)
-            elif piece.end == FORCE_SIGN:
-                kind = TENSION_ENDS if pulled else TENSION_BEGINS
-                events = note(event_times, event_kinds, events, ends, kind)
-            if motion.t >= c.period or piece.end == LIMIT:
-                # Every cycle begins with a step of its own, so that its steps are comparable with the last one's.
-                cycles = 1 if piece.end == LIMIT else int(motion.t / c.period)
-                t = 0.0 if piece.end == LIMIT else max(motion.t - cycles * c.period, 0.0)
-                motion = in_cycle(c, motion, t, BEGIN_OF_CYCLE)
-                cycle += cycles
-                base = cycle * c.period - offset
-                pieces = place = 0
-            if piece.kind == FLIGHT and feeding:
-                sigma = slip_direction(c, motion.sine, motion.cosine, vx, c.damping * motion.v, c.friction)
-        if not feeding:
-            samples[:, X] = np.nan
-            samples[:, VX] = np.nan
-            samples[:, FRICTION_FORCE] = np.nan
-        for n in range(sampled, times.size):
-            samples[n, :] = np.nan
-        results[i, CODE], results[i, EVENTS], results[i, IMPACTS] = status, events, impacts
-        results[i, CONTACT_TIME], results[i, MAX_GAP] = contact_time, max_gap
-        results[i, STEPS], results[i, REPEATS] = steps, repeats
+            horizontal = Horizontal(x, vx, sigma)
+    if not options.feeding:
+        samples[:, X] = samples[:, VX] = samples[:, FRICTION_FORCE] = np.nan
+    samples[sampled:] = np.nan
+    result[CODE], result[EVENTS], result[IMPACTS] = status, events, impacts
+    result[CONTACT_TIME], result[MAX_GAP] = contact_time, max_gap
+    result[STEPS], result[REPEATS] = steps, repeats

@@ -10,7 +10,7 @@ from collections import namedtuple
 
 from . import contact, polynomial
 from .contact import FORCE_SIGN, NOTHING, SEPARATION
-from .flight import gap, next_impact
+from .flight import Flight, gap, next_impact
 from .jit import inlined, kernel, spliced
 from .model import TENSION_ALLOW
 
@@ -105,10 +105,16 @@ def shortened(series, at, length, duration, end):
     )
 
 
+@inlined
+def take_off(c, motion):
+    """The Flight that begins with a Motion."""
+    return Flight(motion.z, motion.vz, motion.theta, c.gravity, c.a_z, c.omega)
+
+
 @spliced
 def fly(c, motion, limit):
     """The Piece that is a flight from `motion`, of at most `limit` (s)."""
-    tau, speed = next_impact(motion.z, motion.vz, motion.q, motion.rate, motion.theta, c.gravity, c.a_z, c.omega, limit)
+    tau, speed = next_impact(take_off(c, motion), motion.q, motion.rate, limit)
     end = IMPACT
     if not tau < math.inf:
         end, tau = (LIMIT, limit) if tau == math.inf else (LOST, tau)
@@ -165,7 +171,7 @@ def arrive(c, motion, piece, origin):
     if piece.kind == FLIGHT:
         if piece.end == IMPACT:
             return Motion(t, theta, sine, cosine, True, 0.0, v, False, 0.0, 0.0, 0.0, 0.0)
-        q, rate = gap(motion.z, motion.vz, piece.duration, motion.theta, c.gravity, c.a_z, c.omega)
+        q, rate = gap(take_off(c, motion), piece.duration)
         z = q - c.a_z / (c.omega * c.omega) * cosine
         return Motion(t, theta, sine, cosine, False, 0.0, 0.0, False, z, rate + c.a_z / c.omega * sine, q, rate)
     touching = True

@@ -6,12 +6,22 @@ import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start
-from conveyor.solver import contact, friction
+from conveyor.solver import contact, friction, vertical
+from conveyor.solver.horizontal import Segment, Step
 from conveyor.solver.model import pack
 
 
 def constants(tolerance, **model):
     return contact.constants(pack(Conveyor(**model), Start()), tolerance)
+
+
+def segment(sigma, mu):
+    """One that begins with its contact step, at the plate's lowest point."""
+    return Segment(sigma, mu, x=0.0, vx=0.0, s=0.0, t=0.0, sine=0.0, cosine=1.0, z=0.0, vz=0.0, w=0.0, v=0.0)
+
+
+def piece(duration, length):
+    return vertical.Piece(vertical.CONTACT, duration, length, contact.NOTHING, w=0.0, v=0.0, sine=0.0, cosine=1.0)
 
 
 @pytest.mark.parametrize("exponent", [1.0, 1.5])
@@ -59,8 +69,9 @@ def test_slip_may_end_before_the_force_pulls():
     lapse, fastest = 0.01, 25.0  # a part that separates as fast all the time is pulled for damping × fastest × lapse
     pulled = c.damping * fastest * lapse
     assert pulled == pytest.approx(0.5)
-    assert not friction.keeps_slipping(c, 1.0, 0.0, 1.2 - pulled, lapse, 1.0, 1.0, fastest, 1.0)
-    assert friction.keeps_slipping(c, 1.0, 0.0, 0.9 - pulled, lapse, 1.0, 1.0, fastest, 1.0)
+    slips = segment(1.0, 1.0), piece(lapse, 1.0)
+    assert not friction.keeps_slipping(c, *slips, 1.0, 0.0, 1.2 - pulled, fastest)
+    assert friction.keeps_slipping(c, *slips, 1.0, 0.0, 0.9 - pulled, fastest)
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
@@ -80,6 +91,7 @@ def test_slip_that_follows_stick_lasts_while_the_force_is_too_small(roots, lasti
     for root in roots:
         margin = np.convolve(margin, [1.0, -1.0 / root])
     series[contact.FIRST + contact.SPRING, : len(margin)] = margin
-    end, lasts = friction.stick_end(c, series, contact.FIRST, 0.0, 1.0, 1.0, 1.0)
+    step = Step(series, contact.FIRST, vertical.motion_at(c, -1.0, 0.0, 0.0, 0.0), piece(1.0, 1.0), 0.0)
+    end, lasts = friction.stick_end(c, step, segment(0.0, 1.0))
     assert end == pytest.approx(0.3, abs=1e-5)
     assert lasts == lasting

@@ -52,9 +52,9 @@ def test_no_impact_is_passed():
     """Where a scan of forty samples a cycle sees the first gap below zero, or before it."""
     met = 0
     for z, vz, q, rate, theta, gravity, a_z, omega in random_flights(400, seed=1):
-        tau, speed = flight.next_impact(z, vz, q, rate, theta, gravity, a_z, omega, math.inf)
+        tau, speed = flight.next_impact(flight.Flight(z, vz, theta, gravity, a_z, omega), q, rate, math.inf)
         size = abs(z) + abs(vz) * tau + gravity * tau**2 + a_z / omega**2
-        gap, approach = flight.gap(z, vz, tau, theta, gravity, a_z, omega)
+        gap, approach = flight.gap(flight.Flight(z, vz, theta, gravity, a_z, omega), tau)
         assert abs(gap) < 1e-14 * size
         assert speed == pytest.approx(max(-approach, 0.0), abs=1e-6 * speed)
         cycles = omega * tau / TURN
@@ -67,8 +67,8 @@ def test_no_impact_is_passed():
 
 def test_largest_gap_is_that_of_a_scan():
     for z, vz, q, rate, theta, gravity, a_z, omega in random_flights(300, seed=2):
-        tau, _ = flight.next_impact(z, vz, q, rate, theta, gravity, a_z, omega, math.inf)
-        highest = flight.highest_gap(z, vz, theta, gravity, a_z, omega, tau)
+        tau, _ = flight.next_impact(flight.Flight(z, vz, theta, gravity, a_z, omega), q, rate, math.inf)
+        highest = flight.highest_gap(flight.Flight(z, vz, theta, gravity, a_z, omega), tau)
         top = min(max(vz / gravity, 0.0), tau)
         near = np.clip(top + np.linspace(-1.5, 1.5, 20_001) * TURN / omega, 0.0, tau)
         far = np.linspace(0.0, tau, 20_001)
@@ -94,7 +94,7 @@ def test_a_long_fall_ends_on_the_plate():
 
 def test_a_search_that_gets_lost_says_so(monkeypatch):
     monkeypatch.setattr(flight, "MAX_STEPS", 2)
-    tau, _ = flight.next_impact.py_func(1.0, 0.0, 1.0, 0.0, 0.0, 9.81, 8.0, 314.0, math.inf)
+    tau, _ = flight.next_impact.py_func(flight.Flight(1.0, 0.0, 0.0, 9.81, 8.0, 314.0), 1.0, 0.0, math.inf)
     assert math.isnan(tau)
 
 

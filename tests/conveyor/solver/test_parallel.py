@@ -58,31 +58,6 @@ def test_work_within_work_does_not_wait_for_busy_threads():
     assert sorted(seen) == [(k, j, j + 1) for k in range(20) for j in range(3)]
 
 
-def test_another_thread_begins_with_what_is_beside():
-    ran, called = threading.Event(), []
-
-    def beside():
-        called.append(threading.get_ident())
-        ran.set()
-
-    for_each_chunk(lambda begin, end: ran.wait(20.0) and None, 4, threads=2, chunk=4, beside=beside)
-    assert len(called) == 1
-    assert called[0] != threading.get_ident()
-    for_each_chunk(lambda begin, end: None, 4, threads=1, beside=beside)
-    assert len(called) == 1
-
-
-def test_an_error_beside_is_raised():
-    begun = threading.Event()
-
-    def beside():
-        begun.set()
-        raise ValueError("beside")
-
-    with pytest.raises(ValueError, match="beside"):
-        for_each_chunk(lambda begin, end: begun.wait(20.0) and None, 2, threads=2, chunk=2, beside=beside)
-
-
 @pytest.mark.parametrize("wrong", [0, 1])
 def test_an_error_in_either_thread_is_raised_and_ends_the_work_of_both(wrong):
     both, seen = threading.Barrier(2, timeout=20.0), []

@@ -25,7 +25,8 @@ from ...solver.contact_lanes import (
     W,
     enter,
     fetch,
-    possible,
+    first_from,
+    return_to_lane,
     room,
     step,
 )
@@ -88,15 +89,6 @@ def uncounted(known):
 
 
 @spliced
-def first_from(row, parameters, tolerance, left):
-    """The first row, from number `row` on, that lanes can follow, or the number of rows; those before are `left`."""
-    while row < len(parameters) and not possible(contact.constants(parameters[row], tolerance)):
-        left[row] = True
-        row += 1
-    return row
-
-
-@spliced
 def load(c, start, lane, steps, cycle, past, counts):
     """The Motion at the beginning of a start, shape (13,), that comes into a lane with nothing left of others in it."""
     enter(steps, lane, c, patience(c))
@@ -115,13 +107,6 @@ def stopped_motion(lane, steps):
     """The Motion in contact, without what only flights need, at which a lane left the others."""
     t, w, v = steps[TIME, lane], steps[W, lane], steps[V, lane]
     return Motion(t, 0.0, steps[SINE, lane], steps[COSINE, lane], True, w, v, False, 0.0, 0.0, 0.0, 0.0)
-
-
-@spliced
-def return_to_lane(motion, lane, steps):
-    """Let a Motion in contact go on with the others."""
-    steps[TIME, lane], steps[W, lane], steps[V, lane] = motion.t, motion.w, motion.v
-    steps[SINE, lane], steps[COSINE, lane] = motion.sine, motion.cosine
 
 
 @spliced

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...solver import contact
-from ...solver.flight import next_impact
+from ...solver.flight import Flight, next_impact
 from ...solver.jit import kernel
 from ...solver.model import PSI0, VZ0, Z0
 from ...solver.vertical import begin, in_contact
@@ -40,7 +40,7 @@ def fill_first_impacts(parameters, out):
             z = q - height * math.cos(theta)
             # By then the part would be below the lowest point of the plate.
             longest = 1.1 * (vz + math.sqrt(vz * vz + 2.0 * c.gravity * (z + height))) / c.gravity
-            t1, _ = next_impact(z, vz, q, rate, theta, c.gravity, c.a_z, c.omega, longest)
+            t1, _ = next_impact(Flight(z, vz, theta, c.gravity, c.a_z, c.omega), q, rate, longest)
         out[i, TIME], out[i, VELOCITY], out[i, PHASE] = t1, vz - c.gravity * t1, theta + c.omega * t1
 
 

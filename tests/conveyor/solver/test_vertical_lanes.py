@@ -1,0 +1,89 @@
+"""Vertical runs side by side: the bits of those that are followed one by one, whoever their neighbours are."""
+
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start
+from conveyor.solver import trajectory, vertical_lanes
+from conveyor.solver.horizontal import CONTACT_FORCE, VZ, Z
+from conveyor.solver.model import PSI0, STIFFNESS, TENSION_MODES, Z0, pack
+
+TOLERANCE = 1e-8
+COUNTED = [trajectory.CODE, trajectory.IMPACTS, trajectory.CONTACT_TIME, trajectory.MAX_GAP]
+
+
+def one_by_one(parameters, durations):
+    samples, results = trajectory.integrate(parameters, durations[:, np.newaxis], tolerance=TOLERANCE, feeding=False)
+    return samples[:, 0, [Z, VZ, CONTACT_FORCE]], results[:, COUNTED]
+
+
+def together(parameters, durations, lanes=vertical_lanes.LANES):
+    samples, results = vertical_lanes.integrate(parameters, durations, tolerance=TOLERANCE, lanes=lanes)
+    return samples[:, [Z, VZ, CONTACT_FORCE]], results[:, COUNTED]
+
+
+def assert_same(found, wanted, rows=slice(None)):
+    for array, expected in zip(found, wanted, strict=True):
+        np.testing.assert_array_equal(array[rows], expected[rows])
+
+
+def random_runs(count, seed):
+    """Initial conditions on conveyors of all kinds, each its own, and durations (s); every fourth is not for lanes."""
+    rng = np.random.default_rng(seed)
+    rows = []
+    for k in range(count):
+        conveyor = Conveyor(
+            acceleration=rng.uniform(0.0, 90.0) * (rng.random() < 0.9),
+            angle=rng.uniform(0.05, 0.5),
+            frequency=rng.uniform(20.0, 100.0),
+            psi0=rng.choice([rng.uniform(-12.0, 12.0), -np.pi, 0.0]),
+            stiffness=10.0 ** rng.uniform(4.0, 6.5),
+            damping=rng.uniform(0.0, 1.0),
+            exponent=1.0 if k % 8 == 3 else 1.5,
+            tension=TENSION_MODES[1 + rng.integers(2)] if k % 8 == 7 else "allow",
+        )
+        height = [rng.uniform(-1e-4, 0.0), rng.uniform(0.0, 1e-3), "conveyor"][rng.integers(3)]
+        rows.append(pack(conveyor, Start(height, rng.uniform(-0.2, 0.2))))
+    return np.array(rows), 10.0 ** rng.uniform(-5.0, 0.0, count)
+
+
+def runs_of_map(acceleration, count=24):
+    """Initial conditions of one conveyor as on the maps; most of these runs settle."""
+    rng = np.random.default_rng(int(acceleration))
+    rows = np.tile(pack(Conveyor(acceleration=acceleration), Start()), (count, 1))
+    rows[:, Z0], rows[:, PSI0] = rng.uniform(0.0, 5e-4, count), rng.uniform(0.0, 2.0 * np.pi, count)
+    return rows, np.full(count, 1.0)
+
+
+@pytest.mark.parametrize("lanes", [1, 2, 4, 8])
+def test_bits_do_not_depend_on_lanes(lanes):
+    runs = random_runs(80, seed=1)
+    assert_same(together(*runs, lanes), one_by_one(*runs))
+
+
+@pytest.mark.parametrize("acceleration", [30.0, 40.0, 47.0, 80.0])
+def test_bits_of_maps(acceleration):
+    """At 30, 40 and 47 m/s² runs end within repeated steps, in contact or in flight, and chaos repeats none."""
+    runs = runs_of_map(acceleration)
+    assert_same(together(*runs), one_by_one(*runs))
+
+
+@pytest.mark.parametrize("count", [0, 1, 3, 4, 5, 9])
+def test_runs_may_be_fewer_than_lanes_and_in_any_order(count):
+    parameters, durations = random_runs(count, seed=2)
+    wanted = together(parameters, durations)
+    backwards = together(parameters[::-1].copy(), durations[::-1].copy())
+    assert_same([array[::-1] for array in backwards], wanted)
+
+
+def test_failures_keep_their_row_and_disturb_nobody():
+    calm = runs_of_map(40.0)
+    parameters = calm[0].copy()
+    parameters[[0, 5], 0] = np.nan
+    parameters[7, STIFFNESS] = 1e300
+    parameters[9] = pack(Conveyor(damping=1e6, stiffness=1e15), Start())
+    bad = [0, 5, 7, 9]
+    found = together(parameters, calm[1])
+    assert_same(found, one_by_one(parameters, calm[1]))
+    assert (found[1][bad, 0] != trajectory.OK).all()
+    assert_same(found, one_by_one(*calm), np.setdiff1d(np.arange(24), bad))
