@@ -184,7 +184,7 @@ def rigid_rows(settings: dict) -> Iterator[dict]:
     stiffness = np.array(settings["stiffness"])
     for restitution in settings["restitution"]:
         ranges = np.array([stiff_range(settings["model"], k, restitution) for k in stiffness])
-        names = ("fold: least a_z/g of one impact per cycle", "first period doubling: a_z/g")
+        names = ("least a_z/g of one impact per cycle", "a_z/g of the first period doubling")
         for name, theory, values in zip(names, rigid_range(restitution), ranges.T, strict=True):
             computed, error = limit(stiffness**-0.5, values)
             case, source = f"rigid ball, e = {restitution:g}", "Luo and Han 1996"

@@ -6,29 +6,24 @@ import pandas as pd
 
 from pipeline.templates import render
 
-
-def in_unit(name: str, unit: str) -> str:
-    return name if unit == "1" else f"{name} in {unit}"
-
-
 ROUNDING = 1e-13  # smaller differences are rounding errors, whose digits mean nothing
 
 
 def order(value: float) -> str:
-    """An error or a difference in one digit, a dash for none."""
-    if math.isnan(value):
-        return "–"
+    """A difference in one digit."""
     return f"{value:.0e}" if value >= ROUNDING else f"below {ROUNDING:g}"
 
 
 def theory_row(row) -> list[str]:
-    """The cells of a row of the table of theory."""
+    """The cells of a row of the table of theory: quantity, theory, solver, difference, accepted difference, source."""
+    unit = "" if row.unit == "1" else f" {row.unit}"
+    error = "" if math.isnan(row.error) else f" ± {row.error:.0e}"
     return [
-        in_unit(row.quantity, row.unit),
-        row.case,
-        f"{row.theory:.12g}",
-        f"{row.computed:.12g}",
-        *map(order, (row.error, row.difference, row.accepted)),
+        f"{row.case}: {row.quantity}",
+        f"{row.theory:.9g}{unit}",
+        f"{row.computed:.9g}{error}{unit}",
+        order(row.difference),
+        f"{row.accepted:.0e}",
         row.source,
     ]
 

@@ -12,5 +12,5 @@ def test_the_page_lists_scenes_and_shows_the_example():
     template = (ROOT / "workflow/templates/add_your_solver.md").read_text(encoding="utf-8")
     example = (ROOT / "scripts/accuracy/example_solver.py").read_text(encoding="utf-8")
     text = add_your_solver_page.make(template, [published(scene)], example)
-    assert "| [short](benchmark/short.json) | 40 | 0.3 | 0.06 | 3 | " in text
+    assert '| <a href="benchmark/short.json">short</a> | 40 | 0.3 | 0.06 | 3 | ' in text
     assert f"```python\n{example}```\n" in text

@@ -38,10 +38,12 @@ POINTS.attrs = {
 
 
 def test_a_quantity_that_does_not_agree_is_shown_and_not_counted():
-    text = checked_page.make(TEMPLATE, pd.DataFrame([ROW, ROW | {"computed": 0.5, "difference": 1.0}]), POINTS)
+    text = checked_page.make(
+        TEMPLATE, pd.DataFrame([ROW, ROW | {"computed": 0.5, "error": 1e-3, "difference": 1.0}]), POINTS
+    )
     assert "1 of 2 quantities agree" in text
-    assert "| duration in s | undamped | 0.25 | 0.25 | – | below 1e-13 | 1e-09 | Hertz 1882 |" in text
-    assert "| duration in s | undamped | 0.25 | 0.5 | – | 1e+00 | 1e-09 | Hertz 1882 |" in text
+    assert "| undamped: duration | 0.25 s | 0.25 s | below 1e-13 | 1e-09 | Hertz 1882 |" in text
+    assert "| undamped: duration | 0.25 s | 0.5 ± 1e-03 s | 1e+00 | 1e-09 | Hertz 1882 |" in text
 
 
 def test_an_undecided_label_counts_as_different():
