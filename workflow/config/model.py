@@ -293,7 +293,10 @@ class Benchmark(TypedDict):
     cases: Annotated[dict[Name, Case], Field(description="benchmark cases")]
 
 
-INTEGRATORS = ("RK45", "DOP853", "Radau", "LSODA", "heyoka")
+INTEGRATORS = (
+    *("RK45", "DOP853", "Radau", "LSODA"),
+    *("CyRK DOP853", "CyRK Vern8", "CVODE Adams", "CVODE BDF", "heyoka"),
+)
 PeerTolerances = many(Tolerance, "relative tolerances", least=0)
 Peers = mapping("tolerances of each integrator", dict.fromkeys(INTEGRATORS, PeerTolerances), total=False)
 
