@@ -577,6 +577,7 @@ class FigureSettings(TypedDict, total=False):
     longest_period: Period
     lowest_exponent: number("lowest Lyapunov exponent of the plot", "1/s", ge=-1e6, le=1e6)
     paper_step: Step
+    equal_error: number("error at which methods are compared, in units of the plate's motion", gt=0, le=1)
     paper_error: number("error of the paper's fit", "m²", gt=0, le=1)
 
 
