@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from accuracy import speed
 from accuracy.rigid_part import CONTACT, RIGID
-from accuracy.stability import VELOCITY
+from accuracy.stability import PANELS, VELOCITY
 from claims.about_chaos import positive_onset
 from claims.about_states import runs_of, second_from_rest, written_runs
 from claims.finding import lowest
@@ -186,10 +187,41 @@ def scaling(*, scaling: pd.DataFrame) -> dict[str, str]:
     }
 
 
+def speed_accuracy(
+    *,
+    jumping: pd.DataFrame,
+    jumping_times: pd.DataFrame,
+    reference: pd.DataFrame,
+    paper_step: float,
+    equal_error: float,
+) -> dict[str, str]:
+    runs = speed.timed(jumping, jumping_times)
+    paper, *rival = speed.factors(runs, paper_step, equal_error)
+    missing = dict.fromkeys(jumping[jumping.outcome == "not installed"].method)
+    return {
+        "duration": f"{jumping.attrs['duration']:g}",
+        "paper_factor": f"{float(f'{paper.ratio:.2g}'):g}",
+        "equal_error": f"{equal_error:g}",
+        "rival_factor": f"{float(f'{rival[0].ratio:.2g}'):g}" if rival else "no",
+        "rival": rival[0].method if rival else "none of which keeps that error",
+        "missing": ", ".join(missing),
+        "digits": str(reference.attrs["digits"]),
+        "reference_difference": f"{reference.difference.abs().max():.0e}".replace("e-0", "e-"),
+    }
+
+
 def stability_maps(*, stability: pd.DataFrame) -> dict[str, str]:
     return {
         "start_mm": f"{MM * stability.attrs['conveyor']['z0']:g}",
         "right": f"{100.0 * VELOCITY:g}",
+    }
+
+
+def stability_limits(*, stability: pd.DataFrame) -> dict[str, str]:
+    own = stability[(stability.method == "event") & stability.panel.isin(PANELS)]
+    return stability_maps(stability=stability) | {
+        "own_right": str(int((own.outcome == "right").sum())),
+        "own_all": str(len(own)),
     }
 
 
@@ -288,10 +320,12 @@ NUMBERS: dict[str, Callable[..., dict[str, Any]]] = {
     "scene_budget": scene_budget,
     "scaling": scaling,
     "settling": settling,
-    "stability": stability_maps,
     "throw": throw,
     "drive": drive,
     "track": track,
+    "speed_accuracy": speed_accuracy,
+    "stability": stability_limits,
+    "stability_details": stability_maps,
 }
 
 

@@ -154,6 +154,7 @@ def runs_with_step(config: dict) -> Iterator[tuple[str, float, float, float]]:
         yield f"stability_estimates.exponent.steps[{place}]", step, exponent["duration"], frequency
     for place, step in enumerate(precision["steps"]):
         yield f"precision.steps[{place}]", step, precision["duration"], frequency
+        yield f"precision.steps[{place}]", step, precision["sample_interval"], frequency
     for name, case in config["benchmark"]["cases"].items():
         run = config["solver"] | case
         yield key(f"benchmark.cases.{name}", case), run["step"], run["duration"], frequency

@@ -294,14 +294,22 @@ class Benchmark(TypedDict):
     cases: Annotated[dict[Name, Case], Field(description="benchmark cases")]
 
 
-INTEGRATORS = ("RK45", "DOP853", "Radau", "LSODA", "heyoka")
+INTEGRATORS = (
+    *("RK45", "DOP853", "Radau", "LSODA"),
+    *("CyRK DOP853", "CyRK Vern8", "CVODE Adams", "CVODE BDF", "heyoka"),
+)
 PeerTolerances = many(Tolerance, "relative tolerances", least=0)
 Peers = mapping("tolerances of each integrator", dict.fromkeys(INTEGRATORS, PeerTolerances), total=False)
 
 
 class Precision(TypedDict):
     duration: Duration
+    sample_interval: number("interval of the times at which trajectories are compared", "s", gt=0, le=1e6)
     scenes: Annotated[dict[Name, Model], Field(description="conveyors by their names")]
+    reference: mapping(
+        "the scene that is solved a second time in arithmetic of many digits",
+        {"scene": Name, "digits": whole("digits of that arithmetic", 18, 1000)},
+    )
     tolerances: Tolerances
     steps: Steps
     peers: mapping("peers by their treatment of impacts", {"sign": Peers, "events": Peers, "modes": Peers}, total=False)
@@ -660,6 +668,7 @@ class FigureSettings(TypedDict, total=False):
     longest_period: Period
     lowest_exponent: number("lowest Lyapunov exponent of the plot", "1/s", ge=-1e6, le=1e6)
     paper_step: Step
+    equal_error: number("error at which methods are compared, in units of the plate's motion", gt=0, le=1)
     paper_error: number("error of the paper's fit", "m²", gt=0, le=1)
 
 

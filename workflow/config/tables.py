@@ -61,7 +61,10 @@ def drive_settings(config: dict) -> dict:
 def precision_settings(config: dict, scene: str) -> dict:
     """One scene of the section `precision`."""
     precision = config["precision"]
-    shared = {name: precision[name] for name in ("duration", "tolerances", "steps", "peers", "max_evaluations")}
+    shared = {
+        name: precision[name]
+        for name in ("duration", "sample_interval", "tolerances", "steps", "peers", "max_evaluations")
+    }
     return {**shared, "model": {**config["model"], **precision["scenes"][scene]}}
 
 
@@ -74,6 +77,14 @@ def published_scenes(config: dict) -> dict[str, dict]:
         name: {"scene": name, **shared, **scene, "model": {**config["model"], **scene["model"]}}
         for name, scene in {**scenes, **config["published_scenes"]["further"]}.items()
     }
+
+
+def reference_settings(config: dict) -> dict:
+    """The scene of the section `precision` whose reference is computed a second time."""
+    precision = config["precision"]
+    shared = {name: precision[name] for name in ("duration", "sample_interval")}
+    scene, digits = precision["reference"]["scene"], precision["reference"]["digits"]
+    return {**shared, "digits": digits, "model": {**config["model"], **precision["scenes"][scene]}}
 
 
 def benchmark_settings(config: dict) -> dict:
@@ -178,6 +189,7 @@ TABLES = {
     **{f"identification/{name}": partial(of_identification, name) for name in IDENTIFICATION},
     "results/claims": lambda config: {"claims": config["claims"]},
     "results/benchmark": benchmark_settings,
+    "results/reference_check": reference_settings,
     "results/precision_estimates": itemgetter("precision_estimates"),
     "results/stability": itemgetter("stability"),
     "results/stability_estimates": lambda config: with_model(config, "stability_estimates"),

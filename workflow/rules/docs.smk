@@ -298,7 +298,7 @@ rule picture:
     benchmark:
         benchmark_file("docs/{figure}")
     wildcard_constraints:
-        figure="overview|work_precision",
+        figure="overview|work_precision|speed_accuracy",
     params:
         **stage("docs.pictures"),
     message:

@@ -5,31 +5,18 @@ with the treatment "modes". See https://bluescarni.github.io/heyoka.py.
 """
 
 from functools import lru_cache
-from importlib.util import find_spec
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ..solver.model import EXPONENT, PARAMETERS, TENSION, TENSION_ALLOW
 from .force_law import spring_and_damper
+from .leg import Leg, Task
 
 # Names of the systems, and of the event functions that end them.
 FLIGHT, FORWARD, BACKWARD, STICK = "flight", "forward", "backward", "stick"
 GAP, SLIP, GRIP = "gap", "slip", "grip"
 ENDS = {FLIGHT: (GAP,), FORWARD: (GAP, SLIP), BACKWARD: (GAP, SLIP), STICK: (GAP, GRIP, GRIP)}
-
-
-class Leg(NamedTuple):
-    """Motion in one mode."""
-
-    t: float  # s, at its end
-    state: np.ndarray  # x, ẋ, z, ż at its end, shape (4,)
-    ended: str | None  # GAP, SLIP or GRIP, or None
-    evaluations: int  # a step of order n counts n: it finds n derivatives of the force
-
-
-def installed() -> bool:
-    return find_spec("heyoka") is not None
 
 
 def quantities(state: tuple) -> tuple[dict[str, Any], Any, Any, Any, Any]:
@@ -83,25 +70,28 @@ def systems(exponent: float, tolerance: float) -> dict[str, Any]:
     }
 
 
-def follow(
-    parameters: np.ndarray, mode: str, t: float, end: float, state: np.ndarray, tolerance: float, limit: int
-) -> Leg | None:
-    """Follow `state`, (x, ẋ, z, ż), in one mode to an event or to the time `end` (s); None where the integrator fails.
+def follow(parameters: np.ndarray, mode: str, task: Task) -> Leg:
+    """Follow one leg, `ended` by GAP, SLIP or GRIP.
 
-    A leg whose evaluations reach `limit` may end before either.
+    A step of order n counts n evaluations: it finds n derivatives of the force.
     """
     if parameters[TENSION] != TENSION_ALLOW:
         raise ValueError("heyoka follows the contact with tension = allow only")
-    integrator = systems(float(parameters[EXPONENT]), tolerance)[mode]
+    integrator = systems(float(parameters[EXPONENT]), task.rtol)[mode]
     integrator.pars[:] = parameters[: len(integrator.pars)]
-    integrator.time = t
-    integrator.state[:] = state
+    integrator.time = task.t
+    integrator.state[:] = task.state
     integrator.reset_cooldowns()
-    outcome, _, _, steps, *_ = integrator.propagate_until(end, max_steps=limit // integrator.order + 1)
+    most_steps = task.limit // integrator.order + 1
+    outcome, _, _, steps, curve, *_ = integrator.propagate_until(
+        task.end, max_steps=most_steps, c_output=len(task.times) > 0
+    )
     state, evaluations = integrator.state.copy(), steps * integrator.order
     # Outcomes from -1 downwards are the numbers of terminal events.
     event = -1 - int(outcome)
     ended = ENDS[mode][event] if event < len(ENDS[mode]) else None
-    if not np.isfinite(state).all() or (ended is None and integrator.time < end and evaluations < limit):
-        return None
-    return Leg(integrator.time, state, ended, evaluations)
+    if not np.isfinite(state).all():
+        return Leg(task.t, state, None, np.empty((0, 4)), evaluations)
+    passed = task.times[task.times <= integrator.time]
+    samples = curve(passed) if len(passed) else np.empty((0, 4))
+    return Leg(integrator.time, state, ended, samples, evaluations)
