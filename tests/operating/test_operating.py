@@ -164,10 +164,13 @@ def test_velocities_of_a_motion_are_put_together(monkeypatch, states, statuses, 
         return Labels(np.full(n, states), np.ones(n, np.int64), np.zeros(n), np.arange(n))
 
     monkeypatch.setattr(shares, "motions_of_starts", motions_found)
-    monkeypatch.setattr(shares, "velocities", lambda *_, **__: (np.array([1.0, 3.0]), np.array(statuses, dtype=object)))
+    velocities = np.array([1.0, 3.0]), np.array([[0.1, 2.0], [0.2, 1.0]]), np.array(statuses, dtype=object)
+    monkeypatch.setattr(shares, "velocities", lambda *_, **__: velocities)
     row = pd.DataFrame(shares.motions_at(np.array([40.0]), BOX)).iloc[0]
     assert (row.mean_velocity, row.velocity_stderr, row.status) == pytest.approx(wanted, nan_ok=True)
     assert row.starts == BOX["starts"]
+    peaks = (0.2, 2.0) if row.status == "ok" else (np.nan, np.nan)
+    assert (row.impact_speed, row.peak_force) == pytest.approx(peaks, nan_ok=True)
 
 
 def test_the_standard_error_is_that_of_repeated_draws():
