@@ -2,7 +2,7 @@
 
 NSGA-II (pymoo) searches the Pareto front of three objectives: the velocity that nearly all initial conditions reach,
 the impact speed and the acceleration of the drive. A design must give one velocity (to a wanted share of the initial
-conditions), no chaos, and a displacement of the drive within its limit.
+conditions), no chaos, no feeding backwards, and a displacement of the drive within its limit.
 """
 
 import numpy as np
@@ -95,9 +95,9 @@ def is_within(outcome: pd.DataFrame, settings: dict) -> np.ndarray:
 
 
 def constraints(outcome: pd.DataFrame, settings: dict) -> np.ndarray:
-    """Positive where a constraint is violated, shape (k, 3)."""
+    """Positive where a constraint is violated, shape (k, 4): share, chaos, displacement, and feeding backwards."""
     displacement = outcome.displacement / settings["displacement"] - 1.0
-    return np.column_stack([settings["share"] - outcome.share, outcome.chaos, displacement])
+    return np.column_stack([settings["share"] - outcome.share, outcome.chaos, displacement, -outcome.velocity])
 
 
 class Front(Callback):
@@ -136,7 +136,7 @@ def search(settings: dict, seed: int, *, threads: int = 1) -> Front:
 
     class Designs(Problem):
         def __init__(self):
-            super().__init__(n_var=len(SEARCHED), n_obj=3, n_ieq_constr=3, xl=low, xu=high)
+            super().__init__(n_var=len(SEARCHED), n_obj=3, n_ieq_constr=4, xl=low, xu=high)
 
         def _evaluate(self, x, out):
             outcome = evaluate(x, settings, threads=threads)

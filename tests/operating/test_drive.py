@@ -41,6 +41,7 @@ def test_designs_with_two_velocities_or_too_large_a_displacement_are_refused(out
     assert drive.is_within(outcome, SETTINGS).tolist() == [True, False]
     assert not drive.is_within(outcome, {**SETTINGS, "displacement": 1e-5}).any()
     assert not drive.is_within(outcome.assign(chaos=0.1), SETTINGS).any()
+    assert not drive.is_within(outcome.assign(velocity=-0.01), SETTINGS).any()
 
 
 def test_the_front_keeps_what_nothing_betters():

@@ -33,8 +33,9 @@ def plot(*, front: pd.DataFrame, generations: pd.DataFrame) -> Figure:
     pareto.set_xlabel("impact speed in m/s")
     pareto.set_ylabel("velocity of nearly all\ninitial conditions in m/s")
     figure.colorbar(points, ax=pareto, label=style.AMPLITUDE)
-    for seed, rows in generations.groupby("seed"):
-        growth.plot(rows.generation, 100.0 * rows.hypervolume, label=f"seed {seed}")
+    for number, (seed, rows) in enumerate(generations.groupby("seed")):
+        colour = (style.CONVERGED, style.SECOND_ESTIMATE)[number % 2]
+        growth.plot(rows.generation, 100.0 * rows.hypervolume, color=colour, label=f"seed {seed}")
     growth.set_xlabel("generation")
     growth.set_ylabel("hypervolume in % of that of all seeds")
     style.from_zero(growth)
