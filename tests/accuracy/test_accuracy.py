@@ -40,7 +40,7 @@ def test_benchmark_is_as_accurate_as_wanted(cases):
     rows = [line.split(" | ")[0] for line in text.splitlines() if line.startswith("| ") and "Case" not in line]
     assert rows == [f"| {name}" for name in found["case"]]
     slow = {**found, "speed": np.full(len(rows), 1.0)}
-    assert "miss what is wanted: A (1 of" in benchmark.report(template, slow, settings)
+    assert "miss a goal at the default tolerance: A (1 of" in benchmark.report(template, slow, settings)
 
 
 @pytest.fixture(scope="module", params=["jumping", "riding", "bouncing"])
