@@ -43,6 +43,10 @@ SINGLE = (
     "archive",
     "sensitivity",
     "operating",
+    "throws",
+    "drive",
+    "track",
+    "advice",
     "identification",
 )
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}

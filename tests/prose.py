@@ -12,6 +12,7 @@ ALLOWED = (
     r"\bC\d\d\b",
     r":sub:`\d`",
     r"(?m)^:scale: \d+$|^\d+\. ",
+    r"(?m)^:::\{figure\} \S+$",
     r"1/s\b",
     r"a confidence of 95 %",
     r"DOP853|RK4\d?|SHA-256|BSD-3-Clause|Python 3\.11(, 3\.12 or 3\.13)?|x86-64|\bD_2\b",

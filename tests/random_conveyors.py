@@ -9,6 +9,7 @@ from conveyor.solver.model import RANGES, Conveyor
 
 # How many of the random points have a usual exponent, a part that starts on the plate, a still plate or no damping.
 SHARE = 0.1
+ALONG_THE_TRACK = ("inclination", "phase_shift", "static_friction")
 
 
 def tension_and_exponent(points: np.ndarray, generator: np.random.Generator) -> None:
@@ -18,6 +19,22 @@ def tension_and_exponent(points: np.ndarray, generator: np.random.Generator) -> 
     low, high = RANGES["exponent"]
     points[:, model.EXPONENT] = np.where(generator.random(count) < 0.5, usual, generator.uniform(low, high, count))
     points[:, model.TENSION] = generator.integers(len(model.TENSION_MODES), size=count)
+
+
+def level_track(points: np.ndarray) -> None:
+    """Fill the columns of ALONG_THE_TRACK as on the paper's conveyor."""
+    points[:, [model.INCLINATION, model.PHASE_SHIFT]] = 0.0
+    points[:, model.STATIC_FRICTION] = points[:, model.FRICTION]
+
+
+def tilted(points: np.ndarray, seed: int) -> np.ndarray:
+    """The same points on inclined tracks with elliptical drives and, in half of them, a larger static friction."""
+    generator, points = np.random.default_rng(seed), points.copy()
+    for name in ("inclination", "phase_shift"):
+        points[:, model.PARAMETERS.index(name)] = generator.uniform(*RANGES[name], len(points))
+    ratio = np.where(generator.random(len(points)) < 0.5, 1.0, generator.uniform(1.0, 3.0, len(points)))
+    points[:, model.STATIC_FRICTION] = np.minimum(ratio * points[:, model.FRICTION], RANGES["static_friction"][1])
+    return points
 
 
 def around_the_paper(count: int, seed: int) -> np.ndarray:
@@ -41,6 +58,7 @@ def around_the_paper(count: int, seed: int) -> np.ndarray:
     points[:, model.FRICTION] = around(default.friction)
     points[:, model.MASS] = around(default.mass)
     points[:, model.GRAVITY] = default.gravity
+    level_track(points)
     tension_and_exponent(points, generator)
     points[:, model.Z0] = np.where(generator.random(count) < SHARE, np.nan, generator.uniform(-1e-4, 5e-3, count))
     points[:, model.VZ0] = generator.normal(0.0, 0.2, count)
@@ -56,7 +74,7 @@ def whole_ranges(count: int, seed: int) -> np.ndarray:
     generator = np.random.default_rng(seed)
     points = np.empty((count, len(model.PARAMETERS)))
     for place, name in enumerate(model.PARAMETERS):
-        if name not in RANGES:
+        if name not in RANGES or name in ALONG_THE_TRACK:
             continue
         low, high = RANGES[name]
         if name in ("angle", "psi0"):
@@ -67,6 +85,7 @@ def whole_ranges(count: int, seed: int) -> np.ndarray:
             size[generator.random(count) < SHARE] = 0.0
         sign = generator.choice([-1.0, 1.0], count) if low < 0.0 else 1.0
         points[:, place] = np.clip(sign * size, low, high)
+    level_track(points)
     tension_and_exponent(points, generator)
     points[generator.random(count) < SHARE, model.Z0] = np.nan
     return points
@@ -84,7 +103,7 @@ def deepest_allowed(parameters: np.ndarray, max_gap: np.ndarray) -> np.ndarray:
     rows = parameters.T
     omega = 2.0 * math.pi * rows[model.FREQUENCY]
     a_z = rows[model.ACCELERATION] * np.sin(rows[model.ANGLE])
-    pull = rows[model.GRAVITY] + a_z
+    pull = rows[model.GRAVITY] * np.cos(rows[model.INCLINATION]) + a_z
     start = rows[model.VZ0] - a_z / omega * np.sin(rows[model.PSI0])
     inside = np.fmax(-a_z / omega**2 * np.cos(rows[model.PSI0]) - rows[model.Z0], 0.0)
     power = rows[model.EXPONENT] + 1.0

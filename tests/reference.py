@@ -21,30 +21,47 @@ MAX_SEGMENTS = 100_000
 
 @dataclass(frozen=True)
 class Plate:
-    """Motion of the plate: amplitudes of z_s (m), x_s (m), the circular frequency (1/s) and the phase at t = 0."""
+    """Motion of the plate: amplitudes of z_s (m), x_s (m), the circular frequency (1/s), both phases at t = 0."""
 
     z_amplitude: float
     x_amplitude: float
     omega: float
     psi0: float
+    x_psi0: float
 
     @classmethod
     def of(cls, conveyor: Conveyor) -> "Plate":
         omega = 2.0 * math.pi * conveyor.frequency
         a_z = conveyor.acceleration * math.sin(conveyor.angle)
         a_x = conveyor.acceleration * math.cos(conveyor.angle)
-        return cls(a_z / omega**2, a_x / omega**2, omega, conveyor.psi0)
+        return cls(a_z / omega**2, a_x / omega**2, omega, conveyor.psi0, conveyor.psi0 + conveyor.phase_shift)
 
-    def shape(self, t, derivative):
+    def shape(self, t, psi0, derivative):
         """The derivative of -cos(ωt + ψ0) with respect to t of order 0, 1 or 2."""
-        phase = self.omega * t + self.psi0
+        phase = self.omega * t + psi0
         return (-np.cos(phase), self.omega * np.sin(phase), self.omega**2 * np.cos(phase))[derivative]
 
     def z(self, t, derivative=0):
-        return self.z_amplitude * self.shape(t, derivative)
+        return self.z_amplitude * self.shape(t, self.psi0, derivative)
 
     def x(self, t, derivative=0):
-        return self.x_amplitude * self.shape(t, derivative)
+        return self.x_amplitude * self.shape(t, self.x_psi0, derivative)
+
+
+def gravity_of(conveyor):
+    """The components of gravity normal to the track and down along it, m/s²."""
+    return conveyor.gravity * math.cos(conveyor.inclination), conveyor.gravity * math.sin(conveyor.inclination)
+
+
+def pull_of(conveyor, plate, t):
+    """Acceleration (m/s²) that the contact has to give a part that moves with the plate along the track."""
+    return plate.x(t, 2) + gravity_of(conveyor)[1]
+
+
+def grip_of(conveyor, force):
+    """Largest acceleration (m/s²) that the contact can give a part that sticks, from F_c/m."""
+    coefficient = conveyor.friction if conveyor.static_friction is None else conveyor.static_friction
+    return coefficient * force
 
 
 @dataclass(frozen=True)
@@ -75,20 +92,20 @@ def elastic_and_viscous(conveyor, q, gap_velocity):
 def choose_mode(conveyor, plate, t, state, loaded=None, slip=None):
     """The mode that goes on from `state`; `loaded` and `slip` fix what an event has just decided."""
     q, gap_velocity, _, s = state
-    relative_gravity = -conveyor.gravity - plate.z(t, 2)
+    relative_gravity = -gravity_of(conveyor)[0] - plate.z(t, 2)
     if q > 0.0 or (q == 0.0 and (gap_velocity > 0.0 or (gap_velocity == 0.0 and relative_gravity > 0.0))):
         return Mode(contact=False)
     force = elastic_and_viscous(conveyor, q, gap_velocity)
     if loaded is None:
         loaded = conveyor.tension == "allow" or force > 0.0 or (force == 0.0 and gap_velocity <= 0.0)
     if slip is None:
-        plate_acceleration = plate.x(t, 2)
+        pull = pull_of(conveyor, plate, t)
         if s != 0.0:
             slip = int(math.copysign(1.0, s))
-        elif abs(plate_acceleration) <= conveyor.friction * force:
+        elif abs(pull) <= grip_of(conveyor, force):
             slip = 0
         else:
-            slip = int(math.copysign(1.0, plate_acceleration))
+            slip = int(math.copysign(1.0, pull))
     return Mode(True, loaded, slip)
 
 
@@ -99,7 +116,7 @@ def accelerations(conveyor, plate, mode, t, q, gap_velocity):
     force = elastic_and_viscous(conveyor, q, gap_velocity)
     if not mode.loaded:
         return 0.0 * t, (0.0 * t if conveyor.tension == "clip" else force)
-    return (mode.slip * conveyor.friction * force if mode.slip else plate.x(t, 2)), force
+    return (mode.slip * conveyor.friction * force if mode.slip else pull_of(conveyor, plate, t)), force
 
 
 def flight_segment(conveyor, plate, mode, begin, state, duration):
@@ -107,15 +124,18 @@ def flight_segment(conveyor, plate, mode, begin, state, duration):
     q0, gap_velocity0, u0, s0 = state
     vz0 = gap_velocity0 + plate.z(begin, 1)
     vx0 = plate.x(begin, 1) - s0
+    normal, downhill = gravity_of(conveyor)
 
     def motion(t):
         tau = t - begin
         # The differences z_s(t) - z_s(t0) and x_s(t) - x_s(t0) without cancellation.
         half = 0.5 * plate.omega * tau
-        chord = 2.0 * np.sin(plate.omega * begin + plate.psi0 + half) * np.sin(half)
-        q = q0 + vz0 * tau - 0.5 * conveyor.gravity * tau**2 - plate.z_amplitude * chord
-        u = u0 + vx0 * tau - plate.x_amplitude * chord
-        return np.array([q, vz0 - conveyor.gravity * tau - plate.z(t, 1), u, plate.x(t, 1) - vx0])
+        chord, x_chord = (
+            2.0 * np.sin(plate.omega * begin + psi0 + half) * np.sin(half) for psi0 in (plate.psi0, plate.x_psi0)
+        )
+        q = q0 + vz0 * tau - 0.5 * normal * tau**2 - plate.z_amplitude * chord
+        u = u0 + vx0 * tau - 0.5 * downhill * tau**2 - plate.x_amplitude * x_chord
+        return np.array([q, vz0 - normal * tau - plate.z(t, 1), u, plate.x(t, 1) - vx0 + downhill * tau])
 
     def gap(t):
         return motion(t)[0]
@@ -149,10 +169,12 @@ def flight_segment(conveyor, plate, mode, begin, state, duration):
 def contact_segment(conveyor, plate, mode, begin, state, duration, rtol):
     """Contact from `begin` to its next event: the segment, the state there and what the event has decided."""
 
+    normal, downhill = gravity_of(conveyor)
+
     def rates(t, y):
         q, gap_velocity, _, s = y
         rub, push = accelerations(conveyor, plate, mode, t, q, gap_velocity)
-        return [gap_velocity, push - conveyor.gravity - plate.z(t, 2), -s, plate.x(t, 2) - rub]
+        return [gap_velocity, push - normal - plate.z(t, 2), -s, plate.x(t, 2) + downhill - rub]
 
     def separation(t, y):
         return y[0]
@@ -170,7 +192,7 @@ def contact_segment(conveyor, plate, mode, begin, state, duration, rtol):
         return rates(t, y)[3]
 
     def break_away(t, y):
-        return conveyor.friction * elastic_and_viscous(conveyor, y[0], y[1]) - abs(plate.x(t, 2))
+        return grip_of(conveyor, elastic_and_viscous(conveyor, y[0], y[1])) - abs(pull_of(conveyor, plate, t))
 
     # A variable that starts at its event's zero is watched only after it has turned back: that zero is handled.
     events = [(deepest if state[0] == 0.0 else separation, 1.0)]
@@ -209,7 +231,7 @@ def contact_segment(conveyor, plate, mode, begin, state, duration, rtol):
         elif function is reversal:
             last[3] = 0.0
         elif function is break_away:
-            decided["slip"] = int(math.copysign(1.0, plate.x(end, 2)))
+            decided["slip"] = int(math.copysign(1.0, pull_of(conveyor, plate, end)))
     return segment, last, decided
 
 

@@ -1,12 +1,14 @@
 """Error, force evaluations and processor time of every method over its tolerances or steps, in one scene.
 
-The truth is the solver at its tightest tolerance. It is not its own judge: an independent integration, scipy's DOP853
-from event to event at its tightest tolerance, is among the rows, and its error is the difference of the two.
+The reference is the solver at its tightest tolerance. It is not its own judge: an independent integration, scipy's
+DOP853 from event to event at its tightest tolerance, is among the rows, and its error is the difference of the two. For
+one scene `reference_check` compares the reference with a solution in arithmetic of many digits.
 
 Times differ from run to run and from machine to machine. They have a table of their own, so that what does not stays as
 it is.
 """
 
+import math
 from functools import partial
 from typing import NamedTuple
 
@@ -38,6 +40,14 @@ TABLES = {
         fields.number("mean_velocity", "m/s", "mean feeding velocity over the last quarter"),
         fields.number("velocity_error", "1", "its relative error"),
         fields.number("state_error", "1", "largest error of ẋ, z, ż at the end, in units of the plate's motion"),
+        fields.number(
+            "trajectory_error", "1", "root mean square error of x and z at fixed times, in units of the plate's motion"
+        ),
+        fields.number(
+            "event_error",
+            "1",
+            "largest error of a time of impact or separation, in cycles; null where their number is wrong, or unknown",
+        ),
         fields.text("outcome", "ok, or what is wrong, whatever the run itself reports"),
     ),
     "precision_times": (
@@ -106,6 +116,46 @@ def follow(method: Method, settings: dict) -> Result:
     return Result(run.mean_velocity(), end, order * run.work, order * run.repeats, run.status)
 
 
+def sample_times(settings: dict) -> np.ndarray:
+    """The fixed times (s) at which trajectories are compared."""
+    interval = settings["sample_interval"]
+    return interval * np.arange(1, int(settings["duration"] / interval * (1.0 + 1e-9)) + 1)
+
+
+def contact_changes(events: np.ndarray) -> np.ndarray:
+    """Times (s) of the impacts and separations among the events of a run."""
+    return events["time"][np.isin(events["kind"], ["impact", "separation"])]
+
+
+def trajectory(method: Method, settings: dict) -> tuple[np.ndarray, np.ndarray]:
+    """x and z (m) at the fixed times, shape (n, 2), and the times (s) of impacts and separations."""
+    conveyor, start = grid.conveyor_and_start(settings["model"])
+    times, duration = sample_times(settings), settings["duration"]
+    if method.treatment in peers.TREATMENTS:
+        # To interpolate may take evaluations, too.
+        limit = 2 * settings["max_evaluations"]
+        run = peers.run(
+            pack(conveyor, start), duration, method.method, method.treatment, method.tolerance, limit, times=times
+        )
+        return run.samples[:, [0, 2]], run.events
+    accuracy = {"tolerance": method.tolerance} if method.step is None else {"step": method.step}
+    reuse = method.treatment != ANEW
+    run = simulate(conveyor, start, duration=duration, method=method.method, reuse=reuse, **accuracy)
+    samples = run.sample(times)
+    return np.stack([samples["x"], samples["z"]], axis=1), contact_changes(run.events)
+
+
+def trajectory_errors(method: Method, truth: tuple[np.ndarray, np.ndarray], settings: dict) -> tuple[float, float]:
+    """RMS error of x and z in units of the plate's motion, and largest error of an event time in cycles."""
+    positions, events = trajectory(method, settings)
+    scale = peers.scales(grid.packed(settings["model"]))[[0, 2]]
+    error = math.sqrt(np.mean(((positions - truth[0]) / scale) ** 2))
+    if len(events) != len(truth[1]):
+        return error, math.nan
+    conveyor, _ = grid.conveyor_and_start(settings["model"])
+    return error, float(np.abs(events - truth[1]).max(initial=0.0) * conveyor.frequency)
+
+
 def leads_to(settings: dict, end: np.ndarray) -> str:
     """State of motion that a run with this end leads to."""
     parameters = grid.packed(settings["model"])[None]
@@ -146,6 +196,12 @@ def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[s
     velocity = np.array([result.mean_velocity for result in results])
     velocity_error = np.abs(velocity / truth.mean_velocity - 1.0)
     outcomes = [outcome(result, error, settings, state) for result, error in zip(results, velocity_error, strict=True)]
+    reference = trajectory(Method("event", ANEW, TRUTH, None), settings)
+    lost = (math.nan, math.nan)
+    errors = [
+        trajectory_errors(method, reference, settings) if found == "ok" else lost
+        for method, found in zip(listed, outcomes, strict=True)
+    ]
     run = {
         "method": np.array([method.method for method in listed]),
         "treatment": np.array([method.treatment for method in listed]),
@@ -160,6 +216,8 @@ def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[s
             "mean_velocity": velocity,
             "velocity_error": velocity_error,
             "state_error": np.array([np.abs((result.end - truth.end) / scale).max() for result in results]),
+            "trajectory_error": np.array([error for error, _ in errors]),
+            "event_error": np.array([error for _, error in errors]),
             "outcome": np.array(outcomes),
         },
         "precision_times": {

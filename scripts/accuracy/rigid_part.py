@@ -53,7 +53,7 @@ CONTACT, RIGID, ONE_NUMBER = "contact", "rigid part, e(u)", "rigid part, one e"
 
 
 def table_of_restitution(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Speeds of approach (m/s) and coefficients of restitution of the contact in a parameter vector, shape (13,)."""
+    """Speeds of approach (m/s) and coefficients of restitution of the contact in a parameter vector, shape (16,)."""
     return SPEEDS, rigid_part_motion.restitution_coefficients(parameters, SPEEDS)
 
 

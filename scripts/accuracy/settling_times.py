@@ -22,7 +22,7 @@ TABLES = {
 
 
 def starts(acceleration: float, settings: dict, model: dict) -> np.ndarray:
-    """Parameter vectors with random heights and phases, shape (starts, 13); the same for every amplitude (m/s²)."""
+    """Parameter vectors with random heights and phases, shape (starts, 16); the same for every amplitude (m/s²)."""
     _, parameters = grid.product({"acceleration": [acceleration]}, model)
     rows = np.repeat(parameters, settings["starts"], axis=0)
     generator = np.random.default_rng(settings["seed"])

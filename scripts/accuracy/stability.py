@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 from scipy.special import beta
 
 from conveyor.methods import fixed_step
-from conveyor.simulation import simulate
+from conveyor.simulation import DEFAULT_TOLERANCE, simulate
 from conveyor.solver.model import Conveyor, Start, conveyor_motion, pack
 from conveyor.solver.progress import bar
 from pipeline import fields, grid
@@ -35,6 +35,7 @@ TABLES = {
 RIGHT, WRONG, GROWS, BLOWS_UP = "right", "wrong state", "energy grows", "blow-up"
 # What is varied beside the step, and how its values are spaced.
 PANELS = {"stiffness": np.geomspace, "damping": np.geomspace, "impact velocity": np.geomspace, "conveyor": np.linspace}
+TRUTH = 1e-13  # tolerance of the solver where it is the reference
 FAR = 1.0  # m: a part that far away has blown up
 # The part rests in a Hooke contact and is pressed in by this share of its static penetration.
 PRESSED = 0.5
@@ -108,13 +109,15 @@ def outcome_at_rest(method: str, step: float, stiffness: float, damping: float) 
     return RIGHT if abs(z + depth) < 0.1 * PRESSED * depth else WRONG
 
 
-def restitution(method: str, step: float, speed: float, conveyor: Conveyor) -> float:
+def restitution(
+    method: str, step: float, speed: float, conveyor: Conveyor, tolerance: float = DEFAULT_TOLERANCE
+) -> float:
     """Speed after one impact on a plate at rest over that before; infinity for a part that blows up."""
     height = 1e-6
     duration = 4.0 * height / speed + 6.0 * impact_time(conveyor, speed)
     start = Start(height, -speed)
     if method == "event":
-        run = simulate(conveyor, start, duration=duration)
+        run = simulate(conveyor, start, duration=duration, tolerance=tolerance)
         z, vz = run.z_end, run.vz_end
     else:
         found = fixed_step.run(pack(conveyor, start), whole_steps(duration, step), step, method)
@@ -148,7 +151,7 @@ def impact_limit(method: str, conveyor: Conveyor, speed: float) -> float:
 
 def outcome_of_impact(method: str, step: float, speed: float, conveyor: Conveyor) -> str:
     """What becomes of one Hertz impact, against the event-driven solver."""
-    found, truth = (restitution(name, step, speed, conveyor) for name in (method, "event"))
+    found, truth = restitution(method, step, speed, conveyor), restitution("event", math.nan, speed, conveyor, TRUTH)
     if not math.isfinite(found):
         return BLOWS_UP
     if found > 1.0:
@@ -242,6 +245,32 @@ def region_rows(settings: dict, progress: str | None) -> list[dict]:
     return rows
 
 
+def outcome_of_solver(panel: str, value: float, settings: dict) -> str:
+    """What becomes of a part by the solver at its default tolerance, by the measures of the methods with a step."""
+    contact = settings["contact"]
+    if panel in ("stiffness", "damping"):
+        return outcome_at_rest("event", math.nan, *(contact | {panel: value}).values())
+    if panel == "impact velocity":
+        conveyor = Conveyor(acceleration=0.0, gravity=1e-3, damping=contact["damping"])
+        return outcome_of_impact("event", math.nan, value, conveyor)
+    ride, conveyor = settings[panel], Conveyor(acceleration=value)
+    run, truth = (
+        simulate(conveyor, Start(ride["z0"]), duration=ride["duration"], tolerance=tolerance)
+        for tolerance in (DEFAULT_TOLERANCE, TRUTH)
+    )
+    error = abs(run.mean_velocity() - truth.mean_velocity())
+    return RIGHT if run.status == "ok" and error < VELOCITY * abs(truth.mean_velocity()) else WRONG
+
+
+def own_rows(settings: dict) -> list[dict]:
+    """Outcomes of the solver over each quantity; it has no step."""
+    rows = []
+    for panel, spaced in PANELS.items():
+        values = spaced(*(settings[panel.replace(" ", "_")][name] for name in ("start", "stop", "num")))
+        rows += [row(panel, "event", math.nan, value, outcome_of_solver(panel, value, settings)) for value in values]
+    return rows
+
+
 def row(panel: str, method: str, x: float, y: float, outcome: str, theory: float = math.nan) -> dict:
     return {"panel": panel, "method": method, "x": x, "y": y, "outcome": outcome, "theory": theory}
 
@@ -269,7 +298,7 @@ def hard_rows(settings: dict, step: float) -> list[dict]:
     rows = []
     for case in settings.values():
         conveyor, start = grid.conveyor_and_start(case["model"])
-        truth = simulate(conveyor, start, duration=case["duration"], tolerance=1e-13)
+        truth = simulate(conveyor, start, duration=case["duration"], tolerance=TRUTH)
         own = simulate(conveyor, start, duration=case["duration"])
         scale = max(abs(truth.z_end), 1e-9)
         error = abs(own.z_end - truth.z_end) / scale
@@ -289,6 +318,6 @@ def hard_rows(settings: dict, step: float) -> list[dict]:
 
 def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table of stability."""
-    rows = region_rows(settings, progress) + chatter_rows(settings)
+    rows = region_rows(settings, progress) + own_rows(settings) + chatter_rows(settings)
     rows += hard_rows(settings["hard"], settings["paper_step"])
     return fields.columns(rows, TABLES["stability"])

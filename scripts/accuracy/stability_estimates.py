@@ -45,7 +45,7 @@ NONE = {"epsilon": math.nan, "duration": math.nan, "step": math.nan, "samples": 
 
 
 def parameters_of(case: dict, model: dict) -> np.ndarray:
-    """Parameter vector of one motion, shape (1, 13)."""
+    """Parameter vector of one motion, shape (1, 16)."""
     return grid.packed(model | {name: case[name] for name in ("acceleration", "z0")})[None]
 
 

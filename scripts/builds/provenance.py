@@ -15,6 +15,7 @@ from pathlib import Path
 import pandas as pd
 
 from builds.manifest import list_files
+from conveyor.methods import rivals
 
 ROOT = Path(__file__).resolve().parents[2]
 UNKNOWN = "unknown"
@@ -79,5 +80,6 @@ def make(files: list[str], timed: list[str], config: str, benchmarks: str, *, th
         "threads": threads,
         "seconds": seconds(Path(benchmarks)),
         "versions": versions(),
+        "rivals": rivals.record(),
     }
     return {"manifest": list_files(files, timed), "provenance": json.dumps(provenance, indent=2) + "\n"}

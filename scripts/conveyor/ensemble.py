@@ -12,30 +12,36 @@ from .solver.parallel import for_each_chunk
 STATUS = trajectory.STATUS
 NEEDS = ("feeding", "vertical")
 # Columns of the array that the kernels fill.
-MEAN_VELOCITY, Z_END, VZ_END, X_END, VX_END, MAX_GAP, IMPACTS, CONTACT_FRACTION, CODE = range(9)
-COLUMNS = ("mean_velocity", "z_end", "vz_end", "x_end", "vx_end", "max_gap", "impacts", "contact_fraction")
+MEAN_VELOCITY, Z_END, VZ_END, X_END, VX_END, MAX_GAP, IMPACTS, CONTACT_FRACTION = range(8)
+IMPACT_SPEED, PEAK_FORCE, CODE = range(8, 11)
+COLUMNS = (
+    *("mean_velocity", "z_end", "vz_end", "x_end", "vx_end", "max_gap", "impacts", "contact_fraction"),
+    *("impact_speed", "peak_force"),
+)
 
 
 def follow_by_events(parameters, durations, tolerance, feeding, out):
-    """Fill `out`, shape (9, n), for `parameters`, shape (n, 13), and `durations` (s), by events."""
+    """Fill `out`, shape (11, n), for `parameters`, shape (n, 16), and `durations` (s), by events."""
+    times = np.column_stack([(1.0 - LAST) * durations, durations])
     if feeding:
-        times = np.column_stack([(1.0 - LAST) * durations, durations])
         samples, results = trajectory.integrate(parameters, times, tolerance=tolerance)
         before, after = samples[:, 0], samples[:, 1]
         out[MEAN_VELOCITY] = (after[:, X] - before[:, X]) / (LAST * durations)
         out[X_END], out[VX_END] = after[:, X], after[:, VX]
     else:
-        after, results = vertical_lanes.integrate(parameters, durations, tolerance=tolerance)
+        after, results = vertical_lanes.integrate(parameters, times, tolerance=tolerance)
         out[[MEAN_VELOCITY, X_END, VX_END]] = np.nan
     out[Z_END], out[VZ_END] = after[:, Z], after[:, VZ]
     out[MAX_GAP] = results[:, trajectory.MAX_GAP]
     out[IMPACTS] = results[:, trajectory.IMPACTS]
     out[CONTACT_FRACTION] = results[:, trajectory.CONTACT_TIME] / durations
+    out[IMPACT_SPEED] = results[:, trajectory.IMPACT_SPEED]
+    out[PEAK_FORCE] = results[:, trajectory.PEAK_FORCE]
     out[CODE] = results[:, trajectory.CODE]
 
 
 def follow_by_steps(parameters, duration, step, method, out):
-    """Fill `out`, shape (9, n), for `parameters`, shape (n, 13), with a fixed-step method."""
+    """Fill `out`, shape (11, n), for `parameters`, shape (n, 16), with a fixed-step method."""
     count = fixed_step.step_count(duration, step)
     first = min(round((1.0 - LAST) * count), count - 1)
     n = parameters.shape[0]
@@ -43,13 +49,15 @@ def follow_by_steps(parameters, duration, step, method, out):
     results = np.empty((n, euler_lanes.RESULTS))
     fixed_step.integrate_all(parameters, step, count, method, np.array([first]), samples, np.empty((n, 0, 2)), results)
     for i in range(n):
-        x, vx, z, vz, _, impacts, contact_time, max_gap, _, status = results[i]
+        x, vx, z, vz, _, impacts, contact_time, max_gap, _, status, impact_speed, peak_force = results[i]
         out[MEAN_VELOCITY, i] = (x - samples[i, 0, 0]) / ((count - first) * step)
         out[X_END, i], out[VX_END, i], out[Z_END, i], out[VZ_END, i] = x, vx, z, vz
         out[MAX_GAP, i] = max_gap
         out[IMPACTS, i] = impacts
         out[CONTACT_FRACTION, i] = contact_time / (count * step)
-        out[CODE, i] = trajectory.OK if status == fixed_step.OK else trajectory.NOT_FINITE
+        is_known = status == fixed_step.OK
+        out[IMPACT_SPEED, i], out[PEAK_FORCE, i] = (impact_speed, peak_force) if is_known else (np.nan, np.nan)
+        out[CODE, i] = trajectory.OK if is_known else trajectory.NOT_FINITE
 
 
 def samples_by_events(parameters, times, tolerance, column, feeding, out):
@@ -83,7 +91,7 @@ def run(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13), rows as from model.pack
+    parameters : float64, shape (n, 16), rows as from model.pack
     duration, method, tolerance, step : as in simulation.simulate
     needs : "feeding", or "vertical" where nothing horizontal is wanted (event-driven method: its columns are NaN)
     threads, chunk : how the work is shared; the result does not depend on them
@@ -92,8 +100,9 @@ def run(
     Returns
     -------
     dict of arrays of shape (n,): mean_velocity (m/s, over the last quarter), z_end, vz_end, x_end, vx_end (m, m/s),
-    max_gap (m), impacts (int64), contact_fraction (1), and status (str; "ok", or why the point has no result: its
-    numbers are then NaN where they are not known)
+    max_gap (m), impacts (int64), contact_fraction (1), impact_speed (m/s) and peak_force (N), the largest speed of
+    approach at an impact and the largest contact force over the last quarter (0 if there is none), and status (str;
+    "ok", or why the point has no result: its numbers are then NaN where they are not known)
     """
     check_choice("needs", needs, NEEDS)
     check_count("threads", threads, 1, 1024)

@@ -23,9 +23,9 @@ from .analysis.chaos.lyapunov import Spectrum
 from .analysis.fractals import box_counting, correlation_sum
 from .analysis.fractals.scaling_region import Dimension
 from .arguments import check_array, check_count, check_number, check_parameters, check_type
-from .parameters import PARAMETERS, RANGES
+from .parameters import RANGES
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, check_run
-from .solver.model import Conveyor, Start, pack
+from .solver.model import Conveyor, Start, pack, set_columns
 
 AXES = (*(field.name for field in fields(Conveyor) if field.name in RANGES), "z", "vz")
 MOST_CYCLES = 10**6
@@ -46,6 +46,8 @@ class Runs(NamedTuple):
     max_gap: np.ndarray  # m, largest distance between part and plate
     impacts: np.ndarray  # int64
     contact_fraction: np.ndarray  # share of the duration with a contact force
+    impact_speed: np.ndarray  # m/s, largest speed of approach at an impact over the last quarter; 0 if there is none
+    peak_force: np.ndarray  # N, largest contact force over the last quarter; 0 if there is none
     status: np.ndarray  # str, "ok", or why the run ended early
 
 
@@ -59,14 +61,16 @@ class Basin(NamedTuple):
 
 
 def pack_all(conveyor: Conveyor, start: Start, values: dict[str, ArrayLike]) -> tuple[np.ndarray, tuple[int, ...]]:
-    """Packed parameters, shape (n, 13), one row for each point of the `values`, and the shape of these."""
+    """Packed parameters, shape (n, 16), one row for each point of the `values`, and the shape of these."""
     check_type("conveyor", conveyor, Conveyor)
     check_type("start", start, Start)
     arrays = check_parameters(values, AXES)
     shape = next(iter(arrays.values())).shape if arrays else ()
+    columns = {{"z": "z0", "vz": "vz0"}.get(name, name): array.ravel() for name, array in arrays.items()}
+    if conveyor.static_friction is not None:
+        columns = {"static_friction": conveyor.static_friction} | columns
     rows = np.tile(pack(conveyor, start), (int(np.prod(shape)), 1))
-    for name, array in arrays.items():
-        rows[:, PARAMETERS.index({"z": "z0", "vz": "vz0"}.get(name, name))] = array.ravel()
+    set_columns(rows, columns)
     return rows, shape
 
 

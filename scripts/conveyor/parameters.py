@@ -14,13 +14,16 @@ DESCRIPTIONS = {
     "psi0": "phase of the excitation at t = 0",
     "stiffness": "contact stiffness k_c",
     "damping": "contact damping d_c",
-    "friction": "friction coefficient μ",
+    "friction": "coefficient μ of sliding friction",
     "mass": "mass of the part, m_p",
     "exponent": "exponent p of the contact law: 1 is Hooke, 1.5 is Hertz",
     "gravity": "gravitational acceleration g",
+    "inclination": "inclination α of the track, which rises in the feeding direction",
+    "phase_shift": "phase shift ε of the plate's motion along the track against its motion normal to it",
+    "static_friction": "coefficient μ_s up to which the part sticks, at least friction; absent: equal to friction",
     "tension": "treatment of a contact force that pulls (Eqs. 7 and 11)",
-    "z0": "initial height of the part; the word conveyor puts the part on the plate (Eq. 15)",
-    "vz0": "initial vertical velocity of the part",
+    "z0": "initial height of the part, normal to the track; the word conveyor puts the part on the plate (Eq. 15)",
+    "vz0": "initial velocity of the part normal to the track",
 }
 PARAMETERS = tuple(DESCRIPTIONS)
 
@@ -35,6 +38,9 @@ UNITS = {
     "mass": "kg",
     "exponent": "1",
     "gravity": "m/s²",
+    "inclination": "rad",
+    "phase_shift": "rad",
+    "static_friction": "1",
     "tension": "",
     "z0": "m",
     "vz0": "m/s",
@@ -52,9 +58,15 @@ RANGES = {
     "mass": (1e-12, 1e6),
     "exponent": (1.0, 3.0),
     "gravity": (1e-3, 1e3),
+    "inclination": (-1.4, 1.4),
+    "phase_shift": (-4.0 * math.pi, 4.0 * math.pi),
+    "static_friction": (0.0, 10.0),
     "z0": (-1.0, 10.0),
     "vz0": (-100.0, 100.0),
 }
+
+# Parameters that leave the motion normal to the track as it is.
+TANGENTIAL = ("friction", "phase_shift", "static_friction")
 
 # Methods with a fixed step. The position of a name is its code in compiled kernels.
 FIXED_STEP_METHODS = ("euler", "semi_implicit_euler", "rk4")

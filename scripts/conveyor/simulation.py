@@ -33,6 +33,8 @@ class Run:
     impacts : number of impacts
     max_gap : largest distance between part and plate, m
     contact_fraction : share of the duration with a contact force
+    impact_speed : largest speed of approach at an impact over the last quarter, m/s; 0 if there is none
+    peak_force : largest contact force over the last quarter, N; 0 if there is none
     work : force evaluations (fixed step) or Taylor steps that were computed (event)
     repeats : Taylor steps of a settled motion that were used again (event)
     """
@@ -53,6 +55,8 @@ class Run:
     impacts: int
     max_gap: float
     contact_fraction: float
+    impact_speed: float
+    peak_force: float
     work: int
     repeats: int
     event_count: int
@@ -158,7 +162,7 @@ def simulate(
     if method == "event":
         times = np.array([[(1.0 - LAST) * duration, duration]])
         (samples,), (results,) = trajectory.integrate(parameters[None], times, tolerance=tolerance, reuse=reuse)
-        code, event_count, impacts, contact_time, max_gap, work, repeats = results
+        code, event_count, impacts, contact_time, max_gap, work, repeats, *peaks = results
         x_last = samples[0, X]
         x_end, vx_end, z_end, vz_end = samples[1, :4]
         status = trajectory.STATUS[int(code)]
@@ -169,6 +173,7 @@ def simulate(
         x_last = x_end - found.mean_velocity * LAST * duration
         status, impacts, max_gap = found.status, found.impacts, found.max_gap
         contact_fraction, work, repeats, event_count = found.contact_fraction, found.evaluations, 0, 0
+        peaks = found.impact_speed, found.peak_force
     return Run(
         conveyor,
         start,
@@ -186,6 +191,7 @@ def simulate(
         int(impacts),
         float(max_gap),
         float(contact_fraction),
+        *map(float, peaks),
         int(work),
         int(repeats),
         int(event_count),

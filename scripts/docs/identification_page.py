@@ -14,7 +14,7 @@ from pipeline.templates import render
 IN_WORDS = {
     "all": "all numbers",
     "end_left_out": "without the upper end of Fig. 8",
-    "paper_method": "without it, as by the paper's method",
+    "paper_method": "without it, with the paper's method",
 }
 UNITS = {
     "friction": (1.0, "friction μ", "", 3),

@@ -15,6 +15,7 @@ A template is Markdown (or YAML) with Jinja's fields. What it may ask for: the f
     entries           entries of a section of the paper's config, with the comments above them
     modules           modules of the library, by the rooms they stand in
     proved            the page of what is proved
+    columns           the page of all tables and their columns
     findings          the page of what was found beyond the paper
     figure(name)      a figure with its caption, as the medium wants it
     cell(text)        a text for a cell of a table
@@ -151,6 +152,7 @@ def context(
     uncertainty: str,
     proved: str,
     findings: str,
+    columns: str,
     medium: str,
     folder: str,
     defaults: list[Written],
@@ -173,6 +175,7 @@ def context(
         "costs": json.loads(costs) if costs else {},
         "proved": proved,
         "findings": findings,
+        "columns": columns,
         "gaps": of_gaps(defaults),
         "keys": of_keys(known, defaults),
         "entries": of_entries(known, defaults),
@@ -192,6 +195,7 @@ def make(
     uncertainty: str = "",
     proved: str = "",
     findings: str = "",
+    columns: str = "",
     medium: str = "site",
     folder: str = "",
     config: list[str] = (),
@@ -209,7 +213,8 @@ def make(
     costs : of figures and claims, as JSON
     uncertainty : by how much tighter tolerances change the claims, as JSON
     proved : the page of what is proved
-    findings : the page of what was found beyond the paper
+    findings : the list of findings beyond the paper
+    columns : the page of all tables and their columns
     medium : print or site
     folder : where the figures are, as the page says it
     config : texts of the default config files
@@ -228,6 +233,7 @@ def make(
         uncertainty,
         proved,
         findings,
+        columns,
         medium,
         folder,
         defaults,

@@ -70,5 +70,5 @@ def build(source: str, output: str) -> None:
         app = Sphinx(source, None, output, doctrees, "html", SETTINGS, status=None, warning=warnings, freshenv=True)
         app.build(force_all=True)
     if app.statuscode or warnings.getvalue():
-        raise RuntimeError(f"Sphinx is not content:\n{warnings.getvalue()}")
+        raise RuntimeError(f"Sphinx reports problems; correct the pages that it names:\n{warnings.getvalue()}")
     Path(output, ".buildinfo").unlink(missing_ok=True)

@@ -2,21 +2,26 @@
 
 import inspect
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from accuracy import speed
 from accuracy.rigid_part import CONTACT, RIGID
-from accuracy.stability import VELOCITY
+from accuracy.stability import PANELS, VELOCITY
 from claims.about_chaos import positive_onset
 from claims.about_states import runs_of, second_from_rest, written_runs
 from claims.finding import lowest
+from figures.plots.throw import proved_fold
 from identification import findings
 from operating.chart import search_numbers
+from operating.drive_page import last_growth
 from pipeline.templates import render
 
 MM = 1e3
 SMALL_ELASTICITY = 1e-3  # errors of smaller ones are told by no relative number
+TEXTBOOK_AGREES = 0.1  # relative difference up to which the caption says that the textbook velocity is right
 SIGNIFICANT = 3.0  # standard errors by which an exponent is positive
 
 
@@ -182,10 +187,41 @@ def scaling(*, scaling: pd.DataFrame) -> dict[str, str]:
     }
 
 
+def speed_accuracy(
+    *,
+    jumping: pd.DataFrame,
+    jumping_times: pd.DataFrame,
+    reference: pd.DataFrame,
+    paper_step: float,
+    equal_error: float,
+) -> dict[str, str]:
+    runs = speed.timed(jumping, jumping_times)
+    paper, *rival = speed.factors(runs, paper_step, equal_error)
+    missing = dict.fromkeys(jumping[jumping.outcome == "not installed"].method)
+    return {
+        "duration": f"{jumping.attrs['duration']:g}",
+        "paper_factor": f"{float(f'{paper.ratio:.2g}'):g}",
+        "equal_error": f"{equal_error:g}",
+        "rival_factor": f"{float(f'{rival[0].ratio:.2g}'):g}" if rival else "no",
+        "rival": rival[0].method if rival else "none of which keeps that error",
+        "missing": ", ".join(missing),
+        "digits": str(reference.attrs["digits"]),
+        "reference_difference": f"{reference.difference.abs().max():.0e}".replace("e-0", "e-"),
+    }
+
+
 def stability_maps(*, stability: pd.DataFrame) -> dict[str, str]:
     return {
         "start_mm": f"{MM * stability.attrs['conveyor']['z0']:g}",
         "right": f"{100.0 * VELOCITY:g}",
+    }
+
+
+def stability_limits(*, stability: pd.DataFrame) -> dict[str, str]:
+    own = stability[(stability.method == "event") & stability.panel.isin(PANELS)]
+    return stability_maps(stability=stability) | {
+        "own_right": str(int((own.outcome == "right").sum())),
+        "own_all": str(len(own)),
     }
 
 
@@ -211,6 +247,43 @@ def box_numbers(*, shares: pd.DataFrame) -> dict[str, str]:
     return search_numbers(shares) | {"largest_error": f"{100.0 * shares.stderr.max():.1f}"}
 
 
+def throw(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> dict[str, str]:
+    jumps = throws[(throws.state == "second") & (throws.vertical < 1.0)].groupby("conveyor", sort=False).vertical.min()
+    most = throws.loc[throws.groupby(["conveyor", "vertical"], sort=False).share.idxmax()]
+    most = most[(most.vertical > 1.0) & most.textbook.notna()]
+    close = (most.mean_velocity - most.textbook).abs() <= TEXTBOOK_AGREES * most.textbook
+    agree = close.groupby(most.conveyor, sort=False).agg(["sum", "count"])
+    fold = proved_fold(throws, bifurcations)
+    return {
+        "starts": str(throws.attrs["starts"]),
+        "jumps": ", ".join(f"{throw:.2f} ({name})" for name, throw in jumps.items()),
+        "fold": "" if np.isnan(fold) else f"{fold:.3f}",
+        "within": f"{100.0 * TEXTBOOK_AGREES:g}",
+        "agree": ", ".join(f"{right} of {all_} ({name})" for name, right, all_ in agree.itertuples()),
+    }
+
+
+def drive(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict[str, str]:
+    search = front.attrs
+    return {
+        "share": f"{100.0 * search['share']:g}",
+        "displacement": f"{MM * search['displacement']:g}",
+        "starts": str(search["starts"]),
+        "population": str(search["population"]),
+        "checked": str(int(front.checked.sum())),
+        "confirmed": str(int(front.confirmed.sum())),
+        "growth": f"{100.0 * last_growth(generations):.2g}",
+    }
+
+
+def track(*, track: pd.DataFrame) -> dict[str, Any]:
+    steepest = track[track.mean_velocity > 0.0].groupby("state").inclination.max()
+    return {
+        "acceleration": f"{track.attrs['acceleration']:g}",
+        "limits": [(state, f"{np.degrees(limit):.1f}") for state, limit in steepest.items()],
+    }
+
+
 def identification(
     *, front: pd.DataFrame, profiles: pd.DataFrame, frictions: pd.DataFrame, generations: pd.DataFrame
 ) -> dict[str, str]:
@@ -227,7 +300,7 @@ def identification(
     }
 
 
-NUMBERS: dict[str, Callable[..., dict[str, str]]] = {
+NUMBERS: dict[str, Callable[..., dict[str, Any]]] = {
     "fig03": fig03,
     "fig08": fig08,
     "fig10": fig10,
@@ -247,7 +320,12 @@ NUMBERS: dict[str, Callable[..., dict[str, str]]] = {
     "scene_budget": scene_budget,
     "scaling": scaling,
     "settling": settling,
-    "stability": stability_maps,
+    "throw": throw,
+    "drive": drive,
+    "track": track,
+    "speed_accuracy": speed_accuracy,
+    "stability": stability_limits,
+    "stability_details": stability_maps,
 }
 
 

@@ -29,6 +29,7 @@ EULER_LABEL = "paper's method (Euler)"
 PANELS = {"euler": EULER_LABEL, "converged": CONVERGED_LABEL}  # of the paper's figures, in their order
 PLATE = "#555555"
 AMPLITUDE = "acceleration amplitude $\\hat{a}$ in m/s²"
+THROW_NUMBER = "throw number $\\Gamma = a_z / (g\\,\\cos\\alpha)$"
 VELOCITY = "mean feeding velocity in m/s"
 # Colour and name of every method that the solver is compared with.
 METHODS = {
@@ -40,6 +41,10 @@ METHODS = {
     "DOP853": ("#009E73", "DOP853"),
     "Radau": ("#CC79A7", "Radau"),
     "LSODA": ("#8C6D31", "LSODA"),
+    "CyRK DOP853": ("#D81B60", "CyRK DOP853"),
+    "CyRK Vern8": ("#F48FB1", "CyRK Vern8"),
+    "CVODE Adams": ("#33691E", "CVODE Adams"),
+    "CVODE BDF": ("#9CCC65", "CVODE BDF"),
     "heyoka": ("#7A4FBF", "heyoka"),
 }
 # Curves of both methods in one panel: where they coincide, the dashes lie on the line.
@@ -47,6 +52,8 @@ CURVES = {
     "converged": {"color": CONVERGED, "linewidth": 1.4, "label": CONVERGED_LABEL},
     "euler": {"color": EULER, "linewidth": 0.8, "linestyle": (0, (3, 3)), "label": EULER_LABEL},
 }
+# The textbook theory of throw conveyors, over the converged motions.
+TEXTBOOK = {"color": "#D55E00", "linewidth": 1.0, "linestyle": (0, (5, 1, 1, 1)), "label": "textbook"}
 # The plate's own curves, behind those of the part.
 PLATE_CURVE = {"color": "0.8", "linewidth": 2.5, "label": "conveyor"}
 

@@ -70,11 +70,11 @@ def edge(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13), rows as from model.pack; their acceleration is not used
+    parameters : float64, shape (n, 16), rows as from model.pack; their acceleration is not used
     scan : amplitudes, m/s², ascending, shape (k,), or (k, n) for a scan of each row
     further : equal steps above an edge at which the first state is looked for, m/s², shape (s,)
     resolution : m/s², to which the amplitude is enclosed
-    decide : states of motion, str, shape (m,), for parameters of shape (m, 13)
+    decide : states of motion, str, shape (m,), for parameters of shape (m, 16)
     """
     n = len(parameters)
     scan = np.broadcast_to(scan.T, (n, len(scan))).T
@@ -113,7 +113,7 @@ def edge(
 
 
 def conveyors(settings: dict) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """The columns of the table that are given, shape (n,), and the parameters, shape (n, 13), of its rows.
+    """The columns of the table that are given, shape (n,), and the parameters, shape (n, 16), of its rows.
 
     The plate of these conveyors moves vertically, so that their amplitude is the vertical one.
     """

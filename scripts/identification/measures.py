@@ -63,7 +63,7 @@ def edges_of(table: pd.DataFrame, model: dict) -> Edges:
 
 
 def vertical_edges(edges: Edges, parameters: np.ndarray, reading: str) -> np.ndarray:
-    """Edges as vertical amplitudes (m/s²) for conveyors, shape (n, 13), under a reading of tension: shape (n, h)."""
+    """Edges as vertical amplitudes (m/s²) for conveyors, shape (n, 16), under a reading of tension: shape (n, h)."""
     loss = impact_loss(parameters[:, DAMPING], parameters[:, STIFFNESS], edges.model)
     return edges.splines[VERTICAL_OF[reading]](np.log(np.stack([loss, parameters[:, STIFFNESS]], axis=1)))
 
@@ -105,7 +105,7 @@ def curve(heights: np.ndarray, edges: np.ndarray, angle: np.ndarray) -> Curve:
 
 
 def by_events(rows: np.ndarray) -> np.ndarray:
-    """Mean feeding velocities (m/s), shape (n,), of conveyors and starts, shape (n, 13), converged."""
+    """Mean feeding velocities (m/s), shape (n,), of conveyors and starts, shape (n, 16), converged."""
     # What ensemble.run does for many would cost a search, which asks for four at a time, a seventh of their time.
     found = np.empty((ensemble.CODE + 1, len(rows)))
     ensemble.follow_by_events(rows, np.full(len(rows), DURATION), TOLERANCE, True, found)
@@ -113,7 +113,7 @@ def by_events(rows: np.ndarray) -> np.ndarray:
 
 
 def starts_of_both_states(parameters: np.ndarray, found: Curve, measured: dict) -> np.ndarray:
-    """Starts in the first and the second state at both ends of the interval of Fig. 9: shape (n, 2, 2, 13).
+    """Starts in the first and the second state at both ends of the interval of Fig. 9: shape (n, 2, 2, 16).
 
     The axes are state and end. An end that does not have both states gives way to the nearest amplitude that has, and
     lies as far inside as the step of the amplitudes' axis there. The first state starts in the middle of the heights
@@ -179,7 +179,7 @@ def quantities(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13), rows as from model.pack; their acceleration and start are not used
+    parameters : float64, shape (n, 16), rows as from model.pack; their acceleration and start are not used
     heights, edges : m, shape (h,), and the vertical edges there, m/s², shape (n, h)
     measured : what of the config the claims are measured with: `interval` of amplitudes and how far `inside` its ends
         velocities are taken (m/s²), `starts` and `moved_starts` of Figs. 8 and 11 (first, last and number, m),

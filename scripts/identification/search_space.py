@@ -6,8 +6,7 @@ loss and stiffness: along the valley of equally good contacts it would have to r
 
 import numpy as np
 
-from conveyor.solver.model import PARAMETERS as OF_CONVEYOR
-from conveyor.solver.model import TENSION, TENSION_MODES, UNITS
+from conveyor.solver.model import TENSION, TENSION_MODES, UNITS, set_columns
 from identification.edges import duration_over_mass
 from pipeline import grid
 
@@ -37,8 +36,11 @@ def searched(values: np.ndarray, model: dict) -> np.ndarray:
 
 
 def packed(values: np.ndarray, reading: str, model: dict) -> np.ndarray:
-    """Parameter vectors, shape (n, 13), of a model with other values, shape (n, 4), and another reading of tension."""
+    """Parameter vectors, shape (n, 16), of a model with other values, shape (n, 4), and another reading of tension."""
     rows = np.tile(grid.packed(model | {"z0": 0.0}), (len(values), 1))
-    rows[:, [OF_CONVEYOR.index(name) for name in PARAMETERS]] = values
+    columns = dict(zip(PARAMETERS, values.T, strict=True))
+    if "static_friction" in model:
+        columns["static_friction"] = np.maximum(model["static_friction"], columns["friction"])
+    set_columns(rows, columns)
     rows[:, TENSION] = TENSION_MODES.index(reading)
     return rows

@@ -1,15 +1,19 @@
 """The operating chart in words: one paragraph and one table, all numbers from the tables."""
 
 import math
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
 
-from operating.regimes import CHAOS, ONE, SEVERAL, UNKNOWN, best_of
+from conveyor.parameters import UNITS
+from operating.regimes import AIMS, CHAOS, ONE, SEVERAL, UNKNOWN, best_of
 from pipeline.templates import render
 
 # None of n independent starts did it: with 95 % confidence fewer than this over n do (-log 0.05 is 2.996).
 RULE_OF_THREE = 3.0
+WORTH_CHANGING = 0.01  # relative gain of velocity from which a change of a parameter is named
+MOST_CHANGES = 4  # that are named
 
 
 def numbers(low: float, high: float, factor: float = 1.0) -> str:
@@ -93,11 +97,13 @@ def search_numbers(shares: pd.DataFrame) -> dict[str, str]:
     }
 
 
-def rows_of(regimes: pd.DataFrame, resolution: float) -> list[list[str]]:
+def rows_of(regimes: pd.DataFrame, shares: pd.DataFrame) -> list[list[str]]:
     """The cells of the table, a row for each interval of amplitudes."""
+    unit = shares.vertical.iloc[0] / shares.acceleration.iloc[0]
     return [
         [
-            places([row.begin], [row.end], resolution),
+            places([row.begin], [row.end], shares.attrs["resolution"]),
+            numbers(row.begin, row.end, unit),
             row.regime,
             row.states,
             numbers(row.best_low, row.best_high),
@@ -108,8 +114,49 @@ def rows_of(regimes: pd.DataFrame, resolution: float) -> list[list[str]]:
     ]
 
 
-def make(template: str, shares: pd.DataFrame, regimes: pd.DataFrame) -> str:
-    """The page from its template and the tables of shares and regimes."""
+def written_change(row: NamedTuple, before: float) -> str:
+    """ "friction of 0.17 (now 0.15): +12 %, one velocity"."""
+    unit = "" if UNITS[row.parameter] == "1" else f" {UNITS[row.parameter]}"
+    name = row.parameter.replace("_", " ")
+    return f"{name} of {row.value:.4g}{unit} (now {before:.4g}{unit}): {100.0 * row.gain:+.0f} %, {row.regime}"
+
+
+def advised(shares: pd.DataFrame, advice: pd.DataFrame, changes: pd.DataFrame) -> dict[str, Any]:
+    """What to do, by its aim; an aim that cannot be met is None."""
+    options, model = advice.attrs, shares.attrs["model"]
+    found = dict.fromkeys(AIMS)
+    for row in advice.itertuples():
+        faster = changes[(changes.aim == row.aim) & (changes.gain > WORTH_CHANGING)]
+        faster = faster.sort_values("gain", ascending=False).head(MOST_CHANGES)
+        length = options.get("part_length")
+        found[row.aim] = {
+            "acceleration": f"{row.acceleration:.4g}",
+            "throw_number": f"{row.throw_number:.3g}",
+            "state": row.state,
+            "period": str(row.period),
+            "velocity": f"{row.mean_velocity:.3g}",
+            "parts": f"{60.0 * row.mean_velocity / length:.3g}" if length else "",
+            "all": row.stderr == 0.0,
+            "share": f"{100.0 * row.share:.1f}",
+            "stderr": f"{100.0 * row.stderr:.1f}",
+            "knock": "" if np.isnan(row.knock) else f"{row.knock:.2g}",
+            "largest_kick": f"{row.largest_kick:.2g}",
+            "impact_speed": f"{row.impact_speed:.2g}",
+            "peak_force": f"{row.peak_force:.2g}",
+            "weights": f"{row.peak_force / (model['mass'] * model['gravity']):.2g}",
+            "textbook": "" if np.isnan(row.textbook) else f"{row.textbook:.3g}",
+            "changes": [written_change(change, model[change.parameter]) for change in faster.itertuples()],
+        }
+    return found | {
+        "margin": f"{100.0 * options['margin']:g}",
+        "part_length": f"{1e3 * options['part_length']:g}" if "part_length" in options else "",
+    }
+
+
+def make(
+    template: str, shares: pd.DataFrame, regimes: pd.DataFrame, advice: pd.DataFrame, changes: pd.DataFrame
+) -> str:
+    """The page from its template and the tables of shares, regimes, advice and changes."""
     resolution = shares.attrs["resolution"]
     values = regular(shares, regimes) | irregular(regimes, resolution) | search_numbers(shares)
-    return render(template, values | {"rows": rows_of(regimes, resolution)})
+    return render(template, values | advised(shares, advice, changes) | {"rows": rows_of(regimes, shares)})

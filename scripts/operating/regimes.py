@@ -12,6 +12,10 @@ ONE, SEVERAL, BESIDE, CHAOS, UNKNOWN = REGIMES = (
     "chaos only",
     "unknown",
 )
+# What a recommended amplitude aims at, see `advice`.
+CERTAIN, FAST = AIMS = ("certain", "fast")
+# The status of a motion on a track that is too steep, see `track`.
+SLIDES_AWAY = "slides away"
 
 TABLES = {
     "regimes": (

@@ -9,10 +9,11 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis.attractors.labels import Labels
+from conveyor import ensemble
+from conveyor.analysis.attractors.labels import Labels, continued
 from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
-from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, GRAVITY, PSI0, VZ0, Z0
+from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, GRAVITY, INCLINATION, PSI0, VZ0, Z0
 from conveyor.solver.parallel import for_each_chunk
 from operating.regimes import regimes_of
 from pipeline import fields, grid
@@ -21,7 +22,7 @@ from pipeline.motions import motions_of_starts
 TABLES = {
     "shares": (
         fields.number("acceleration", "m/s²", "amplitude of the excitation"),
-        fields.number("vertical", "1", "largest vertical acceleration of the plate, in g"),
+        fields.number("vertical", "1", "throw number Γ: largest acceleration of the plate normal to it, in g cos α"),
         fields.count("motion", "number of the motion at this amplitude, the fastest one first"),
         *fields.STATE,
         fields.number("longest_flight", "1", "of the motion, in excitation cycles; null for none"),
@@ -49,7 +50,7 @@ def starts_of_box(settings: dict) -> np.ndarray:
 
 
 def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:
-    """Packed parameters of all starts, shape (n, 3), at each of m amplitudes, shape (m n, 13)."""
+    """Packed parameters of all starts, shape (n, 3), at each of m amplitudes, shape (m n, 16)."""
     _, conveyors = grid.product({"acceleration": list(amplitudes)}, model)
     rows = np.repeat(conveyors, len(starts), axis=0)
     height, velocity, phase = np.tile(starts, (len(amplitudes), 1)).T
@@ -71,6 +72,19 @@ def groups(found: Labels) -> np.ndarray:
     number = np.empty(len(order), dtype=np.int64)
     number[order] = np.concatenate([[0], np.cumsum(~same)])
     return number
+
+
+def continue_settled(
+    rows: np.ndarray, found: Labels, settings: dict, later: np.ndarray | float = 0.0, *, threads: int = 1
+) -> np.ndarray:
+    """Packed parameters, shape (n, 16), that go on from settled trajectories.
+
+    rows, found : packed parameters of the trajectories, shape (n, 16), and their labels
+    later : excitation cycles by which each trajectory is followed further, a number or of shape (n,)
+    """
+    durations = (found.cycles + later + FORGOTTEN) / rows[:, FREQUENCY]
+    ends = ensemble.run(rows, duration=durations, tolerance=settings["tolerance"], needs="vertical", threads=threads)
+    return continued(rows, ends["z_end"], ends["vz_end"], durations)
 
 
 def last_quarters(
@@ -104,7 +118,7 @@ def velocities(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13)
+    parameters : float64, shape (n, 16)
     period : of the motion in excitation cycles, 0 for none
     settled : excitation cycles after which the vertical motion has settled
     """
@@ -132,24 +146,27 @@ def velocities(
     return found, status
 
 
-def motions_at(
-    amplitudes: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None
+def motions_of_conveyors(
+    parameters: np.ndarray, starts: int, settings: dict, *, threads: int = 1, progress: str | None = None
 ) -> pd.DataFrame:
-    """The table for some amplitudes (m/s²), ascending, shape (m,)."""
-    starts = starts_of_box(settings)
-    parameters = parameters_of(amplitudes, starts, settings["model"])
-    found = motions_of_starts(parameters, settings, starts=len(starts), threads=threads, progress=progress)
+    """The motions that `starts` initial conditions of each of k conveyors end in, a row for each motion.
+
+    parameters : packed, shape (k starts, 16)
+    Returns, besides columns of the table, `conveyor`, its number, and of the trajectory that settles first its
+    `place` in `parameters` and the `cycles` until then.
+    """
+    found = motions_of_starts(parameters, settings, starts=starts, threads=threads, progress=progress)
     rows, chosen, numbers = [], [], []
-    for k in range(len(amplitudes)):
-        own = slice(k * len(starts), (k + 1) * len(starts))
+    for k in range(len(parameters) // starts):
+        own = slice(k * starts, (k + 1) * starts)
         number = groups(Labels(*(column[own] for column in found)))
         for motion in range(number.max() + 1):
             members = own.start + np.flatnonzero(number == motion)
             soonest = members[np.argsort(found.cycles[members], kind="stable")][: settings["followed"]]
             chosen.append(soonest)
             numbers.append(np.full(len(soonest), len(rows)))
-            rows.append((members[0], len(members)))
-    first, count = np.array(rows).T
+            rows.append((k, members[0], soonest[0], len(members)))
+    conveyor, first, place, count = np.array(rows).T
     chosen, numbers = np.concatenate(chosen), np.concatenate(numbers)
     period, cycles = found.period[chosen], found.cycles[chosen]
     # What has no period is no more settled later on.
@@ -166,23 +183,38 @@ def motions_at(
         if status[row] == "ok":
             velocity[row] = each[own].mean()
             error[row] = each[own].std(ddof=1) / math.sqrt(sizes[row]) if sizes[row] > 1 else np.nan
-    share = count / len(starts)
+    share = count / starts
     acceleration = parameters[first, ACCELERATION]
-    table = pd.DataFrame(
+    normal_gravity = parameters[first, GRAVITY] * np.cos(parameters[first, INCLINATION])
+    return pd.DataFrame(
         {
+            "conveyor": conveyor,
+            "place": place,
+            "cycles": found.cycles[place],
             "acceleration": acceleration,
-            "vertical": acceleration * np.sin(parameters[first, ANGLE]) / parameters[first, GRAVITY],
+            "vertical": acceleration * np.sin(parameters[first, ANGLE]) / normal_gravity,
             "state": found.state[first],
             "period": found.period[first],
             "longest_flight": found.longest_flight[first],
             "starts": count,
             "share": share,
-            "stderr": np.sqrt(share * (1.0 - share) / len(starts)),
+            "stderr": np.sqrt(share * (1.0 - share) / starts),
             "mean_velocity": velocity,
             "velocity_stderr": error,
             "status": status,
         }
-    ).sort_values(["acceleration", "mean_velocity", "starts"], ascending=[True, False, False], ignore_index=True)
+    )
+
+
+def motions_at(
+    amplitudes: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None
+) -> pd.DataFrame:
+    """The table for some amplitudes (m/s²), ascending, shape (m,)."""
+    starts = starts_of_box(settings)
+    parameters = parameters_of(amplitudes, starts, settings["model"])
+    table = motions_of_conveyors(parameters, len(starts), settings, threads=threads, progress=progress)
+    order = {"by": ["acceleration", "mean_velocity", "starts"], "ascending": [True, False, False]}
+    table = table.drop(columns=["conveyor", "place", "cycles"]).sort_values(**order, ignore_index=True)
     return table.assign(motion=table.groupby("acceleration").cumcount() + 1)
 
 

@@ -8,7 +8,7 @@ from pipeline import grid
 
 
 def starts_on_attractors(strobes: pd.DataFrame, settings: dict) -> tuple[pd.DataFrame, np.ndarray]:
-    """The last recorded state of each amplitude and branch, and parameter vectors that start there, shape (n, 13)."""
+    """The last recorded state of each amplitude and branch, and parameter vectors that start there, shape (n, 16)."""
     last = strobes[strobes.cycle == strobes.cycle.max()].reset_index(drop=True)
     parameters = np.tile(grid.packed(settings["model"]), (len(last), 1))
     parameters[:, 0] = last.acceleration

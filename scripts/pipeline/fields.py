@@ -63,6 +63,8 @@ FEATURES = (
     number("max_gap", "m", "largest distance between part and plate"),
     count("impacts", "number of impacts"),
     number("contact_fraction", "1", "share of the duration with a contact force"),
+    number("impact_speed", "m/s", "largest speed of approach at an impact over the last quarter; 0 if there is none"),
+    number("peak_force", "N", "largest contact force over the last quarter; 0 if there is none"),
     text("status", "ok, or why there is no result"),
 )
 

@@ -5,7 +5,17 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from conveyor.solver.model import PARAMETERS, TENSION, TENSION_MODES, Z0, Conveyor, Start, check_parameter, pack
+from conveyor.solver.model import (
+    PARAMETERS,
+    TENSION,
+    TENSION_MODES,
+    Z0,
+    Conveyor,
+    Start,
+    check_parameter,
+    pack,
+    set_columns,
+)
 
 Axis = Sequence[float | str] | Mapping[str, float]
 
@@ -58,7 +68,7 @@ def conveyor_and_start(model: Mapping[str, float | str]) -> tuple[Conveyor, Star
 
 
 def packed(model: Mapping[str, float | str]) -> np.ndarray:
-    """The same as a parameter vector, shape (13,)."""
+    """The same as a parameter vector, shape (16,)."""
     return pack(*conveyor_and_start(model))
 
 
@@ -76,11 +86,15 @@ def product(
     Returns
     -------
     columns : values of the axes, each of shape (n,)
-    parameters : float64, shape (n, 13), rows as from model.pack
+    parameters : float64, shape (n, 16), rows as from model.pack
     """
     columns = columns_of_axes(axes, rows)
-    parameters = np.tile(packed(model), (len(next(iter(columns.values()))), 1))
-    for name, column in columns.items():
-        codes = column if column.dtype.kind == "f" else [TENSION_MODES.index(mode) for mode in column]
-        parameters[:, PARAMETERS.index(name)] = codes
+    # Which static friction is too small depends on the axes.
+    alone = {name: value for name, value in model.items() if name != "static_friction"}
+    parameters = np.tile(packed(alone), (len(next(iter(columns.values()))), 1))
+    codes = {
+        name: column if column.dtype.kind == "f" else np.array([TENSION_MODES.index(mode) for mode in column])
+        for name, column in columns.items()
+    }
+    set_columns(parameters, {name: model[name] for name in model if name not in alone} | codes)
     return columns, parameters

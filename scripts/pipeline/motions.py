@@ -30,7 +30,7 @@ def tolerance_of(settings: dict) -> float:
 def shared_attractors(
     parameters: np.ndarray, starts: int, settings: dict, *, threads: int = 1, progress: str | None = None
 ) -> AttractorTable:
-    """The attractors of conveyors, shape (n, 13), that are worth finding for so many starts of each of them."""
+    """The attractors of conveyors, shape (n, 16), that are worth finding for so many starts of each of them."""
     if starts < CHAOS_SHARED or starts * settings["settling"] < CYCLES_SHARED:
         return NO_ATTRACTORS
     options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
@@ -39,7 +39,7 @@ def shared_attractors(
 
 
 def batches_by_conveyor(parameters: np.ndarray) -> list[np.ndarray]:
-    """Rows of `parameters`, shape (n, 13), in batches that hold all starts of their conveyors."""
+    """Rows of `parameters`, shape (n, 16), in batches that hold all starts of their conveyors."""
     _, conveyor = distinct_conveyors(parameters)
     order = np.argsort(conveyor, kind="stable")
     batch = conveyor[order] // CONVEYORS
@@ -58,7 +58,7 @@ def motions_of_starts(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13)
+    parameters : float64, shape (n, 16)
     settings : `settling`, and `tolerance` if it is not the default
     starts : of each conveyor, in all batches and shards
     """
@@ -74,7 +74,7 @@ def motions_of_starts(
 
 
 def motions(parameters: np.ndarray, settings: dict, **options) -> Labels:
-    """The motions that the starts of `parameters`, shape (n, 13), end in; `settings` are those of their entry.
+    """The motions that the starts of `parameters`, shape (n, 16), end in; `settings` are those of their entry.
 
     options : `threads` and `progress`, as in motions_of_starts
     """

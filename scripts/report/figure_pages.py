@@ -70,7 +70,7 @@ def make(pages: dict[str, dict], told: dict[str, str]) -> dict[str, str]:
         size = len(page.encode())
         if size > LARGEST:
             raise ValueError(
-                f"{pages[name]['heading']}: its page of the report has {size / 1e6:.2f} MB, and a browser shows none "
-                f"above {LARGEST / 1e6:g} MB; put fewer figures on it"
+                f"{pages[name]['heading']}: its page of the report has {size / 1e6:.2f} MB, but browsers show at most "
+                f"{LARGEST / 1e6:g} MB; put fewer figures on it"
             )
     return made

@@ -46,10 +46,10 @@ def notice(overlays: list[str], sweeps: dict, paper_sweeps: dict) -> dict[str, s
     if not overlays:
         return {}
     own, paper = count_points(sweeps), count_points(paper_sweeps)
-    kind = f"coarse axes, {own:,} points of sweeps in place of {paper:,}" if own < paper else "a config of its own"
+    kind = f"coarse axes, {own:,} sweep points instead of {paper:,}" if own < paper else "a config of its own"
     return {
-        "heading": f"Made with {', '.join(overlays)}, on {kind}.",
-        "text": "Verdicts, captions and numbers are those of this config, not those of the paper's.",
+        "heading": f"Made with {', '.join(overlays)}: {kind}.",
+        "text": "Verdicts, captions and numbers belong to this config, not to the paper's.",
     }
 
 

@@ -61,6 +61,8 @@ TABLES = {
 # Groups that move each kind: a start has some of its own.
 OF_ORBITS, OF_STARTS = ("damping", "stiffness", "exponent"), NAMES[:-1]
 STARTS = ("z0", "vz0")
+# What is no number, and parameters of the motion along the track besides friction.
+NEVER = ("tension", "phase_shift", "static_friction")
 
 
 class Moved(NamedTuple):
@@ -183,10 +185,15 @@ def physical_rows(one: Moved, difference: float, agreement: float) -> Iterator[d
     exact = None if one.by is None else derivatives_of(one.moved, one.parameters, one.by)
     moved = one.parameters[PARAMETERS.index(one.moved)]
     for name, step in steps_of(one.parameters, difference).items():
-        if name in (one.moved, "tension") or (name in STARTS and not one.of_start):
-            continue
         place = PARAMETERS.index(name)
         value = one.parameters[place]
+        # A level track is where gravity normal to it is largest: to first order nothing moves with its inclination.
+        if (
+            name in (one.moved, *NEVER)
+            or (name in STARTS and not one.of_start)
+            or (name == "inclination" and not value)
+        ):
+            continue
         row = {
             **about(one),
             "moved_unit": UNITS[one.moved],

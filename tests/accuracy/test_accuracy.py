@@ -6,7 +6,7 @@ import pytest
 from project import ROOT, merged, read_config
 
 from accuracy import benchmark, precision, timing
-from conveyor.methods import heyoka_peer
+from conveyor.methods import rivals
 
 CONFIG = read_config()
 ONCE = {"repeats": 1, "seconds": 1e-9}
@@ -68,8 +68,8 @@ def test_solver_and_an_independent_integration_meet(compared):
 
 def test_heyoka_need_not_be_installed(compared):
     heyoka = compared[compared.method == "heyoka"].iloc[0]
-    assert heyoka.outcome == ("ok" if heyoka_peer.installed() else "not installed")
-    assert heyoka.velocity_error < 1e-8 or not heyoka_peer.installed()
+    assert heyoka.outcome == ("ok" if rivals.installed_version("heyoka") else "not installed")
+    assert heyoka.velocity_error < 1e-8 or not rivals.installed_version("heyoka")
 
 
 def test_times_are_those_of_the_same_runs_and_change_nothing(compared):

@@ -16,7 +16,7 @@ def test_states_of_parts_that_move_along_jump_and_jump_without_end():
 
 @pytest.mark.parametrize(("period", "found"), [(1, 1), (3, 3), (5, 0)])
 def test_a_period_is_the_first_after_which_heights_come_back(period, found):
-    row = np.zeros(13)
+    row = np.zeros(16)
     row[rigid_part.FREQUENCY] = 50.0
     times = rigid_part.times_of_periods(row, 10.0, 4)
     jumps = np.sin(100.0 * np.pi * times / period) + 0.1 * np.sin(100.0 * np.pi * times)

@@ -25,6 +25,7 @@ ODD = (
         [[1.0], [1.0, 2.0]],
     ),
 )
+CONVEYOR = Conveyor(static_friction=0.15)
 SECONDS = 20  # a call takes at most about two, once its kernels are compiled
 ORBIT = interface.periodic_orbit(Conveyor(), Start(3e-4), transient=100)
 POINTS = np.random.default_rng(1).random((200, 2))
@@ -37,7 +38,7 @@ FUNCTIONS = {
     | {"step": 1e-5, "threads": 1, "z": [0.0, 1e-4], "acceleration": 40.0},
     "classify": {"conveyor": Conveyor(), "start": Start(), "cycles": 10, "tolerance": 1e-8, "threads": 1}
     | dict.fromkeys(("z", "vz"), 0.0)
-    | {name: getattr(Conveyor(), name) for name in NUMBERS},
+    | {name: getattr(CONVEYOR, name) for name in NUMBERS},
     "lyapunov_spectrum": {"conveyor": Conveyor(), "start": Start(), "transient": 10, "cycles": 5, "blocks": 2}
     | {"tolerance": 1e-8, "threads": 1, "psi0": 0.0, "damping": 0.3},
     "periodic_orbit": {"conveyor": Conveyor(), "start": Start(), "period": 1, "transient": 10},
@@ -45,7 +46,7 @@ FUNCTIONS = {
     "basin": {"conveyor": Conveyor(), "z": [0.0, 1e-4], "vz": 0.0, "cycles": 10, "tolerance": 1e-8, "threads": 1},
     "box_dimension": {"points": POINTS},
     "correlation_dimension": {"points": POINTS, "theiler": 0},
-    "Conveyor": {name: getattr(Conveyor(), name) for name in (*NUMBERS, "tension")},
+    "Conveyor": {name: getattr(CONVEYOR, name) for name in (*NUMBERS, "tension")},
     "Start": {"z": 0.0, "vz": 0.0},
 }
 # A perturbation underflows within one cycle.

@@ -64,5 +64,5 @@ def test_entropy_is_rounded_down():
 
 
 def test_the_example_is_left_out_where_it_is_not_proved():
-    assert "The jumping orbit at 40 m/s²" in page(ORBIT)
-    assert "The jumping orbit at 40 m/s²" not in page(REFUSED)
+    assert "the jumping orbit at 40 m/s²" in page(ORBIT)
+    assert "the jumping orbit at 40 m/s²" not in page(REFUSED)

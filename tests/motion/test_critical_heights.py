@@ -15,7 +15,7 @@ def test_changes_are_numbered_from_below_at_each_conveyor(monkeypatch):
         return np.where(first, "first", "second")
 
     monkeypatch.setattr(critical_heights, "decide", decide)
-    monkeypatch.setattr(critical_heights, "known_of", lambda *_, **__: None)
+    monkeypatch.setattr(critical_heights, "shared_attractors", lambda *_, **__: None)
     found = critical_heights.make(
         {
             "axes": {"acceleration": [30.0, 40.0]},

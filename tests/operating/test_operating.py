@@ -5,12 +5,13 @@ import math
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
 from project import ROOT, read_config
 
 from conveyor import Start, ensemble, simulate
 from conveyor.analysis.attractors.labels import Labels, classify
-from conveyor.solver.model import Conveyor, conveyor_motion, pack
-from operating import chart, regimes, shares
+from conveyor.solver.model import PSI0, VZ0, Z0, Conveyor, conveyor_motion, pack
+from operating import advice, chart, regimes, shares, throws
 from pipeline.motions import motions
 
 BOX = {
@@ -25,13 +26,13 @@ BOX = {
 def test_heights_are_above_the_plate_at_the_phase_of_the_start():
     starts = np.array([[1e-4, 0.1, 0.0], [0.0, -0.2, 1.0], [3e-4, 0.0, 4.0]])
     rows = shares.parameters_of(np.array([30.0, 50.0]), starts, {"angle": 0.3})
-    assert rows.shape == (6, 13)
+    assert rows.shape == (6, 16)
     for row, acceleration, (height, velocity, phase) in zip(
         rows, np.repeat([30.0, 50.0], 3), np.tile(starts, (2, 1)), strict=True
     ):
         plate = conveyor_motion(Conveyor(acceleration=acceleration, angle=0.3, psi0=phase), np.zeros(1))["z"][0]
-        assert row[11] - plate == pytest.approx(height, abs=1e-15)
-        assert (row[12], row[3]) == (velocity, phase)
+        assert row[Z0] - plate == pytest.approx(height, abs=1e-15)
+        assert (row[VZ0], row[PSI0]) == (velocity, phase)
 
 
 def test_starts_fill_the_box_and_follow_the_seed():
@@ -229,7 +230,7 @@ SETTINGS = {**BOX, "acceleration": {"start": 20.0, "stop": 60.0, "num": 9}, "res
 def refined(monkeypatch) -> pd.DataFrame:
     monkeypatch.setattr(shares, "motions_at", made_up)
     found = pd.DataFrame(shares.make(SETTINGS))
-    found.attrs = SETTINGS
+    found.attrs = SETTINGS | {"model": {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0}}
     return found
 
 
@@ -263,6 +264,79 @@ def test_chaos_begins_where_it_is_first_seen():
     assert chart.irregular(found, 0.2) == {"chaos": "30.0", "only": "50.0 to 60.0", "unknown": ""}
 
 
+def advised() -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Made-up tables of advice and of changes, of one aim."""
+    row = {
+        **{"aim": "certain", "acceleration": 31.0, "throw_number": 0.66, "state": "first", "period": 1},
+        **{"mean_velocity": 0.01, "share": 1.0, "stderr": 0.0, "knock": 0.05, "largest_kick": 0.2},
+        **{"impact_speed": 0.1, "peak_force": 0.5, "textbook": 0.0},
+    }
+    changes = {"aim": "certain", "regime": "one velocity", "mean_velocity": 0.012}
+    changes = [
+        {**changes, "parameter": "friction", "value": 0.17, "gain": 0.2},
+        {**changes, "parameter": "angle", "value": 0.2, "gain": -0.2},
+    ]
+    tables = pd.DataFrame([row]), pd.DataFrame(changes)
+    tables[0].attrs = {"margin": 0.01, "part_length": 0.02}
+    return tables
+
+
+def test_the_page_begins_with_the_advice(refined):
+    page = chart.make(
+        (ROOT / "workflow/templates/operating_chart.md").read_text(),
+        refined,
+        pd.DataFrame(regimes.make(refined)),
+        *advised(),
+    )
+    assert page.startswith("# Operating chart\n\n## What to do\n")
+    assert "- **Amplitude 31 m/s²**, throw number Γ = 0.66\n" in page
+    assert "- At most 30 parts of 20 mm per minute, one behind the other\n" in page
+    assert "each of 100 initial conditions reaches this velocity; fewer than 3 % of the box do not" in page
+    assert "A sudden velocity change of 0.05 m/s normal to the track can end the motion" in page
+    assert "- Impact speed 0.1 m/s, peak force 0.5 N (50 times the weight of the part)\n" in page
+    assert "  - friction of 0.17 (now 0.15): +20 %, one velocity\n" in page
+    assert "angle of" not in page
+    assert "Faster on average" not in page
+
+
+def test_advice_must_hold_within_the_margin(refined):
+    """One velocity up to 31.4 m/s², and the largest product of velocity and share above 40 m/s²."""
+    found = advice.recommended(refined, 0.01)
+    assert 20.0 <= found["certain"] <= 31.4 / 1.01
+    assert 40.0 <= found["fast"] <= 50.0 / 1.01
+    # Up to twice their amplitude there are two velocities everywhere, and chaos from 50 m/s² on.
+    wide = advice.recommended(refined, 0.99)
+    assert wide.keys() == {"fast"}
+    assert wide["fast"] <= 50.0 / 1.99
+
+
+def test_worst_of_neighbours():
+    places, scores = np.array([1.0, 1.05, 1.5, 2.0]), np.array([3.0, 1.0, 5.0, 4.0])
+    assert advice.worst_within(places, scores, 0.1).tolist() == [1.0, 1.0, 5.0, 4.0]
+
+
+def test_a_settled_motion_goes_on_and_a_large_kick_ends_it(table):
+    """At 40 m/s² the smallest kick that ends the first state is one of those tried; all smaller ones do not end it."""
+    motion = table[(table.acceleration == 40.0) & (table.state == "first")].iloc[0]
+    rows = advice.settled(motion, BOX, 4)
+    assert advice.is_motion(classify(rows), motion).all()
+    sizes = np.geomspace(1e-4, 0.4, 30)
+    knock = advice.smallest_knock(rows, motion, sizes, BOX)
+    assert 1e-4 < knock < 0.4
+    assert np.isnan(advice.smallest_knock(rows, motion, sizes[sizes < knock], BOX))
+    # The label of a kicked part alone, at the phase at which the kick is largest in effect.
+    at_knock = np.repeat(rows, 2, axis=0)
+    at_knock[:, VZ0] += np.tile([-knock, knock], len(rows))
+    assert (classify(at_knock).state == "second").any()
+
+
+def test_changes_of_a_parameter_keep_the_static_friction_above_the_friction():
+    model = {"friction": 0.15, "static_friction": 0.16, "angle": 0.2}
+    assert advice.with_parameter(model, "friction", 0.2)["static_friction"] == 0.2
+    assert advice.with_parameter(model, "friction", 0.1)["static_friction"] == 0.16
+    assert advice.with_parameter({"friction": 0.15}, "friction", 0.2) == {"friction": 0.2}
+
+
 def test_regimes_and_their_words(refined):
     found = pd.DataFrame(regimes.make(refined))
     assert list(found.regime) == [regimes.ONE, regimes.SEVERAL, regimes.BESIDE, regimes.CHAOS]
@@ -274,7 +348,7 @@ def test_regimes_and_their_words(refined):
     # The config's own amplitudes lie 5 m/s² apart; nearer ones were looked at where the answer changes.
     assert list(found.step[:2]) == [5.0, 5.0]
     template = (ROOT / "workflow/templates/operating_chart.md").read_text()
-    page = chart.make(template, refined, found)
+    page = chart.make(template, refined, found, *advised())
     assert "Every start of the box ends in one velocity at 20.0 to 31.2 m/s² (first state, 0.01 m/s)." in page
     assert "Several velocities exist side by side, without chaos, at 31.4 to 50.0 m/s²" in page
     assert "30 to 34 % of the starts get, most of them (34.0 ± 4.7 %) at 40 m/s² with 0.06 m/s" in page
@@ -305,9 +379,34 @@ def test_nothing_is_said_that_is_not_there(refined):
     """A table of an unknown amplitude alone."""
     alone = refined[refined.acceleration == 20.0].assign(state="undecided", mean_velocity=np.nan)
     page = chart.make(
-        (ROOT / "workflow/templates/operating_chart.md").read_text(), alone, pd.DataFrame(regimes.make(alone))
+        (ROOT / "workflow/templates/operating_chart.md").read_text(),
+        alone,
+        pd.DataFrame(regimes.make(alone)),
+        *(table.iloc[:0] for table in advised()),
     )
+    assert "At no amplitude, with a margin of 1 %, does every part get the same velocity." in page
     assert "At no amplitude does every start" in page
     assert "No start of the box ends in chaos" in page
     assert "At 20.0 m/s² a motion could not be decided" in page
-    assert "| 20.0 | unknown | undecided | not known | not known | not known |" in page
+    assert "| 20.0 | 0.426 | unknown | undecided | not known | not known | not known |" in page
+
+
+def test_conveyors_with_equal_groups_have_equal_motions_over_the_throw_number():
+    """An example that is the config's conveyor in other units of length and time, on a climbing track."""
+    gravity, frequency = math.cos(0.4), 2.0
+    paper, unit = Conveyor(), math.cos(0.4) / 4.0
+    example = {
+        "inclination": 0.4,
+        "frequency": frequency * paper.frequency,
+        "damping": frequency * paper.damping,
+        "stiffness": gravity / unit**paper.exponent * paper.stiffness,
+    }
+    settings = {**BOX, "throw_number": {"start": 0.5, "stop": 1.1, "num": 3}, "starts": 32}
+    settings["model"] = {name: getattr(paper, name) for name in ("frequency", "gravity", "inclination", "angle")}
+    found = throws.make([yaml.safe_dump({"prefix": "other", "model": example})], settings)
+    one, other = (found[found.conveyor == name].sort_values(["vertical", "starts"]) for name in ("paper", "other"))
+    assert one.vertical.unique() == pytest.approx([0.5, 0.8, 1.1])
+    assert other.vertical.tolist() == pytest.approx(one.vertical.tolist())
+    for name in ("state", "period", "starts"):
+        assert one[name].tolist() == other[name].tolist()
+    assert ((one.textbook > 0.0) == (one.vertical > 1.0)).all()

@@ -15,7 +15,7 @@ def test_first_axis_is_slowest_and_ends_are_included():
     assert columns["acceleration"].tolist() == [30.0] * 4 + [35.0] * 4 + [40.0] * 4
     assert columns["tension"].tolist() == ["allow", "allow", "clip", "clip"] * 3
     np.testing.assert_array_equal(columns["z0"], [0.0, np.nan] * 6)
-    assert parameters.shape == (12, 13)
+    assert parameters.shape == (12, 16)
 
 
 def test_parameters_are_those_of_the_model():

@@ -179,7 +179,7 @@ def test_the_report_opens_with_the_summary(browser):
     until(lambda: browser.find_elements(By.CSS_SELECTOR, ".prose h1"))
     heading, told = (browser.find_element(By.CSS_SELECTOR, f".prose {name}") for name in ("h1", ".told"))
     assert heading.text == "Dynamics of a vibratory conveyor"
-    assert told.text.startswith("Made with overlay.yaml, on a config of its own.")
+    assert told.text.startswith("Made with overlay.yaml: a config of its own.")
     assert seen(browser, heading)
     assert seen(browser, told)
     # Sections in the paper's order.

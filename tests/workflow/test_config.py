@@ -32,11 +32,14 @@ WRONG = [
     ),
     (
         {"identification": {"objectives": {"places": ["C01.critical_amplitude"]}}},
-        "identification.evidence.end_left_out.without = 'C02.upper_end' is in no objective",
+        "identification.evidence.end_left_out.without = 'C02.upper_end' is in none of the objectives",
     ),
     ({"identification": {"bounds": {"angle": [8, 16]}}}, "8° are 0.1396 rad"),
     ({"identification": {"bounds": {"friction": [0.4, 0.1]}}}, "is reversed"),
-    ({"identification": {"search": {"population": 20, "weights": 5}}}, "holds no more than the triples of weights, 21"),
+    (
+        {"identification": {"search": {"population": 20, "weights": 5}}},
+        "is not larger than the number of weight triples, 21",
+    ),
     ({"identification": {"heights": [0.0, 2.0e-4, 1.0e-4, 3.0e-4]}}, "is not ascending"),
     ({"sweep": {}}, "sweep is an unknown key; did you mean sweeps?"),
     ({"sweeps": {"mine": {**MINE, "methd": "euler"}}}, "sweeps.mine.methd is an unknown key; did you mean method?"),
@@ -89,10 +92,10 @@ WRONG = [
     ({"prefix": "a\n"}, "prefix = 'a\\n' should be a folder name of at most 64"),
     ({"prefix": "a" * 300}, "should be a folder name of at most 64"),
     # accepted once, and silently wrong
-    ({"estimates": {"height": {"model": {"z0": "conveyor"}}}}, "estimates.height.perturb = 'z0' perturbs nothing"),
+    ({"estimates": {"height": {"model": {"z0": "conveyor"}}}}, "estimates.height.perturb = 'z0' has no effect"),
     (
         {"estimates": {"height": {"axes": {"z0": [0.0, "conveyor"]}}}},
-        "estimates.height.perturb = 'z0' perturbs nothing where z0 is the word conveyor",
+        "estimates.height.perturb = 'z0' has no effect because z0 is the word conveyor",
     ),
     ({"estimates": {"phase": {"epsilon": 1.0e-300}}}, "estimates.phase.epsilon = 1e-300 should be at least 1e-15"),
     (
@@ -229,7 +232,7 @@ WRONG = [
     ),
     (
         {"claims": {"C01": {"finding": "about_states.critical_heigth"}}},
-        "claims.C01.finding = 'about_states.critical_heigth' is no finding of the default config; did you mean about",
+        "claims.C01.finding = 'about_states.critical_heigth' is not a finding of the default config; did you mean",
     ),
     ({"figures_on_request": {"fig98": {**CONFIG["figures"]["fig03"]}}}, "has no workflow/report/fig98.rst"),
     # what crashed the check, or took it for ever
@@ -247,7 +250,7 @@ WRONG = [
     ),
     (
         {"sweeps": {"map_height": {"axes": {"psi0": {"num": 1.0e6}, "z0": {"num": 1.0e6}}}}},
-        "sweeps.map_height.axes makes 1,000,000,000,000 points, some",
+        "sweeps.map_height.axes makes 1,000,000,000,000 points, about",
     ),
 ]
 

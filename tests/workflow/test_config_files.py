@@ -11,16 +11,16 @@ from workflow.config.entries import METHOD_SECTIONS, by_methods, resolve
 from workflow.config.files import DEFAULT_FILES, check_command_line, read
 
 FAULTS = [
-    ("model: {mass: 0.1}\nsolver: {}\nmodel: {angle: 0.1}\n", ":3: model stands in line 1 already"),
-    ("sweeps:\n  mine:\n    axes: {z0: [0.0], z0: [1.0]}\n", ":3: sweeps.mine.axes.z0 stands in line 3 already"),
+    ("model: {mass: 0.1}\nsolver: {}\nmodel: {angle: 0.1}\n", ":3: model is already set in line 1"),
+    ("sweeps:\n  mine:\n    axes: {z0: [0.0], z0: [1.0]}\n", ":3: sweeps.mine.axes.z0 is already set in line 3"),
     ("model:\n  stiffness: 050\n", ":2: model.stiffness = 050 is read as 40, an octal number"),
     ("model: {stiffness: 1:30}\n", ":1: model.stiffness = 1:30 is read as 90, with base 60"),
     ("sweeps:\n  mine:\n    axes: {z0: [0.0, -1:30.5]}\n", ":3: sweeps.mine.axes.z0[1] = -1:30.5 is read as"),
-    ("model: &m {mass: *m}\n", ":1: model.mass contains itself by its anchor"),
+    ("model: &m {mass: *m}\n", ":1: model.mass contains itself through an anchor"),
     ("model: {mass: 0.1\n", ":2: is not YAML: "),
     ("model:\n\tmass: 0.1\n", ":2: is not YAML: "),
-    ("- 1\n", ": holds no mapping"),
-    ("", ": holds no mapping"),
+    ("- 1\n", ": has no keys with values"),
+    ("", ": has no keys with values"),
     (b"model:\n  # \xe4\n", ":2: is not UTF-8 text"),
     (None, ": No such file or directory"),
     ("sweeps: [" + "1," * 300_000 + "]", ":1: has more than 12,000 values"),
@@ -168,7 +168,7 @@ def test_snakemake_refuses_in_ten_lines_and_three_seconds(project, overlay, mess
 
 
 UNREADABLE = [
-    (b"model: {mass: 0.1}\nmodel: {mass: 0.2}\n", ":2: model stands in line 1 already"),
+    (b"model: {mass: 0.1}\nmodel: {mass: 0.2}\n", ":2: model is already set in line 1"),
     (b"model: [\n", ":2: is not YAML"),
     (b"prefix: \xff\n", ":1: is not UTF-8 text"),
     (None, ": No such file or directory"),

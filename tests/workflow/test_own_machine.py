@@ -160,7 +160,7 @@ def test_what_an_overlay_names_is_as_it_says():
     ("model", "told"),
     [
         ({"mass": -1.0}, "model.mass = -1.0 should be at least"),
-        ({"angle": 0.0}, "model.angle = 0.0 lets no amplitude lift a part"),
+        ({"angle": 0.0}, "model.angle = 0.0 means that no amplitude can lift a part"),
         ({"weight": 1.0, "mass": 1.0}, "model.weight is an unknown key"),
         (3, "model = 3 should be a valid mapping"),
     ],
@@ -190,7 +190,7 @@ def test_the_named_figures_are_planned(name):
 def test_a_figure_that_makes_no_sense_says_so():
     run = Project(ROOT).called("--dry-run", "figures/bowl/fig04.pdf", "--configfile", str(EXAMPLES["bowl"]))
     assert run.returncode != 0
-    assert "figures/bowl/fig04.pdf is not made for this machine: its amplitudes lie" in run.stdout
+    assert "figures/bowl/fig04.pdf cannot be made for this machine: its amplitudes lie" in run.stdout
 
 
 def test_figures_and_captions_of_another_machine_are_made(built):

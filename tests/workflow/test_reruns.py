@@ -50,7 +50,7 @@ def test_no_exponent_after_the_states(edited):
 @pytest.mark.parametrize(
     ("file", "old", "new"),
     [
-        ("scripts/docs/companion/solver.js", "const ORDER = 16;", "const ORDER = 14;"),
+        ("scripts/docs/companion/solver/polynomials.js", "const ORDER = 16;", "const ORDER = 14;"),
         ("scripts/docs/companion/page.css", "--paper: #ffffff;", "--paper: #fffffe;"),
         ("scripts/docs/companion/build.py", "LAST = 0.25", "LAST = 0.2"),
         ("scripts/figures/style.py", '"#0072B2"', '"#123456"'),

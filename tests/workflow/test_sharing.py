@@ -4,7 +4,7 @@ import pytest
 from project import merged, read_config
 
 from pipeline import grid
-from pipeline.motions import of_conveyors
+from pipeline.motions import batches_by_conveyor
 from workflow.config import problems
 from workflow.config.entries import resolve
 from workflow.config.sharing import THREADS, conveyors_of, plan, restless
@@ -42,7 +42,7 @@ def test_conveyors_of_the_first_rows_are_those_that_there_are(axes):
         _, parameters = grid.product(axes, {}, (0, rows))
         conveyors = len({tuple(row) for row in parameters[:, [0, 6]].tolist()})
         counts.append((conveyors_of(axes, rows), conveyors))
-        assert len(of_conveyors(parameters)) == 1
+        assert len(batches_by_conveyor(parameters)) == 1
     assert all(estimated >= found for estimated, found in counts)
     assert counts[0] == (1, 1)
     assert counts[-1][0] == counts[-1][1]

@@ -74,6 +74,36 @@ def axes(config: dict, defaults: dict) -> Iterator[str]:
         yield f"operating.starts makes {starts:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
 
 
+def models(config: dict) -> Iterator[tuple[str, list, list]]:
+    """All models with a static friction of their own: the key, the values of friction and of static_friction."""
+    base = config["model"]
+    own = {"model": base}
+    for section in ENTRIES:
+        for name, entry in config[section].items():
+            axes = {key: ends(axis) for key, axis in entry.get("axes", {}).items()}
+            own[f"{section}.{name}"] = base | entry.get("model", {}) | axes
+    own |= {
+        f"benchmark.cases.{name}.model": base | case["model"] for name, case in config["benchmark"]["cases"].items()
+    }
+    own |= {f"companion.presets.{name}": base | preset for name, preset in config["companion"]["presets"].items()}
+    own |= {f"identification.told.{name}": base | told for name, told in config["identification"]["told"].items()}
+    for key, model in own.items():
+        if "static_friction" in model:
+            frictions, statics = (
+                value if isinstance(value, list) else [value] for value in (model["friction"], model["static_friction"])
+            )
+            yield key, frictions, statics
+
+
+def friction(config: dict, defaults: dict) -> Iterator[str]:
+    for key, frictions, statics in models(config):
+        if min(statics) < max(frictions):
+            yield (
+                f"{key} has static_friction = {min(statics)!r} below friction = {max(frictions)!r}; give a larger "
+                "static_friction, or leave it out to make both equal"
+            )
+
+
 def sweeps(config: dict, defaults: dict) -> Iterator[str]:
     limit = config["sharing"]["core_hours"]
     for name, entry in config["sweeps"].items():
@@ -81,8 +111,8 @@ def sweeps(config: dict, defaults: dict) -> Iterator[str]:
             shared = plan(config["sharing"], fill_defaults(config, "sweeps", variant))
             if shared.core_hours > limit:
                 yield (
-                    f"sweeps.{name}.axes makes {shared.points:,} points, some {shared.core_hours:.2g} hours of one "
-                    f"core in {shared.shards} jobs of {shared.memory / 1000.0:.2g} GB; give a smaller num, or raise "
+                    f"sweeps.{name}.axes makes {shared.points:,} points, about {shared.core_hours:.2g} core "
+                    f"hours in {shared.shards} jobs of {shared.memory / 1000.0:.2g} GB; give a smaller num, or raise "
                     f"sharing.core_hours = {limit:g}"
                 )
 
@@ -124,6 +154,7 @@ def runs_with_step(config: dict) -> Iterator[tuple[str, float, float, float]]:
         yield f"stability_estimates.exponent.steps[{place}]", step, exponent["duration"], frequency
     for place, step in enumerate(precision["steps"]):
         yield f"precision.steps[{place}]", step, precision["duration"], frequency
+        yield f"precision.steps[{place}]", step, precision["sample_interval"], frequency
     for name, case in config["benchmark"]["cases"].items():
         run = config["solver"] | case
         yield key(f"benchmark.cases.{name}", case), run["step"], run["duration"], frequency
@@ -151,7 +182,7 @@ def perturbations(config: dict, defaults: dict) -> Iterator[str]:
     for key, perturb, epsilon, values in perturbed_runs(config):
         if "conveyor" in values:
             remedy = "give z0 a height in m, or perturb another parameter"
-            yield f"{key}.perturb = {perturb!r} perturbs nothing where z0 is the word conveyor; {remedy}"
+            yield f"{key}.perturb = {perturb!r} has no effect because z0 is the word conveyor; {remedy}"
         elif any(abs(value + epsilon - value - epsilon) > 0.5 * epsilon for value in values):
             yield f"{key}.epsilon = {epsilon!r} is lost in the rounding of {perturb}; give a larger one"
 
@@ -168,7 +199,7 @@ def critical(config: dict, defaults: dict) -> Iterator[str]:
     name, single = config["sensitivity"]["critical"], by_methods(config)
     entry = resolve(single, "critical", name) if name in single["critical"] else None
     if entry and (set(entry["axes"]) != {"acceleration"} or entry["method"] != "event"):
-        yield f"sensitivity.critical = {name!r} is not over the acceleration alone, by the method event; name another"
+        yield f"sensitivity.critical = {name!r} must name an entry over acceleration alone, with the method event"
 
 
 def times(config: dict, defaults: dict) -> Iterator[str]:
@@ -234,7 +265,7 @@ def figures(config: dict, defaults: dict) -> Iterator[str]:
                     yield f"{section}.{figure} has no {file}; a figure needs a plot script and a caption of its name"
             for reference in entry["tables"].values():
                 if entry["needs"] == "feeding" and entry_of(tables, reference).get("needs") == "vertical":
-                    yield f"{section}.{figure} needs feeding, but {reference} is computed for vertical needs only"
+                    yield f"{section}.{figure} needs feeding, but {reference} has needs: vertical; remove it there"
 
 
 def default_claim(name: str, claim: dict, defaults: dict) -> dict:
@@ -256,7 +287,7 @@ def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
             parts.append((f"claims.{name}", claim, default, ("tables", "quantities", "settings")))
         else:
             remedy = suggest_name(claim["finding"], [one["finding"] for one in defaults["claims"].values()])
-            yield f"claims.{name}.finding = {claim['finding']!r} is no finding of the default config; {remedy}"
+            yield f"claims.{name}.finding = {claim['finding']!r} is not a finding of the default config; {remedy}"
     may_lack = is_own_machine(defaults, config)
     for place, entry, default, keys in parts:
         for key in keys:
@@ -276,14 +307,14 @@ def identification(config: dict, defaults: dict) -> Iterator[str]:
         for number in evidence["without"]:
             if number not in searched:
                 remedy = suggest_name(number, searched)
-                yield f"identification.evidence.{name}.without = {number!r} is in no objective; {remedy}"
+                yield f"identification.evidence.{name}.without = {number!r} is in none of the objectives; {remedy}"
         left = len(searched) - len(evidence["without"])
         if left <= len(own["bounds"]):
             yield f"identification.evidence.{name}.without leaves {left} numbers for {len(own['bounds'])} parameters"
     if own["search"]["population"] <= (weights := own["search"]["weights"] + 1) * (weights + 1) // 2:
         yield (
-            f"identification.search.population = {own['search']['population']} holds no more than the triples of "
-            f"weights, {weights * (weights + 1) // 2}; give more, or fewer weights"
+            f"identification.search.population = {own['search']['population']} is not larger than the number of weight "
+            f"triples, {weights * (weights + 1) // 2}; give more, or fewer weights"
         )
 
 
@@ -298,7 +329,7 @@ def tighter_names(config: dict) -> Iterator[str]:
 
 
 CHECKS = (
-    *(prefix, methods, axes, sweeps, steps, perturbations, critical, times, orbits, dimensions),
+    *(prefix, methods, axes, friction, sweeps, steps, perturbations, critical, times, orbits, dimensions),
     *(unknown_references, figures, unused_keys, identification),
 )
 

@@ -2,6 +2,8 @@
 
 import math
 
+from scripts.conveyor.parameters import TANGENTIAL
+
 ENTRIES = ("sweeps", "estimates", "critical", "regressions", "dimensions", "signals", "spectra", "impacts")
 FIGURES = ("figures", "figures_on_request")
 # Sections that follow initial conditions until the motion settles.
@@ -11,6 +13,8 @@ METHOD_SECTIONS = ("sweeps", "estimates", "critical", "dimensions", "signals", "
 # Sections whose tables depend on a tolerance, directly or through another table.
 TIGHTENED = (*METHOD_SECTIONS, "regressions")
 TIGHTER = "tighter"
+# Sections whose tables describe only the motion normal to the track.
+NORMAL = ("critical", "dimensions", "impacts")
 
 
 def variants(name: str, entry: dict) -> dict[str, dict]:
@@ -74,14 +78,26 @@ def fill_defaults(config: dict, section: str, entry: dict) -> dict:
         filled["settling"] = config["solver"]["settling"]
     filled["model"] = {**config["model"], **entry.get("model", {})}
     for axis in entry.get("axes", ()):
-        del filled["model"][axis]
+        filled["model"].pop(axis, None)
     del filled["step" if filled["method"] == "event" else "tolerance"]
     return filled
 
 
+def without_tangential(model: dict) -> dict:
+    """A model without the parameters that leave the motion normal to the track as it is."""
+    return {name: value for name, value in model.items() if name not in TANGENTIAL}
+
+
+def is_normal(section: str, entry: dict) -> bool:
+    """Whether a table follows from the motion normal to the track alone."""
+    varied = set(entry.get("axes", ())) & set(TANGENTIAL)
+    return not varied and (section in NORMAL or entry.get("needs") == "vertical" or entry.get("output") in ("z", "vz"))
+
+
 def resolve(config: dict, section: str, name: str) -> dict:
     """All settings that the table `section`/`name` depends on."""
-    return fill_defaults(config, section, config[section][name])
+    entry = fill_defaults(config, section, config[section][name])
+    return entry | {"model": without_tangential(entry["model"])} if is_normal(section, entry) else entry
 
 
 def ends(axis: list | dict) -> list:

@@ -50,14 +50,14 @@ def misread(node: yaml.Node, path: tuple[str | int, ...] = (), above: tuple[yaml
     """ "LINE: fault" for all that YAML reads below a node otherwise than a reader expects; `above` are its parents."""
     key, line = format_key(path), node.start_mark.line + 1
     if node in above:
-        yield f"{line}: {key} contains itself by its anchor; write the values out"
+        yield f"{line}: {key} contains itself through an anchor; write the values out"
     elif isinstance(node, yaml.MappingNode):
         lines = {}
         for name, value in node.value:
             if isinstance(name, yaml.ScalarNode):
                 inner, here = (*path, name.value), name.start_mark.line + 1
                 if name.value in lines:
-                    yield f"{here}: {format_key(inner)} stands in line {lines[name.value]} already; merge both"
+                    yield f"{here}: {format_key(inner)} is already set in line {lines[name.value]}; merge both"
                 lines[name.value] = here
                 yield from misread(value, inner, (*above, node))
     elif isinstance(node, yaml.SequenceNode):
@@ -88,7 +88,7 @@ def read(file: str | Path) -> tuple[list[str], Any]:
         place = f"{file}:{mark.line + 1}" if mark else file
         return [f"{place}: is not YAML: {reason}; compare it with config/config.yaml"], None
     if not isinstance(content, dict):
-        return [f"{file}: holds no mapping of keys to values; begin with a section of config/config.yaml"], None
+        return [f"{file}: has no keys with values; begin with a section of config/config.yaml"], None
     return list(dict.fromkeys(f"{file}:{fault}" for fault in faults)), content
 
 

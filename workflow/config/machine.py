@@ -16,7 +16,10 @@ from .schema import child, full_schema, schema_at, unit_of
 from .tables import references
 
 # Parameters of the conveyor and the part; the other parameters of the model are settings of a run.
-MACHINE = ("angle", "frequency", "stiffness", "damping", "friction", "mass", "exponent", "gravity")
+MACHINE = (
+    *("angle", "frequency", "stiffness", "damping", "friction", "mass", "exponent", "gravity"),
+    *("inclination", "phase_shift", "static_friction"),
+)
 # Settings of figures that mark a number of the paper.
 MARKS = ("critical_acceleration", "critical_height", "first_positive", "two_states")
 DIGITS = 4  # of scaled amplitudes, heights and velocities, which appear on axes and in titles
@@ -26,13 +29,21 @@ STEPS = 4000  # the steps per excitation cycle are a multiple of this number, so
 
 def is_own_machine(paper: dict, config: dict) -> bool:
     """Whether a whole config has a prefix and another conveyor than the paper."""
-    return bool(config["prefix"]) and any(config["model"][name] != paper["model"][name] for name in MACHINE)
+    return bool(config["prefix"]) and any(config["model"].get(name) != paper["model"].get(name) for name in MACHINE)
+
+
+def normal_gravity(model: dict) -> float:
+    """Gravity normal to the track, g cos α (m/s²)."""
+    return model["gravity"] * math.cos(model["inclination"])
 
 
 def scale_ratios(paper: dict, own: dict) -> dict[str, float]:
-    """The ratio between two models' scales for each unit: amplitude g / sin φ, height g/ω², velocity g/ω, period."""
-    amplitude = own["gravity"] / paper["gravity"] * math.sin(paper["angle"]) / math.sin(own["angle"])
-    gravity = own["gravity"] / paper["gravity"]
+    """The ratio between two models' scales for each unit: amplitude g / sin φ, height g/ω², velocity g/ω, period.
+
+    Here g is the gravity normal to the track.
+    """
+    gravity = normal_gravity(own) / normal_gravity(paper)
+    amplitude = gravity * math.sin(paper["angle"]) / math.sin(own["angle"])
     frequency = own["frequency"] / paper["frequency"]
     height = gravity / frequency**2
     return {
@@ -63,7 +74,7 @@ def scale(value: Any, schema: dict, ratios: dict[str, float]) -> Any:
 def contact_time(model: dict) -> float:
     """Time scale of the contact under a part at rest (s)."""
     p = model["exponent"]
-    weight = model["mass"] * model["gravity"]
+    weight = model["mass"] * normal_gravity(model)
     return math.sqrt(model["mass"] / (p * model["stiffness"] ** (1.0 / p) * weight ** (1.0 - 1.0 / p)))
 
 
@@ -109,10 +120,10 @@ def scale_config(paper: dict, overlay: dict) -> dict:
     """
     own = paper["model"] | {name: float(value) for name, value in overlay["model"].items() if name in MACHINE}
     if math.sin(own["angle"]) == 0.0:
-        raise ConfigError(["model.angle = 0.0 lets no amplitude lift a part; give a larger angle"])
+        raise ConfigError(["model.angle = 0.0 means that no amplitude can lift a part; give a larger angle"])
     ratios = scale_ratios(paper["model"], own)
     config = scale(MODEL.validate_python(paper), full_schema(), ratios)
-    config["model"] |= {name: own[name] for name in MACHINE}
+    config["model"] |= {name: own[name] for name in MACHINE if name in own}
     if own != paper["model"]:
         config["solver"]["step"] = scaled_step(paper, own)
     for entry in config["estimates"].values():

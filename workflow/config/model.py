@@ -5,12 +5,13 @@ from typing import Annotated, Literal, NotRequired
 from pydantic import AfterValidator, ConfigDict, Field, Strict, TypeAdapter
 from typing_extensions import TypedDict
 
-from scripts.conveyor.parameters import DESCRIPTIONS, FIXED_STEP_METHODS
+from scripts.conveyor.parameters import DESCRIPTIONS, FIXED_STEP_METHODS, UNITS
 from scripts.identification.settings import NUMBERS_OF_CLAIMS
 
 from .types import (
     AXIS_TYPES,
     LONGEST_NAME,
+    MODEL_KEYS,
     MODEL_TYPES,
     MOST_POINTS,
     NAME,
@@ -293,14 +294,22 @@ class Benchmark(TypedDict):
     cases: Annotated[dict[Name, Case], Field(description="benchmark cases")]
 
 
-INTEGRATORS = ("RK45", "DOP853", "Radau", "LSODA", "heyoka")
+INTEGRATORS = (
+    *("RK45", "DOP853", "Radau", "LSODA"),
+    *("CyRK DOP853", "CyRK Vern8", "CVODE Adams", "CVODE BDF", "heyoka"),
+)
 PeerTolerances = many(Tolerance, "relative tolerances", least=0)
 Peers = mapping("tolerances of each integrator", dict.fromkeys(INTEGRATORS, PeerTolerances), total=False)
 
 
 class Precision(TypedDict):
     duration: Duration
+    sample_interval: number("interval of the times at which trajectories are compared", "s", gt=0, le=1e6)
     scenes: Annotated[dict[Name, Model], Field(description="conveyors by their names")]
+    reference: mapping(
+        "the scene that is solved a second time in arithmetic of many digits",
+        {"scene": Name, "digits": whole("digits of that arithmetic", 18, 1000)},
+    )
     tolerances: Tolerances
     steps: Steps
     peers: mapping("peers by their treatment of impacts", {"sign": Peers, "events": Peers, "modes": Peers}, total=False)
@@ -519,6 +528,61 @@ class Operating(TypedDict):
     tolerance: Tolerance
 
 
+class Advice(TypedDict):
+    margin: number("relative error of the amplitude within which the advice must hold", gt=0, lt=1)
+    phases: whole("phases of the motion at which its velocity is changed", 1, 1000)
+    smallest_kick: number("smallest velocity change, in parts of the largest initial velocity", gt=0, lt=1)
+    kicks: whole("sizes of velocity changes that are tried in both directions", 2, 10**4)
+    changes: mapping(
+        "changes of single parameters, up and down",
+        {
+            name: number(f"change of {name}", UNITS[name], gt=0)
+            for name in ("angle", "frequency", "friction", "inclination", "phase_shift")
+        },
+    )
+    part_length: NotRequired[number("length of a part in the feeding direction", "m", gt=0, le=10)]
+
+
+class Throws(TypedDict):
+    throw_number: span(number("throw number a_z/(g cos α)", gt=0, le=100), "throw numbers")
+    starts: whole("random initial conditions per throw number", 16, 10**6)
+    followed: whole("initial conditions per attractor whose mean velocity is computed", 2, 1000)
+
+
+class Track(TypedDict):
+    acceleration: Acceleration
+    inclination: span(MODEL_TYPES["inclination"], "inclinations of the track")
+    phase_shift: span(MODEL_TYPES["phase_shift"], "phase shifts of the drive")
+    starts: whole("random initial conditions per inclination", 2, 10**6)
+    cycles: whole("cycles that the feeding motion is followed for, at least", 4, 10**6, "excitation cycles")
+
+
+class DriveSearch(TypedDict):
+    starts: whole("random initial conditions per design", 8, 10**6)
+    settling: Cycles
+    followed: whole("initial conditions per attractor whose mean velocity is computed", 2, 1000)
+    cycles: whole("cycles over which a mean velocity is taken", 10, 10**6, "excitation cycles")
+
+
+class Drive(TypedDict):
+    bounds: mapping(
+        "search interval of each parameter",
+        {
+            name: interval(MODEL_TYPES[name], DESCRIPTIONS[name])
+            for name in ("acceleration", "frequency", "angle", "phase_shift")
+        },
+    )
+    displacement: number("largest amplitude of the drive's displacement, â/ω²", "m", gt=0, le=1)
+    impact_speed: number("impact speed from which a design has no value", "m/s", gt=0, le=100)
+    share: number("least share of initial conditions that reach one velocity", gt=0, le=1)
+    search: Annotated[DriveSearch, Field(description="initial conditions of each design of the search")]
+    population: whole("population of NSGA-II", 4, 10**4)
+    generations: whole("generations of NSGA-II", 2, 10**5)
+    seeds: many(Seed, "seeds of the random numbers")
+    checked: whole("designs of the front that get a full operating run", 1, 1000)
+    recommended: whole("recommended settings", 1, 100)
+
+
 NumberOfClaim = Annotated[Literal[NUMBERS_OF_CLAIMS], Field(description="quantity of a claim, as CLAIM.QUANTITY")]
 NumbersOfClaims = many(NumberOfClaim, "quantities of claims")
 
@@ -604,6 +668,7 @@ class FigureSettings(TypedDict, total=False):
     longest_period: Period
     lowest_exponent: number("lowest Lyapunov exponent of the plot", "1/s", ge=-1e6, le=1e6)
     paper_step: Step
+    equal_error: number("error at which methods are compared, in units of the plate's motion", gt=0, le=1)
     paper_error: number("error of the paper's fit", "m²", gt=0, le=1)
 
 
@@ -634,7 +699,7 @@ class Config(TypedDict):
         f"(|{NAME})",
         f"a folder name of at most {LONGEST_NAME} letters, digits, - and _, or nothing",
     )
-    model: mapping("the conveyor and the part", MODEL_TYPES)
+    model: mapping("the conveyor and the part", MODEL_KEYS)
     solver: Annotated[Solver, Field(description="default settings of all trajectories")]
     sharing: Annotated[Sharing, Field(description="division of sweeps into jobs")]
     sweeps: Annotated[dict[Name, Sweep], Field(description="trajectories for all combinations of axes")]
@@ -666,6 +731,10 @@ class Config(TypedDict):
     sensitivity: Annotated[Sensitivity, Field(description="derivatives of bifurcations and critical heights")]
     scaling: Annotated[Scaling, Field(description="cost of sweeps by size, threads and shards")]
     operating: Annotated[Operating, Field(description="shares of the attractors over the amplitude")]
+    advice: Annotated[Advice, Field(description="advice on where to run the conveyor")]
+    track: Annotated[Track, Field(description="velocity over inclination and phase shift")]
+    throws: Annotated[Throws, Field(description="comparison with the textbook theory of throw conveyors")]
+    drive: Annotated[Drive, Field(description="search for the settings of the drive")]
     identification: Annotated[Identification, Field(description="parameters that the paper's numbers imply")]
     figures: Annotated[dict[Name, Figure], Field(description="figures")]
     figures_on_request: Annotated[dict[Name, Figure], Field(description="figures that only an explicit target makes")]

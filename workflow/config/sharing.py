@@ -36,7 +36,8 @@ class Plan(NamedTuple):
 def restless(entry: dict) -> float:
     """The share of conveyors whose plate can throw a part that rests on it, where chaos is frequent."""
     lift = math.sin(max(values_of(entry, "angle")))
-    limit = min(values_of(entry, "gravity")) / lift if lift > 0.0 else math.inf
+    normal = min(values_of(entry, "gravity")) * math.cos(max(map(abs, values_of(entry, "inclination"))))
+    limit = normal / lift if lift > 0.0 else math.inf
     axis = entry["axes"].get("acceleration", [entry["model"].get("acceleration")])
     if isinstance(axis, list):
         return sum(value > limit for value in axis) / len(axis)

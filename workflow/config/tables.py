@@ -11,7 +11,7 @@ from operator import itemgetter
 
 from scripts.identification.settings import IDENTIFICATION, identification_settings
 
-from .entries import ENTRIES, fill_defaults, resolve, roles_of_solution, tighter_reference
+from .entries import ENTRIES, fill_defaults, resolve, roles_of_solution, tighter_reference, without_tangential
 from .sharing import THREADS, plan, seconds_of
 
 
@@ -28,6 +28,12 @@ def with_model(config: dict, *sections: str, solver: tuple[str, ...] = ()) -> di
     return {**settings, "model": {**model_without_acceleration(config), **settings.get("model", {})}}
 
 
+def with_normal_model(config: dict, *sections: str, solver: tuple[str, ...] = ()) -> dict:
+    """The same for tables that follow from the motion normal to the track alone."""
+    settings = with_model(config, *sections, solver=solver)
+    return settings | {"model": without_tangential(settings["model"])}
+
+
 def sensitivity_settings(config: dict) -> dict:
     return {**config["sensitivity"], "model": with_model(config, "orbits")["model"]}
 
@@ -39,10 +45,26 @@ def operating_settings(config: dict) -> dict:
     return {**config["operating"], "settling": config["solver"]["settling"], "model": model}
 
 
+def of_box(section: str, config: dict) -> dict:
+    """A section that follows the initial conditions of the operating section's box, at other conveyors."""
+    own = {key: value for key, value in operating_settings(config).items() if key not in ("acceleration", "resolution")}
+    own = own | config[section]
+    return {**own, "model": {name: value for name, value in own["model"].items() if name not in config[section]}}
+
+
+def drive_settings(config: dict) -> dict:
+    """The drive's searched parameters come from the bounds."""
+    own = of_box("drive", config)
+    return {**own, "model": {name: value for name, value in own["model"].items() if name not in own["bounds"]}}
+
+
 def precision_settings(config: dict, scene: str) -> dict:
     """One scene of the section `precision`."""
     precision = config["precision"]
-    shared = {name: precision[name] for name in ("duration", "tolerances", "steps", "peers", "max_evaluations")}
+    shared = {
+        name: precision[name]
+        for name in ("duration", "sample_interval", "tolerances", "steps", "peers", "max_evaluations")
+    }
     return {**shared, "model": {**config["model"], **precision["scenes"][scene]}}
 
 
@@ -55,6 +77,14 @@ def published_scenes(config: dict) -> dict[str, dict]:
         name: {"scene": name, **shared, **scene, "model": {**config["model"], **scene["model"]}}
         for name, scene in {**scenes, **config["published_scenes"]["further"]}.items()
     }
+
+
+def reference_settings(config: dict) -> dict:
+    """The scene of the section `precision` whose reference is computed a second time."""
+    precision = config["precision"]
+    shared = {name: precision[name] for name in ("duration", "sample_interval")}
+    scene, digits = precision["reference"]["scene"], precision["reference"]["digits"]
+    return {**shared, "digits": digits, "model": {**config["model"], **precision["scenes"][scene]}}
 
 
 def benchmark_settings(config: dict) -> dict:
@@ -113,7 +143,7 @@ def scaling_cases(config: dict) -> list[dict]:
 
 
 def certificates_settings(config: dict) -> dict:
-    return {**config["certificates"], "model": with_model(config, "orbits")["model"]}
+    return {**config["certificates"], "model": with_normal_model(config, "orbits")["model"]}
 
 
 def derivatives_settings(config: dict) -> dict:
@@ -121,11 +151,13 @@ def derivatives_settings(config: dict) -> dict:
 
 
 def curves_settings(config: dict) -> dict:
-    return {key: sensitivity_settings(config)[key] for key in ("longest_period", "curves", "model")}
+    settings = sensitivity_settings(config) | {"model": with_normal_model(config, "orbits")["model"]}
+    return {key: settings[key] for key in ("longest_period", "curves", "model")}
 
 
 def of_identification(table: str, config: dict) -> dict:
-    return identification_settings(config, table, model_without_acceleration(config))
+    model = model_without_acceleration(config)
+    return identification_settings(config, table, without_tangential(model) if table == "edges" else model)
 
 
 FOLLOWED = ("tolerance", "settling")
@@ -133,24 +165,31 @@ FOLLOWED = ("tolerance", "settling")
 TABLES = {
     **dict.fromkeys(
         ("orbits/branches", "orbits/folds_and_doublings", "orbits/cascade"),
-        lambda config: with_model(config, "orbits", solver=("tolerance",)),
+        lambda config: with_normal_model(config, "orbits", solver=("tolerance",)),
     ),
     "orbits/certificates": certificates_settings,
     "orbits/certified_bifurcations": certificates_settings,
     "orbits/certified_chaos": certificates_settings,
     "orbits/certificate_times": certificates_settings,
-    "attractors/strobes": lambda config: with_model(config, "attractors", solver=FOLLOWED),
-    "lyapunov/spectrum": lambda config: with_model(config, "attractors", "lyapunov", solver=FOLLOWED),
-    "lyapunov/witnesses": lambda config: with_model(config, "attractors", "witnesses", solver=FOLLOWED),
+    "attractors/strobes": lambda config: with_normal_model(config, "attractors", solver=FOLLOWED),
+    "lyapunov/spectrum": lambda config: with_normal_model(config, "attractors", "lyapunov", solver=FOLLOWED),
+    "lyapunov/witnesses": lambda config: with_normal_model(config, "attractors", "witnesses", solver=FOLLOWED),
     "sensitivity/derivatives": derivatives_settings,
     "sensitivity/groups": derivatives_settings,
     "sensitivity/continued": curves_settings,
     "sensitivity/meetings": curves_settings,
     "operating/shares": operating_settings,
     "operating/regimes": lambda config: None,  # made from other tables only
+    "operating/advice": itemgetter("advice"),
+    "operating/changes": itemgetter("advice"),
+    "operating/throws": partial(of_box, "throws"),
+    "operating/track": partial(of_box, "track"),
+    "operating/front": drive_settings,
+    "operating/generations": drive_settings,
     **{f"identification/{name}": partial(of_identification, name) for name in IDENTIFICATION},
     "results/claims": lambda config: {"claims": config["claims"]},
     "results/benchmark": benchmark_settings,
+    "results/reference_check": reference_settings,
     "results/precision_estimates": itemgetter("precision_estimates"),
     "results/stability": itemgetter("stability"),
     "results/stability_estimates": lambda config: with_model(config, "stability_estimates"),
@@ -159,7 +198,7 @@ TABLES = {
     "results/rigid_part": itemgetter("rigid_part"),
     "results/theory": lambda config: with_model(config, "theory"),
     "results/map_check": itemgetter("map_check"),
-    "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED),
+    "results/settling_times": lambda config: with_normal_model(config, "settling_times", solver=FOLLOWED),
     "results/scaling": lambda config: {**config["scaling"], "sharing": config["sharing"]},
 }
 # Tables that only an explicit target makes.

@@ -1,7 +1,7 @@
 """Types of config values: numbers with unit and range, lists, intervals, axes."""
 
 from functools import partial
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, NotRequired
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag, WrapValidator
 from typing_extensions import TypedDict
@@ -155,6 +155,8 @@ MODEL_TYPES = {name: parameter(name) for name in RANGES} | {
     ),
 }
 MODEL_TYPES = {name: MODEL_TYPES[name] for name in PARAMETERS}
+# Keys of the section `model`; without its own value static_friction is equal to friction.
+MODEL_KEYS = MODEL_TYPES | {"static_friction": NotRequired[MODEL_TYPES["static_friction"]]}
 AXIS_TYPES = {name: axis(item, DESCRIPTIONS[name]) for name, item in MODEL_TYPES.items()} | {
     "tension": many(MODEL_TYPES["tension"], DESCRIPTIONS["tension"]),
     "z0": axis(MODEL_TYPES["z0"], DESCRIPTIONS["z0"], end=parameter("z0")),

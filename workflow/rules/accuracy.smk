@@ -34,7 +34,7 @@ rule accuracy:
     benchmark:
         benchmark_file("accuracy/{name}")
     wildcard_constraints:
-        name="stability|stability_estimates|settling_times",
+        name="stability|stability_estimates|settling_times|reference_check",
     resources:
         cpus_per_task=JOB_THREADS,
         mem_mb=2000,

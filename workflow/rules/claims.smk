@@ -10,7 +10,9 @@ CHECKED = [result("checked.txt")] if RESULT_TESTS else []
 TESTED_TABLES = [
     reference
     for reference in references(config)
-    if reference.startswith(("orbits/", "lyapunov/", "precision/", "results/")) and reference not in ON_REQUEST
+    if reference.startswith(("orbits/", "lyapunov/", "precision/", "results/"))
+    and reference not in ON_REQUEST
+    and RESULT_TESTS
 ]
 
 

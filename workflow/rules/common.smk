@@ -135,7 +135,7 @@ FIGURES = config["figures"] | config["figures_on_request"]
 def tables_of_figure(wildcards):
     """The tables that a figure draws, by their roles; an error for a figure that makes no sense for this machine."""
     if reason := REFUSED.get(wildcards.figure):
-        raise WorkflowError(f"{figure_file(wildcards.figure)} is not made for this machine: {reason}")
+        raise WorkflowError(f"{figure_file(wildcards.figure)} cannot be made for this machine: {reason}")
     return {role: table(reference) for role, reference in FIGURES[wildcards.figure]["tables"].items()}
 
 

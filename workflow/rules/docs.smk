@@ -18,6 +18,7 @@ PAGES = {
     "identification": tables_of(
         *(name for name in TABLES if name.startswith("identification/") and name != "identification/edges")
     ),
+    "tables": {},
 }
 # The tables behind the numbers of the other pages, by their roles in scripts/docs/facts.py.
 FACTS = {
@@ -37,6 +38,7 @@ ARTICLE_PARTS = {
     "uncertainty": result("uncertainty.json"),
     "proved": f"{DOCS}certificates.md",
 }
+DIAGRAMS = {name: result(f"diagrams/{name}.png") for name in ("cycle", "contact", "friction", "states")}
 ARTICLE = source("workflow/templates/article.md")
 SITE_PAGES = [ARTICLE, *sources("workflow/templates/site/*.md")]
 LIBRARY = [
@@ -92,15 +94,16 @@ rule claims_page:
         f"{DOCS}claims.md",
     log:
         log_file("docs/claims"),
+    localrule: True
     message:
         "The page claims.md"
-    shell:
-        "cp {input} {output} 2> {log}"
+    run:
+        Path(output[0]).write_bytes(Path(input[0]).read_bytes())
 
 
 rule companion:
     input:
-        [source(f"scripts/docs/companion/{name}") for name in ("page.html", "page.css", "solver.js", "page.js")],
+        sources("scripts/docs/companion/**/*.js") + sources("scripts/docs/companion/page.*"),
         maps=[table(f"sweeps/{name}") for name in config["companion"]["maps"]],
     output:
         f"{DOCS}companion.html",
@@ -147,6 +150,7 @@ use rule findings as kept_pages with:
         **FACTS,
         templates=[source(f"workflow/templates/{name}") for name in KEPT_PAGES],
         findings=result("findings.md"),
+        costs=result("costs.json"),
     output:
         [f"{PROJECT}{name}" for name in KEPT_PAGES],
     log:
@@ -181,6 +185,7 @@ use rule findings as site_pages with:
         **ARTICLE_PARTS,
         templates=SITE_PAGES,
         schema=source("config/schema.json"),
+        columns=f"{DOCS}tables.md",
     output:
         [result(f"site_pages/{Path(file).name}") for file in SITE_PAGES],
     log:
@@ -193,6 +198,22 @@ use rule findings as site_pages with:
         library=LIBRARY,
     message:
         "The pages of the site"
+
+
+# The pictures that explain how the solver works.
+rule diagrams:
+    output:
+        **DIAGRAMS,
+    log:
+        log_file("docs/diagrams"),
+    benchmark:
+        benchmark_file("docs/diagrams")
+    params:
+        **stage("docs.diagrams"),
+    message:
+        "The diagrams of the site"
+    script:
+        "../../scripts/make.py"
 
 
 rule article:
@@ -227,7 +248,7 @@ rule site:
         scenes=SCENE_FILES,
         style=source("scripts/docs/site.css"),
         pdf=figure_files(),
-        png=figure_files("png"),
+        png=[*figure_files("png"), *DIAGRAMS.values()],
     output:
         directory(result("site")),
     log:
@@ -277,7 +298,7 @@ rule picture:
     benchmark:
         benchmark_file("docs/{figure}")
     wildcard_constraints:
-        figure="overview|work_precision",
+        figure="overview|work_precision|speed_accuracy",
     params:
         **stage("docs.pictures"),
     message:

@@ -35,9 +35,60 @@ rule regimes:
         "../../scripts/make.py"
 
 
+rule advice:
+    input:
+        **tables_of("operating/shares"),
+    output:
+        **tables_of("operating/advice", "operating/changes"),
+    log:
+        log_file("operating/advice"),
+    benchmark:
+        benchmark_file("operating/advice")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("operating.advice", "operating/advice"),
+    message:
+        "Where to run the conveyor, and what makes it faster"
+    script:
+        "../../scripts/make.py"
+
+
+rule throws:
+    input:
+        examples=sources("config/examples/*.yaml"),
+    output:
+        **tables_of("operating/throws"),
+    log:
+        log_file("operating/throws"),
+    benchmark:
+        benchmark_file("operating/throws")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("operating.throws", "operating/throws"),
+    message:
+        "Motions of several conveyors over the throw number"
+    script:
+        "../../scripts/make.py"
+
+
+use rule operating as track with:
+    output:
+        **tables_of("operating/track"),
+    log:
+        log_file("operating/track"),
+    benchmark:
+        benchmark_file("operating/track")
+    params:
+        **stage("operating.track", "operating/track"),
+    message:
+        "Velocities over inclination and phase shift"
+
+
 rule operating_chart:
     input:
-        **tables_of("operating/shares", "operating/regimes"),
+        **tables_of("operating/shares", "operating/regimes", "operating/advice", "operating/changes"),
         template=source("workflow/templates/operating_chart.md"),
     output:
         chart=result("operating/chart.md"),
@@ -49,5 +100,36 @@ rule operating_chart:
         **stage("operating.chart"),
     message:
         "The operating chart in words"
+    script:
+        "../../scripts/make.py"
+
+
+use rule operating as front with:
+    output:
+        **tables_of("operating/front", "operating/generations"),
+    log:
+        log_file("operating/front"),
+    benchmark:
+        benchmark_file("operating/front")
+    params:
+        **stage("operating.drive", "operating/front"),
+    message:
+        "Search for the settings of the drive"
+
+
+rule drive_page:
+    input:
+        **tables_of("operating/front", "operating/generations"),
+        template=source("workflow/templates/drive.md"),
+    output:
+        page=result("drive.md"),
+    log:
+        log_file("operating/drive_page"),
+    benchmark:
+        benchmark_file("operating/drive_page")
+    params:
+        **stage("operating.drive_page"),
+    message:
+        "The recommended settings of the drive in words"
     script:
         "../../scripts/make.py"

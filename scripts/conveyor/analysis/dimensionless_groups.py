@@ -6,8 +6,9 @@ With the length g/ω² and the time 1/ω, the penetration x = δ ω²/g and its 
 
     Γ = a_z/g,   D = d_c/(m ω),   K = (k_c/m) g^(p-1)/ω^(2p),
 
-and p and the reading of tension. Nothing else enters: the angle of throw acts through a_z = â sin φ only, and neither
-friction nor the horizontal motion act at all. An initial condition adds ψ0, z0 ω²/g and ż0 ω/g.
+and p and the reading of tension, where g is the gravity normal to the track, g cos α. Nothing else enters: the angle
+of throw acts through a_z = â sin φ only, and neither friction nor the motion along the track act at all. An initial
+condition adds ψ0, z0 ω²/g and ż0 ω/g.
 """
 
 import math
@@ -35,21 +36,26 @@ class Groups(NamedTuple):
     tension: int  # code of the reading of tension, see model.TENSION_MODES
 
 
+def normal_gravity(parameters: np.ndarray) -> float:
+    """Gravity normal to the track, g cos α (m/s²), of packed parameters."""
+    return parameters[model.GRAVITY] * math.cos(parameters[model.INCLINATION])
+
+
 def groups_of(parameters: np.ndarray) -> Groups:
-    """The groups of packed parameters, shape (13,)."""
-    acceleration, angle, frequency, _, stiffness, damping, _, mass, exponent, gravity, tension, *_ = parameters
-    omega = 2.0 * math.pi * frequency
+    """The groups of packed parameters, shape (16,)."""
+    omega, gravity = 2.0 * math.pi * parameters[model.FREQUENCY], normal_gravity(parameters)
+    mass, exponent = parameters[model.MASS], parameters[model.EXPONENT]
     return Groups(
-        float(acceleration * math.sin(angle) / gravity),
-        float(damping / (mass * omega)),
-        float(stiffness / mass * gravity ** (exponent - 1.0) / omega ** (2.0 * exponent)),
+        float(parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]) / gravity),
+        float(parameters[model.DAMPING] / (mass * omega)),
+        float(parameters[model.STIFFNESS] / mass * gravity ** (exponent - 1.0) / omega ** (2.0 * exponent)),
         float(exponent),
-        int(tension),
+        int(parameters[model.TENSION]),
     )
 
 
 def packed(groups: Groups, psi0: float = 0.0) -> np.ndarray:
-    """Packed parameters, shape (13,), of the conveyor with g = ω = m = 1 that has these groups."""
+    """Packed parameters, shape (16,), of the conveyor with g = ω = m = 1 that has these groups."""
     row = np.zeros(len(PARAMETERS))
     row[model.ACCELERATION], row[model.ANGLE], row[model.FREQUENCY] = groups.amplitude, 0.5 * math.pi, FREQUENCY_OF_ONE
     row[model.STIFFNESS], row[model.DAMPING], row[model.EXPONENT] = groups.stiffness, groups.damping, groups.exponent
@@ -60,13 +66,13 @@ def packed(groups: Groups, psi0: float = 0.0) -> np.ndarray:
 
 def units(parameters: np.ndarray) -> tuple[float, float]:
     """The units of length, g/ω² (m), and velocity, g/ω (m/s), of packed parameters."""
-    omega, gravity = 2.0 * math.pi * parameters[model.FREQUENCY], parameters[model.GRAVITY]
+    omega, gravity = 2.0 * math.pi * parameters[model.FREQUENCY], normal_gravity(parameters)
     return float(gravity / omega**2), float(gravity / omega)
 
 
 def amplitude_of(parameters: np.ndarray, ratio: float) -> float:
     """The amplitude â (m/s²) at which a_z/g is `ratio`, for packed parameters."""
-    return float(ratio * parameters[model.GRAVITY] / math.sin(parameters[model.ANGLE]))
+    return float(ratio * normal_gravity(parameters) / math.sin(parameters[model.ANGLE]))
 
 
 def start_of(parameters: np.ndarray) -> tuple[float, float, float]:
@@ -86,7 +92,14 @@ def slopes(parameters: np.ndarray) -> dict[str, np.ndarray]:
     length, velocity = units(parameters)
     ratio, damping, stiffness, p, _ = groups
     sine, cosine = math.sin(value["angle"]), math.cos(value["angle"])
-    frequency, gravity, mass = value["frequency"], value["gravity"], value["mass"]
+    frequency, gravity, mass = value["frequency"], normal_gravity(parameters), value["mass"]
+    by_gravity = {
+        AMPLITUDE: -ratio / gravity,
+        STIFFNESS: (p - 1.0) * stiffness / gravity,
+        HEIGHT: -height / gravity,
+        VELOCITY: -velocity_ratio / gravity,
+    }
+    rise, fall = math.cos(value["inclination"]), -value["gravity"] * math.sin(value["inclination"])
     by = {
         "acceleration": {AMPLITUDE: sine / gravity},
         "angle": {AMPLITUDE: value["acceleration"] * cosine / gravity},
@@ -102,12 +115,10 @@ def slopes(parameters: np.ndarray) -> dict[str, np.ndarray]:
         "friction": {},
         "mass": {DAMPING: -damping / mass, STIFFNESS: -stiffness / mass},
         "exponent": {STIFFNESS: stiffness * math.log(length), EXPONENT: 1.0},
-        "gravity": {
-            AMPLITUDE: -ratio / gravity,
-            STIFFNESS: (p - 1.0) * stiffness / gravity,
-            HEIGHT: -height / gravity,
-            VELOCITY: -velocity_ratio / gravity,
-        },
+        "gravity": {group: slope * rise for group, slope in by_gravity.items()},
+        "inclination": {group: slope * fall for group, slope in by_gravity.items()},
+        "phase_shift": {},
+        "static_friction": {},
         "z0": {HEIGHT: 1.0 / length},
         "vz0": {VELOCITY: 1.0 / velocity},
     }
@@ -124,7 +135,7 @@ def derivatives_of(moved: str, parameters: np.ndarray, by: np.ndarray) -> dict[s
     Parameters
     ----------
     moved : "acceleration" or "z0"
-    parameters : packed, shape (13,), at which the equation holds
+    parameters : packed, shape (16,), at which the equation holds
     by : derivatives of the group of `moved`, Γ or z0 ω²/g, by all groups in the order of NAMES, shape (7,); its own 0
 
     Returns

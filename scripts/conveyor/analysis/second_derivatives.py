@@ -296,7 +296,7 @@ def cycles(parameters, tolerance, state, first, second, states, impacts):
 
     Parameters
     ----------
-    parameters : float64, shape (13,); tolerance per step
+    parameters : float64, shape (16,); tolerance per step
     state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced
     first : float64, shape (n, 2, k), k = 5 or 6, filled with ∂(δ, Y) at the end of each cycle by the first k
         quantities at its begin; those by p take several times as long as all others

@@ -302,7 +302,7 @@ def monodromy(parameters, tolerance, state, matrices, features):
 
 
 def initial_states(parameters: np.ndarray, tolerance: float) -> np.ndarray:
-    """States (δ in m, v in m/s), shape (n, 2), of the initial conditions in `parameters`, shape (n, 13)."""
+    """States (δ in m, v in m/s), shape (n, 2), of the initial conditions in `parameters`, shape (n, 16)."""
     states = np.empty((len(parameters), 2))
     for row, state in zip(parameters, states, strict=True):
         initial_state(row, tolerance, state)
@@ -310,7 +310,7 @@ def initial_states(parameters: np.ndarray, tolerance: float) -> np.ndarray:
 
 
 def pack_states(parameters: np.ndarray, states: np.ndarray, tolerance: float) -> np.ndarray:
-    """Parameter vectors, shape (n, 13), that begin at stroboscopic states (δ in m, v in m/s), shape (n, 2)."""
+    """Parameter vectors, shape (n, 16), that begin at stroboscopic states (δ in m, v in m/s), shape (n, 2)."""
     packed = np.array(parameters, dtype=np.float64)
     for row, (delta, v) in zip(packed, states, strict=True):
         c = contact.constants(row, tolerance)

@@ -5,7 +5,8 @@ Y = δ' + β δ of the stroboscopic map obey, in contact with dφ = w ds,
 
     dw/ds = (Y - β w²)/2,   dY/ds = w (1 + γ cos φ) - κ w^(2p+1),   dφ/ds = w,
 
-and in flight δ'' = 1 + γ cos φ, with γ = â sin(angle)/g, β = d_c/(m ω) and κ = (k_c/(m g)) (g/ω²)^p.
+and in flight δ'' = 1 + γ cos φ, with γ = â sin(angle)/g, β = d_c/(m ω) and κ = (k_c/(m g)) (g/ω²)^p. Gravity g is its
+component normal to the track.
 """
 
 import math
@@ -74,7 +75,7 @@ def law_of(conveyor: Conveyor) -> Law:
     if twice != 2.0 * conveyor.exponent:
         raise ValueError(f"certificates need an exponent that is half a whole number, not {conveyor.exponent}")
     omega = 2 * arb.pi() * exactly(conveyor.frequency)
-    gravity, mass = exactly(conveyor.gravity), exactly(conveyor.mass)
+    gravity, mass = exactly(conveyor.gravity) * read_angle(conveyor.inclination).cos(), exactly(conveyor.mass)
     length = gravity / omega**2
     return Law(
         slope=read_angle(conveyor.angle).sin() / gravity,

@@ -30,16 +30,20 @@ EVENT_KINDS = ("impact", "separation")
 IMPACT, SEPARATION = range(len(EVENT_KINDS))
 
 # What is known of one trajectory: a row of the results, and the first rows of the kernel's memory, which has a column
-# for each lane. There CONTACT_TIME counts steps, and EVALUATIONS is the number of the present step.
-X, VX, Z, VZ, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, EVALUATIONS, STATUS = range(10)
-RESULTS = 10
-# Forces per mass (m/s²) and gap (m) at the present step; 1 if the gap was last seen closed, else 0.
-GAP, PUSH, RUB, IN_CONTACT = range(10, 14)
-# Constants: Δt (s); ω (rad/s), ψ0 (rad), the amplitudes of z_s, ż_s, ẋ_s; k_c/m, d_c/m, p, μ, g (m/s²); the least
-# contact force per mass that acts, and the least that rubs.
-STEP, OMEGA, PSI0, PLATE_Z, PLATE_VZ, PLATE_VX = range(14, 20)
-STIFFNESS, DAMPING, EXPONENT, FRICTION, GRAVITY, LEAST_PUSH, LEAST_RUB = range(20, 27)
-ROWS = 27
+# for each lane. There CONTACT_TIME counts steps, EVALUATIONS is the number of the present step, and PEAK_FORCE is per
+# mass. IMPACT_SPEED and PEAK_FORCE count since the last sample.
+X, VX, Z, VZ, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, EVALUATIONS, STATUS, IMPACT_SPEED, PEAK_FORCE = range(12)
+RESULTS = 12
+# Forces per mass (m/s²) and gap (m) at the present step; 1 if the gap was last seen closed, else 0; the slip velocity
+# (m/s) at the last step.
+GAP, PUSH, RUB, IN_CONTACT, LAST_SLIP = range(12, 17)
+# Constants: Δt (s); ω (rad/s), ψ0 (rad), the amplitudes of z_s, ż_s, ẋ_s, ẍ_s; k_c/m, d_c/m, p, μ, μ_s, gravity normal
+# to the track and down along it (m/s²); the least contact force per mass that acts, and the least that rubs; cosine and
+# sine of the phase shift.
+STEP, OMEGA, PSI0, PLATE_Z, PLATE_VZ, PLATE_VX, PLATE_AX = range(17, 24)
+STIFFNESS, DAMPING, EXPONENT, FRICTION, STATIC_FRICTION, GRAVITY, DOWNHILL = range(24, 31)
+LEAST_PUSH, LEAST_RUB, COS_SHIFT, SIN_SHIFT = range(31, 35)
+ROWS = 35
 
 TWO_OVER_PI = 0.6366197723675814
 HALF_PI = (1.5707963267948966, 6.123233995736766e-17, -1.4973849048591833e-33)  # their sum is π/2 to 161 bits
@@ -116,8 +120,11 @@ def spring_length(depth: Vector, exponent: Vector, flying: Vector) -> Vector:
 
 
 @intrinsic(prefer_literal=True)
-def forces(typing_context, lanes, memory):
-    """Evaluate GAP, PUSH and RUB at the present step (Eqs. 7, 11 and 12); True if a gap has opened or closed."""
+def forces(typing_context, lanes, general, memory):
+    """Evaluate GAP, PUSH and RUB at the present step (Eqs. 7, 11 and 12); True if a gap has opened or closed.
+
+    general : whether a phase shift or a larger static friction counts; then a part whose slip has vanished may stick
+    """
 
     def code(context, builder, signature, arguments):
         at = Memory(context, builder, signature, arguments)
@@ -128,31 +135,40 @@ def forces(typing_context, lanes, memory):
         force = spring_and_damper(at[STIFFNESS], length, at[DAMPING], at[VZ] - at[PLATE_VZ] * sine)
         push = where(~flying, where(at[LEAST_PUSH] > force, at[LEAST_PUSH], force), 0.0)
         bound = at[FRICTION] * where(at[LEAST_RUB] > push, at[LEAST_RUB], push)
-        slip = at[PLATE_VX] * sine - at[VX]
-        at[GAP], at[PUSH] = gap, push
-        at[RUB] = where(slip > 0.0, bound, where(slip < 0.0, -bound, 0.0))
+        along = sine * at[COS_SHIFT] + cosine * at[SIN_SHIFT] if general.literal_value else sine
+        slip = at[PLATE_VX] * along - at[VX]
+        rub = where(slip > 0.0, bound, where(slip < 0.0, -bound, 0.0))
+        if general.literal_value:
+            pull = at[PLATE_AX] * (cosine * at[COS_SHIFT] - sine * at[SIN_SHIFT]) + at[DOWNHILL]
+            vanished = ~flying & (at[STATIC_FRICTION] > at[FRICTION]) & (at[LAST_SLIP] * slip <= 0.0)
+            sticks = vanished & (abs(pull) <= at[STATIC_FRICTION] * push)
+            at[VX] = where(sticks, at[VX] + slip, at[VX])
+            at[LAST_SLIP] = where(~sticks, slip, 0.0)
+            rub = where(sticks, pull, rub)
+        at[GAP], at[PUSH], at[RUB] = gap, push, rub
         return anywhere((gap <= 0.0) ^ (at[IN_CONTACT] > 0.0))
 
-    return types.boolean(lanes, memory), code
+    return types.boolean(lanes, general, memory), code
 
 
 @intrinsic(prefer_literal=True)
-def euler_step(typing_context, lanes, memory):
+def euler_step(typing_context, lanes, general, memory):
     """Advance by one step with the forces in memory, and count what the step leaves behind."""
 
     def code(context, builder, signature, arguments):
         at = Memory(context, builder, signature, arguments)
         step, x, vx, z, vz = (at[row] for row in (STEP, X, VX, Z, VZ))
         at[MAX_GAP] = where(at[GAP] > at[MAX_GAP], at[GAP], at[MAX_GAP])
+        at[PEAK_FORCE] = where(at[PUSH] > at[PEAK_FORCE], at[PUSH], at[PEAK_FORCE])
         at[CONTACT_TIME] = where(at[PUSH] == 0.0, at[CONTACT_TIME], at[CONTACT_TIME] + 1.0)
         at[X] = x + step * vx
-        at[VX] = vx + step * at[RUB]
+        at[VX] = vx + step * (at[RUB] - at[DOWNHILL] if general.literal_value else at[RUB])
         at[Z] = z + step * vz
         at[VZ] = vz + step * (at[PUSH] - at[GRAVITY])
         at[EVALUATIONS] = at[EVALUATIONS] + 1.0
         return context.get_dummy_value()
 
-    return types.none(lanes, memory), code
+    return types.none(lanes, general, memory), code
 
 
 @intrinsic
@@ -181,15 +197,22 @@ def prepare(parameters, step, lane):
     lane[PLATE_Z] = a_z / (omega * omega)
     lane[PLATE_VZ] = a_z / omega
     lane[PLATE_VX] = a_x / omega
+    lane[PLATE_AX] = a_x
     lane[STIFFNESS] = parameters[model.STIFFNESS] / mass
     lane[DAMPING] = parameters[model.DAMPING] / mass
     lane[EXPONENT] = parameters[model.EXPONENT]
     lane[FRICTION] = parameters[model.FRICTION]
-    lane[GRAVITY] = parameters[model.GRAVITY]
+    lane[STATIC_FRICTION] = parameters[model.STATIC_FRICTION]
+    sine_track, cosine_track = sincos(parameters[model.INCLINATION])
+    lane[GRAVITY] = parameters[model.GRAVITY] * cosine_track
+    lane[DOWNHILL] = parameters[model.GRAVITY] * sine_track
+    lane[SIN_SHIFT], lane[COS_SHIFT] = sincos(parameters[model.PHASE_SHIFT])
     lane[LEAST_PUSH] = 0.0 if tension == model.TENSION_CLIP else -math.inf
     lane[LEAST_RUB] = 0.0 if tension == model.TENSION_FRICTIONLESS else -math.inf
 
-    plate = -lane[PLATE_Z] * sincos(parameters[model.PSI0])[1]
+    sine, cosine = sincos(parameters[model.PSI0])
+    lane[LAST_SLIP] = lane[PLATE_VX] * (sine * lane[COS_SHIFT] + cosine * lane[SIN_SHIFT])
+    plate = -lane[PLATE_Z] * cosine
     lane[Z] = plate if math.isnan(parameters[model.Z0]) else parameters[model.Z0]
     lane[VZ] = parameters[model.VZ0]
     lane[MAX_GAP] = lane[Z] - plate
@@ -197,8 +220,11 @@ def prepare(parameters, step, lane):
 
 
 @functools.cache
-def in_lanes(lanes: int):
-    """`integrate` with a given number of lanes, a power of two. Every one gives the same bits."""
+def in_lanes(lanes: int, general: int = 1):
+    """`integrate` with a given number of lanes, a power of two. Every one gives the same bits.
+
+    general : 0 for the paper's friction on a level track alone, which takes less time
+    """
 
     @kernel
     def integrate(parameters, step, n_steps, sample_indices, samples, events, results):
@@ -217,8 +243,8 @@ def in_lanes(lanes: int):
             stop = 0
             n_sampled = 0
             while True:
-                while not (forces(lanes, memory) or i == stop):
-                    euler_step(lanes, memory)
+                while not (forces(lanes, general, memory) or i == stop):
+                    euler_step(lanes, general, memory)
                     i += 1
 
                 while n_sampled < len(sample_indices) and sample_indices[n_sampled] <= i:
@@ -230,6 +256,7 @@ def in_lanes(lanes: int):
                                 row[column] = memory[column, lane]
                             row[4] = mass * memory[PUSH, lane]
                             row[5] = mass * memory[RUB, lane] + 0.0  # no negative zero
+                        memory[IMPACT_SPEED, lane] = memory[PEAK_FORCE, lane] = 0.0
                     n_sampled += 1
 
                 if i % CHECK == 0 or i == n_steps:
@@ -245,6 +272,7 @@ def in_lanes(lanes: int):
                             for column in range(RESULTS):
                                 row[column] = memory[column, lane]
                             row[CONTACT_TIME] *= step
+                            row[PEAK_FORCE] *= parameters[first + lane, model.MASS]
                             row[STATUS] = OK if finite else NOT_FINITE
                     if left == 0:
                         break
@@ -258,6 +286,10 @@ def in_lanes(lanes: int):
                             events[first + lane, n_events, 1] = IMPACT if touching else SEPARATION
                         memory[EVENTS, lane] += 1.0
                         memory[IMPACTS, lane] += touching
+                        if touching:
+                            sine, _ = sincos(memory[OMEGA, lane] * (i * step) + memory[PSI0, lane])
+                            speed = memory[PLATE_VZ, lane] * sine - memory[VZ, lane]
+                            memory[IMPACT_SPEED, lane] = max(memory[IMPACT_SPEED, lane], speed)
                         memory[IN_CONTACT, lane] = touching
 
                 stop = min(n_steps, i - i % CHECK + CHECK)
@@ -267,8 +299,10 @@ def in_lanes(lanes: int):
     return integrate
 
 
-alone = in_lanes(1)
-side_by_side = in_lanes(lanes_of_processor())
+def is_general(parameters: np.ndarray) -> bool:
+    """Whether any conveyor differs from the paper's along the track."""
+    tilted = (parameters[:, [model.INCLINATION, model.PHASE_SHIFT]] != 0.0).any()
+    return bool(tilted or (parameters[:, model.STATIC_FRICTION] > parameters[:, model.FRICTION]).any())
 
 
 def integrate(parameters, step, n_steps, sample_indices, samples, events, results):
@@ -276,7 +310,7 @@ def integrate(parameters, step, n_steps, sample_indices, samples, events, result
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13), rows packed as in `model.PARAMETERS`
+    parameters : float64, shape (n, 16), rows packed as in `model.PARAMETERS`
     step : Δt, s
     n_steps : number of steps
     sample_indices : int64, shape (k,), ascending step numbers in [0, n_steps] to be sampled
@@ -285,7 +319,8 @@ def integrate(parameters, step, n_steps, sample_indices, samples, events, result
     events : float64, shape (n, m, 2), filled with time (s) and kind of the first m events of each trajectory; an event
         has the time of the first step at which the other side of q = 0 is seen
     results : float64, shape (n, RESULTS), filled with x (m), vx (m/s), z (m), vz (m/s) at the last step; number of
-        events; impacts; time with contact force (s); largest gap (m) at the steps; number of force evaluations; status
+        events; impacts; time with contact force (s); largest gap (m) at the steps; number of force evaluations; status;
+        largest speed of approach at an impact (m/s) and largest contact force (N) since the last sample
     """
-    follow = alone if len(parameters) == 1 else side_by_side
+    follow = in_lanes(1 if len(parameters) == 1 else lanes_of_processor(), int(is_general(parameters)))
     follow(parameters, step, n_steps, sample_indices, samples, events, results)

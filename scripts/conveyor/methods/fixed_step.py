@@ -2,7 +2,9 @@
 
 These are the methods that the event-driven solver is compared with. They step over impacts and separations, and
 friction is sign(ẋ_s - ẋ_p) with sign(0) = 0, so that they chatter where the part should stick. In contact (q ≤ 0) the
-force may be negative, as in Eqs. 7 and 11, unless the model's `tension` says otherwise.
+force may be negative, as in Eqs. 7 and 11, unless the model's `tension` says otherwise. Where static_friction exceeds
+friction, a part whose slip has vanished or changed its sign since the last step gets the plate's velocity while
+|ẍ_s + g sin α| ≤ μ_s F_c/m: the published scheme has no stick.
 
 Each evaluation of the forces takes the plate's sine and cosine directly, as the equations are written. Time is the step
 number times the step and does not drift. Explicit Euler is stepped in euler_lanes, the other two here.
@@ -23,10 +25,12 @@ from .euler_lanes import (
     EVENT_KINDS,
     EVENTS,
     IMPACT,
+    IMPACT_SPEED,
     IMPACTS,
     MAX_GAP,
     NOT_FINITE,
     OK,
+    PEAK_FORCE,
     SEPARATION,
     STATUS,
     STATUSES,
@@ -49,18 +53,25 @@ WHOLE = 1e-9  # relative: a duration this close to a whole number of steps is on
 
 
 @kernel
-def accelerations(vx, z, vz, sine, cosine, plate, contact, friction, tension):
-    """F_r/m, F_c/m and the gap of a state at the phase with the given sine and cosine.
-
-    `plate` holds the amplitudes of z_s, ż_s, ẋ_s; `contact` holds k_c/m, d_c/m and the exponent.
-    """
-    gap = z + plate[0] * cosine
-    normal = contact_acceleration(gap, vz - plate[1] * sine, contact[0], contact[1], contact[2], tension)
-    return friction_acceleration(normal, plate[2] * sine - vx, friction, tension), normal, gap
+def slip_of(vx, sine, cosine, plate):
+    """The slip velocity ẋ_s - ẋ_p (m/s)."""
+    return plate[2] * (sine * plate[3] + cosine * plate[4]) - vx
 
 
 @kernel
-def rk4_step(state, rub1, push1, step, half_way, end, plate, contact, friction, gravity, tension):
+def accelerations(vx, z, vz, sine, cosine, plate, contact, friction, tension):
+    """F_r/m, F_c/m and the gap of a state at the phase with the given sine and cosine.
+
+    `plate` holds the amplitudes of z_s, ż_s, ẋ_s, and cosine and sine of the phase shift; `contact` holds k_c/m, d_c/m
+    and the exponent.
+    """
+    gap = z + plate[0] * cosine
+    normal = contact_acceleration(gap, vz - plate[1] * sine, contact[0], contact[1], contact[2], tension)
+    return friction_acceleration(normal, slip_of(vx, sine, cosine, plate), friction, tension), normal, gap
+
+
+@kernel
+def rk4_step(state, rub1, push1, step, half_way, end, plate, contact, friction, gravity, downhill, tension):
     """(x, vx, z, vz) one classical Runge-Kutta step later, from the state, its F_r/m and F_c/m.
 
     `half_way` and `end` hold the sine and cosine of the plate's phase in the middle of the step and at its end.
@@ -68,19 +79,19 @@ def rk4_step(state, rub1, push1, step, half_way, end, plate, contact, friction, 
     x, vx1, z, vz1 = state
     half = 0.5 * step
     sine, cosine = half_way
-    vx2 = vx1 + half * rub1
+    vx2 = vx1 + half * (rub1 - downhill)
     vz2 = vz1 + half * (push1 - gravity)
     rub2, push2, _ = accelerations(vx2, z + half * vz1, vz2, sine, cosine, plate, contact, friction, tension)
-    vx3 = vx1 + half * rub2
+    vx3 = vx1 + half * (rub2 - downhill)
     vz3 = vz1 + half * (push2 - gravity)
     rub3, push3, _ = accelerations(vx3, z + half * vz2, vz3, sine, cosine, plate, contact, friction, tension)
-    vx4 = vx1 + step * rub3
+    vx4 = vx1 + step * (rub3 - downhill)
     vz4 = vz1 + step * (push3 - gravity)
     sine, cosine = end
     rub4, push4, _ = accelerations(vx4, z + step * vz3, vz4, sine, cosine, plate, contact, friction, tension)
     return (
         x + step / 6.0 * (vx1 + 2.0 * (vx2 + vx3) + vx4),
-        vx1 + step / 6.0 * (rub1 + 2.0 * (rub2 + rub3) + rub4),
+        vx1 + step / 6.0 * (rub1 + 2.0 * (rub2 + rub3) + rub4) - step * downhill,
         z + step / 6.0 * (vz1 + 2.0 * (vz2 + vz3) + vz4),
         vz1 + step * ((push1 + 2.0 * (push2 + push3) + push4) / 6.0 - gravity),
     )
@@ -105,7 +116,7 @@ def fill_phases(phases, first, step, omega, psi0, method):
 def integrate(parameters, step, n_steps, method, sample_indices, samples, events, results):
     """Follow n trajectories over plates that share their phase; the rest as in `integrate_all`.
 
-    parameters : float64, shape (n, 13), of one frequency and ψ0
+    parameters : float64, shape (n, 16), of one frequency and ψ0
     method : the code of one of METHODS, not EULER
     """
     if not EULER < method <= LAST_CODE:
@@ -115,6 +126,7 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
     phases = np.empty((CHECK, 6))
     running = np.ones(len(parameters), np.bool_)
     was_in_contact = np.empty(len(parameters), np.bool_)
+    last_slips = np.empty(len(parameters))
     results[:] = 0.0
     n_before = 0  # samples
     for begin in range(0, n_steps + 1, CHECK):
@@ -125,7 +137,8 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
                 continue
             a_z = parameters[row, model.ACCELERATION] * math.sin(parameters[row, model.ANGLE])
             a_x = parameters[row, model.ACCELERATION] * math.cos(parameters[row, model.ANGLE])
-            plate = (a_z / omega**2, a_z / omega, a_x / omega)
+            shift = parameters[row, model.PHASE_SHIFT]
+            plate = (a_z / omega**2, a_z / omega, a_x / omega, math.cos(shift), math.sin(shift))
             mass = parameters[row, model.MASS]
             contact = (
                 parameters[row, model.STIFFNESS] / mass,
@@ -133,7 +146,9 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
                 parameters[row, model.EXPONENT],
             )
             friction = parameters[row, model.FRICTION]
-            gravity = parameters[row, model.GRAVITY]
+            static_friction = parameters[row, model.STATIC_FRICTION]
+            gravity = parameters[row, model.GRAVITY] * math.cos(parameters[row, model.INCLINATION])
+            downhill = parameters[row, model.GRAVITY] * math.sin(parameters[row, model.INCLINATION])
             tension = parameters[row, model.TENSION]
 
             found = results[row]
@@ -143,8 +158,11 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
                 found[VZ] = parameters[row, model.VZ0]
                 found[MAX_GAP] = found[Z] + plate[0] * math.cos(psi0)
                 was_in_contact[row] = found[MAX_GAP] <= 0.0
+                last_slips[row] = slip_of(found[VX], math.sin(psi0), math.cos(psi0), plate)
             x, vx, z, vz, max_gap = found[X], found[VX], found[Z], found[VZ], found[MAX_GAP]
             in_contact = was_in_contact[row]
+            last_slip = last_slips[row]
+            impact_speed, peak_force = found[IMPACT_SPEED], found[PEAK_FORCE]
             contact_steps = 0
             n_impacts = 0
             n_events = int(found[EVENTS])
@@ -156,24 +174,33 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
                 k = i - begin
                 sine, cosine = phases[k, 0], phases[k, 1]
                 rub, push, gap = accelerations(vx, z, vz, sine, cosine, plate, contact, friction, tension)
+                if static_friction > friction:
+                    slip = slip_of(vx, sine, cosine, plate)
+                    pull = a_x * (cosine * plate[3] - sine * plate[4]) + downhill
+                    if gap <= 0.0 and last_slip * slip <= 0.0 and abs(pull) <= static_friction * push:
+                        vx, slip, rub = vx + slip, 0.0, pull
+                    last_slip = slip
                 while n_sampled < len(sample_indices) and sample_indices[n_sampled] == i:
                     # Adding zero removes the sign of a negative zero.
                     samples[row, n_sampled] = (x, vx, z, vz, mass * push, mass * rub + 0.0)
                     n_sampled += 1
+                    impact_speed = peak_force = 0.0
                 if i == n_steps:
                     break
-                max_gap = max(max_gap, gap)
+                max_gap, peak_force = max(max_gap, gap), max(peak_force, push)
                 touching = gap <= 0.0
                 contact_steps += push != 0.0
                 if touching != in_contact:
                     in_contact = touching
                     n_impacts += touching
+                    if touching:
+                        impact_speed = max(impact_speed, plate[1] * sine - vz)
                     if n_events < events.shape[1]:
                         events[row, n_events, 0] = i * step
                         events[row, n_events, 1] = IMPACT if touching else SEPARATION
                     n_events += 1
                 if method == SEMI_IMPLICIT_EULER:
-                    vx += step * rub
+                    vx += step * (rub - downhill)
                     x += step * vx
                     vz += step * (push - gravity)
                     z += step * vz
@@ -181,13 +208,15 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
                     state = x, vx, z, vz
                     half_way, end = (phases[k, 2], phases[k, 3]), (phases[k, 4], phases[k, 5])
                     x, vx, z, vz = rk4_step(
-                        state, rub, push, step, half_way, end, plate, contact, friction, gravity, tension
+                        state, rub, push, step, half_way, end, plate, contact, friction, gravity, downhill, tension
                     )
                 else:
                     raise ValueError("a method without a step")
                 i += 1
 
             found[X], found[VX], found[Z], found[VZ], found[MAX_GAP] = x, vx, z, vz, max_gap
+            found[IMPACT_SPEED], found[PEAK_FORCE] = impact_speed, peak_force
+            last_slips[row] = last_slip
             found[EVENTS] = n_events
             found[IMPACTS] += n_impacts
             found[CONTACT_TIME] += contact_steps
@@ -195,6 +224,7 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
             if i == n_steps or not finite:
                 running[row] = False
                 found[CONTACT_TIME] *= step
+                found[PEAK_FORCE] *= mass
                 found[euler_lanes.EVALUATIONS] = i * EVALUATIONS[method]
                 found[STATUS] = OK if math.isfinite(x + vx + z + vz) else NOT_FINITE
         while n_before < len(sample_indices) and sample_indices[n_before] < behind:
@@ -224,6 +254,8 @@ class Summary(NamedTuple):
     impacts: int
     contact_fraction: float  # share of the run with a contact force
     max_gap: float  # m
+    impact_speed: float  # m/s, largest speed of approach over the last part of the run
+    peak_force: float  # N, largest contact force over the last part of the run
     evaluations: int  # of the force
     status: str  # one of STATUSES
 
@@ -255,7 +287,7 @@ def step_count(duration: float, step: float) -> int:
 
 
 def _integrate(parameters, step, n_steps, method, indices=(), n_events=0):
-    """Follow trajectories, shape (n, 13): their results as lists, samples (NaN where none was reached) and events."""
+    """Follow trajectories, shape (n, 16): their results as lists, samples (NaN where none was reached) and events."""
     if method not in METHODS:
         raise ValueError(f"method = {method!r} is not one of {', '.join(METHODS)}")
     indices = np.asarray(indices, dtype=np.int64)
@@ -268,7 +300,7 @@ def _integrate(parameters, step, n_steps, method, indices=(), n_events=0):
 
 
 def run(parameters: np.ndarray, duration: float, step: float, method: str = "euler", last: float = 0.25) -> Summary:
-    """Integrate one trajectory from t = 0, packed as by `model.pack`, shape (13,); the rest as in `run_all`."""
+    """Integrate one trajectory from t = 0, packed as by `model.pack`, shape (16,); the rest as in `run_all`."""
     return run_all(parameters[np.newaxis], duration, step, method, last)[0]
 
 
@@ -279,7 +311,7 @@ def run_all(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13), rows from `model.pack`
+    parameters : float64, shape (n, 16), rows from `model.pack`
     duration : s, a whole number of steps
     step : Δt, s
     method : one of METHODS
@@ -297,10 +329,11 @@ def run_all(
     results, samples, _ = _integrate(parameters, step, n_steps, method, [first])
     found = []
     for result, (sample_of_last,) in zip(results, samples.tolist(), strict=True):
-        x, vx, z, vz, _, impacts, contact_time, max_gap, evaluations, status = result
+        x, vx, z, vz, _, impacts, contact_time, max_gap, evaluations, status, *peaks = result
         mean_velocity = (x - sample_of_last[0]) / ((n_steps - first) * step)
         contact_fraction = contact_time / (n_steps * step)
-        counts = int(impacts), contact_fraction, max_gap, int(evaluations)
+        peaks = peaks if status == OK else (math.nan, math.nan)
+        counts = int(impacts), contact_fraction, max_gap, *peaks, int(evaluations)
         found.append(Summary(x, vx, z, vz, mean_velocity, *counts, STATUSES[int(status)]))
     return found
 
@@ -310,7 +343,7 @@ def sample(parameters: np.ndarray, times: np.ndarray, step: float, method: str =
 
     Parameters
     ----------
-    parameters : float64, shape (13,), from `model.pack`
+    parameters : float64, shape (16,), from `model.pack`
     times : s, not negative, any shape and order
     step : Δt, s
     method : one of METHODS

@@ -5,13 +5,13 @@ with the treatment "modes". See https://bluescarni.github.io/heyoka.py.
 """
 
 from functools import lru_cache
-from importlib.util import find_spec
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ..solver.model import EXPONENT, PARAMETERS, TENSION, TENSION_ALLOW
 from .force_law import spring_and_damper
+from .leg import Leg, Task
 
 # Names of the systems, and of the event functions that end them.
 FLIGHT, FORWARD, BACKWARD, STICK = "flight", "forward", "backward", "stick"
@@ -19,25 +19,12 @@ GAP, SLIP, GRIP = "gap", "slip", "grip"
 ENDS = {FLIGHT: (GAP,), FORWARD: (GAP, SLIP), BACKWARD: (GAP, SLIP), STICK: (GAP, GRIP, GRIP)}
 
 
-class Leg(NamedTuple):
-    """Motion in one mode."""
-
-    t: float  # s, at its end
-    state: np.ndarray  # x, ẋ, z, ż at its end, shape (4,)
-    ended: str | None  # GAP, SLIP or GRIP, or None
-    evaluations: int  # a step of order n counts n: it finds n derivatives of the force
-
-
-def installed() -> bool:
-    return find_spec("heyoka") is not None
-
-
 def quantities(state: tuple) -> tuple[dict[str, Any], Any, Any, Any, Any]:
     """Expressions of the model in those of x, ẋ, z, ż.
 
     Returns
     -------
-    p, gap, rate, slip, pull : the parameters by their names; gap (m), its rate (m/s), velocity of the plate along x
+    p, gap, rate, slip, forward : the parameters by their names; gap (m), its rate (m/s), velocity of the plate along x
         against the part (m/s) and acceleration of the plate along x (m/s²)
     """
     import heyoka as hy
@@ -49,7 +36,8 @@ def quantities(state: tuple) -> tuple[dict[str, Any], Any, Any, Any, Any]:
     a_x, a_z = p["acceleration"] * hy.cos(p["angle"]), p["acceleration"] * hy.sin(p["angle"])
     gap = z + a_z / omega**2 * hy.cos(phase)
     rate = vz - a_z / omega * hy.sin(phase)
-    return p, gap, rate, a_x / omega * hy.sin(phase) - vx, a_x * hy.cos(phase)
+    along = phase + p["phase_shift"]
+    return p, gap, rate, a_x / omega * hy.sin(along) - vx, a_x * hy.cos(along)
 
 
 @lru_cache(maxsize=64)
@@ -59,7 +47,7 @@ def systems(exponent: float, tolerance: float) -> dict[str, Any]:
 
     state = hy.make_vars("x", "vx", "z", "vz")
     x, vx, z, vz = state
-    p, gap, rate, slip, pull = quantities(state)
+    p, gap, rate, slip, forward = quantities(state)
     push = spring_and_damper(p["stiffness"], (-gap) ** exponent, p["damping"], rate) / p["mass"]
     rub = p["friction"] * push
     up, down = hy.event_direction.positive, hy.event_direction.negative
@@ -72,34 +60,38 @@ def systems(exponent: float, tolerance: float) -> dict[str, Any]:
             t_events=[hy.t_event(function, direction=direction) for function, direction in ends],
         )
 
-    pressed = push - p["gravity"]
+    normal, downhill = p["gravity"] * hy.cos(p["inclination"]), p["gravity"] * hy.sin(p["inclination"])
+    pressed, held, pull = push - normal, p["static_friction"] * push, forward + downhill
     return {
-        FLIGHT: system(0.0 * x, -p["gravity"], (gap, down)),
-        FORWARD: system(rub, pressed, (gap, up), (slip, down)),
-        BACKWARD: system(-rub, pressed, (gap, up), (slip, up)),
-        STICK: system(pull, pressed, (gap, up), (rub - pull, down), (rub + pull, down)),
+        FLIGHT: system(0.0 * x - downhill, -normal, (gap, down)),
+        FORWARD: system(rub - downhill, pressed, (gap, up), (slip, down)),
+        BACKWARD: system(-rub - downhill, pressed, (gap, up), (slip, up)),
+        STICK: system(forward, pressed, (gap, up), (held - pull, down), (held + pull, down)),
     }
 
 
-def follow(
-    parameters: np.ndarray, mode: str, t: float, end: float, state: np.ndarray, tolerance: float, limit: int
-) -> Leg | None:
-    """Follow `state`, (x, ẋ, z, ż), in one mode to an event or to the time `end` (s); None where the integrator fails.
+def follow(parameters: np.ndarray, mode: str, task: Task) -> Leg:
+    """Follow one leg, `ended` by GAP, SLIP or GRIP.
 
-    A leg whose evaluations reach `limit` may end before either.
+    A step of order n counts n evaluations: it finds n derivatives of the force.
     """
     if parameters[TENSION] != TENSION_ALLOW:
         raise ValueError("heyoka follows the contact with tension = allow only")
-    integrator = systems(float(parameters[EXPONENT]), tolerance)[mode]
+    integrator = systems(float(parameters[EXPONENT]), task.rtol)[mode]
     integrator.pars[:] = parameters[: len(integrator.pars)]
-    integrator.time = t
-    integrator.state[:] = state
+    integrator.time = task.t
+    integrator.state[:] = task.state
     integrator.reset_cooldowns()
-    outcome, _, _, steps, *_ = integrator.propagate_until(end, max_steps=limit // integrator.order + 1)
+    most_steps = task.limit // integrator.order + 1
+    outcome, _, _, steps, curve, *_ = integrator.propagate_until(
+        task.end, max_steps=most_steps, c_output=len(task.times) > 0
+    )
     state, evaluations = integrator.state.copy(), steps * integrator.order
     # Outcomes from -1 downwards are the numbers of terminal events.
     event = -1 - int(outcome)
     ended = ENDS[mode][event] if event < len(ENDS[mode]) else None
-    if not np.isfinite(state).all() or (ended is None and integrator.time < end and evaluations < limit):
-        return None
-    return Leg(integrator.time, state, ended, evaluations)
+    if not np.isfinite(state).all():
+        return Leg(task.t, state, None, np.empty((0, 4)), evaluations)
+    passed = task.times[task.times <= integrator.time]
+    samples = curve(passed) if len(passed) else np.empty((0, 4))
+    return Leg(integrator.time, state, ended, samples, evaluations)

@@ -1,6 +1,6 @@
 """Other integrators on the same model, as one would write it down for them: peers to compare the solver with.
 
-They are those of scipy's `solve_ivp`, and heyoka where that is installed.
+They are those of scipy's `solve_ivp`, and CyRK, CVODE of SUNDIALS and heyoka where those are installed.
 
 `treatment` says how the jumps of the right-hand side are handled:
 
@@ -9,24 +9,27 @@ They are those of scipy's `solve_ivp`, and heyoka where that is installed.
   `solve_ivp` ends each. The next mode begins at the state that the event has found.
 - "modes": the same, and the next mode begins beside the zero of that event, on its own side.
 
-scipy's right-hand sides are compiled, so that the comparison is one of methods, not of Python against machine code.
+The right-hand sides are compiled, so that the comparison is one of methods, not of Python against machine code.
 """
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from ..solver import model
 from ..solver.jit import kernel
-from . import heyoka_peer
+from . import cyrk_peer, heyoka_peer, sundials_peer
 from .force_law import contact_acceleration, friction_acceleration
+from .leg import Leg, Task
+from .rivals import RIVALS, installed_version
 
 HEYOKA = "heyoka"
-INTEGRATORS = ("RK45", "DOP853", "Radau", "LSODA", HEYOKA)
+INTEGRATORS = tuple(RIVALS)
 TREATMENTS = ("sign", "events", "modes")
+NO_TIMES = np.empty(0)
 STATUSES = ("ok", "gave up", "stuck at an event", "step too small", "event lost", "not finite", "not installed")
 OK, GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST, NOT_FINITE, NOT_INSTALLED = STATUSES
 
@@ -48,6 +51,8 @@ class Summary(NamedTuple):
     mean_velocity: float  # m/s, over the last part of the run
     evaluations: int  # of the right-hand side, those for Jacobians included
     status: str  # one of STATUSES
+    samples: np.ndarray  # x, ẋ, z, ż at the wanted times, shape (k, 4)
+    events: np.ndarray  # s, the times of impacts and separations, as far as the treatment finds them
 
 
 @kernel
@@ -57,8 +62,20 @@ def plate_motion(parameters, t):
     phase = omega * t + parameters[model.PSI0]
     a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
     a_x = parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE])
-    sine, cosine = math.sin(phase), math.cos(phase)
-    return -a_z / omega**2 * cosine, a_z / omega * sine, a_x / omega * sine, a_x * cosine
+    along = phase + parameters[model.PHASE_SHIFT]
+    return (
+        -a_z / omega**2 * math.cos(phase),
+        a_z / omega * math.sin(phase),
+        a_x / omega * math.sin(along),
+        a_x * math.cos(along),
+    )
+
+
+@kernel
+def gravity_of(parameters):
+    """The components of gravity normal to the track and down along it, m/s²."""
+    gravity, inclination = parameters[model.GRAVITY], parameters[model.INCLINATION]
+    return gravity * math.cos(inclination), gravity * math.sin(inclination)
 
 
 @kernel
@@ -85,8 +102,9 @@ def rates(t, state, parameters, mode):
     if mode == FLIGHT or (mode == SIGN and gap > 0.0):
         push = 0.0
     _, _, vx, ax = plate_motion(parameters, t)
+    normal, downhill = gravity_of(parameters)
     if mode == STICK:
-        rub = ax
+        forward = ax
     else:
         slip = vx - state[1]
         if mode == FORWARD:
@@ -94,7 +112,15 @@ def rates(t, state, parameters, mode):
         elif mode == BACKWARD:
             slip = -1.0
         rub = friction_acceleration(push, slip, parameters[model.FRICTION], parameters[model.TENSION])
-    return np.array([state[1], rub, state[3], push - parameters[model.GRAVITY]])
+        forward = rub - downhill
+    return np.array([state[1], forward, state[3], push - normal])
+
+
+@kernel
+def counted_rates(derivatives, t, state, parameters, mode):
+    """Fill in `rates`; the last of the parameters, after those of the model, counts the calls."""
+    parameters[-1] += 1.0
+    derivatives[:] = rates(t, state, parameters, mode)
 
 
 @kernel
@@ -110,10 +136,16 @@ def slip_of(t, state, parameters):
 
 
 @kernel
+def pull_of(parameters, t):
+    """What a part that sticks needs from friction, m/s²."""
+    return plate_motion(parameters, t)[3] + gravity_of(parameters)[1]
+
+
+@kernel
 def grip_of(t, state, parameters):
-    """What friction can hold beyond what the plate asks of a part that sticks, m/s²."""
+    """What friction can hold beyond what a part that sticks needs, m/s²."""
     _, push = normal_force(parameters, t, state)
-    return parameters[model.FRICTION] * push - abs(plate_motion(parameters, t)[3])
+    return parameters[model.STATIC_FRICTION] * push - abs(pull_of(parameters, t))
 
 
 # The event functions that end each mode, and the direction of their zeros.
@@ -128,13 +160,13 @@ ENDS: dict[int, tuple[tuple[Callable, float], ...]] = {
 
 def next_mode(parameters: np.ndarray, t: float, state: np.ndarray, ended: Callable | None, mode: int) -> int:
     """The mode that follows `mode` after the event `ended`; None for both at the start."""
-    z, _, vx, ax = plate_motion(parameters, t)
+    z, _, vx, _ = plate_motion(parameters, t)
     if state[2] > z if ended is None else ended is gap_of and mode != FLIGHT:
         return FLIGHT
     slips = ended not in (slip_of, grip_of) and state[1] != vx
     if not slips and ended is not grip_of and grip_of(t, state, parameters) >= 0.0:
         return STICK
-    return FORWARD if (vx - state[1] if slips else ax) > 0.0 else BACKWARD
+    return FORWARD if (vx - state[1] if slips else pull_of(parameters, t)) > 0.0 else BACKWARD
 
 
 def put_beside(
@@ -173,18 +205,24 @@ class EventLost(Exception):
     """The search for an event finds no change of sign: LSODA's interpolant does not meet its own steps."""
 
 
-class Counted:
-    """A right-hand side that counts its evaluations and stops at a limit."""
+class Trajectory:
+    """What a run has found so far; `times` (s, ascending) are those at which states are wanted."""
 
-    def __init__(self, parameters: np.ndarray, limit: int):
+    def __init__(self, parameters: np.ndarray, integrator: str, limit: int, times: np.ndarray):
         self.parameters = parameters
+        self.integrator = integrator
         self.limit = limit
+        self.times = times
         self.mode = SIGN
-        self.count = 0
+        self.evaluations = 0
+        self.samples: list[np.ndarray] = []
+        self.events: list[float] = []
+        self.solvers: dict[int, Any] = {}  # of SUNDIALS, by mode
 
-    def __call__(self, t: float, state: np.ndarray) -> np.ndarray:
-        self.count += 1
-        if self.count > self.limit:
+    def rates(self, t: float, state: np.ndarray) -> np.ndarray:
+        """The right-hand side of the mode for scipy, which counts its evaluations and stops at the limit."""
+        self.evaluations += 1
+        if self.evaluations > self.limit:
             raise GaveUp
         return rates(t, state, self.parameters, self.mode)
 
@@ -199,57 +237,77 @@ def watch(parameters: np.ndarray, function: Callable, direction: float) -> Calla
     return event
 
 
-def leg_of_scipy(right_side: Counted, t: float, end: float, state: np.ndarray, options: dict):
-    """Follow `state` in one mode to an event or to `end`: time, state and event, or None where the integrator fails."""
-    ends = ENDS[right_side.mode]
-    watched = [watch(right_side.parameters, function, direction) for function, direction in ends]
+def leg_of_scipy(trajectory: Trajectory, task: Task) -> Leg:
+    """Follow the part in one mode, `ended` by a place in ENDS."""
+    ends = ENDS[trajectory.mode]
+    watched = [watch(trajectory.parameters, function, direction) for function, direction in ends]
+    options = {"method": trajectory.integrator, "rtol": task.rtol, "atol": task.atol}
+    options |= {"dense_output": len(task.times) > 0}
+    before = trajectory.evaluations
     try:
         # Radau's numerical Jacobian of a part that never moves sideways overflows; what comes of it is judged below.
         with np.errstate(over="ignore", invalid="ignore"):
-            found = solve_ivp(right_side, (t, end), state, events=watched, **options)
+            found = solve_ivp(trajectory.rates, (task.t, task.end), task.state, events=watched, **options)
     except ValueError as error:
         raise EventLost from error
-    if not found.success:
-        return None
     ended = None
     if found.status == 1:
-        ended = next(function for (function, _), times in zip(ends, found.t_events, strict=True) if len(times))
-    return float(found.t[-1]), found.y[:, -1].copy(), ended
+        ended = next(place for place, times in enumerate(found.t_events) if len(times))
+    passed = task.times[task.times <= found.t[-1]]
+    samples = found.sol(passed).T if len(passed) else np.empty((0, 4))
+    evaluations, trajectory.evaluations = trajectory.evaluations - before, before
+    return Leg(float(found.t[-1]), found.y[:, -1].copy(), ended, samples, evaluations)
 
 
-def leg_of_heyoka(right_side: Counted, t: float, end: float, state: np.ndarray, options: dict):
-    """The same by heyoka."""
-    mode, limit = HEYOKA_MODES[right_side.mode], right_side.limit - right_side.count
-    leg = heyoka_peer.follow(right_side.parameters, mode, t, end, state, options["rtol"], limit)
-    if leg is None:
-        return None
-    right_side.count += leg.evaluations
-    if right_side.count >= right_side.limit:
-        raise GaveUp
-    return leg.t, leg.state, HEYOKA_EVENTS.get(leg.ended)
+def leg_of(trajectory: Trajectory, task: Task) -> Leg:
+    """Follow the part in one mode by the trajectory's integrator, `ended` by an event function."""
+    mode, parameters = trajectory.mode, trajectory.parameters
+    _, module, method, _ = RIVALS[trajectory.integrator]
+    if module == "heyoka":
+        leg = heyoka_peer.follow(parameters, HEYOKA_MODES[mode], task)
+        return leg._replace(ended=HEYOKA_EVENTS.get(leg.ended))
+    if module == "scipy":
+        leg = leg_of_scipy(trajectory, task)
+    elif module == "CyRK":
+        leg = cyrk_peer.follow(method, counted_rates, parameters, mode, ENDS[mode], task)
+    else:
+        if mode not in trajectory.solvers:
+            task = task._replace(limit=trajectory.limit)
+            trajectory.solvers[mode] = sundials_peer.solver_of(
+                method, counted_rates, parameters, mode, ENDS[mode], task
+            )
+        leg = sundials_peer.follow(trajectory.solvers[mode], task)
+    return leg._replace(ended=None if leg.ended is None else ENDS[mode][leg.ended][0])
 
 
-def advance(right_side: Counted, begin: float, end: float, state: np.ndarray, treatment: str, options: dict):
-    """State at the time `end` (s), or None where the integrator fails; `options` are those of solve_ivp."""
-    parameters = right_side.parameters
+def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, treatment: str, rtol: float):
+    """State at the time `end` (s), or None where the integrator fails; absolute tolerances are `rtol` of `scales`."""
+    parameters, atol = trajectory.parameters, rtol * scales(trajectory.parameters)
     t, state = begin, state.copy()
-    by_heyoka = options["method"] == HEYOKA
-    follow_leg, beside = (leg_of_heyoka, BESIDE_OF_HEYOKA) if by_heyoka else (leg_of_scipy, BESIDE)
-    if treatment != "sign" and right_side.mode == SIGN:
-        right_side.mode = next_mode(parameters, t, state, None, SIGN)
+    beside = BESIDE_OF_HEYOKA if trajectory.integrator == HEYOKA else BESIDE
+    if treatment != "sign" and trajectory.mode == SIGN:
+        trajectory.mode = next_mode(parameters, t, state, None, SIGN)
     met = set()  # modes and states at the time t
     while t < end:
-        leg = follow_leg(right_side, t, end, state, options)
-        if leg is None:
+        times = trajectory.times[len(trajectory.samples) :]
+        left = trajectory.limit - trajectory.evaluations
+        leg = leg_of(trajectory, Task(t, end, state, times[times <= end], rtol, atol, left))
+        trajectory.evaluations += leg.evaluations
+        trajectory.samples.extend(leg.samples)
+        if trajectory.evaluations >= trajectory.limit:
+            raise GaveUp
+        if leg.ended is None and leg.t < end:
             return None
-        if leg[0] > t:
+        if leg.t > t:
             met.clear()
-        t, state, ended = leg
+        t, state, ended = leg.t, leg.state, leg.ended
         if ended is not None:
-            right_side.mode = next_mode(parameters, t, state, ended, right_side.mode)
+            if ended is gap_of:
+                trajectory.events.append(t)
+            trajectory.mode = next_mode(parameters, t, state, ended, trajectory.mode)
             if treatment == "modes":
-                put_beside(parameters, t, state, ended, right_side.mode, beside)
-        here = right_side.mode, state.tobytes()
+                put_beside(parameters, t, state, ended, trajectory.mode, beside)
+        here = trajectory.mode, state.tobytes()
         if here in met:
             raise Stuck
         met.add(here)
@@ -272,18 +330,21 @@ def run(
     tolerance: float,
     max_evaluations: int,
     last: float = 0.25,
+    times: np.ndarray = NO_TIMES,
 ) -> Summary:
     """Integrate one trajectory from t = 0.
 
     Parameters
     ----------
-    parameters : float64, shape (13,), from `model.pack`
+    parameters : float64, shape (16,), from `model.pack`
     duration : s
-    integrator : one of INTEGRATORS, methods of scipy's solve_ivp but the last one
+    integrator : one of INTEGRATORS
     treatment : one of TREATMENTS; heyoka knows "modes" only
-    tolerance : relative tolerance; the absolute one of solve_ivp is `tolerance` times `scales`
+    tolerance : relative tolerance; the absolute one is `tolerance` times `scales`
     max_evaluations : of the right-hand side, after which a run is given up
     last : share of the run over which the mean velocity is taken
+    times : s, ascending, above 0 and within the duration, at which states are wanted: they are interpolated (CVODE
+        chooses the first step of a leg by the first of them)
 
     Raises
     ------
@@ -292,28 +353,33 @@ def run(
     """
     if integrator not in INTEGRATORS or treatment not in TREATMENTS:
         raise ValueError(f"{integrator!r} with {treatment!r} is none of {INTEGRATORS} with {TREATMENTS}")
-    lost = (math.nan,) * 5
     if integrator == HEYOKA and treatment != "modes":
         raise ValueError(f"heyoka handles events by modes, not by {treatment}")
-    if integrator == HEYOKA and not heyoka_peer.installed():
-        return Summary(*lost, 0, NOT_INSTALLED)
-    right_side = Counted(parameters, max_evaluations)
+    trajectory = Trajectory(parameters, integrator, max_evaluations, np.asarray(times, dtype=np.float64))
+
+    def lost(status: str) -> Summary:
+        evaluations = min(trajectory.evaluations, max_evaluations)
+        return Summary(*(math.nan,) * 5, evaluations, status, np.full((len(times), 4), math.nan), np.empty(0))
+
+    if installed_version(integrator) is None:
+        return lost(NOT_INSTALLED)
     z0 = parameters[model.Z0]
     state = np.array([0.0, 0.0, plate_motion(parameters, 0.0)[0] if math.isnan(z0) else z0, parameters[model.VZ0]])
     middle = (1.0 - last) * duration
-    options = {"method": integrator, "rtol": tolerance, "atol": tolerance * scales(parameters)}
     try:
-        before = advance(right_side, 0.0, middle, state, treatment, options)
-        after = None if before is None else advance(right_side, middle, duration, before, treatment, options)
+        before = advance(trajectory, 0.0, middle, state, treatment, tolerance)
+        after = None if before is None else advance(trajectory, middle, duration, before, treatment, tolerance)
     except GaveUp:
-        return Summary(*lost, right_side.limit, GAVE_UP)
+        return lost(GAVE_UP)
     except Stuck:
-        return Summary(*lost, right_side.count, STUCK)
+        return lost(STUCK)
     except EventLost:
-        return Summary(*lost, right_side.count, EVENT_LOST)
+        return lost(EVENT_LOST)
     if after is None:
-        return Summary(*lost, right_side.count, STEP_TOO_SMALL)
+        return lost(STEP_TOO_SMALL)
     if not np.isfinite(after).all():
-        return Summary(*lost, right_side.count, NOT_FINITE)
+        return lost(NOT_FINITE)
     x, vx, z, vz = map(float, after)
-    return Summary(x, vx, z, vz, (x - float(before[0])) / (last * duration), right_side.count, OK)
+    mean_velocity = (x - float(before[0])) / (last * duration)
+    found = np.array(trajectory.samples).reshape(-1, 4), np.array(trajectory.events)
+    return Summary(x, vx, z, vz, mean_velocity, trajectory.evaluations, OK, *found)

@@ -2,9 +2,9 @@
 
 An impact takes no time. It reverses the speed of approach u to e u and changes the horizontal velocity by at most
 μ (1 + e) u, towards that of the plate. When bounces have shrunk to nothing the part rests on the plate, pressed on with
-N/m = g + a_z cos θ, and slips or sticks on it until the plate falls away faster than g. Everything between impacts is a
-closed form. The coefficient is a number, or a function of u as a table, for example that of the compliant contact
-(`restitution_coefficients`).
+N/m = g cos α + a_z cos θ, and slips or sticks on it until the plate falls away faster than g cos α. Everything between
+impacts is a closed form. The coefficient is a number, or a function of u as a table, for example that of the compliant
+contact (`restitution_coefficients`).
 """
 
 import math
@@ -32,13 +32,16 @@ CREEPING = 20.0  # durations of an undamped impact: a contact that takes longer 
 
 
 class Plate(NamedTuple):
-    """Excitation and friction: ω (rad/s), a_x, a_z, g (m/s²), μ."""
+    """Excitation and friction."""
 
-    omega: float
-    a_x: float
-    a_z: float
-    gravity: float
+    omega: float  # rad/s
+    a_x: float  # m/s²
+    a_z: float  # m/s²
+    shift: float  # rad, of the motion along the track
+    gravity: float  # m/s², normal to the track
+    downhill: float  # m/s², gravity against the feeding direction
     friction: float
+    static_friction: float
 
 
 def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
@@ -85,7 +88,7 @@ def restitution_at(speed, speeds, coefficients):
 
 @kernel
 def rest_end(plate, theta):
-    """Advance of the phase (rad) from `theta` until the plate falls away from a resting part, a_z cos θ < -g."""
+    """Advance of the phase (rad) from `theta` until the plate falls away from a resting part, a_z cos θ < -g cos α."""
     if plate.a_z <= plate.gravity:
         return math.inf
     edge = math.acos(-plate.gravity / plate.a_z)
@@ -108,27 +111,48 @@ def safe_flight(theta, omega):
 
 
 @kernel
+def one_wave(plate, normal):
+    """The amplitude R (m/s²) and the phase δ (rad) of ẍ_s + normal cos θ = R cos(θ + δ)."""
+    cosine, sine = plate.a_x * math.cos(plate.shift) + normal, plate.a_x * math.sin(plate.shift)
+    if sine == 0.0:
+        return cosine, 0.0
+    return math.hypot(cosine, sine), math.atan2(sine, cosine)
+
+
+@kernel
+def advance_to(angle, entry, centre):
+    """Advance (rad) from an angle in [0, 2π) to the `entry` of an interval, whose first half ends at its `centre`."""
+    if entry <= angle < centre:
+        return 0.0
+    return (entry if angle < entry else TURN + entry) - angle
+
+
+@kernel
 def stick_end(plate, theta):
-    """Advance of the phase (rad) from `theta` until a resting part that sticks begins to slip, |ẍ_s| > μ N/m."""
-    grip = plate.friction * plate.gravity
-    lift = plate.friction * plate.a_z
-    backward = math.inf  # angle at which -ẍ_s outgrows μ N/m
-    if grip < plate.a_x + lift:
-        backward = math.acos(-grip / (plate.a_x + lift))
-    forward = math.inf  # angle at which ẍ_s outgrows μ N/m
-    if grip < plate.a_x - lift:
-        forward = TURN - math.acos(grip / (plate.a_x - lift))
-    angle = theta % TURN
-    nearest = min(backward, forward) if angle < math.pi else min(forward, TURN + backward)
-    return max(nearest - angle, 0.0)
+    """Advance of the phase (rad) from `theta` until a sticking part begins to slip, |ẍ_s + g sin α| > μ_s N/m."""
+    grip, lift = plate.static_friction * plate.gravity, plate.static_friction * plate.a_z
+    # -(ẍ_s + g sin α) outgrows μ_s N/m where R cos(θ + δ) falls below -needed.
+    amplitude, shift = one_wave(plate, lift)
+    needed = grip + plate.downhill
+    backward = 0.0 if needed <= -amplitude else math.inf
+    if abs(needed) < amplitude:
+        backward = advance_to((theta + shift) % TURN, math.acos(-needed / amplitude), math.pi)
+    # ẍ_s + g sin α outgrows μ_s N/m where R cos(θ + δ) rises above `needed`.
+    amplitude, shift = one_wave(plate, -lift)
+    needed = grip - plate.downhill
+    forward = 0.0 if needed <= -abs(amplitude) else math.inf
+    if abs(needed) < amplitude:
+        forward = advance_to((theta + shift) % TURN, TURN - math.acos(needed / amplitude), TURN)
+    return min(backward, forward)
 
 
 @kernel
 def slip_after(plate, theta, slip, sigma, advance):
     """Slip velocity ẋ_s - ẋ_p (m/s) of a resting part after an advance of the phase (rad)."""
-    swing = (plate.a_x - sigma * plate.friction * plate.a_z) / plate.omega
-    fall = sigma * plate.friction * plate.gravity / plate.omega
-    return slip + swing * (math.sin(theta + advance) - math.sin(theta)) - fall * advance
+    swing = (plate.a_x * math.cos(plate.shift) - sigma * plate.friction * plate.a_z) / plate.omega
+    turned = plate.a_x * math.sin(plate.shift) / plate.omega * (math.cos(theta + advance) - math.cos(theta))
+    fall = (sigma * plate.friction * plate.gravity - plate.downhill) / plate.omega
+    return slip + swing * (math.sin(theta + advance) - math.sin(theta)) - fall * advance + turned
 
 
 @kernel
@@ -137,13 +161,13 @@ def slip_end(plate, theta, slip, sigma, limit):
 
     The slip velocity is monotonic between known angles, so that no zero is missed; infinity if there is none.
     """
-    swing = plate.a_x - sigma * plate.friction * plate.a_z
-    fall = sigma * plate.friction * plate.gravity
+    swing, shift = one_wave(plate, -sigma * plate.friction * plate.a_z)
+    fall = sigma * plate.friction * plate.gravity - plate.downhill
     edge = math.acos(fall / swing) if abs(fall) < abs(swing) else 0.5 * math.pi
     low = 0.0
     while low < limit:
-        to_first = (edge - theta - low) % TURN
-        to_second = (-edge - theta - low) % TURN
+        to_first = (edge - shift - theta - low) % TURN
+        to_second = (-edge - shift - theta - low) % TURN
         # A part that has just begun to slip starts at such an angle, up to rounding.
         to_first += TURN if to_first < 1e-9 else 0.0
         to_second += TURN if to_second < 1e-9 else 0.0
@@ -161,17 +185,32 @@ def slip_end(plate, theta, slip, sigma, limit):
 
 
 @kernel
+def plate_speed(plate, theta):
+    """ẋ_s (m/s) at the phase `theta` (rad)."""
+    return plate.a_x / plate.omega * math.sin(theta + plate.shift)
+
+
+@kernel
+def slid(plate, x, vx, tau):
+    """x (m) and ẋ (m/s) after the time `tau` (s) in which gravity alone acts along the track."""
+    fall = plate.downhill * tau
+    return x + vx * tau - 0.5 * fall * tau, vx - fall
+
+
+@kernel
 def rest_motion(plate, theta, x, vx, sigma, tau):
     """x (m) and ẋ (m/s) of a resting part after the time `tau` (s); `sigma` is the sign of the slip, 0 for stick."""
     phase = theta + plate.omega * tau
     sine = (math.sin(phase) - math.sin(theta)) / plate.omega
     cosine = (math.cos(theta) - math.cos(phase)) / plate.omega**2
     if sigma == 0.0:
-        return x + plate.a_x * cosine, plate.a_x / plate.omega * math.sin(phase)
+        path = (math.cos(theta + plate.shift) - math.cos(phase + plate.shift)) / plate.omega**2
+        return x + plate.a_x * path, plate_speed(plate, phase)
     fall = 0.5 * plate.gravity * tau * tau
     lift = plate.a_z * (cosine - math.sin(theta) / plate.omega * tau)
-    pull = sigma * plate.friction
-    return x + vx * tau + pull * (fall + lift), vx + pull * (plate.gravity * tau + plate.a_z * sine)
+    rub = sigma * plate.friction
+    x, vx = slid(plate, x, vx, tau)
+    return x + rub * (fall + lift), vx + rub * (plate.gravity * tau + plate.a_z * sine)
 
 
 @kernel
@@ -179,9 +218,10 @@ def slip_direction(plate, theta, slip):
     """Sign of the slip of a resting part, 0 for stick (Filippov's condition)."""
     if slip != 0.0:
         return math.copysign(1.0, slip)
-    if plate.a_x * abs(math.cos(theta)) <= plate.friction * (plate.gravity + plate.a_z * math.cos(theta)):
+    pull = plate.a_x * math.cos(theta + plate.shift) + plate.downhill
+    if abs(pull) <= plate.static_friction * (plate.gravity + plate.a_z * math.cos(theta)):
         return 0.0
-    return math.copysign(1.0, math.cos(theta))
+    return math.copysign(1.0, pull)
 
 
 @kernel
@@ -190,7 +230,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
 
     Parameters
     ----------
-    parameters : float64, shape (13,), packed as in `model.PARAMETERS`; a start below the plate is one on the plate
+    parameters : float64, shape (16,), packed as in `model.PARAMETERS`; a start below the plate is one on the plate
     speeds, coefficients : float64, shape (k,), ascending speeds of approach (m/s), their coefficients of restitution
     times : float64, shape (n,), s, ascending
     samples : float64, shape (n, 4), filled in the order of SAMPLE_COLUMNS (m, m/s)
@@ -206,8 +246,11 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
         omega,
         parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE]),
         parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]),
-        parameters[model.GRAVITY],
+        parameters[model.PHASE_SHIFT],
+        parameters[model.GRAVITY] * math.cos(parameters[model.INCLINATION]),
+        parameters[model.GRAVITY] * math.sin(parameters[model.INCLINATION]),
         parameters[model.FRICTION],
+        parameters[model.STATIC_FRICTION],
     )
     gravity, a_z = plate.gravity, plate.a_z
     period = 1.0 / parameters[model.FREQUENCY]
@@ -251,7 +294,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
             z = -a_z / omega**2 * math.cos(theta)
             vz = a_z / omega * math.sin(theta) + rate
             bound = plate.friction * (1.0 + coefficient) * speed
-            slip = plate.a_x / omega * math.sin(theta) - vx
+            slip = plate_speed(plate, theta) - vx
             if abs(slip) <= bound:
                 vx += slip
                 slip = 0.0
@@ -263,7 +306,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
             skip = 0.0 if pressure > 0.0 else safe_flight(theta, omega)
             arriving = False
         elif resting:
-            slip = plate.a_x / omega * math.sin(theta) - vx if sigma != 0.0 else 0.0
+            slip = plate_speed(plate, theta) - vx if sigma != 0.0 else 0.0
             leave = rest_end(plate, theta) / omega
             limit = min(leave, end - base - t)
             if sigma == 0.0:
@@ -288,9 +331,9 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
                 skip = safe_flight(theta, omega)
                 z, vz = -a_z / omega**2 * math.cos(theta), a_z / omega * math.sin(theta)
             elif sigma == 0.0:
-                sigma = math.copysign(1.0, math.cos(theta))
+                sigma = math.copysign(1.0, plate.a_x * math.cos(theta + plate.shift) + plate.downhill)
             else:
-                vx = plate.a_x / omega * math.sin(theta)
+                vx = plate_speed(plate, theta)
                 sigma = slip_direction(plate, theta, 0.0)
         else:
             flight = Flight(z, vz, theta, gravity, a_z, omega)
@@ -313,16 +356,17 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
             max_gap = max(max_gap, highest_gap(flight, flown))
             while n_sampled < len(times) and base + t + tau >= times[n_sampled]:
                 ahead = times[n_sampled] - base - t
+                x_then, vx_then = slid(plate, x, vx, ahead)
                 samples[n_sampled] = (
-                    x + vx * ahead,
-                    vx,
+                    x_then,
+                    vx_then,
                     z + (vz - 0.5 * gravity * ahead) * ahead,
                     vz - gravity * ahead,
                 )
                 n_sampled += 1
             if n_sampled == len(times):
                 break
-            x += vx * tau
+            x, vx = slid(plate, x, vx, tau)
             t += tau
             arriving = True
     return n_impacts, max_gap, OK
@@ -380,7 +424,7 @@ def run(parameters: np.ndarray, duration: float, restitution, last: float = 0.25
 
     Parameters
     ----------
-    parameters : float64, shape (13,), from `model.pack`; stiffness, damping, mass, exponent and tension have no effect
+    parameters : float64, shape (16,), from `model.pack`; stiffness, damping, mass, exponent and tension have no effect
     duration : s
     restitution : coefficient of restitution in [0, 1], or a pair of arrays (speeds of approach in m/s, coefficients)
     last : share of the run, in (0, 1], over which the mean velocity is taken

@@ -31,15 +31,16 @@ def rigid_orbit(conveyor: Conveyor, restitution: Callable[[float], float]) -> Ri
 
     Parameters
     ----------
-    conveyor : its frequency, gravity and angle count
+    conveyor : its frequency, gravity, inclination and angle count
     restitution : coefficient of restitution in [0, 1] as a function of the speed of approach (m/s)
     """
-    flight = conveyor.gravity / conveyor.frequency  # g T, m/s
+    gravity = conveyor.gravity * math.cos(conveyor.inclination)
+    flight = gravity / conveyor.frequency  # g T, m/s
     speed = brentq(lambda u: u * (1.0 + restitution(u)) - flight, 0.5 * flight, flight, xtol=1e-14 * flight)
     e = restitution(speed)
     above, below = speed * (1.0 + STEP), speed * (1.0 - STEP)
     slope = (above * restitution(above) - below * restitution(below)) / (above - below)
     lift = 2.0 * math.pi * conveyor.frequency * (0.5 * flight - e * speed)  # ω V, m/s²
-    fall = 2.0 * conveyor.gravity * (1.0 + e * slope) / ((1.0 + slope) * (1.0 + e))
+    fall = 2.0 * gravity * (1.0 + e * slope) / ((1.0 + slope) * (1.0 + e))
     vertical = math.sin(conveyor.angle)
     return RigidOrbit(speed, e, lift / vertical, math.hypot(lift, fall) / vertical)

@@ -28,11 +28,12 @@ NOTHING, SEPARATION, FORCE_SIGN = range(3)
 # A separation is searched for behind this part of a step that begins with an impact, where w = 0 as well.
 LEAVE_IMPACT = 1e-6
 
-# Constants of one conveyor in the form in which the equations need them; all per unit mass, SI units.
+# Constants of one conveyor in the form in which the equations need them; all per unit mass, SI units. Gravity has the
+# component `gravity`, g cos α, normal to the track, and `downhill`, g sin α, against the feeding direction.
 Constants = namedtuple(
     "Constants",
-    "omega period psi0 a_x a_z gravity stiffness damping exponent friction mass tension "
-    "tolerance scale_w scale_v edge_w rest_speed rest_force",
+    "omega period psi0 a_x a_z gravity downhill cos_shift sin_shift stiffness damping exponent friction "
+    "static_friction mass tension tolerance scale_w scale_v edge_w rest_speed rest_force",
 )
 
 # A workspace is an array of rows of Taylor coefficients, shape (FIRST + steps ROWS, SIZE). The first row is left to the
@@ -49,7 +50,7 @@ def constants(parameters, tolerance):
     """The Constants of a packed parameter vector (see model.PARAMETERS) at a relative tolerance per step."""
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
     mass = parameters[model.MASS]
-    gravity = parameters[model.GRAVITY]
+    gravity = parameters[model.GRAVITY] * math.cos(parameters[model.INCLINATION])
     exponent = parameters[model.EXPONENT]
     stiffness = parameters[model.STIFFNESS] / mass
     static_penetration = (gravity / stiffness) ** (1.0 / exponent)
@@ -63,10 +64,14 @@ def constants(parameters, tolerance):
         parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE]),
         parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]),
         gravity,
+        parameters[model.GRAVITY] * math.sin(parameters[model.INCLINATION]),
+        math.cos(parameters[model.PHASE_SHIFT]),
+        math.sin(parameters[model.PHASE_SHIFT]),
         stiffness,
         parameters[model.DAMPING] / mass,
         exponent,
         parameters[model.FRICTION],
+        parameters[model.STATIC_FRICTION],
         mass,
         int(parameters[model.TENSION]),
         tolerance,
@@ -170,10 +175,17 @@ def power_term(series, w, power, exponent, n):
 
 @inlined
 def expand_force(c, series, at, scale, plate, slack):
-    """Fill the row SCRATCH with the series of w (scale F_c/m + plate cos θ + slack), of the sign of the bracket."""
+    """Fill the row SCRATCH with the series of w (scale F_c/m + plate cos(θ + ε) + slack), of the sign of the bracket.
+
+    The product of sin θ and w follows from (cos θ)' = -ω w sin θ.
+    """
+    plate, turned = plate * c.cos_shift, plate * c.sin_shift / c.omega
     for n in range(ORDER):
         force = c.stiffness * series[at + SPRING, n] + c.damping * (n + 1) * series[at + SQUARE, n + 1]
         series[SCRATCH, n] = scale * force + plate * series[at + COSINE_W, n] + slack * series[at + W, n]
+    if turned != 0.0:
+        for n in range(ORDER):
+            series[SCRATCH, n] += turned * (n + 1) * series[at + COSINE, n + 1]
     series[SCRATCH, ORDER] = 0.0
 
 

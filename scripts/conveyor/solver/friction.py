@@ -1,20 +1,37 @@
 """Coulomb friction: slip and stick while the part touches the plate, without integrating anything.
 
-In contact F_c/m = z̈_p + g. While the slip velocity u = ẋ_s - ẋ_p keeps its sign σ, Eq. 12 therefore integrates to
+In contact F_c/m = z̈_p + g cos α. While the slip velocity u = ẋ_s - ẋ_p keeps its sign σ, Eq. 12 therefore integrates
+to
 
-    ẋ_p = ẋ_p0 + σμ [ż_p - ż_p0 + g τ],   x_p = x_p0 + ẋ_p0 τ + σμ [z_p - z_p0 - ż_p0 τ + g τ²/2],
+    ẋ_p = ẋ_p0 + σμ [ż_p - ż_p0 + g cos α τ] - g sin α τ,
+    x_p = x_p0 + ẋ_p0 τ + σμ [z_p - z_p0 - ż_p0 τ + g cos α τ²/2] - g sin α τ²/2,
 
-with τ the time since the segment began. Where u reaches zero, Filippov's condition decides: the part sticks while
-F_c > 0 and |ẍ_s| ≤ μ F_c/m, else it slips on with the sign of ẍ_s. Along a Taylor step of the vertical motion u and
-the margin of stick are polynomials.
+with τ the time since the segment began. To move with the plate the part needs the force m (ẍ_s + g sin α) along the
+track, its pull. Where u reaches zero, Filippov's condition decides: the part sticks while F_c > 0 and
+|ẍ_s + g sin α| ≤ μ_s F_c/m, else it slips on with the sign of ẍ_s + g sin α. Along a Taylor step of the vertical
+motion u and the margin of stick are polynomials.
 """
 
 import math
 
 from . import polynomial
-from .contact import SCRATCH, SINE, T, V, expand_force, impulse_of_tension
+from .contact import COSINE, SCRATCH, SINE, T, V, expand_force, impulse_of_tension
 from .jit import inlined, spliced
 from .polynomial import ORDER
+
+
+@inlined
+def along(c, sine, cosine):
+    """Sine and cosine of the plate's phase along the track, θ + ε, from those of θ."""
+    return sine * c.cos_shift + cosine * c.sin_shift, cosine * c.cos_shift - sine * c.sin_shift
+
+
+@inlined
+def pull(c, sine, cosine):
+    """ẍ_s + g sin α (m/s²) at the phase θ with a sine and cosine."""
+    acceleration = c.a_x * along(c, sine, cosine)[1]
+    # A negative zero keeps its sign, which tells the direction of a slip that nothing else decides.
+    return acceleration + c.downhill if c.downhill != 0.0 else acceleration
 
 
 @inlined
@@ -29,16 +46,18 @@ def keeps_slipping(c, segment, piece, slip, plate, gain, fastest):
     fastest : m/s, as in contact.impulse_of_tension
 
     Friction lowers the slip by μ times the impulse of the force, and raises it again where the force pulls. The plate
-    changes its velocity one way while cos θ keeps its sign.
+    changes its velocity one way while cos(θ + ε) keeps its sign, and gravity changes the part's one way.
     """
     lapse = piece.duration - segment.t
-    pull = impulse_of_tension(c, fastest, lapse)
+    tension = impulse_of_tension(c, fastest, lapse)
     turn = c.omega * lapse
+    slip += min(segment.sigma * c.downhill * lapse, 0.0)
     rise, fall = max(plate, 0.0), max(-plate, 0.0)
-    if segment.cosine * piece.cosine <= 0.0 or turn > 1.0:
-        rise = fall = c.a_x * min(max(abs(segment.cosine), abs(piece.cosine)) + turn, 1.0) * lapse
-    forward = slip - fall - segment.mu * (gain + pull)
-    backward = slip + plate - segment.mu * gain - rise - segment.mu * pull
+    begin, end = along(c, segment.sine, segment.cosine)[1], along(c, piece.sine, piece.cosine)[1]
+    if begin * end <= 0.0 or turn > 1.0:
+        rise = fall = c.a_x * min(max(abs(begin), abs(end)) + turn, 1.0) * lapse
+    forward = slip - fall - segment.mu * (gain + tension)
+    backward = slip + plate - segment.mu * gain - rise - segment.mu * tension
     return max(forward, backward) > 0.0
 
 
@@ -49,10 +68,14 @@ def slip_end(c, step, segment, slip, leave):
     `slip` is the slip velocity at the segment's beginning (m/s), `leave` as in polynomial.first_root.
     """
     series, at, mu = step.series, step.at, segment.mu
-    plate = segment.sigma * c.a_x / c.omega - mu * c.a_z / c.omega
-    fall = mu * c.gravity
+    speed = segment.sigma * c.a_x / c.omega
+    plate, turned = speed * c.cos_shift - mu * c.a_z / c.omega, speed * c.sin_shift
+    fall = mu * c.gravity - segment.sigma * c.downhill
     for n in range(ORDER + 1):
         series[SCRATCH, n] = plate * series[at + SINE, n] + mu * series[at + V, n] - fall * series[at + T, n]
+    if turned != 0.0:  # not on the paper's conveyor, which a longer loop would delay
+        for n in range(ORDER + 1):
+            series[SCRATCH, n] += turned * series[at + COSINE, n]
     series[SCRATCH, 0] = 0.0
     series[SCRATCH, 0] = segment.sigma * slip - polynomial.value(series, SCRATCH, segment.s)
     return polynomial.first_root(series, SCRATCH, segment.s, step.piece.length, leave)
@@ -60,16 +83,18 @@ def slip_end(c, step, segment, slip, leave):
 
 @spliced
 def stick_end(c, step, segment):
-    """Where, in the rest of a contact step, |ẍ_s| outgrows μ F_c/m, and whether it stays so until the end.
+    """Where, in the rest of a contact step, |ẍ_s + g sin α| outgrows μ_s F_c/m, and whether it stays so until the end.
 
-    |ẍ_s| = a_x |cos θ| has one branch where cos θ has the same sign at both ends. The answer is infinity where the part
-    sticks on. While |ẍ_s| > μ F_c/m the slip that begins cannot end.
+    On a level track |ẍ_s| = a_x |cos(θ + ε)| has one branch where the cosine has the same sign at both ends. The answer
+    is infinity where the part sticks on. While |ẍ_s + g sin α| > μ_s F_c/m the slip that begins cannot end.
     """
     series, at, length = step.series, step.at, step.piece.length
     end, lasting = math.inf, False
+    first, last = along(c, segment.sine, segment.cosine)[1], along(c, step.piece.sine, step.piece.cosine)[1]
     for direction in (-1.0, 1.0):
-        if direction * segment.cosine <= 0.0 or direction * step.piece.cosine <= 0.0:
-            expand_force(c, series, at, c.friction, direction * c.a_x, c.friction * c.rest_force)
+        if c.downhill != 0.0 or direction * first <= 0.0 or direction * last <= 0.0:
+            slack = c.static_friction * c.rest_force + direction * c.downhill
+            expand_force(c, series, at, c.static_friction, direction * c.a_x, slack)
             root = polynomial.first_root(series, SCRATCH, segment.s, length, polynomial.LEAVE)
             if root < end:
                 for n in range(ORDER):
@@ -80,12 +105,12 @@ def stick_end(c, step, segment):
 
 
 @inlined
-def direction_at_rest(c, plate_acceleration, force, mu):
+def direction_at_rest(c, pull, force, mu):
     """Sign of the slip that follows when the slip velocity is zero, or 0 for stick (Filippov's condition).
 
-    plate_acceleration : ẍ_s, m/s²; force : F_c/m, m/s²; mu : friction coefficient that acts
+    pull : ẍ_s + g sin α, m/s²; force : F_c/m, m/s²; mu : coefficient of static friction that acts
     """
     # The little that the force may lack keeps a part that barely touches from sticking and slipping without end.
-    if mu > 0.0 and abs(plate_acceleration) <= mu * (force + c.rest_force):
+    if mu > 0.0 and abs(pull) <= mu * (force + c.rest_force):
         return 0.0
-    return math.copysign(1.0, plate_acceleration)
+    return math.copysign(1.0, pull)

@@ -48,11 +48,21 @@ def note(record, events, time, kind):
 
 @inlined
 def slip_direction(c, sine, cosine, vx, force, mu):
-    """Sign of the slip of a part with the velocity ẋ = vx at a phase, 0 for stick; `force` is F_c/m (m/s²)."""
-    slip = c.a_x / c.omega * sine - vx
+    """Sign of the slip of a part with the velocity ẋ = vx at a phase, 0 for stick.
+
+    force : F_c/m, m/s²; mu : coefficient of static friction
+    """
+    slip = c.a_x / c.omega * friction.along(c, sine, cosine)[0] - vx
     if slip == 0.0:
-        return friction.direction_at_rest(c, c.a_x * cosine, force, mu)
+        return friction.direction_at_rest(c, friction.pull(c, sine, cosine), force, mu)
     return math.copysign(1.0, slip)
+
+
+@inlined
+def slid(c, x, vx, tau):
+    """x (m) and ẋ (m/s) after the time tau (s) in which gravity alone acts along the track."""
+    fall = c.downhill * tau
+    return x + vx * tau - 0.5 * fall * tau, vx - fall
 
 
 @inlined
@@ -60,10 +70,13 @@ def moved(c, segment, tau, sine, cosine, z, vz):
     """x (m) and ẋ (m/s) of the part after the time tau (s) of a segment, at which the vertical motion is z, vz."""
     speed = c.a_x / c.omega
     if segment.sigma == 0.0:
-        return segment.x - speed / c.omega * (cosine - segment.cosine), speed * sine
-    pull = segment.sigma * segment.mu
+        sine_x, cosine_x = friction.along(c, sine, cosine)
+        begin = friction.along(c, segment.sine, segment.cosine)[1]
+        return segment.x - speed / c.omega * (cosine_x - begin), speed * sine_x
+    rub = segment.sigma * segment.mu
     path = z - segment.z - segment.vz * tau + 0.5 * c.gravity * tau * tau
-    return segment.x + segment.vx * tau + pull * path, segment.vx + pull * (vz - segment.vz + c.gravity * tau)
+    x, vx = slid(c, segment.x, segment.vx, tau)
+    return x + rub * path, vx + rub * (vz - segment.vz + c.gravity * tau)
 
 
 @spliced
@@ -78,11 +91,12 @@ def segment_end(c, step, segment, released, fastest, leave):
     if segment.sigma == 0.0:
         return friction.stick_end(c, step, segment)
     speed_x, speed_z = c.a_x / c.omega, c.a_z / c.omega
-    slip = speed_x * segment.sine - segment.vx
+    begin = friction.along(c, segment.sine, segment.cosine)[0]
+    slip = speed_x * begin - segment.vx
     turn = piece.sine - segment.sine
     ahead = piece.duration - segment.t
     gain = speed_z * turn - piece.v + segment.v + c.gravity * ahead
-    plate = segment.sigma * speed_x * turn
+    plate = segment.sigma * speed_x * (friction.along(c, piece.sine, piece.cosine)[0] - begin)
     if friction.keeps_slipping(c, segment, piece, segment.sigma * slip, plate, gain, fastest):
         return math.inf, False
     return friction.slip_end(c, step, segment, slip, leave), False
@@ -99,7 +113,7 @@ def sample_contact(c, step, segment, tau, sample):
     w, v = value(series, at + contact.W, s), value(series, at + contact.V, s)
     z, vz = -speed_z / c.omega * cosine - w * w, speed_z * sine - v
     force = 0.0 if motion.pulled and c.tension == TENSION_CLIP else contact.force(c, w, v)
-    rub = c.a_x * cosine if segment.sigma == 0.0 else segment.sigma * segment.mu * force
+    rub = friction.pull(c, sine, cosine) if segment.sigma == 0.0 else segment.sigma * segment.mu * force
     sample[X], sample[VX] = moved(c, segment, tau - segment.t, sine, cosine, z, vz)
     sample[Z], sample[VZ] = z, vz
     sample[CONTACT_FORCE] = c.mass * force
@@ -158,10 +172,11 @@ def feed(c, step, horizontal, feeding, record, sampled, events):
         if not changed or segments == MAX_SEGMENTS:
             break
         if sigma == 0.0:
-            sigma = math.copysign(1.0, cosine)
+            sigma = math.copysign(1.0, friction.pull(c, sine, cosine))
             kind = SLIP
         else:
-            sigma = friction.direction_at_rest(c, c.a_x * cosine, contact.force(c, w, v), segment.mu)
+            mu = 0.0 if motion.pulled else c.static_friction
+            sigma = friction.direction_at_rest(c, friction.pull(c, sine, cosine), contact.force(c, w, v), mu)
             kind = STICK if sigma == 0.0 else SLIP_REVERSAL
         if sigma == segment.sigma:
             # No reversal: the slip cannot be told from zero here, and leaves it further on.
@@ -170,6 +185,6 @@ def feed(c, step, horizontal, feeding, record, sampled, events):
             leave = LEAVE
             events = note(record, events, begin + t, kind)
         # The part has the velocity of the plate here, exactly.
-        vx = speed_x * sine
+        vx = speed_x * friction.along(c, sine, cosine)[0]
         segment = Segment(sigma, segment.mu, x, vx, s, t, sine, cosine, z, vz, w, v)
     return Horizontal(x, vx, sigma), sampled, events, segments

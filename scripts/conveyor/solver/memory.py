@@ -23,7 +23,8 @@ CLOSE = 0.1
 # Columns of a kept step: its beginning, then what was found.
 BEGIN_T, BEGIN_W, BEGIN_V, BEGIN_SINE, BEGIN_COSINE, PULLED = range(6)
 DURATION, LENGTH, END, END_W, END_V, END_SINE, END_COSINE = range(6, 13)
-COLUMNS = 13
+PEAK = 13  # largest contact force per mass (m/s²); NaN until somebody asks for it
+COLUMNS = 14
 
 
 # What is kept: the series of PLACES steps, a workspace (see contact), and the columns above, shape (PLACES, COLUMNS).
@@ -83,6 +84,7 @@ def keep(kept, place, motion, piece):
     step[BEGIN_SINE], step[BEGIN_COSINE] = motion.sine, motion.cosine
     step[DURATION], step[LENGTH], step[END] = piece.duration, piece.length, piece.end
     step[END_W], step[END_V], step[END_SINE], step[END_COSINE] = piece.w, piece.v, piece.sine, piece.cosine
+    step[PEAK] = np.nan
 
 
 @inlined

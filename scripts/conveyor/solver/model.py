@@ -1,12 +1,16 @@
 """The conveyor and the part: parameters with their units, and the excitation (Eqs. 1-12 and 15 of the paper).
 
-The plate moves harmonically, the part is a point mass. With θ = ωt + ψ0 and ω = 2πf,
+The axis x runs along the track, which rises in the feeding direction by the inclination α, and z is normal to it. The
+plate moves harmonically, along the track with a phase shift ε; the part is a point mass. With θ = ωt + ψ0 and ω = 2πf,
 
-    z_s = -(a_z/ω²) cos θ,   ż_s = (a_z/ω) sin θ,   z̈_s = a_z cos θ,   ẋ_s = (a_x/ω) sin θ.
+    z_s = -(a_z/ω²) cos θ,         ż_s = (a_z/ω) sin θ,         z̈_s = a_z cos θ,
+    x_s = -(a_x/ω²) cos(θ + ε),    ẋ_s = (a_x/ω) sin(θ + ε),    ẍ_s = a_x cos(θ + ε).
 
 With the gap q = z_p - z_s, the contact force acts while q ≤ 0:
 
-    F_c = k_c (-q)^p - d_c q̇,   m z̈_p = -m g + F_c,   m ẍ_p = μ F_c sign(ẋ_s - ẋ_p).
+    F_c = k_c (-q)^p - d_c q̇,   m z̈_p = -m g cos α + F_c,   m ẍ_p = -m g sin α + μ F_c sign(ẋ_s - ẋ_p).
+
+The part sticks while |ẍ_s + g sin α| ≤ μ_s F_c/m. The paper's conveyor has α = ε = 0 and μ_s = μ.
 """
 
 import math
@@ -28,6 +32,9 @@ from ..parameters import PARAMETERS, RANGES, TENSION_MODES, UNITS
     MASS,
     EXPONENT,
     GRAVITY,
+    INCLINATION,
+    PHASE_SHIFT,
+    STATIC_FRICTION,
     TENSION,
     Z0,
     VZ0,
@@ -47,6 +54,13 @@ def check_parameter(name: str, value: float) -> float:
     return float(value)
 
 
+def check_static_friction(friction: float, static_friction: float) -> None:
+    """ValueError if a part would start to slide at a lower coefficient than it slides with."""
+    if static_friction < friction:
+        remedy = "give at least the friction, or leave static_friction out"
+        raise ValueError(f"static_friction = {static_friction!r} is below friction = {friction!r}; {remedy}")
+
+
 @dataclass(frozen=True, slots=True)
 class Conveyor:
     """A vibrating plate, the part on it and their contact. SI units; the defaults are those of the paper's Sect. 3.
@@ -59,17 +73,20 @@ class Conveyor:
     psi0 : phase of the excitation at t = 0, rad
     stiffness : contact stiffness k_c, N/m^p
     damping : contact damping d_c, N s/m
-    friction : friction coefficient μ, 1
+    friction : coefficient μ of sliding friction, 1
     mass : mass of the part, kg
     exponent : exponent p of the contact law, in [1, 3] (1 Hooke, 1.5 Hertz)
     gravity : gravitational acceleration g, m/s²
+    inclination : angle α by which the track rises in the feeding direction, rad
+    phase_shift : phase ε by which the plate's motion along the track leads its motion normal to it, rad
+    static_friction : coefficient μ_s up to which the part sticks, at least `friction`; None: equal to it
     tension : what happens while damping outweighs stiffness (F_c < 0): "allow" keeps Eqs. 7 and 11 as written,
         "frictionless" lets the contact pull but not rub, "clip" sets F_c = max(F_c, 0)
 
     Raises
     ------
     ValueError
-        names the parameter that is outside its range
+        names the parameter that is outside its range, or a static_friction below friction
     """
 
     acceleration: float = 40.0
@@ -82,11 +99,17 @@ class Conveyor:
     mass: float = 0.7e-3
     exponent: float = 1.5
     gravity: float = 9.81
+    inclination: float = 0.0
+    phase_shift: float = 0.0
+    static_friction: float | None = None
     tension: str = "allow"
 
     def __post_init__(self):
         for name, value in zip(PARAMETERS, numbers_of(self), strict=False):
-            check_parameter(name, value)
+            if value is not None or name != "static_friction":
+                check_parameter(name, value)
+        if self.static_friction is not None:
+            check_static_friction(self.friction, self.static_friction)
         if not isinstance(self.tension, str) or self.tension not in TENSION_MODES:
             raise ValueError(f"tension = {self.tension!r} is not one of {', '.join(TENSION_MODES)}")
 
@@ -108,14 +131,37 @@ class Start:
 
 
 def pack(conveyor: Conveyor, start: Start) -> np.ndarray:
-    """The parameter vector, float64, shape (13,), in the order of PARAMETERS; z0 is NaN for a start on the conveyor."""
+    """The parameter vector, float64, shape (16,), in the order of PARAMETERS.
+
+    z0 is NaN for a start on the conveyor, and static_friction a number in every case.
+    """
     z0 = math.nan if start.z == "conveyor" else start.z
+    *numbers, static_friction = numbers_of(conveyor)
+    static_friction = conveyor.friction if static_friction is None else static_friction
     tension = TENSION_MODES.index(conveyor.tension)
-    return np.array([*numbers_of(conveyor), tension, z0, start.vz], dtype=np.float64)
+    return np.array([*numbers, static_friction, tension, z0, start.vz], dtype=np.float64)
+
+
+def set_columns(rows: np.ndarray, values: dict[str, np.ndarray | float]) -> None:
+    """Write `values` of parameters, numbers or of shape (n,), into packed parameters, shape (n, 16).
+
+    A new friction without a new static_friction is the static friction, too.
+
+    Raises
+    ------
+    ValueError
+        for a static_friction below friction
+    """
+    for name, column in values.items():
+        rows[:, PARAMETERS.index(name)] = column
+    if "friction" in values and "static_friction" not in values:
+        rows[:, STATIC_FRICTION] = rows[:, FRICTION]
+    for row in rows[rows[:, STATIC_FRICTION] < rows[:, FRICTION]][:1].tolist():
+        check_static_friction(row[FRICTION], row[STATIC_FRICTION])
 
 
 def unpack(parameters: np.ndarray) -> tuple[Conveyor, Start]:
-    """The inverse of `pack`."""
+    """The inverse of `pack`; static_friction is the number that acts."""
     *numbers, tension, z0, vz0 = (float(value) for value in parameters)
     return Conveyor(*numbers, TENSION_MODES[int(tension)]), Start("conveyor" if math.isnan(z0) else z0, vz0)
 
@@ -127,8 +173,8 @@ def conveyor_motion(conveyor: Conveyor, times: np.ndarray) -> dict[str, np.ndarr
     a_z = conveyor.acceleration * math.sin(conveyor.angle)
     a_x = conveyor.acceleration * math.cos(conveyor.angle)
     return {
-        "x": -(a_x / omega**2) * np.cos(phase),
-        "vx": (a_x / omega) * np.sin(phase),
+        "x": -(a_x / omega**2) * np.cos(phase + conveyor.phase_shift),
+        "vx": (a_x / omega) * np.sin(phase + conveyor.phase_shift),
         "z": -(a_z / omega**2) * np.cos(phase),
         "vz": (a_z / omega) * np.sin(phase),
     }

@@ -9,7 +9,7 @@ from collections import namedtuple
 
 import numpy as np
 
-from . import contact, memory
+from . import contact, memory, peaks
 from .contact import FORCE_SIGN, NOTHING, SEPARATION
 from .flight import highest_gap
 from .horizontal import (
@@ -30,6 +30,7 @@ from .horizontal import (
     Z,
     feed,
     note,
+    slid,
     slip_direction,
 )
 from .jit import borrowed, inlined, kernel, spliced
@@ -62,8 +63,10 @@ def patience(c):
 
 
 # Columns of the results of runs: the status code, numbers of events and of impacts, the time with contact force (s),
-# the largest gap (m), numbers of contact steps that were computed and repeated.
-CODE, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, STEPS, REPEATS = range(7)
+# the largest gap (m), numbers of contact steps that were computed and repeated; the largest speed of approach at an
+# impact (m/s) and the largest contact force (N) between the last two times of a run, 0 where there is none.
+CODE, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, STEPS, REPEATS, IMPACT_SPEED, PEAK_FORCE = range(9)
+RESULTS = 9
 
 # The arguments of `integrate` that are the same for all runs.
 Options = namedtuple("Options", "tolerance feeding reuse")
@@ -83,7 +86,7 @@ def integrate(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13), see model.PARAMETERS
+    parameters : float64, shape (n, 16), see model.PARAMETERS
     times : float64, shape (n, k), s, ascending, ≥ 0; a run ends at its last one
     tolerance : relative error per step of the contact
     feeding : whether the horizontal motion is wanted; without it its columns are NaN
@@ -92,11 +95,11 @@ def integrate(
 
     Returns
     -------
-    samples, results : float64, shape (n, k, 6), the columns horizontal.SAMPLES (m, m/s, N); shape (n, 7), see above
+    samples, results : float64, shape (n, k, 6), the columns horizontal.SAMPLES (m, m/s, N); shape (n, 9), see above
     """
     times = np.ascontiguousarray(times)  # `follow` would be compiled, for seconds, for every other layout
     n, k = times.shape
-    samples, results = np.empty((n, k, len(SAMPLES))), np.empty((n, REPEATS + 1))
+    samples, results = np.empty((n, k, len(SAMPLES))), np.empty((n, RESULTS))
     if event_times is None or event_kinds is None:
         event_times, event_kinds = np.empty((n, 0)), np.empty((n, 0), np.int8)
     # Plain tuples: numba takes several microseconds of each call to see the type of a named one.
@@ -129,7 +132,7 @@ def follow(parameters, options, records, results, room):
 @spliced
 def sample_flight(c, motion, horizontal, tau, sample):
     """Fill a `sample`, shape (6,), at the time tau (s) of a flight."""
-    sample[X], sample[VX] = horizontal.x + horizontal.vx * tau, horizontal.vx
+    sample[X], sample[VX] = slid(c, horizontal.x, horizontal.vx, tau)
     sample[Z], sample[VZ] = motion.z + (motion.vz - 0.5 * c.gravity * tau) * tau, motion.vz - c.gravity * tau
     sample[CONTACT_FORCE] = sample[FRICTION_FORCE] = 0.0
 
@@ -144,6 +147,20 @@ def note_end(record, events, time, piece, pulled, motion):
     return events
 
 
+@spliced
+def peak_of_step(c, kept, place, at, motion, piece, first, last):
+    """Largest F_c/m (m/s²) of the contact step in a place, between the times `first` and `last` (s) since it began."""
+    if first > 0.0 or last < piece.duration:
+        return peaks.largest_force_between(c, kept.series, at, piece, first, last)
+    found = kept.steps[place, memory.PEAK]
+    if math.isnan(found):
+        found = peaks.largest_force_at_ends(c, motion, piece)
+        if not peaks.is_monotonic(c, motion, piece):
+            found = peaks.largest_force(c, kept.series, at, 0.0, piece.length)
+        kept.steps[place, memory.PEAK] = found
+    return found
+
+
 @inlined
 def next_cycle(c, motion, piece):
     """The same Motion in the cycle in which a Piece ends, and the number of cycles that begin until then."""
@@ -156,12 +173,13 @@ def next_cycle(c, motion, piece):
 
 @spliced
 def follow_part(parameters, options, record, result, kept):
-    """Follow the part of a row of `parameters`, shape (13,); fill its Record and `result`, shape (7,)."""
+    """Follow the part of a row of `parameters`, shape (16,); fill its Record and `result`, shape (9,)."""
     memory.clear(kept)
     c = contact.constants(parameters, options.tolerance)
     most = patience(c)
     times, samples = record.times, record.samples
     end = times[-1]
+    since = times[-2] if times.size > 1 else 0.0
     offset = ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega
     cycle = 0
     base = -offset
@@ -170,9 +188,9 @@ def follow_part(parameters, options, record, result, kept):
     horizontal = Horizontal(0.0, 0.0, 0.0)
     if motion.touching:
         force = contact.force(c, motion.w, motion.v)
-        horizontal = Horizontal(0.0, 0.0, slip_direction(c, motion.sine, motion.cosine, 0.0, force, c.friction))
+        horizontal = Horizontal(0.0, 0.0, slip_direction(c, motion.sine, motion.cosine, 0.0, force, c.static_friction))
     sampled = events = impacts = steps = repeats = pieces = lone = place = 0
-    contact_time = 0.0
+    contact_time = impact_speed = peak_force = 0.0
     max_gap = max(q, 0.0)
     status = OK
 
@@ -205,13 +223,19 @@ def follow_part(parameters, options, record, result, kept):
             if sampled == times.size:
                 break
             impacts += 1
+            if ends >= since:
+                impact_speed = max(impact_speed, piece.v)
             events = note(record, events, ends, IMPACT)
         elif piece.kind == CONTACT:
+            here = place
             place = min(place + 1, memory.PLACES - 1)
             if not (motion.pulled and c.tension == TENSION_CLIP):
                 # A repeated step has the duration of the one it repeats; what counts is where the cycle ends.
                 lasts = c.period - motion.t if piece.end == LIMIT else piece.duration
                 contact_time += min(lasts, end - begins)
+                if ends > since:
+                    force = peak_of_step(c, kept, here, at, motion, piece, since - begins, end - begins)
+                    peak_force = max(peak_force, force)
             step = Step(kept.series, at, motion, piece, begins)
             horizontal, sampled, events, segments = feed(c, step, horizontal, options.feeding, record, sampled, events)
             if sampled == times.size:
@@ -220,8 +244,8 @@ def follow_part(parameters, options, record, result, kept):
                 status = TOO_MANY_EVENTS
                 break
         if piece.kind != CONTACT:
-            x, vx, sigma = horizontal
-            horizontal = Horizontal(x + vx * piece.duration, vx, sigma)
+            x, vx = slid(c, horizontal.x, horizontal.vx, piece.duration)
+            horizontal = Horizontal(x, vx, horizontal.sigma)
         pulled = motion.pulled
         motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
         if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
@@ -237,7 +261,7 @@ def follow_part(parameters, options, record, result, kept):
         if piece.kind == FLIGHT and options.feeding:
             x, vx, _ = horizontal
             force = contact.force(c, motion.w, motion.v)
-            sigma = slip_direction(c, motion.sine, motion.cosine, vx, force, c.friction)
+            sigma = slip_direction(c, motion.sine, motion.cosine, vx, force, c.static_friction)
             horizontal = Horizontal(x, vx, sigma)
     if not options.feeding:
         samples[:, X] = samples[:, VX] = samples[:, FRICTION_FORCE] = np.nan
@@ -245,3 +269,5 @@ def follow_part(parameters, options, record, result, kept):
     result[CODE], result[EVENTS], result[IMPACTS] = status, events, impacts
     result[CONTACT_TIME], result[MAX_GAP] = contact_time, max_gap
     result[STEPS], result[REPEATS] = steps, repeats
+    is_known = status == OK
+    result[IMPACT_SPEED], result[PEAK_FORCE] = (impact_speed, c.mass * peak_force) if is_known else (np.nan, np.nan)

@@ -113,11 +113,14 @@ def fused(a: Vector, b: Vector | float, c: Vector | float) -> Vector:
 
 
 class Memory:
-    """The rows of an array of shape (rows, lanes), each a Vector; `arguments` of an intrinsic are lanes and array."""
+    """The rows of an array of shape (rows, lanes), each a Vector.
+
+    The first of the `arguments` of an intrinsic is lanes, the last one the array.
+    """
 
     def __init__(self, context, builder, signature, arguments):
-        lanes, array = signature.args
-        data = context.make_array(array)(context, builder, arguments[1]).data
+        lanes, *_, array = signature.args
+        data = context.make_array(array)(context, builder, arguments[-1]).data
         self.builder = builder
         self.start = builder.bitcast(data, ir.VectorType(FLOAT, lanes.literal_value).as_pointer())
 

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from . import contact, memory, trajectory
+from . import contact, memory, peaks, trajectory
 from .contact import FIRST, NOTHING
 from .contact_lanes import COSINE, END, LAPSE, LENGTH, SINE, V, W, enter, fetch, first_from, return_to_lane, room, step
 from .flight import highest_gap
@@ -39,8 +39,10 @@ LANES = 4
 # The row of a lane without a trajectory.
 NONE = -1
 # What is known of a lane's run: when it ends (s); the time at which its present cycle begins (s), and the number of the
-# cycle; pieces in the cycle, contact steps among them; time with contact force (s), largest gap (m), impacts.
-DURATION, BASE, CYCLE, PIECES, PLACE, CONTACT_TIME, MAX_GAP, IMPACTS = range(8)
+# cycle; pieces in the cycle, contact steps among them; time with contact force (s), largest gap (m), impacts; the time
+# (s) from which speeds of impacts (m/s) and contact forces per mass (m/s²) count, and the largest of both.
+DURATION, BASE, CYCLE, PIECES, PLACE, CONTACT_TIME, MAX_GAP, IMPACTS, SINCE, IMPACT_SPEED, PEAK_FORCE = range(11)
+COUNTS = 11
 # Steps that end this close to the end of a run, in cycles, are scalar: the last sample may lie in them.
 MARGIN = 1e-6
 # Steps that a lane may take: their number is looked at here.
@@ -61,31 +63,61 @@ def begin_cycle(c, run, steps, lane):
 
 
 @spliced
-def load(c, parameters, duration, run, steps, lane, kept):
-    """The Motion at the beginning of a trajectory, shape (13,), that comes into a lane."""
+def load(c, parameters, times, run, steps, lane, kept):
+    """The Motion at the beginning of a trajectory, shape (16,), that comes into a lane."""
     memory.forget(kept)
     enter(steps, lane, c, ANY)
     q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)
-    run[DURATION] = duration
-    run[CYCLE] = run[CONTACT_TIME] = run[IMPACTS] = 0.0
+    run[SINCE], run[DURATION] = times
+    run[CYCLE] = run[CONTACT_TIME] = run[IMPACTS] = run[IMPACT_SPEED] = run[PEAK_FORCE] = 0.0
     run[MAX_GAP] = max(q, 0.0)
     begin_cycle(c, run, steps, lane)
     return motion_at(c, q, rate, ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega, c.psi0)
 
 
 @spliced
-def finish_contact(c, kept, motion, piece, again, run, sample):
-    """Sample a run that ends within a contact step; one that is taken `again` has its series no longer."""
+def find_series(c, kept, again, run, steps, lane):
+    """Write the series of a lane's last step into the workspace; one that is taken `again` has it no longer."""
     if again:
         w, v, sine, cosine = memory.beginning(kept, int(run[PLACE]))
         contact.begin_step(c, kept.series, FIRST, w, v, sine, cosine, False)
+    else:
+        fetch(steps, lane, kept.series, FIRST)
+
+
+@spliced
+def peak_of_step(c, kept, motion, piece, again, run, steps, lane):
+    """Largest F_c/m (m/s²) of a lane's contact step where it counts, see trajectory.peak_of_step."""
+    begins, place = run[BASE] + motion.t, int(run[PLACE])
+    first, last = run[SINCE] - begins, run[DURATION] - begins
+    is_whole = not (first > 0.0 or last < piece.duration)
+    if is_whole:
+        found = kept.steps[place, memory.PEAK]
+        if not math.isnan(found):
+            return found
+        if peaks.is_monotonic(c, motion, piece):
+            found = peaks.largest_force_at_ends(c, motion, piece)
+            kept.steps[place, memory.PEAK] = found
+            return found
+    find_series(c, kept, again, run, steps, lane)
+    if is_whole:
+        found = peaks.largest_force(c, kept.series, FIRST, 0.0, piece.length)
+        kept.steps[place, memory.PEAK] = found
+        return found
+    return peaks.largest_force_between(c, kept.series, FIRST, piece, first, last)
+
+
+@spliced
+def finish_contact(c, kept, motion, piece, again, run, steps, lane, sample):
+    """Sample a run that ends within a contact step."""
+    find_series(c, kept, again, run, steps, lane)
     begins = run[BASE] + motion.t
     segment = first_segment(c, motion, Horizontal(0.0, 0.0, 0.0))
     sample_contact(c, Step(kept.series, FIRST, motion, piece, begins), segment, run[DURATION] - begins, sample)
 
 
 @spliced
-def count(c, kept, motion, piece, again, run, sample):
+def count(c, kept, motion, piece, again, run, steps, lane, sample):
     """Count a Piece as trajectory.follow_part does; what it leads to."""
     begins = run[BASE] + motion.t
     ends, end = begins + piece.duration, run[DURATION]
@@ -98,11 +130,15 @@ def count(c, kept, motion, piece, again, run, sample):
             sample_flight(c, motion, Horizontal(0.0, 0.0, 0.0), end - begins, sample)
             return OVER
         run[IMPACTS] += 1.0
+        if ends >= run[SINCE]:
+            run[IMPACT_SPEED] = max(run[IMPACT_SPEED], piece.v)
     elif piece.kind == CONTACT:
         lasts = c.period - motion.t if piece.end == LIMIT else piece.duration
         run[CONTACT_TIME] += min(lasts, end - begins)
+        if ends > run[SINCE]:
+            run[PEAK_FORCE] = max(run[PEAK_FORCE], peak_of_step(c, kept, motion, piece, again, run, steps, lane))
         if ends >= end:
-            finish_contact(c, kept, motion, piece, again, run, sample)
+            finish_contact(c, kept, motion, piece, again, run, steps, lane, sample)
             return OVER
         run[PLACE] = min(run[PLACE] + 1.0, memory.PLACES - 1)
     # Where the scalar code may give up, it decides.
@@ -112,7 +148,7 @@ def count(c, kept, motion, piece, again, run, sample):
 @spliced
 def advance(c, kept, motion, piece, again, run, steps, lane, sample):
     """What a Piece that begins with `motion` leads to, and the Motion at its end."""
-    answer = count(c, kept, motion, piece, again, run, sample)
+    answer = count(c, kept, motion, piece, again, run, steps, lane, sample)
     if answer == GOES_ON:
         motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
         if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
@@ -146,8 +182,8 @@ def side_by_side(lanes: int):
     """
 
     @kernel
-    def follow(parameters, tolerance, durations, samples, results, left, work):
-        parameters, durations, samples = borrowed(parameters), borrowed(durations), borrowed(samples)
+    def follow(parameters, tolerance, times, samples, results, left, work):
+        parameters, times, samples = borrowed(parameters), borrowed(times), borrowed(samples)
         results, left = borrowed(results), borrowed(left)
         steps, runs, rows = borrowed(work[0]), borrowed(work[1]), borrowed(work[2])
         series, kept_steps = borrowed(work[3]), borrowed(work[4])
@@ -173,6 +209,8 @@ def side_by_side(lanes: int):
                             results[i, trajectory.CODE] = trajectory.OK
                             results[i, trajectory.IMPACTS], results[i, trajectory.MAX_GAP] = run[IMPACTS], run[MAX_GAP]
                             results[i, trajectory.CONTACT_TIME] = run[CONTACT_TIME]
+                            results[i, trajectory.IMPACT_SPEED] = run[IMPACT_SPEED]
+                            results[i, trajectory.PEAK_FORCE] = c.mass * run[PEAK_FORCE]
                     if answer != GOES_ON:
                         waiting = first_from(waiting, parameters, tolerance, left)
                         if waiting == len(parameters):
@@ -183,7 +221,7 @@ def side_by_side(lanes: int):
                         waiting += 1
                         running |= 1 << lane
                         c = constants[lane] = contact.constants(parameters[i], tolerance)
-                        motion = load(c, parameters[i], durations[i], run, steps, lane, kept)
+                        motion = load(c, parameters[i], times[i], run, steps, lane, kept)
                     place = int(run[PLACE])
                     again = motion.touching and memory.repeats(c, kept, place, motion)
                     if again:
@@ -204,22 +242,21 @@ def side_by_side(lanes: int):
 
 
 def integrate(
-    parameters: np.ndarray, durations: np.ndarray, *, tolerance: float, lanes: int = LANES
+    parameters: np.ndarray, times: np.ndarray, *, tolerance: float, lanes: int = LANES
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Follow parts for `durations` (s, shape (n,)) and sample them at the end, without the horizontal motion.
+    """Follow parts and sample them at the end, without the horizontal motion.
 
-    Parameters and results are those of trajectory.integrate with one time each, with samples of the shape (n, 6);
-    numbers of events and steps are not counted (NaN).
+    Parameters and results are those of trajectory.integrate with two `times` each, shape (n, 2), but samples, of the
+    shape (n, 6), are of the second time only; numbers of events and steps are not counted (NaN).
     """
     n = len(parameters)
-    samples, results = np.empty((n, len(SAMPLES))), np.full((n, trajectory.REPEATS + 1), np.nan)
+    samples, results = np.empty((n, len(SAMPLES))), np.full((n, trajectory.RESULTS), np.nan)
     left = np.full(n, n < lanes)
     if n >= lanes:
         steps = np.empty((lanes, memory.PLACES, memory.COLUMNS))
-        work = (room(lanes), np.empty((lanes, 8)), np.full(lanes, NONE), contact.workspace(), steps)
-        side_by_side(lanes)(parameters, tolerance, durations, samples, results, left, work)
+        work = (room(lanes), np.empty((lanes, COUNTS)), np.full(lanes, NONE), contact.workspace(), steps)
+        side_by_side(lanes)(parameters, tolerance, times, samples, results, left, work)
     if left.any():
-        times = durations[left, np.newaxis]
-        found, results[left] = trajectory.integrate(parameters[left], times, tolerance=tolerance, feeding=False)
-        samples[left] = found[:, 0]
+        found, results[left] = trajectory.integrate(parameters[left], times[left], tolerance=tolerance, feeding=False)
+        samples[left] = found[:, 1]
     return samples, results

@@ -1,1 +1,1 @@
-"""The page to play with: solver, drawing, and what puts them into one file."""
+"""The companion: solver, drawing, and the script that puts them into one HTML file."""

@@ -1,4 +1,4 @@
-"""The companion: one HTML file that computes the motion of the part by itself, offline."""
+"""The companion: one HTML file that computes the trajectory of a part in the browser, offline."""
 
 import base64
 import json
@@ -7,12 +7,14 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from conveyor.solver.model import PARAMETERS, RANGES
+from conveyor.parameters import PARAMETERS, RANGES, TANGENTIAL
 from figures import style
 
 HERE = Path(__file__).parent
-# What page.html is filled with; each stands there as the only comment of its name.
-PARTS = ("page.css", "solver.js", "page.js")
+# Files that go into page.html, each in place of the comment with its name.
+SOLVER = ("polynomials", "conveyor", "flight", "contact", "friction", "trajectory", "attractor", "euler")
+SCRIPTS = ("shared", "controls", "state_maps", "plots", "scene", "page")
+PARTS = ("page.css", *(f"solver/{name}.js" for name in SOLVER), *(f"{name}.js" for name in SCRIPTS))
 STATES = tuple(style.STATE_COLOURS)
 LAST = 0.25  # share of the run over which the paper takes mean velocities (Sect. 3.1)
 
@@ -34,14 +36,14 @@ def encode(table: pd.DataFrame) -> dict:
     """
     names = list(table.attrs["axes"])
     if len(names) != 2:
-        raise ValueError(f"a state map has two axes, this sweep has {', '.join(names)}")
+        raise ValueError(f"a state map needs two axes, but this sweep has {', '.join(names)}; change companion.maps")
     y, x = names if names[0] == "psi0" else reversed(names)
     codes = table.assign(code=table.state.map(STATES.index)).pivot(index=y, columns=x, values="code")
     axes = {}
     for place, name, values in (("x", x, codes.columns.to_numpy()), ("y", y, codes.index.to_numpy())):
         even = np.linspace(values[0], values[-1], len(values))
         if len(values) < 2 or not np.allclose(values, even, rtol=0.0, atol=1e-6 * (even[1] - even[0])):
-            raise ValueError(f"the values of {name} are not evenly spaced")
+            raise ValueError(f"the values of {name} must be evenly spaced for a map of the interactive page")
         axes[place] = {"name": name, "start": float(values[0]), "stop": float(values[-1]), "num": len(values)}
     flat = codes.to_numpy().astype(np.uint8).ravel()
     fours = np.pad(flat, (0, -len(flat) % 4)).reshape(-1, 4)
@@ -65,8 +67,10 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
     """
     own = settings["companion"]
     data = {
-        "model": {name: settings["model"][name] for name in PARAMETERS},
+        # The static friction coefficient is null where it equals the friction coefficient.
+        "model": {name: settings["model"].get(name) for name in PARAMETERS},
         "ranges": RANGES,
+        "tangential": TANGENTIAL,
         "solver": {name: settings["solver"][name] for name in ("duration", "step")},
         "tolerance": own["tolerance"],
         "cycles": own["cycles"],
@@ -86,8 +90,8 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
     for name, part in parts.items():
         mark = f"/* {name} */"
         if text.count(mark) != 1:
-            raise ValueError(f"page.html has {text.count(mark)} places for {name}")
+            raise ValueError(f"page.html must have one mark {mark}, but has {text.count(mark)}")
         if "</script" in part or "</style" in part:
-            raise ValueError(f"{name} would end its own element")
+            raise ValueError(f"{name} contains </script or </style, which would end its own element")
         text = text.replace(mark, part)
     return text

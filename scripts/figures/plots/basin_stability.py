@@ -2,6 +2,7 @@
 
 import numpy as np
 import pandas as pd
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.collections import LineCollection
@@ -27,40 +28,46 @@ def ends_of(amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate([amplitudes[:1], between]), np.concatenate([between, amplitudes[-1:]])
 
 
-def vertical_axis(axes: Axes, shares: pd.DataFrame) -> Axis:
-    """An axis above for the largest vertical acceleration of the plate, in g."""
+def throw_axis(axes: Axes, shares: pd.DataFrame) -> Axis:
+    """An axis above for the throw number."""
     unit = shares.acceleration.iloc[0] / shares.vertical.iloc[0]
     above = axes.secondary_xaxis("top", functions=(lambda x: x / unit, lambda x: x * unit))
-    above.set_xlabel("vertical acceleration $a_z$ in g")
+    above.set_xlabel(style.THROW_NUMBER)
     return above
+
+
+def draw_motions(axes: Axes, shares: pd.DataFrame, over: str) -> None:
+    """Draw the velocity of each motion over a column of the table, as thick as its share of the starts."""
+    places = np.sort(shares[over].unique())
+    begin, end = ends_of(places)
+    pieces = [
+        [(begin[k], velocity), (end[k], velocity)]
+        for k, velocity in zip(np.searchsorted(places, shares[over]), shares.mean_velocity, strict=True)
+    ]
+    colours = shares.state.map(style.STATE_COLOURS)
+    # Without smoothed edges, which would leave hairlines between the pieces.
+    axes.add_collection(LineCollection(pieces, linewidths=width(shares.share), colors=colours, antialiaseds=False))
+    axes.set_xlim(places[0], places[-1])
+
+
+def share_handles(states: set[str]) -> list[Artist]:
+    """Handles of a legend of states and of shares of the starts."""
+    handles = [Patch(color=colour, label=state) for state, colour in style.STATE_COLOURS.items() if state in states]
+    handles += [Line2D([], [], color="0.3", linewidth=width(share), label=f"{100.0 * share:g} %") for share in SHOWN]
+    return [*handles, Patch(color="none", label="of the starts")]
 
 
 def plot(*, shares: pd.DataFrame) -> Figure:
     """Draw the shares of the starts in each motion."""
     figure = style.figure(style.PAGE, 92.0)
     axes = figure.subplots()
-    amplitudes = np.sort(shares.acceleration.unique())
-    begin, end = ends_of(amplitudes)
-    place = np.searchsorted(amplitudes, shares.acceleration)
-    pieces = [
-        [(begin[k], velocity), (end[k], velocity)] for k, velocity in zip(place, shares.mean_velocity, strict=True)
-    ]
-    colours = shares.state.map(style.STATE_COLOURS)
-    # Without smoothed edges, which would leave hairlines between the pieces.
-    axes.add_collection(LineCollection(pieces, linewidths=width(shares.share), colors=colours, antialiaseds=False))
+    draw_motions(axes, shares, "acceleration")
     axes.axhline(0.0, color="black", linewidth=0.6, zorder=0)
-    axes.set_xlim(amplitudes[0], amplitudes[-1])
     low, high = shares.mean_velocity.min(), shares.mean_velocity.max()
     axes.set_ylim(min(0.0, low) - 0.05 * (high - low), high + 0.08 * (high - low))
     axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel(style.VELOCITY)
-    vertical_axis(axes, shares)
-    handles = [
-        Patch(color=style.STATE_COLOURS[state], label=state)
-        for state in style.STATE_COLOURS
-        if state in set(shares.state)
-    ]
-    handles += [Line2D([], [], color="0.3", linewidth=width(share), label=f"{100.0 * share:g} %") for share in SHOWN]
-    handles.append(Patch(color="none", label="of the starts"))
+    throw_axis(axes, shares)
+    handles = share_handles(set(shares.state))
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), columnspacing=1.2)
     return figure

@@ -5,8 +5,9 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from conveyor.analysis import throw_theory
 from figures import style
-from figures.plots.basin_stability import ends_of, vertical_axis
+from figures.plots.basin_stability import ends_of, throw_axis
 from operating.regimes import BESIDE, CHAOS, ONE, SEVERAL, UNKNOWN, best_of
 
 LOOKS = {
@@ -30,7 +31,7 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
     strip.set_yticks([])
     strip.spines[["left", "bottom"]].set_visible(False)
     strip.tick_params(bottom=False)
-    vertical_axis(strip, shares)
+    throw_axis(strip, shares)
 
     by_amplitude = shares.groupby("acceleration")
     best = best_of(shares, shares.attrs["same_velocity"])
@@ -43,6 +44,7 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
     velocities.plot(
         amplitudes, by_amplitude.mean_velocity.min(), color="0.5", linewidth=0.8, linestyle=":", label="slowest motion"
     )
+    velocities.plot(amplitudes, throw_theory.mean_velocity(amplitudes, **shares.attrs["model"]), **style.TEXTBOOK)
     velocities.axhline(0.0, color="black", linewidth=0.4, zorder=0)
     velocities.set_ylabel(style.VELOCITY)
 

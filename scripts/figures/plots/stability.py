@@ -1,122 +1,84 @@
-"""Where methods stop working: maps of the outcome over the step, and other ways to fail."""
+"""At which step the paper's method leaves the right state of motion, and that this solver has no such limit."""
 
+import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure, SubFigure
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from figures import style
+from figures.plots.stability_details import AXES, OUTCOMES
 
-OUTCOMES = {"right": "#BFD9EA", "wrong state": "#F3D9A0", "energy grows": "#D55E00", "blow-up": "#444444"}
-AXES = {
-    "stiffness": "stiffness in N/m",
-    "damping": "damping in N s/m",
-    "impact velocity": "impact velocity in m/s",
-    "conveyor": "amplitude $\\hat{a}$ in m/s²",
+TITLES = {
+    "stiffness": "stiffness of the contact",
+    "damping": "damping of the contact",
+    "impact velocity": "velocity of an impact",
+    "conveyor": "amplitude of the conveyor",
 }
-LIMIT = {"color": "black", "linewidth": 1.2, "linestyle": (0, (4, 2))}
-PAPER = {"marker": "*", "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.6, "markersize": 8.0}
-EDGES = {"stiffness": "o", "damping": "s", "impact velocity": "^"}
-SMALLEST = 1e-18  # of a slip on a logarithmic axis
+LIMITS = ("euler", "semi_implicit_euler", "rk4")  # lines of these methods, as far as the table has them
+OWN_ROW = 2.5  # times the largest step: where the solver's line lies
 
 
-def draw_map(axes: Axes, rows: pd.DataFrame, panel: str) -> None:
-    """Outcome over the step and one other quantity, with the theoretical limit of stability."""
-    style.class_map(axes, rows.pivot(index="y", columns="x", values="outcome"), OUTCOMES)
-    theory = rows.groupby("y").theory.first()
-    axes.plot(theory, theory.index, **LIMIT)
-    axes.set_xscale("log")
-    axes.set_yscale("linear" if panel == "conveyor" else "log")
-    axes.set_xlim(rows.x.min(), rows.x.max())
+def last_right(rows: pd.DataFrame) -> pd.Series:
+    """For each value the largest step (s) up to which every step ends in the right state; NaN where none does."""
+
+    def limit(steps: pd.DataFrame) -> float:
+        steps = steps.sort_values("x")
+        kept = steps.x[(steps.outcome == "right").cummin()]
+        return kept.max() if len(kept) else np.nan
+
+    return rows.groupby("y")[["x", "outcome"]].apply(limit)
 
 
-def draw_maps(figure: SubFigure, table: pd.DataFrame, acceleration: float) -> None:
-    """A row of maps for each quantity, a column for each method; the paper's step at its amplitude (m/s²)."""
-    methods = table.attrs["methods"]
-    panels = figure.subplots(len(AXES), len(methods), sharex=True, sharey="row", squeeze=False)
-    for row, panel in zip(panels, AXES, strict=True):
-        for axes, method in zip(row, methods, strict=True):
-            draw_map(axes, table[(table.panel == panel) & (table.method == method)], panel)
-        row[0].set_ylabel(AXES[panel])
-    panels[-1, 0].plot(table.attrs["paper_step"], acceleration, **PAPER)
-    for axes, method in zip(panels[0], methods, strict=True):
-        axes.set_title(style.METHODS[method][1])
-    for axes in panels[-1]:
-        axes.set_xlabel("step in s")
+def draw_panel(axes: Axes, rows: pd.DataFrame, panel: str, methods: list[str], paper_step: float) -> None:
+    """Outcomes of the paper's method over one quantity and the step, and limits of all methods."""
+    euler = rows[rows.method == "euler"]
+    style.class_map(axes, euler.pivot(index="x", columns="y", values="outcome"), OUTCOMES)
+    for method in methods:
+        limits = last_right(rows[rows.method == method])
+        wide = method == "euler"
+        axes.plot(limits.index, limits, color=style.METHODS[method][0], linewidth=2.0 if wide else 1.0)
+    own = rows[rows.method == "event"].sort_values("y")
+    top = OWN_ROW * euler.x.max()
+    right = own.y.where(own.outcome == "right")
+    axes.plot(right, np.full(len(own), top), color=style.CONVERGED, linewidth=4.0, solid_capstyle="butt")
+    axes.axhline(paper_step, color="black", linewidth=0.8, linestyle=(0, (4, 2)))
+    axes.set_yscale("log")
+    axes.set_xscale("linear" if panel == "conveyor" else "log")
+    axes.set_xlim(euler.y.min(), euler.y.max())
+    axes.set_ylim(euler.x.min(), 2.0 * top)
+    axes.set_title(TITLES[panel])
+    axes.set_xlabel(AXES[panel])
 
 
-def draw_edges(axes: Axes, table: pd.DataFrame) -> None:
-    """Measured limits in units of those in theory."""
-    for panel, marker in EDGES.items():
-        for method in table.attrs["methods"]:
-            rows = table[(table.panel == f"edge: {panel}") & (table.method == method)]
-            look = {"color": style.METHODS[method][0], "markersize": 2.5, "markeredgewidth": 0.0}
-            axes.plot(rows.theory, rows.x / rows.theory, marker, **look)
-    axes.axhspan(0.8, 1.2, color="0.93")
-    axes.set_xscale("log")
-    axes.set_ylim(0.7, 1.3)
-    axes.set_xlabel("limit in theory in s")
-    axes.set_ylabel("relative limit, measured")
-    axes.legend(
-        handles=[
-            Line2D([], [], linestyle="", marker=marker, color="0.4", label=name) for name, marker in EDGES.items()
-        ],
-        loc="lower right",
-        handletextpad=0.0,
-        labelspacing=0.2,
-        borderaxespad=0.0,
-    )
-
-
-def draw_chatter(axes: Axes, table: pd.DataFrame) -> None:
-    """Slip of a part that should stick, over the step."""
-    for method, label in {"euler": "Euler", "event": "this solver"}.items():
-        rows = table[(table.panel == "chatter") & (table.method == method)]
-        axes.loglog(rows.x, rows.y.clip(lower=SMALLEST), ".-", color=style.METHODS[method][0])
-        style.note(axes, label, (rows.x.iloc[0], rows.y.iloc[0]), (0, 5))
-    axes.set_xlabel("step in s")
-    axes.set_ylabel("slip in stick in m/s")
-
-
-def draw_hard(axes: Axes, table: pd.DataFrame) -> None:
-    """Errors in hard cases; the outcome of Euler beside its point."""
-    cases = [panel for panel in dict.fromkeys(table.panel) if panel.startswith("hard")]
-    for place, case in enumerate(cases):
-        rows = table[table.panel == case].set_index("method")
-        for method in ("euler", "event"):
-            axes.semilogx(rows.y[method], place, "o", color=style.METHODS[method][0], markersize=4.0)
-        style.note(
-            axes,
-            f"{case.removeprefix('hard: ')}; Euler: {rows.outcome['euler']}",
-            (0.02, place),
-            (0, 4),
-            xycoords=("axes fraction", "data"),
-        )
-    axes.set_ylim(len(cases) - 0.5, -0.9)
-    axes.set_xlim(1e-15, 1e2)
-    axes.set_xticks([1e-14, 1e-10, 1e-6, 1e-2])
-    axes.set_yticks([])
-    axes.spines.left.set_visible(False)
-    axes.set_xlabel("relative error of the height")
+def handles(methods: list[str]) -> list[Patch | Line2D]:
+    """Of the legend: outcomes of the paper's method, limits of all methods, the solver."""
+    names = {"right": "the paper's method: right"}
+    areas = [Patch(color=colour, label=names.get(outcome, outcome)) for outcome, colour in OUTCOMES.items()]
+    lines = [
+        Line2D([], [], color=style.METHODS[method][0], linewidth=2.0 if method == "euler" else 1.0)
+        for method in methods
+    ]
+    for line, method in zip(lines, methods, strict=True):
+        line.set_label(f"limit of {style.METHODS[method][1]}")
+    own = Line2D([], [], color=style.CONVERGED, linewidth=4.0, label="this solver: right, without a limit")
+    step = Line2D([], [], color="black", linewidth=0.8, linestyle=(0, (4, 2)), label="the paper's step")
+    return [*areas, *lines, own, step]
 
 
 def plot(*, stability: pd.DataFrame, acceleration: float) -> Figure:
-    """Draw the maps of all methods at one `acceleration` (m/s²), and their limits."""
-    figure = style.figure(style.PAGE, 225.0)
-    above, below = figure.subfigures(2, 1, height_ratios=[3.6, 1.0])
-    draw_maps(above, stability, acceleration)
-    edges, chatter, hard = below.subplots(1, 3)
-    draw_edges(edges, stability)
-    draw_chatter(chatter, stability)
-    draw_hard(hard, stability)
-    handles = [Patch(color=colour, label=outcome) for outcome, colour in OUTCOMES.items()]
-    handles.append(Line2D([], [], **LIMIT, label="limit in theory"))
-    handles.append(Line2D([], [], linestyle="", **PAPER, label="the paper"))
-    above.legend(handles=handles, loc="outside upper center", ncols=6)
-    handles = [
-        Line2D([], [], linestyle="", marker="o", color=colour, label=name)
-        for colour, name in (style.METHODS[method] for method in (*stability.attrs["methods"], "event"))
-    ]
-    below.legend(handles=handles, loc="outside upper center", ncols=4)
+    """Draw a panel for each quantity; the paper's step at its amplitude, `acceleration` (m/s²)."""
+    figure = style.figure(style.PAGE, 130.0)
+    panels = figure.subplots(2, 2, sharey=True)
+    methods = [method for method in LIMITS if method in stability.attrs["methods"]]
+    paper_step = stability.attrs["paper_step"]
+    for axes, panel in zip(panels.flat, AXES, strict=True):
+        draw_panel(axes, stability[stability.panel == panel], panel, methods, paper_step)
+    panels[1, 1].plot(
+        acceleration, paper_step, "*", color="white", markeredgecolor="black", markeredgewidth=0.6, markersize=9.0
+    )
+    for axes in panels[:, 0]:
+        axes.set_ylabel("step in s")
+    figure.legend(handles=handles(methods), loc="outside upper center", ncols=3)
     return figure

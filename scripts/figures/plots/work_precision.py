@@ -116,6 +116,13 @@ def handles(scenes: list[pd.DataFrame]) -> list[Line2D]:
     return [*known, *treated, paper]
 
 
+def gap(scenes: list[pd.DataFrame]) -> str:
+    """A line that names the peers that were not installed; empty if all were."""
+    everything = pd.concat(scenes)
+    missing = dict.fromkeys(everything[everything.outcome == MISSING].method)
+    return f"\nnot installed, so not shown: {', '.join(missing)}" if missing else ""
+
+
 def draw_estimates(axes: Axes, rows: pd.DataFrame, work: str, error: str) -> None:
     """Error over work of the estimates of one quantity."""
     colours = (style.EULER, "black", style.CONVERGED)
@@ -156,7 +163,7 @@ def plot(
                 axes.set_xlabel(label)
         row[0].set_ylabel(f"{name}\nrelative error")
     upper.legend(handles=handles([jumping, riding, bouncing]), loc="outside upper center", ncols=4)
-    upper.supxlabel(MEANINGS, size=7.0)
+    upper.supxlabel(MEANINGS + gap([jumping, riding, bouncing]), size=7.0)
     for axes, (quantity, labels) in zip(lower.subplots(1, len(QUANTITIES)), QUANTITIES.items(), strict=True):
         draw_estimates(axes, estimates[estimates.quantity == quantity], *labels)
     return figure

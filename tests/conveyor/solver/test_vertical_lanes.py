@@ -10,15 +10,22 @@ from conveyor.solver.model import PSI0, STIFFNESS, TENSION_MODES, Z0, pack
 
 TOLERANCE = 1e-8
 COUNTED = [trajectory.CODE, trajectory.IMPACTS, trajectory.CONTACT_TIME, trajectory.MAX_GAP]
+COUNTED += [trajectory.IMPACT_SPEED, trajectory.PEAK_FORCE]
+
+
+def last_quarters(durations):
+    return np.column_stack([0.75 * durations, durations])
 
 
 def one_by_one(parameters, durations):
-    samples, results = trajectory.integrate(parameters, durations[:, np.newaxis], tolerance=TOLERANCE, feeding=False)
-    return samples[:, 0, [Z, VZ, CONTACT_FORCE]], results[:, COUNTED]
+    times = last_quarters(durations)
+    samples, results = trajectory.integrate(parameters, times, tolerance=TOLERANCE, feeding=False)
+    return samples[:, 1, [Z, VZ, CONTACT_FORCE]], results[:, COUNTED]
 
 
 def together(parameters, durations, lanes=vertical_lanes.LANES):
-    samples, results = vertical_lanes.integrate(parameters, durations, tolerance=TOLERANCE, lanes=lanes)
+    times = last_quarters(durations)
+    samples, results = vertical_lanes.integrate(parameters, times, tolerance=TOLERANCE, lanes=lanes)
     return samples[:, [Z, VZ, CONTACT_FORCE]], results[:, COUNTED]
 
 

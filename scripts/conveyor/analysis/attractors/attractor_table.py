@@ -17,14 +17,14 @@ CONVEYOR = [place for place in range(len(PARAMETERS)) if place not in INITIAL_CO
 
 
 def without_initial_conditions(parameters: np.ndarray) -> np.ndarray:
-    """The conveyors of rows, shape (n, 13): their phases and initial conditions are zero."""
+    """The conveyors of rows, shape (n, 16): their phases and initial conditions are zero."""
     conveyors = np.array(parameters, dtype=np.float64)
     conveyors[:, INITIAL_CONDITION] = 0.0
     return conveyors
 
 
 def distinct_conveyors(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The conveyors of rows, shape (n, 13), sorted, shape (m, 13), and the number of each row's, int64, shape (n,)."""
+    """The conveyors of rows, shape (n, 16), sorted, shape (m, 16), and the number of each row's, int64, shape (n,)."""
     # In most ensembles rows of one conveyor follow each other; rows are slow to sort, and to copy.
     follows = np.arange(len(parameters)) > 0
     for column in CONVEYOR:
@@ -35,9 +35,9 @@ def distinct_conveyors(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def find_places(conveyors: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """Where each of the `wanted` conveyors, shape (n, 13), finds what is known of it: int64, shape (n, 2).
+    """Where each of the `wanted` conveyors, shape (n, 16), finds what is known of it: int64, shape (n, 2).
 
-    conveyors : float64, shape (m, 13), of what is known, equal ones side by side
+    conveyors : float64, shape (m, 16), of what is known, equal ones side by side
     Returns the first place, and the one behind the last; 0, 0 where nothing is known.
     """
     found = {}
@@ -50,7 +50,7 @@ def find_places(conveyors: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 class AttractingOrbits(NamedTuple):
     """m periodic orbits, each with a trapping region; those of one conveyor side by side."""
 
-    conveyors: np.ndarray  # float64, shape (m, 13), packed, their phases and initial conditions zero
+    conveyors: np.ndarray  # float64, shape (m, 16), packed, their phases and initial conditions zero
     centres: np.ndarray  # float64, shape (m, 2), δ (m) and Y (m/s) of a point at trajectory.BEGIN_OF_CYCLE
     factors: np.ndarray  # float64, shape (m, 3), upper triangle of R: the trapping region is |R (x - centre)| ≤ 1
     periods: np.ndarray  # int64, shape (m,), excitation cycles
@@ -60,7 +60,7 @@ class AttractingOrbits(NamedTuple):
 class ChaoticSets(NamedTuple):
     """m chaotic sets; those of one conveyor side by side."""
 
-    conveyors: np.ndarray  # float64, shape (m, 13), packed, their phases and initial conditions zero
+    conveyors: np.ndarray  # float64, shape (m, 16), packed, their phases and initial conditions zero
     low: np.ndarray  # float64, shape (m, 2), lower corner of the boxes: δ (m), v (m/s) at trajectory.BEGIN_OF_CYCLE
     size: np.ndarray  # float64, shape (m, 2), of a box
     cells: np.ndarray  # bool, shape (m, BOXES, BOXES): visited, or next to one that is
@@ -73,7 +73,7 @@ class AttractorTable(NamedTuple):
     chaotic: ChaoticSets
 
     def of(self, parameters: np.ndarray) -> np.ndarray:
-        """Where rows, shape (n, 13), find those of their conveyors: int64, shape (n, 4).
+        """Where rows, shape (n, 16), find those of their conveyors: int64, shape (n, 4).
 
         First orbit and the one behind the last one, first chaotic set and the one behind the last one.
         """
@@ -82,7 +82,7 @@ class AttractorTable(NamedTuple):
 
 
 def orbit_table(conveyor: np.ndarray, found: list[tuple[np.ndarray, np.ndarray, int, float]]) -> AttractingOrbits:
-    """The table of orbits of one conveyor, shape (13,), from the centre, factor, period and flight of each."""
+    """The table of orbits of one conveyor, shape (16,), from the centre, factor, period and flight of each."""
     centres, factors, periods, flights = zip(*found, strict=True) if found else ((), (), (), ())
     return AttractingOrbits(
         np.tile(conveyor, (len(found), 1)),
@@ -94,7 +94,7 @@ def orbit_table(conveyor: np.ndarray, found: list[tuple[np.ndarray, np.ndarray, 
 
 
 def chaotic_set_table(conveyor: np.ndarray, found: list[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> ChaoticSets:
-    """The table of chaotic sets of one conveyor, shape (13,), from the `low`, `size` and `cells` of each."""
+    """The table of chaotic sets of one conveyor, shape (16,), from the `low`, `size` and `cells` of each."""
     low, size, cells = zip(*found, strict=True) if found else ((), (), ())
     return ChaoticSets(
         np.tile(conveyor, (len(found), 1)),

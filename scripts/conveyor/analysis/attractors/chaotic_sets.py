@@ -31,7 +31,7 @@ def cover_by_boxes(strobes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndar
 def find_chaotic_sets(
     conveyors: np.ndarray, sampled: list[Trajectories], cycles: int, tolerance: float
 ) -> list[ChaoticSets]:
-    """The chaotic sets of conveyors, shape (n, 13): of motions that do not settle within twice `cycles`.
+    """The chaotic sets of conveyors, shape (n, 16): of motions that do not settle within twice `cycles`.
 
     A conveyor on which a trajectory settles late has none: then chaos is a transient, and every trajectory has to be
     followed to its own end. Trajectories of one conveyor follow each other, those of several run side by side.

@@ -45,7 +45,7 @@ class Labels(NamedTuple):
 def continued(
     parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, duration: float, *, out: np.ndarray | None = None
 ) -> np.ndarray:
-    """Parameter vectors, shape (n, 13), that go on where runs of `duration` (s) of `parameters` ended.
+    """Parameter vectors, shape (n, 16), that go on where runs of `duration` (s) of `parameters` ended.
 
     out : where they are written, which may be `parameters`; None for a new array
     """
@@ -72,7 +72,7 @@ def classify(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13), rows as from model.pack; after a run, those of `continued`
+    parameters : float64, shape (n, 16), rows as from model.pack; after a run, those of `continued`
     cycles : excitation cycles after which a trajectory that has not settled is followed no further
     known : attractors of conveyors; without them each trajectory is followed to its own end
     tolerance : of the contact steps

@@ -30,7 +30,7 @@ class Trajectories(NamedTuple):
 
 
 def initial_conditions(parameters: np.ndarray) -> np.ndarray:
-    """Initial conditions of one conveyor, shape (13,): (δ, v) in the air at the plate's top, shape (SAMPLES, 2).
+    """Initial conditions of one conveyor, shape (16,): (δ, v) in the air at the plate's top, shape (SAMPLES, 2).
 
     A part that leaves the plate has at most its speed and half of g T or so to jump over a cycle or two: their sum
     bounds the velocities, and what a part reaches with it the heights. The points are those of an R2 sequence.
@@ -51,7 +51,7 @@ def follow(
     known: AttractorTable = NO_ATTRACTORS,
     strobes: np.ndarray | None = None,
 ) -> Trajectories:
-    """Follow a trajectory on each of n conveyors, shape (n, 13), until it settles, for at most `cycles`.
+    """Follow a trajectory on each of n conveyors, shape (n, 16), until it settles, for at most `cycles`.
 
     states : float64, shape (n, 2), δ (m), v (m/s) at trajectory.BEGIN_OF_CYCLE
     strobes : float64, shape (n, cycles, 2), filled with the states after each cycle
@@ -67,7 +67,7 @@ def follow(
 
 
 def sample_conveyors(conveyors: np.ndarray, cycles: int, tolerance: float) -> list[Trajectories]:
-    """The trajectories of each of n conveyors, shape (n, 13), from its `initial_conditions`, for at most `cycles`."""
+    """The trajectories of each of n conveyors, shape (n, 16), from its `initial_conditions`, for at most `cycles`."""
     states = np.concatenate([initial_conditions(row) for row in conveyors])
     found = follow(np.repeat(conveyors, SAMPLES, axis=0), states, cycles, tolerance)
     return [

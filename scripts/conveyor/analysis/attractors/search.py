@@ -21,7 +21,7 @@ def find_attractors(
     threads: int = 1,
     progress: str | None = None,
 ) -> AttractorTable:
-    """The attractors of the conveyors in `parameters`, shape (n, 13), whatever their initial conditions are.
+    """The attractors of the conveyors in `parameters`, shape (n, 16), whatever their initial conditions are.
 
     Parameters
     ----------

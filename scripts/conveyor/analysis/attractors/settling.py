@@ -177,7 +177,7 @@ def settle(c, series, state, max_cycles, known, mine, strobes):
 
 @kernel
 def settle_points(parameters, tolerance, cycles, known, places, found, strobes):
-    """`settle` for rows of `parameters`, shape (n, 13), from their starts on.
+    """`settle` for rows of `parameters`, shape (n, 16), from their starts on.
 
     Parameters
     ----------

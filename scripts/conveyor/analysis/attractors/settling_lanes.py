@@ -90,7 +90,7 @@ def uncounted(known):
 
 @spliced
 def load(c, start, lane, steps, cycle, past, counts):
-    """The Motion at the beginning of a start, shape (13,), that comes into a lane with nothing left of others in it."""
+    """The Motion at the beginning of a start, shape (16,), that comes into a lane with nothing left of others in it."""
     enter(steps, lane, c, patience(c))
     forget(past, counts)
     counts[FOLLOWED] = ON_THE_WAY

@@ -108,7 +108,7 @@ def neighbourhood(
 
 
 def find_attracting_orbits(parameters: np.ndarray, trajectories: Trajectories, tolerance: float) -> AttractingOrbits:
-    """The attracting orbits of a conveyor, shape (13,), that trajectories have come to, each with a trapping region."""
+    """The attracting orbits of a conveyor, shape (16,), that trajectories have come to, each with a trapping region."""
     c = contact.constants(parameters, tolerance)
     unit = np.array([c.gravity / c.omega**2, c.gravity / c.omega])
     at_top = parameters.copy()

@@ -31,9 +31,9 @@ def find_crossings(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13), rows as from model.pack; their z0 is not used
+    parameters : float64, shape (n, 16), rows as from model.pack; their z0 is not used
     heights : z0 of the scan, m, ascending, shape (h,); stripes narrower than their distance may be missed
-    decide : state of motion, str, shape (m,), for parameters of shape (m, 13)
+    decide : state of motion, str, shape (m,), for parameters of shape (m, 16)
     resolution : width, m, to which a change is enclosed
     """
     heights = np.asarray(heights, dtype=np.float64)

@@ -27,7 +27,7 @@ class FirstImpact(NamedTuple):
 
 @kernel
 def fill_first_impacts(parameters, out):
-    """Fill the rows of `out`, shape (n, 3), for `parameters`, shape (n, 13)."""
+    """Fill the rows of `out`, shape (n, 3), for `parameters`, shape (n, 16)."""
     out[:] = np.nan
     for i in range(parameters.shape[0]):
         c = contact.constants(parameters[i], 1e-10)
@@ -45,14 +45,14 @@ def fill_first_impacts(parameters, out):
 
 
 def first_impacts(parameters: np.ndarray) -> FirstImpact:
-    """First impacts of the initial conditions in `parameters`, float64, shape (n, 13), rows as from model.pack."""
+    """First impacts of the initial conditions in `parameters`, float64, shape (n, 16), rows as from model.pack."""
     out = np.empty((len(parameters), 3))
     fill_first_impacts(np.ascontiguousarray(parameters, dtype=np.float64), out)
     return FirstImpact(*out.T)
 
 
 def on_conveyor(parameters: np.ndarray, impacts: FirstImpact) -> np.ndarray:
-    """The same motions, shape (n, 13), begun on the conveyor with phase and velocity of their first impacts."""
+    """The same motions, shape (n, 16), begun on the conveyor with phase and velocity of their first impacts."""
     mapped = np.array(parameters, dtype=np.float64)
     mapped[:, PSI0] = impacts.phase % (2.0 * math.pi)
     mapped[:, Z0] = math.nan

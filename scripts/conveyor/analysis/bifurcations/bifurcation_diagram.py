@@ -28,7 +28,7 @@ def follow_attractor(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13), rows as from model.pack, in order; only the first initial condition counts
+    parameters : float64, shape (n, 16), rows as from model.pack, in order; only the first initial condition counts
     transient : excitation cycles after each step that are not recorded
     strobes : excitation cycles that are
     tolerance : of the contact steps

@@ -55,7 +55,7 @@ def follow_branch(parameters: np.ndarray, orbit: Orbit, limits: tuple[float, flo
 
     Parameters
     ----------
-    parameters : float64, shape (13,); its amplitude is ignored
+    parameters : float64, shape (16,); its amplitude is ignored
     orbit : an orbit within the limits
     limits : lowest and highest â, m/s²
 
@@ -175,7 +175,7 @@ def explore(
 
     Parameters
     ----------
-    parameters : float64, shape (13,); its amplitude is ignored
+    parameters : float64, shape (16,); its amplitude is ignored
     seeds : orbits to begin with
     limits : lowest and highest â, m/s²
     max_period : longer orbits are left out

@@ -165,7 +165,7 @@ def settled_orbit(
 
     Parameters
     ----------
-    parameters : float64, shape (13,); its amplitude is ignored
+    parameters : float64, shape (16,); its amplitude is ignored
     acceleration : amplitude, m/s²
     state : δ (m) and v (m/s)
     periods : that are tried, in this order; the orbit is None if it has none of them

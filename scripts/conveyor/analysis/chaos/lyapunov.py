@@ -83,7 +83,7 @@ def spectrum(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13), rows as from model.pack
+    parameters : float64, shape (n, 16), rows as from model.pack
     states : float64, shape (n, 2), stroboscopic states to begin with (default: the initial conditions in `parameters`)
     begin_of_cycle : whether `states` are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
     transient : excitation cycles that are followed and not counted
@@ -136,7 +136,7 @@ def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threa
 
     Parameters
     ----------
-    parameters : float64, shape (n, 13), rows as from model.pack
+    parameters : float64, shape (n, 16), rows as from model.pack
     states : float64, shape (n, 2), stroboscopic states at trajectory.BEGIN_OF_CYCLE
     tolerance, threads : as in ensemble.run
     """
@@ -268,7 +268,7 @@ def finite_difference_estimate(
 
     Parameters
     ----------
-    parameters, perturbed : float64, shape (n, 13): the trajectories and their neighbours
+    parameters, perturbed : float64, shape (n, 16): the trajectories and their neighbours
     epsilon : size of the perturbation, in the unit of the perturbed parameter
     output : the signal that is compared, one of horizontal.SAMPLES
     last, samples : the mean is taken over `samples` equidistant times in the last part of the run

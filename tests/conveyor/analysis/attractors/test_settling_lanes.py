@@ -128,7 +128,7 @@ def test_flights_count_from_the_first_whole_cycle_on(cycles):
 
 
 def test_no_start_or_no_cycle_is_left_to_others():
-    assert together(np.empty((0, 13)), 10)[1].tolist() == []
+    assert together(np.empty((0, 16)), 10)[1].tolist() == []
     assert together(map_of(40.0, 3), 0)[1].tolist() == [True] * 3
 
 

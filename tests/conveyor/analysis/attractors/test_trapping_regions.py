@@ -103,7 +103,7 @@ def test_places_of_conveyors_in_any_order():
     assert places.tolist() == [[0, 0], [1, 3], [0, 1]]
     places = attractor_table.AttractorTable(table, attractor_table.NO_ATTRACTORS.chaotic).of(rows)
     assert [tuple(places[k]) for k in range(40)] == [{0: (0, 0), 1: (0, 0), 2: (0, 2)}[k] + (0, 0) for k in index]
-    assert attractor_table.distinct_conveyors(rows[:0])[0].shape == (0, 13)
+    assert attractor_table.distinct_conveyors(rows[:0])[0].shape == (0, 16)
 
 
 @pytest.mark.parametrize("name", [name for name in PARAMETERS if name not in ("psi0", "z0", "vz0")])

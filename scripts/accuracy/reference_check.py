@@ -1,0 +1,45 @@
+"""How far the reference of the charts, the solver at its tightest tolerance, meets a solution with many digits."""
+
+import numpy as np
+
+from accuracy import multiprecision
+from accuracy.precision import TRUTH, contact_changes, sample_times
+from conveyor.methods import peers
+from conveyor.simulation import simulate
+from pipeline import fields, grid
+
+TABLES = {
+    "reference_check": (
+        fields.text("quantity", "x, vx, z, vz at fixed times, or event: an impact or a separation"),
+        fields.number("time", "s", "time; of an event in the solution with many digits"),
+        fields.number("value", "m, m/s", "value in the solution with many digits; null for events"),
+        fields.number(
+            "difference", "1", "of the solver at its tightest tolerance, in units of the plate's motion; events: cycles"
+        ),
+    ),
+}
+
+
+def make(settings: dict) -> dict[str, np.ndarray]:
+    """The columns of the table, from the settings of a scene and the number of `digits`."""
+    conveyor, start = grid.conveyor_and_start(settings["model"])
+    times = sample_times(settings)
+    states, events = multiprecision.follow(conveyor, start, times, settings["digits"])
+    run = simulate(conveyor, start, duration=settings["duration"], tolerance=TRUTH)
+    own = run.sample(times)
+    scales = peers.scales(grid.packed(settings["model"]))
+    rows = [
+        {"quantity": name, "time": time, "value": value, "difference": (there - value) / scale}
+        for name, scale, column in zip(("x", "vx", "z", "vz"), scales, states.T, strict=True)
+        for time, value, there in zip(times, column, own[name], strict=True)
+    ]
+    found = contact_changes(run.events)
+    found = found[found <= times[-1]]
+    if len(found) != len(events):
+        raise RuntimeError(f"{len(events)} impacts and separations with many digits, {len(found)} by the solver")
+    differences = (found - events) * conveyor.frequency
+    rows += [
+        {"quantity": "event", "time": time, "value": np.nan, "difference": difference}
+        for time, difference in zip(events, differences, strict=True)
+    ]
+    return fields.columns(rows, TABLES["reference_check"])

@@ -1,0 +1,53 @@
+"""Factors in processor time between methods at equal error of the trajectory."""
+
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+OWN = "exact, nothing repeated"  # the solver with every step computed
+
+
+class Factor(NamedTuple):
+    """The solver against another run, at an error that both keep."""
+
+    method: str
+    error: float
+    milliseconds: float  # of the other run
+    own_milliseconds: float
+
+    @property
+    def ratio(self) -> float:
+        return self.milliseconds / self.own_milliseconds
+
+
+def timed(work: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
+    """Runs that end in the right state, with their processor times in `milliseconds`."""
+    return work.assign(milliseconds=1e3 * times.seconds)[work.outcome == "ok"]
+
+
+def fastest(runs: pd.DataFrame, error: float) -> pd.Series | None:
+    """The fastest of the runs that keep an error; None if none does."""
+    good = runs[runs.trajectory_error <= error]
+    return None if good.empty else good.loc[good.milliseconds.idxmin()]
+
+
+def paper_run(runs: pd.DataFrame, paper_step: float) -> pd.Series:
+    """The run of the paper's method with its step (s)."""
+    return runs[(runs.method == "euler") & np.isclose(runs.step, paper_step)].iloc[0]
+
+
+def factors(runs: pd.DataFrame, paper_step: float, equal_error: float) -> list[Factor]:
+    """The solver against the paper's run at its error, and against the fastest rival at `equal_error`.
+
+    A rival is any run that is not the solver's. The list is shorter where no run keeps an error.
+    """
+    own, others = runs[runs.treatment == OWN], runs[runs.method != "event"]
+    paper = paper_run(runs, paper_step)
+    pairs = [(paper.trajectory_error, paper), (equal_error, fastest(others, equal_error))]
+    found = []
+    for error, other in pairs:
+        solver = fastest(own, error)
+        if solver is not None and other is not None:
+            found.append(Factor(other.method, error, other.milliseconds, solver.milliseconds))
+    return found

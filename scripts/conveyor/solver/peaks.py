@@ -1,0 +1,96 @@
+"""The largest contact force, which tells with the speed of the impacts how gently a part is handled.
+
+At the ends of a contact step the force and its rate are closed forms. Where the rate changes its sign from positive to
+negative in between, the largest force lies at a root of the rate along the step's series.
+"""
+
+from . import contact
+from .jit import inlined, kernel
+from .polynomial import value
+from .vertical import invert_time
+
+# Relative accuracy of the place of the largest force: that of the force is its square.
+CLOSE = 1e-5
+MAX_ITERATIONS = 60
+# Halvings of a step behind an impact, in search of a place where the force rises.
+MAX_HALVINGS = 30
+
+
+@inlined
+def force_rate(c, w, v, cosine):
+    """Rate of the contact force per mass (m/s³) at w, v and a phase with the given cosine."""
+    stiffening = c.stiffness * c.exponent * v
+    if c.exponent == 1.5:
+        stiffening *= w
+    elif c.exponent != 1.0:
+        stiffening *= max(w, 0.0) ** (2.0 * c.exponent - 2.0)
+    return stiffening + c.damping * (c.gravity + c.a_z * cosine - contact.force(c, w, v))
+
+
+@inlined
+def force_and_rate(c, series, at, s):
+    """F_c/m (m/s²) and its rate (m/s³) at the place `s` of a contact step."""
+    w, v = value(series, at + contact.W, s), value(series, at + contact.V, s)
+    return contact.force(c, w, v), force_rate(c, w, v, value(series, at + contact.COSINE, s))
+
+
+@inlined
+def is_monotonic(c, motion, piece):
+    """Whether the force of a whole contact step, from `motion` to the end of its `piece`, is largest at an end."""
+    if force_rate(c, piece.w, piece.v, piece.cosine) >= 0.0:
+        return True
+    # Behind an impact the force of the damper may fall before that of the spring rises.
+    return force_rate(c, motion.w, motion.v, motion.cosine) <= 0.0 and motion.w != 0.0
+
+
+@kernel
+def largest_force(c, series, at, low, high):
+    """Largest F_c/m (m/s²) between the places `low` and `high` of a contact step."""
+    force_low, rate_low = force_and_rate(c, series, at, low)
+    force_high, rate_high = force_and_rate(c, series, at, high)
+    largest = max(force_low, force_high)
+    if rate_high >= 0.0 or (rate_low <= 0.0 and low > 0.0):
+        return largest
+    halvings = 0
+    while rate_low <= 0.0:
+        halvings += 1
+        if halvings > MAX_HALVINGS:
+            return largest
+        middle = 0.5 * high
+        _, rate = force_and_rate(c, series, at, middle)
+        if rate > 0.0:
+            low, rate_low = middle, rate
+        else:
+            high, rate_high = middle, rate
+    # False position, of which the end that stays counts half (the Illinois algorithm).
+    side, last = 0, low
+    for _ in range(MAX_ITERATIONS):
+        s = low + (high - low) * rate_low / (rate_low - rate_high)
+        force, rate = force_and_rate(c, series, at, s)
+        largest = max(largest, force)
+        if abs(s - last) <= CLOSE * s:
+            break
+        last = s
+        if rate > 0.0:
+            low, rate_low = s, rate
+            rate_high *= 0.5 if side == 1 else 1.0
+            side = 1
+        else:
+            high, rate_high = s, rate
+            rate_low *= 0.5 if side == -1 else 1.0
+            side = -1
+    return largest
+
+
+@inlined
+def largest_force_at_ends(c, motion, piece):
+    """The larger F_c/m (m/s²) at the ends of a whole contact step."""
+    return max(contact.force(c, motion.w, motion.v), contact.force(c, piece.w, piece.v))
+
+
+@kernel
+def largest_force_between(c, series, at, piece, first, last):
+    """Largest F_c/m (m/s²) of a contact step between the times `first` and `last` (s) since it began."""
+    low = 0.0 if first <= 0.0 else invert_time(series, at, piece.length, first)
+    high = piece.length if last >= piece.duration else invert_time(series, at, piece.length, last)
+    return largest_force(c, series, at, low, high)

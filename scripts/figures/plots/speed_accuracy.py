@@ -1,0 +1,93 @@
+"""One chart of speed and accuracy: error of the trajectory over processor time in the jumping scene."""
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from accuracy import speed
+from figures import style
+
+# Method, treatment of events, name, the end of the curve at which the name stands, its offset in points, its alignment.
+CURVES = (
+    ("event", speed.OWN, "this solver", "last", (0, -8), "center"),
+    ("euler", "fixed step", "the paper's method\n(explicit Euler)", "first", (4, 4), "left"),
+    ("rk4", "fixed step", "RK4, fixed step", "last", (4, 0), "left"),
+    ("DOP853", "modes", "SciPy DOP853", "last", (5, 0), "left"),
+    ("CyRK DOP853", "modes", "CyRK\nDOP853", "last", (0, -13), "center"),
+    ("CVODE Adams", "modes", "SUNDIALS\nCVODE", "last", (5, -4), "left"),
+    ("heyoka", "modes", "heyoka", "last", (0, -8), "center"),
+)
+SMALLEST = 1e-15
+
+
+def draw_curve(axes: Axes, rows: pd.DataFrame, method: str, name: str, end: str, offset: tuple, align: str) -> None:
+    """Errors over times of one method, with its name at one end."""
+    colour, _ = style.METHODS[method]
+    rows = rows.sort_values("trajectory_error", ascending=False)
+    own = method == "event"
+    axes.plot(
+        rows.milliseconds,
+        rows.trajectory_error.clip(lower=SMALLEST),
+        "o-",
+        color=colour,
+        markersize=3.5 if own else 2.5,
+        linewidth=2.0 if own else 1.0,
+        zorder=3 if own else 2,
+    )
+    at = rows.iloc[0 if end == "first" else -1]
+    weight = "bold" if own else "normal"
+    style.note(
+        axes,
+        name,
+        (at.milliseconds, max(at.trajectory_error, SMALLEST)),
+        offset,
+        color=colour,
+        ha=align,
+        va="center",
+        weight=weight,
+    )
+
+
+def draw_factor(axes: Axes, factor: speed.Factor, text: str) -> None:
+    """An arrow at equal error from another run to the solver, with the factor between their times."""
+    axes.annotate(
+        "",
+        (factor.own_milliseconds, factor.error),
+        (factor.milliseconds, factor.error),
+        arrowprops={"arrowstyle": "-|>", "color": "black", "linewidth": 1.0, "shrinkA": 0.0, "shrinkB": 2.0},
+        zorder=4,
+    )
+    middle = (factor.own_milliseconds * factor.milliseconds) ** 0.5
+    label = f"{float(f'{factor.ratio:.2g}'):g}× {text}"
+    style.note(axes, label, (middle, factor.error), (0, 3), ha="center", va="bottom", weight="bold")
+
+
+def plot(*, jumping: pd.DataFrame, jumping_times: pd.DataFrame, paper_step: float, equal_error: float) -> Figure:
+    """Draw the chart with a ring around the paper's step (s), and factors at its error and at `equal_error`."""
+    figure = style.figure(140.0, 88.0)
+    axes = figure.subplots()
+    runs = speed.timed(jumping, jumping_times)
+    for method, treatment, *label in CURVES:
+        rows = runs[(runs.method == method) & (runs.treatment == treatment)]
+        if len(rows):
+            draw_curve(axes, rows, method, *label)
+    paper = speed.paper_run(runs, paper_step)
+    axes.plot(paper.milliseconds, paper.trajectory_error, "o", markersize=9.0, color=style.EULER, fillstyle="none")
+    style.note(
+        axes, "the paper's step", (paper.milliseconds, paper.trajectory_error), (8, 3), color=style.EULER, va="bottom"
+    )
+    versus = ("the paper's method", "the best rival")
+    for factor in speed.factors(runs, paper_step, equal_error):
+        of_paper = factor.error == paper.trajectory_error
+        draw_factor(axes, factor, f"faster than\n{versus[0] if of_paper else versus[1]}")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_ylim(SMALLEST / 10.0, 10.0)
+    axes.set_yticks([1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1.0])
+    axes.minorticks_off()
+    axes.set_xticks([0.1, 1.0, 10.0, 100.0, 1000.0], ["0.1 ms", "1 ms", "10 ms", "0.1 s", "1 s"])
+    axes.set_xlim(0.05, 4000.0)
+    axes.grid(linewidth=0.3, color="0.9")
+    axes.set_xlabel("processor time for one second of motion")
+    axes.set_ylabel("error of the trajectory\nin units of the plate's motion")
+    return figure

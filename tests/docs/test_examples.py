@@ -1,0 +1,19 @@
+"""The Python sessions that pages of the site show give what the pages say."""
+
+import doctest
+import re
+
+import pytest
+from project import ROOT
+
+PAGES = ("tutorial", "library")
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_sessions_give_what_the_page_says(page):
+    text = (ROOT / f"workflow/templates/site/{page}.md").read_text(encoding="utf-8")
+    sessions = re.findall(r"^```pycon\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+    assert sessions
+    # One session: what a block defines is there in the next one.
+    test = doctest.DocTestParser().get_doctest("\n".join(sessions), {}, page, None, None)
+    assert doctest.DocTestRunner().run(test).failed == 0

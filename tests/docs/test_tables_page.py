@@ -1,0 +1,30 @@
+"""The page of tables has every table of every stage, where the workflow puts it."""
+
+import re
+
+from project import ROOT, read_config
+
+from docs import tables_page
+from workflow.config.tables import kind_of, references
+
+SCRIPTS = ROOT / "scripts"
+
+
+def test_every_module_with_tables_is_listed():
+    files = [file for file in SCRIPTS.rglob("*.py") if re.search(r"^TABLES = \{", file.read_text(), re.MULTILINE)]
+    found = {".".join(file.relative_to(SCRIPTS).with_suffix("").parts) for file in files}
+    assert {module.__name__ for module in tables_page.MODULES} == found
+
+
+def test_files_are_those_of_the_workflow():
+    for reference in references(read_config()):
+        kind, name = kind_of(reference), reference.split("/")[1]
+        # A scene of the section `precision` has a table of its own kind.
+        file = tables_page.file_of(kind).replace("NAME", name)
+        assert file == f"results/{reference.removeprefix('results/')}.parquet"
+
+
+def test_columns_have_units_and_meanings():
+    page = tables_page.make((ROOT / "workflow/templates/tables.md").read_text(encoding="utf-8"))
+    assert "| `mean_velocity` | m/s | mean feeding velocity over the last quarter" in page
+    assert "| `z0` | m |" in page

@@ -1,0 +1,63 @@
+"""Velocities over inclination and phase shift: symmetries, single runs, and where friction cannot hold a part."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+from project import read_config
+
+from conveyor import Start, simulate
+from conveyor.solver.model import Conveyor
+from operating import track
+
+SETTINGS = {
+    **{key: value for key, value in read_config("operating")["operating"].items() if key != "resolution"},
+    **read_config("operating")["track"],
+    "settling": 2000,
+    "model": {"friction": 0.15},
+}
+
+
+def make(**settings) -> pd.DataFrame:
+    return pd.DataFrame(track.make({**SETTINGS, **settings})).set_index(["inclination", "state", "phase_shift"])
+
+
+@pytest.fixture(scope="module")
+def table() -> pd.DataFrame:
+    return make(inclination=[-0.05, 0.0, 0.05, 0.2], phase_shift=[-math.pi, 0.0, 1.0, math.pi])
+
+
+@pytest.mark.parametrize(("inclination", "phase_shift"), [(0.0, 0.0), (0.05, 0.0), (0.0, 1.0)])
+def test_velocities_are_those_of_single_runs(table, inclination, phase_shift):
+    conveyor = Conveyor(acceleration=40.0, inclination=inclination, phase_shift=phase_shift)
+    for state, height in (("first", 0.0), ("second", 3e-4)):
+        alone = simulate(conveyor, Start(height), duration=4.0).mean_velocity()
+        assert table.mean_velocity[inclination, state, phase_shift] == pytest.approx(alone, abs=3e-5)
+
+
+def test_a_turn_of_the_phase_shift_changes_nothing_and_half_a_turn_mirrors_a_level_track(table):
+    level = table.mean_velocity[0.0]
+    for state in track.STATES:
+        assert level[state, -math.pi] == pytest.approx(level[state, math.pi], abs=1e-9)
+        assert level[state, math.pi] == pytest.approx(-level[state, 0.0], abs=1e-9)
+
+
+def test_mirroring_a_track_mirrors_the_velocity(table):
+    for state in track.STATES:
+        assert table.mean_velocity[0.05, state, math.pi] == pytest.approx(
+            -table.mean_velocity[-0.05, state, 0.0], abs=1e-9
+        )
+
+
+def test_a_track_steeper_than_friction_holds_has_no_velocity(table):
+    steep = table.loc[0.2]
+    assert math.tan(0.2) > 0.15
+    assert (steep.status == track.SLIDES_AWAY).all()
+    assert steep.mean_velocity.isna().all()
+    assert np.isfinite(table.drop(index=0.2, level=0).mean_velocity).all()
+
+
+def test_static_friction_holds_parts_on_steeper_tracks():
+    found = make(inclination=[0.2], phase_shift=[0.0], model={"friction": 0.15, "static_friction": 0.3})
+    assert (found.status != track.SLIDES_AWAY).all()
