@@ -8,8 +8,8 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import beta
 
-from conveyor.methods import fixed_step
-from conveyor.simulation import DEFAULT_TOLERANCE, simulate
+from conveyor.methods import fixed_step, peers
+from conveyor.simulation import DEFAULT_TOLERANCE, Run, simulate
 from conveyor.solver.model import Conveyor, Start, conveyor_motion, pack
 from conveyor.solver.progress import bar
 from pipeline import fields, grid
@@ -19,20 +19,22 @@ TABLES = {
         fields.text(
             "panel", "stiffness, damping, impact velocity, conveyor; edge of one of them; chatter; or hard and a case"
         ),
-        fields.text("method", "euler, semi_implicit_euler, rk4 or event"),
-        fields.number("x", "see panel", "step in s; hard: number of events"),
+        fields.text("method", "euler, semi_implicit_euler, rk4, event, or in hard cases a rival"),
+        fields.number("x", "see panel", "step in s, null for event; hard: number of events"),
         fields.number(
             "y",
             "see panel",
             "stiffness in N/m, damping in N s/m, velocity in m/s, conveyor: amplitude in m/s²; chatter: slip in m/s; "
             "hard: relative error of the height at the end",
         ),
-        fields.text("outcome", "right, wrong state, energy grows or blow-up"),
+        fields.text("outcome", "right, wrong state, energy grows or blow-up; of a rival also its own failure"),
         fields.number("theory", "s", "largest stable step in theory; null where there is none"),
     ),
 }
 
 RIGHT, WRONG, GROWS, BLOWS_UP = "right", "wrong state", "energy grows", "blow-up"
+THROUGH = "through the plate"
+SUNK = 1e-3  # m: a part so far below its right height has fallen through the plate
 # What is varied beside the step, and how its values are spaced.
 PANELS = {"stiffness": np.geomspace, "damping": np.geomspace, "impact velocity": np.geomspace, "conveyor": np.linspace}
 TRUTH = 1e-13  # tolerance of the solver where it is the reference
@@ -290,8 +292,17 @@ def chatter_rows(settings: dict) -> list[dict]:
     return rows
 
 
-def hard_rows(settings: dict, step: float) -> list[dict]:
-    """The event-driven solver and Euler in hard cases: relative error of the height at the end.
+def outcome_of_rival(run: peers.Summary, error: float, truth: Run) -> str:
+    """What becomes of a part by another integrator in a hard case: its own status where it failed by that."""
+    if run.status != "ok":
+        return run.status
+    if run.z < truth.z_end - SUNK:
+        return THROUGH
+    return RIGHT if error < COARSE else WRONG
+
+
+def hard_rows(settings: dict, step: float, rivals: dict) -> list[dict]:
+    """The event-driven solver, Euler and rivals in hard cases: relative error of the height at the end.
 
     The truth is the solver at a tolerance of 1e-13; in each case it has the same events at both tolerances.
     """
@@ -313,11 +324,17 @@ def hard_rows(settings: dict, step: float) -> list[dict]:
         else:
             outcome = RIGHT if error < COARSE else WRONG
         rows.append(row(f"hard: {case['label']}", "euler", truth.event_count, error, outcome))
+        for name in rivals["integrators"]:
+            budget = rivals["tolerance"], rivals["max_evaluations"]
+            run = peers.run(pack(conveyor, start), case["duration"], name, "modes", *budget)
+            error = abs(run.z - truth.z_end) / scale
+            outcome = outcome_of_rival(run, error, truth)
+            rows.append(row(f"hard: {case['label']}", name, truth.event_count, error, outcome))
     return rows
 
 
 def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table of stability."""
     rows = region_rows(settings, progress) + own_rows(settings) + chatter_rows(settings)
-    rows += hard_rows(settings["hard"], settings["paper_step"])
+    rows += hard_rows(settings["hard"], settings["paper_step"], settings["rivals"])
     return fields.columns(rows, TABLES["stability"])

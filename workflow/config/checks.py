@@ -154,7 +154,6 @@ def runs_with_step(config: dict) -> Iterator[tuple[str, float, float, float]]:
         yield f"stability_estimates.exponent.steps[{place}]", step, exponent["duration"], frequency
     for place, step in enumerate(precision["steps"]):
         yield f"precision.steps[{place}]", step, precision["duration"], frequency
-        yield f"precision.steps[{place}]", step, precision["sample_interval"], frequency
     for name, case in config["benchmark"]["cases"].items():
         run = config["solver"] | case
         yield key(f"benchmark.cases.{name}", case), run["step"], run["duration"], frequency
@@ -328,9 +327,23 @@ def tighter_names(config: dict) -> Iterator[str]:
                 yield f"{section}.{name} has the name of a table of tighter tolerances (uncertainty.claims); rename it"
 
 
+def precision(config: dict, defaults: dict) -> Iterator[str]:
+    precision = config["precision"]
+    interval, scene = precision["sample_interval"], precision["reference"]["scene"]
+    for place, step in enumerate(precision["steps"]):
+        whole = max(1, round(interval / step))
+        if abs(interval / step - whole) > 1e-9 * whole:
+            yield (
+                f"precision.sample_interval = {interval!r} s is no multiple of precision.steps[{place}] = {step!r} s; "
+                f"take {whole * step!r} s"
+            )
+    if scene not in precision["scenes"]:
+        yield f"precision.reference.scene = {scene!r} is no scene; take one of {', '.join(precision['scenes'])}"
+
+
 CHECKS = (
     *(prefix, methods, axes, friction, sweeps, steps, perturbations, critical, times, orbits, dimensions),
-    *(unknown_references, figures, unused_keys, identification),
+    *(unknown_references, figures, unused_keys, identification, precision),
 )
 
 

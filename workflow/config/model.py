@@ -373,6 +373,14 @@ class Stability(TypedDict):
         total=False,
     )
     chatter_steps: Steps
+    rivals: mapping(
+        "other integrators in the difficult cases",
+        {
+            "integrators": many(Literal[INTEGRATORS], "integrators with events and modes", least=0),
+            "tolerance": Tolerance,
+            "max_evaluations": MaxEvaluations,
+        },
+    )
     hard: Annotated[dict[Name, HardCase], Field(description="difficult cases")]
 
 
