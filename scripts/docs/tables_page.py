@@ -7,6 +7,7 @@ import pyarrow as pa
 
 from accuracy import (
     benchmark,
+    map_check,
     precision,
     precision_estimates,
     rigid_part,
@@ -15,6 +16,7 @@ from accuracy import (
     settling_times,
     stability,
     stability_estimates,
+    theory,
 )
 from claims import verdicts
 from dimensions import portraits
@@ -55,6 +57,8 @@ MODULES = (
     stability_estimates,
     scene_budget,
     rigid_part,
+    theory,
+    map_check,
     settling_times,
     scaling,
     verdicts,
