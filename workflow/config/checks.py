@@ -303,7 +303,7 @@ def precision(config: dict, defaults: dict) -> Iterator[str]:
         whole = max(1, round(interval / step))
         if abs(interval / step - whole) > 1e-9 * whole:
             yield (
-                f"precision.sample_interval = {interval!r} s is no whole number of precision.steps[{place}] = {step!r} s; "
+                f"precision.sample_interval = {interval!r} s is no whole number of steps[{place}] = {step!r} s; "
                 f"take {whole * step!r} s"
             )
     if scene not in precision["scenes"]:
