@@ -11,10 +11,9 @@ from figures import style
 CURVES = (
     ("event", speed.OWN, "this solver", "last", (0, -8), "center"),
     ("euler", "fixed step", "the paper's method\n(explicit Euler)", "first", (4, 4), "left"),
-    ("rk4", "fixed step", "RK4, fixed step", "last", (4, 0), "left"),
     ("DOP853", "modes", "SciPy DOP853", "last", (5, 0), "left"),
     ("CyRK DOP853", "modes", "CyRK\nDOP853", "last", (0, -13), "center"),
-    ("CVODE Adams", "modes", "SUNDIALS\nCVODE", "last", (5, -4), "left"),
+    ("CVODE Adams", "modes", "SUNDIALS\nCVODE", "last", (0, -13), "center"),
     ("heyoka", "modes", "heyoka", "last", (0, -8), "center"),
 )
 SMALLEST = 1e-15
@@ -23,7 +22,7 @@ SMALLEST = 1e-15
 def draw_curve(axes: Axes, rows: pd.DataFrame, method: str, name: str, end: str, offset: tuple, align: str) -> None:
     """Errors over times of one method, with its name at one end."""
     colour, _ = style.METHODS[method]
-    rows = rows.sort_values("trajectory_error", ascending=False)
+    rows = rows.sort_values(["step", "tolerance"], ascending=False)
     own = method == "event"
     axes.plot(
         rows.milliseconds,
@@ -48,7 +47,7 @@ def draw_curve(axes: Axes, rows: pd.DataFrame, method: str, name: str, end: str,
     )
 
 
-def draw_factor(axes: Axes, factor: speed.Factor, text: str) -> None:
+def draw_factor(axes: Axes, factor: speed.Factor, text: str, below: bool) -> None:
     """An arrow at equal error from another run to the solver, with the factor between their times."""
     axes.annotate(
         "",
@@ -59,7 +58,15 @@ def draw_factor(axes: Axes, factor: speed.Factor, text: str) -> None:
     )
     middle = (factor.own_milliseconds * factor.milliseconds) ** 0.5
     label = f"{float(f'{factor.ratio:.2g}'):g}× {text}"
-    style.note(axes, label, (middle, factor.error), (0, 3), ha="center", va="bottom", weight="bold")
+    style.note(
+        axes,
+        label,
+        (middle, factor.error),
+        (0, -3 if below else 3),
+        ha="center",
+        va="top" if below else "bottom",
+        weight="bold",
+    )
 
 
 def plot(*, jumping: pd.DataFrame, jumping_times: pd.DataFrame, paper_step: float, equal_error: float) -> Figure:
@@ -79,7 +86,7 @@ def plot(*, jumping: pd.DataFrame, jumping_times: pd.DataFrame, paper_step: floa
     versus = ("the paper's method", "the best rival")
     for factor in speed.factors(runs, paper_step, equal_error):
         of_paper = factor.error == paper.trajectory_error
-        draw_factor(axes, factor, f"faster than\n{versus[0] if of_paper else versus[1]}")
+        draw_factor(axes, factor, f"faster than\n{versus[0] if of_paper else versus[1]}", of_paper)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_ylim(SMALLEST / 10.0, 10.0)
