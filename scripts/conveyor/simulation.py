@@ -8,7 +8,7 @@ import numpy as np
 from .arguments import check_array, check_choice, check_flag, check_number, check_type
 from .methods import fixed_step
 from .solver import trajectory
-from .solver.horizontal import EVENTS, SAMPLES, X
+from .solver.horizontal import EVENTS, SAMPLES
 from .solver.model import Conveyor, Start, pack
 
 METHODS = ("event", *fixed_step.METHODS)
@@ -162,9 +162,8 @@ def simulate(
     if method == "event":
         times = np.array([[(1.0 - LAST) * duration, duration]])
         (samples,), (results,) = trajectory.integrate(parameters[None], times, tolerance=tolerance, reuse=reuse)
-        code, event_count, impacts, contact_time, max_gap, work, repeats, *peaks = results
-        x_last = samples[0, X]
-        x_end, vx_end, z_end, vz_end = samples[1, :4]
+        code, event_count, impacts, contact_time, max_gap, work, repeats, *peaks = results.tolist()
+        (x_last, *_), (x_end, vx_end, z_end, vz_end, *_) = samples.tolist()
         status = trajectory.STATUS[int(code)]
         contact_fraction = contact_time / duration
     else:

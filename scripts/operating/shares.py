@@ -31,6 +31,10 @@ TABLES = {
         fields.number("stderr", "1", "standard error of the share"),
         fields.number("mean_velocity", "m/s", "mean feeding velocity of the motion; null where it is not known"),
         fields.number("velocity_stderr", "m/s", "its standard error, from several starts that end in the motion"),
+        fields.number(
+            "impact_speed", "m/s", "largest speed of approach at an impact; 0 without impacts, null if unknown"
+        ),
+        fields.number("peak_force", "N", "largest contact force; null if unknown"),
         fields.text("status", "ok, or why there is no velocity"),
     ),
 }
@@ -89,13 +93,15 @@ def continue_settled(
 
 def last_quarters(
     parameters: np.ndarray, durations: np.ndarray, tolerance: float, threads: int
-) -> tuple[np.ndarray, np.ndarray]:
-    """Mean feeding velocities (m/s) over the last quarters of runs, shape (n, k), and the status of the longest.
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mean feeding velocities (m/s) over the last quarters of runs, shape (n, k); of the longest run the largest speed
+    of approach (m/s) and contact force (N) over its last quarter, shape (n, 2), and the status.
 
     durations : s, shape (n, k); the last quarter of each begins behind the end of the one before
     """
     times = np.stack([(1.0 - LAST) * durations, durations], axis=-1).reshape(len(durations), 2 * durations.shape[1])
     means, codes = np.empty_like(durations), np.empty(len(durations), dtype=np.int64)
+    peaks = np.empty((len(durations), 2))
 
     def work(begin, end):
         rows = slice(begin, end)
@@ -103,15 +109,17 @@ def last_quarters(
         x = samples[:, :, horizontal.X]
         means[rows] = (x[:, 1::2] - x[:, ::2]) / (LAST * durations[rows])
         codes[rows] = results[:, trajectory.CODE]
+        peaks[rows] = results[:, [trajectory.IMPACT_SPEED, trajectory.PEAK_FORCE]]
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4)
-    return means, np.array(trajectory.STATUS)[codes]
+    return means, peaks, np.array(trajectory.STATUS)[codes]
 
 
 def velocities(
     parameters: np.ndarray, period: np.ndarray, settled: np.ndarray, settings: dict, *, threads: int = 1
-) -> tuple[np.ndarray, np.ndarray]:
-    """Mean feeding velocity (m/s) of starts once they have settled, and why it is not known, both of shape (n,).
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mean feeding velocity (m/s) of starts once they have settled, shape (n,); the largest speed of approach (m/s) and
+    contact force (N) over the same cycles, whole periods of the motion, shape (n, 2); and why they are not known.
 
     Each is followed until it has settled, and twice as long, until both mean velocities agree; those of chaos, which
     never do, are taken over the longer run.
@@ -124,6 +132,7 @@ def velocities(
     """
     n = len(parameters)
     found, status = np.full(n, np.nan), np.full(n, "mean velocity not settled", dtype=object)
+    peaks = np.full((n, 2), np.nan)
     plate = parameters[:, ACCELERATION] * np.cos(parameters[:, ANGLE]) / (2.0 * math.pi * parameters[:, FREQUENCY])
     # A mean over whole periods; the last quarter of a run is what a mean is taken over.
     step = np.maximum(period, 1)
@@ -133,7 +142,7 @@ def velocities(
     for doublings in ([0, 1], *([doubling] for doubling in range(2, DOUBLINGS))):
         cycles = 4.0 * step[open_, None] * np.ceil(2.0 ** np.array(doublings) * (quarter / step)[open_, None])
         durations = cycles / parameters[open_, None, FREQUENCY]
-        means, why = last_quarters(parameters[open_], durations, settings["tolerance"], threads)
+        means, peaks[open_], why = last_quarters(parameters[open_], durations, settings["tolerance"], threads)
         failed = why != "ok"
         status[open_[failed]] = why[failed]
         for mean in means.T:
@@ -142,8 +151,8 @@ def velocities(
         known = ~failed & (close | (period[open_] == 0))
         status[open_[known]] = "ok"
         open_ = open_[~failed & ~known]
-    found[status != "ok"] = np.nan
-    return found, status
+    found[status != "ok"] = peaks[status != "ok"] = np.nan
+    return found, peaks, status
 
 
 def motions_of_conveyors(
@@ -171,17 +180,19 @@ def motions_of_conveyors(
     period, cycles = found.period[chosen], found.cycles[chosen]
     # What has no period is no more settled later on.
     settled = np.where(period > 0, cycles, np.minimum(cycles, settings["cycles"]))
-    each, each_status = velocities(parameters[chosen], period, settled, settings, threads=threads)
+    each, each_peaks, each_status = velocities(parameters[chosen], period, settled, settings, threads=threads)
     each_status[found.state[chosen] == "undecided"] = "state not decided"
     known = each_status == "ok"
     sizes = np.bincount(numbers, weights=known, minlength=len(rows))
     velocity, error = np.full(len(rows), np.nan), np.full(len(rows), np.nan)
+    peaks = np.full((len(rows), 2), np.nan)
     status = np.full(len(rows), "ok", dtype=object)
     for row in range(len(rows)):
         own = numbers == row
         status[row] = "ok" if known[own].all() else each_status[own][~known[own]][0]
         if status[row] == "ok":
             velocity[row] = each[own].mean()
+            peaks[row] = each_peaks[own].max(axis=0)
             error[row] = each[own].std(ddof=1) / math.sqrt(sizes[row]) if sizes[row] > 1 else np.nan
     share = count / starts
     acceleration = parameters[first, ACCELERATION]
@@ -201,6 +212,8 @@ def motions_of_conveyors(
             "stderr": np.sqrt(share * (1.0 - share) / starts),
             "mean_velocity": velocity,
             "velocity_stderr": error,
+            "impact_speed": peaks[:, 0],
+            "peak_force": peaks[:, 1],
             "status": status,
         }
     )

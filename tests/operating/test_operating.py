@@ -88,7 +88,7 @@ def test_velocities_are_means_over_whole_cycles(table):
 
 def velocity(conveyor: Conveyor, start: Start, period: int, **settings) -> tuple[float, str]:
     """The mean velocity of one start that has settled vertically after twenty cycles, and its status."""
-    (found,), (status,) = shares.velocities(
+    (found,), _, (status,) = shares.velocities(
         pack(conveyor, start)[None], np.array([period]), np.array([20]), {**BOX, **settings}
     )
     return found, status
@@ -122,10 +122,12 @@ def test_runs_that_begin_alike_are_followed_once():
     """The means of a run's beginning and of all of it are those of two runs."""
     rows = np.array([pack(Conveyor(acceleration=a), Start(z0)) for a in (40.0, 80.0) for z0 in (0.0, 3e-4)])
     durations = np.array([[0.4, 0.6], [0.4, 0.8], [0.2, 0.8], [0.4, 0.9]])
-    means, status = shares.last_quarters(rows, durations, 1e-9, 1)
-    for mean, duration in zip(means.T, durations.T, strict=True):
+    means, peaks, status = shares.last_quarters(rows, durations, 1e-9, 1)
+    for k, (mean, duration) in enumerate(zip(means.T, durations.T, strict=True)):
         alone = ensemble.run(rows, duration=duration, tolerance=1e-9)
         assert mean.tolist() == alone["mean_velocity"].tolist()
+        if k == 1:  # peaks are those of the longest run
+            np.testing.assert_array_equal(peaks, np.column_stack([alone["impact_speed"], alone["peak_force"]]))
     assert (status == "ok").all()
 
 
@@ -135,7 +137,7 @@ def test_samples_of_both_first_runs_ascend(monkeypatch):
 
     def last_quarters(parameters, durations, *_):
         wanted.append(durations)
-        return np.ones_like(durations), np.full(len(durations), "ok")
+        return np.ones_like(durations), np.ones((len(durations), 2)), np.full(len(durations), "ok")
 
     monkeypatch.setattr(shares, "last_quarters", last_quarters)
     for period in (0, 1, 100, 400):
@@ -163,10 +165,13 @@ def test_velocities_of_a_motion_are_put_together(monkeypatch, states, statuses, 
         return Labels(np.full(n, states), np.ones(n, np.int64), np.zeros(n), np.arange(n))
 
     monkeypatch.setattr(shares, "motions_of_starts", motions_found)
-    monkeypatch.setattr(shares, "velocities", lambda *_, **__: (np.array([1.0, 3.0]), np.array(statuses, dtype=object)))
+    velocities = np.array([1.0, 3.0]), np.array([[0.1, 2.0], [0.2, 1.0]]), np.array(statuses, dtype=object)
+    monkeypatch.setattr(shares, "velocities", lambda *_, **__: velocities)
     row = pd.DataFrame(shares.motions_at(np.array([40.0]), BOX)).iloc[0]
     assert (row.mean_velocity, row.velocity_stderr, row.status) == pytest.approx(wanted, nan_ok=True)
     assert row.starts == BOX["starts"]
+    peaks = (0.2, 2.0) if row.status == "ok" else (np.nan, np.nan)
+    assert (row.impact_speed, row.peak_force) == pytest.approx(peaks, nan_ok=True)
 
 
 def test_the_standard_error_is_that_of_repeated_draws():

@@ -33,6 +33,8 @@ COLUMNS = [
     "max_gap",
     "impacts",
     "contact_fraction",
+    "impact_speed",
+    "peak_force",
     "status",
     "longest_flight",
 ]

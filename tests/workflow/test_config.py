@@ -13,6 +13,7 @@ from conveyor.solver import model
 from workflow.config import problems
 from workflow.config.entries import by_methods, resolve
 from workflow.config.schema import schema_at
+from workflow.config.tables import references, settings_of
 
 CONFIG = read_config()
 MINE = {"axes": {"acceleration": {"start": 30, "stop": 40, "num": 3}, "z0": [0.0, "conveyor"]}}
@@ -231,6 +232,15 @@ WRONG = [
         {"claims": {"C01": {"finding": "about_states.critical_heigth"}}},
         "claims.C01.finding = 'about_states.critical_heigth' is no finding of the default config; did you mean about",
     ),
+    (
+        {"model": {"static_friction": 0.1}},
+        "model has static_friction = 0.1 below friction = 0.15; give a larger static_friction, or leave it out",
+    ),
+    (
+        {"sweeps": {"mine": {"axes": {"friction": [0.1, 0.3]}, "model": {"static_friction": 0.2}}}},
+        "sweeps.mine has static_friction = 0.2 below friction = 0.3",
+    ),
+    ({"model": {"inclination": 3.0}}, "model.inclination = 3.0 should be at most 1.4 (rad); angles are in radians"),
     ({"figures_on_request": {"fig98": {**CONFIG["figures"]["fig03"]}}}, "has no workflow/report/fig98.rst"),
     # what crashed the check, or took it for ever
     ({"figures": {"fig03": {"tables": {"euler": "model/acceleration"}}}}, "euler = 'model/acceleration' is unknown"),
@@ -333,13 +343,39 @@ def test_config_has_the_defaults_of_the_library():
 
 def test_an_entry_depends_on_what_it_uses_only():
     settings = resolve(merged(CONFIG, {"sweeps": {"mine": {**MINE, "model": {"damping": 0.2}}}}), "sweeps", "mine")
-    assert settings["model"].keys() == model.UNITS.keys() - {"acceleration", "z0"}
+    assert settings["model"].keys() == model.UNITS.keys() - {"acceleration", "z0", "static_friction"}
     assert settings["model"]["damping"] == 0.2
     assert settings["tolerance"] == CONFIG["solver"]["tolerance"]
     assert "step" not in settings
     euler = resolve(merged(CONFIG, {"sweeps": {"mine": {**MINE, "method": "euler"}}}), "sweeps", "mine")
     assert euler["step"] == CONFIG["solver"]["step"]
     assert "tolerance" not in euler
+
+
+ALONG = {"friction": 0.2, "phase_shift": 0.4, "static_friction": 0.3}
+NORMAL = ("orbits/branches", "orbits/certificates", "attractors/strobes", "lyapunov/spectrum")
+
+
+def test_tables_of_the_normal_motion_do_not_depend_on_the_motion_along_the_track():
+    mine = {name: {"axes": {"acceleration": [30.0]}, "needs": name} for name in ("vertical", "feeding")}
+    before, after, inclined = (
+        by_methods(merged(CONFIG, {"sweeps": mine, "model": change})) for change in ({}, ALONG, {"inclination": 0.1})
+    )
+    tables = [reference for reference in references(before) if settings_of(before, reference) is not None]
+    same = {reference for reference in tables if settings_of(before, reference) == settings_of(after, reference)}
+    assert {"sweeps/vertical", "regressions/height", *NORMAL} <= same
+    assert {
+        reference for reference in tables if reference.split("/")[0] in ("critical", "dimensions", "impacts")
+    } <= same
+    assert "sweeps/feeding" not in same
+    assert "operating/shares" not in same
+    for reference in ("sweeps/vertical", *NORMAL):
+        assert settings_of(before, reference) != settings_of(inclined, reference)
+
+
+def test_an_axis_along_the_track_keeps_the_parameters_along_it():
+    entry = {"axes": {"static_friction": [0.05]}, "model": {"friction": 0.02}, "needs": "vertical"}
+    assert resolve(merged(CONFIG, {"sweeps": {"mine": entry}}), "sweeps", "mine")["model"]["friction"] == 0.02
 
 
 def test_parameters_are_imported_without_numpy():

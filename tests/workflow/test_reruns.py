@@ -80,6 +80,15 @@ def test_only_users_after_a_config_value(built, change, expected):
     assert built.under(change).planned(*TARGETS, *CAPTIONS) == {**expected, **({"captions": 1} if expected else {})}
 
 
+def test_no_table_of_the_normal_motion_after_its_motion_along_the_track(copied):
+    sweeps = {"mine": {"axes": {"acceleration": [30.0, 31.0]}, "needs": "vertical", "duration": 0.02}}
+    table = "results/sweeps/mine.parquet"
+    copied.under({"sweeps": sweeps}).make(table)
+    along = {"friction": 0.2, "static_friction": 0.3, "phase_shift": 0.5}
+    assert copied.under({"sweeps": sweeps, "model": along}).planned(table) == {}
+    assert copied.under({"sweeps": sweeps, "model": {"inclination": 0.1}}).planned(table) == {"shards": 1, "sweeps": 1}
+
+
 @pytest.mark.parametrize(
     "overlay",
     [

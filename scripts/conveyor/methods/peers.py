@@ -57,13 +57,10 @@ def plate_motion(parameters, t):
     phase = omega * t + parameters[model.PSI0]
     a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
     a_x = parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE])
-    along = phase + parameters[model.PHASE_SHIFT]
-    return (
-        -a_z / omega**2 * math.cos(phase),
-        a_z / omega * math.sin(phase),
-        a_x / omega * math.sin(along),
-        a_x * math.cos(along),
-    )
+    sine, cosine = math.sin(phase), math.cos(phase)
+    ahead, straight = math.sin(parameters[model.PHASE_SHIFT]), math.cos(parameters[model.PHASE_SHIFT])
+    sine_x, cosine_x = sine * straight + cosine * ahead, cosine * straight - sine * ahead
+    return -a_z / omega**2 * cosine, a_z / omega * sine, a_x / omega * sine_x, a_x * cosine_x
 
 
 @kernel

@@ -134,13 +134,13 @@ def stick_end(plate, theta):
     # -(ẍ_s + g sin α) outgrows μ_s N/m where R cos(θ + δ) falls below -needed.
     amplitude, shift = one_wave(plate, lift)
     needed = grip + plate.downhill
-    backward = 0.0 if needed <= -amplitude else math.inf
+    backward = 0.0 if needed < -amplitude else math.inf
     if abs(needed) < amplitude:
         backward = advance_to((theta + shift) % TURN, math.acos(-needed / amplitude), math.pi)
     # ẍ_s + g sin α outgrows μ_s N/m where R cos(θ + δ) rises above `needed`.
     amplitude, shift = one_wave(plate, -lift)
     needed = grip - plate.downhill
-    forward = 0.0 if needed <= -abs(amplitude) else math.inf
+    forward = 0.0 if needed < -abs(amplitude) else math.inf
     if abs(needed) < amplitude:
         forward = advance_to((theta + shift) % TURN, TURN - math.acos(needed / amplitude), TURN)
     return min(backward, forward)

@@ -27,6 +27,7 @@ STEP = 1e-3 / 64
 INDICES = np.array([0, 1, 1, 255, 256, 257, 1000, 3700, 5000])
 # A conveyor on which the part soon jumps, for each kind of exponent.
 STIFFNESS = {1.0: 3e3, 1.5: 5e5, 1.8: 5e6}
+TILTED = {"inclination": 0.1, "phase_shift": -0.8, "friction": 0.3, "static_friction": 0.9}
 
 
 def follow(parameters, step=STEP, n_steps=5000, indices=INDICES, n_events=20, integrate=euler_lanes.integrate):
@@ -57,9 +58,9 @@ def random_parameters(n, seed):
             psi0=rng.uniform(-12.0, 12.0),
             stiffness=10.0 ** rng.uniform(3.5, 6.0),
             damping=rng.uniform(0.0, 1.0),
-            friction=rng.uniform(0.0, 0.5),
             exponent=exponent,
             tension=TENSION_MODES[rng.integers(3)],
+            **(TILTED if k % 3 == 1 else {"friction": rng.uniform(0.0, 0.5)}),
         )
         height = [rng.uniform(-1e-4, 0.0), rng.uniform(0.0, 1e-3), "conveyor"][rng.integers(3)]
         rows.append(pack(conveyor, Start(height, rng.uniform(-0.2, 0.2))))
@@ -78,14 +79,17 @@ def fill(phases, values):
 
 def slow_euler(parameters, step, n_steps, sincos):
     """Euler's method written down plainly from Eqs. 2-12: samples at all steps, events, and a row of results."""
-    a, phi, f, psi0, k_c, d_c, mu, m, p, g, tension, z0, vz0 = (float(value) for value in parameters)
-    sine, cosine = sincos(phi)
+    a, phi, f, psi0, k_c, d_c, mu, m, p, g, alpha, shift, mu_s, tension, z0, vz0 = map(float, parameters)
+    (ahead, straight), (down, normal), (sine, cosine) = sincos(shift), sincos(alpha), sincos(phi)
+    a_x, downhill, g = a * cosine, g * down, g * normal
     omega = 2.0 * math.pi * f
     plate_z, plate_vz, plate_vx = a * sine / (omega * omega), a * sine / omega, a * cosine / omega
     x, vx, z, vz = 0.0, 0.0, z0, vz0
     if math.isnan(z0):
         z = -plate_z * sincos(psi0)[1]
-    samples, events, gaps, pushed = [], [], [], 0
+    sine, cosine = sincos(psi0)
+    last_slip = plate_vx * (sine * straight + cosine * ahead)
+    samples, events, gaps, pushed, fastest, strongest = [], [], [], 0, 0.0, 0.0
     for i in range(n_steps + 1):
         sine, cosine = sincos(omega * (i * step) + psi0)
         gap = z + plate_z * cosine
@@ -96,16 +100,24 @@ def slow_euler(parameters, step, n_steps, sincos):
             if push < 0.0 and tension == 2.0:
                 push = 0.0
             if push > 0.0 or tension == 0.0:
-                rub = mu * push * float(np.sign(plate_vx * sine - vx))
+                rub = mu * push * float(np.sign(plate_vx * (sine * straight + cosine * ahead) - vx))
+        slip = plate_vx * (sine * straight + cosine * ahead) - vx
+        pull = a_x * (cosine * straight - sine * ahead) + downhill
+        if mu_s > mu and gap <= 0.0 and last_slip * slip <= 0.0 and abs(pull) <= mu_s * push:
+            vx, slip, rub = vx + slip, 0.0, pull
+        last_slip = slip
         samples.append((x, vx, z, vz, m * push, m * rub + 0.0))
         if i < n_steps:
             if gaps and (gap <= 0.0) != (gaps[-1] <= 0.0):
                 events.append((i * step, 0.0 if gap <= 0.0 else 1.0))
+                if gap <= 0.0:
+                    fastest = max(fastest, plate_vz * sine - vz)
             gaps.append(gap)
             pushed += push != 0.0
-            x, vx, z, vz = x + step * vx, vx + step * rub, z + step * vz, vz + step * (push - g)
+            strongest = max(strongest, push)
+            x, vx, z, vz = x + step * vx, vx + step * (rub - downhill), z + step * vz, vz + step * (push - g)
     impacts = sum(kind == 0.0 for _, kind in events)
-    results = [x, vx, z, vz, len(events), impacts, pushed * step, max(gaps), n_steps, 0.0]
+    results = [x, vx, z, vz, len(events), impacts, pushed * step, max(gaps), n_steps, 0.0, fastest, m * strongest]
     return np.array(samples), np.array(events), np.array(results)
 
 
@@ -161,7 +173,7 @@ def test_samples_and_room_for_events_do_not_disturb_the_run():
     parameters = random_parameters(9, seed=300)
     _, events, results = follow(parameters)
     _, fewer_events, same_results = follow(parameters, indices=[], n_events=3)
-    np.testing.assert_array_equal(same_results, results)
+    np.testing.assert_array_equal(same_results[:, :-2], results[:, :-2])  # peaks count since the last sample
     np.testing.assert_array_equal(fewer_events, events[:, :3])
     samples, _, _ = follow(parameters, indices=np.arange(5001))
     np.testing.assert_array_equal(samples[:, INDICES], follow(parameters)[0])
@@ -170,9 +182,11 @@ def test_samples_and_room_for_events_do_not_disturb_the_run():
 @pytest.mark.parametrize("exponent", STIFFNESS)
 @pytest.mark.parametrize("tension", TENSION_MODES)
 @pytest.mark.parametrize("start", [Start(5e-5, -0.05), Start("conveyor", -0.1), Start(-2e-5)])
-def test_the_plain_loop(exponent, tension, start):
+@pytest.mark.parametrize("track", [{}, TILTED], ids=["level", "tilted"])
+def test_the_plain_loop(exponent, tension, start, track):
     """With the same sine and cosine a plain loop gives the same bits, with the library's the same but for rounding."""
-    parameters = pack(Conveyor(exponent=exponent, tension=tension, stiffness=STIFFNESS[exponent], psi0=0.3), start)
+    contact = {"exponent": exponent, "tension": tension, "stiffness": STIFFNESS[exponent]}
+    parameters = pack(Conveyor(psi0=0.3, **contact, **track), start)
     n_steps = 3000
     found = follow(np.array([parameters]), n_steps=n_steps, indices=np.arange(n_steps + 1))
     samples, events, results = (array[0] for array in found)
@@ -188,7 +202,10 @@ def test_the_plain_loop(exponent, tension, start):
     same_samples, same_events, same_results = slow_euler(parameters, STEP, n_steps, own)
     np.testing.assert_array_equal(samples.view(np.int64), same_samples.view(np.int64))
     np.testing.assert_array_equal(events[:n_events], same_events)
-    np.testing.assert_array_equal(results, same_results)
+    np.testing.assert_array_equal(results[:-2], same_results[:-2])
+    # Peaks count since the last sample.
+    _, _, (unwatched,) = follow(parameters[None], n_steps=n_steps, indices=[])
+    np.testing.assert_array_equal(unwatched, same_results)
     assert np.isnan(events[n_events:]).all()
 
     slow_samples, slow_events, slow_results = slow_euler(

@@ -17,7 +17,7 @@ LINEAR = Conveyor(acceleration=30.0, exponent=1.0, stiffness=3e3, psi0=0.4)
 
 def slow_integrate(parameters, step, n_steps, method):
     """The methods written down plainly, from Eqs. 2-12: states and forces at all steps, shape (n_steps + 1, 6)."""
-    a, phi, f, psi0, k_c, d_c, mu, m, p, g, tension, z0, vz0 = (float(value) for value in parameters)
+    a, phi, f, psi0, k_c, d_c, mu, m, p, g, alpha, shift, _, tension, z0, vz0 = map(float, parameters)
     omega = 2.0 * math.pi * f
     a_x, a_z = a * math.cos(phi), a * math.sin(phi)
 
@@ -30,11 +30,11 @@ def slow_integrate(parameters, step, n_steps, method):
         if tension == 2 and normal < 0.0:
             normal = 0.0
         rubs = 0.0 if tension == 1 and normal < 0.0 else mu * normal
-        return normal, rubs * float(np.sign(a_x / omega * math.sin(theta) - y[1]))
+        return normal, rubs * float(np.sign(a_x / omega * math.sin(theta + shift) - y[1]))
 
     def rates(t, y):
         normal, friction = forces(t, y)
-        return np.array([y[1], friction / m, y[3], normal / m - g])
+        return np.array([y[1], friction / m - g * math.sin(alpha), y[3], normal / m - g * math.cos(alpha)])
 
     y = np.array([0.0, 0.0, z0, vz0])
     rows = []
@@ -58,10 +58,12 @@ def slow_integrate(parameters, step, n_steps, method):
 @pytest.mark.parametrize("method", fixed_step.METHODS)
 @pytest.mark.parametrize("tension", ["allow", "frictionless", "clip"])
 @pytest.mark.parametrize("exponent", [1.5, 1.0, 1.8])
-def test_compiled_loop_is_the_plain_loop(method, tension, exponent):
+@pytest.mark.parametrize("track", [{}, {"inclination": 0.2, "phase_shift": 0.7}], ids=["level", "tilted"])
+def test_compiled_loop_is_the_plain_loop(method, tension, exponent, track):
     """Over two impacts the compiled loop differs from the plain one by rounding alone."""
     stiffness = {1.0: 3e3, 1.5: 5e5, 1.8: 5e6}[exponent]
-    parameters = pack(Conveyor(tension=tension, exponent=exponent, stiffness=stiffness), Start(z=5e-5, vz=-0.05))
+    conveyor = Conveyor(tension=tension, exponent=exponent, stiffness=stiffness, **track)
+    parameters = pack(conveyor, Start(z=5e-5, vz=-0.05))
     step, n_steps = 2e-5, 1500
     slow = slow_integrate(parameters, step, n_steps, method)
     fast = fixed_step.sample(parameters, step * np.arange(n_steps + 1), step, method)
@@ -200,7 +202,8 @@ def test_sampling_does_not_disturb_the_run():
     for method in fixed_step.METHODS:
         (watched,), (samples,), (events,) = fixed_step._integrate(parameters[None], step, n_steps, method, indices, 4)
         (alone,), _, (same_events,) = fixed_step._integrate(parameters[None], step, n_steps, method, [], 4)
-        assert watched == alone
+        # Peaks count since the last sample.
+        assert watched[:-2] == alone[:-2]
         assert events[1, 0] > 0.0
         np.testing.assert_array_equal(events, same_events)
         assert samples[-1, :4].tolist() == watched[:4]
