@@ -146,9 +146,8 @@ def test_what_an_overlay_names_is_as_it_says():
     assert "amplitudes_euler" in found["sweeps"]
     assert "heights_euler" not in found["sweeps"]
     assert found["sweeps"]["amplitudes"]["axes"]["z0"]["num"] == 3
-    assert found["sweeps"]["amplitudes"]["axes"]["z0"]["stop"] == pytest.approx(
-        1.25e-4 * math.cos(math.radians(3.0)), rel=1e-3
-    )
+    height = 1.25e-4 * math.cos(math.radians(3.0))  # gravity normal to the climbing track
+    assert found["sweeps"]["amplitudes"]["axes"]["z0"]["stop"] == pytest.approx(height, rel=1e-3)
     assert found["figures"]["fig03"]["tables"]["euler"] == "sweeps/amplitudes_euler"
     assert "euler" not in found["figures"]["fig09"]["tables"]
     assert found["figures"]["fig10"]["tables"].keys() == {"converged", "euler", "fit", "fit_euler"}
