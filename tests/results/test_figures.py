@@ -57,6 +57,7 @@ NO_UNIT = (
     "friction",
     "misfit",
     "group",
+    "throw number",
 )
 
 

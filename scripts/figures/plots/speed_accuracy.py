@@ -71,7 +71,7 @@ def draw_factor(axes: Axes, factor: speed.Factor, text: str, below: bool) -> Non
 
 def plot(*, jumping: pd.DataFrame, jumping_times: pd.DataFrame, paper_step: float, equal_error: float) -> Figure:
     """Draw the chart with a ring around the paper's step (s), and factors at its error and at `equal_error`."""
-    figure = style.figure(140.0, 88.0)
+    figure = style.figure(style.PAGE, 100.0)
     axes = figure.subplots()
     runs = speed.timed(jumping, jumping_times)
     for method, treatment, *label in CURVES:
@@ -92,9 +92,9 @@ def plot(*, jumping: pd.DataFrame, jumping_times: pd.DataFrame, paper_step: floa
     axes.set_ylim(SMALLEST / 10.0, 10.0)
     axes.set_yticks([1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1.0])
     axes.minorticks_off()
-    axes.set_xticks([0.1, 1.0, 10.0, 100.0, 1000.0], ["0.1 ms", "1 ms", "10 ms", "0.1 s", "1 s"])
+    axes.set_xticks([0.1, 1.0, 10.0, 100.0, 1000.0], ["$10^{-4}$", "$10^{-3}$", "0.01", "0.1", "1"])
     axes.set_xlim(0.05, 4000.0)
     axes.grid(linewidth=0.3, color="0.9")
-    axes.set_xlabel("processor time for one second of motion")
+    axes.set_xlabel("processor time per second of motion in s")
     axes.set_ylabel("error of the trajectory\nin units of the plate's motion")
     return figure
