@@ -20,14 +20,14 @@ SCAN = 400  # within a cycle of flight, at which events are looked for
 
 
 def root(function: Callable, low: arb, high: arb) -> arb:
-    """The zero between two places at which a function has different signs, by bisection and Newton-like secants."""
+    """The zero between two places at which a function has different signs, by the Illinois method."""
     f_low, f_high = function(low), function(high)
     for _ in range(300):
         place = (high - f_high * (high - low) / (f_high - f_low)).mid()
         found = function(place)
         if found == 0 or place in (low, high):
             break
-        # The Illinois method: halve the value at an end that stays.
+        # The value at an end that stays is halved.
         low, f_low = (high, f_high) if (found > 0) != (f_high > 0) else (low, f_low / 2)
         high, f_high = place, found
     return place
@@ -155,8 +155,8 @@ class Motion:
         for _ in range(3):
             now = self.t + tau
             damping = self.p["damping"] / self.p["mass"]
-            a_z = self.plate(self.t + tau / 2)[3] / self.a_x * self.a_z
-            pull = self.p["gravity"] + a_z - damping * speed
+            lift = self.a_z * (self.omega * (self.t + tau / 2) + self.p["psi0"]).cos()
+            pull = self.p["gravity"] + lift - damping * speed
             tau = ((target - depth) / (speed + pull * tau / 2)).mid()
         force = damping * (speed + pull * tau / 2)
         self.x = (self.x + self.vx * tau).mid()
