@@ -33,6 +33,8 @@ class Written(NamedTuple):
 def describe_range(schema: dict) -> str:
     low, high = (schema.get(end, schema.get(f"exclusive{end.capitalize()}")) for end in ("minimum", "maximum"))
     ends = "[" if "minimum" in schema else "(", "]" if "maximum" in schema else ")"
+    if high is None:
+        return f"number {'≥' if 'minimum' in schema else '>'} {low:g}"
     return f"number in {ends[0]}{low:g}, {high:g}{ends[1]}"
 
 

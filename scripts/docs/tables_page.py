@@ -10,6 +10,7 @@ from accuracy import (
     map_check,
     precision,
     precision_estimates,
+    reference_check,
     rigid_part,
     scaling,
     scene_budget,
@@ -23,7 +24,7 @@ from dimensions import portraits
 from fit import regressions
 from identification import edges, fronts, printed, profiles
 from motion import critical_heights, impacts, signals, spectra
-from operating import regimes, shares
+from operating import advice, drive, regimes, shares, throws, track
 from orbits import branches, certified, estimates, exponents, strobes, witnesses
 from pipeline import fields
 from pipeline.templates import render
@@ -50,8 +51,13 @@ MODULES = (
     curves,
     shares,
     regimes,
+    advice,
+    throws,
+    track,
+    drive,
     benchmark,
     precision,
+    reference_check,
     precision_estimates,
     stability,
     stability_estimates,

@@ -24,7 +24,7 @@ from pipeline.fields import AXES
 SEARCHED = ("acceleration", "frequency", "angle", "phase_shift")
 OUTCOMES = ("velocity", "impact_speed", "share", "chaos", "displacement")
 TABLES = {
-    "front": (
+    "drive_front": (
         *(fields.number(name, AXES[name].metadata[b"unit"].decode(), "of the design") for name in SEARCHED),
         fields.number("displacement", "m", "amplitude of the drive's displacement"),
         fields.number("velocity", "m/s", "velocity of the motion that most initial conditions of the search reach"),
@@ -36,7 +36,7 @@ TABLES = {
         fields.flag("confirmed", "whether the operating run keeps the constraints"),
         fields.flag("recommended", "whether it is one of the recommended settings"),
     ),
-    "generations": (
+    "drive_generations": (
         fields.count("seed", "of the search"),
         fields.count("generation", "from 1"),
         fields.number("hypervolume", "1", "of the front so far, relative to the front of all seeds"),
@@ -184,4 +184,7 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, dict]:
         for seed, found in fronts.items()
         for number, volume in enumerate(found.volumes, start=1)
     ]
-    return {"front": front.to_dict("list"), "generations": fields.columns(history, TABLES["generations"])}
+    return {
+        "drive_front": front.to_dict("list"),
+        "drive_generations": fields.columns(history, TABLES["drive_generations"]),
+    }

@@ -16,9 +16,9 @@ def last_growth(generations: pd.DataFrame) -> float:
     return max(growth)
 
 
-def make(template: str, front: pd.DataFrame, generations: pd.DataFrame) -> str:
+def make(template: str, drive_front: pd.DataFrame, drive_generations: pd.DataFrame) -> str:
     """The page from its template and the tables of the front and of the generations."""
-    search = front.attrs
+    search = drive_front.attrs
     rows = [
         [
             f"{row.acceleration:.4g}",
@@ -30,15 +30,15 @@ def make(template: str, front: pd.DataFrame, generations: pd.DataFrame) -> str:
             f"{100.0 * row.checked_share:.1f}",
             f"{row.impact_speed:.2g}",
         ]
-        for row in front[front.recommended].sort_values("velocity").itertuples()
+        for row in drive_front[drive_front.recommended].sort_values("velocity").itertuples()
     ]
     numbers = {
         "share": f"{100.0 * search['share']:g}",
         "seeds": str(len(search["seeds"])),
-        "found": str(len(front)),
-        "confirmed": str(int(front.confirmed.sum())),
-        "checked": str(int(front.checked.sum())),
-        "growth": f"{100.0 * last_growth(generations):.2g}",
+        "found": str(len(drive_front)),
+        "confirmed": str(int(drive_front.confirmed.sum())),
+        "checked": str(int(drive_front.checked.sum())),
+        "growth": f"{100.0 * last_growth(drive_generations):.2g}",
     }
     return render(
         template,

@@ -48,6 +48,7 @@ def compared(request):
     """Work and precision of the solver and of two peers, and the settings."""
     settings = {
         "duration": 1.0,
+        "sample_interval": CONFIG["precision"]["sample_interval"],
         "model": CONFIG["model"] | CONFIG["precision"]["scenes"][request.param],
         "tolerances": [1e-4, 1e-8, 1e-12],
         "steps": [5e-7],

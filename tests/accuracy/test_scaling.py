@@ -181,4 +181,4 @@ def test_the_page_of_clusters_says_both():
     found.attrs["sharing"] = {"core_hours": 24.0, "most_jobs": 500, "job_seconds": 60.0}
     page = cluster_page.make(template, found)
     assert "| 250 | 3 | 3 | 100 | 20000.0 |" in page
-    assert "0.8 s for Python and its imports, and 0.2 s for its first points" in " ".join(page.split())
+    assert "spends 0.8 s on starting Python and its imports, and 0.2 s on its first points" in " ".join(page.split())

@@ -585,5 +585,5 @@ def test_a_map_has_two_even_axes(maps):
     with pytest.raises(ValueError, match="z0 must be evenly spaced"):
         build.encode(table.assign(z0=table.z0.replace(table.z0.max(), 1.0)))
     table.attrs = {**table.attrs, "axes": {"z0": {}}}
-    with pytest.raises(ValueError, match="has two axes"):
+    with pytest.raises(ValueError, match="needs two axes"):
         build.encode(table)

@@ -6,6 +6,7 @@ import pytest
 from project import read_config
 from scipy.stats import chi2
 
+from conveyor import parameters
 from identification import findings, fronts, profiles
 from identification.fits import fit
 from identification.search_space import LOSS, PARAMETERS, SEARCHED, bounds_of, packed, searched, values_of
@@ -21,7 +22,9 @@ SETTINGS = {**OWN["search"], "population": 40, "generations": 40}
 def test_values_and_what_is_searched_are_inverse():
     values = np.array([[0.15, 0.3, 5e5, 0.2], [0.3, 0.2, 1e5, 0.25]])
     assert values_of(searched(values, MODEL), MODEL) == pytest.approx(values)
-    assert packed(values, "clip", MODEL)[0, [1, 4, 5, 6, 10]].tolist() == [0.2, 5e5, 0.3, 0.15, 2.0]
+    named = ("angle", "stiffness", "damping", "friction", "tension")
+    places = [parameters.PARAMETERS.index(name) for name in named]
+    assert packed(values, "clip", MODEL)[0, places].tolist() == [0.2, 5e5, 0.3, 0.15, 2.0]
 
 
 def test_least_squares_finds_the_bottom_and_stops_at_bounds():

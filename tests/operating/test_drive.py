@@ -77,22 +77,22 @@ def made(monkeypatch) -> dict[str, pd.DataFrame]:
 
 def test_a_search_with_known_outcomes_finds_their_front(made):
     """No phase shift is best, and no flat angle above 45° can be."""
-    front = made["front"]
+    front = made["drive_front"]
     assert front.phase_shift.abs().median() < 0.1
     assert (front.displacement <= SETTINGS["displacement"]).all()
     assert front.acceleration.max() <= SETTINGS["bounds"]["acceleration"][1]
     assert front.recommended.sum() == SETTINGS["recommended"]
     assert front.checked.sum() == SETTINGS["checked"]
-    assert drive_page.last_growth(made["generations"]) < 0.05
-    for _, rows in made["generations"].groupby("seed"):
+    assert drive_page.last_growth(made["drive_generations"]) < 0.05
+    for _, rows in made["drive_generations"].groupby("seed"):
         assert (np.diff(rows.hypervolume) >= -1e-12).all()
         assert rows.hypervolume.iloc[-1] <= 1.0 + 1e-12
 
 
 def test_the_page_lists_the_recommended_settings(made):
     template = (ROOT / "workflow/templates/drive.md").read_text()
-    made["front"].attrs = SETTINGS
-    page = drive_page.make(template, made["front"], made["generations"])
+    made["drive_front"].attrs = SETTINGS
+    page = drive_page.make(template, made["drive_front"], made["drive_generations"])
     assert page.count(" ± 0.2 |") == SETTINGS["recommended"]
-    none = made["front"].assign(recommended=False, confirmed=False)
-    assert "No design of the search was confirmed" in drive_page.make(template, none, made["generations"])
+    none = made["drive_front"].assign(recommended=False, confirmed=False)
+    assert "No design of the search was confirmed" in drive_page.make(template, none, made["drive_generations"])

@@ -21,7 +21,7 @@ def test_first_axis_is_slowest_and_ends_are_included():
 def test_parameters_are_those_of_the_model():
     _, parameters = grid.product(AXES, {"damping": 0.2, "vz0": 0.1})
     assert unpack(parameters[7]) == (
-        Conveyor(acceleration=35.0, damping=0.2, tension="clip"),
+        Conveyor(acceleration=35.0, damping=0.2, static_friction=0.15, tension="clip"),
         Start(z="conveyor", vz=0.1),
     )
 

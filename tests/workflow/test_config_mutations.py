@@ -91,7 +91,7 @@ def test_null_is_told_where_it_does_not_mean_no_number(section):
 def is_of_names(path: tuple) -> bool:
     """Whether any name may stand in a mapping."""
     places = {("figures",), ("claims",), ("benchmark", "cases"), ("precision", "scenes"), ("stability", "hard")}
-    places |= {("companion", "presets"), ("identification", "told")}
+    places |= {("published_scenes", "further"), ("companion", "presets"), ("identification", "told")}
     entries = {"sweeps", "estimates", "critical", "regressions", "dimensions", "signals", "spectra", "impacts"}
     return path in places or (len(path) == 1 and path[0] in entries)
 

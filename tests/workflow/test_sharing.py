@@ -88,7 +88,7 @@ def test_what_costs_too_much_is_refused_with_its_cost_and_the_key():
     huge = sweep(psi0=span(6.0, 100_000), z0=span(1e-4, 100_000))
     (line,) = problems(merged(CONFIG, {"sweeps": {"mine": huge}}))
     shared = planned(huge)
-    assert line.startswith(f"sweeps.mine.axes makes 10,000,000,000 points, some {shared.core_hours:.2g} hours")
+    assert line.startswith(f"sweeps.mine.axes makes 10,000,000,000 points, about {shared.core_hours:.2g} core hours")
     assert line.endswith(f"or raise sharing.core_hours = {SHARING['core_hours']:g}")
     enough = {"sharing": {"core_hours": 1.01 * shared.core_hours}, "sweeps": {"mine": huge}}
     assert problems(merged(CONFIG, enough)) == []

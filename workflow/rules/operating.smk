@@ -106,20 +106,20 @@ rule operating_chart:
 
 use rule operating as front with:
     output:
-        **tables_of("operating/front", "operating/generations"),
+        **tables_of("operating/drive_front", "operating/drive_generations"),
     log:
-        log_file("operating/front"),
+        log_file("operating/drive_front"),
     benchmark:
-        benchmark_file("operating/front")
+        benchmark_file("operating/drive_front")
     params:
-        **stage("operating.drive", "operating/front"),
+        **stage("operating.drive", "operating/drive_front"),
     message:
         "Search for the settings of the drive"
 
 
 rule drive_page:
     input:
-        **tables_of("operating/front", "operating/generations"),
+        **tables_of("operating/drive_front", "operating/drive_generations"),
         template=source("workflow/templates/drive.md"),
     output:
         page=result("drive.md"),

@@ -1,7 +1,7 @@
 """CyRK's Runge-Kutta methods on the same model: compiled peers that need not be installed.
 
 `pysolve_ivp` gets what https://cyrk.readthedocs.io recommends: a right-hand side that numba has compiled and that fills
-an array, and terminal, directional events. (`nbsolve_ivp`, compiled throughout, knows no events.) Each event ends a
+an array, and terminal, directional events. (Its solver that is compiled throughout knows no events.) Each event ends a
 solve; `peers` chooses the next mode.
 """
 

@@ -1,6 +1,6 @@
 """CVODE of SUNDIALS with its root finding on the same model: a peer that need not be installed.
 
-Used as https://scikit-sundae.readthedocs.io recommends: Adams' methods for a problem that is not stiff, BDF for one
+Used as the documentation of scikit-sundae recommends: Adams' methods for a problem that is not stiff, BDF for one
 that is; event functions with directions, at whose zeros the integrator stops; one solver for each mode, which begins
 anew at each event. The right-hand side is compiled by numba; its callback is a function of Python.
 """

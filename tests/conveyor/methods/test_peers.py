@@ -6,6 +6,7 @@ from project import read_config
 
 from conveyor import simulate
 from conveyor.methods import peers, rivals
+from conveyor.methods.leg import Leg
 from pipeline import grid
 
 CONFIG = read_config()
@@ -18,7 +19,11 @@ def scene(name):
 
 def test_a_run_that_finds_the_same_event_for_ever_says_so(monkeypatch):
     """Whether SciPy finds an event again depends on last digits, so an integrator that always does takes its place."""
-    monkeypatch.setattr(peers, "leg_of_scipy", lambda rates, t, end, state, options: (max(t, 0.1), state, peers.gap_of))
+
+    def same_event(trajectory, task):
+        return Leg(max(task.t, 0.1), task.state.copy(), peers.gap_of, np.empty((0, 4)), 1)
+
+    monkeypatch.setattr(peers, "leg_of_scipy", same_event)
     run = peers.run(scene("riding"), 1.0, "DOP853", "events", 1e-8, 200_000)
     assert run.status == peers.STUCK
     assert np.isnan(run.mean_velocity)
