@@ -217,6 +217,20 @@ def stability_maps(*, stability: pd.DataFrame) -> dict[str, str]:
     }
 
 
+def failed_rivals(*, stability: pd.DataFrame) -> dict[str, str]:
+    """Maps of stability, and which rivals fail in which hard case."""
+    rivals = stability.attrs["rivals"]["integrators"]
+    rows = stability[stability.panel.str.startswith("hard") & stability.method.isin(rivals)]
+    told = []
+    for (panel, outcome), failed in rows[rows.outcome != "right"].groupby(["panel", "outcome"], sort=False):
+        told.append(f"{panel.removeprefix('hard: ')}: {', '.join(failed.method)} ({outcome})")
+    return stability_maps(stability=stability) | {
+        "failures": "; ".join(told) or "none",
+        "tolerance": f"{stability.attrs['rivals']['tolerance']:g}",
+        "max_evaluations": f"{stability.attrs['rivals']['max_evaluations']:,}",
+    }
+
+
 def stability_limits(*, stability: pd.DataFrame) -> dict[str, str]:
     own = stability[(stability.method == "event") & stability.panel.isin(PANELS)]
     return stability_maps(stability=stability) | {
@@ -325,7 +339,7 @@ NUMBERS: dict[str, Callable[..., dict[str, Any]]] = {
     "track": track,
     "speed_accuracy": speed_accuracy,
     "stability": stability_limits,
-    "stability_details": stability_maps,
+    "stability_details": failed_rivals,
 }
 
 

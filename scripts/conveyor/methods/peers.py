@@ -39,6 +39,8 @@ SIGN, FLIGHT, FORWARD, BACKWARD, STICK = range(5)
 BESIDE = 1e-15
 # heyoka finds the plate in other roundings: nearer to it, a contact begins outside of it, where its force is no number.
 BESIDE_OF_HEYOKA = 1e-13
+# m and m/s: on a plate at rest absolute tolerances refer to that, because CVODE takes none of zero.
+SMALLEST_SCALE = 1e-6
 
 
 class Summary(NamedTuple):
@@ -279,7 +281,8 @@ def leg_of(trajectory: Trajectory, task: Task) -> Leg:
 
 def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, treatment: str, rtol: float):
     """State at the time `end` (s), or None where the integrator fails; absolute tolerances are `rtol` of `scales`."""
-    parameters, atol = trajectory.parameters, rtol * scales(trajectory.parameters)
+    parameters = trajectory.parameters
+    atol = rtol * np.maximum(scales(parameters), SMALLEST_SCALE)
     t, state = begin, state.copy()
     beside = BESIDE_OF_HEYOKA if trajectory.integrator == HEYOKA else BESIDE
     if treatment != "sign" and trajectory.mode == SIGN:

@@ -10,7 +10,7 @@ from figures import style
 # Method, treatment of events, name, the end of the curve at which the name stands, its offset in points, its alignment.
 CURVES = (
     ("event", speed.OWN, "this solver", "last", (0, -8), "center"),
-    ("euler", "fixed step", "the paper's method\n(explicit Euler)", "first", (4, 4), "left"),
+    ("euler", "fixed step", "explicit Euler", "last", (5, 0), "left"),
     ("DOP853", "modes", "SciPy DOP853", "last", (5, 0), "left"),
     ("CyRK DOP853", "modes", "CyRK\nDOP853", "last", (0, -13), "center"),
     ("CVODE Adams", "modes", "SUNDIALS\nCVODE", "last", (0, -13), "center"),
@@ -81,7 +81,12 @@ def plot(*, jumping: pd.DataFrame, jumping_times: pd.DataFrame, paper_step: floa
     paper = speed.paper_run(runs, paper_step)
     axes.plot(paper.milliseconds, paper.trajectory_error, "o", markersize=9.0, color=style.EULER, fillstyle="none")
     style.note(
-        axes, "the paper's step", (paper.milliseconds, paper.trajectory_error), (8, 3), color=style.EULER, va="bottom"
+        axes,
+        "the paper's method and step",
+        (paper.milliseconds, paper.trajectory_error),
+        (8, 3),
+        color=style.EULER,
+        va="bottom",
     )
     versus = ("the paper's method", "the best rival")
     for factor in speed.factors(runs, paper_step, equal_error):
@@ -95,6 +100,6 @@ def plot(*, jumping: pd.DataFrame, jumping_times: pd.DataFrame, paper_step: floa
     axes.set_xticks([0.1, 1.0, 10.0, 100.0, 1000.0], ["$10^{-4}$", "$10^{-3}$", "0.01", "0.1", "1"])
     axes.set_xlim(0.05, 4000.0)
     axes.grid(linewidth=0.3, color="0.9")
-    axes.set_xlabel("processor time per second of motion in s")
+    axes.set_xlabel(f"processor time for {jumping.attrs['duration']:g} s of motion in s")
     axes.set_ylabel("error of the trajectory\nin units of the plate's motion")
     return figure
