@@ -305,11 +305,11 @@ Peers = mapping("tolerances of each integrator", dict.fromkeys(INTEGRATORS, Peer
 class Precision(TypedDict):
     duration: Duration
     sample_interval: number("interval of the times at which trajectories are compared", "s", gt=0, le=1e6)
-    scenes: Annotated[dict[Name, Model], Field(description="conveyors by their names")]
     reference: mapping(
         "the scene that is solved a second time in arithmetic of many digits",
         {"scene": Name, "digits": whole("digits of that arithmetic", 18, 1000)},
     )
+    scenes: Annotated[dict[Name, Model], Field(description="conveyors by their names")]
     tolerances: Tolerances
     steps: Steps
     peers: mapping("peers by their treatment of impacts", {"sign": Peers, "events": Peers, "modes": Peers}, total=False)
