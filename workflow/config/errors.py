@@ -12,6 +12,8 @@ from pydantic import ValidationError
 from .model import MODEL
 from .schema import options_of, schema_at, unit_of
 
+# Errors with a remedy: to look for similar names in thousands of errors would take seconds.
+MOST_EXPLAINED = 200
 MOST_LINES = 6  # of a message: ten with the four lines that Snakemake adds
 SHORT = Repr()
 SHORT.maxstring = SHORT.maxother = 60
@@ -88,5 +90,7 @@ def type_problems(config: Any, ignored: str = "") -> list[str]:
     try:
         MODEL.validate_python(config)
     except ValidationError as invalid:
-        return [explain(error) for error in invalid.errors(include_url=False) if error["type"] != ignored]
+        errors = [error for error in invalid.errors(include_url=False) if error["type"] != ignored]
+        more = [f"{format_key(path_of(error['loc']))}: {error['msg']}" for error in errors[MOST_EXPLAINED:]]
+        return [explain(error) for error in errors[:MOST_EXPLAINED]] + more
     return []
