@@ -91,6 +91,6 @@ def type_problems(config: Any, ignored: str = "") -> list[str]:
         MODEL.validate_python(config)
     except ValidationError as invalid:
         errors = [error for error in invalid.errors(include_url=False) if error["type"] != ignored]
-        more = [f"{format_key(path_of(error['loc']))}: {error['msg']}" for error in errors[MOST_EXPLAINED:]]
+        more = [f"{format_key(error['loc'])}: {error['msg']}" for error in errors[MOST_EXPLAINED:]]
         return [explain(error) for error in errors[:MOST_EXPLAINED]] + more
     return []
