@@ -33,8 +33,10 @@ def plot(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> Figure:
     style.mark(panels[0, 0], proved_fold(throws, bifurcations), "proved fold")
     for axes in panels[-1]:
         axes.set_xlabel(style.THROW_NUMBER)
-    for axes in panels[:, 0]:
+    for axes in panels.flat:
         axes.set_ylabel(style.VELOCITY)
+    for axes in panels.flat[len(names) :]:
+        axes.set_axis_off()
     handles = [Line2D([], [], **style.TEXTBOOK), *share_handles(set(throws.state))]
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), columnspacing=1.0)
     return figure
