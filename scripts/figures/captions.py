@@ -358,7 +358,8 @@ def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings:
     """
     function = NUMBERS.get(name)
     numbers = function(**arguments_of(function, {**tables, **settings})) if function else {}
-    return render(template, numbers | {"paper": paper})
+    conveyor = "the paper's conveyor" if paper else "this conveyor"
+    return render(template, numbers | {"paper": paper, "conveyor": conveyor})
 
 
 def make(
