@@ -389,7 +389,7 @@ def test_nothing_is_said_that_is_not_there(refined):
         pd.DataFrame(regimes.make(alone)),
         *(table.iloc[:0] for table in advised()),
     )
-    assert "At no amplitude, with a margin of 1 %, does every part get the same velocity." in page
+    assert "At no amplitude, with a margin of 1 %, does every part reach the same velocity." in page
     assert "At no amplitude do all initial conditions reach one velocity" in page
     assert "No initial condition leads to chaos" in page
     assert "At 20.0 m/s² the state of a motion is undecided" in page
