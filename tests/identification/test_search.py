@@ -149,11 +149,11 @@ def test_ends_of_an_interval():
     x = np.array([-3.0, -2.0, -1.0, 0.0, 1.0, 2.0])
     total = x**2
     free = np.zeros(6, dtype=bool)
-    assert findings.ends(x, total, free, 2.5) == ((-1.5, False), (1.5, False))
-    assert findings.ends(x, total, x > 1.5, 2.5) == ((-1.5, False), (1.5, True))
-    assert findings.ends(x, total, free, 5.0) == ((pytest.approx(-2.2), False), None)
+    assert findings.find_ends(x, total, free, 2.5) == ((-1.5, False), (1.5, False))
+    assert findings.find_ends(x, total, x > 1.5, 2.5) == ((-1.5, False), (1.5, True))
+    assert findings.find_ends(x, total, free, 5.0) == ((pytest.approx(-2.2), False), None)
     with pytest.raises(ValueError, match="above the level"):
-        findings.ends(x, total, free, -1.0)
+        findings.find_ends(x, total, free, -1.0)
 
 
 def test_rises_grow_where_the_best_misses_by_more_than_the_errors():

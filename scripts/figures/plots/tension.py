@@ -1,4 +1,4 @@
-"""What changes when the contact may not pull: velocity, critical heights, and states of motion over the amplitude."""
+"""Effect of the tensile contact force: velocity, critical heights, and states of motion over the amplitude."""
 
 import numpy as np
 import pandas as pd
@@ -7,9 +7,9 @@ from matplotlib.figure import Figure
 from figures import style
 
 MODES = {
-    "allow": ("pulls and rubs, as written", "black", "-", 1.4),
-    "frictionless": ("pulls, does not rub", "0.7", (0, (4, 2)), 1.0),
-    "clip": ("does not pull", "#D55E00", (0, (1, 1)), 1.4),
+    "allow": ("tensile force with friction", "black", "-", 1.4),
+    "frictionless": ("tensile force, no friction", "0.7", (0, (4, 2)), 1.0),
+    "clip": ("no tensile force", "#D55E00", (0, (1, 1)), 1.4),
 }
 
 
@@ -35,7 +35,7 @@ def plot(*, sweep: pd.DataFrame, edge: pd.DataFrame) -> Figure:
     panels["velocity"].set_ylim(bottom=0.0)
     panels["velocity"].set_title("motions with the period of the excitation")
     panels["edge"].set_ylabel("critical initial height in mm")
-    panels["edge"].set_title("first state below, second above")
+    panels["edge"].set_title("first state below the curve, second above")
     for name in ("velocity", "edge"):
         panels[name].set_xlabel(style.AMPLITUDE)
 

@@ -1,4 +1,4 @@
-"""The textbook theory of throw conveyors and the converged motions of several conveyors over the throw number."""
+"""Textbook theory of throw conveyors and converged motions of several conveyors over the throw number."""
 
 import pandas as pd
 from matplotlib.figure import Figure
