@@ -38,6 +38,7 @@ FINDINGS = {"about_chaos": about_chaos, "about_states": about_states}
 REPRODUCED = "reproduced"
 PAPER_METHOD_ONLY = "reproduced by the paper's method only"
 NOT_REPRODUCED = "not reproduced"
+VERDICTS = (REPRODUCED, PAPER_METHOD_ONLY, NOT_REPRODUCED)
 NAMES = {"euler": "paper's method", "converged": "converged solution"}
 
 

@@ -8,8 +8,8 @@ import pandas as pd
 from markdown_it import MarkdownIt
 from markupsafe import Markup
 
-from claims import verdicts
 from claims.finding import format_interval
+from claims.verdicts import VERDICTS
 from report.page import render
 
 LISTS = ("quantities", "paper", "paper_method", "converged", "accepted_low", "accepted_high", "because")
@@ -33,8 +33,7 @@ def describe_claim(row: pd.Series) -> dict:
 def count_verdicts(found: pd.Series) -> str:
     """The number of verdicts of each kind, in words."""
     counts = Counter(found)
-    kinds = (verdicts.REPRODUCED, verdicts.PAPER_METHOD_ONLY, verdicts.NOT_REPRODUCED)
-    parts = ", ".join(f"{counts[kind]} {kind}" for kind in kinds)
+    parts = ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS)
     return f"{len(found)} statements of the paper: {parts}"
 
 

@@ -154,19 +154,19 @@ def table() -> pd.DataFrame:
 
 
 def test_what_the_whole_sweep_costs():
-    rows = cluster_page.costs(table()).set_index("points")
+    rows = cluster_page.total_costs(table()).set_index("points")
     assert rows.core_hours.to_dict() == pytest.approx(
         {100: 3.0 * 2 / 3600.0, 250: 8.0 * 2 / 3600.0, 1000: 10 * 3.0 * 2 / 3600.0}
     )
     assert rows.microseconds.tolist() == pytest.approx([2e4, 2e4, 2e4])
     assert rows.minutes.to_dict() == pytest.approx({100: 1.0 / 60.0, 250: 2.0 / 60.0, 1000: 1000 * 6.0 / 300 / 60.0})
     sharing = {"core_hours": 24.0, "most_jobs": 500, "job_seconds": 60.0}
-    told = cluster_page.values(table(), sharing)
-    assert (told["least_ratio"], told["most_ratio"]) == ("0.5", "2")
-    assert told["within_limit"]
+    fields = cluster_page.values(table(), sharing)
+    assert (fields["least_ratio"], fields["most_ratio"]) == ("0.5", "2")
+    assert fields["within_limit"]
     assert not cluster_page.values(table(), sharing | {"core_hours": 0.01})["within_limit"]
-    assert (told["points"], told["most_memory"], told["made_whole"]) == ("1,000", "305", "250")
-    assert (told["start"], told["loading"]) == ("0.8", "0.2")
+    assert (fields["points"], fields["most_memory"], fields["made_whole"]) == ("1,000", "305", "250")
+    assert (fields["start"], fields["loading"]) == ("0.8", "0.2")
 
 
 def test_cost_of_a_point_is_told_without_and_with_the_start_of_the_job():
