@@ -141,8 +141,8 @@ def changes_of_state(found: Curve, measured: dict) -> dict[str, np.ndarray]:
     fig_8, fig_11 = (found.at(np.linspace(*measured[name])) for name in ("starts", "moved_starts"))
     low, _ = measured["interval"]
     n = len(found.amplitudes)
-    # The critical height is largest at the lower end of the interval, or where the second state begins above it. There it
-    # hardly depends on the amplitude; the slope of Eq. 13 is added so that a search moves towards the paper's value.
+    # The critical height is largest at the lower end of the interval, or where the second state begins above it. It
+    # hardly depends on the amplitude there; the slope of Eq. 13 is added so that a search moves to the paper's value.
     lowest = np.maximum(low, found.amplitudes.min(axis=1))
     triple = Hyperbola(**measured["triple"])
     missing = triple.A / (triple.B + low) ** 2 * (lowest - low)
