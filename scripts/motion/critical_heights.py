@@ -7,7 +7,7 @@ from conveyor.analysis.attractors.attractor_table import AttractorTable
 from conveyor.analysis.attractors.labels import classify, continued
 from conveyor.analysis.basins import boundary_scan
 from pipeline import fields, grid
-from pipeline.motions import shared_attractors, tolerance_of
+from pipeline.motions import search_tolerance, shared_attractors
 
 TABLES = {
     "critical": (
@@ -25,7 +25,7 @@ def find_states(parameters: np.ndarray, settings: dict, known: AttractorTable, t
 
     A fixed-step method runs for the duration, as in the paper, and the converged solution continues from its end.
     """
-    options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
+    options = {"cycles": settings["settling"], "tolerance": search_tolerance(settings), "threads": threads}
     if settings["method"] != "event":
         run = {name: settings[name] for name in ("duration", "method", "step")}
         runs = ensemble.run(parameters, needs="vertical", chunk=8, threads=threads, **run)

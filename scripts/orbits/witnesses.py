@@ -54,7 +54,7 @@ def reason(row: pd.Series, significant: float) -> str | None:
     reasons = []
     if abs(row.lambda_1) <= significant * row.stderr:
         reasons.append(
-            f"λ1 = {row.lambda_1:.3g} ± {row.stderr:.2g} 1/s does not differ significantly from zero: near a bifurcation"
+            f"λ1 = {row.lambda_1:.3g} ± {row.stderr:.2g} 1/s does not differ significantly from 0, near a bifurcation"
         )
     if 0.1 < row.zero_one < 0.9:
         reasons.append(f"the 0-1 test is undecided, K = {row.zero_one:.2f}")

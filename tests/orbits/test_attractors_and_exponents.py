@@ -129,4 +129,4 @@ def test_an_exponent_within_its_error_is_no_witness_of_chaos(monkeypatch):
     found = witnesses.make(None, spectrum, {"significant": 2.0})
     assert found["by_exponent"].tolist() == [False, True]
     assert found["agree"].tolist() == [False, True]
-    assert "does not differ significantly from zero" in found["reason"][0]
+    assert "does not differ significantly from 0" in found["reason"][0]
