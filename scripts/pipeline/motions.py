@@ -86,5 +86,5 @@ def motions(parameters: np.ndarray, settings: dict, **options) -> Labels:
 
 
 def motions_after(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, settings: dict, **options) -> Labels:
-    """The attractors that runs of `parameters` lead to, continued from their ends (m, m/s) by the converged solution."""
+    """The attractors that runs of `parameters` lead to; the converged solution continues from their ends (m, m/s)."""
     return motions(continued(parameters, z_end, vz_end, settings["duration"]), settings, **options)

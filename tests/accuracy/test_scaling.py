@@ -30,8 +30,8 @@ def folder(tmp_path_factory):
 
 
 def measured(case, folder):
-    made = scaling.shards_of(case, folder)
-    return scaling.row(case, made, scaling.gather_shards(case, folder))
+    made = scaling.measure_shards(case, folder)
+    return scaling.make_row(case, made, scaling.measure_gathering(case, folder))
 
 
 def test_all_shards_are_made_and_put_together(folder):
@@ -58,7 +58,7 @@ def test_of_several_rounds_medians_count_and_the_most_memory():
 
     rounds = [[shard(3.0, 100.0), shard(9.0, 70.0)], [shard(7.0, 90.0), shard(4.0, 60.0)]]
     rounds.append([shard(4.0, 80.0), shard(5.0, 50.0)])
-    assert scaling.medians(rounds) == [shard(4.0, 100.0), shard(5.0, 70.0)]
+    assert scaling.summarise(rounds) == [shard(4.0, 100.0), shard(5.0, 70.0)]
 
 
 def test_sweeps_are_made_in_turns_until_they_have_taken_long_enough(monkeypatch):
@@ -75,9 +75,9 @@ def test_sweeps_are_made_in_turns_until_they_have_taken_long_enough(monkeypatch)
         together.append(case["conveyors"])
         return {"whole": 2.0, "memory": 50.0, "rows": 20, "bytes": 400}
 
-    monkeypatch.setattr(scaling, "run", lambda **_: None)
-    monkeypatch.setattr(scaling, "shards_of", shards_of)
-    monkeypatch.setattr(scaling, "gather_shards", gather_shards)
+    monkeypatch.setattr(scaling, "measure_job", lambda **_: None)
+    monkeypatch.setattr(scaling, "measure_shards", shards_of)
+    monkeypatch.setattr(scaling, "measure_gathering", gather_shards)
     found = scaling.make({}, cases)
     assert done == [0, 1, 2, 0, 1, 0, 0, 0]
     assert together == [0, 1, 2]
@@ -106,7 +106,7 @@ def test_the_first_points_are_computed_alone_before_all(monkeypatch, tmp_path, e
     monkeypatch.setattr(scaling, "make_shard", make_shard)
     task = {"path": str(path), "settings": {}, "rows": [7, end], "threads": 1}
     monkeypatch.setattr("sys.stdin", io.StringIO(json.dumps(task)))
-    scaling.job()
+    scaling.run_job()
     assert made == [(7, first), (7, end)]
 
 
@@ -114,7 +114,7 @@ def test_the_first_points_are_computed_alone_before_all(monkeypatch, tmp_path, e
 def test_loading_of_compiled_code_is_no_computing(tmp_path, rows):
     """Some points take a millisecond or so, the loading some hundred, also of code for many that few do not run."""
     for name in ("compiled", "some"):
-        made = scaling.run(settings=SETTINGS, threads=1, rows=rows, path=str(tmp_path / f"{name}.parquet"))
+        made = scaling.measure_job(settings=SETTINGS, threads=1, rows=rows, path=str(tmp_path / f"{name}.parquet"))
     assert made["computing"] < 0.5 * made["loading"] < 0.5 * made["whole"]
     assert pq.read_table(tmp_path / "some.parquet")["z0"].to_pylist() == ([0.0, 1.0e-4] * 10)[slice(*rows)]
 
@@ -123,7 +123,7 @@ def test_memory_is_that_of_the_process_itself(tmp_path):
     ballast = np.ones(10**8)
     before = scaling.peak_memory()
     assert before > 800.0
-    row = scaling.run(settings=SETTINGS, threads=1, rows=[0, 1], path=str(tmp_path / "one.parquet"))
+    row = scaling.measure_job(settings=SETTINGS, threads=1, rows=[0, 1], path=str(tmp_path / "one.parquet"))
     assert row["memory"] < before - 300.0 < before
     del ballast
 
