@@ -16,14 +16,14 @@ EVIDENCE = {
     "paper_method": (style.EULER, (0, (3, 2)), "the same, shifted by the error of the published method"),
 }
 READINGS = {
-    "allow": ("o", style.CONVERGED, "tensile force"),
-    "frictionless": ("x", "0.4", "tensile, no friction"),
-    "clip": ("^", style.EULER, "no tensile force"),
+    "allow": ("o", style.CONVERGED, "contact pulls"),
+    "frictionless": ("x", "0.4", "pulls, without friction"),
+    "clip": ("^", style.EULER, "does not pull"),
 }
 FRICTIONS = {
     "first_low": (style.STATE_COLOURS["first"], (0, (3, 2)), "first state, lower end"),
     "first_high": (style.STATE_COLOURS["first"], "-", "first state, upper end"),
-    "fall": (style.STATE_COLOURS["second"], "-", "decrease of the second state"),
+    "fall": (style.STATE_COLOURS["second"], "-", "fall of the second state"),
 }
 UNITS = {
     "friction": (1.0, "friction $\\mu$"),
@@ -34,7 +34,7 @@ UNITS = {
 MOST = 25.0  # largest total misfit on the axis
 
 
-def draw_friction_alone(axes: Axes, frictions: pd.DataFrame, numbers: pd.DataFrame, published: float) -> None:
+def draw_friction_alone(axes: Axes, frictions: pd.DataFrame, numbers: pd.DataFrame, printed: float) -> None:
     """Draw velocities over friction, thick where the claims accept them."""
     by_name = numbers.drop_duplicates("number").set_index("number")
     for column, (colour, line, label) in FRICTIONS.items():
@@ -42,35 +42,35 @@ def draw_friction_alone(axes: Axes, frictions: pd.DataFrame, numbers: pd.DataFra
         axes.plot(frictions.friction, frictions[column], color=colour, linestyle=line, label=label)
         values = frictions[column].where(frictions[column].between(one.low, one.high))
         axes.plot(frictions.friction, values, color=colour, linewidth=4.5, alpha=0.35, solid_capstyle="butt")
-    axes.axvline(published, color="black", linewidth=0.6, linestyle=":")
-    style.note(axes, "published", (published, 0.02), (2, 0), xycoords=("data", "axes fraction"))
+    axes.axvline(printed, color="black", linewidth=0.6, linestyle=":")
+    style.note(axes, "printed", (printed, 0.02), (2, 0), xycoords=("data", "axes fraction"))
     axes.set_xlabel(UNITS["friction"][1])
     axes.set_ylabel("mean feeding velocity in cm/s")
     axes.legend(loc="upper left", handlelength=1.6, borderaxespad=0.0, labelspacing=0.25)
     axes.set_ylim(top=1.35 * frictions.first_high.max())
 
 
-def published_misfit(numbers: pd.DataFrame, names: list[str]) -> float:
-    """An objective at the published parameters, by the converged solution."""
+def printed_misfit(numbers: pd.DataFrame, names: list[str]) -> float:
+    """An objective at the printed parameters, by the converged solution."""
     rows = numbers[(numbers["set"] == "printed") & (numbers.method == "converged") & numbers.number.isin(names)]
     return float(root_mean_square(rows.misfit.to_numpy()))
 
 
 def draw_fronts(axes: Axes, table: pd.DataFrame, numbers: pd.DataFrame) -> None:
-    """Draw the velocity misfits of all members of the fronts and of the published parameters."""
+    """Draw the velocity misfits of all members of the fronts and of the printed parameters."""
     groups = table.attrs["objectives"]
     x, y = "first_velocity", "second_velocity"
     for reading, (marker, colour, label) in READINGS.items():
         rows = table[(table.tension == reading) & (table[[*OBJECTIVES]] <= table.attrs["search"]["worst"]).all(axis=1)]
         look = {"color": colour, "markersize": 2.0, "markeredgewidth": 0.4, "markerfacecolor": "none"}
         axes.plot(rows[x], rows[y], marker, **look, label=label, rasterized=True)
-    published = published_misfit(numbers, groups[x]), published_misfit(numbers, groups[y])
-    axes.plot(*published, "k+", markersize=7.0, label="published parameters")
-    most = 1.6 * max(published)
+    printed = printed_misfit(numbers, groups[x]), printed_misfit(numbers, groups[y])
+    axes.plot(*printed, "k+", markersize=7.0, label="printed parameters")
+    most = 1.6 * max(printed)
     axes.set_xlim(0.0, most)
     axes.set_ylim(0.0, most)
     axes.set_xlabel("misfit of the first state's velocity")
-    axes.set_ylabel("misfit of the second state's decrease")
+    axes.set_ylabel("misfit of the second state's fall")
     axes.legend(loc="upper right", handlelength=1.0, borderaxespad=0.0, labelspacing=0.25)
 
 
@@ -106,7 +106,7 @@ def draw_valley(axes: Axes, profiles: pd.DataFrame, optima: pd.DataFrame, model:
     axes.figure.colorbar(points, ax=axes, label=UNITS["angle"][1], pad=0.02, aspect=25)
 
 
-def draw_profile(axes: Axes, profiles: pd.DataFrame, optima: pd.DataFrame, parameter: str, published: float) -> None:
+def draw_profile(axes: Axes, profiles: pd.DataFrame, optima: pd.DataFrame, parameter: str, printed: float) -> None:
     """Draw the least total misfit over one parameter for each set of evidence, and its confidence level."""
     scale, label = UNITS[parameter]
     for evidence, (colour, line, name) in EVIDENCE.items():
@@ -115,7 +115,7 @@ def draw_profile(axes: Axes, profiles: pd.DataFrame, optima: pd.DataFrame, param
         axes.plot(scale * profile[parameter], profile.total, color=colour, linestyle=line, label=name)
         level = rows.total.min() + rows.rise.iloc[0]
         axes.axhline(level, color=colour, linestyle=line, linewidth=0.4)
-    axes.axvline(scale * published, color="black", linewidth=0.6, linestyle=":")
+    axes.axvline(scale * printed, color="black", linewidth=0.6, linestyle=":")
     axes.set_ylim(0.0, MOST)
     axes.set_xlabel(label)
 

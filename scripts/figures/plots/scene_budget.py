@@ -8,8 +8,7 @@ from matplotlib.ticker import NullFormatter
 from figures import style
 
 TOLERANCES = {1e-4: "#D55E00", 1e-6: "#E69F00", 1e-8: "#009E73", 1e-10: "#56B4E9", 1e-12: "#0072B2"}
-# Marker, colour and label of variants other than tolerances.
-VARIANTS = {"half the time": ("s", "#CC79A7", "half the duration"), "rigid part": ("^", "black", "rigid part")}
+VARIANTS = {"half the time": ("s", "#CC79A7"), "rigid part": ("^", "black")}
 NONE = 3e-4  # place of zero on the logarithmic axis
 RING = {"linestyle": "", "marker": "o", "markersize": 8.0, "markerfacecolor": "none", "color": "black"}
 FULL = {"linestyle": "", "marker": "|", "color": "black", "markersize": 9.0}
@@ -18,7 +17,7 @@ FULL = {"linestyle": "", "marker": "|", "color": "black", "markersize": 9.0}
 def marker_and_colour(row) -> tuple[str, str]:
     """Marker and colour of a variant; a tolerance has the colour of the nearest one in TOLERANCES."""
     if row.variant in VARIANTS:
-        return VARIANTS[row.variant][:2]
+        return VARIANTS[row.variant]
     nearest = min(TOLERANCES, key=lambda tolerance: abs(tolerance / row.tolerance - row.tolerance / tolerance))
     return "o", TOLERANCES[nearest]
 
@@ -78,7 +77,7 @@ def plot(*, budget: pd.DataFrame, times: pd.DataFrame) -> Figure:
     ]
     handles += [
         Line2D([], [], linestyle="", marker=marker, color=colour, label=name)
-        for marker, colour, name in VARIANTS.values()
+        for name, (marker, colour) in VARIANTS.items()
     ]
     handles += [
         Line2D(

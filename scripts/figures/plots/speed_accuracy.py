@@ -81,7 +81,7 @@ def plot(*, jumping: pd.DataFrame, jumping_times: pd.DataFrame, paper_step: floa
     )
     for factor in speed.factors(runs, paper_step, equal_error):
         is_paper = factor.error == paper.trajectory_error
-        other = "the published method" if is_paper else "the best other method"
+        other = "the published method" if is_paper else "the best rival"
         draw_factor(axes, factor, f"faster than\n{other}", is_paper)
     axes.set_xscale("log")
     axes.set_yscale("log")

@@ -7,9 +7,9 @@ from matplotlib.figure import Figure
 from figures import style
 
 MODES = {
-    "allow": ("tensile force with friction", "black", "-", 1.4),
-    "frictionless": ("tensile force, no friction", "0.7", (0, (4, 2)), 1.0),
-    "clip": ("no tensile force", "#D55E00", (0, (1, 1)), 1.4),
+    "allow": ("contact pulls, with friction", "black", "-", 1.4),
+    "frictionless": ("contact pulls, without friction", "0.7", (0, (4, 2)), 1.0),
+    "clip": ("contact does not pull", "#D55E00", (0, (1, 1)), 1.4),
 }
 
 
