@@ -435,7 +435,7 @@ def test_phase_estimate():
     assert (numbers(finding.euler), numbers(finding.converged)) == ((50.0,), (59.0,))
     assert "positive at 100 % of the amplitudes by the paper's method" in finding.note
     assert "at 0 % of the amplitudes converged" in finding.note
-    assert "100 % settle to a period" in finding.note
+    assert "100 % of the motions are periodic" in finding.note
     assert "+0.50 to +1.50 1/s by the paper's method and -9.00 to -8.00 1/s converged" in finding.note
 
 
@@ -461,7 +461,7 @@ def test_onset_by_dimension():
     }
     finding = about_chaos.predicted_onset(**tables)
     assert (numbers(finding.euler), numbers(finding.converged)) == ((0.0, 1.0), (3.0, 1.0))
-    assert "1.00 to 2.00 in that and 2.00 to 2.00 in chaos" in finding.note
+    assert "1.00 to 2.00 in the second state and 2.00 to 2.00 in chaos" in finding.note
 
 
 def test_the_onset_by_dimension_is_half_way_between_both_ends():

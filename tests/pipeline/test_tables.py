@@ -69,7 +69,7 @@ def test_equal_content_gives_equal_bytes(tmp_path):
 @pytest.mark.parametrize(
     ("columns", "schema", "message"),
     [
-        ({"lambda": [1.0]}, SCHEMA, "acceleration lacking"),
+        ({"lambda": [1.0]}, SCHEMA, "acceleration missing"),
         ({"lambda": [1.0], "mu": [1.0]}, SCHEMA[1:], "mu missing or unknown"),
         ({"lambda": ["fast"]}, SCHEMA[1:], "column lambda of a table of estimates is not double"),
     ],
@@ -123,7 +123,7 @@ def test_another_kind_or_other_settings_are_refused(path):
     tables.write(path, made())
     with pytest.raises(tables.TableError, match="is not a table of sweeps but of estimates; delete it"):
         tables.read(path, "sweeps")
-    with pytest.raises(tables.TableError, match=r"other settings .*\(duration = 1.0, not 2.0\); delete it"):
+    with pytest.raises(tables.TableError, match=r"settings other .*\(duration = 1.0, not 2.0\); delete it"):
         tables.read(path, "estimates", SETTINGS | {"duration": 2.0})
     with pytest.raises(tables.TableError, match=r"\(model.mass = 0.0007, not 0.001\)"):
         tables.read(path, "estimates", SETTINGS | {"model": {"mass": 1.0e-3}})
