@@ -142,10 +142,15 @@ def state_map(axes: Axes, table: pd.DataFrame, x: str, y: str) -> None:
     class_map(axes, table.pivot(index=y, columns=x, values="state"), STATE_COLOURS)
 
 
+def state_label(state: str) -> str:
+    """The name of a state of motion in legends and titles: "first state", "chaos"."""
+    return f"{state} state" if state in ("first", "second") else state
+
+
 def state_handles(*tables: pd.DataFrame) -> list[Artist]:
     """Legend handles of the states of motion that occur in the tables."""
     occur = set().union(*(table.state.unique() for table in tables))
-    return [Patch(color=colour, label=state) for state, colour in STATE_COLOURS.items() if state in occur]
+    return [Patch(color=colour, label=state_label(state)) for state, colour in STATE_COLOURS.items() if state in occur]
 
 
 def phase_axis(axis: Axis) -> None:

@@ -50,9 +50,9 @@ def draw_motions(axes: Axes, shares: pd.DataFrame, over: str) -> None:
     axes.set_xlim(places[0], places[-1])
 
 
-def share_handles(states: set[str]) -> list[Artist]:
+def share_handles(shares: pd.DataFrame) -> list[Artist]:
     """Legend handles of states and of shares of the initial conditions."""
-    handles = [Patch(color=colour, label=state) for state, colour in style.STATE_COLOURS.items() if state in states]
+    handles = style.state_handles(shares)
     handles += [Line2D([], [], color="0.3", linewidth=width(share), label=f"{100.0 * share:g} %") for share in SHOWN]
     return [*handles, Patch(color="none", label="of the initial conditions")]
 
@@ -68,6 +68,6 @@ def plot(*, shares: pd.DataFrame) -> Figure:
     axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel(style.VELOCITY)
     throw_axis(axes, shares)
-    handles = share_handles(set(shares.state))
+    handles = share_handles(shares)
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), columnspacing=1.2)
     return figure

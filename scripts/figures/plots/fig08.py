@@ -64,7 +64,7 @@ def plot(
         style.from_zero(axes)
     present = {state for sweep in sweeps.values() for state in sweep.state}
     handles = {
-        state: Line2D([], [], color=colour, marker="o", linestyle="")
+        style.state_label(state): Line2D([], [], color=colour, marker="o", linestyle="")
         for state, colour in style.STATE_COLOURS.items()
         if state in present
     }

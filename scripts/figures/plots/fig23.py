@@ -21,8 +21,7 @@ def plot(
             axes.plot(1e3 * run.z, run.vz, color="0.75", linewidth=0.4)
             axes.plot(1e3 * settled.z, settled.vz, color=style.STATE_COLOURS[state], linewidth=0.8)
             if axes in panels[0]:
-                name = state if state == "chaos" else f"{state} state"
-                axes.set_title(f"{name}, $\\hat{{a}}$ = {acceleration:g} m/s²")
+                axes.set_title(f"{style.state_label(state)}, $\\hat{{a}}$ = {acceleration:g} m/s²")
             if axes in panels[-1]:
                 axes.set_xlabel("height $z_p$ in mm")
             axes.set_ylabel("vertical velocity $\\dot{z}_p$ in m/s")

@@ -25,7 +25,7 @@ def draw_attractors(axes: Axes, strobes: pd.DataFrame) -> None:
             color=style.STATE_COLOURS[state],
             rasterized=True,
         )
-    axes.set_ylabel("speed of approach at $\\psi$ = $\\psi_0$ in m/s")
+    axes.set_ylabel("speed of approach\nat $\\psi$ = $\\psi_0$ in m/s")
 
 
 def draw_exponents(axes: Axes, spectrum: pd.DataFrame, estimate: pd.DataFrame) -> None:
@@ -39,9 +39,9 @@ def draw_exponents(axes: Axes, spectrum: pd.DataFrame, estimate: pd.DataFrame) -
         estimate["lambda"],
         color=style.EULER,
         linewidth=0.9,
-        label="published estimate (Fig. 22)",
+        label="estimate of Fig. 22",
     )
-    axes.set_ylabel("Lyapunov exponent in 1/s")
+    axes.set_ylabel("Lyapunov\nexponent in 1/s")
     axes.legend(loc="lower left", bbox_to_anchor=(0.06, 0.56))
 
 

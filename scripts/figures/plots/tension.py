@@ -35,7 +35,7 @@ def plot(*, sweep: pd.DataFrame, edge: pd.DataFrame) -> Figure:
     panels["velocity"].set_ylim(bottom=0.0)
     panels["velocity"].set_title("motions with the period of the excitation")
     panels["edge"].set_ylabel("critical initial height in mm")
-    panels["edge"].set_title("first state below the curve, second above")
+    panels["edge"].set_title("first state below, second above")
     for name in ("velocity", "edge"):
         panels[name].set_xlabel(style.AMPLITUDE)
 
@@ -45,7 +45,8 @@ def plot(*, sweep: pd.DataFrame, edge: pd.DataFrame) -> Figure:
     style.class_map(axes, states.reset_index(drop=True), style.STATE_COLOURS)
     for line in np.arange(1.5, len(bars) - 1.0, 2.0):
         axes.axhline(line, color="white", linewidth=2.0)
-    axes.set_yticks(np.arange(len(bars)), [f"{MODES[mode][0]}, $z_0$ = {1e3 * z0:g} mm" for mode, z0 in bars])
+    names = {mode: label.removeprefix("contact ") for mode, (label, *_) in MODES.items()}
+    axes.set_yticks(np.arange(len(bars)), [f"{names[mode]}, $z_0$ = {1e3 * z0:g} mm" for mode, z0 in bars])
     axes.invert_yaxis()
     axes.set_xlabel(style.AMPLITUDE)
     handles = [*panels["velocity"].get_legend_handles_labels()[0], *style.state_handles(sweep)]

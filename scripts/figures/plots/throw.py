@@ -37,6 +37,6 @@ def plot(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> Figure:
         axes.set_ylabel(style.VELOCITY)
     for axes in panels.flat[len(names) :]:
         axes.set_axis_off()
-    handles = [Line2D([], [], **style.TEXTBOOK), *share_handles(set(throws.state))]
+    handles = [Line2D([], [], **style.TEXTBOOK), *share_handles(throws)]
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), columnspacing=1.0)
     return figure
