@@ -80,10 +80,8 @@ def plot(*, budget: pd.DataFrame, times: pd.DataFrame) -> Figure:
         for name, (marker, colour) in VARIANTS.items()
     ]
     handles += [
-        Line2D(
-            [], [], linestyle="", marker="o", color="0.5", markerfacecolor="white", label="open symbol: visible change"
-        ),
-        Line2D([], [], label="chosen in the config", **RING),
+        Line2D([], [], linestyle="", marker="o", color="0.5", markerfacecolor="white", label="open: visible"),
+        Line2D([], [], label="chosen", **RING),
         Line2D([], [], label=f"full model, tolerance {full.tolerance.iloc[0]:.0e}", **FULL),
     ]
     figure.legend(handles=handles, loc="outside upper center", ncols=5)

@@ -131,7 +131,7 @@ def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.Dat
 
     named = {label: rows for label, rows in select_points(derivatives).items() if len(rows)}
     draw_dots(amplitudes, named, [name for name in NAMES if name != "acceleration"], "elasticity", POINTS)
-    amplitudes.set_xlabel("change of $\\hat{a}$ in % per 1 % of the parameter")
+    amplitudes.set_xlabel("change of $\\hat{a}$ in % per % of the parameter")
     amplitudes.legend(loc="lower left", bbox_to_anchor=(-0.19, 1.0), ncols=2, columnspacing=0.6, handletextpad=0.2)
 
     rows = derivatives[(derivatives.kind == "critical_height") & (derivatives.status == "ok")]
@@ -140,7 +140,7 @@ def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.Dat
     shades = colormaps["viridis"](np.linspace(0.0, 0.85, max(len(by_amplitude), 1)))
     looks = {label: {"marker": "o", "color": shade} for label, shade in zip(by_amplitude, shades, strict=False)}
     draw_dots(heights, by_amplitude, list(NAMES), "per_percent", looks)
-    heights.set_xlabel("change of critical height in µm per 1 % of the parameter")
+    heights.set_xlabel("change of height in µm per % of the parameter")
     heights.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, columnspacing=0.7, handletextpad=0.0)
 
     draw_curves(damping, continued, meetings, "damping", "damping_group", "damping group $D = d_c/(m\\omega)$")

@@ -57,7 +57,7 @@ def draw_edges(axes: Axes, table: pd.DataFrame) -> None:
     axes.set_xscale("log")
     axes.set_ylim(0.7, 1.3)
     axes.set_xlabel("theoretical step limit in s")
-    axes.set_ylabel("measured over theoretical limit")
+    axes.set_ylabel("measured over\ntheoretical limit")
     axes.legend(
         handles=[
             Line2D([], [], linestyle="", marker=marker, color="0.4", label=name) for name, marker in EDGES.items()
@@ -76,7 +76,7 @@ def draw_chatter(axes: Axes, table: pd.DataFrame) -> None:
         axes.loglog(rows.x, rows.y.clip(lower=SMALLEST), ".-", color=style.METHODS[method][0])
         style.note(axes, label, (rows.x.iloc[0], rows.y.iloc[0]), (0, 5))
     axes.set_xlabel("time step in s")
-    axes.set_ylabel("slip velocity in stick in m/s")
+    axes.set_ylabel("slip velocity\nin stick in m/s")
 
 
 def draw_hard(axes: Axes, table: pd.DataFrame) -> None:

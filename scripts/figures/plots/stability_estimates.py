@@ -8,8 +8,8 @@ from matplotlib.lines import Line2D
 from figures import style
 
 CASES = {
-    "orbit_phase": "periodic orbit, perturbed phase:\nexponent of $\\dot{x}_p$ in 1/s",
-    "orbit_height": "periodic orbit, perturbed height:\nexponent of $z_p$ in 1/s",
+    "orbit_phase": "orbit, perturbed phase:\nexponent of $\\dot{x}_p$ in 1/s",
+    "orbit_height": "orbit, perturbed height:\nexponent of $z_p$ in 1/s",
     "chaos_phase": "chaos, perturbed phase:\nexponent of $\\dot{x}_p$ in 1/s",
 }
 VARIED = {
