@@ -54,7 +54,7 @@ def share_handles(shares: pd.DataFrame) -> list[Artist]:
     """Legend handles of states and of shares of the initial conditions."""
     handles = style.state_handles(shares)
     handles += [Line2D([], [], color="0.3", linewidth=width(share), label=f"{100.0 * share:g} %") for share in SHOWN]
-    return [*handles, Patch(color="none", label="of the initial conditions")]
+    return [*handles, Patch(color="none", label="of initial conditions")]
 
 
 def plot(*, shares: pd.DataFrame) -> Figure:

@@ -26,7 +26,7 @@ def plot(*, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame,
     errors.axhline(1e6 * paper_error**0.5, color="black", linewidth=0.6, linestyle=":")
     style.note(
         errors,
-        "error of the paper's fit",
+        "paper's fit",
         (1.0, 1e6 * paper_error**0.5),
         (0, -2),
         xycoords=("axes fraction", "data"),

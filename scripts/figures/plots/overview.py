@@ -32,7 +32,7 @@ def draw_exponents(axes: Axes, spectrum: pd.DataFrame, estimate: pd.DataFrame) -
     """Draw the Lyapunov exponents of the attractors swept up and down, and the published estimate."""
     axes.axhline(0.0, color="black", linewidth=0.6)
     for branch, rows in spectrum.groupby("branch", sort=False):
-        label = style.CONVERGED_LABEL if branch == "up" else None
+        label = "converged" if branch == "up" else None
         axes.plot(rows.acceleration, rows.lambda_1, color=style.CONVERGED, linewidth=0.6, label=label)
     axes.plot(
         estimate.acceleration,

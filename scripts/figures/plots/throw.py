@@ -38,5 +38,5 @@ def plot(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> Figure:
     for axes in panels.flat[len(names) :]:
         axes.set_axis_off()
     handles = [Line2D([], [], **style.TEXTBOOK), *share_handles(throws)]
-    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), columnspacing=1.0)
+    figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 8), columnspacing=1.0)
     return figure
