@@ -101,7 +101,7 @@ def test_numbers_from_a_file_score_as_a_function_does(folder, scene, tmp_path):
     ("change", "message"),
     [
         ({"scene": "long"}, "no scene 'long'; there are short"),
-        ({"time": np.linspace(0.0, 1.0, 12)}, "the times are not those of the scene"),
+        ({"time": np.linspace(0.0, 1.0, 12)}, "the times differ from the times of the scene"),
     ],
 )
 def test_wrong_numbers_are_refused(scene, change, message):
