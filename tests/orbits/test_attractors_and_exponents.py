@@ -77,7 +77,7 @@ def test_witnesses_agree_where_the_motion_is_clear(tables):
 def test_limits_below_the_first_doubling_are_named():
     section = read_config("orbits")["orbits"]
     settings = {**section, "limits": [20.0, 45.0], "max_period": 1, "model": MODEL}
-    with pytest.raises(ValueError, match=r"followed to 45\.\d+ m/s².*upper one of orbits\.limits"):
+    with pytest.raises(ValueError, match=r"up to 45\.\d+ m/s².*upper value of orbits\.limits"):
         branches.make(settings)
 
 
