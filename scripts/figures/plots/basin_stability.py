@@ -8,7 +8,6 @@ from matplotlib.axis import Axis
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from figures import style
 
@@ -53,8 +52,10 @@ def draw_motions(axes: Axes, shares: pd.DataFrame, over: str) -> None:
 def share_handles(shares: pd.DataFrame) -> list[Artist]:
     """Legend handles of states and of shares of the initial conditions."""
     handles = style.state_handles(shares)
-    handles += [Line2D([], [], color="0.3", linewidth=width(share), label=f"{100.0 * share:g} %") for share in SHOWN]
-    return [*handles, Patch(color="none", label="of initial conditions")]
+    labels = [f"{100.0 * share:g} %" for share in SHOWN]
+    labels[-1] += " of the initial conditions"
+    widths = zip(SHOWN, labels, strict=True)
+    return handles + [Line2D([], [], color="0.3", linewidth=width(share), label=label) for share, label in widths]
 
 
 def plot(*, shares: pd.DataFrame) -> Figure:
