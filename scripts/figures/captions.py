@@ -357,7 +357,8 @@ def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings:
         available = {**tables, **settings}
         parameters = inspect.signature(function).parameters
         numbers = function(**{name: available[name] for name in parameters if name in available})
-    return render(template, numbers | {"paper": paper})
+    conveyor = "the paper's conveyor" if paper else "this conveyor"
+    return render(template, numbers | {"paper": paper, "conveyor": conveyor})
 
 
 def make(

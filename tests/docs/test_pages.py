@@ -228,3 +228,9 @@ def test_formulas_need_no_network(source, tmp_path):
     page = (tmp_path / "html/index.html").read_text(encoding="utf-8")
     assert "<math" in page
     assert not re.search(r"(?:src|href)=\"https?://", page.split("<footer")[0])
+
+
+def test_the_article_shows_every_figure_of_the_paper_once_and_in_order():
+    text = (TEMPLATES / "article.md").read_text(encoding="utf-8")
+    shown = re.findall(r'figure\("(fig\d\d)"\)', text)
+    assert shown == [name for name in FIGURES if re.fullmatch(r"fig\d\d", name)]
