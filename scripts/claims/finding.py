@@ -70,8 +70,8 @@ def format_number(value: float | None) -> str:
     return "–" if value is None or np.isnan(value) else f"{value:.4g}"
 
 
-def format_interval(low: float | None, high: float | None, digits: int = 4) -> str:
-    """An accepted interval; None or NaN is no bound."""
-    below = "-∞" if low is None or np.isnan(low) else f"{low:.{digits}g}"
-    above = "∞" if high is None or np.isnan(high) else f"{high:.{digits}g}"
+def format_interval(low: float | None, high: float | None) -> str:
+    """An accepted interval with all digits that the config gives; None or NaN is no bound."""
+    below = "-∞" if low is None or np.isnan(low) else f"{low:.8g}"
+    above = "∞" if high is None or np.isnan(high) else f"{high:.8g}"
     return f"[{below}, {above}]"

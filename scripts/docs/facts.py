@@ -35,8 +35,8 @@ def margin(value: float, low: float, high: float) -> float:
 def describe_interval(low: float, high: float) -> str:
     """An accepted interval in words; NaN is no bound."""
     if np.isnan(low):
-        return f"at most {high:.4g}"
-    return f"at least {low:.4g}" if np.isnan(high) else f"{low:.4g} to {high:.4g}"
+        return f"at most {high:.8g}"
+    return f"at least {low:.8g}" if np.isnan(high) else f"{low:.8g} to {high:.8g}"
 
 
 def describe_claim(row) -> dict:

@@ -52,7 +52,7 @@ def number_rows(printed: pd.DataFrame, implied: pd.DataFrame) -> list[list[str]]
     for name, *sets in zip(at.number.unique(), *(one.itertuples(name=None) for one in columns), strict=True):
         cells = [pd.Series(values[1:], index=at.columns) for values in sets]
         first = cells[0]
-        accepted = format_interval(first.low, first.high, digits=8)
+        accepted = format_interval(first.low, first.high)
         measured = [f"{cell.value:.4g} ({cell.misfit:+.2f})" for cell in cells]
         rows.append([name, first["is"], f"{first.paper:.6g}", accepted, *measured])
     return rows
