@@ -170,7 +170,15 @@ def follow(conveyor: Conveyor, start: Start, times: np.ndarray, digits: int) -> 
     """States x, ẋ, z, ż at ascending times (s), shape (n, 4), and the times of impacts and separations (s).
 
     The part starts above the plate. Values are rounded to double precision at the end.
+
+    Raises
+    ------
+    ValueError
+        if the track rises, the plate moves along an ellipse or the static friction is larger than the friction
     """
+    is_paper_model = conveyor.inclination == conveyor.phase_shift == 0.0
+    if not is_paper_model or conveyor.static_friction not in (None, conveyor.friction):
+        raise ValueError("the reference of many digits knows neither inclination, phase_shift nor static_friction")
     motion, samples, contact = Motion(conveyor, start, digits), [], False
     end = arb(float(times[-1]))
     while motion.t < end:

@@ -14,6 +14,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 from conveyor import Conveyor, Start, continue_orbit, periodic_orbit
+from conveyor.parameters import normal_gravity
 from conveyor.solver import trajectory
 from conveyor.solver.horizontal import CONTACT_FORCE, EVENTS, IMPACT, SEPARATED, VZ
 from conveyor.solver.model import ACCELERATION, GRAVITY, conveyor_motion, pack
@@ -153,7 +154,7 @@ def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[floa
         if the orbit, its fold or its period doubling is not found
     """
     low, high = rigid_range(restitution)
-    gravity, vertical = model["gravity"], math.sin(model["angle"])
+    gravity, vertical = normal_gravity(model), math.sin(model["angle"])
     middle = 0.5 * (low + high)
     # The rigid orbit leaves the plate with the velocity g T/2 while the plate moves with g T (1 - e)/(1 + e)/2.
     phase = math.pi - math.asin(low / middle)
