@@ -9,12 +9,11 @@ exactly.
 import numpy as np
 import pandas as pd
 
-from conveyor import ensemble
 from conveyor.analysis import throw_theory
 from conveyor.analysis.attractors.labels import Labels
 from conveyor.solver.model import VZ0
 from operating.regimes import CERTAIN, FAST, ONE, SEVERAL, best_of, regimes_of
-from operating.shares import APART, continue_settled, motions_at, parameters_of, starts_of_box
+from operating.shares import APART, FORGOTTEN, continue_normal, motions_at, parameters_of, starts_of_box
 from pipeline import fields
 from pipeline.motions import motions_of_starts
 
@@ -79,8 +78,8 @@ def settled(motion: pd.Series, settings: dict, phases: int, *, threads: int = 1)
     found = motions_of_starts(rows, settings, starts=len(rows), threads=threads)
     members = np.flatnonzero(is_motion(found, motion))
     chosen = np.full(phases, members[found.cycles[members].argmin()])
-    later = np.arange(phases) / phases
-    return continue_settled(rows[chosen], Labels(*(c[chosen] for c in found)), settings, later, threads=threads)
+    cycles = found.cycles[chosen] + np.arange(phases) / phases + FORGOTTEN
+    return continue_normal(rows[chosen], cycles, settings, threads=threads)
 
 
 def smallest_knock(
@@ -137,9 +136,6 @@ def make(shares: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str,
     for aim, acceleration in recommended(shares, settings["margin"]).items():
         motion = shares[shares.acceleration == acceleration].iloc[0]
         rows = settled(motion, box, settings["phases"], threads=threads)
-        # The last quarter of the run is one period.
-        duration = 4.0 * motion.period / box["model"]["frequency"]
-        run = ensemble.run(rows[:1], duration=duration, tolerance=box["tolerance"])
         advice.append(
             {
                 "aim": aim,
@@ -152,8 +148,8 @@ def make(shares: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str,
                 "stderr": best.stderr[acceleration],
                 "knock": smallest_knock(rows, motion, sizes, box, threads=threads),
                 "largest_kick": largest,
-                "impact_speed": run["impact_speed"][0],
-                "peak_force": run["peak_force"][0],
+                "impact_speed": motion.impact_speed,
+                "peak_force": motion.peak_force,
                 "textbook": float(throw_theory.mean_velocity(acceleration, **box["model"])),
             }
         )

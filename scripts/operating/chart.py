@@ -16,11 +16,16 @@ WORTH_CHANGING = 0.01  # relative gain of velocity from which a change of a para
 MOST_CHANGES = 4  # that are named
 
 
+def rounded(value: float, digits: int = 3) -> str:
+    """A number to some significant digits, without an exponent: "0.0648", "1240"."""
+    return np.format_float_positional(float(f"{value:.{digits - 1}e}"), trim="-")
+
+
 def numbers(low: float, high: float, factor: float = 1.0) -> str:
     """ "0.0648 to 0.141", or one number where both are equal to three digits."""
     if math.isnan(low):
         return "not known"
-    both = [f"{factor * value:.3g}" for value in (low, high)]
+    both = [rounded(factor * value) for value in (low, high)]
     return both[0] if both[0] == both[1] else f"{both[0]} to {both[1]}"
 
 

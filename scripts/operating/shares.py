@@ -5,6 +5,7 @@ halved where the answer changes.
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
@@ -78,15 +79,13 @@ def groups(found: Labels) -> np.ndarray:
     return number
 
 
-def continue_settled(
-    rows: np.ndarray, found: Labels, settings: dict, later: np.ndarray | float = 0.0, *, threads: int = 1
-) -> np.ndarray:
-    """Packed parameters, shape (n, 16), that go on from settled trajectories.
+def continue_normal(rows: np.ndarray, cycles: np.ndarray, settings: dict, *, threads: int = 1) -> np.ndarray:
+    """Packed parameters, shape (n, 16), that go on where the motion normal to the track is after some cycles.
 
-    rows, found : packed parameters of the trajectories, shape (n, 16), and their labels
-    later : excitation cycles by which each trajectory is followed further, a number or of shape (n,)
+    rows : packed parameters of trajectories, shape (n, 16)
+    cycles : excitation cycles that each of them is followed for, shape (n,)
     """
-    durations = (found.cycles + later + FORGOTTEN) / rows[:, FREQUENCY]
+    durations = cycles / rows[:, FREQUENCY]
     ends = ensemble.run(rows, duration=durations, tolerance=settings["tolerance"], needs="vertical", threads=threads)
     return continued(rows, ends["z_end"], ends["vz_end"], durations)
 
@@ -155,14 +154,35 @@ def velocities(
     return found, peaks, status
 
 
+def brief_velocities(
+    parameters: np.ndarray, period: np.ndarray, settled: np.ndarray, settings: dict, *, threads: int = 1
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What `velocities` returns, from one run of at least `cycles` cycles that begins with the settled normal motion.
+
+    With common friction the feeding motion forgets its beginning within ten cycles; that it has is not checked.
+    """
+    rows = continue_normal(parameters, settled, settings, threads=threads)
+    # The last quarter of each run holds whole periods.
+    step = 4.0 * np.maximum(period, 1)
+    durations = step * np.ceil(settings["cycles"] / step) / parameters[:, FREQUENCY]
+    run = ensemble.run(rows, duration=durations, tolerance=settings["tolerance"], threads=threads)
+    return run["mean_velocity"], np.column_stack([run["impact_speed"], run["peak_force"]]), run["status"]
+
+
 def motions_of_conveyors(
-    parameters: np.ndarray, starts: int, settings: dict, *, threads: int = 1, progress: str | None = None
+    parameters: np.ndarray,
+    starts: int,
+    settings: dict,
+    *,
+    measure: Callable = velocities,
+    threads: int = 1,
+    progress: str | None = None,
 ) -> pd.DataFrame:
     """The motions that `starts` initial conditions of each of k conveyors end in, a row for each motion.
 
     parameters : packed, shape (k starts, 16)
-    Returns, besides columns of the table, `conveyor`, its number, and of the trajectory that settles first its
-    `place` in `parameters` and the `cycles` until then.
+    measure : `velocities` or `brief_velocities`
+    Returns the columns of the table and `conveyor`, its number.
     """
     found = motions_of_starts(parameters, settings, starts=starts, threads=threads, progress=progress)
     rows, chosen, numbers = [], [], []
@@ -174,13 +194,13 @@ def motions_of_conveyors(
             soonest = members[np.argsort(found.cycles[members], kind="stable")][: settings["followed"]]
             chosen.append(soonest)
             numbers.append(np.full(len(soonest), len(rows)))
-            rows.append((k, members[0], soonest[0], len(members)))
-    conveyor, first, place, count = np.array(rows).T
+            rows.append((k, members[0], len(members)))
+    conveyor, first, count = np.array(rows).T
     chosen, numbers = np.concatenate(chosen), np.concatenate(numbers)
     period, cycles = found.period[chosen], found.cycles[chosen]
     # What has no period is no more settled later on.
     settled = np.where(period > 0, cycles, np.minimum(cycles, settings["cycles"]))
-    each, each_peaks, each_status = velocities(parameters[chosen], period, settled, settings, threads=threads)
+    each, each_peaks, each_status = measure(parameters[chosen], period, settled, settings, threads=threads)
     each_status[found.state[chosen] == "undecided"] = "state not decided"
     known = each_status == "ok"
     sizes = np.bincount(numbers, weights=known, minlength=len(rows))
@@ -200,8 +220,6 @@ def motions_of_conveyors(
     return pd.DataFrame(
         {
             "conveyor": conveyor,
-            "place": place,
-            "cycles": found.cycles[place],
             "acceleration": acceleration,
             "vertical": acceleration * np.sin(parameters[first, ANGLE]) / normal_gravity,
             "state": found.state[first],
@@ -227,7 +245,7 @@ def motions_at(
     parameters = parameters_of(amplitudes, starts, settings["model"])
     table = motions_of_conveyors(parameters, len(starts), settings, threads=threads, progress=progress)
     order = {"by": ["acceleration", "mean_velocity", "starts"], "ascending": [True, False, False]}
-    table = table.drop(columns=["conveyor", "place", "cycles"]).sort_values(**order, ignore_index=True)
+    table = table.drop(columns="conveyor").sort_values(**order, ignore_index=True)
     return table.assign(motion=table.groupby("acceleration").cumcount() + 1)
 
 

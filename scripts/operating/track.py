@@ -10,10 +10,9 @@ cannot hold a part in any periodic motion: it slides downhill faster and faster,
 import numpy as np
 
 from conveyor import ensemble
-from conveyor.analysis.attractors.labels import Labels
 from conveyor.solver.model import FREQUENCY, PHASE_SHIFT
 from operating.regimes import SLIDES_AWAY
-from operating.shares import continue_settled, parameters_of, starts_of_box
+from operating.shares import FORGOTTEN, continue_normal, parameters_of, starts_of_box
 from pipeline import fields, grid
 from pipeline.motions import motions_of_starts
 
@@ -46,7 +45,7 @@ def settled_rows(inclinations: np.ndarray, settings: dict, threads: int) -> list
                 members = members[found.period[members] == period]
                 motions.append((number, state, int(period), members[found.cycles[members].argmin()]))
     places = np.array([place for *_, place in motions], dtype=np.int64)
-    settled = continue_settled(rows[places], Labels(*(column[places] for column in found)), settings, threads=threads)
+    settled = continue_normal(rows[places], found.cycles[places] + FORGOTTEN, settings, threads=threads)
     return [(*motion, row) for (*motion, _), row in zip(motions, settled, strict=True)]
 
 
