@@ -37,8 +37,8 @@ SETTINGS = {
 def gather(
     folder: str, pages: Iterable[str], style: str, pictures: Iterable[str], extra: dict[str, Iterable[str]]
 ) -> None:
-    """Put into a folder what Sphinx needs: pages, their style, pictures in figures/, and files that are copied as they
-    are, by the folders that they go to.
+    """Put into a folder what Sphinx needs: pages and pictures beside them, their style, pictures of figures, which are
+    scaled, in figures/, and files that are copied as they are, by the folders that they go to.
     """
     source = Path(folder)
     (source / "style").mkdir()

@@ -12,7 +12,7 @@ import pandas as pd
 from conveyor.analysis import throw_theory
 from conveyor.analysis.attractors.labels import Labels
 from conveyor.solver.model import VZ0
-from operating.regimes import CERTAIN, FAST, ONE, SEVERAL, best_of, regimes_of
+from operating.regimes import CERTAIN, FAST, REGIMES_OF_AIMS, best_of, regimes_of
 from operating.shares import APART, FORGOTTEN, continue_normal, motions_at, parameters_of, starts_of_box
 from pipeline import fields
 from pipeline.motions import motions_of_starts
@@ -57,11 +57,11 @@ def recommended(shares: pd.DataFrame, margin: float) -> dict[str, float]:
     """The recommended amplitude (m/s²) of each aim that can be met."""
     places, regimes = regimes_of(shares, shares.attrs["same_velocity"])
     best = best_of(shares, shares.attrs["same_velocity"])
-    scores = {
-        CERTAIN: np.where(regimes == ONE, best.best, -np.inf),
-        FAST: np.where(np.isin(regimes, (ONE, SEVERAL)), best.best * best.best_share, -np.inf),
+    scores = {CERTAIN: best.best, FAST: best.best * best.best_share}
+    worst = {
+        aim: worst_within(places, np.where(np.isin(regimes, REGIMES_OF_AIMS[aim]), score, -np.inf), margin)
+        for aim, score in scores.items()
     }
-    worst = {aim: worst_within(places, score, margin) for aim, score in scores.items()}
     return {aim: float(places[score.argmax()]) for aim, score in worst.items() if np.isfinite(score.max())}
 
 

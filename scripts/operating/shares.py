@@ -14,7 +14,7 @@ from conveyor import ensemble
 from conveyor.analysis.attractors.labels import Labels, continued
 from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
-from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, GRAVITY, INCLINATION, PSI0, VZ0, Z0
+from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, GRAVITY, INCLINATION, PSI0, VZ0, Z0
 from conveyor.solver.parallel import for_each_chunk
 from operating.regimes import regimes_of
 from pipeline import fields, grid
@@ -45,6 +45,7 @@ APART = 0.01
 # A mean velocity is known if a run twice as long has the same one, to this share of the plate's largest.
 SETTLED = 1e-3
 DOUBLINGS = 6  # of the run, after which its velocity is not known
+MOST_CYCLES = 4000  # of a brief run that is longer than asked for
 FORGOTTEN = 200  # excitation cycles that the horizontal motion gets at least to forget its start
 
 
@@ -154,17 +155,31 @@ def velocities(
     return found, peaks, status
 
 
+def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> np.ndarray:
+    """Durations (s) of runs whose last quarter has the mean velocity of settled normal motions, shape (n,).
+
+    The last quarter holds whole periods. In the three quarters before, friction must be able to change the velocity of
+    the part by that of the plate: on average, g (μ cos α - |sin α|) is left of it to do so. That takes few cycles,
+    except on tracks that are nearly too steep.
+
+    parameters, period : packed, shape (n, 16), and the period in excitation cycles, 0 for none, shape (n,)
+    cycles : least excitation cycles of a run
+    """
+    alpha, friction = parameters[:, INCLINATION], parameters[:, FRICTION]
+    left = parameters[:, GRAVITY] * (friction * np.cos(alpha) - np.abs(np.sin(alpha)))
+    along = parameters[:, ACCELERATION] * np.cos(parameters[:, ANGLE])
+    # Friction that cannot hold a sliding part does not slow it down however long the run is.
+    needed = np.where(left > 0.0, along / (2.0 * math.pi * 0.75 * np.maximum(left, 1e-300)), 0.0)
+    step = 4.0 * np.maximum(period, 1)
+    return step * np.ceil(np.maximum(cycles, np.minimum(needed, MOST_CYCLES)) / step) / parameters[:, FREQUENCY]
+
+
 def brief_velocities(
     parameters: np.ndarray, period: np.ndarray, settled: np.ndarray, settings: dict, *, threads: int = 1
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """What `velocities` returns, from one run of at least `cycles` cycles that begins with the settled normal motion.
-
-    With common friction the feeding motion forgets its beginning within ten cycles; that it has is not checked.
-    """
+    """What `velocities` returns, from one run that begins with the settled normal motion; see `brief_durations`."""
     rows = continue_normal(parameters, settled, settings, threads=threads)
-    # The last quarter of each run holds whole periods.
-    step = 4.0 * np.maximum(period, 1)
-    durations = step * np.ceil(settings["cycles"] / step) / parameters[:, FREQUENCY]
+    durations = brief_durations(rows, period, settings["cycles"])
     run = ensemble.run(rows, duration=durations, tolerance=settings["tolerance"], threads=threads)
     return run["mean_velocity"], np.column_stack([run["impact_speed"], run["peak_force"]]), run["status"]
 

@@ -280,6 +280,8 @@ def advised() -> tuple[pd.DataFrame, pd.DataFrame]:
     changes = [
         {**changes, "parameter": "friction", "value": 0.17, "gain": 0.2},
         {**changes, "parameter": "angle", "value": 0.2, "gain": -0.2},
+        {**changes, "parameter": "angle", "value": 0.24, "gain": 0.1},
+        {**changes, "parameter": "mass", "value": 1.0, "gain": 0.5, "regime": regimes.CHAOS},
     ]
     tables = pd.DataFrame([row]), pd.DataFrame(changes)
     tables[0].attrs = {"margin": 0.01, "part_length": 0.02}
@@ -300,7 +302,9 @@ def test_the_page_begins_with_the_advice(refined):
     assert "A sudden velocity change of 0.05 m/s normal to the track can end the motion" in page
     assert "- Impact speed 0.1 m/s, peak force 0.5 N (50 times the weight of the part)\n" in page
     assert "  - friction of 0.17 (now 0.15): +20 %, one velocity\n" in page
-    assert "angle of" not in page
+    assert "  - angle of 13.75° (now 12.03°): +10 %, one velocity\n" in page
+    assert page.count("(now ") == 2
+    assert "mass of" not in page
     assert "Faster on average" not in page
 
 
@@ -354,13 +358,14 @@ def test_regimes_and_their_words(refined):
     assert list(found.step[:2]) == [5.0, 5.0]
     template = (ROOT / "workflow/templates/operating_chart.md").read_text()
     page = chart.make(template, refined, found, *advised())
-    assert "Every start of the box ends in one velocity at 20.0 to 31.2 m/s² (first state, 0.01 m/s)." in page
+    assert "All initial conditions reach one velocity at 20.0 to 31.2 m/s² (first state, 0.01 m/s)." in page
     assert "Several velocities exist side by side, without chaos, at 31.4 to 50.0 m/s²" in page
-    assert "30 to 34 % of the starts get, most of them (34.0 ± 4.7 %) at 40 m/s² with 0.06 m/s" in page
-    assert "Chaos begins at 50.2 m/s²; it is all that the starts end in at 56.1 to 60.0 m/s²." in page
-    assert "from the box of heights 0 to 0.5 mm above" in page
-    assert "fewer than 3 % of the box do, at 95 %\nconfidence" in page
-    assert "could not be decided" not in page
+    assert "\n30 to 34 % of the initial conditions reach it." in page
+    assert "This share is largest (34.0 ± 4.7 %) at 40 m/s², with 0.06 m/s." in page
+    assert "Chaos begins at 50.2 m/s². All initial conditions end in chaos at 56.1 to 60.0 m/s²." in page
+    assert "from heights of 0 to 0.5 mm above" in page
+    assert "fewer than 3 % of the box\ndo, at 95 % confidence" in page
+    assert "is not known." not in page
 
 
 @pytest.mark.parametrize(
@@ -390,9 +395,9 @@ def test_nothing_is_said_that_is_not_there(refined):
         *(table.iloc[:0] for table in advised()),
     )
     assert "At no amplitude, with a margin of 1 %, does every part get the same velocity." in page
-    assert "At no amplitude does every start" in page
-    assert "No start of the box ends in chaos" in page
-    assert "At 20.0 m/s² a motion could not be decided" in page
+    assert "At no amplitude do all initial conditions reach one velocity" in page
+    assert "No initial condition ends in chaos" in page
+    assert "At 20.0 m/s², the state or the velocity of a motion is not known." in page
     assert "| 20.0 | 0.426 | unknown | undecided | not known | not known | not known |" in page
 
 

@@ -58,6 +58,17 @@ def test_a_track_steeper_than_friction_holds_has_no_velocity(table):
     assert np.isfinite(table.drop(index=0.2, level=0).mean_velocity).all()
 
 
+def test_velocities_settle_on_tracks_that_are_nearly_too_steep():
+    """A part at rest of the second state gains speed for a thousand cycles; then it is as fast as on a level track."""
+    steep = 0.1483
+    assert 0.149 > math.atan(0.15) > steep
+    found = make(inclination=[steep], phase_shift=[0.0]).mean_velocity[steep, "second", 0.0]
+    x = simulate(Conveyor(acceleration=40.0, inclination=steep), Start(3e-4), duration=60.0).sample(
+        np.array([50.0, 60.0])
+    )["x"]
+    assert found == pytest.approx((x[1] - x[0]) / 10.0, abs=2e-3)
+
+
 def test_static_friction_holds_parts_on_steeper_tracks():
     found = make(inclination=[0.2], phase_shift=[0.0], model={"friction": 0.15, "static_friction": 0.3})
     assert (found.status != track.SLIDES_AWAY).all()

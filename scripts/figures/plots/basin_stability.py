@@ -53,8 +53,10 @@ def draw_motions(axes: Axes, shares: pd.DataFrame, over: str) -> None:
 def share_handles(states: set[str]) -> list[Artist]:
     """Handles of a legend of states and of shares of the starts."""
     handles = [Patch(color=colour, label=state) for state, colour in style.STATE_COLOURS.items() if state in states]
-    handles += [Line2D([], [], color="0.3", linewidth=width(share), label=f"{100.0 * share:g} %") for share in SHOWN]
-    return [*handles, Patch(color="none", label="of the starts")]
+    labels = [f"{100.0 * share:g} %" for share in SHOWN]
+    labels[-1] += " of the initial conditions"
+    widths = zip(SHOWN, labels, strict=True)
+    return handles + [Line2D([], [], color="0.3", linewidth=width(share), label=label) for share, label in widths]
 
 
 def plot(*, shares: pd.DataFrame) -> Figure:
