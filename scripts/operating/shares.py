@@ -200,35 +200,32 @@ def motions_of_conveyors(
     Returns the columns of the table and `conveyor`, its number.
     """
     found = motions_of_starts(parameters, settings, starts=starts, threads=threads, progress=progress)
-    rows, chosen, numbers = [], [], []
+    rows, followed = [], []
     for k in range(len(parameters) // starts):
         own = slice(k * starts, (k + 1) * starts)
         number = groups(Labels(*(column[own] for column in found)))
         for motion in range(number.max() + 1):
             members = own.start + np.flatnonzero(number == motion)
-            soonest = members[np.argsort(found.cycles[members], kind="stable")][: settings["followed"]]
-            chosen.append(soonest)
-            numbers.append(np.full(len(soonest), len(rows)))
             rows.append((k, members[0], len(members)))
+            followed.append(members[np.argsort(found.cycles[members], kind="stable")][: settings["followed"]])
     conveyor, first, count = np.array(rows).T
-    chosen, numbers = np.concatenate(chosen), np.concatenate(numbers)
+    chosen = np.concatenate(followed)
     period, cycles = found.period[chosen], found.cycles[chosen]
     # What has no period is no more settled later on.
     settled = np.where(period > 0, cycles, np.minimum(cycles, settings["cycles"]))
     each, each_peaks, each_status = measure(parameters[chosen], period, settled, settings, threads=threads)
     each_status[found.state[chosen] == "undecided"] = "state not decided"
-    known = each_status == "ok"
-    sizes = np.bincount(numbers, weights=known, minlength=len(rows))
     velocity, error = np.full(len(rows), np.nan), np.full(len(rows), np.nan)
-    peaks = np.full((len(rows), 2), np.nan)
-    status = np.full(len(rows), "ok", dtype=object)
-    for row in range(len(rows)):
-        own = numbers == row
-        status[row] = "ok" if known[own].all() else each_status[own][~known[own]][0]
-        if status[row] == "ok":
-            velocity[row] = each[own].mean()
-            peaks[row] = each_peaks[own].max(axis=0)
-            error[row] = each[own].std(ddof=1) / math.sqrt(sizes[row]) if sizes[row] > 1 else np.nan
+    peaks, status = np.full((len(rows), 2), np.nan), np.full(len(rows), "ok", dtype=object)
+    end = 0
+    for row, size in enumerate(map(len, followed)):
+        own, end = slice(end, end + size), end + size
+        failed = each_status[own] != "ok"
+        if failed.any():
+            status[row] = each_status[own][failed][0]
+            continue
+        velocity[row], peaks[row] = each[own].mean(), each_peaks[own].max(axis=0)
+        error[row] = each[own].std(ddof=1) / math.sqrt(size) if size > 1 else np.nan
     share = count / starts
     acceleration = parameters[first, ACCELERATION]
     normal_gravity = parameters[first, GRAVITY] * np.cos(parameters[first, INCLINATION])
