@@ -184,6 +184,7 @@ def made(monkeypatch) -> dict[str, pd.DataFrame]:
         found |= {"velocity_low": velocity, "velocity_high": velocity + 0.01, "mean": velocity + 0.005}
         found |= {"impact_low": 0.9 * found["impact_speed"], "impact_high": found["impact_speed"]}
         full = settings["starts"] == SETTINGS["starts"]
+        assert (0.0 in errors) == full
         found |= {"share": np.where(full & (x[:, 0] > 60.0), 0.5, 1.0), "chaos": np.zeros(len(x))}
         return pd.DataFrame(found | {"displacement": drive.displacement(x)})
 

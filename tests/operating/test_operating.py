@@ -13,6 +13,7 @@ from conveyor.analysis.attractors.labels import Labels, classify
 from conveyor.solver.model import PSI0, VZ0, Z0, Conveyor, conveyor_motion, pack
 from operating import advice, chart, regimes, shares, throws
 from pipeline.motions import motions
+from workflow.config.tables import TABLES
 
 BOX = {
     **read_config("operating")["operating"],
@@ -143,6 +144,26 @@ def test_samples_of_both_first_runs_ascend(monkeypatch):
     for period in (0, 1, 100, 400):
         velocity(Conveyor(), Start(0.0), period, cycles=1)
     assert all((0.75 * durations[:, 1:] >= durations[:, :-1]).all() for durations in wanted)
+
+
+def test_brief_runs_take_means_over_whole_periods():
+    """A motion of four cycles, whose velocity over single cycles differs, asked for over fifteen cycles."""
+    rows = pack(Conveyor(acceleration=61.8), Start(3e-4))[None]
+    options = {**BOX, "cycles": 60}
+    found, peaks, status = shares.brief_velocities(rows, np.array([4]), np.array([2000]), options)
+    long, long_peaks, _ = shares.velocities(rows, np.array([4]), np.array([2000]), options)
+    assert status.tolist() == ["ok"]
+    assert found == pytest.approx(long, rel=1e-5)
+    assert peaks == pytest.approx(long_peaks, rel=1e-5)
+    assert (shares.brief_durations(rows, np.array([4]), 60) * 50.0).tolist() == pytest.approx([64.0])
+
+
+def test_brief_runs_are_as_long_as_friction_takes():
+    """On a track steeper than friction holds, no length helps."""
+    rows = np.array([pack(Conveyor(inclination=alpha), Start()) for alpha in (0.0, -0.1488, 0.14888, 0.2)])
+    flat, steep, steepest, beyond = shares.brief_durations(rows, np.ones(4, dtype=int), 60) * 50.0
+    assert flat == beyond == pytest.approx(60.0)
+    assert 60.0 < steep < steepest == pytest.approx(shares.MOST_CYCLES)
 
 
 def test_a_run_that_fails_says_why_there_is_no_velocity():
@@ -337,6 +358,45 @@ def test_a_settled_motion_goes_on_and_a_large_kick_ends_it(table):
     at_knock = np.repeat(rows, 2, axis=0)
     at_knock[:, VZ0] += np.tile([-knock, knock], len(rows))
     assert (classify(at_knock).state == "second").any()
+
+
+def test_advice_has_the_numbers_of_its_motion_and_of_changed_conveyors():
+    settings = TABLES["operating/shares"](read_config()) | {"starts": 32, "followed": 2, "cycles": 50, "settling": 2000}
+    table = shares.motions_at(np.array([22.0, 23.0]), settings)
+    table.attrs = settings
+    options = {"margin": 0.01, "phases": 2, "kicks": 5, "smallest_kick": 0.01}
+    found = advice.make(table, {**options, "changes": {"phase_shift": 0.175, "friction": 0.02}})
+    told, changes = pd.DataFrame(found["advice"]), pd.DataFrame(found["changes"])
+    motion = table[table.acceleration == 23.0].iloc[0]
+    assert told.aim.tolist() == ["certain", "fast"]
+    for name in ("acceleration", "state", "period", "mean_velocity", "impact_speed", "peak_force"):
+        assert (told[name] == motion[name]).all(), name
+    assert (told.throw_number == motion.vertical).all()
+    assert (told.textbook == 0.0).all()
+    assert (told.share == 1.0).all()
+    certain = changes[changes.aim == "certain"].reset_index(drop=True)
+    friction = settings["model"]["friction"]
+    assert certain.parameter.tolist() == ["phase_shift", "phase_shift", "friction", "friction"]
+    assert certain.value.tolist() == pytest.approx([-0.175, 0.175, friction - 0.02, friction + 0.02])
+    changed = {**settings, "model": settings["model"] | {"phase_shift": 0.175}}
+    alone = shares.motions_at(np.array([23.0]), changed).mean_velocity[0]
+    assert certain.mean_velocity[1] == pytest.approx(alone, rel=1e-9)
+    assert certain.gain[1] == pytest.approx(alone / motion.mean_velocity - 1.0)
+    assert (certain.regime == regimes.ONE).all()
+
+
+def test_the_share_of_the_advice_is_that_of_all_motions_with_its_velocity(refined, monkeypatch):
+    """Above 40 m/s² two kinds of one velocity: 24 and 10 of 100 initial conditions."""
+    monkeypatch.setattr(advice, "settled", lambda *_, **__: None)
+    monkeypatch.setattr(advice, "smallest_knock", lambda *_, **__: np.nan)
+    monkeypatch.setattr(advice, "changes_at", lambda *_, **__: [])
+    refined = refined.assign(impact_speed=0.1, peak_force=1.0)
+    refined.attrs["model"] |= {"frequency": 50.0}
+    options = {"margin": 0.01, "phases": 2, "kicks": 5, "smallest_kick": 0.01, "changes": {}}
+    told = pd.DataFrame(advice.make(refined, options)["advice"]).set_index("aim")
+    assert told.share.to_dict() == pytest.approx({"certain": 1.0, "fast": 0.34})
+    assert told.stderr["fast"] == pytest.approx(math.sqrt(0.34 * 0.66 / 100))
+    assert told.mean_velocity.to_dict() == {"certain": 0.01, "fast": 0.06}
 
 
 def test_changes_of_a_parameter_keep_the_static_friction_above_the_friction():
