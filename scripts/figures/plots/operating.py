@@ -1,4 +1,4 @@
-"""Operating chart: regimes, velocities and the share of initial conditions that reach the fastest motion, over the amplitude."""
+"""Operating chart: regimes, velocities and the share with the fastest motion, over the amplitude."""
 
 import numpy as np
 import pandas as pd
