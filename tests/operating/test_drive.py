@@ -248,3 +248,19 @@ def test_the_page_says_what_was_not_found(made):
     assert "No design of the search was confirmed" in page
     assert "**The search has not settled.**" in page
     assert "grew by up to 11 % (limit: 2 %)" in page
+
+
+def test_a_search_that_finds_nothing_says_so(monkeypatch):
+    def evaluate(x, settings, errors, **_):
+        found = pd.DataFrame(np.nan, index=range(len(x)), columns=[*drive.OVERALL])
+        return found.assign(displacement=drive.displacement(x))
+
+    monkeypatch.setattr(drive, "evaluate", evaluate)
+    found = drive.make({**SETTINGS, "drawn": 8, "population": 4, "generations": 4})
+    front, generations = (pd.DataFrame(found[name]) for name in ("drive_front", "drive_generations"))
+    assert len(front) == 0
+    assert list(front) == [column.name for column in drive.TABLES["drive_front"]]
+    front.attrs = SETTINGS
+    page = drive_page.make((ROOT / "workflow/templates/drive.md").read_text(), front, generations)
+    assert "found no design within the constraints." in page
+    assert "inf" not in page
