@@ -12,11 +12,13 @@ SEEDS = (style.CONVERGED, style.SECOND_ESTIMATE, "black", "0.6")
 def draw_checked(axes: Axes, checked: pd.DataFrame) -> None:
     """Mean velocity and largest impact speed of full operating runs, with the ranges of both."""
     velocity, impact = checked.checked_velocity, checked.impact_high
+    below, above = velocity - checked.velocity_low, checked.velocity_high - velocity
     axes.errorbar(
         impact,
         velocity,
         xerr=[impact - checked.impact_low, 0.0 * impact],
-        yerr=[velocity - checked.velocity_low, checked.velocity_high - velocity],
+        # A mean of equal velocities may miss them by a rounding.
+        yerr=[below.clip(lower=0.0), above.clip(lower=0.0)],
         color="black",
         linestyle="none",
         marker=".",
