@@ -260,6 +260,7 @@ def test_a_search_that_finds_nothing_says_so(monkeypatch):
     front, generations = (pd.DataFrame(found[name]) for name in ("drive_front", "drive_generations"))
     assert len(front) == 0
     assert set(front) == {column.name for column in drive.TABLES["drive_front"]}
+    front = front.astype({name: bool for name in ("checked", "confirmed", "recommended")})
     front.attrs = SETTINGS
     page = drive_page.make((ROOT / "workflow/templates/drive.md").read_text(), front, generations)
     assert "found no design within the constraints." in page
