@@ -48,25 +48,24 @@ def test_brief_runs_have_the_velocities_of_long_ones(outcome):
     assert brief.share.tolist() == outcome.share.tolist()
 
 
-def motions(states: list[str], velocities: list[float], counts: list[float]) -> pd.DataFrame:
-    columns = {"state": states, "mean_velocity": velocities, "share": counts}
-    return pd.DataFrame(columns).assign(impact_speed=np.arange(1.0, len(states) + 1.0))
-
-
 def test_velocities_that_differ_little_are_one():
-    found = drive.outcome_of_conveyor(
-        motions(["second", "first", "second"], [0.1, 0.2, 0.101], [0.35, 0.4, 0.25]), 0.02
-    )
+    velocity, share = np.array([0.1, 0.2, 0.101]), np.array([0.35, 0.4, 0.25])
+    found = drive.outcome_of_conveyor(velocity, share, np.array([1.0, 2.0, 3.0]), np.zeros(3, dtype=bool), 0.02)
     assert found["share"] == pytest.approx(0.6)
     assert found["velocity"] == 0.1
-    assert found["impact_speed"] == 1.0
+    assert (found["impact_speed"], found["impact_low"], found["impact_high"]) == (1.0, 1.0, 3.0)
     assert found["chaos"] == 0.0
-    assert found["impact_high"] == 3.0
 
 
-def test_chaos_and_what_is_not_decided_count_as_chaos():
-    found = drive.outcome_of_conveyor(motions(["first", "chaos", "undecided"], [0.1] * 3, [0.7, 0.2, 0.1]), 0.02)
-    assert found["chaos"] == pytest.approx(0.3)
+def motions(states: list[str], velocities: list[float], counts: list[float]) -> pd.DataFrame:
+    columns = {"state": states, "mean_velocity": velocities, "share": counts}
+    return pd.DataFrame(columns).assign(impact_speed=0.1)
+
+
+def test_chaos_and_what_is_not_decided_count_as_chaos(monkeypatch):
+    table = motions(["first", "chaos", "undecided"], [0.1] * 3, [0.7, 0.2, 0.1]).assign(conveyor=0)
+    monkeypatch.setattr(drive, "motions_of_conveyors", lambda *_, **__: table)
+    assert drive.evaluate(np.array([[10.0, *PAPER]]), SETTINGS, EXACTLY).chaos[0] == pytest.approx(0.3)
 
 
 def test_the_worst_within_the_margin_counts(monkeypatch):
@@ -139,7 +138,7 @@ def test_bounds_of_the_search_hold_all_designs():
 
 
 def test_designs_that_break_a_constraint_are_followed_no_further(monkeypatch):
-    """The first has too large a displacement, the second gets two velocities from its first initial conditions."""
+    """The first has too large a displacement, the second has too small a share with its first initial condition."""
     followed = []
 
     def evaluate(designs, settings, errors, **_):
@@ -260,7 +259,7 @@ def test_a_search_that_finds_nothing_says_so(monkeypatch):
     front, generations = (pd.DataFrame(found[name]) for name in ("drive_front", "drive_generations"))
     assert len(front) == 0
     assert set(front) == {column.name for column in drive.TABLES["drive_front"]}
-    front = front.astype({name: bool for name in ("checked", "confirmed", "recommended")})
+    front = front.astype(dict.fromkeys(("checked", "confirmed", "recommended"), bool))
     front.attrs = SETTINGS
     page = drive_page.make((ROOT / "workflow/templates/drive.md").read_text(), front, generations)
     assert "found no design within the constraints." in page
