@@ -227,11 +227,20 @@ def search(settings: dict, seed: int, *, threads: int = 1) -> Front:
     return front
 
 
-def spread(values: np.ndarray, count: int) -> np.ndarray:
-    """Places of at most `count` of some values, evenly spread in their order from the smallest to the largest."""
-    order = np.argsort(values, kind="stable")
-    places = np.linspace(0, len(order) - 1, min(count, len(order)))
-    return order[np.unique(np.round(places).astype(np.int64))]
+def spread(objectives: np.ndarray, count: int) -> np.ndarray:
+    """Places of at most `count` of some designs that differ as much as they can, the best in the first objective first.
+
+    Each further one is the farthest from all before, in units of the range of each objective, shape (k, 3).
+    """
+    if len(objectives) == 0:
+        return np.empty(0, dtype=np.int64)
+    scaled = objectives / np.maximum(np.ptp(objectives, axis=0), 1e-300)
+    chosen = [int(scaled[:, 0].argmin())]
+    distance = np.linalg.norm(scaled - scaled[chosen[0]], axis=1)
+    while len(chosen) < min(count, len(objectives)):
+        chosen.append(int(distance.argmax()))
+        distance = np.minimum(distance, np.linalg.norm(scaled - scaled[chosen[-1]], axis=1))
+    return np.array(chosen)
 
 
 CHECKED = {
@@ -243,7 +252,8 @@ CHECKED = {
 def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFrame:
     """A front with full operating runs of some designs, and the recommended ones among those that they confirm."""
     front = front.assign(checked=False, confirmed=False, recommended=False, **dict.fromkeys(CHECKED.values(), np.nan))
-    chosen = spread(front.velocity.to_numpy(), settings["checked"])
+    objectives = np.column_stack([-front.velocity, front.impact_speed, front.acceleration])
+    chosen = spread(objectives, settings["checked"])
     if len(chosen) == 0:
         return front
     designs = front.loc[chosen, list(SEARCHED)].to_numpy()
@@ -251,14 +261,15 @@ def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFr
     front.loc[chosen, "checked"] = True
     front.loc[chosen, list(CHECKED.values())] = outcome[list(CHECKED)].to_numpy()
     front.loc[chosen, "confirmed"] = is_within(outcome, settings)
-    sure = front.index[front.confirmed]
-    front.loc[sure[spread(front.velocity[sure].to_numpy(), settings["recommended"])], "recommended"] = True
+    sure = np.flatnonzero(front.confirmed)
+    front.loc[sure[spread(objectives[sure], settings["recommended"])], "recommended"] = True
     return front
 
 
 def make(settings: dict, *, threads: int = 1) -> dict[str, dict]:
     """The columns of the tables of the front and of the generations."""
-    few = {**settings, **settings["search"], "followed": 1}
+    # What has not settled is refused, whether it is chaos or not.
+    few = {**settings, **settings["search"], "followed": 1, "exponents": False}
     fronts = {seed: search(few, seed, threads=threads) for seed in settings["seeds"]}
     designs, objectives = best_of_designs(
         np.vstack([front.designs for front in fronts.values()]),

@@ -164,10 +164,13 @@ def test_the_front_keeps_what_nothing_betters():
     assert drive.hypervolume(np.empty((0, 3)), np.ones(3)) == 0.0
 
 
-def test_settings_are_spread_over_the_velocities():
-    assert drive.spread(np.array([5.0, 1.0, 3.0, 2.0, 4.0]), 3).tolist() == [1, 2, 0]
-    assert drive.spread(np.array([5.0, 1.0]), 5).tolist() == [1, 0]
-    assert drive.spread(np.empty(0), 5).tolist() == []
+def test_settings_differ_as_much_as_they_can():
+    """The fastest, then the gentlest, then the one farthest from both; units do not matter."""
+    objectives = np.array([[-5.0, 9.0, 7.0], [-4.9, 8.9, 7.0], [-1.0, 0.0, 7.0], [-3.0, 4.0, 2.0], [-1.1, 0.1, 7.0]])
+    for units in (np.ones(3), np.array([1e-3, 1.0, 50.0])):
+        assert drive.spread(units * objectives, 3).tolist() == [0, 2, 3]
+    assert sorted(drive.spread(objectives, 9)) == [0, 1, 2, 3, 4]
+    assert drive.spread(objectives[:0], 5).tolist() == []
 
 
 @pytest.fixture

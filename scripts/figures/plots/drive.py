@@ -25,7 +25,7 @@ def draw_checked(axes: Axes, checked: pd.DataFrame) -> None:
         markersize=2.5,
         linewidth=0.7,
         capsize=1.5,
-        label="operating runs, range",
+        label="full operating runs with their ranges",
     )
 
 
