@@ -159,8 +159,8 @@ def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> 
     """Durations (s) of runs whose last quarter has the mean velocity of settled normal motions, shape (n,).
 
     The last quarter holds whole periods. In the three quarters before, friction must be able to change the velocity of
-    the part by that of the plate: on average, g (μ cos α - |sin α|) is left of it to do so. That takes few cycles,
-    except on tracks that are nearly too steep.
+    the part by that of the plate: on average, g (μ cos α - |sin α|) is left of it to do so. On tracks that are nearly
+    too steep this takes more cycles than asked for.
 
     parameters, period : packed, shape (n, 16), and the period in excitation cycles, 0 for none, shape (n,)
     cycles : least excitation cycles of a run
@@ -189,7 +189,7 @@ def motions_of_conveyors(
     starts: int,
     settings: dict,
     *,
-    measure: Callable = velocities,
+    measure: Callable,
     threads: int = 1,
     progress: str | None = None,
 ) -> pd.DataFrame:
@@ -255,7 +255,8 @@ def motions_at(
     """The table for some amplitudes (m/s²), ascending, shape (m,)."""
     starts = starts_of_box(settings)
     parameters = parameters_of(amplitudes, starts, settings["model"])
-    table = motions_of_conveyors(parameters, len(starts), settings, threads=threads, progress=progress)
+    options = {"measure": velocities, "threads": threads, "progress": progress}
+    table = motions_of_conveyors(parameters, len(starts), settings, **options)
     order = {"by": ["acceleration", "mean_velocity", "starts"], "ascending": [True, False, False]}
     table = table.drop(columns="conveyor").sort_values(**order, ignore_index=True)
     return table.assign(motion=table.groupby("acceleration").cumcount() + 1)

@@ -35,7 +35,7 @@ def test_chaos_scatters_by_itself():
 
 @pytest.mark.parametrize("inclination", [0.0, 0.5])
 def test_the_line_of_fig_15_follows_gravity_normal_to_the_track(inclination):
-    falls = pd.DataFrame({"acceleration": [40.0], "impact_velocity": [-0.2], "impact_phase": [7.0]})
+    falls = pd.DataFrame({"acceleration": [30.0, 40.0, 50.0, 60.0], "impact_velocity": -0.2, "impact_phase": 7.0})
     falls.attrs["model"] = {"frequency": 50.0, "gravity": 9.81, "inclination": inclination, "psi0": 0.3}
     line = fig15.plot(impacts=falls).axes[0].lines[0]
     fall = 0.2 / (9.81 * np.cos(inclination))  # s, until a part that starts at rest has this velocity
