@@ -122,7 +122,7 @@ def rows_of(regimes: pd.DataFrame, shares: pd.DataFrame) -> list[list[str]]:
 def with_unit(parameter: str, value: float) -> str:
     """ "0.17", "49 Hz"; angles in degrees."""
     if UNITS[parameter] == "rad":
-        return f"{rounded(math.degrees(value), 4)}°"
+        return f"{rounded(math.degrees(value))}°"
     return rounded(value, 4) + ("" if UNITS[parameter] == "1" else f" {UNITS[parameter]}")
 
 

@@ -323,7 +323,7 @@ def test_the_page_begins_with_the_advice(refined):
     assert "A sudden velocity change of 0.05 m/s normal to the track can end the motion" in page
     assert "- Impact speed 0.1 m/s, peak force 0.5 N (50 times the weight of the part)\n" in page
     assert "  - friction of 0.17 (now 0.15): +20 %, one velocity\n" in page
-    assert "  - angle of 13.75° (now 12.03°): +10 %, one velocity\n" in page
+    assert "  - angle of 13.8° (now 12°): +10 %, one velocity\n" in page
     assert page.count("(now ") == 2
     assert "mass of" not in page
     assert "Faster on average" not in page
