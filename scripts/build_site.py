@@ -12,5 +12,5 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]), tempfile.TemporaryDirectory() as folder:
         given = snakemake.input
         extra = {"figures": given.pdf, "": [given.article, given.companion], "benchmark": given.scenes}
-        site.gather(folder, given.pages, given.style, given.png, extra)
+        site.gather(folder, [*given.pages, *given.examples], given.style, given.png, extra)
         site.build(folder, snakemake.output[0])

@@ -176,7 +176,15 @@ def simulate(conveyor: Conveyor, start: Start, times: np.ndarray, digits: int) -
     """States x, ẋ, z, ż at ascending times (s), shape (n, 4), and the times of impacts and separations (s).
 
     The initial position must be above the plate. The results are rounded to double precision.
+
+    Raises
+    ------
+    ValueError
+        if the track rises, the plate moves along an ellipse or the static friction is larger than the friction
     """
+    is_paper_model = conveyor.inclination == conveyor.phase_shift == 0.0
+    if not is_paper_model or conveyor.static_friction not in (None, conveyor.friction):
+        raise ValueError("the reference of many digits knows neither inclination, phase_shift nor static_friction")
     motion, samples, contact = Motion(conveyor, start, digits), [], False
     end = arb(float(times[-1]))
     while motion.t < end:

@@ -11,6 +11,7 @@ from conveyor.analysis.bifurcations import periodic_orbits
 from conveyor.analysis.chaos import lyapunov
 from conveyor.analysis.fractals import box_counting, correlation_sum
 from conveyor.analysis.fractals.reference_sets import DIMENSIONS
+from conveyor.parameters import normal_gravity
 from conveyor.solver.model import Z0
 from pipeline import fields, grid
 
@@ -40,7 +41,7 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
     truth = math.log(abs(orbit.multipliers[0])) / (orbit.period * cycle)
     here = stroboscopic_map.pack_states(rows, orbit.state[None], TOLERANCE)
     there = here.copy()
-    unit = model["gravity"] / (2.0 * math.pi * model["frequency"]) ** 2
+    unit = normal_gravity(model) / (2.0 * math.pi * model["frequency"]) ** 2
     there[:, Z0] += settings["epsilon"] * unit
     found = []
     for duration in settings["durations"]:

@@ -14,6 +14,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 from conveyor import Conveyor, Start, continue_orbit, periodic_orbit
+from conveyor.parameters import normal_gravity
 from conveyor.solver import trajectory
 from conveyor.solver.horizontal import CONTACT_FORCE, EVENTS, IMPACT, SEPARATED, VZ
 from conveyor.solver.model import ACCELERATION, GRAVITY, conveyor_motion, pack
@@ -158,7 +159,7 @@ def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[floa
         if the orbit, its fold or its period doubling is not found
     """
     low, high = rigid_range(restitution)
-    gravity, vertical = model["gravity"], math.sin(model["angle"])
+    gravity, vertical = normal_gravity(model), math.sin(model["angle"])
     middle = 0.5 * (low + high)
     # On the rigid orbit, the part leaves with the velocity g T/2, and the plate has the velocity g T (1 - e)/(1 + e)/2.
     phase = math.pi - math.asin(low / middle)

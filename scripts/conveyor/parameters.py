@@ -4,6 +4,7 @@ This module imports nothing slow, so that a program can check its settings witho
 """
 
 import math
+from collections.abc import Mapping
 
 TENSION_MODES = ("allow", "frictionless", "clip")
 # Compiled kernels receive a conveyor and an initial condition as a vector of parameters in this order.
@@ -67,6 +68,12 @@ RANGES = {
 
 # Parameters that leave the motion normal to the track as it is.
 TANGENTIAL = ("friction", "phase_shift", "static_friction")
+
+
+def normal_gravity(model: Mapping[str, float]) -> float:
+    """Gravity normal to the track, g cos α (m/s²); a model without an inclination has a level track."""
+    return model["gravity"] * math.cos(model.get("inclination", 0.0))
+
 
 # Methods with a fixed step. The position of a name is its code in compiled kernels.
 FIXED_STEP_METHODS = ("euler", "semi_implicit_euler", "rk4")

@@ -15,8 +15,8 @@ from claims.about_states import find_runs, format_runs, second_from_rest
 from claims.finding import lowest
 from figures.plots.throw import proved_fold
 from identification import findings
+from operating import drive_page
 from operating.chart import search_numbers
-from operating.drive_page import last_growth
 from pipeline.templates import render
 
 MM = 1e3
@@ -278,19 +278,6 @@ def throw(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> dict[str, str]
     }
 
 
-def drive(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict[str, str]:
-    search = front.attrs
-    return {
-        "share": f"{100.0 * search['share']:g}",
-        "displacement": f"{MM * search['displacement']:g}",
-        "starts": str(search["starts"]),
-        "population": str(search["population"]),
-        "checked": str(int(front.checked.sum())),
-        "confirmed": str(int(front.confirmed.sum())),
-        "growth": f"{100.0 * last_growth(generations):.2g}",
-    }
-
-
 def track(*, track: pd.DataFrame) -> dict[str, Any]:
     steepest = track[track.mean_velocity > 0.0].groupby("state").inclination.max()
     return {
@@ -336,7 +323,7 @@ NUMBERS: dict[str, Callable[..., dict[str, Any]]] = {
     "scaling": scaling,
     "settling": settling,
     "throw": throw,
-    "drive": drive,
+    "drive": drive_page.search_numbers,
     "track": track,
     "speed_accuracy": speed_accuracy,
     "stability": stability_limits,

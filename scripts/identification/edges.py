@@ -10,6 +10,7 @@ from collections.abc import Callable
 import numpy as np
 
 from conveyor.analysis.attractors.labels import classify
+from conveyor.parameters import normal_gravity
 from conveyor.solver.model import ACCELERATION, PARAMETERS, TENSION, TENSION_MODES
 from pipeline import fields, grid
 
@@ -41,12 +42,12 @@ Decide = Callable[[np.ndarray], np.ndarray]
 
 
 def duration_over_mass(stiffness: np.ndarray, model: dict) -> np.ndarray:
-    """Duration of an impact at the speed g/ω over the part's mass (s/kg), up to a factor of order one.
+    """Duration of an impact at the speed g cos α/ω over the part's mass (s/kg), up to a factor of order one.
 
     From dimensional analysis of m z̈ = k z^p: T = (m/k)^(1/(p+1)) v^((1-p)/(p+1)).
     """
     p, mass = model["exponent"], model["mass"]
-    speed = model["gravity"] / (2.0 * np.pi * model["frequency"])
+    speed = normal_gravity(model) / (2.0 * np.pi * model["frequency"])
     return (mass / stiffness) ** (1.0 / (p + 1.0)) * speed ** ((1.0 - p) / (p + 1.0)) / mass
 
 

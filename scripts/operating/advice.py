@@ -9,12 +9,11 @@ exactly.
 import numpy as np
 import pandas as pd
 
-from conveyor import ensemble
 from conveyor.analysis import throw_theory
 from conveyor.analysis.attractors.labels import Labels
 from conveyor.solver.model import VZ0
-from operating.regimes import CERTAIN, FAST, ONE, SEVERAL, best_of, regimes_of
-from operating.shares import APART, continue_settled, motions_at, parameters_of, starts_of_box
+from operating.regimes import CERTAIN, FAST, REGIMES_OF_AIMS, best_of, regimes_of
+from operating.shares import APART, FORGOTTEN, continue_normal, motions_at, parameters_of, starts_of_box
 from pipeline import fields
 from pipeline.motions import motions_of_starts
 
@@ -58,11 +57,11 @@ def recommended(shares: pd.DataFrame, margin: float) -> dict[str, float]:
     """The recommended amplitude (m/s²) of each aim that can be met."""
     places, regimes = regimes_of(shares, shares.attrs["same_velocity"])
     best = best_of(shares, shares.attrs["same_velocity"])
-    scores = {
-        CERTAIN: np.where(regimes == ONE, best.best, -np.inf),
-        FAST: np.where(np.isin(regimes, (ONE, SEVERAL)), best.best * best.best_share, -np.inf),
+    scores = {CERTAIN: best.best, FAST: best.best * best.best_share}
+    worst = {
+        aim: worst_within(places, np.where(np.isin(regimes, REGIMES_OF_AIMS[aim]), score, -np.inf), margin)
+        for aim, score in scores.items()
     }
-    worst = {aim: worst_within(places, score, margin) for aim, score in scores.items()}
     return {aim: float(places[score.argmax()]) for aim, score in worst.items() if np.isfinite(score.max())}
 
 
@@ -79,8 +78,8 @@ def settled(motion: pd.Series, settings: dict, phases: int, *, threads: int = 1)
     found = motions_of_starts(rows, settings, starts=len(rows), threads=threads)
     members = np.flatnonzero(is_motion(found, motion))
     chosen = np.full(phases, members[found.cycles[members].argmin()])
-    later = np.arange(phases) / phases
-    return continue_settled(rows[chosen], Labels(*(c[chosen] for c in found)), settings, later, threads=threads)
+    cycles = found.cycles[chosen] + np.arange(phases) / phases + FORGOTTEN
+    return continue_normal(rows[chosen], cycles, settings, threads=threads)
 
 
 def smallest_knock(
@@ -137,9 +136,6 @@ def make(shares: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str,
     for aim, acceleration in recommended(shares, settings["margin"]).items():
         motion = shares[shares.acceleration == acceleration].iloc[0]
         rows = settled(motion, box, settings["phases"], threads=threads)
-        # The last quarter of the run is one period.
-        duration = 4.0 * motion.period / box["model"]["frequency"]
-        run = ensemble.run(rows[:1], duration=duration, tolerance=box["tolerance"])
         advice.append(
             {
                 "aim": aim,
@@ -152,8 +148,8 @@ def make(shares: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str,
                 "stderr": best.stderr[acceleration],
                 "knock": smallest_knock(rows, motion, sizes, box, threads=threads),
                 "largest_kick": largest,
-                "impact_speed": run["impact_speed"][0],
-                "peak_force": run["peak_force"][0],
+                "impact_speed": motion.impact_speed,
+                "peak_force": motion.peak_force,
                 "textbook": float(throw_theory.mean_velocity(acceleration, **box["model"])),
             }
         )

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor.parameters import UNITS
-from operating.regimes import AIMS, CHAOS, ONE, SEVERAL, UNKNOWN, best_of
+from operating.regimes import AIMS, CHAOS, ONE, REGIMES_OF_AIMS, SEVERAL, UNKNOWN, best_of
 from pipeline.templates import render
 
 # None of n independent starts did it: with 95 % confidence fewer than this over n do (-log 0.05 is 2.996).
@@ -16,11 +16,16 @@ WORTH_CHANGING = 0.01  # relative gain of velocity from which a change of a para
 MOST_CHANGES = 4  # that are named
 
 
+def rounded(value: float, digits: int = 3) -> str:
+    """A number to some significant digits, without an exponent: "0.0648", "1240"."""
+    return np.format_float_positional(float(f"{value:.{digits - 1}e}"), trim="-")
+
+
 def numbers(low: float, high: float, factor: float = 1.0) -> str:
     """ "0.0648 to 0.141", or one number where both are equal to three digits."""
     if math.isnan(low):
         return "not known"
-    both = [f"{factor * value:.3g}" for value in (low, high)]
+    both = [rounded(factor * value) for value in (low, high)]
     return both[0] if both[0] == both[1] else f"{both[0]} to {both[1]}"
 
 
@@ -114,11 +119,17 @@ def rows_of(regimes: pd.DataFrame, shares: pd.DataFrame) -> list[list[str]]:
     ]
 
 
+def with_unit(parameter: str, value: float) -> str:
+    """ "0.17", "49 Hz"; angles in degrees."""
+    if UNITS[parameter] == "rad":
+        return f"{rounded(math.degrees(value))}°"
+    return rounded(value, 4) + ("" if UNITS[parameter] == "1" else f" {UNITS[parameter]}")
+
+
 def written_change(row: NamedTuple, before: float) -> str:
     """ "friction of 0.17 (now 0.15): +12 %, one velocity"."""
-    unit = "" if UNITS[row.parameter] == "1" else f" {UNITS[row.parameter]}"
-    name = row.parameter.replace("_", " ")
-    return f"{name} of {row.value:.4g}{unit} (now {before:.4g}{unit}): {100.0 * row.gain:+.0f} %, {row.regime}"
+    values = f"{with_unit(row.parameter, row.value)} (now {with_unit(row.parameter, before)})"
+    return f"{row.parameter.replace('_', ' ')} of {values}: {100.0 * row.gain:+.0f} %, {row.regime}"
 
 
 def advised(shares: pd.DataFrame, advice: pd.DataFrame, changes: pd.DataFrame) -> dict[str, Any]:
@@ -127,24 +138,25 @@ def advised(shares: pd.DataFrame, advice: pd.DataFrame, changes: pd.DataFrame) -
     found = dict.fromkeys(AIMS)
     for row in advice.itertuples():
         faster = changes[(changes.aim == row.aim) & (changes.gain > WORTH_CHANGING)]
+        faster = faster[faster.regime.isin(REGIMES_OF_AIMS[row.aim])]
         faster = faster.sort_values("gain", ascending=False).head(MOST_CHANGES)
         length = options.get("part_length")
         found[row.aim] = {
-            "acceleration": f"{row.acceleration:.4g}",
-            "throw_number": f"{row.throw_number:.3g}",
+            "acceleration": rounded(row.acceleration, 4),
+            "throw_number": rounded(row.throw_number),
             "state": row.state,
             "period": str(row.period),
-            "velocity": f"{row.mean_velocity:.3g}",
-            "parts": f"{60.0 * row.mean_velocity / length:.3g}" if length else "",
+            "velocity": rounded(row.mean_velocity),
+            "parts": rounded(60.0 * row.mean_velocity / length) if length else "",
             "all": row.stderr == 0.0,
             "share": f"{100.0 * row.share:.1f}",
             "stderr": f"{100.0 * row.stderr:.1f}",
-            "knock": "" if np.isnan(row.knock) else f"{row.knock:.2g}",
-            "largest_kick": f"{row.largest_kick:.2g}",
-            "impact_speed": f"{row.impact_speed:.2g}",
-            "peak_force": f"{row.peak_force:.2g}",
-            "weights": f"{row.peak_force / (model['mass'] * model['gravity']):.2g}",
-            "textbook": "" if np.isnan(row.textbook) else f"{row.textbook:.3g}",
+            "knock": "" if np.isnan(row.knock) else rounded(row.knock, 2),
+            "largest_kick": rounded(row.largest_kick, 2),
+            "impact_speed": rounded(row.impact_speed, 2),
+            "peak_force": rounded(row.peak_force, 2),
+            "weights": rounded(row.peak_force / (model["mass"] * model["gravity"]), 2),
+            "textbook": "" if np.isnan(row.textbook) else rounded(row.textbook),
             "changes": [written_change(change, model[change.parameter]) for change in faster.itertuples()],
         }
     return found | {

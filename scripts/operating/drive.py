@@ -2,8 +2,12 @@
 
 NSGA-II (pymoo) searches the Pareto front of three objectives: the velocity that nearly all initial conditions reach,
 the impact speed and the acceleration of the drive. A design must give one velocity (to a wanted share of the initial
-conditions), no chaos, no feeding backwards, and a displacement of the drive within its limit.
+conditions), no chaos, at least the least useful velocity, at most the largest impact speed, and a displacement of the
+drive within its limit. All of this must hold although the drive keeps its amplitude to a relative margin only: the
+velocity counts that is the least within the margin, and the largest impact speed.
 """
+
+from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
@@ -14,26 +18,29 @@ from pymoo.indicators.hv import HV
 from pymoo.optimize import minimize
 from pymoo.util.nds.non_dominated_sorting import NonDominatedSorting
 
-from conveyor import ensemble
-from conveyor.analysis.attractors.labels import Labels
 from operating.regimes import same
-from operating.shares import continue_settled, motions_of_conveyors, parameters_of, starts_of_box
+from operating.shares import brief_velocities, motions_of_conveyors, parameters_of, starts_of_box, velocities
 from pipeline import fields
 from pipeline.fields import AXES
 
 SEARCHED = ("acceleration", "frequency", "angle", "phase_shift")
-OUTCOMES = ("velocity", "impact_speed", "share", "chaos", "displacement")
+# Errors of the amplitude, in parts of the margin, at which a design of the search is followed, and one that is checked.
+SEARCH_ERRORS, CHECK_ERRORS = np.array([-1.0, 1.0]), np.array([-1.0, 0.0, 1.0])
+FIRST_STARTS = 1  # initial conditions that show most designs with chaos, which cost most
 TABLES = {
     "drive_front": (
         *(fields.number(name, AXES[name].metadata[b"unit"].decode(), "of the design") for name in SEARCHED),
         fields.number("displacement", "m", "amplitude of the drive's displacement"),
-        fields.number("velocity", "m/s", "velocity of the motion that most initial conditions of the search reach"),
-        fields.number("impact_speed", "m/s", "largest speed of approach normal to the track in a period"),
-        fields.flag("checked", "whether a full operating run was made; the next columns are null without it"),
-        fields.number("checked_velocity", "m/s", "mean over all initial conditions of the operating run"),
-        fields.number("velocity_stderr", "m/s", "its standard error over the initial conditions"),
-        fields.number("checked_share", "1", "share that reaches the velocity that most of them reach"),
-        fields.flag("confirmed", "whether the operating run keeps the constraints"),
+        fields.number("velocity", "m/s", "that most initial conditions of the search reach; least within the margin"),
+        fields.number("impact_speed", "m/s", "largest speed of approach normal to the track within the margin"),
+        fields.flag("checked", "whether full operating runs were made; the next columns are null without them"),
+        fields.number("checked_velocity", "m/s", "mean over all initial conditions and errors of the amplitude"),
+        fields.number("velocity_low", "m/s", "smallest velocity of any of these initial conditions"),
+        fields.number("velocity_high", "m/s", "largest velocity of any of these initial conditions"),
+        fields.number("impact_low", "m/s", "smallest impact speed of any of these initial conditions"),
+        fields.number("impact_high", "m/s", "largest impact speed of any of these initial conditions"),
+        fields.number("checked_share", "1", "least share, within the margin, that reaches one velocity"),
+        fields.flag("confirmed", "whether the operating runs keep the constraints"),
         fields.flag("recommended", "whether it is one of the recommended settings"),
     ),
     "drive_generations": (
@@ -44,6 +51,30 @@ TABLES = {
 }
 
 
+def designs_of(points: np.ndarray, bounds: dict) -> np.ndarray:
+    """Designs, shape (k, 4), from points of the search, shape (k, 4).
+
+    In place of the amplitude, points have the logarithm of its part normal to the track. The normal motion depends on
+    this part and on the frequency only: two points with the same normal motion have offspring with this motion, too.
+    """
+    designs = points.copy()
+    designs[:, 0] = np.exp(points[:, 0]) / np.maximum(np.sin(points[:, 2]), 1e-9)
+    designs[:, 0] = designs[:, 0].clip(*bounds["acceleration"])
+    return designs
+
+
+def bounds_of_points(bounds: dict) -> np.ndarray:
+    """Bounds of the search, shape (2, 4)."""
+    ends = np.array([bounds[name] for name in SEARCHED]).T
+    ends[:, 0] = np.log(np.maximum(ends[:, 0] * np.sin(ends[:, 2]), 1e-9))
+    return ends
+
+
+def displacement(designs: np.ndarray) -> np.ndarray:
+    """Amplitude of the drive's displacement (m)."""
+    return designs[:, 0] / (2.0 * np.pi * designs[:, 1]) ** 2
+
+
 def rows_of_designs(designs: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:
     """Packed parameters of designs, shape (k, 4), from each of some initial conditions, shape (k starts, 16)."""
     models = [model | dict(zip(SEARCHED[1:], design[1:], strict=True)) for design in designs]
@@ -51,42 +82,70 @@ def rows_of_designs(designs: np.ndarray, starts: np.ndarray, model: dict) -> np.
     return np.concatenate(rows)
 
 
-def guaranteed(motions: pd.DataFrame, same_velocity: float) -> tuple[int, float]:
-    """Row of the motion whose velocity most initial conditions get, and their share; chaos counts only if alone."""
-    known = motions[motions.mean_velocity.notna()]
-    if known.empty:
-        return -1, 0.0
-    shares = [
-        known.share[same(known.mean_velocity.to_numpy(), one, same_velocity)].sum() for one in known.mean_velocity
-    ]
-    return int(known.index[np.argmax(shares)]), float(max(shares))
+def outcome_of_conveyor(
+    velocity: np.ndarray, share: np.ndarray, impact: np.ndarray, is_chaos: np.ndarray, same_velocity: float
+) -> dict[str, float]:
+    """What the initial conditions of one conveyor reach: `velocity`, that of most of them, with its share, its impact
+    speed and the share of chaos; mean and extremes over all of them. NaN where a velocity is not known.
+
+    velocity, share, impact, is_chaos : of each motion, shape (m,)
+    """
+    # Of the initial conditions that get the velocity of each motion; unknown velocities equal nothing.
+    shares = same(velocity[:, None], velocity, same_velocity) @ share
+    most = shares.argmax()
+    return {
+        "velocity": velocity[most],
+        "impact_speed": impact[most],
+        "share": shares[most],
+        "chaos": share[is_chaos].sum(),
+        "mean": share @ velocity,
+        "velocity_low": velocity.min(),
+        "velocity_high": velocity.max(),
+        "impact_low": impact.min(),
+        "impact_high": impact.max(),
+    }
 
 
-def evaluate(designs: np.ndarray, settings: dict, *, threads: int = 1) -> pd.DataFrame:
-    """The OUTCOMES of designs, shape (k, 4), besides the mean over all initial conditions and its standard error."""
+# How outcomes at several amplitudes become one; all of these functions return NaN if one of the values is NaN.
+OVERALL = dict.fromkeys(("velocity", "share", "velocity_low", "impact_low"), np.min)
+OVERALL |= dict.fromkeys(("impact_speed", "chaos", "velocity_high", "impact_high"), np.max) | {"mean": np.mean}
+
+
+def evaluate(
+    designs: np.ndarray, settings: dict, errors: np.ndarray, *, measure: Callable = velocities, threads: int = 1
+) -> pd.DataFrame:
+    """The outcomes of designs, shape (k, 4): the worst within the margin, the mean over it, and its extremes.
+
+    errors : of the amplitude, in parts of the margin
+    measure : as in `motions_of_conveyors`
+    """
     starts = starts_of_box(settings)
-    rows = rows_of_designs(designs, starts, settings["model"])
-    table = motions_of_conveyors(rows, len(starts), settings, threads=threads)
-    found = []
-    for _, motions in table.groupby("conveyor"):
-        most, share = guaranteed(motions, settings["same_velocity"])
-        mean = (motions.share * motions.mean_velocity).sum(skipna=False)
-        variance = (motions.share * (motions.mean_velocity - mean) ** 2).sum(skipna=False)
-        chaos = motions.share[~motions.state.isin(("first", "second"))].sum()
-        found.append((most, share, chaos, mean, np.sqrt(variance / len(starts))))
-    columns = ("most", "share", "chaos", "mean", "stderr")
-    outcome = pd.DataFrame(dict(zip(columns, np.array(found).T, strict=True)))
-    motions = table.loc[outcome.most.clip(lower=0).astype(int)]
-    labels = Labels(*(motions[name].to_numpy() for name in ("state", "period", "longest_flight", "cycles")))
-    settled = continue_settled(rows[motions.place], labels, settings, threads=threads)
-    # The last quarter of the run is a whole period.
-    durations = 4.0 * np.maximum(labels.period, 1) / designs[:, 1]
-    ends = ensemble.run(settled, duration=durations, tolerance=settings["tolerance"], needs="vertical", threads=threads)
-    return outcome.assign(
-        velocity=np.where(outcome.most >= 0, motions.mean_velocity.to_numpy(), 0.0),
-        impact_speed=np.nan_to_num(ends["impact_speed"], nan=settings["impact_speed"]),
-        displacement=designs[:, 0] / (2.0 * np.pi * designs[:, 1]) ** 2,
-    )
+    varied = np.repeat(designs, len(errors), axis=0)
+    varied[:, 0] *= np.tile(1.0 + settings["margin"] * errors, len(designs))
+    rows = rows_of_designs(varied, starts, settings["model"])
+    table = motions_of_conveyors(rows, len(starts), settings, measure=measure, threads=threads)
+    columns = [table[name].to_numpy() for name in ("mean_velocity", "share", "impact_speed")]
+    # Undecided motions count as chaos. Arrays take a tenth of the time of pandas' groups.
+    columns.append(~table.state.isin(("first", "second")).to_numpy())
+    first = np.flatnonzero(np.diff(table.conveyor)) + 1
+    conveyors = zip(*(np.split(column, first) for column in columns), strict=True)
+    each = [outcome_of_conveyor(*motions, settings["same_velocity"]) for motions in conveyors]
+    columns = {name: np.array([one[name] for one in each]).reshape(len(designs), len(errors)) for name in OVERALL}
+    outcome = {name: overall(columns[name], axis=1) for name, overall in OVERALL.items()}
+    return pd.DataFrame(outcome | {"displacement": displacement(designs)})
+
+
+def constraints(outcome: pd.DataFrame, settings: dict) -> np.ndarray:
+    """Positive where a constraint is violated, shape (k, 5)."""
+    violations = [
+        settings["share"] - outcome.share,
+        outcome.chaos,
+        1.0 - outcome.velocity / settings["velocity"],
+        outcome.impact_speed / settings["impact_speed"] - 1.0,
+        outcome.displacement / settings["displacement"] - 1.0,
+    ]
+    # What is not known counts as violated.
+    return np.nan_to_num(np.column_stack(violations), nan=1.0)
 
 
 def is_within(outcome: pd.DataFrame, settings: dict) -> np.ndarray:
@@ -94,23 +153,41 @@ def is_within(outcome: pd.DataFrame, settings: dict) -> np.ndarray:
     return (constraints(outcome, settings) <= 0.0).all(axis=1)
 
 
-def constraints(outcome: pd.DataFrame, settings: dict) -> np.ndarray:
-    """Positive where a constraint is violated, shape (k, 4): share, chaos, displacement, and feeding backwards."""
-    displacement = outcome.displacement / settings["displacement"] - 1.0
-    return np.column_stack([settings["share"] - outcome.share, outcome.chaos, displacement, -outcome.velocity])
+def search_outcomes(designs: np.ndarray, settings: dict, *, threads: int = 1) -> tuple[np.ndarray, np.ndarray]:
+    """Objectives, shape (k, 3), all to be minimised, and constraints, shape (k, 5), of designs of the search.
+
+    Designs with too large a displacement are not followed, and designs that break a constraint with the first initial
+    conditions are not followed from the other ones.
+    """
+    outcome = pd.DataFrame({"displacement": displacement(designs)}).reindex(columns=[*OVERALL, "displacement"])
+    within = outcome.displacement.to_numpy() <= settings["displacement"]
+    for starts in (FIRST_STARTS, settings["starts"]):
+        if not within.any():
+            break
+        few = {**settings, "starts": starts}
+        found = evaluate(designs[within], few, SEARCH_ERRORS, measure=brief_velocities, threads=threads)
+        outcome.loc[within, found.columns] = found.to_numpy()
+        within = is_within(outcome, settings)
+    objectives = np.column_stack([-outcome.velocity, outcome.impact_speed, designs[:, 0]])
+    return np.where(np.isnan(objectives), np.inf, objectives), constraints(outcome, settings)
+
+
+def reference_point(settings: dict) -> np.ndarray:
+    """Objectives from which a design is worth nothing."""
+    return np.array([-settings["velocity"], settings["impact_speed"], settings["bounds"]["acceleration"][1]])
 
 
 class Front(Callback):
     """Keeps the designs within the constraints that none betters, and the hypervolume after each generation."""
 
-    def __init__(self, reference: np.ndarray):
+    def __init__(self, settings: dict):
         super().__init__()
-        self.reference, self.volumes = reference, []
-        self.designs, self.objectives = np.empty((0, len(SEARCHED))), np.empty((0, len(reference)))
+        self.bounds, self.reference, self.volumes = settings["bounds"], reference_point(settings), []
+        self.designs, self.objectives = np.empty((0, len(SEARCHED))), np.empty((0, len(self.reference)))
 
     def update(self, algorithm):
         within = algorithm.pop.get("CV")[:, 0] <= 0.0
-        designs = np.vstack([self.designs, algorithm.pop.get("X")[within]])
+        designs = np.vstack([self.designs, designs_of(algorithm.pop.get("X")[within], self.bounds)])
         objectives = np.vstack([self.objectives, algorithm.pop.get("F")[within]])
         self.designs, self.objectives = best_of_designs(designs, objectives)
         self.volumes.append(hypervolume(self.objectives, self.reference))
@@ -132,59 +209,81 @@ def hypervolume(objectives: np.ndarray, reference: np.ndarray) -> float:
 
 def search(settings: dict, seed: int, *, threads: int = 1) -> Front:
     """The Pareto front of one seed; objectives are to be minimised: -velocity, impact speed, acceleration."""
-    low, high = np.array([settings["bounds"][name] for name in SEARCHED]).T
+    bounds = bounds_of_points(settings["bounds"])
 
     class Designs(Problem):
         def __init__(self):
-            super().__init__(n_var=len(SEARCHED), n_obj=3, n_ieq_constr=4, xl=low, xu=high)
+            super().__init__(n_var=len(SEARCHED), n_obj=3, n_ieq_constr=5, xl=bounds[0], xu=bounds[1])
 
         def _evaluate(self, x, out):
-            outcome = evaluate(x, settings, threads=threads)
-            out["F"] = np.column_stack([-outcome.velocity, outcome.impact_speed, x[:, 0]])
-            out["G"] = constraints(outcome, settings)
+            designs = designs_of(x, settings["bounds"])
+            out["F"], out["G"] = search_outcomes(designs, settings, threads=threads)
 
-    front = Front(np.array([0.0, settings["impact_speed"], high[0]]))
-    algorithm = NSGA2(pop_size=settings["population"])
+    front = Front(settings)
+    # Many random designs find the narrow ranges with one velocity; the best ones go on.
+    drawn = np.random.default_rng(seed).uniform(*bounds, (settings["drawn"], len(SEARCHED)))
+    algorithm = NSGA2(pop_size=settings["population"], sampling=drawn)
     minimize(Designs(), algorithm, ("n_gen", settings["generations"]), seed=seed, callback=front)
     return front
 
 
-def spread(values: np.ndarray, count: int) -> np.ndarray:
-    """Places of at most `count` of some values, evenly spread in their order from the smallest to the largest."""
-    order = np.argsort(values, kind="stable")
-    places = np.linspace(0, len(order) - 1, min(count, len(order)))
-    return order[np.unique(np.round(places).astype(np.int64))]
+def spread(objectives: np.ndarray, count: int) -> np.ndarray:
+    """Places of at most `count` of some designs that differ as much as they can, the best in the first objective first.
+
+    Each further one is the farthest from all before, in units of the range of each objective, shape (k, 3).
+    """
+    if len(objectives) == 0:
+        return np.empty(0, dtype=np.int64)
+    scaled = objectives / np.maximum(np.ptp(objectives, axis=0), 1e-300)
+    chosen = [int(scaled[:, 0].argmin())]
+    distance = np.linalg.norm(scaled - scaled[chosen[0]], axis=1)
+    while len(chosen) < min(count, len(objectives)):
+        chosen.append(int(distance.argmax()))
+        distance = np.minimum(distance, np.linalg.norm(scaled - scaled[chosen[-1]], axis=1))
+    return np.array(chosen)
+
+
+CHECKED = {
+    **{"mean": "checked_velocity", "share": "checked_share"},
+    **{name: name for name in ("velocity_low", "velocity_high", "impact_low", "impact_high")},
+}
+
+
+def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFrame:
+    """A front with full operating runs of some designs, and the recommended ones among those that they confirm."""
+    front = front.assign(checked=False, confirmed=False, recommended=False, **dict.fromkeys(CHECKED.values(), np.nan))
+    objectives = np.column_stack([-front.velocity, front.impact_speed, front.acceleration])
+    chosen = spread(objectives, settings["checked"])
+    if len(chosen) == 0:
+        return front
+    designs = front.loc[chosen, list(SEARCHED)].to_numpy()
+    outcome = evaluate(designs, settings, CHECK_ERRORS, threads=threads)
+    front.loc[chosen, "checked"] = True
+    front.loc[chosen, list(CHECKED.values())] = outcome[list(CHECKED)].to_numpy()
+    front.loc[chosen, "confirmed"] = is_within(outcome, settings)
+    sure = np.flatnonzero(front.confirmed)
+    front.loc[sure[spread(objectives[sure], settings["recommended"])], "recommended"] = True
+    return front
 
 
 def make(settings: dict, *, threads: int = 1) -> dict[str, dict]:
     """The columns of the tables of the front and of the generations."""
-    few = {**settings, **settings["search"]}
+    # What has not settled is refused, whether it is chaos or not.
+    few = {**settings, **settings["search"], "followed": 1, "exponents": False}
     fronts = {seed: search(few, seed, threads=threads) for seed in settings["seeds"]}
     designs, objectives = best_of_designs(
         np.vstack([front.designs for front in fronts.values()]),
         np.vstack([front.objectives for front in fronts.values()]),
     )
-    whole = hypervolume(objectives, next(iter(fronts.values())).reference)
+    whole = hypervolume(objectives, reference_point(settings))
     front = pd.DataFrame(designs, columns=SEARCHED)
-    front["displacement"] = front.acceleration / (2.0 * np.pi * front.frequency) ** 2
-    front["velocity"], front["impact_speed"] = -objectives[:, 0], objectives[:, 1]
-    chosen = spread(front.velocity.to_numpy(), settings["checked"])
-    front["checked"] = front.index.isin(chosen)
-    front["confirmed"] = front["recommended"] = False
-    front[["checked_velocity", "velocity_stderr", "checked_share"]] = np.nan
-    if len(chosen):
-        outcome = evaluate(designs[chosen], settings, threads=threads)
-        columns = ["checked_velocity", "velocity_stderr", "checked_share"]
-        front.loc[chosen, columns] = outcome[["mean", "stderr", "share"]].to_numpy()
-        front.loc[chosen, "confirmed"] = is_within(outcome, settings)
-        sure = np.flatnonzero(front.confirmed)
-        front.loc[sure[spread(front.velocity.to_numpy()[sure], settings["recommended"])], "recommended"] = True
+    front = front.assign(displacement=displacement(designs), velocity=-objectives[:, 0], impact_speed=objectives[:, 1])
     history = [
         {"seed": seed, "generation": number, "hypervolume": volume / whole if whole else 0.0}
         for seed, found in fronts.items()
         for number, volume in enumerate(found.volumes, start=1)
     ]
     return {
-        "drive_front": front.to_dict("list"),
+        "drive_front": check(front, settings, threads=threads).to_dict("list"),
         "drive_generations": fields.columns(history, TABLES["drive_generations"]),
     }

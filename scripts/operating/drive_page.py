@@ -3,44 +3,57 @@
 import numpy as np
 import pandas as pd
 
+from operating.chart import RULE_OF_THREE, numbers, rounded
 from pipeline.templates import render
 
 
 def last_growth(generations: pd.DataFrame) -> float:
-    """Largest relative growth of the hypervolume in the last quarter of the generations of any seed."""
+    """Largest relative growth of the hypervolume in the last quarter of the generations of any seed; inf for none."""
     growth = []
     for _, rows in generations.groupby("seed"):
         volumes = rows.hypervolume.to_numpy()
-        earlier = volumes[max(3 * len(volumes) // 4 - 1, 0)]
-        growth.append(volumes[-1] / earlier - 1.0 if earlier > 0.0 else np.inf if volumes[-1] > 0.0 else 0.0)
+        earlier = volumes[3 * len(volumes) // 4 - 1]
+        growth.append(volumes[-1] / earlier - 1.0 if earlier > 0.0 else np.inf)
     return max(growth)
+
+
+def search_numbers(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict[str, str | bool]:
+    """How the front was searched and checked, and whether the search has settled."""
+    search, growth = front.attrs, last_growth(generations)
+    last = generations[generations.generation == generations.generation.max()]
+    return {
+        **{name: str(search[name]) for name in ("starts", "drawn", "population", "generations")},
+        "displacement": rounded(1e3 * search["displacement"]),
+        "velocity": rounded(search["velocity"]),
+        "impact_speed": rounded(search["impact_speed"]),
+        "share": rounded(100.0 * search["share"]),
+        "margin": rounded(100.0 * search["margin"]),
+        "others": f"{100.0 * RULE_OF_THREE / search['starts']:.2g}",
+        "seeds": str(len(search["seeds"])),
+        "found": str(len(front)),
+        "checked": str(int(front.checked.sum())),
+        "confirmed": str(int(front.confirmed.sum())),
+        "growth": f"{100.0 * growth:.2g}",
+        "limit": rounded(100.0 * search["settled"]),
+        "settled": growth <= search["settled"],
+        "worst_seed": f"{100.0 * last.hypervolume.min():.3g}",
+    }
 
 
 def make(template: str, drive_front: pd.DataFrame, drive_generations: pd.DataFrame) -> str:
     """The page from its template and the tables of the front and of the generations."""
-    search = drive_front.attrs
     rows = [
         [
-            f"{row.acceleration:.4g}",
-            f"{row.frequency:.4g}",
-            f"{np.degrees(row.angle):.3g}",
-            f"{np.degrees(row.phase_shift):.3g}",
-            f"{1e3 * row.displacement:.3g}",
-            f"{row.checked_velocity:.3g} ± {2.0 * row.velocity_stderr:.1g}",
+            rounded(row.acceleration),
+            rounded(row.frequency),
+            rounded(np.degrees(row.angle)),
+            rounded(np.degrees(row.phase_shift)),
+            rounded(1e3 * row.displacement),
+            rounded(row.checked_velocity),
+            numbers(row.velocity_low, row.velocity_high),
+            numbers(row.impact_low, row.impact_high),
             f"{100.0 * row.checked_share:.1f}",
-            f"{row.impact_speed:.2g}",
         ]
-        for row in drive_front[drive_front.recommended].sort_values("velocity").itertuples()
+        for row in drive_front[drive_front.recommended].sort_values("checked_velocity").itertuples()
     ]
-    numbers = {
-        "share": f"{100.0 * search['share']:g}",
-        "seeds": str(len(search["seeds"])),
-        "found": str(len(drive_front)),
-        "confirmed": str(int(drive_front.confirmed.sum())),
-        "checked": str(int(drive_front.checked.sum())),
-        "growth": f"{100.0 * last_growth(drive_generations):.2g}",
-    }
-    return render(
-        template,
-        {name: str(search[name]) for name in ("starts", "population", "generations")} | numbers | {"rows": rows},
-    )
+    return render(template, search_numbers(front=drive_front, generations=drive_generations) | {"rows": rows})

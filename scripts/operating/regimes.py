@@ -14,6 +14,7 @@ ONE, SEVERAL, BESIDE, CHAOS, UNKNOWN = REGIMES = (
 )
 # What a recommended amplitude aims at, see `advice`.
 CERTAIN, FAST = AIMS = ("certain", "fast")
+REGIMES_OF_AIMS = {CERTAIN: (ONE,), FAST: (ONE, SEVERAL)}
 # The status of a motion on a track that is too steep, see `track`.
 SLIDES_AWAY = "slides away"
 

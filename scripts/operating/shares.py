@@ -5,6 +5,7 @@ halved where the answer changes.
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
@@ -13,7 +14,7 @@ from conveyor import ensemble
 from conveyor.analysis.attractors.labels import Labels, continued
 from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
-from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, GRAVITY, INCLINATION, PSI0, VZ0, Z0
+from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, GRAVITY, INCLINATION, PSI0, VZ0, Z0
 from conveyor.solver.parallel import for_each_chunk
 from operating.regimes import regimes_of
 from pipeline import fields, grid
@@ -44,6 +45,7 @@ APART = 0.01
 # A mean velocity is known if a run twice as long has the same one, to this share of the plate's largest.
 SETTLED = 1e-3
 DOUBLINGS = 6  # of the run, after which its velocity is not known
+MOST_CYCLES = 4000  # of a brief run that is longer than asked for
 FORGOTTEN = 200  # excitation cycles that the horizontal motion gets at least to forget its start
 
 
@@ -78,15 +80,13 @@ def groups(found: Labels) -> np.ndarray:
     return number
 
 
-def continue_settled(
-    rows: np.ndarray, found: Labels, settings: dict, later: np.ndarray | float = 0.0, *, threads: int = 1
-) -> np.ndarray:
-    """Packed parameters, shape (n, 16), that go on from settled trajectories.
+def continue_normal(rows: np.ndarray, cycles: np.ndarray, settings: dict, *, threads: int = 1) -> np.ndarray:
+    """Packed parameters, shape (n, 16), that go on where the motion normal to the track is after some cycles.
 
-    rows, found : packed parameters of the trajectories, shape (n, 16), and their labels
-    later : excitation cycles by which each trajectory is followed further, a number or of shape (n,)
+    rows : packed parameters of trajectories, shape (n, 16)
+    cycles : excitation cycles that each of them is followed for, shape (n,)
     """
-    durations = (found.cycles + later + FORGOTTEN) / rows[:, FREQUENCY]
+    durations = cycles / rows[:, FREQUENCY]
     ends = ensemble.run(rows, duration=durations, tolerance=settings["tolerance"], needs="vertical", threads=threads)
     return continued(rows, ends["z_end"], ends["vz_end"], durations)
 
@@ -155,53 +155,83 @@ def velocities(
     return found, peaks, status
 
 
+def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> np.ndarray:
+    """Durations (s) of runs whose last quarter has the mean velocity of settled normal motions, shape (n,).
+
+    The last quarter holds whole periods. In the three quarters before, friction must be able to change the velocity of
+    the part by that of the plate: on average, g (μ cos α - |sin α|) is left of it to do so. On tracks that are nearly
+    too steep this takes more cycles than asked for.
+
+    parameters, period : packed, shape (n, 16), and the period in excitation cycles, 0 for none, shape (n,)
+    cycles : least excitation cycles of a run
+    """
+    alpha, friction = parameters[:, INCLINATION], parameters[:, FRICTION]
+    left = parameters[:, GRAVITY] * (friction * np.cos(alpha) - np.abs(np.sin(alpha)))
+    along = parameters[:, ACCELERATION] * np.cos(parameters[:, ANGLE])
+    # Friction that cannot hold a sliding part does not slow it down however long the run is.
+    needed = np.where(left > 0.0, along / (2.0 * math.pi * 0.75 * np.maximum(left, 1e-300)), 0.0)
+    step = 4.0 * np.maximum(period, 1)
+    return step * np.ceil(np.maximum(cycles, np.minimum(needed, MOST_CYCLES)) / step) / parameters[:, FREQUENCY]
+
+
+def brief_velocities(
+    parameters: np.ndarray, period: np.ndarray, settled: np.ndarray, settings: dict, *, threads: int = 1
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What `velocities` returns, from one run that begins with the settled normal motion; see `brief_durations`."""
+    rows = continue_normal(parameters, settled, settings, threads=threads)
+    durations = brief_durations(rows, period, settings["cycles"])
+    run = ensemble.run(rows, duration=durations, tolerance=settings["tolerance"], threads=threads)
+    return run["mean_velocity"], np.column_stack([run["impact_speed"], run["peak_force"]]), run["status"]
+
+
 def motions_of_conveyors(
-    parameters: np.ndarray, starts: int, settings: dict, *, threads: int = 1, progress: str | None = None
+    parameters: np.ndarray,
+    starts: int,
+    settings: dict,
+    *,
+    measure: Callable,
+    threads: int = 1,
+    progress: str | None = None,
 ) -> pd.DataFrame:
     """The motions that `starts` initial conditions of each of k conveyors end in, a row for each motion.
 
     parameters : packed, shape (k starts, 16)
-    Returns, besides columns of the table, `conveyor`, its number, and of the trajectory that settles first its
-    `place` in `parameters` and the `cycles` until then.
+    measure : `velocities` or `brief_velocities`
+    Returns the columns of the table and `conveyor`, its number.
     """
     found = motions_of_starts(parameters, settings, starts=starts, threads=threads, progress=progress)
-    rows, chosen, numbers = [], [], []
+    rows, followed = [], []
     for k in range(len(parameters) // starts):
         own = slice(k * starts, (k + 1) * starts)
         number = groups(Labels(*(column[own] for column in found)))
         for motion in range(number.max() + 1):
             members = own.start + np.flatnonzero(number == motion)
-            soonest = members[np.argsort(found.cycles[members], kind="stable")][: settings["followed"]]
-            chosen.append(soonest)
-            numbers.append(np.full(len(soonest), len(rows)))
-            rows.append((k, members[0], soonest[0], len(members)))
-    conveyor, first, place, count = np.array(rows).T
-    chosen, numbers = np.concatenate(chosen), np.concatenate(numbers)
+            rows.append((k, members[0], len(members)))
+            followed.append(members[np.argsort(found.cycles[members], kind="stable")][: settings["followed"]])
+    conveyor, first, count = np.array(rows).T
+    chosen = np.concatenate(followed)
     period, cycles = found.period[chosen], found.cycles[chosen]
     # What has no period is no more settled later on.
     settled = np.where(period > 0, cycles, np.minimum(cycles, settings["cycles"]))
-    each, each_peaks, each_status = velocities(parameters[chosen], period, settled, settings, threads=threads)
+    each, each_peaks, each_status = measure(parameters[chosen], period, settled, settings, threads=threads)
     each_status[found.state[chosen] == "undecided"] = "state not decided"
-    known = each_status == "ok"
-    sizes = np.bincount(numbers, weights=known, minlength=len(rows))
     velocity, error = np.full(len(rows), np.nan), np.full(len(rows), np.nan)
-    peaks = np.full((len(rows), 2), np.nan)
-    status = np.full(len(rows), "ok", dtype=object)
-    for row in range(len(rows)):
-        own = numbers == row
-        status[row] = "ok" if known[own].all() else each_status[own][~known[own]][0]
-        if status[row] == "ok":
-            velocity[row] = each[own].mean()
-            peaks[row] = each_peaks[own].max(axis=0)
-            error[row] = each[own].std(ddof=1) / math.sqrt(sizes[row]) if sizes[row] > 1 else np.nan
+    peaks, status = np.full((len(rows), 2), np.nan), np.full(len(rows), "ok", dtype=object)
+    end = 0
+    for row, size in enumerate(map(len, followed)):
+        own, end = slice(end, end + size), end + size
+        failed = each_status[own] != "ok"
+        if failed.any():
+            status[row] = each_status[own][failed][0]
+            continue
+        velocity[row], peaks[row] = each[own].mean(), each_peaks[own].max(axis=0)
+        error[row] = each[own].std(ddof=1) / math.sqrt(size) if size > 1 else np.nan
     share = count / starts
     acceleration = parameters[first, ACCELERATION]
     normal_gravity = parameters[first, GRAVITY] * np.cos(parameters[first, INCLINATION])
     return pd.DataFrame(
         {
             "conveyor": conveyor,
-            "place": place,
-            "cycles": found.cycles[place],
             "acceleration": acceleration,
             "vertical": acceleration * np.sin(parameters[first, ANGLE]) / normal_gravity,
             "state": found.state[first],
@@ -225,9 +255,10 @@ def motions_at(
     """The table for some amplitudes (m/s²), ascending, shape (m,)."""
     starts = starts_of_box(settings)
     parameters = parameters_of(amplitudes, starts, settings["model"])
-    table = motions_of_conveyors(parameters, len(starts), settings, threads=threads, progress=progress)
+    options = {"measure": velocities, "threads": threads, "progress": progress}
+    table = motions_of_conveyors(parameters, len(starts), settings, **options)
     order = {"by": ["acceleration", "mean_velocity", "starts"], "ascending": [True, False, False]}
-    table = table.drop(columns=["conveyor", "place", "cycles"]).sort_values(**order, ignore_index=True)
+    table = table.drop(columns="conveyor").sort_values(**order, ignore_index=True)
     return table.assign(motion=table.groupby("acceleration").cumcount() + 1)
 
 

@@ -4,13 +4,12 @@ The conveyors are that of the config and those of the examples. Initial heights 
 (initial velocities: g cos α/ω).
 """
 
-import math
-
 import numpy as np
 import pandas as pd
 import yaml
 
 from conveyor.analysis import throw_theory
+from conveyor.parameters import normal_gravity
 from operating import shares
 from pipeline import fields
 
@@ -27,7 +26,7 @@ def settings_of_conveyor(settings: dict, model: dict) -> dict:
     """The settings of `shares` for a conveyor whose parameters differ from those of the config by `model`."""
     base = settings["model"]
     own = base | model
-    gravity = own["gravity"] * math.cos(own["inclination"]) / (base["gravity"] * math.cos(base["inclination"]))
+    gravity = normal_gravity(own) / normal_gravity(base)
     period = base["frequency"] / own["frequency"]
     speed = gravity * period
     box = {

@@ -10,10 +10,9 @@ cannot hold a part in any periodic motion: it slides downhill faster and faster,
 import numpy as np
 
 from conveyor import ensemble
-from conveyor.analysis.attractors.labels import Labels
-from conveyor.solver.model import FREQUENCY, PHASE_SHIFT
+from conveyor.solver.model import PHASE_SHIFT
 from operating.regimes import SLIDES_AWAY
-from operating.shares import continue_settled, parameters_of, starts_of_box
+from operating.shares import FORGOTTEN, brief_durations, continue_normal, parameters_of, starts_of_box
 from pipeline import fields, grid
 from pipeline.motions import motions_of_starts
 
@@ -29,8 +28,12 @@ TABLES = {
 }
 
 
-def settled_rows(inclinations: np.ndarray, settings: dict, threads: int) -> list[tuple[int, str, int, np.ndarray]]:
-    """Number of the inclination, state, period and packed parameters, shape (16,), of each settled motion."""
+def settled_motions(
+    inclinations: np.ndarray, settings: dict, threads: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Number of the inclination, number of the state and period of each settled motion, shape (k,), and its packed
+    parameters, shape (k, 16).
+    """
     starts, amplitude = starts_of_box(settings), np.array([settings["acceleration"]])
     models = [{**settings["model"], "inclination": value} for value in inclinations]
     rows = np.concatenate([parameters_of(amplitude, starts, model) for model in models])
@@ -38,34 +41,31 @@ def settled_rows(inclinations: np.ndarray, settings: dict, threads: int) -> list
     motions = []
     for number in range(len(inclinations)):
         own = np.arange(number * len(starts), (number + 1) * len(starts))
-        for state in STATES:
+        for place, state in enumerate(STATES):
             # The most frequent period, of which the trajectory that settles first.
             members = own[(found.state[own] == state) & (found.period[own] > 0)]
             if len(members):
                 period = np.bincount(found.period[members]).argmax()
                 members = members[found.period[members] == period]
-                motions.append((number, state, int(period), members[found.cycles[members].argmin()]))
-    places = np.array([place for *_, place in motions], dtype=np.int64)
-    settled = continue_settled(rows[places], Labels(*(column[places] for column in found)), settings, threads=threads)
-    return [(*motion, row) for (*motion, _), row in zip(motions, settled, strict=True)]
+                motions.append((number, place, period, members[found.cycles[members].argmin()]))
+    number, state, period, first = np.array(motions, dtype=np.int64).reshape(len(motions), 4).T
+    settled = continue_normal(rows[first], found.cycles[first] + FORGOTTEN, settings, threads=threads)
+    return number, state, period, settled
 
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table: a row for each state at each inclination and phase shift."""
     inclinations, shifts = (grid.axis_values(name, settings[name]) for name in ("inclination", "phase_shift"))
-    motions = settled_rows(inclinations, settings, threads)
+    number, state, of_motion, settled = settled_motions(inclinations, settings, threads)
+    rows = np.repeat(settled, len(shifts), axis=0)
+    rows[:, PHASE_SHIFT] = np.tile(shifts, len(settled))
+    durations = brief_durations(rows, np.repeat(of_motion, len(shifts)), settings["cycles"])
+    options = {"tolerance": settings["tolerance"], "threads": threads, "progress": progress}
+    run = ensemble.run(rows, duration=durations, **options)
     shape = (len(inclinations), len(STATES), len(shifts))
     velocity, period = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64)
-    for cycles in sorted({motion_period for _, _, motion_period, _ in motions}):
-        chosen = [(number, STATES.index(state), row) for number, state, own, row in motions if own == cycles]
-        rows = np.repeat([row for *_, row in chosen], len(shifts), axis=0)
-        rows[:, PHASE_SHIFT] = np.tile(shifts, len(chosen))
-        # The last quarter of the run holds whole periods.
-        duration = 4.0 * cycles * np.ceil(settings["cycles"] / (4.0 * cycles)) / rows[0, FREQUENCY]
-        label = progress and f"{progress}, period {cycles}"
-        run = ensemble.run(rows, duration=duration, tolerance=settings["tolerance"], threads=threads, progress=label)
-        for (number, state, _), means in zip(chosen, run["mean_velocity"].reshape(len(chosen), -1), strict=True):
-            velocity[number, state], period[number, state] = means, cycles
+    velocity[number, state] = run["mean_velocity"].reshape(len(settled), len(shifts))
+    period[number, state] = of_motion[:, None]
     model, status = settings["model"], np.where(period > 0, "ok", "no start settles to the state").astype(object)
     steep = np.abs(np.tan(inclinations)) > model.get("static_friction", model["friction"])
     velocity[steep], status[steep] = np.nan, SLIDES_AWAY

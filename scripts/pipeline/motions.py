@@ -62,7 +62,7 @@ def motions_of_starts(
     Parameters
     ----------
     parameters : float64, shape (n, 16)
-    settings : `settling`, and `tolerance` if it is not the default
+    settings : `settling`, `tolerance` if it is not the default, and `exponents` if not as in labels.classify
     starts : number of initial conditions of each conveyor, in all batches and shards
     """
     options = {"cycles": settings["settling"], "tolerance": search_tolerance(settings), "threads": threads}
@@ -71,7 +71,8 @@ def motions_of_starts(
     for number, rows in enumerate(batches, start=1):
         label = progress and (f"{progress} ({number} of {len(batches)})" if len(batches) > 1 else progress)
         known = shared_attractors(parameters[rows], starts, settings, threads=threads, progress=label)
-        parts.append(classify(parameters[rows], known=known, **options, progress=label))
+        exponents = settings.get("exponents", True)
+        parts.append(classify(parameters[rows], known=known, exponents=exponents, **options, progress=label))
     order = np.argsort(np.concatenate(batches))
     return Labels(*(np.concatenate(column)[order] for column in zip(*parts, strict=True)))
 

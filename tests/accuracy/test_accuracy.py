@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 from project import ROOT, merged, read_config
 
-from accuracy import benchmark, precision, timing
+from accuracy import benchmark, precision, precision_estimates, timing
 from conveyor.methods import rivals
 
 CONFIG = read_config()
@@ -107,3 +107,11 @@ def test_runs_take_turns_until_enough_time_is_spent_on_them(monkeypatch):
     fast = ["fast"] * 2
     assert made == [*fast, "slow", "slowest", *fast, "slow", *fast]
     assert times == [[0.125] * 6, [0.5] * 2, [2.0]]
+
+
+def test_estimates_on_a_rising_track_are_those_of_gravity_normal_to_it():
+    settings = {**CONFIG["precision_estimates"]["exponent"], "durations": [0.5]}
+    model = {name: CONFIG["model"][name] for name in ("frequency", "gravity")}
+    level = model | {"gravity": model["gravity"] * np.cos(0.2)}
+    rising = precision_estimates.exponent_rows(settings, model | {"inclination": 0.2})
+    assert rising == precision_estimates.exponent_rows(settings, level)

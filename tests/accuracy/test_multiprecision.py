@@ -27,6 +27,12 @@ def test_an_undamped_hertz_impact_gives_back_its_speed_after_its_known_duration(
     assert states[0, 3] == pytest.approx(speed - conveyor.gravity * 2e-3, rel=1e-5)
 
 
+@pytest.mark.parametrize("other", [{"inclination": 0.1}, {"phase_shift": 0.1}, {"static_friction": 0.2}])
+def test_other_tracks_and_drives_are_refused(other):
+    with pytest.raises(ValueError, match=next(iter(other))):
+        multiprecision.simulate(Conveyor(**other), Start(z=1e-3), np.array([1e-3]), DIGITS)
+
+
 def test_it_meets_the_solver():
     conveyor, start, times = Conveyor(acceleration=40.0), Start(z=3e-4), np.arange(1, 15) * 7e-3
     states, events = multiprecision.simulate(conveyor, start, times, DIGITS)

@@ -29,6 +29,11 @@ def test_a_stiff_contact_is_nearly_rigid():
     assert theory.stiff_range(MODEL, 1e9, 0.5) == pytest.approx(theory.rigid_range(0.5), rel=1e-3)
 
 
+def test_a_rising_track_has_the_same_range_in_units_of_gravity_normal_to_it():
+    inclined = MODEL | {"inclination": 0.5}
+    assert theory.stiff_range(inclined, 1e9, 0.5) == pytest.approx(theory.rigid_range(0.5), rel=1e-3)
+
+
 def test_the_limit_of_a_polynomial_is_exact():
     places = np.array([0.3, 0.2, 0.1])
     value, error = theory.extrapolate_to_zero(places, 2.0 - 3.0 * places + 4.0 * places**2)

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from figures.plots import fig08
+from figures.plots import fig08, fig15
 
 
 def sweep(low: float, high: float) -> pd.DataFrame:
@@ -31,6 +31,15 @@ def test_settled_runs_are_not_told_to_scatter():
 
 def test_chaos_scatters_by_itself():
     assert fig08.unsettled(sweep(0.1, 0.2).assign(state="chaos")) is None
+
+
+@pytest.mark.parametrize("inclination", [0.0, 0.5])
+def test_the_line_of_fig_15_follows_gravity_normal_to_the_track(inclination):
+    falls = pd.DataFrame({"acceleration": [30.0, 40.0, 50.0, 60.0], "impact_velocity": -0.2, "impact_phase": 7.0})
+    falls.attrs["model"] = {"frequency": 50.0, "gravity": 9.81, "inclination": inclination, "psi0": 0.3}
+    line = fig15.plot(impacts=falls).axes[0].lines[0]
+    fall = 0.2 / (9.81 * np.cos(inclination))  # s, until a part that starts at rest has this velocity
+    assert line.get_ydata() == pytest.approx([0.3 + 2.0 * np.pi * 50.0 * fall, 0.3])
 
 
 def test_a_picture_does_not_wait_for_the_compiler():

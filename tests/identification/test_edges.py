@@ -59,6 +59,11 @@ def test_the_loss_is_that_of_the_linear_contact():
     assert edges.impact_loss(0.3e3, 5e5 * 10**1.5, other) == pytest.approx(edges.impact_loss(0.3, 5e5, MODEL))
 
 
+def test_the_loss_on_a_rising_track_is_that_of_gravity_normal_to_it():
+    level = MODEL | {"gravity": MODEL["gravity"] * np.cos(0.4)}
+    assert edges.impact_loss(0.3, 5e5, MODEL | {"inclination": 0.4}) == edges.impact_loss(0.3, 5e5, level)
+
+
 def test_one_edge_serves_all_angles_frictions_and_frictionless_tension():
     """States of motion depend on the vertical amplitude alone, not on friction, and not on friction under tension."""
     z0 = np.array([0.0, 1e-4, 3e-4])

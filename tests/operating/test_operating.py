@@ -13,6 +13,7 @@ from conveyor.analysis.attractors.labels import Labels, classify
 from conveyor.solver.model import PSI0, VZ0, Z0, Conveyor, conveyor_motion, pack
 from operating import advice, chart, regimes, shares, throws
 from pipeline.motions import motions
+from workflow.config.tables import TABLES
 
 BOX = {
     **read_config("operating")["operating"],
@@ -143,6 +144,26 @@ def test_samples_of_both_first_runs_ascend(monkeypatch):
     for period in (0, 1, 100, 400):
         velocity(Conveyor(), Start(0.0), period, cycles=1)
     assert all((0.75 * durations[:, 1:] >= durations[:, :-1]).all() for durations in wanted)
+
+
+def test_brief_runs_take_means_over_whole_periods():
+    """A motion of four cycles, whose velocity over single cycles differs."""
+    rows = pack(Conveyor(acceleration=61.8), Start(3e-4))[None]
+    options = {**BOX, "cycles": 250}
+    found, peaks, status = shares.brief_velocities(rows, np.array([4]), np.array([2000]), options)
+    long, long_peaks, _ = shares.velocities(rows, np.array([4]), np.array([2000]), options)
+    assert status.tolist() == ["ok"]
+    assert found == pytest.approx(long, rel=1e-3)
+    assert peaks == pytest.approx(long_peaks, rel=1e-5)
+    assert (shares.brief_durations(rows, np.array([4]), 250) * 50.0).tolist() == pytest.approx([256.0])
+
+
+def test_brief_runs_are_as_long_as_friction_takes():
+    """On a track steeper than friction holds, no length helps."""
+    rows = np.array([pack(Conveyor(inclination=alpha), Start()) for alpha in (0.0, -0.147, 0.14888, 0.2)])
+    flat, steep, steepest, beyond = shares.brief_durations(rows, np.ones(4, dtype=int), 60) * 50.0
+    assert flat == beyond == pytest.approx(60.0)
+    assert 60.0 < steep < steepest == pytest.approx(shares.MOST_CYCLES)
 
 
 def test_a_run_that_fails_says_why_there_is_no_velocity():
@@ -280,6 +301,8 @@ def advised() -> tuple[pd.DataFrame, pd.DataFrame]:
     changes = [
         {**changes, "parameter": "friction", "value": 0.17, "gain": 0.2},
         {**changes, "parameter": "angle", "value": 0.2, "gain": -0.2},
+        {**changes, "parameter": "angle", "value": 0.24, "gain": 0.1},
+        {**changes, "parameter": "mass", "value": 1.0, "gain": 0.5, "regime": regimes.CHAOS},
     ]
     tables = pd.DataFrame([row]), pd.DataFrame(changes)
     tables[0].attrs = {"margin": 0.01, "part_length": 0.02}
@@ -300,7 +323,9 @@ def test_the_page_begins_with_the_advice(refined):
     assert "A sudden velocity change of 0.05 m/s normal to the track can end the motion" in page
     assert "- Impact speed 0.1 m/s, peak force 0.5 N (50 times the weight of the part)\n" in page
     assert "  - friction of 0.17 (now 0.15): +20 %, one velocity\n" in page
-    assert "angle of" not in page
+    assert "  - angle of 13.8° (now 12°): +10 %, one velocity\n" in page
+    assert page.count("(now ") == 2
+    assert "mass of" not in page
     assert "Faster on average" not in page
 
 
@@ -335,6 +360,45 @@ def test_a_settled_motion_goes_on_and_a_large_kick_ends_it(table):
     assert (classify(at_knock).state == "second").any()
 
 
+def test_advice_has_the_numbers_of_its_motion_and_of_changed_conveyors():
+    settings = TABLES["operating/shares"](read_config()) | {"starts": 32, "followed": 2, "cycles": 50, "settling": 2000}
+    table = shares.motions_at(np.array([22.0, 23.0]), settings)
+    table.attrs = settings
+    options = {"margin": 0.01, "phases": 2, "kicks": 5, "smallest_kick": 0.01}
+    found = advice.make(table, {**options, "changes": {"phase_shift": 0.175, "friction": 0.02}})
+    told, changes = pd.DataFrame(found["advice"]), pd.DataFrame(found["changes"])
+    motion = table[table.acceleration == 23.0].iloc[0]
+    assert told.aim.tolist() == ["certain", "fast"]
+    for name in ("acceleration", "state", "period", "mean_velocity", "impact_speed", "peak_force"):
+        assert (told[name] == motion[name]).all(), name
+    assert (told.throw_number == motion.vertical).all()
+    assert (told.textbook == 0.0).all()
+    assert (told.share == 1.0).all()
+    certain = changes[changes.aim == "certain"].reset_index(drop=True)
+    friction = settings["model"]["friction"]
+    assert certain.parameter.tolist() == ["phase_shift", "phase_shift", "friction", "friction"]
+    assert certain.value.tolist() == pytest.approx([-0.175, 0.175, friction - 0.02, friction + 0.02])
+    changed = {**settings, "model": settings["model"] | {"phase_shift": 0.175}}
+    alone = shares.motions_at(np.array([23.0]), changed).mean_velocity[0]
+    assert certain.mean_velocity[1] == pytest.approx(alone, rel=1e-9)
+    assert certain.gain[1] == pytest.approx(alone / motion.mean_velocity - 1.0)
+    assert (certain.regime == regimes.ONE).all()
+
+
+def test_the_share_of_the_advice_is_that_of_all_motions_with_its_velocity(refined, monkeypatch):
+    """Above 40 m/s² two kinds of one velocity: 24 and 10 of 100 initial conditions."""
+    monkeypatch.setattr(advice, "settled", lambda *_, **__: None)
+    monkeypatch.setattr(advice, "smallest_knock", lambda *_, **__: np.nan)
+    monkeypatch.setattr(advice, "changes_at", lambda *_, **__: [])
+    refined = refined.assign(impact_speed=0.1, peak_force=1.0)
+    refined.attrs["model"] |= {"frequency": 50.0}
+    options = {"margin": 0.01, "phases": 2, "kicks": 5, "smallest_kick": 0.01, "changes": {}}
+    told = pd.DataFrame(advice.make(refined, options)["advice"]).set_index("aim")
+    assert told.share.to_dict() == pytest.approx({"certain": 1.0, "fast": 0.34})
+    assert told.stderr["fast"] == pytest.approx(math.sqrt(0.34 * 0.66 / 100))
+    assert told.mean_velocity.to_dict() == {"certain": 0.01, "fast": 0.06}
+
+
 def test_changes_of_a_parameter_keep_the_static_friction_above_the_friction():
     model = {"friction": 0.15, "static_friction": 0.16, "angle": 0.2}
     assert advice.with_parameter(model, "friction", 0.2)["static_friction"] == 0.2
@@ -354,13 +418,14 @@ def test_regimes_and_their_words(refined):
     assert list(found.step[:2]) == [5.0, 5.0]
     template = (ROOT / "workflow/templates/operating_chart.md").read_text()
     page = chart.make(template, refined, found, *advised())
-    assert "Every start of the box ends in one velocity at 20.0 to 31.2 m/s² (first state, 0.01 m/s)." in page
+    assert "All initial conditions reach one velocity at 20.0 to 31.2 m/s² (first state, 0.01 m/s)." in page
     assert "Several velocities exist side by side, without chaos, at 31.4 to 50.0 m/s²" in page
-    assert "30 to 34 % of the starts get, most of them (34.0 ± 4.7 %) at 40 m/s² with 0.06 m/s" in page
-    assert "Chaos begins at 50.2 m/s²; it is all that the starts end in at 56.1 to 60.0 m/s²." in page
-    assert "from the box of heights 0 to 0.5 mm above" in page
-    assert "fewer than 3 % of the box do, at 95 %\nconfidence" in page
-    assert "could not be decided" not in page
+    assert "\n30 to 34 % of the initial conditions reach it." in page
+    assert "This share is largest (34.0 ± 4.7 %) at 40 m/s², with 0.06 m/s." in page
+    assert "Chaos begins at 50.2 m/s². All initial conditions end in chaos at 56.1 to 60.0 m/s²." in page
+    assert "from heights of 0 to 0.5 mm above" in page
+    assert "fewer than 3 % of the box\ndo, at 95 % confidence" in page
+    assert "is not known." not in page
 
 
 @pytest.mark.parametrize(
@@ -390,9 +455,9 @@ def test_nothing_is_said_that_is_not_there(refined):
         *(table.iloc[:0] for table in advised()),
     )
     assert "At no amplitude, with a margin of 1 %, does every part get the same velocity." in page
-    assert "At no amplitude does every start" in page
-    assert "No start of the box ends in chaos" in page
-    assert "At 20.0 m/s² a motion could not be decided" in page
+    assert "At no amplitude do all initial conditions reach one velocity" in page
+    assert "No initial condition ends in chaos" in page
+    assert "At 20.0 m/s², the state or the velocity of a motion is not known." in page
     assert "| 20.0 | 0.426 | unknown | undecided | not known | not known | not known |" in page
 
 

@@ -243,6 +243,10 @@ WRONG = [
         {"sweeps": {"mine": {"axes": {"friction": [0.1, 0.3]}, "model": {"static_friction": 0.2}}}},
         "sweeps.mine has static_friction = 0.2 below friction = 0.3",
     ),
+    ({"drive": {"velocity": 0}}, "drive.velocity = 0 should be more than 0 (m/s)"),
+    ({"drive": {"velocity": 200.0}}, "drive.velocity = 200.0 should be at most 100 (m/s)"),
+    ({"drive": {"velocity": "2 cm/s"}}, "drive.velocity = '2 cm/s' should be a valid number (m/s)"),
+    ({"drive": {"settled": 0.0}}, "drive.settled = 0.0 should be more than 0"),
     ({"model": {"inclination": 3.0}}, "model.inclination = 3.0 should be at most 1.4 (rad); angles are in radians"),
     ({"figures_on_request": {"fig98": {**CONFIG["figures"]["fig03"]}}}, "has no workflow/report/fig98.rst"),
     # what crashed the check, or took it for ever

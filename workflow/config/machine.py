@@ -8,6 +8,8 @@ orbits, and the tables of the paper's method.
 import math
 from typing import Any
 
+from scripts.conveyor.parameters import normal_gravity
+
 from .entries import FIGURES, METHOD_SECTIONS, by_methods
 from .errors import ConfigError
 from .files import merge
@@ -30,11 +32,6 @@ STEPS = 4000  # the steps per excitation cycle are a multiple of this number, so
 def is_own_machine(paper: dict, config: dict) -> bool:
     """Whether a whole config has a prefix and another conveyor than the paper."""
     return bool(config["prefix"]) and any(config["model"].get(name) != paper["model"].get(name) for name in MACHINE)
-
-
-def normal_gravity(model: dict) -> float:
-    """Gravity normal to the track, g cos α (m/s²)."""
-    return model["gravity"] * math.cos(model["inclination"])
 
 
 def scale_ratios(paper: dict, own: dict) -> dict[str, float]:

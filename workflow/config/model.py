@@ -568,8 +568,7 @@ class Track(TypedDict):
 class DriveSearch(TypedDict):
     starts: whole("random initial conditions per design", 8, 10**6)
     settling: Cycles
-    followed: whole("initial conditions per attractor whose mean velocity is computed", 2, 1000)
-    cycles: whole("cycles over which a mean velocity is taken", 10, 10**6, "excitation cycles")
+    cycles: whole("cycles that the feeding motion is followed for, at least", 4, 10**6, "excitation cycles")
 
 
 class Drive(TypedDict):
@@ -581,13 +580,16 @@ class Drive(TypedDict):
         },
     )
     displacement: number("largest amplitude of the drive's displacement, â/ω²", "m", gt=0, le=1)
-    impact_speed: number("impact speed from which a design has no value", "m/s", gt=0, le=100)
+    velocity: number("least useful velocity, which every design exceeds", "m/s", gt=0, le=100)
+    impact_speed: number("largest impact speed that a design may have", "m/s", gt=0, le=100)
     share: number("least share of initial conditions that reach one velocity", gt=0, le=1)
     search: Annotated[DriveSearch, Field(description="initial conditions of each design of the search")]
+    drawn: whole("random designs of the first generation", 4, 10**6)
     population: whole("population of NSGA-II", 4, 10**4)
-    generations: whole("generations of NSGA-II", 2, 10**5)
+    generations: whole("generations of NSGA-II", 4, 10**5)
+    settled: number("growth of the hypervolume in the last quarter that counts as settled", "1", gt=0, le=1)
     seeds: many(Seed, "seeds of the random numbers")
-    checked: whole("designs of the front that get a full operating run", 1, 1000)
+    checked: whole("designs of the front that get full operating runs", 1, 1000)
     recommended: whole("recommended settings", 1, 100)
 
 

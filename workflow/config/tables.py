@@ -53,8 +53,8 @@ def of_box(section: str, config: dict) -> dict:
 
 
 def drive_settings(config: dict) -> dict:
-    """The drive's searched parameters come from the bounds."""
-    own = of_box("drive", config)
+    """The drive's searched parameters come from the bounds, and the error of its amplitude from the advice."""
+    own = {**of_box("drive", config), "margin": config["advice"]["margin"]}
     return {**own, "model": {name: value for name, value in own["model"].items() if name not in own["bounds"]}}
 
 

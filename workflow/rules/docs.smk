@@ -246,6 +246,7 @@ rule site:
             f"{DOCS}add_your_solver.md",
         ],
         scenes=SCENE_FILES,
+        examples=sources("docs/bowl_*.png"),
         style=source("scripts/docs/site.css"),
         pdf=figure_files(),
         png=[*figure_files("png"), *DIAGRAMS.values()],
@@ -305,6 +306,22 @@ rule picture:
         "The picture {wildcards.figure} of the documentation"
     script:
         "../../scripts/make.py"
+
+
+# The pictures of the page on your own conveyor: snakemake docs/bowl_operating.png --configfile config/examples/bowl.yaml
+if config["prefix"]:
+
+    use rule picture as example_picture with:
+        output:
+            f"docs/{config['prefix']}_{{figure}}.png",
+        log:
+            log_file("docs/example_{figure}"),
+        benchmark:
+            benchmark_file("docs/example_{figure}")
+        wildcard_constraints:
+            figure="operating|basin_stability|drive",
+        message:
+            "The picture {wildcards.figure} of an example"
 
 
 # The JSON Schema of the config, which the repository keeps for editors: snakemake --force config/schema.json

@@ -1,44 +1,70 @@
 """The Pareto front of drive design, with the recommended settings and the hypervolume over the generations."""
 
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from figures import style
 
+SEEDS = (style.CONVERGED, style.SECOND_ESTIMATE, "black", "0.6")
+
+
+def draw_checked(axes: Axes, checked: pd.DataFrame) -> None:
+    """Mean velocity and largest impact speed of full operating runs, with the ranges of both."""
+    velocity, impact = checked.checked_velocity, checked.impact_high
+    below, above = velocity - checked.velocity_low, checked.velocity_high - velocity
+    axes.errorbar(
+        impact,
+        velocity,
+        xerr=[impact - checked.impact_low, 0.0 * impact],
+        # A mean of equal velocities may miss them by a rounding.
+        yerr=[below.clip(lower=0.0), above.clip(lower=0.0)],
+        color="black",
+        linestyle="none",
+        marker=".",
+        markersize=2.5,
+        linewidth=0.7,
+        capsize=1.5,
+        label="full operating runs with their ranges",
+    )
+
 
 def plot(*, front: pd.DataFrame, generations: pd.DataFrame) -> Figure:
     """Draw the front, and how its hypervolume grew."""
-    figure = style.figure(style.PAGE, 76.0)
+    figure = style.figure(style.PAGE, 80.0)
     pareto, growth = figure.subplots(1, 2, width_ratios=(1.7, 1.0))
     points = pareto.scatter(
-        front.impact_speed, front.velocity, c=front.acceleration, s=14.0, cmap="cividis", label="front of the search"
+        front.impact_speed,
+        front.velocity,
+        c=front.acceleration,
+        s=10.0,
+        linewidths=0.0,
+        cmap="cividis",
+        label="front of the search",
     )
-    checked = front[front.checked]
-    pareto.errorbar(
-        checked.impact_speed,
-        checked.checked_velocity,
-        yerr=2.0 * checked.velocity_stderr,
-        color="black",
-        linestyle="none",
-        marker="_",
-        markersize=6.0,
-        linewidth=0.8,
-        capsize=2.0,
-        label="operating run, two standard errors",
-    )
+    draw_checked(pareto, front[front.checked])
     chosen = front[front.recommended]
     pareto.scatter(
-        chosen.impact_speed, chosen.velocity, s=60.0, facecolors="none", edgecolors=style.EULER, label="recommended"
+        chosen.impact_high,
+        chosen.checked_velocity,
+        s=50.0,
+        facecolors="none",
+        edgecolors=style.EULER,
+        zorder=3,
+        label="recommended",
     )
-    pareto.set_xlabel("impact speed in m/s")
-    pareto.set_ylabel("velocity of nearly all\ninitial conditions in m/s")
+    pareto.set_xlabel("largest impact speed in m/s")
+    pareto.set_ylabel("velocity in m/s")
+    pareto.set_ylim(bottom=0.0)
     figure.colorbar(points, ax=pareto, label=style.AMPLITUDE)
-    for number, (seed, rows) in enumerate(generations.groupby("seed")):
-        colour = (style.CONVERGED, style.SECOND_ESTIMATE)[number % 2]
+    last = generations.generation.max()
+    growth.axvspan(3 * last // 4, last, color="0.92", linewidth=0.0)
+    for colour, (seed, rows) in zip(SEEDS, generations.groupby("seed"), strict=False):
         growth.plot(rows.generation, 100.0 * rows.hypervolume, color=colour, label=f"seed {seed}")
     growth.set_xlabel("generation")
     growth.set_ylabel("hypervolume in % of that of all seeds")
-    style.from_zero(growth)
+    growth.set_xlim(1, last)
+    growth.set_ylim(0.0, 102.0)
     growth.legend(loc="lower right")
     style.legend_above(figure, pareto, ncols=3)
     return figure

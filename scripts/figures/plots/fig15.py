@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from conveyor.parameters import normal_gravity
 from figures import style
 
 MARKERS = "os^v"
@@ -16,7 +17,7 @@ def plot(*, impacts: pd.DataFrame) -> Figure:
     axes = figure.subplots()
     model = impacts.attrs["model"]
     ends = np.array([impacts.impact_velocity.min(), 0.0])
-    slope = -2.0 * np.pi * model["frequency"] / model["gravity"]
+    slope = -2.0 * np.pi * model["frequency"] / normal_gravity(model)
     axes.plot(ends, model["psi0"] + slope * ends, color=style.PLATE, linewidth=0.8, label="slope $-\\omega/g$")
     curves = impacts.groupby("acceleration")
     for offset, (marker, colour, (acceleration, rows)) in enumerate(zip(MARKERS, COLOURS, curves, strict=True)):

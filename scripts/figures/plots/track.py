@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from figures import style
 from operating.regimes import SLIDES_AWAY
 
-PHASES = {"-π": -np.pi, "-π/2": -0.5 * np.pi, "0": 0.0, "π/2": 0.5 * np.pi, "π": np.pi}
+PHASES = {"−π": -np.pi, "−π/2": -0.5 * np.pi, "0": 0.0, "π/2": 0.5 * np.pi, "π": np.pi}
 
 
 def plot(*, track: pd.DataFrame) -> Figure:

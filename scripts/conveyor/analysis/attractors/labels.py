@@ -64,6 +64,7 @@ def classify(
     *,
     cycles: int = CYCLES,
     known: AttractorTable = NO_ATTRACTORS,
+    exponents: bool = True,
     tolerance: float = 1e-8,
     threads: int = 1,
     progress: str | None = None,
@@ -75,6 +76,7 @@ def classify(
     parameters : float64, shape (n, 16), rows as from model.pack; after a run, those of `continued`
     cycles : excitation cycles after which a trajectory that has not settled is followed no further
     known : attractors of conveyors; without them each trajectory is followed to its own end
+    exponents : whether Lyapunov exponents decide about trajectories that have not settled; otherwise they are undecided
     tolerance : of the contact steps
     threads, progress : as in ensemble.run
     """
@@ -95,7 +97,7 @@ def classify(
     codes[outcomes == SETTLED] = regular[outcomes == SETTLED]
     codes[outcomes == STAYS] = CHAOS
     still = np.flatnonzero(outcomes == OPEN)
-    if len(still):
+    if exponents and len(still):
         signs = lyapunov.signs(parameters[still], points[still], tolerance=tolerance, threads=threads)
         codes[still[signs > 0]] = CHAOS
         longer = still[signs < 0]
