@@ -11,7 +11,7 @@ from .solver.parallel import for_each_chunk
 
 STATUS = trajectory.STATUS
 NEEDS = ("feeding", "vertical")
-# Columns of the array that the kernels fill.
+# Rows of the array of results that all methods fill.
 MEAN_VELOCITY, Z_END, VZ_END, X_END, VX_END, MAX_GAP, IMPACTS, CONTACT_FRACTION = range(8)
 IMPACT_SPEED, PEAK_FORCE, CODE = range(8, 11)
 COLUMNS = (

@@ -6,7 +6,7 @@ This module imports nothing slow, so that a program can check its settings witho
 import math
 
 TENSION_MODES = ("allow", "frictionless", "clip")
-# Compiled kernels receive a conveyor and an initial condition as a vector of parameters in this order.
+# Compiled functions receive a conveyor and an initial condition as one vector of parameters, in this order.
 DESCRIPTIONS = {
     "acceleration": "amplitude of the excitation, â",
     "angle": "angle of throw φ",
@@ -68,5 +68,5 @@ RANGES = {
 # Parameters that leave the motion normal to the track as it is.
 TANGENTIAL = ("friction", "phase_shift", "static_friction")
 
-# Methods with a fixed step. The position of a name is its code in compiled kernels.
+# Methods with a fixed step. The position of a name is its code in compiled functions.
 FIXED_STEP_METHODS = ("euler", "semi_implicit_euler", "rk4")

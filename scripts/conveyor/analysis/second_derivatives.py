@@ -17,7 +17,7 @@ import numpy as np
 
 from ..solver import contact, polynomial
 from ..solver.contact import FIRST, FORCE_SIGN, SEPARATION
-from ..solver.jit import borrowed, inlined, kernel, spliced
+from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from ..solver.model import TENSION_CLIP
 from ..solver.polynomial import ORDER, SIZE
 from ..solver.trajectory import IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, patience
@@ -35,7 +35,7 @@ PART_OF_RADIUS = 0.2
 LOG_EDGE = 1e-5
 
 
-@kernel
+@compiled
 def power_series(c, series, exponent, out):
     """Fill `out`, shape (SIZE,), with the Taylor coefficients of w^exponent of a contact step, 0 if w begins at 0."""
     w = FIRST + contact.W
@@ -48,7 +48,7 @@ def power_series(c, series, exponent, out):
         out[n] = series[contact.SCRATCH, n]
 
 
-@kernel
+@compiled
 def log_series(c, series, out):
     """Fill `out`, shape (SIZE,), with the Taylor coefficients of 2 log w of a contact step, 0 where w is left out."""
     w = series[FIRST + contact.W]
@@ -64,13 +64,13 @@ def log_series(c, series, out):
             out[n] *= 2.0
 
 
-@inlined
+@compiled_inline
 def branch_edge(c):
     """The √penetration (√m) from which on steps keep away from the branch point at w = 0."""
     return c.edge_w if c.edge_w > 0.0 else LOG_EDGE * c.scale_w
 
 
-@inlined
+@compiled_inline
 def product(a, b, n):
     """Coefficient n of the product of two series."""
     total = 0.0
@@ -79,7 +79,7 @@ def product(a, b, n):
     return total
 
 
-@kernel
+@compiled
 def expand(c, series, first, second, free, count):
     """Taylor coefficients in s of the perturbations along a contact step, from their values at s = 0.
 
@@ -88,7 +88,7 @@ def expand(c, series, first, second, free, count):
     free : whether the contact force is left out
     count : how many of the quantities are wanted, from the first one on
     """
-    series, first, second = borrowed(series), borrowed(first), borrowed(second)
+    series, first, second = no_refcount(series), no_refcount(first), no_refcount(second)
     w, square = series[FIRST + contact.W], series[FIRST + contact.SQUARE]
     spring, cosine_w = series[FIRST + contact.SPRING], series[FIRST + contact.COSINE_W]
     damping = 0.0 if free else c.damping
@@ -145,7 +145,7 @@ def expand(c, series, first, second, free, count):
             y[n + 1] = push / (n + 1)
 
 
-@kernel
+@compiled
 def cross_surface(c, first, second, speed, w):
     """Jump of second derivatives where δ passes zero at a speed (m/s): that of the kinks of damping and spring.
 
@@ -159,7 +159,7 @@ def cross_surface(c, first, second, speed, w):
             second[i, j, 1, 0] -= stiffness * both
 
 
-@kernel
+@compiled
 def switch(c, first, second, delta, pulled):
     """Take v = Y - (d_c/m) δ in place of Y where `clip` begins to switch the damping off (`pulled`), and back."""
     sign = -1.0 if pulled else 1.0
@@ -173,7 +173,7 @@ def switch(c, first, second, delta, pulled):
     first[DAMPING, 1, 0] += sign * delta
 
 
-@kernel
+@compiled
 def cross_force(c, first, second, w, v, acceleration):
     """Jump of second derivatives where `clip` cuts the force, in (δ, v); `acceleration` is that of δ there (m/s²)."""
     delta = w * w
@@ -190,7 +190,7 @@ def cross_force(c, first, second, w, v, acceleration):
             second[i, j, 1, 0] -= change[i] * change[j] / rate
 
 
-@kernel
+@compiled
 def fly(c, first, second, motion, piece):
     """Advance the perturbations along a piece without a contact force."""
     tau = piece.duration
@@ -203,7 +203,7 @@ def fly(c, first, second, motion, piece):
     first[AMPLITUDE, 1, 0] += (piece.sine - motion.sine) / c.omega
 
 
-@spliced
+@compiled_into_callers
 def press(c, series, first, second, motion, piece, count):
     """Advance the perturbations along a contact step; return the piece up to where they could go."""
     expand(c, series, first, second, motion.pulled and c.tension == TENSION_CLIP, count)
@@ -228,7 +228,7 @@ def press(c, series, first, second, motion, piece, count):
     return piece
 
 
-@kernel
+@compiled
 def cycle(parameters, tolerance, state, first, second, count):
     """Advance `state` by one excitation cycle, and fill the first coefficients of `first` and `second`.
 
@@ -308,7 +308,7 @@ def cycles(parameters, tolerance, state, first, second, states, impacts):
     -------
     status code of trajectory.STATUS
     """
-    # Not a kernel: it would compile all of `cycle` once more.
+    # Not compiled, because numba would compile all of `cycle` once more.
     of_one = np.empty((QUANTITIES, 2, SIZE))
     of_two = np.empty((2, QUANTITIES, 2, SIZE))
     for n in range(first.shape[0]):

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..solver import contact, polynomial
 from ..solver.contact import FIRST
-from ..solver.jit import borrowed, inlined, kernel, spliced
+from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
 from ..solver.polynomial import ORDER, SIZE
 from ..solver.trajectory import BEGIN_OF_CYCLE, IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, patience
@@ -31,7 +31,7 @@ FEATURES = 4
 ETA, ZETA, RATE = range(3)
 
 
-@kernel
+@compiled
 def initial_state(parameters, tolerance, state):
     """Fill `state`, shape (2,), with δ (m) and v (m/s) of the initial condition in a packed parameter vector."""
     c = contact.constants(parameters, tolerance)
@@ -40,7 +40,7 @@ def initial_state(parameters, tolerance, state):
     state[1] = -rate
 
 
-@kernel
+@compiled
 def expand_tangents(c, series, expansions, free):
     """Fill the Taylor coefficients of two perturbations along a contact step from η and ζ at s = 0.
 
@@ -86,7 +86,7 @@ def expand_tangents(c, series, expansions, free):
         expansions[0, ZETA, n + 1], expansions[1, ZETA, n + 1] = zeta_1, zeta_2
 
 
-@kernel
+@compiled
 def tangent_length(c, expansions):
     """Length in s at which the last two terms of all perturbations' expansions, rows η and ζ, are below the tolerance.
 
@@ -104,7 +104,7 @@ def tangent_length(c, expansions):
     return length
 
 
-@inlined
+@compiled_inline
 def advance_tangent(c, series, tangent, expansions, motion, piece):
     """Advance perturbations of (δ, Y), rows of `tangent`, along a piece; return the piece up to where they could go.
 
@@ -132,7 +132,7 @@ def advance_tangent(c, series, tangent, expansions, motion, piece):
     return piece
 
 
-@inlined
+@compiled_inline
 def switch_damping(c, tangent, pulled):
     """Take v in place of Y in perturbations where `clip` begins to switch the damping off, and back."""
     if c.tension == TENSION_CLIP:
@@ -141,7 +141,7 @@ def switch_damping(c, tangent, pulled):
             tangent[i, 1] += sign * c.damping * tangent[i, 0]
 
 
-@inlined
+@compiled_inline
 def delta_and_v(motion):
     """The state, δ (m) and v (m/s), of a Motion."""
     if motion.touching:
@@ -150,7 +150,7 @@ def delta_and_v(motion):
     return -max(motion.q, 0.0), -motion.rate
 
 
-@kernel
+@compiled
 def advance(c, series, state, phase, duration, tangent, features):
     """Advance `state` from a phase of the excitation by a time of at most one cycle, exactly.
 
@@ -167,7 +167,12 @@ def advance(c, series, state, phase, duration, tangent, features):
     -------
     status code of trajectory.STATUS
     """
-    series, state, tangent, features = borrowed(series), borrowed(state), borrowed(tangent), borrowed(features)
+    series, state, tangent, features = (
+        no_refcount(series),
+        no_refcount(state),
+        no_refcount(tangent),
+        no_refcount(features),
+    )
     # Numbers of both perturbations lie side by side: one instruction works on both.
     expansions = np.zeros((SIZE, 3, tangent.shape[0])).T
     features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = 0.0
@@ -203,13 +208,13 @@ def advance(c, series, state, phase, duration, tangent, features):
     return TOO_STIFF
 
 
-@spliced
+@compiled_into_callers
 def cycle(c, series, state, tangent, features):
     """Advance `state`, at the phase ψ0, by one excitation cycle: see `advance`."""
     return advance(c, series, state, c.psi0, c.period, tangent, features)
 
 
-@kernel
+@compiled
 def to_begin_of_cycle(parameters, tolerance, states):
     """Fill `states`, shape (n, 2), with the states that `parameters` lead to when the plate is next at its top."""
     series = contact.workspace()
@@ -223,7 +228,7 @@ def to_begin_of_cycle(parameters, tolerance, states):
             states[i, :] = np.nan
 
 
-@kernel
+@compiled
 def follow(parameters, tolerance, state, cycles, strobes, features):
     """Advance `state` by a number of cycles.
 
@@ -261,7 +266,7 @@ def follow(parameters, tolerance, state, cycles, strobes, features):
     return OK
 
 
-@inlined
+@compiled_inline
 def same(strobes, features, n, mark):
     """Whether what follows two cycles is the same, bit for bit: the motion, and the time since the last separation."""
     return (
@@ -271,7 +276,7 @@ def same(strobes, features, n, mark):
     )
 
 
-@kernel
+@compiled
 def repeated(strobes):
     """After how many cycles the motion of `follow` comes back to its last state, bit for bit; 0 for never so far."""
     last = strobes.shape[0] - 1
@@ -281,7 +286,7 @@ def repeated(strobes):
     return 0
 
 
-@kernel
+@compiled
 def monodromy(parameters, tolerance, state, matrices, features):
     """Advance `state` by n cycles and fill `matrices`, shape (n, 2, 2), with ∂(δ, Y)_end/∂(δ, Y)_start of each cycle.
 

@@ -4,7 +4,7 @@ A register of 512 bits holds eight numbers, and one instruction works on all of 
 more than one if they take the same instructions. So nothing here branches on a trajectory's state, both outcomes are
 computed and one is selected, and sine and cosine are computed here as well: a library takes one phase at a time.
 
-Every operation is rounded as IEEE 754 defines it; none is merged with another or moved, and fused products are asked
+Every operation is rounded as IEEE 754 defines it; none is merged with another or moved, and fma multiply-adds are asked
 for by name. What a trajectory gives depends neither on its neighbours nor on the lane nor on the number of lanes, and a
 single run is the same code in one lane. For the exponents 1 and 1.5 no library function is called, so that the digits
 are those of every machine; any other exponent takes the power of the C library, lane after lane.
@@ -19,8 +19,8 @@ from numba.core import cgutils, types
 from numba.extending import intrinsic
 
 from ..solver import model
-from ..solver.jit import kernel
-from ..solver.vectors import BIT, FLOAT, INTEGER, Memory, Vector, anywhere, call, fused, lanes_of_processor, where
+from ..solver.jit import compiled
+from ..solver.vectors import BIT, FLOAT, INTEGER, Memory, Vector, anywhere, call, fma, lanes_of_processor, where
 from .force_law import spring_and_damper
 
 CHECK = 256  # steps between checks that the state is finite
@@ -29,8 +29,8 @@ OK, NOT_FINITE = range(len(STATUSES))
 EVENT_KINDS = ("impact", "separation")
 IMPACT, SEPARATION = range(len(EVENT_KINDS))
 
-# What is known of one trajectory: a row of the results, and the first rows of the kernel's memory, which has a column
-# for each lane. There CONTACT_TIME counts steps, EVALUATIONS is the number of the present step, and PEAK_FORCE is per
+# What is known of one trajectory: a row of the results, and the first rows of the memory, which has a column for each
+# lane. There CONTACT_TIME counts steps, EVALUATIONS is the number of the present step, and PEAK_FORCE is per
 # mass. IMPACT_SPEED and PEAK_FORCE count since the last sample.
 X, VX, Z, VZ, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, EVALUATIONS, STATUS, IMPACT_SPEED, PEAK_FORCE = range(12)
 RESULTS = 12
@@ -72,7 +72,7 @@ COSINE = (
 def polynomial(coefficients: tuple[float, ...], x: Vector) -> Vector:
     value = x.like(coefficients[0])
     for coefficient in coefficients[1:]:
-        value = fused(value, x, coefficient)
+        value = fma(value, x, coefficient)
     return value
 
 
@@ -84,14 +84,14 @@ def sine_and_cosine(phase: Vector) -> tuple[Vector, Vector]:
     Beyond 2⁵¹ quarter turns, where neighbouring numbers are half a radian apart, the values mean nothing.
     """
     builder = phase.builder
-    rounded = fused(phase, TWO_OVER_PI, ROUNDER)
+    rounded = fma(phase, TWO_OVER_PI, ROUNDER)
     turns = rounded - ROUNDER
     r = phase
     for part in HALF_PI:
-        r = fused(turns, -part, r)
+        r = fma(turns, -part, r)
     square = r * r
-    sine = fused(r * square, polynomial(SINE, square), r)
-    cosine = fused(square, fused(square, polynomial(COSINE, square), -0.5), 1.0)
+    sine = fma(r * square, polynomial(SINE, square), r)
+    cosine = fma(square, fma(square, polynomial(COSINE, square), -0.5), 1.0)
     bits = rounded.cast(builder.bitcast, INTEGER)
     odd = bits.cast(builder.trunc, BIT)
 
@@ -182,7 +182,7 @@ def sincos(typing_context, phase):
     return types.UniTuple(types.float64, 2)(types.float64), code
 
 
-@kernel
+@compiled
 def prepare(parameters, step, lane):
     """Set a lane's memory, shape (ROWS,), zero before, to the start of a packed parameter vector."""
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
@@ -226,7 +226,7 @@ def in_lanes(lanes: int, general: int = 1):
     general : 0 for the paper's friction on a level track alone, which takes less time
     """
 
-    @kernel
+    @compiled
     def integrate(parameters, step, n_steps, sample_indices, samples, events, results):
         memory = np.empty((ROWS, lanes))
         running = np.empty(lanes, np.bool_)

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..parameters import FIXED_STEP_METHODS as METHODS
 from ..solver import model
-from ..solver.jit import kernel
+from ..solver.jit import compiled
 from . import euler_lanes
 from .euler_lanes import (
     CHECK,
@@ -52,13 +52,13 @@ EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U10")])
 WHOLE = 1e-9  # relative: a duration this close to a whole number of steps is one, up to the rounding of both
 
 
-@kernel
+@compiled
 def slip_of(vx, sine, cosine, plate):
     """The slip velocity ẋ_s - ẋ_p (m/s)."""
     return plate[2] * (sine * plate[3] + cosine * plate[4]) - vx
 
 
-@kernel
+@compiled
 def accelerations(vx, z, vz, sine, cosine, plate, contact, friction, tension):
     """F_r/m, F_c/m and the gap of a state at the phase with the given sine and cosine.
 
@@ -70,7 +70,7 @@ def accelerations(vx, z, vz, sine, cosine, plate, contact, friction, tension):
     return friction_acceleration(normal, slip_of(vx, sine, cosine, plate), friction, tension), normal, gap
 
 
-@kernel
+@compiled
 def rk4_step(state, rub1, push1, step, half_way, end, plate, contact, friction, gravity, downhill, tension):
     """(x, vx, z, vz) one classical Runge-Kutta step later, from the state, its F_r/m and F_c/m.
 
@@ -97,7 +97,7 @@ def rk4_step(state, rub1, push1, step, half_way, end, plate, contact, friction, 
     )
 
 
-@kernel
+@compiled
 def fill_phases(phases, first, step, omega, psi0, method):
     """Sine and cosine of the plate's phase at steps from number `first` on, of RK4 also half-way and at their ends.
 
@@ -112,7 +112,7 @@ def fill_phases(phases, first, step, omega, psi0, method):
             phases[k, 4], phases[k, 5] = math.sin(phase + turn), math.cos(phase + turn)
 
 
-@kernel
+@compiled
 def integrate(parameters, step, n_steps, method, sample_indices, samples, events, results):
     """Follow n trajectories over plates that share their phase; the rest as in `integrate_all`.
 

@@ -20,7 +20,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from ..solver import model
-from ..solver.jit import kernel
+from ..solver.jit import compiled
 from . import cyrk_peer, heyoka_peer, sundials_peer
 from .force_law import contact_acceleration, friction_acceleration
 from .leg import Leg, Task
@@ -57,7 +57,7 @@ class Summary(NamedTuple):
     events: np.ndarray  # s, the times of impacts and separations, as far as the treatment finds them
 
 
-@kernel
+@compiled
 def plate_motion(parameters, t):
     """z_s (m), ż_s, ẋ_s (m/s) and ẍ_s (m/s²) at the time t (s) (Eqs. 3, 4, 10)."""
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
@@ -70,14 +70,14 @@ def plate_motion(parameters, t):
     return -a_z / omega**2 * cosine, a_z / omega * sine, a_x / omega * sine_x, a_x * cosine_x
 
 
-@kernel
+@compiled
 def gravity_of(parameters):
     """The components of gravity normal to the track and down along it, m/s²."""
     gravity, inclination = parameters[model.GRAVITY], parameters[model.INCLINATION]
     return gravity * math.cos(inclination), gravity * math.sin(inclination)
 
 
-@kernel
+@compiled
 def normal_force(parameters, t, state):
     """Gap (m) and F_c/m (m/s²) as if in contact, of the state (x, ẋ, z, ż)."""
     z, vz, _, _ = plate_motion(parameters, t)
@@ -94,7 +94,7 @@ def normal_force(parameters, t, state):
     return gap, push
 
 
-@kernel
+@compiled
 def rates(t, state, parameters, mode):
     """Derivative of the state (x, ẋ, z, ż), shape (4,)."""
     gap, push = normal_force(parameters, t, state)
@@ -115,32 +115,32 @@ def rates(t, state, parameters, mode):
     return np.array([state[1], forward, state[3], push - normal])
 
 
-@kernel
+@compiled
 def counted_rates(derivatives, t, state, parameters, mode):
     """Fill in `rates`; the last of the parameters, after those of the model, counts the calls."""
     parameters[-1] += 1.0
     derivatives[:] = rates(t, state, parameters, mode)
 
 
-@kernel
+@compiled
 def gap_of(t, state, parameters):
     """The gap (m)."""
     return state[2] - plate_motion(parameters, t)[0]
 
 
-@kernel
+@compiled
 def slip_of(t, state, parameters):
     """The slip velocity ẋ_s - ẋ_p (m/s)."""
     return plate_motion(parameters, t)[2] - state[1]
 
 
-@kernel
+@compiled
 def pull_of(parameters, t):
     """What a part that sticks needs from friction, m/s²."""
     return plate_motion(parameters, t)[3] + gravity_of(parameters)[1]
 
 
-@kernel
+@compiled
 def grip_of(t, state, parameters):
     """What friction can hold beyond what a part that sticks needs, m/s²."""
     _, push = normal_force(parameters, t, state)

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..solver import contact, model
 from ..solver.flight import Flight, gap, highest_gap, next_impact
-from ..solver.jit import kernel
+from ..solver.jit import compiled
 
 STATUSES = ("ok", "too many events", "impact not found")
 OK, TOO_MANY_EVENTS, IMPACT_NOT_FOUND = range(len(STATUSES))
@@ -74,7 +74,7 @@ def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
     raise ArithmeticError(f"an impact at {speed:g} m/s does not end within {MAX_CONTACT_STEPS} contact steps")
 
 
-@kernel
+@compiled
 def restitution_at(speed, speeds, coefficients):
     """Linear interpolation in a table over ascending `speeds` (m/s), constant beyond its ends."""
     k = np.searchsorted(speeds, speed)
@@ -86,7 +86,7 @@ def restitution_at(speed, speeds, coefficients):
     return coefficients[k - 1] + share * (coefficients[k] - coefficients[k - 1])
 
 
-@kernel
+@compiled
 def rest_end(plate, theta):
     """Advance of the phase (rad) from `theta` until the plate falls away from a resting part, a_z cos θ < -g cos α."""
     if plate.a_z <= plate.gravity:
@@ -100,7 +100,7 @@ def rest_end(plate, theta):
     return TURN + edge - angle
 
 
-@kernel
+@compiled
 def safe_flight(theta, omega):
     """Time (s) in which a part that the plate leaves behind at `theta` cannot be caught.
 
@@ -110,7 +110,7 @@ def safe_flight(theta, omega):
     return max(2.0 * math.sin(theta), 0.0) / omega
 
 
-@kernel
+@compiled
 def one_wave(plate, normal):
     """The amplitude R (m/s²) and the phase δ (rad) of ẍ_s + normal cos θ = R cos(θ + δ)."""
     cosine, sine = plate.a_x * math.cos(plate.shift) + normal, plate.a_x * math.sin(plate.shift)
@@ -119,7 +119,7 @@ def one_wave(plate, normal):
     return math.hypot(cosine, sine), math.atan2(sine, cosine)
 
 
-@kernel
+@compiled
 def advance_to(angle, entry, centre):
     """Advance (rad) from an angle in [0, 2π) to the `entry` of an interval, whose first half ends at its `centre`."""
     if entry <= angle < centre:
@@ -127,7 +127,7 @@ def advance_to(angle, entry, centre):
     return (entry if angle < entry else TURN + entry) - angle
 
 
-@kernel
+@compiled
 def stick_end(plate, theta):
     """Advance of the phase (rad) from `theta` until a sticking part begins to slip, |ẍ_s + g sin α| > μ_s N/m."""
     grip, lift = plate.static_friction * plate.gravity, plate.static_friction * plate.a_z
@@ -146,7 +146,7 @@ def stick_end(plate, theta):
     return min(backward, forward)
 
 
-@kernel
+@compiled
 def slip_after(plate, theta, slip, sigma, advance):
     """Slip velocity ẋ_s - ẋ_p (m/s) of a resting part after an advance of the phase (rad)."""
     swing = (plate.a_x * math.cos(plate.shift) - sigma * plate.friction * plate.a_z) / plate.omega
@@ -155,7 +155,7 @@ def slip_after(plate, theta, slip, sigma, advance):
     return slip + swing * (math.sin(theta + advance) - math.sin(theta)) - fall * advance + turned
 
 
-@kernel
+@compiled
 def slip_end(plate, theta, slip, sigma, limit):
     """Advance of the phase (rad), up to `limit`, at which the slip velocity of a resting part is back at zero.
 
@@ -184,20 +184,20 @@ def slip_end(plate, theta, slip, sigma, limit):
     return math.inf
 
 
-@kernel
+@compiled
 def plate_speed(plate, theta):
     """ẋ_s (m/s) at the phase `theta` (rad)."""
     return plate.a_x / plate.omega * math.sin(theta + plate.shift)
 
 
-@kernel
+@compiled
 def slid(plate, x, vx, tau):
     """x (m) and ẋ (m/s) after the time `tau` (s) in which gravity alone acts along the track."""
     fall = plate.downhill * tau
     return x + vx * tau - 0.5 * fall * tau, vx - fall
 
 
-@kernel
+@compiled
 def rest_motion(plate, theta, x, vx, sigma, tau):
     """x (m) and ẋ (m/s) of a resting part after the time `tau` (s); `sigma` is the sign of the slip, 0 for stick."""
     phase = theta + plate.omega * tau
@@ -213,7 +213,7 @@ def rest_motion(plate, theta, x, vx, sigma, tau):
     return x + rub * (fall + lift), vx + rub * (plate.gravity * tau + plate.a_z * sine)
 
 
-@kernel
+@compiled
 def slip_direction(plate, theta, slip):
     """Sign of the slip of a resting part, 0 for stick (Filippov's condition)."""
     if slip != 0.0:
@@ -224,7 +224,7 @@ def slip_direction(plate, theta, slip):
     return math.copysign(1.0, pull)
 
 
-@kernel
+@compiled
 def follow(parameters, speeds, coefficients, times, samples, impacts):
     """Follow one part until the last of `times`.
 

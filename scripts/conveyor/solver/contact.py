@@ -20,7 +20,7 @@ from collections import namedtuple
 import numpy as np
 
 from . import model, polynomial, unrolled
-from .jit import inlined, kernel, spliced
+from .jit import compiled, compiled_inline, compiled_into_callers
 from .polynomial import ORDER, SHIFTED, SIZE
 
 # What ends a contact step before its full length.
@@ -45,7 +45,7 @@ W, T, V, SINE, COSINE, SQUARE, SPRING, COSINE_W = range(8)
 ROWS = 8
 
 
-@kernel
+@compiled
 def constants(parameters, tolerance):
     """The Constants of a packed parameter vector (see model.PARAMETERS) at a relative tolerance per step."""
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
@@ -85,13 +85,13 @@ def constants(parameters, tolerance):
     )
 
 
-@kernel
+@compiled
 def workspace():
     """Room for the series of one step."""
     return np.zeros((FIRST + ROWS, SIZE))
 
 
-@inlined
+@compiled_inline
 def force(c, w, v):
     """Contact force per mass, m/s², at w = √penetration and the speed of approach v (Eq. 9)."""
     if c.exponent == 1.5:
@@ -99,7 +99,7 @@ def force(c, w, v):
     return c.stiffness * max(w, 0.0) ** (2.0 * c.exponent) + c.damping * v
 
 
-@inlined
+@compiled_inline
 def impulse_of_tension(c, fastest, lapse):
     """Bound on the impulse per mass (m/s) of a force that pulls during a time `lapse` (s).
 
@@ -108,16 +108,16 @@ def impulse_of_tension(c, fastest, lapse):
     return c.damping * (fastest + 2.0 * (c.gravity + c.a_z) * lapse) * lapse
 
 
-@inlined
+@compiled_inline
 def is_hertz(c):
     """Whether the generated code holds for this contact."""
     return c.exponent == 1.5
 
 
-expand_hertz = kernel(unrolled.expand_hertz)
+expand_hertz = compiled(unrolled.expand_hertz)
 
 
-@spliced
+@compiled_into_callers
 def expand(c, series, at, w0, v0, sine0, cosine0, free):
     """Fill the rows W to COSINE_W of a step from their values at s = 0; `free` leaves the contact force out."""
     stiffness = 0.0 if free else c.stiffness
@@ -164,7 +164,7 @@ def expand(c, series, at, w0, v0, sine0, cosine0, free):
             series[spring, n + 1] = power_term(series, w, spring, exponent, n + 1)
 
 
-@kernel
+@compiled
 def power_term(series, w, power, exponent, n):
     """Coefficient n ≥ 1 of w^exponent (row `power`) from those below it, for w_0 > 0."""
     total = 0.0
@@ -173,7 +173,7 @@ def power_term(series, w, power, exponent, n):
     return total / (n * series[w, 0])
 
 
-@inlined
+@compiled_inline
 def expand_force(c, series, at, scale, plate, slack):
     """Fill the row SCRATCH with the series of w (scale F_c/m + plate cos(θ + ε) + slack), of the sign of the bracket.
 
@@ -189,7 +189,7 @@ def expand_force(c, series, at, scale, plate, slack):
     series[SCRATCH, ORDER] = 0.0
 
 
-@inlined
+@compiled_inline
 def step_length(c, series, at, w0, v0):
     """Length in s at which the last two terms of the series are below the tolerance.
 
@@ -216,14 +216,14 @@ def step_length(c, series, at, w0, v0):
     return length
 
 
-@spliced
+@compiled_into_callers
 def begin_step(c, series, at, w0, v0, sine0, cosine0, pulled):
     """Expand the motion from w0 ≥ 0, v0: the length in s up to which its series is good, see `step`."""
     expand(c, series, at, w0, v0, sine0, cosine0, pulled and c.tension == model.TENSION_CLIP)
     return step_length(c, series, at, w0, v0)
 
 
-@spliced
+@compiled_into_callers
 def end_step(c, series, at, w0, v0, pulled, length):
     """Where a step ends whose series is good up to `length`; what it returns is told by `step`."""
     event = NOTHING
@@ -262,7 +262,7 @@ def end_step(c, series, at, w0, v0, pulled, length):
     return length, w, v, polynomial.value(series, at + T, length), event
 
 
-@spliced
+@compiled_into_callers
 def step(c, series, at, w0, v0, sine0, cosine0, pulled):
     """Expand the motion from w0 ≥ 0, v0 and find where its step ends.
 

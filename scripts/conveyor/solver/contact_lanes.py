@@ -14,9 +14,9 @@ from numba.core import cgutils, types
 from numba.extending import intrinsic
 
 from . import contact, model, unrolled
-from .jit import inlined, kernel, spliced
+from .jit import compiled, compiled_inline, compiled_into_callers
 from .polynomial import ORDER, SIZE
-from .vectors import FLOAT, INTEGER, Memory, Vector, anywhere, call, fused, where
+from .vectors import FLOAT, INTEGER, Memory, Vector, anywhere, call, fma, where
 
 # The rows of the memory, which has a column for each lane. First of all what `expand` starts from, in this order: √
 # penetration (√m), speed of approach (m/s), sine and cosine of the phase; the constants of contact.Constants.
@@ -33,7 +33,7 @@ LINE = 64  # bytes, of a register and of the processor's cache: a vector that is
 HUGE = 1e300
 
 # The straight-line code of the expansion, for Vectors.
-expand = FunctionType(unrolled.expand_hertz.__code__, {"fused": fused})
+expand = FunctionType(unrolled.expand_hertz.__code__, {"fma": fma})
 
 
 def power(x: Vector, exponent: float, wanted: Vector) -> Vector:
@@ -77,7 +77,7 @@ def value(series: dict[tuple[int, int], Vector], row: int, s: Vector) -> Vector:
         last, *others = (series[row, k] for k in reversed(range(n, ORDER + 1, 4)))
         total = s.like(last)
         for coefficient in others:
-            total = fused(total, s4, coefficient)
+            total = fma(total, s4, coefficient)
         sums.append(total)
     return (sums[0] + s * sums[1]) + s2 * (sums[2] + s * sums[3])
 
@@ -117,7 +117,7 @@ def step(typing_context, lanes, memory):
     return types.int64(lanes, memory), code
 
 
-@kernel
+@compiled
 def room(lanes):
     """Room for the motions in lanes, all zero."""
     numbers = np.zeros(ROWS * lanes + LINE // 8)
@@ -125,13 +125,13 @@ def room(lanes):
     return numbers[first : first + ROWS * lanes].reshape(ROWS, lanes)
 
 
-@kernel
+@compiled
 def possible(c):
     """Whether steps of a conveyor with these contact.Constants can be taken here."""
     return contact.is_hertz(c) and c.tension == model.TENSION_ALLOW
 
 
-@spliced
+@compiled_into_callers
 def first_from(row, parameters, tolerance, left):
     """The first row, from number `row` on, that lanes can follow, or the number of rows; those before are `left`."""
     while row < len(parameters) and not possible(contact.constants(parameters[row], tolerance)):
@@ -140,7 +140,7 @@ def first_from(row, parameters, tolerance, left):
     return row
 
 
-@inlined
+@compiled_inline
 def enter(memory, lane, c, most):
     """Write the Constants of a lane into the memory, and how many steps it may take before it is asked for."""
     memory[GRAVITY, lane] = c.gravity
@@ -153,14 +153,14 @@ def enter(memory, lane, c, most):
     memory[MOST, lane] = most
 
 
-@inlined
+@compiled_inline
 def return_to_lane(motion, lane, memory):
     """Let a vertical.Motion in contact go on with the others."""
     memory[TIME, lane], memory[W, lane], memory[V, lane] = motion.t, motion.w, motion.v
     memory[SINE, lane], memory[COSINE, lane] = motion.sine, motion.cosine
 
 
-@inlined
+@compiled_inline
 def fetch(memory, lane, series, at):
     """Copy the series of a lane's step into a contact.workspace, from row `at` on."""
     for row in range(len(KEPT)):

@@ -8,7 +8,7 @@ the lower bound reaches the plate before the part does, and a step to its root i
 import math
 from collections import namedtuple
 
-from .jit import inlined, kernel
+from .jit import compiled, compiled_inline
 
 # A part stays below the plate's highest point for sqrt(a_z / g) / π cycles at most, a thousand within the ranges of
 # model.RANGES, and takes some ten steps in each: a search of this many steps is lost.
@@ -23,7 +23,7 @@ LOST = 1e6
 Flight = namedtuple("Flight", "z vz theta gravity a_z omega")
 
 
-@inlined
+@compiled_inline
 def gap(flight, tau):
     """Gap (m) and its rate (m/s) after the time `tau` (s) of a flight."""
     z, vz, theta, gravity, a_z, omega = flight
@@ -33,14 +33,14 @@ def gap(flight, tau):
     return q, rate
 
 
-@inlined
+@compiled_inline
 def time_of_fall(velocity, height, gravity):
     """Time (s) in which a part with an upward velocity (m/s) falls by a height ≥ 0 (m), without cancellation."""
     root = math.sqrt(velocity * velocity + 2.0 * gravity * height)
     return (velocity + root) / gravity if velocity > 0.0 else 2.0 * height / (root - velocity)
 
 
-@inlined
+@compiled_inline
 def next_impact(flight, q, rate, limit):
     """Duration (s) of a Flight from a gap q ≥ 0 (m) with its rate (m/s), and approach speed at its end.
 
@@ -97,7 +97,7 @@ def next_impact(flight, q, rate, limit):
     return math.nan, 0.0
 
 
-@kernel
+@compiled
 def highest_gap(flight, duration):
     """Largest gap (m) of a Flight that takes `duration` (s).
 
@@ -122,7 +122,7 @@ def highest_gap(flight, duration):
     return highest
 
 
-@inlined
+@compiled_inline
 def summit(flight, low, high):
     """Largest gap between two times of a flight, its rate positive at the first one, by safeguarded Newton steps."""
     tau = 0.5 * (low + high)

@@ -16,17 +16,17 @@ import math
 
 from . import polynomial
 from .contact import COSINE, SCRATCH, SINE, T, V, expand_force, impulse_of_tension
-from .jit import inlined, spliced
+from .jit import compiled_inline, compiled_into_callers
 from .polynomial import ORDER
 
 
-@inlined
+@compiled_inline
 def along(c, sine, cosine):
     """Sine and cosine of the plate's phase along the track, θ + ε, from those of θ."""
     return sine * c.cos_shift + cosine * c.sin_shift, cosine * c.cos_shift - sine * c.sin_shift
 
 
-@inlined
+@compiled_inline
 def pull(c, sine, cosine):
     """ẍ_s + g sin α (m/s²) at the phase θ with a sine and cosine."""
     acceleration = c.a_x * along(c, sine, cosine)[1]
@@ -34,7 +34,7 @@ def pull(c, sine, cosine):
     return acceleration + c.downhill if c.downhill != 0.0 else acceleration
 
 
-@inlined
+@compiled_inline
 def keeps_slipping(c, segment, piece, slip, plate, gain, fastest):
     """Whether bounds alone show that the slip velocity does not vanish until a contact step ends.
 
@@ -61,7 +61,7 @@ def keeps_slipping(c, segment, piece, slip, plate, gain, fastest):
     return max(forward, backward) > 0.0
 
 
-@spliced
+@compiled_into_callers
 def slip_end(c, step, segment, slip, leave):
     """Where, in the rest of a contact step, the slip velocity of a segment reaches zero; infinity if it does not.
 
@@ -81,7 +81,7 @@ def slip_end(c, step, segment, slip, leave):
     return polynomial.first_root(series, SCRATCH, segment.s, step.piece.length, leave)
 
 
-@spliced
+@compiled_into_callers
 def stick_end(c, step, segment):
     """Where, in the rest of a contact step, |ẍ_s + g sin α| outgrows μ_s F_c/m, and whether it stays so until the end.
 
@@ -104,7 +104,7 @@ def stick_end(c, step, segment):
     return end, lasting
 
 
-@inlined
+@compiled_inline
 def direction_at_rest(c, pull, force, mu):
     """Sign of the slip that follows when the slip velocity is zero, or 0 for stick (Filippov's condition).
 

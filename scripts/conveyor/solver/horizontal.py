@@ -7,7 +7,7 @@ import math
 from collections import namedtuple
 
 from . import contact, friction
-from .jit import inlined, spliced
+from .jit import compiled_inline, compiled_into_callers
 from .model import TENSION_CLIP
 from .polynomial import LEAVE, value
 from .vertical import invert_time
@@ -37,7 +37,7 @@ Record = namedtuple("Record", "times samples event_times event_kinds")
 Segment = namedtuple("Segment", "sigma mu x vx s t sine cosine z vz w v")
 
 
-@inlined
+@compiled_inline
 def note(record, events, time, kind):
     """Record an event (s, one of EVENTS) while there is room; the number of events with it."""
     if events < record.event_times.size:
@@ -46,7 +46,7 @@ def note(record, events, time, kind):
     return events + 1
 
 
-@inlined
+@compiled_inline
 def slip_direction(c, sine, cosine, vx, force, mu):
     """Sign of the slip of a part with the velocity ẋ = vx at a phase, 0 for stick.
 
@@ -58,14 +58,14 @@ def slip_direction(c, sine, cosine, vx, force, mu):
     return math.copysign(1.0, slip)
 
 
-@inlined
+@compiled_inline
 def slid(c, x, vx, tau):
     """x (m) and ẋ (m/s) after the time tau (s) in which gravity alone acts along the track."""
     fall = c.downhill * tau
     return x + vx * tau - 0.5 * fall * tau, vx - fall
 
 
-@inlined
+@compiled_inline
 def moved(c, segment, tau, sine, cosine, z, vz):
     """x (m) and ẋ (m/s) of the part after the time tau (s) of a segment, at which the vertical motion is z, vz."""
     speed = c.a_x / c.omega
@@ -79,7 +79,7 @@ def moved(c, segment, tau, sine, cosine, z, vz):
     return x + rub * path, vx + rub * (vz - segment.vz + c.gravity * tau)
 
 
-@spliced
+@compiled_into_callers
 def segment_end(c, step, segment, released, fastest, leave):
     """Where in s a segment ends (infinity: not in this step), and whether slip that follows lasts to its end.
 
@@ -102,7 +102,7 @@ def segment_end(c, step, segment, released, fastest, leave):
     return friction.slip_end(c, step, segment, slip, leave), False
 
 
-@spliced
+@compiled_into_callers
 def sample_contact(c, step, segment, tau, sample):
     """Fill a `sample`, shape (6,), at the time tau (s) since a contact step began, within a segment."""
     series, at, motion = step.series, step.at, step.motion
@@ -120,7 +120,7 @@ def sample_contact(c, step, segment, tau, sample):
     sample[FRICTION_FORCE] = c.mass * rub
 
 
-@inlined
+@compiled_inline
 def first_segment(c, motion, horizontal):
     """The Segment that begins with a contact step."""
     speed_z = c.a_z / c.omega
@@ -130,7 +130,7 @@ def first_segment(c, motion, horizontal):
     return Segment(sigma, mu, x, vx, 0.0, 0.0, motion.sine, motion.cosine, z, vz, motion.w, motion.v)
 
 
-@spliced
+@compiled_into_callers
 def feed(c, step, horizontal, feeding, record, sampled, events):
     """Follow the horizontal motion along a contact Step, and sample it.
 

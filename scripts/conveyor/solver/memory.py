@@ -11,7 +11,7 @@ from collections import namedtuple
 import numpy as np
 
 from .contact import FIRST, ROWS
-from .jit import inlined
+from .jit import compiled_inline
 from .polynomial import SIZE
 from .vertical import CONTACT, Piece
 
@@ -36,14 +36,14 @@ def room() -> tuple[np.ndarray, np.ndarray]:
     return np.empty((FIRST + PLACES * ROWS, SIZE)), np.empty((PLACES, COLUMNS))
 
 
-@inlined
+@compiled_inline
 def forget(kept):
     """Forget all steps."""
     for place in range(PLACES):
         kept.steps[place, BEGIN_T] = np.inf
 
 
-@inlined
+@compiled_inline
 def clear(kept):
     """Forget all steps, and clear the rows that they share."""
     for row in range(FIRST):
@@ -52,7 +52,7 @@ def clear(kept):
     forget(kept)
 
 
-@inlined
+@compiled_inline
 def first_row(kept, place):
     """The first row of a step's series. Most places are never used, so a place is cleared when it first is."""
     row = FIRST + place * ROWS
@@ -63,7 +63,7 @@ def first_row(kept, place):
     return row
 
 
-@inlined
+@compiled_inline
 def repeats(c, kept, place, motion):
     """Whether the contact step that begins with a Motion begins where the kept one began."""
     step = kept.steps[place]
@@ -76,7 +76,7 @@ def repeats(c, kept, place, motion):
     )
 
 
-@inlined
+@compiled_inline
 def keep(kept, place, motion, piece):
     """Keep the contact step `piece` that begins with `motion`."""
     step = kept.steps[place]
@@ -87,14 +87,14 @@ def keep(kept, place, motion, piece):
     step[PEAK] = np.nan
 
 
-@inlined
+@compiled_inline
 def beginning(kept, place):
     """w, v, sine and cosine from which the series of a kept step is expanded."""
     step = kept.steps[place]
     return step[BEGIN_W], step[BEGIN_V], step[BEGIN_SINE], step[BEGIN_COSINE]
 
 
-@inlined
+@compiled_inline
 def recall(kept, place):
     """The Piece that is kept."""
     step = kept.steps[place]

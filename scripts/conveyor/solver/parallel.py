@@ -1,4 +1,4 @@
-"""Many independent points in threads: compiled kernels release the GIL, each point writes only its own rows."""
+"""Independent points in threads: compiled functions release the GIL, and each point writes only its own rows."""
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor, wait

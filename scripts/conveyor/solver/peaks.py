@@ -5,7 +5,7 @@ negative in between, the largest force lies at a root of the rate along the step
 """
 
 from . import contact
-from .jit import inlined, kernel
+from .jit import compiled, compiled_inline
 from .polynomial import value
 from .vertical import invert_time
 
@@ -16,7 +16,7 @@ MAX_ITERATIONS = 60
 MAX_HALVINGS = 30
 
 
-@inlined
+@compiled_inline
 def force_rate(c, w, v, cosine):
     """Rate of the contact force per mass (m/s³) at w, v and a phase with the given cosine."""
     stiffening = c.stiffness * c.exponent * v
@@ -27,14 +27,14 @@ def force_rate(c, w, v, cosine):
     return stiffening + c.damping * (c.gravity + c.a_z * cosine - contact.force(c, w, v))
 
 
-@inlined
+@compiled_inline
 def force_and_rate(c, series, at, s):
     """F_c/m (m/s²) and its rate (m/s³) at the place `s` of a contact step."""
     w, v = value(series, at + contact.W, s), value(series, at + contact.V, s)
     return contact.force(c, w, v), force_rate(c, w, v, value(series, at + contact.COSINE, s))
 
 
-@inlined
+@compiled_inline
 def is_monotonic(c, motion, piece):
     """Whether the force of a whole contact step, from `motion` to the end of its `piece`, is largest at an end."""
     if force_rate(c, piece.w, piece.v, piece.cosine) >= 0.0:
@@ -43,7 +43,7 @@ def is_monotonic(c, motion, piece):
     return force_rate(c, motion.w, motion.v, motion.cosine) <= 0.0 and motion.w != 0.0
 
 
-@kernel
+@compiled
 def largest_force(c, series, at, low, high):
     """Largest F_c/m (m/s²) between the places `low` and `high` of a contact step."""
     force_low, rate_low = force_and_rate(c, series, at, low)
@@ -82,13 +82,13 @@ def largest_force(c, series, at, low, high):
     return largest
 
 
-@inlined
+@compiled_inline
 def largest_force_at_ends(c, motion, piece):
     """The larger F_c/m (m/s²) at the ends of a whole contact step."""
     return max(contact.force(c, motion.w, motion.v), contact.force(c, piece.w, piece.v))
 
 
-@kernel
+@compiled
 def largest_force_between(c, series, at, piece, first, last):
     """Largest F_c/m (m/s²) of a contact step between the times `first` and `last` (s) since it began."""
     low = 0.0 if first <= 0.0 else invert_time(series, at, piece.length, first)

@@ -2,7 +2,7 @@
 
 import math
 
-from .jit import fused, inlined, kernel
+from .jit import compiled, compiled_inline, fma
 
 # Order of every series, and the length of its coefficient arrays, whose tail stays zero.
 ORDER = 16
@@ -25,37 +25,37 @@ FOUND, ABSENT, OPEN = range(3)
 SHIFTED = 0
 
 
-@inlined
+@compiled_inline
 def value(series, row, s):
     """Σ c_n sⁿ, in four interleaved sums that do not wait for each other."""
     s2 = s * s
     s4 = s2 * s2
     sum0 = sum1 = sum2 = sum3 = 0.0
     for n in range(SIZE - 4, -1, -4):
-        sum0 = fused(sum0, s4, series[row, n])
-        sum1 = fused(sum1, s4, series[row, n + 1])
-        sum2 = fused(sum2, s4, series[row, n + 2])
-        sum3 = fused(sum3, s4, series[row, n + 3])
+        sum0 = fma(sum0, s4, series[row, n])
+        sum1 = fma(sum1, s4, series[row, n + 1])
+        sum2 = fma(sum2, s4, series[row, n + 2])
+        sum3 = fma(sum3, s4, series[row, n + 3])
     return (sum0 + s * sum1) + s2 * (sum2 + s * sum3)
 
 
-@inlined
+@compiled_inline
 def derivatives(series, row, s):
     """Σ c_n sⁿ and its first and second derivatives, each in two sums that do not wait for each other."""
     value0 = value1 = slope0 = slope1 = bend0 = bend1 = 0.0
     s2 = s * s
     for n in range(ORDER, -1, -2):
         c0, c1, c2, c3 = series[row, n], series[row, n + 1], series[row, n + 2], series[row, n + 3]
-        value0 = fused(value0, s2, c0)
-        value1 = fused(value1, s2, c1)
-        slope0 = fused(slope0, s2, (n + 1) * c1)
-        slope1 = fused(slope1, s2, (n + 2) * c2)
-        bend0 = fused(bend0, s2, (n + 1) * (n + 2) * c2)
-        bend1 = fused(bend1, s2, (n + 2) * (n + 3) * c3)
+        value0 = fma(value0, s2, c0)
+        value1 = fma(value1, s2, c1)
+        slope0 = fma(slope0, s2, (n + 1) * c1)
+        slope1 = fma(slope1, s2, (n + 2) * c2)
+        bend0 = fma(bend0, s2, (n + 1) * (n + 2) * c2)
+        bend1 = fma(bend1, s2, (n + 2) * (n + 3) * c3)
     return value0 + s * value1, slope0 + s * slope1, bend0 + s * bend1
 
 
-@inlined
+@compiled_inline
 def root_of_crossing(series, row, low, high):
     """The root of a polynomial that changes its sign once between `low` and `high`, by safeguarded Newton steps."""
     close = CLOSE * max(abs(low), abs(high))
@@ -77,7 +77,7 @@ def root_of_crossing(series, row, low, high):
     return s
 
 
-@kernel
+@compiled
 def shift(series, row, s):
     """Expand the polynomial of a row about `s` instead, into the row SHIFTED."""
     for n in range(SIZE):
@@ -87,7 +87,7 @@ def shift(series, row, s):
             series[SHIFTED, n] += s * series[SHIFTED, n + 1]
 
 
-@kernel
+@compiled
 def search(series, row, start, end, shortest, noise):
     """Look for the first root in (start, end]: whether there is one, where the search stands, and `shortest`.
 
@@ -143,7 +143,7 @@ def search(series, row, start, end, shortest, noise):
     return OPEN, s, shortest
 
 
-@kernel
+@compiled
 def first_root(series, row, start, end, leave):
     """First root of a polynomial in (start, end] that is positive just behind `start`; infinity if there is none.
 

@@ -33,7 +33,7 @@ from .horizontal import (
     slid,
     slip_direction,
 )
-from .jit import borrowed, inlined, kernel, spliced
+from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import TENSION_CLIP, VZ0, Z0
 from .vertical import CONTACT, FLIGHT, LIMIT, LOST, arrive, begin, in_cycle, motion_at, next_piece, take_off
 
@@ -52,7 +52,7 @@ HOPELESS = 50.0
 PATIENCE = 10_000
 
 
-@kernel
+@compiled
 def patience(c):
     """Contact steps in a row without an event after which a contact is too stiff to be followed.
 
@@ -108,7 +108,7 @@ def integrate(
     return samples, results
 
 
-@kernel
+@compiled
 def follow(parameters, options, records, results, room):
     """`integrate` with its arrays in order.
 
@@ -118,18 +118,20 @@ def follow(parameters, options, records, results, room):
     results : filled, see `integrate`
     room : memory.room
 
-    All that follows runs is this one kernel, which nothing compiled calls: it would be compiled into each caller.
+    Only Python calls this function, because numba would compile the whole solver again into each compiled caller.
     """
     tolerance, feeding, reuse = options
     times, samples, event_times, event_kinds = records
     series, steps = room
-    kept = memory.Memory(borrowed(series), borrowed(steps))
+    kept = memory.Memory(no_refcount(series), no_refcount(steps))
     for i in range(parameters.shape[0]):
-        record = Record(borrowed(times[i]), borrowed(samples[i]), borrowed(event_times[i]), borrowed(event_kinds[i]))
-        follow_part(parameters[i], Options(tolerance, feeding, reuse), record, borrowed(results[i]), kept)
+        record = Record(
+            no_refcount(times[i]), no_refcount(samples[i]), no_refcount(event_times[i]), no_refcount(event_kinds[i])
+        )
+        follow_part(parameters[i], Options(tolerance, feeding, reuse), record, no_refcount(results[i]), kept)
 
 
-@spliced
+@compiled_into_callers
 def sample_flight(c, motion, horizontal, tau, sample):
     """Fill a `sample`, shape (6,), at the time tau (s) of a flight."""
     sample[X], sample[VX] = slid(c, horizontal.x, horizontal.vx, tau)
@@ -137,7 +139,7 @@ def sample_flight(c, motion, horizontal, tau, sample):
     sample[CONTACT_FORCE] = sample[FRICTION_FORCE] = 0.0
 
 
-@inlined
+@compiled_inline
 def note_end(record, events, time, piece, pulled, motion):
     """Record what ends a contact step, `pulled` before it and `motion` behind it; the number of events with it."""
     if piece.end == SEPARATION and not motion.touching:
@@ -147,7 +149,7 @@ def note_end(record, events, time, piece, pulled, motion):
     return events
 
 
-@spliced
+@compiled_into_callers
 def peak_of_step(c, kept, place, at, motion, piece, first, last):
     """Largest F_c/m (m/s²) of the contact step in a place, between the times `first` and `last` (s) since it began."""
     if first > 0.0 or last < piece.duration:
@@ -161,7 +163,7 @@ def peak_of_step(c, kept, place, at, motion, piece, first, last):
     return found
 
 
-@inlined
+@compiled_inline
 def next_cycle(c, motion, piece):
     """The same Motion in the cycle in which a Piece ends, and the number of cycles that begin until then."""
     if motion.t < c.period and piece.end != LIMIT:
@@ -171,7 +173,7 @@ def next_cycle(c, motion, piece):
     return in_cycle(c, motion, t, BEGIN_OF_CYCLE), cycles
 
 
-@spliced
+@compiled_into_callers
 def follow_part(parameters, options, record, result, kept):
     """Follow the part of a row of `parameters`, shape (16,); fill its Record and `result`, shape (9,)."""
     memory.clear(kept)

@@ -4,7 +4,7 @@ The recurrences are short loops of varying length, which a processor predicts ba
 half the time. Writing them out is left to this module.
 """
 
-from .jit import fused  # noqa: F401 (called by the generated code)
+from .jit import fma  # noqa: F401 (called by the generated code)
 from .polynomial import ORDER
 
 # Partial sums that do not wait for each other.
@@ -18,7 +18,7 @@ def total(products: list[tuple[str, str]]) -> str:
         (a, b), *others = products[lane::LANES]
         partial = f"{a} * {b}"
         for a, b in others:
-            partial = f"fused({a}, {b}, {partial})"
+            partial = f"fma({a}, {b}, {partial})"
         sums.append(partial)
     return " + ".join(sums)
 
@@ -28,7 +28,7 @@ def product(a: str, b: str, n: int) -> str:
     if n == 0:
         return f"{a}0 * {b}0"
     middle = [(f"{a}{k}", f"{b}{n - k}") for k in range(1, n)]
-    return f"fused({a}{n}, {b}0, fused({a}0, {b}{n}, {total(middle) or '0.0'}))"
+    return f"fma({a}{n}, {b}0, fma({a}0, {b}{n}, {total(middle) or '0.0'}))"
 
 
 def square(a: str, n: int) -> str:
@@ -38,8 +38,8 @@ def square(a: str, n: int) -> str:
     pairs = [(f"{a}{k}", f"{a}{n - k}") for k in range(1, (n + 1) // 2)]
     source = f"2.0 * ({total(pairs)})" if pairs else "0.0"
     if n % 2 == 0:
-        source = f"fused({a}{n // 2}, {a}{n // 2}, {source})"
-    return f"fused(2.0 * {a}0, {a}{n}, {source})"
+        source = f"fma({a}{n // 2}, {a}{n // 2}, {source})"
+    return f"fma(2.0 * {a}0, {a}{n}, {source})"
 
 
 def hertz_source() -> str:
@@ -60,8 +60,8 @@ def hertz_source() -> str:
             f"x{n} = {product('c', 'w', n)}",
             f"sine_w = {product('s', 'w', n)}",
             f"p{n} = {square('q', n)}",
-            f"rate = fused(-stiffness, p{n}, fused(a_z, x{n}, gravity * w{n}))",
-            f"v{n + 1} = fused(-damping, q{n + 1}, rate * {inverse!r})",
+            f"rate = fma(-stiffness, p{n}, fma(a_z, x{n}, gravity * w{n}))",
+            f"v{n + 1} = fma(-damping, q{n + 1}, rate * {inverse!r})",
             f"turn = omega * {inverse!r}",
             f"c{n + 1} = -turn * sine_w",
             f"s{n + 1} = turn * x{n}",
@@ -72,5 +72,5 @@ def hertz_source() -> str:
     return "\n    ".join(lines) + "\n"
 
 
-# Compiled under this file's name, so that its machine code is cached with that of the other kernels.
+# Named after this file, so that numba can cache the machine code.
 exec(compile(hertz_source(), __file__, "exec"))

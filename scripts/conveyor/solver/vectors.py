@@ -13,7 +13,7 @@ BIT, INTEGER, FLOAT = ir.IntType(1), ir.IntType(64), ir.DoubleType()
 
 
 class Vector:
-    """The numbers in one register while a kernel is being written: operators append an LLVM instruction to it.
+    """The numbers in one register of a function that is being compiled: operators append an LLVM instruction to it.
 
     A plain number stands for itself in every lane. Comparisons give a Vector of bits.
     """
@@ -107,7 +107,7 @@ def call(name: str, first: Vector, *others: Vector | float) -> Vector:
     return Vector(builder, builder.call(function, values))
 
 
-def fused(a: Vector, b: Vector | float, c: Vector | float) -> Vector:
+def fma(a: Vector, b: Vector | float, c: Vector | float) -> Vector:
     """The product and sum a b + c, rounded once."""
     return call("fma", a, b, c)
 

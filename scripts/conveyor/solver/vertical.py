@@ -11,7 +11,7 @@ from collections import namedtuple
 from . import contact, polynomial
 from .contact import FORCE_SIGN, NOTHING, SEPARATION
 from .flight import Flight, gap, next_impact
-from .jit import inlined, kernel, spliced
+from .jit import compiled, compiled_inline, compiled_into_callers
 from .model import TENSION_ALLOW
 
 # What a piece is.
@@ -27,14 +27,14 @@ Motion = namedtuple("Motion", "t theta sine cosine touching w v pulled z vz q ra
 Piece = namedtuple("Piece", "kind duration length end w v sine cosine")
 
 
-@kernel
+@compiled
 def begin(c, z0, vz0, theta):
     """Gap (m) and its rate (m/s) at the start; exactly 0 for a start on the conveyor (z0 is NaN, Eq. 15)."""
     q = 0.0 if math.isnan(z0) else z0 + c.a_z / (c.omega * c.omega) * math.cos(theta)
     return q, vz0 - c.a_z / c.omega * math.sin(theta)
 
 
-@kernel
+@compiled
 def in_contact(c, q, rate, theta):
     """Whether a part with this gap and rate of the gap is in contact, or comes into it at once."""
     if q != 0.0:
@@ -44,7 +44,7 @@ def in_contact(c, q, rate, theta):
     return c.gravity + c.a_z * math.cos(theta) > 0.0
 
 
-@kernel
+@compiled
 def motion_at(c, q, rate, t, theta):
     """The Motion with a gap q (m) and its rate (m/s) at the time t (s) of a cycle and the phase theta (rad)."""
     sine, cosine = math.sin(theta), math.cos(theta)
@@ -55,7 +55,7 @@ def motion_at(c, q, rate, t, theta):
     return Motion(t, theta, sine, cosine, touching, w, v, pulled, z, vz, q, rate)
 
 
-@kernel
+@compiled
 def press_on(c, cosine):
     """√penetration, speed of approach and elapsed time just after a part at relative rest begins to sink in.
 
@@ -67,7 +67,7 @@ def press_on(c, cosine):
     return w, v, v / acceleration
 
 
-@kernel
+@compiled
 def invert_time(series, at, length, tau):
     """The s in [0, length] of a contact step at which the time since its start is `tau` (s)."""
     low, high = 0.0, length
@@ -90,7 +90,7 @@ def invert_time(series, at, length, tau):
     return s
 
 
-@inlined
+@compiled_inline
 def shortened(series, at, length, duration, end):
     """The piece that is the part of a contact step up to `length` in s, after `duration` (s)."""
     return Piece(
@@ -105,13 +105,13 @@ def shortened(series, at, length, duration, end):
     )
 
 
-@inlined
+@compiled_inline
 def take_off(c, motion):
     """The Flight that begins with a Motion."""
     return Flight(motion.z, motion.vz, motion.theta, c.gravity, c.a_z, c.omega)
 
 
-@spliced
+@compiled_into_callers
 def fly(c, motion, limit):
     """The Piece that is a flight from `motion`, of at most `limit` (s)."""
     tau, speed = next_impact(take_off(c, motion), motion.q, motion.rate, limit)
@@ -122,13 +122,13 @@ def fly(c, motion, limit):
     return Piece(FLIGHT, tau, 0.0, end, 0.0, speed, math.sin(phase), math.cos(phase))
 
 
-@inlined
+@compiled_inline
 def grazing(c, motion):
     """Whether a part in contact only touches, with no speed: it is either pressed on or left behind by the plate."""
     return motion.w == 0.0 and motion.v <= c.rest_speed and (motion.v <= 0.0 or c.gravity + c.a_z * motion.cosine > 0.0)
 
 
-@spliced
+@compiled_into_callers
 def graze(c, motion):
     """The Piece of a part that is `grazing`."""
     if c.gravity + c.a_z * motion.cosine > 0.0:
@@ -137,7 +137,7 @@ def graze(c, motion):
     return Piece(GRAZE, 0.0, 0.0, SEPARATION, 0.0, 0.0, motion.sine, motion.cosine)
 
 
-@spliced
+@compiled_into_callers
 def press(c, series, at, motion, length, limit):
     """The Piece that is a contact step from `motion`, of at most `limit` (s); its series is good up to `length`."""
     length, w, v, lapse, end = contact.end_step(c, series, at, motion.w, motion.v, motion.pulled, length)
@@ -148,7 +148,7 @@ def press(c, series, at, motion, length, limit):
     return Piece(CONTACT, lapse, length, end, w, v, sine, cosine)
 
 
-@spliced
+@compiled_into_callers
 def next_piece(c, series, at, motion, limit):
     """The Piece that begins with a Motion and takes at most `limit` (s).
 
@@ -162,7 +162,7 @@ def next_piece(c, series, at, motion, limit):
     return press(c, series, at, motion, length, limit)
 
 
-@inlined
+@compiled_inline
 def arrive(c, motion, piece, origin):
     """The Motion at the end of a Piece that began with `motion`; `origin` is the phase (rad) at the time 0."""
     t = motion.t + piece.duration
@@ -184,7 +184,7 @@ def arrive(c, motion, piece, origin):
     return Motion(t, theta, sine, cosine, touching, piece.w, v, pulled, z, c.a_z / c.omega * sine - v, 0.0, -v)
 
 
-@inlined
+@compiled_inline
 def in_cycle(c, motion, t, origin):
     """The same Motion at the time t (s) of another cycle, which begins at the phase `origin` (rad)."""
     theta = origin + c.omega * t

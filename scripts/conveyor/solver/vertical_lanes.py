@@ -15,7 +15,7 @@ from .contact import FIRST, NOTHING
 from .contact_lanes import COSINE, END, LAPSE, LENGTH, SINE, V, W, enter, fetch, first_from, return_to_lane, room, step
 from .flight import highest_gap
 from .horizontal import SAMPLES, Horizontal, Step, first_segment, sample_contact
-from .jit import borrowed, inlined, kernel, spliced
+from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import VZ0, Z0
 from .trajectory import BEGIN_OF_CYCLE, MAX_PIECES, next_cycle, patience, sample_flight
 from .vertical import (
@@ -54,7 +54,7 @@ NO_PIECE = Piece(CONTACT, 0.0, 0.0, NOTHING, 0.0, 0.0, 0.0, 0.0)
 GOES_ON, OVER, FAILED = range(3)
 
 
-@inlined
+@compiled_inline
 def begin_cycle(c, run, steps, lane):
     """Let a lane's steps end with the cycle, or just before the run does."""
     run[BASE] = run[CYCLE] * c.period - ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega
@@ -62,7 +62,7 @@ def begin_cycle(c, run, steps, lane):
     steps[END, lane] = min(c.period, run[DURATION] - run[BASE] - MARGIN * c.period)
 
 
-@spliced
+@compiled_into_callers
 def load(c, parameters, times, run, steps, lane, kept):
     """The Motion at the beginning of a trajectory, shape (16,), that comes into a lane."""
     memory.forget(kept)
@@ -75,7 +75,7 @@ def load(c, parameters, times, run, steps, lane, kept):
     return motion_at(c, q, rate, ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega, c.psi0)
 
 
-@spliced
+@compiled_into_callers
 def find_series(c, kept, again, run, steps, lane):
     """Write the series of a lane's last step into the workspace; one that is taken `again` has it no longer."""
     if again:
@@ -85,7 +85,7 @@ def find_series(c, kept, again, run, steps, lane):
         fetch(steps, lane, kept.series, FIRST)
 
 
-@spliced
+@compiled_into_callers
 def peak_of_step(c, kept, motion, piece, again, run, steps, lane):
     """Largest F_c/m (m/s²) of a lane's contact step where it counts, see trajectory.peak_of_step."""
     begins, place = run[BASE] + motion.t, int(run[PLACE])
@@ -107,7 +107,7 @@ def peak_of_step(c, kept, motion, piece, again, run, steps, lane):
     return peaks.largest_force_between(c, kept.series, FIRST, piece, first, last)
 
 
-@spliced
+@compiled_into_callers
 def finish_contact(c, kept, motion, piece, again, run, steps, lane, sample):
     """Sample a run that ends within a contact step."""
     find_series(c, kept, again, run, steps, lane)
@@ -116,7 +116,7 @@ def finish_contact(c, kept, motion, piece, again, run, steps, lane, sample):
     sample_contact(c, Step(kept.series, FIRST, motion, piece, begins), segment, run[DURATION] - begins, sample)
 
 
-@spliced
+@compiled_into_callers
 def count(c, kept, motion, piece, again, run, steps, lane, sample):
     """Count a Piece as trajectory.follow_part does; what it leads to."""
     begins = run[BASE] + motion.t
@@ -145,7 +145,7 @@ def count(c, kept, motion, piece, again, run, steps, lane, sample):
     return FAILED if 2.0 * run[PIECES] > min(MAX_PIECES, patience(c)) else GOES_ON
 
 
-@spliced
+@compiled_into_callers
 def advance(c, kept, motion, piece, again, run, steps, lane, sample):
     """What a Piece that begins with `motion` leads to, and the Motion at its end."""
     answer = count(c, kept, motion, piece, again, run, steps, lane, sample)
@@ -161,7 +161,7 @@ def advance(c, kept, motion, piece, again, run, steps, lane, sample):
     return answer, motion
 
 
-@spliced
+@compiled_into_callers
 def step_of_lane(c, kept, motion, run, steps, lane, is_stopped):
     """The contact step, kept, that a lane took with the others, or that it has to take alone if it `is_stopped`."""
     if is_stopped:
@@ -176,17 +176,17 @@ def step_of_lane(c, kept, motion, run, steps, lane, is_stopped):
 
 @functools.cache
 def side_by_side(lanes: int):
-    """The kernel for a number of lanes.
+    """The compiled function for a number of lanes.
 
-    It has nothing but that number from around it: with another kernel there, numba would find no compiled code again.
+    The number is all that it takes from its surroundings; numba could not cache it with a compiled function there.
     """
 
-    @kernel
+    @compiled
     def follow(parameters, tolerance, times, samples, results, left, work):
-        parameters, times, samples = borrowed(parameters), borrowed(times), borrowed(samples)
-        results, left = borrowed(results), borrowed(left)
-        steps, runs, rows = borrowed(work[0]), borrowed(work[1]), borrowed(work[2])
-        series, kept_steps = borrowed(work[3]), borrowed(work[4])
+        parameters, times, samples = no_refcount(parameters), no_refcount(times), no_refcount(samples)
+        results, left = no_refcount(results), no_refcount(left)
+        steps, runs, rows = no_refcount(work[0]), no_refcount(work[1]), no_refcount(work[2])
+        series, kept_steps = no_refcount(work[3]), no_refcount(work[4])
         constants = [contact.constants(parameters[0], tolerance)] * lanes
         motions = [motion_at(constants[0], 0.0, 0.0, 0.0, 0.0)] * lanes
         waiting = running = 0

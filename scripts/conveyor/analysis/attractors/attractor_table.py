@@ -1,4 +1,4 @@
-"""The attractors of conveyors that are known already, in tables that kernels read.
+"""The known attractors of conveyors, in tables that compiled functions read.
 
 Initial conditions of one conveyor share them, so that no trajectory is followed further than needed. They are found by
 trapping_regions and chaotic_sets.

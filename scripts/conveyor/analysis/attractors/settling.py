@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from ...solver import contact
-from ...solver.jit import inlined, kernel, spliced
+from ...solver.jit import compiled, compiled_inline, compiled_into_callers
 from ...solver.trajectory import BEGIN_OF_CYCLE, OK
 from .. import stroboscopic_map
 
@@ -27,7 +27,7 @@ DELTA, V, FLIGHTS = range(3)
 FOLLOWED, CANDIDATE, REPEATS, STAYED = range(4)
 
 
-@inlined
+@compiled_inline
 def measure(c, centre, factor, state):
     """Both components of a state's distance from a point of an orbit; see attractor_table.AttractingOrbits."""
     along = state[0] - centre[0]
@@ -35,7 +35,7 @@ def measure(c, centre, factor, state):
     return factor[0] * along + factor[1] * across, factor[2] * across
 
 
-@kernel
+@compiled
 def reached(c, state, orbits, first, behind):
     """The known orbit, from number `first` to that before `behind`, in whose neighbourhood a state lies, or -1."""
     for k in range(first, behind):
@@ -45,7 +45,7 @@ def reached(c, state, orbits, first, behind):
     return -1
 
 
-@kernel
+@compiled
 def inside(state, chaotic, first, behind):
     """Whether a state lies in one of the boxes of the chaotic sets from number `first` to that before `behind`."""
     for k in range(first, behind):
@@ -57,13 +57,13 @@ def inside(state, chaotic, first, behind):
     return False
 
 
-@kernel
+@compiled
 def memory(searches):
     """Memories of a number of searches: float64, shape (searches, 3, PAST), and int64, shape (searches, 4)."""
     return np.empty((searches, 3, PAST)), np.empty((searches, 4), np.int64)
 
 
-@inlined
+@compiled_inline
 def forget(past, counts):
     """Begin a search with the memory of one that is over."""
     for k in range(PAST):
@@ -73,14 +73,14 @@ def forget(past, counts):
         counts[k] = 0
 
 
-@inlined
+@compiled_inline
 def near(state, past, lag, n, scale_0, scale_1):
     """Distance of `state`, number n, from the one `lag` cycles before, in units of the part at rest."""
     then = (n - lag) % PAST
     return max(abs(state[0] - past[DELTA, then]) / scale_0, abs(state[1] - past[V, then]) / scale_1)
 
 
-@inlined
+@compiled_inline
 def last_period(state, past, n, scale_0, scale_1):
     """The least number of cycles, up to MAX_PERIOD, after which a motion has come back to `state`, number n, or 0."""
     some = 0
@@ -95,7 +95,7 @@ def last_period(state, past, n, scale_0, scale_1):
     return 0
 
 
-@inlined
+@compiled_inline
 def longest_flight(past, n, cycles):
     """The longest flight (s) in the last of n `cycles`."""
     longest = 0.0
@@ -104,7 +104,7 @@ def longest_flight(past, n, cycles):
     return longest
 
 
-@kernel
+@compiled
 def look(c, state, flight, max_cycles, known, mine, past, counts):
     """Whether a search is over after one more cycle.
 
@@ -142,7 +142,7 @@ def look(c, state, flight, max_cycles, known, mine, past, counts):
     return GOES_ON, 0, math.nan
 
 
-@spliced
+@compiled_into_callers
 def settle(c, series, state, max_cycles, known, mine, strobes):
     """Follow `state`, at the phase BEGIN_OF_CYCLE, until it is periodic or at a known attractor.
 
@@ -175,7 +175,7 @@ def settle(c, series, state, max_cycles, known, mine, strobes):
     return OPEN, 0, 0.0, 0
 
 
-@kernel
+@compiled
 def settle_points(parameters, tolerance, cycles, known, places, found, strobes):
     """`settle` for rows of `parameters`, shape (n, 16), from their starts on.
 

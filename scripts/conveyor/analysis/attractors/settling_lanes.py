@@ -30,7 +30,7 @@ from ...solver.contact_lanes import (
     room,
     step,
 )
-from ...solver.jit import borrowed, kernel, spliced
+from ...solver.jit import compiled, compiled_into_callers, no_refcount
 from ...solver.model import VZ0, Z0
 from ...solver.trajectory import BEGIN_OF_CYCLE, patience
 from ...solver.vertical import (
@@ -70,25 +70,28 @@ ON_THE_WAY = -1
 NONE = -1
 
 
-@spliced
-def uncounted(known):
-    """The same attractors, see jit.borrowed."""
+@compiled_into_callers
+def no_refcounts(known):
+    """The same attractors, see jit.no_refcount."""
     orbits, chaotic = known.orbits, known.chaotic
     return AttractorTable(
         AttractingOrbits(
-            borrowed(orbits.conveyors),
-            borrowed(orbits.centres),
-            borrowed(orbits.factors),
-            borrowed(orbits.periods),
-            borrowed(orbits.flights),
+            no_refcount(orbits.conveyors),
+            no_refcount(orbits.centres),
+            no_refcount(orbits.factors),
+            no_refcount(orbits.periods),
+            no_refcount(orbits.flights),
         ),
         ChaoticSets(
-            borrowed(chaotic.conveyors), borrowed(chaotic.low), borrowed(chaotic.size), borrowed(chaotic.cells)
+            no_refcount(chaotic.conveyors),
+            no_refcount(chaotic.low),
+            no_refcount(chaotic.size),
+            no_refcount(chaotic.cells),
         ),
     )
 
 
-@spliced
+@compiled_into_callers
 def load(c, start, lane, steps, cycle, past, counts):
     """The Motion at the beginning of a start, shape (16,), that comes into a lane with nothing left of others in it."""
     enter(steps, lane, c, patience(c))
@@ -102,14 +105,14 @@ def load(c, start, lane, steps, cycle, past, counts):
     return motion_at(c, q, rate, 0.0, c.psi0)
 
 
-@spliced
+@compiled_into_callers
 def stopped_motion(lane, steps):
     """The Motion in contact, without what only flights need, at which a lane left the others."""
     t, w, v = steps[TIME, lane], steps[W, lane], steps[V, lane]
     return Motion(t, 0.0, steps[SINE, lane], steps[COSINE, lane], True, w, v, False, 0.0, 0.0, 0.0, 0.0)
 
 
-@spliced
+@compiled_into_callers
 def count(piece, lane, steps, cycle):
     """Count a piece, and its flight, as stroboscopic_map.advance does."""
     steps[STEPS, lane] += 1.0
@@ -120,14 +123,14 @@ def count(piece, lane, steps, cycle):
             cycle[AIRBORNE, lane] = 0.0
 
 
-@spliced
+@compiled_into_callers
 def failed(motion, piece, lane, steps):
     """Whether stroboscopic_map.advance may fail here: it follows such a start once more, and tells."""
     finite = math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)
     return piece.end == LOST or not finite or steps[STEPS, lane] > steps[MOST, lane]
 
 
-@spliced
+@compiled_into_callers
 def next_cycle(c, state, lane, steps, cycle):
     """The Motion at the beginning of a cycle from `state`, δ (m) and v (m/s)."""
     steps[STEPS, lane] = cycle[LONGEST, lane] = 0.0
@@ -138,18 +141,28 @@ def next_cycle(c, state, lane, steps, cycle):
 
 @functools.cache
 def side_by_side(lanes: int):
-    """The kernel of `settle_points` for a number of lanes.
+    """The compiled function for a number of lanes.
 
-    It has nothing but that number from around it: with another kernel there, numba would find no compiled code again.
+    The number is all that it takes from its surroundings; numba could not cache it with a compiled function there.
     """
 
-    @kernel
+    @compiled
     def follow(parameters, tolerance, max_cycles, known, places, found, strobes, left, work):
-        parameters, known, places, left = borrowed(parameters), uncounted(known), borrowed(places), borrowed(left)
-        points, outcomes, periods = borrowed(found[0]), borrowed(found[1]), borrowed(found[2])
-        flights, followed, strobes = borrowed(found[3]), borrowed(found[4]), borrowed(strobes)
-        steps, cycle, rows, state = borrowed(work[0]), borrowed(work[1]), borrowed(work[2]), borrowed(work[3])
-        series, pasts, numbers = borrowed(work[4]), borrowed(work[5]), borrowed(work[6])
+        parameters, known, places, left = (
+            no_refcount(parameters),
+            no_refcounts(known),
+            no_refcount(places),
+            no_refcount(left),
+        )
+        points, outcomes, periods = no_refcount(found[0]), no_refcount(found[1]), no_refcount(found[2])
+        flights, followed, strobes = no_refcount(found[3]), no_refcount(found[4]), no_refcount(strobes)
+        steps, cycle, rows, state = (
+            no_refcount(work[0]),
+            no_refcount(work[1]),
+            no_refcount(work[2]),
+            no_refcount(work[3]),
+        )
+        series, pasts, numbers = no_refcount(work[4]), no_refcount(work[5]), no_refcount(work[6])
         constants = [contact.constants(parameters[0], tolerance)] * lanes
         waiting = running = 0
         stopped = (1 << lanes) - 1  # a bit for each lane

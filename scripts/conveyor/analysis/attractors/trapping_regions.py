@@ -12,7 +12,7 @@ from functools import reduce
 import numpy as np
 
 from ...solver import contact
-from ...solver.jit import kernel
+from ...solver.jit import compiled
 from ...solver.model import PSI0
 from ...solver.trajectory import BEGIN_OF_CYCLE, OK
 from .. import stroboscopic_map
@@ -29,7 +29,7 @@ FASTEST, SLOWEST = 1e-4, 0.98
 LONGEST = 8  # excitation cycles: around longer orbits nothing is looked for
 
 
-@kernel
+@compiled
 def comes_inside(parameters, tolerance, centre, factor, period, radius):
     """Whether the ellipse of a `radius` about a point of an orbit comes into that of half the radius, all at once.
 

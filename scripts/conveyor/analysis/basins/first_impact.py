@@ -7,7 +7,7 @@ import numpy as np
 
 from ...solver import contact
 from ...solver.flight import Flight, next_impact
-from ...solver.jit import kernel
+from ...solver.jit import compiled
 from ...solver.model import PSI0, VZ0, Z0
 from ...solver.vertical import begin, in_contact
 
@@ -25,7 +25,7 @@ class FirstImpact(NamedTuple):
     phase: np.ndarray
 
 
-@kernel
+@compiled
 def fill_first_impacts(parameters, out):
     """Fill the rows of `out`, shape (n, 3), for `parameters`, shape (n, 16)."""
     out[:] = np.nan

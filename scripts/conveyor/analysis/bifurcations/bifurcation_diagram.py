@@ -3,12 +3,12 @@
 import numpy as np
 
 from ...solver import trajectory
-from ...solver.jit import kernel
+from ...solver.jit import compiled
 from ...solver.trajectory import OK
 from .. import stroboscopic_map
 
 
-@kernel
+@compiled
 def follow_change(parameters, tolerance, state, transient, strobes, codes):
     """See `follow_attractor`: fill `strobes`, shape (n, m, 2), and status `codes`, shape (n,); advance `state`."""
     cycles = transient + strobes.shape[1]

@@ -14,7 +14,7 @@ from ...methods import fixed_step
 from ...simulation import DEFAULT_STEP, DEFAULT_TOLERANCE
 from ...solver import contact, trajectory
 from ...solver.horizontal import SAMPLES
-from ...solver.jit import kernel
+from ...solver.jit import compiled
 from ...solver.model import FREQUENCY
 from ...solver.parallel import for_each_chunk
 from .. import stroboscopic_map
@@ -38,7 +38,7 @@ class Spectrum(NamedTuple):
     status: np.ndarray  # "ok", or why there is no result
 
 
-@kernel
+@compiled
 def stretches_of_points(parameters, states, tolerance, begin_of_cycle, transient, stretches, contact_times, codes):
     """Follow trajectories from `states`, shape (n, 2), and fill rows of arrays with what happens in their cycles.
 
@@ -150,7 +150,7 @@ def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threa
     return found
 
 
-@kernel
+@compiled
 def multipliers_of_points(parameters, states, tolerance, logarithms, contact_times, periods):
     """Where motions from `states`, shape (n, 2), at ψ0 repeat themselves bit for bit; rows of the others say nothing.
 

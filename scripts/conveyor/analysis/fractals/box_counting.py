@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...solver.jit import inlined, kernel
+from ...solver.jit import compiled, compiled_inline
 from .scaling_region import (
     FINEST_SCALE,
     SAMPLES_PER_BOX,
@@ -46,7 +46,7 @@ class Workspace(NamedTuple):
     deepest: np.ndarray  # int8, shape (n,)
 
 
-@inlined
+@compiled_inline
 def spread(number):
     """The lower 32 bits of an integer with a gap behind each."""
     number = (number | (number << 16)) & 0x0000FFFF0000FFFF
@@ -56,7 +56,7 @@ def spread(number):
     return (number | (number << 1)) & 0x5555555555555555
 
 
-@kernel
+@compiled
 def boxes_of(points, size, across_shift, along_shift, boxes):
     """Fill `boxes`, int64, with the numbers of the boxes of a shifted grid that the points lie in, along a Z-curve.
 
@@ -79,7 +79,7 @@ def along_boxes(points: np.ndarray, size: float) -> np.ndarray:
     return np.argsort(boxes, kind="stable")
 
 
-@kernel
+@compiled
 def merge(boxes, deepest, n, owners, first):
     """Keep each of the first n boxes once, with the most halvings of all that lies in it; return how many they are.
 
@@ -113,7 +113,7 @@ def merge(boxes, deepest, n, owners, first):
     return kept
 
 
-@kernel
+@compiled
 def count_chain(samples, finest, shift, first, workspace, totals):
     """Add the numbers of boxes that hold a point of each part to `totals`, shape (PARTS, k), for a chain of grids.
 
@@ -147,7 +147,7 @@ def count_chain(samples, finest, shift, first, workspace, totals):
     return first
 
 
-@kernel
+@compiled
 def box_counts(samples, shifts, samples_per_box):
     """Mean numbers of occupied boxes over shifted grids for all points and their parts, shape (PARTS, k).
 

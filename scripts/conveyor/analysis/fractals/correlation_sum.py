@@ -5,7 +5,7 @@ Grassberger and Procaccia, Physica D 9 (1983) 189, with the window of Theiler, P
 
 import numpy as np
 
-from ...solver.jit import float_bits, kernel
+from ...solver.jit import compiled, float_bits
 from .scaling_region import SAMPLES_PER_BOX, SCALES, Dimension, normalise, scaling_region
 
 STRETCH = 256  # distances that are found at a time
@@ -13,7 +13,7 @@ FRACTION = 48  # bits of a float that are left out: sixteen steps in each doubli
 TABLES = 4  # of counts, in turn: to add to a number that was just changed takes time
 
 
-@kernel
+@compiled
 def pair_counts(points, references, theiler, squares):
     """Numbers of pairs by squared distance, and of all pairs; shell k lies between squares[k] and squares[k + 1].
 
