@@ -24,7 +24,7 @@ import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 
-from conveyor.analysis.attractors import settling_lanes
+from conveyor.analysis.attractors import convergence_lanes
 from conveyor.solver.progress import bar
 from pipeline import fields, tables
 from sweeps import shards
@@ -90,7 +90,7 @@ def job() -> None:
     else:
         begin, end = task["rows"]
         # Fewer would not load the code of starts that are followed side by side.
-        first_points = task | {"rows": (begin, min(begin + settling_lanes.SIDE_BY_SIDE, end))}
+        first_points = task | {"rows": (begin, min(begin + convergence_lanes.SIDE_BY_SIDE, end))}
         times = {"loading": make_shard(**first_points)}
         os.unlink(task["path"])  # no job writes over a file
         times["computing"] = make_shard(**task)
@@ -176,7 +176,7 @@ def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> d
 
     with tempfile.TemporaryDirectory() as folder:
         for one in cases:
-            rows = [0, min(settling_lanes.SIDE_BY_SIDE, one["plan"]["points"])]
+            rows = [0, min(convergence_lanes.SIDE_BY_SIDE, one["plan"]["points"])]
             run(settings=one["settings"], threads=1, rows=rows, path=f"{folder}/one.parquet")
     times, together = [[] for _ in cases], {}
     for number, k in bar(list(product(range(ROUNDS), range(len(cases)))), label=progress, unit="sweeps"):

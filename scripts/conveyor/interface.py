@@ -197,8 +197,8 @@ def basin(
     cycles = check_count("cycles", cycles, 1, MOST_CYCLES)
     tolerance, threads = check_tolerance(tolerance), check_threads(threads)
     rows, shape = pack_all(conveyor, AT_REST, {"z": heights[:, None], "vz": speeds})
-    known = search.find_attractors(rows[:1], cycles=cycles, tolerance=tolerance, threads=threads)
-    found = labels.classify(rows, cycles=cycles, known=known, tolerance=tolerance, threads=threads)
+    attractors = search.find_attractors(rows[:1], cycles=cycles, tolerance=tolerance, threads=threads)
+    found = labels.classify(rows, cycles=cycles, attractors=attractors, tolerance=tolerance, threads=threads)
     return Basin(heights, speeds, found.state.reshape(shape), found.period.reshape(shape))
 
 

@@ -133,7 +133,7 @@ def simulate(
     method : "event" for the exact event loop, or one of fixed_step: "euler" (the paper's), "semi_implicit_euler", "rk4"
     tolerance : relative error per Taylor step, 1e-14 to 1e-2; used by "event"
     step : step size in s, of which the duration is a whole number; used by the fixed-step methods
-    reuse : whether Taylor steps of a settled motion are used again (see memory); used by "event"
+    reuse : whether Taylor steps of a settled motion are used again (see repeated_steps); used by "event"
 
     Returns
     -------

@@ -68,7 +68,7 @@ def motions_of_starts(
     for number, rows in enumerate(batches, start=1):
         label = progress and (f"{progress} ({number} of {len(batches)})" if len(batches) > 1 else progress)
         known = shared_attractors(parameters[rows], starts, settings, threads=threads, progress=label)
-        parts.append(classify(parameters[rows], known=known, **options, progress=label))
+        parts.append(classify(parameters[rows], attractors=known, **options, progress=label))
     order = np.argsort(np.concatenate(batches))
     return Labels(*(np.concatenate(column)[order] for column in zip(*parts, strict=True)))
 

@@ -21,7 +21,7 @@ from ..solver.contact import FIRST
 from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
 from ..solver.polynomial import ORDER, SIZE
-from ..solver.trajectory import BEGIN_OF_CYCLE, IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, patience
+from ..solver.trajectory import BEGIN_OF_CYCLE, IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, longest_eventless
 from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, begin, motion_at, next_piece, shortened
 
 # The features of a cycle.
@@ -179,8 +179,8 @@ def advance(c, series, state, phase, duration, tangent, features):
     motion = motion_at(c, -state[0], -state[1], 0.0, phase)
     if motion.pulled:
         switch_damping(c, tangent, True)
-    most = patience(c)
-    lone = 0
+    most = longest_eventless(c)
+    eventless = 0
     for _ in range(MAX_PIECES):
         piece = next_piece(c, series, FIRST, motion, duration - motion.t)
         piece = advance_tangent(c, series, tangent, expansions, motion, piece)
@@ -194,8 +194,8 @@ def advance(c, series, state, phase, duration, tangent, features):
                 features[AIRBORNE] = 0.0
         elif piece.kind == CONTACT and not (motion.pulled and c.tension == TENSION_CLIP):
             features[CONTACT_TIME] += piece.duration
-        lone = lone + 1 if piece.end == contact.NOTHING else 0
-        if lone > most:
+        eventless = eventless + 1 if piece.end == contact.NOTHING else 0
+        if eventless > most:
             return TOO_STIFF
         motion = arrive(c, motion, piece, phase)
         if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)):

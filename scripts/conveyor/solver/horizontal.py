@@ -59,7 +59,7 @@ def slip_direction(c, sine, cosine, vx, force, mu):
 
 
 @compiled_inline
-def slid(c, x, vx, tau):
+def slide(c, x, vx, tau):
     """x (m) and ẋ (m/s) after the time tau (s) in which gravity alone acts along the track."""
     fall = c.downhill * tau
     return x + vx * tau - 0.5 * fall * tau, vx - fall
@@ -75,7 +75,7 @@ def moved(c, segment, tau, sine, cosine, z, vz):
         return segment.x - speed / c.omega * (cosine_x - begin), speed * sine_x
     rub = segment.sigma * segment.mu
     path = z - segment.z - segment.vz * tau + 0.5 * c.gravity * tau * tau
-    x, vx = slid(c, segment.x, segment.vx, tau)
+    x, vx = slide(c, segment.x, segment.vx, tau)
     return x + rub * path, vx + rub * (vz - segment.vz + c.gravity * tau)
 
 

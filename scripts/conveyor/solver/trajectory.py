@@ -9,7 +9,7 @@ from collections import namedtuple
 
 import numpy as np
 
-from . import contact, memory, peaks
+from . import contact, peaks, repeated_steps
 from .contact import FORCE_SIGN, NOTHING, SEPARATION
 from .flight import highest_gap
 from .horizontal import (
@@ -30,12 +30,12 @@ from .horizontal import (
     Z,
     feed,
     note,
-    slid,
+    slide,
     slip_direction,
 )
 from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import TENSION_CLIP, VZ0, Z0
-from .vertical import CONTACT, FLIGHT, LIMIT, LOST, arrive, begin, in_cycle, motion_at, next_piece, take_off
+from .vertical import CONTACT, FLIGHT, LIMIT, LOST, arrive, begin, flight_from, in_cycle, motion_at, next_piece
 
 # Phase at which a cycle is taken to begin, rad: the plate's top, where a part that leaves the plate is in the air.
 BEGIN_OF_CYCLE = -math.pi
@@ -49,17 +49,17 @@ MAX_PIECES = 100_000
 # A contact whose own rates would need this many times as many steps in a cycle is given up after so many steps in a row
 # without an event: it would last a fiftieth of the cycle at most.
 HOPELESS = 50.0
-PATIENCE = 10_000
+LONGEST_EVENTLESS_IF_HOPELESS = 10_000
 
 
 @compiled
-def patience(c):
+def longest_eventless(c):
     """Contact steps in a row without an event after which a contact is too stiff to be followed.
 
     Its own rates, d_c/m and the frequency at the static penetration, tell how many steps it would need in a cycle.
     """
     rate = max(c.damping, c.scale_v / (c.scale_w * c.scale_w))
-    return PATIENCE if rate * c.period > HOPELESS * MAX_PIECES else MAX_PIECES
+    return LONGEST_EVENTLESS_IF_HOPELESS if rate * c.period > HOPELESS * MAX_PIECES else MAX_PIECES
 
 
 # Columns of the results of runs: the status code, numbers of events and of impacts, the time with contact force (s),
@@ -90,7 +90,7 @@ def integrate(
     times : float64, shape (n, k), s, ascending, ≥ 0; a run ends at its last one
     tolerance : relative error per step of the contact
     feeding : whether the horizontal motion is wanted; without it its columns are NaN
-    reuse : whether steps of a settled motion are repeated instead of computed (see memory)
+    reuse : whether steps of a settled motion are repeated instead of computed (see repeated_steps)
     event_times, event_kinds : float64 (s) and int8, shape (n, m), filled with the first m events of each
 
     Returns
@@ -104,7 +104,7 @@ def integrate(
         event_times, event_kinds = np.empty((n, 0)), np.empty((n, 0), np.int8)
     # Plain tuples: numba takes several microseconds of each call to see the type of a named one.
     records = (times, samples, event_times, event_kinds)
-    follow(parameters, (tolerance, feeding, reuse), records, results, memory.room())
+    follow(parameters, (tolerance, feeding, reuse), records, results, repeated_steps.new_arrays())
     return samples, results
 
 
@@ -116,14 +116,14 @@ def follow(parameters, options, records, results, room):
     ----------
     options, records : the fields of Options, and those of a Record with one more axis in front, that of the runs
     results : filled, see `integrate`
-    room : memory.room
+    room : repeated_steps.new_arrays
 
     Only Python calls this function, because numba would compile the whole solver again into each compiled caller.
     """
     tolerance, feeding, reuse = options
     times, samples, event_times, event_kinds = records
     series, steps = room
-    kept = memory.Memory(no_refcount(series), no_refcount(steps))
+    kept = repeated_steps.KeptSteps(no_refcount(series), no_refcount(steps))
     for i in range(parameters.shape[0]):
         record = Record(
             no_refcount(times[i]), no_refcount(samples[i]), no_refcount(event_times[i]), no_refcount(event_kinds[i])
@@ -134,7 +134,7 @@ def follow(parameters, options, records, results, room):
 @compiled_into_callers
 def sample_flight(c, motion, horizontal, tau, sample):
     """Fill a `sample`, shape (6,), at the time tau (s) of a flight."""
-    sample[X], sample[VX] = slid(c, horizontal.x, horizontal.vx, tau)
+    sample[X], sample[VX] = slide(c, horizontal.x, horizontal.vx, tau)
     sample[Z], sample[VZ] = motion.z + (motion.vz - 0.5 * c.gravity * tau) * tau, motion.vz - c.gravity * tau
     sample[CONTACT_FORCE] = sample[FRICTION_FORCE] = 0.0
 
@@ -154,12 +154,12 @@ def peak_of_step(c, kept, place, at, motion, piece, first, last):
     """Largest F_c/m (m/s²) of the contact step in a place, between the times `first` and `last` (s) since it began."""
     if first > 0.0 or last < piece.duration:
         return peaks.largest_force_between(c, kept.series, at, piece, first, last)
-    found = kept.steps[place, memory.PEAK]
+    found = kept.steps[place, repeated_steps.PEAK]
     if math.isnan(found):
         found = peaks.largest_force_at_ends(c, motion, piece)
         if not peaks.is_monotonic(c, motion, piece):
             found = peaks.largest_force(c, kept.series, at, 0.0, piece.length)
-        kept.steps[place, memory.PEAK] = found
+        kept.steps[place, repeated_steps.PEAK] = found
     return found
 
 
@@ -176,9 +176,9 @@ def next_cycle(c, motion, piece):
 @compiled_into_callers
 def follow_part(parameters, options, record, result, kept):
     """Follow the part of a row of `parameters`, shape (16,); fill its Record and `result`, shape (9,)."""
-    memory.clear(kept)
+    repeated_steps.clear(kept)
     c = contact.constants(parameters, options.tolerance)
-    most = patience(c)
+    most = longest_eventless(c)
     times, samples = record.times, record.samples
     end = times[-1]
     since = times[-2] if times.size > 1 else 0.0
@@ -191,34 +191,34 @@ def follow_part(parameters, options, record, result, kept):
     if motion.touching:
         force = contact.force(c, motion.w, motion.v)
         horizontal = Horizontal(0.0, 0.0, slip_direction(c, motion.sine, motion.cosine, 0.0, force, c.static_friction))
-    sampled = events = impacts = steps = repeats = pieces = lone = place = 0
+    sampled = events = impacts = steps = repeats = pieces = eventless = place = 0
     contact_time = impact_speed = peak_force = 0.0
     max_gap = max(q, 0.0)
     status = OK
 
     while sampled < times.size:
         pieces += 1
-        if pieces > MAX_PIECES or lone > most:
+        if pieces > MAX_PIECES or eventless > most:
             status = TOO_STIFF
             break
-        at = memory.first_row(kept, place)
+        at = repeated_steps.first_row(kept, place)
         begins = base + motion.t
-        if options.reuse and motion.touching and memory.repeats(c, kept, place, motion):
-            piece = memory.recall(kept, place)
+        if options.reuse and motion.touching and repeated_steps.repeats(c, kept, place, motion):
+            piece = repeated_steps.recall(kept, place)
             repeats += 1
         else:
             limit = c.period - motion.t if motion.touching else end - begins
             piece = next_piece(c, kept.series, at, motion, limit)
             if piece.kind == CONTACT:
-                memory.keep(kept, place, motion, piece)
+                repeated_steps.keep(kept, place, motion, piece)
                 steps += 1
-        lone = lone + 1 if piece.end == NOTHING else 0
+        eventless = eventless + 1 if piece.end == NOTHING else 0
         ends = begins + piece.duration
         if piece.kind == FLIGHT:
             if piece.end == LOST:
                 status = IMPACT_LOST
                 break
-            max_gap = max(max_gap, highest_gap(take_off(c, motion), piece.duration))
+            max_gap = max(max_gap, highest_gap(flight_from(c, motion), piece.duration))
             while sampled < times.size and (ends >= times[sampled] or piece.end == LIMIT):
                 sample_flight(c, motion, horizontal, times[sampled] - begins, samples[sampled])
                 sampled += 1
@@ -230,7 +230,7 @@ def follow_part(parameters, options, record, result, kept):
             events = note(record, events, ends, IMPACT)
         elif piece.kind == CONTACT:
             here = place
-            place = min(place + 1, memory.PLACES - 1)
+            place = min(place + 1, repeated_steps.PLACES - 1)
             if not (motion.pulled and c.tension == TENSION_CLIP):
                 # A repeated step has the duration of the one it repeats; what counts is where the cycle ends.
                 lasts = c.period - motion.t if piece.end == LIMIT else piece.duration
@@ -246,7 +246,7 @@ def follow_part(parameters, options, record, result, kept):
                 status = TOO_MANY_EVENTS
                 break
         if piece.kind != CONTACT:
-            x, vx = slid(c, horizontal.x, horizontal.vx, piece.duration)
+            x, vx = slide(c, horizontal.x, horizontal.vx, piece.duration)
             horizontal = Horizontal(x, vx, horizontal.sigma)
         pulled = motion.pulled
         motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)

@@ -106,7 +106,7 @@ def shortened(series, at, length, duration, end):
 
 
 @compiled_inline
-def take_off(c, motion):
+def flight_from(c, motion):
     """The Flight that begins with a Motion."""
     return Flight(motion.z, motion.vz, motion.theta, c.gravity, c.a_z, c.omega)
 
@@ -114,7 +114,7 @@ def take_off(c, motion):
 @compiled_into_callers
 def fly(c, motion, limit):
     """The Piece that is a flight from `motion`, of at most `limit` (s)."""
-    tau, speed = next_impact(take_off(c, motion), motion.q, motion.rate, limit)
+    tau, speed = next_impact(flight_from(c, motion), motion.q, motion.rate, limit)
     end = IMPACT
     if not tau < math.inf:
         end, tau = (LIMIT, limit) if tau == math.inf else (LOST, tau)
@@ -123,7 +123,7 @@ def fly(c, motion, limit):
 
 
 @compiled_inline
-def grazing(c, motion):
+def is_grazing(c, motion):
     """Whether a part in contact only touches, with no speed: it is either pressed on or left behind by the plate."""
     return motion.w == 0.0 and motion.v <= c.rest_speed and (motion.v <= 0.0 or c.gravity + c.a_z * motion.cosine > 0.0)
 
@@ -156,7 +156,7 @@ def next_piece(c, series, at, motion, limit):
     """
     if not motion.touching:
         return fly(c, motion, limit)
-    if grazing(c, motion):
+    if is_grazing(c, motion):
         return graze(c, motion)
     length = contact.begin_step(c, series, at, motion.w, motion.v, motion.sine, motion.cosine, motion.pulled)
     return press(c, series, at, motion, length, limit)
@@ -171,7 +171,7 @@ def arrive(c, motion, piece, origin):
     if piece.kind == FLIGHT:
         if piece.end == IMPACT:
             return Motion(t, theta, sine, cosine, True, 0.0, v, False, 0.0, 0.0, 0.0, 0.0)
-        q, rate = gap(take_off(c, motion), piece.duration)
+        q, rate = gap(flight_from(c, motion), piece.duration)
         z = q - c.a_z / (c.omega * c.omega) * cosine
         return Motion(t, theta, sine, cosine, False, 0.0, 0.0, False, z, rate + c.a_z / c.omega * sine, q, rate)
     touching = True

@@ -10,8 +10,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from ..chaos import lyapunov
 from . import sampling
 from .attractor_table import BOXES, NO_ATTRACTORS, ChaoticSets, chaotic_set_table, concatenate
-from .sampling import Trajectories
-from .settling import OPEN, SETTLED
+from .convergence import NOT_CONVERGED, PERIODIC, Trajectories
 
 LATE = 0.1  # of the time: a trajectory that settles later shows that chaos is a long transient here
 MOST = 4  # chaotic sets of one conveyor
@@ -36,29 +35,29 @@ def find_chaotic_sets(
     A conveyor on which a trajectory settles late has none: then chaos is a transient, and every trajectory has to be
     followed to its own end. Trajectories of one conveyor follow each other, those of several run side by side.
     """
-    candidates = [list(trajectories.states[trajectories.outcomes == OPEN]) for trajectories in sampled]
+    candidates = [list(trajectories.states[trajectories.outcomes == NOT_CONVERGED]) for trajectories in sampled]
     nothing = [chaotic_set_table(row, []) for row in conveyors]
     found = list(nothing)
 
     def search(rows: list[int], states: np.ndarray, length: int, strobes: np.ndarray | None = None) -> Trajectories:
-        known = concatenate([NO_ATTRACTORS, *(NO_ATTRACTORS._replace(chaotic=found[k]) for k in rows)])
-        return sampling.follow(conveyors[rows], states, length, tolerance, known, strobes)
+        attractors = concatenate([NO_ATTRACTORS, *(NO_ATTRACTORS._replace(chaotic=found[k]) for k in rows)])
+        return sampling.follow(conveyors[rows], states, length, tolerance, attractors, strobes)
 
     while any(candidates):
         rows = np.array([k for k, states in enumerate(candidates) if states])
         states = np.array([candidates[k].pop(0) for k in rows])
         # What is told in few cycles comes first: motions that stay in a set that is known, or do not stretch.
-        goes_on = search(rows, states, sampling.SETTLING).outcomes == OPEN
+        goes_on = search(rows, states, sampling.SHORT_SEARCH).outcomes == NOT_CONVERGED
         rows, states = rows[goes_on], states[goes_on]
-        early = lyapunov.spectrum_from(conveyors[rows], states, sampling.SETTLING, tolerance=tolerance)
+        early = lyapunov.spectrum_from(conveyors[rows], states, sampling.SHORT_SEARCH, tolerance=tolerance)
         goes_on = early.lambda_1 > 0.0
         rows, states, followed = rows[goes_on], states[goes_on], 0
         for record in (False, True):
             strobes = np.empty((len(rows), cycles, 2)) if record else None
             motions = search(rows, states, cycles, strobes)
-            for k in rows[(motions.outcomes == SETTLED) & (followed + motions.followed > LATE * cycles)]:
+            for k in rows[(motions.outcomes == PERIODIC) & (followed + motions.followed > LATE * cycles)]:
                 found[k], candidates[k] = nothing[k], []
-            goes_on = motions.outcomes == OPEN
+            goes_on = motions.outcomes == NOT_CONVERGED
             rows, states, followed = rows[goes_on], motions.states[goes_on], cycles
         stretches = lyapunov.signs(conveyors[rows], states, tolerance=tolerance) > 0
         for k, visited in zip(rows[stretches], strobes[goes_on][stretches], strict=True):

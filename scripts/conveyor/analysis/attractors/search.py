@@ -34,7 +34,7 @@ def find_attractors(
 
     def work(begin, end):
         some = conveyors[begin:end]
-        sampled = sampling.sample_conveyors(some, min(sampling.SETTLING, cycles), tolerance)
+        sampled = sampling.sample_conveyors(some, min(sampling.SHORT_SEARCH, cycles), tolerance)
         chaotic = find_chaotic_sets(some, sampled, cycles, tolerance)
         for k, (row, of_row, sets) in enumerate(zip(some, sampled, chaotic, strict=True), start=begin):
             found[k] = AttractorTable(

@@ -17,8 +17,7 @@ from ...solver.model import PSI0
 from ...solver.trajectory import BEGIN_OF_CYCLE, OK
 from .. import stroboscopic_map
 from .attractor_table import AttractingOrbits, orbit_table
-from .sampling import Trajectories
-from .settling import SETTLED, measure
+from .convergence import PERIODIC, Trajectories, distance_components
 
 POINTS = 32  # of a curve
 PERIODS = 32  # within which a curve has to come into the one before
@@ -54,7 +53,7 @@ def comes_inside(parameters, tolerance, centre, factor, period, radius):
                 status = stroboscopic_map.advance(c, series, states[i], BEGIN_OF_CYCLE, c.period, no_tangent, features)
                 if status != OK:
                     return False
-            images[i, 0], images[i, 1] = measure(c, centre, factor, states[i])
+            images[i, 0], images[i, 1] = distance_components(c, centre, factor, states[i])
             size = max(size, math.hypot(images[i, 0], images[i, 1]))
         for i in range(POINTS):
             gap = max(gap, math.hypot(images[i, 0] - images[i - 1, 0], images[i, 1] - images[i - 1, 1]))
@@ -114,7 +113,7 @@ def find_attracting_orbits(parameters: np.ndarray, trajectories: Trajectories, t
     at_top = parameters.copy()
     at_top[PSI0] = BEGIN_OF_CYCLE
     seen, found = np.empty((0, 2)), []
-    for k in np.flatnonzero((trajectories.outcomes == SETTLED) & (trajectories.periods <= LONGEST)):
+    for k in np.flatnonzero((trajectories.outcomes == PERIODIC) & (trajectories.periods <= LONGEST)):
         state, period = trajectories.states[k], int(trajectories.periods[k])
         if (np.abs((seen - state) / unit).max(axis=1) < SMALLEST).any():
             continue

@@ -21,7 +21,7 @@ from .. import stroboscopic_map
 from . import stretching
 
 # Cycles within which a motion near its attractor repeats itself bit for bit, if it ever does.
-SETTLING = 400
+REPEATS_WITHIN = 400
 # Excitation cycles after which the sign is decided: chaos mostly shows after the first, weak chaos after the second.
 LOOKS = (400, 2000)
 BLOCKS = 20
@@ -158,10 +158,13 @@ def multipliers_of_points(parameters, states, tolerance, logarithms, contact_tim
     contact_times : float64, shape (n,), filled: s, in one period
     periods : int64, shape (n,), filled with cycles after which a motion repeats itself, or 0
     """
-    strobes, features = np.empty((SETTLING, 2)), np.empty((SETTLING, stroboscopic_map.FEATURES))
+    strobes, features = np.empty((REPEATS_WITHIN, 2)), np.empty((REPEATS_WITHIN, stroboscopic_map.FEATURES))
     for i in range(parameters.shape[0]):
         periods[i] = 0
-        if stroboscopic_map.follow(parameters[i], tolerance, states[i], SETTLING, strobes, features) != trajectory.OK:
+        if (
+            stroboscopic_map.follow(parameters[i], tolerance, states[i], REPEATS_WITHIN, strobes, features)
+            != trajectory.OK
+        ):
             continue
         period = stroboscopic_map.repeated(strobes)
         matrices = np.empty((period, 2, 2))
@@ -187,7 +190,7 @@ def spectrum_on_attractors(
 ) -> Spectrum:
     """Both vertical Lyapunov exponents of motions that begin on their attractors, or close to them.
 
-    A motion that repeats itself within SETTLING cycles, bit for bit, has the exponents of its Floquet multipliers,
+    A motion that repeats itself within REPEATS_WITHIN cycles, bit for bit, has the exponents of its Floquet multipliers,
     with a standard error of 0. Any other motion is followed: see `spectrum`, with the same arguments.
     """
     states = stroboscopic_map.initial_states(parameters, tolerance)

@@ -28,11 +28,11 @@ COLUMNS = 14
 
 
 # What is kept: the series of PLACES steps, a workspace (see contact), and the columns above, shape (PLACES, COLUMNS).
-Memory = namedtuple("Memory", "series steps")
+KeptSteps = namedtuple("KeptSteps", "series steps")
 
 
-def room() -> tuple[np.ndarray, np.ndarray]:
-    """Room for the two fields of a Memory."""
+def new_arrays() -> tuple[np.ndarray, np.ndarray]:
+    """Room for the two fields of a KeptSteps."""
     return np.empty((FIRST + PLACES * ROWS, SIZE)), np.empty((PLACES, COLUMNS))
 
 
