@@ -19,7 +19,7 @@ from numba.core import cgutils, types
 from numba.extending import intrinsic
 
 from ..solver import model
-from ..solver.jit import compiled
+from ..solver.jit import compiled, compiled_into_callers
 from ..solver.vectors import BIT, FLOAT, INTEGER, Memory, Vector, anywhere, call, fma, lanes_of_processor, where
 from .force_law import spring_and_damper
 
@@ -219,6 +219,65 @@ def prepare(parameters, step, lane):
     lane[IN_CONTACT] = lane[MAX_GAP] <= 0.0
 
 
+@compiled_into_callers
+def record_samples(parameters, first, memory, running, samples, number):
+    """Write the sample with a `number` of the trajectories that are `running`, and let the peaks count from here on.
+
+    first : row of the trajectory in the first lane
+    """
+    for lane in range(memory.shape[1]):
+        if running[lane]:
+            mass, row = parameters[first + lane, model.MASS], samples[first + lane, number]
+            for column in range(4):
+                row[column] = memory[column, lane]
+            row[4] = mass * memory[PUSH, lane]
+            row[5] = mass * memory[RUB, lane] + 0.0  # no negative zero
+        memory[IMPACT_SPEED, lane] = memory[PEAK_FORCE, lane] = 0.0
+
+
+@compiled_into_callers
+def record_results(parameters, first, memory, running, results, step, is_end):
+    """Write the results of trajectories that end here: all of them, or those whose state is not finite.
+
+    Returns the number of trajectories that are still `running`, shape (lanes,), which is changed.
+    """
+    left = 0
+    for lane in range(memory.shape[1]):
+        total = 0.0
+        for column in range(4):
+            total += memory[column, lane]
+        finite = math.isfinite(total)
+        if running[lane] and (is_end or not finite):
+            running[lane] = False
+            row = results[first + lane]
+            for column in range(RESULTS):
+                row[column] = memory[column, lane]
+            row[CONTACT_TIME] *= step
+            row[PEAK_FORCE] *= parameters[first + lane, model.MASS]
+            row[STATUS] = OK if finite else NOT_FINITE
+        left += running[lane]
+    return left
+
+
+@compiled_into_callers
+def record_events(first, memory, running, events, time):
+    """Count the gaps that have opened or closed, and write the time (s) and kind of the first events."""
+    for lane in range(memory.shape[1]):
+        touching = memory[GAP, lane] <= 0.0
+        if touching != memory[IN_CONTACT, lane]:
+            n_events = int(memory[EVENTS, lane])
+            if running[lane] and n_events < events.shape[1]:
+                events[first + lane, n_events, 0] = time
+                events[first + lane, n_events, 1] = IMPACT if touching else SEPARATION
+            memory[EVENTS, lane] += 1.0
+            memory[IMPACTS, lane] += touching
+            if touching:
+                sine, _ = sincos(memory[OMEGA, lane] * time + memory[PSI0, lane])
+                speed = memory[PLATE_VZ, lane] * sine - memory[VZ, lane]
+                memory[IMPACT_SPEED, lane] = max(memory[IMPACT_SPEED, lane], speed)
+            memory[IN_CONTACT, lane] = touching
+
+
 @functools.cache
 def in_lanes(lanes: int, general: int = 1):
     """`integrate` with a given number of lanes, a power of two. Every one gives the same bits.
@@ -234,64 +293,23 @@ def in_lanes(lanes: int, general: int = 1):
             # A lane to spare rests in the air for ever, without gravity.
             memory[:] = 0.0
             memory[Z] = 1.0
-            left = min(lanes, len(parameters) - first)
             for lane in range(lanes):
-                running[lane] = lane < left
+                running[lane] = first + lane < len(parameters)
                 if running[lane]:
                     prepare(parameters[first + lane], step, memory[:, lane])
-            i = 0
-            stop = 0
-            n_sampled = 0
+            i = stop = n_sampled = 0
             while True:
                 while not (forces(lanes, general, memory) or i == stop):
                     euler_step(lanes, general, memory)
                     i += 1
-
                 while n_sampled < len(sample_indices) and sample_indices[n_sampled] <= i:
-                    for lane in range(lanes):
-                        if running[lane]:
-                            mass = parameters[first + lane, model.MASS]
-                            row = samples[first + lane, n_sampled]
-                            for column in range(4):
-                                row[column] = memory[column, lane]
-                            row[4] = mass * memory[PUSH, lane]
-                            row[5] = mass * memory[RUB, lane] + 0.0  # no negative zero
-                        memory[IMPACT_SPEED, lane] = memory[PEAK_FORCE, lane] = 0.0
+                    record_samples(parameters, first, memory, running, samples, n_sampled)
                     n_sampled += 1
-
                 if i % CHECK == 0 or i == n_steps:
-                    for lane in range(lanes):
-                        total = 0.0
-                        for column in range(4):
-                            total += memory[column, lane]
-                        finite = math.isfinite(total)
-                        if running[lane] and (i == n_steps or not finite):
-                            running[lane] = False
-                            left -= 1
-                            row = results[first + lane]
-                            for column in range(RESULTS):
-                                row[column] = memory[column, lane]
-                            row[CONTACT_TIME] *= step
-                            row[PEAK_FORCE] *= parameters[first + lane, model.MASS]
-                            row[STATUS] = OK if finite else NOT_FINITE
+                    left = record_results(parameters, first, memory, running, results, step, i == n_steps)
                     if left == 0:
                         break
-
-                for lane in range(lanes):
-                    touching = memory[GAP, lane] <= 0.0
-                    if touching != memory[IN_CONTACT, lane]:
-                        n_events = int(memory[EVENTS, lane])
-                        if running[lane] and n_events < events.shape[1]:
-                            events[first + lane, n_events, 0] = i * step
-                            events[first + lane, n_events, 1] = IMPACT if touching else SEPARATION
-                        memory[EVENTS, lane] += 1.0
-                        memory[IMPACTS, lane] += touching
-                        if touching:
-                            sine, _ = sincos(memory[OMEGA, lane] * (i * step) + memory[PSI0, lane])
-                            speed = memory[PLATE_VZ, lane] * sine - memory[VZ, lane]
-                            memory[IMPACT_SPEED, lane] = max(memory[IMPACT_SPEED, lane], speed)
-                        memory[IN_CONTACT, lane] = touching
-
+                record_events(first, memory, running, events, i * step)
                 stop = min(n_steps, i - i % CHECK + CHECK)
                 if n_sampled < len(sample_indices):
                     stop = min(stop, sample_indices[n_sampled])

@@ -8,13 +8,14 @@ contact (`restitution_coefficients`).
 """
 
 import math
+from collections import namedtuple
 from typing import NamedTuple
 
 import numpy as np
 
 from ..solver import contact, model
 from ..solver.flight import Flight, gap, highest_gap, next_impact
-from ..solver.jit import compiled
+from ..solver.jit import compiled, compiled_inline, compiled_into_callers
 
 STATUSES = ("ok", "too many events", "impact not found")
 OK, TOO_MANY_EVENTS, IMPACT_NOT_FOUND = range(len(STATUSES))
@@ -42,6 +43,17 @@ class Plate(NamedTuple):
     downhill: float  # m/s², gravity against the feeding direction
     friction: float
     static_friction: float
+
+
+# How a part moves.
+FLYING, ARRIVING, RESTING = range(3)
+# The motion at a time: x (m), ẋ (m/s); z (m) and ż (m/s) of a part that flies; sign of the slip, 0 for stick; gap (m)
+# and its rate (m/s) after a bounce; speed of approach (m/s) of a part that arrives; time (s) in which the plate, which
+# has just left the part, cannot catch it.
+Motion = namedtuple("Motion", "kind x vx z vz sigma q rate speed skip")
+# A time: the beginning of an excitation cycle (s), and the time in the cycle (s). The phase of long runs so keeps its
+# precision.
+Clock = namedtuple("Clock", "base t")
 
 
 def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
@@ -72,6 +84,21 @@ def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
         if time > CREEPING * duration:
             return 0.0
     raise ArithmeticError(f"an impact at {speed:g} m/s does not end within {MAX_CONTACT_STEPS} contact steps")
+
+
+@compiled
+def plate_of(parameters):
+    """The Plate of a packed parameter vector."""
+    return Plate(
+        TURN * parameters[model.FREQUENCY],
+        parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE]),
+        parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]),
+        parameters[model.PHASE_SHIFT],
+        parameters[model.GRAVITY] * math.cos(parameters[model.INCLINATION]),
+        parameters[model.GRAVITY] * math.sin(parameters[model.INCLINATION]),
+        parameters[model.FRICTION],
+        parameters[model.STATIC_FRICTION],
+    )
 
 
 @compiled
@@ -191,7 +218,7 @@ def plate_speed(plate, theta):
 
 
 @compiled
-def slid(plate, x, vx, tau):
+def slide(plate, x, vx, tau):
     """x (m) and ẋ (m/s) after the time `tau` (s) in which gravity alone acts along the track."""
     fall = plate.downhill * tau
     return x + vx * tau - 0.5 * fall * tau, vx - fall
@@ -209,7 +236,7 @@ def rest_motion(plate, theta, x, vx, sigma, tau):
     fall = 0.5 * plate.gravity * tau * tau
     lift = plate.a_z * (cosine - math.sin(theta) / plate.omega * tau)
     rub = sigma * plate.friction
-    x, vx = slid(plate, x, vx, tau)
+    x, vx = slide(plate, x, vx, tau)
     return x + rub * (fall + lift), vx + rub * (plate.gravity * tau + plate.a_z * sine)
 
 
@@ -222,6 +249,107 @@ def slip_direction(plate, theta, slip):
     if abs(pull) <= plate.static_friction * (plate.gravity + plate.a_z * math.cos(theta)):
         return 0.0
     return math.copysign(1.0, pull)
+
+
+@compiled_inline
+def plate_height(plate, theta):
+    """z_s (m) at the phase `theta` (rad)."""
+    return -plate.a_z / plate.omega**2 * math.cos(theta)
+
+
+@compiled_inline
+def plate_rise(plate, theta):
+    """ż_s (m/s) at the phase `theta` (rad)."""
+    return plate.a_z / plate.omega * math.sin(theta)
+
+
+@compiled_into_callers
+def first_motion(plate, z0, vz0, theta):
+    """The Motion at an initial condition (m, m/s, rad)."""
+    z = plate_height(plate, theta)
+    q = max(z0 - z, 0.0) if z0 == z0 else 0.0  # z0 is NaN for a part that starts on the plate
+    rate = vz0 - plate_rise(plate, theta)
+    kind = ARRIVING if q == 0.0 and rate <= 0.0 else FLYING
+    return Motion(kind, 0.0, 0.0, z + q, vz0, 0.0, q, rate, -rate, 0.0)
+
+
+@compiled_into_callers
+def bounce(plate, motion, theta, coefficient):
+    """The Motion just after an impact."""
+    rate = coefficient * motion.speed
+    vx = motion.vx
+    bound = plate.friction * (1.0 + coefficient) * motion.speed
+    slip = plate_speed(plate, theta) - vx
+    if abs(slip) <= bound:
+        vx += slip
+        slip = 0.0
+    else:
+        vx += math.copysign(bound, slip)
+    pressure = plate.gravity + plate.a_z * math.cos(theta)
+    kind = RESTING if pressure > 0.0 and 2.0 * plate.omega * rate <= COLLAPSE * pressure else FLYING
+    skip = 0.0 if pressure > 0.0 else safe_flight(theta, plate.omega)
+    sigma = slip_direction(plate, theta, slip)
+    z, vz = plate_height(plate, theta), plate_rise(plate, theta) + rate
+    return Motion(kind, motion.x, vx, z, vz, sigma, 0.0, rate, motion.speed, skip)
+
+
+@compiled_into_callers
+def rest_duration(plate, motion, theta, left):
+    """How long (s) a part rests and slips one way or sticks, and whether the plate leaves it then.
+
+    left : s, after which nothing is wanted any more
+    """
+    leave = rest_end(plate, theta) / plate.omega
+    if motion.sigma == 0.0:
+        change = stick_end(plate, theta) / plate.omega
+    else:
+        slip = plate_speed(plate, theta) - motion.vx
+        change = slip_end(plate, theta, slip, motion.sigma, plate.omega * min(leave, left)) / plate.omega
+    return min(leave, change), leave <= change
+
+
+@compiled_into_callers
+def end_rest(plate, motion, theta, tau, leaves):
+    """The Motion after a rest of `tau` (s), which the plate ends if it `leaves` the part."""
+    _, _, _, z, vz, sigma, q, rate, speed, skip = motion
+    kind = RESTING
+    x, vx = rest_motion(plate, theta, motion.x, motion.vx, sigma, tau)
+    theta += plate.omega * tau
+    if leaves:
+        kind, skip = FLYING, safe_flight(theta, plate.omega)
+        z, vz = plate_height(plate, theta), plate_rise(plate, theta)
+    elif sigma == 0.0:
+        sigma = math.copysign(1.0, plate.a_x * math.cos(theta + plate.shift) + plate.downhill)
+    else:
+        vx = plate_speed(plate, theta)
+        sigma = slip_direction(plate, theta, 0.0)
+    return Motion(kind, x, vx, z, vz, sigma, q, rate, speed, skip)
+
+
+@compiled_into_callers
+def sample_rest(plate, motion, theta, clock, tau, record):
+    """Sample a part that rests for `tau` (s); the number of samples with them."""
+    times, samples, sampled = record
+    while sampled < len(times) and clock.base + clock.t + tau >= times[sampled]:
+        ahead = times[sampled] - clock.base - clock.t
+        phase = theta + plate.omega * ahead
+        x, vx = rest_motion(plate, theta, motion.x, motion.vx, motion.sigma, ahead)
+        samples[sampled] = (x, vx, plate_height(plate, phase), plate_rise(plate, phase))
+        sampled += 1
+    return sampled
+
+
+@compiled_into_callers
+def sample_flight(plate, motion, clock, tau, record):
+    """Sample a part that flies for `tau` (s); the number of samples with them."""
+    times, samples, sampled = record
+    while sampled < len(times) and clock.base + clock.t + tau >= times[sampled]:
+        ahead = times[sampled] - clock.base - clock.t
+        x, vx = slide(plate, motion.x, motion.vx, ahead)
+        z = motion.z + (motion.vz - 0.5 * plate.gravity * ahead) * ahead
+        samples[sampled] = (x, vx, z, motion.vz - plate.gravity * ahead)
+        sampled += 1
+    return sampled
 
 
 @compiled
@@ -238,137 +366,61 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
 
     Returns
     -------
-    tuple
-        number of impacts; time at rest on the plate (s); largest gap (m); status
+    number of impacts, largest gap (m), status
     """
-    omega = TURN * parameters[model.FREQUENCY]
-    plate = Plate(
-        omega,
-        parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE]),
-        parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]),
-        parameters[model.PHASE_SHIFT],
-        parameters[model.GRAVITY] * math.cos(parameters[model.INCLINATION]),
-        parameters[model.GRAVITY] * math.sin(parameters[model.INCLINATION]),
-        parameters[model.FRICTION],
-        parameters[model.STATIC_FRICTION],
-    )
-    gravity, a_z = plate.gravity, plate.a_z
-    period = 1.0 / parameters[model.FREQUENCY]
-    end = times[-1]
-
-    # Time is the start of an excitation cycle plus the time in it, so that long runs keep the precision of the phase.
+    plate = plate_of(parameters)
+    omega, gravity, a_z = plate.omega, plate.gravity, plate.a_z
+    period, psi0, end = 1.0 / parameters[model.FREQUENCY], parameters[model.PSI0], times[-1]
+    motion = first_motion(plate, parameters[model.Z0], parameters[model.VZ0], psi0)
+    max_gap = motion.q
     cycle, t = 0, 0.0
-    theta = parameters[model.PSI0]
-    z = -a_z / omega**2 * math.cos(theta)
-    q = max(parameters[model.Z0] - z, 0.0) if parameters[model.Z0] == parameters[model.Z0] else 0.0
-    z += q
-    vz = parameters[model.VZ0]
-    rate = vz - a_z / omega * math.sin(theta)
-    x, vx, sigma = 0.0, 0.0, 0.0
-    arriving = q == 0.0 and rate <= 0.0
-    speed = -rate
-    resting = False
-    skip = 0.0
-    n_sampled = n_impacts = n_events = 0
-    max_gap = q
-
-    while n_sampled < len(times):
+    sampled = n_impacts = n_events = 0
+    while sampled < len(times):
         while t >= period:
             t -= period
             cycle += 1
             n_events = 0
-        base = cycle * period
-        theta = parameters[model.PSI0] + omega * t
+        clock = Clock(cycle * period, t)
+        theta, left = psi0 + omega * t, end - clock.base - t
         n_events += 1
         if n_events > MAX_EVENTS:
-            samples[n_sampled:] = math.nan
+            samples[sampled:] = math.nan
             return n_impacts, max_gap, TOO_MANY_EVENTS
-        if arriving:
-            if speed > 0.0:
+        if motion.kind == ARRIVING:
+            if motion.speed > 0.0:
                 if n_impacts < len(impacts):
-                    impacts[n_impacts, 0] = base + t
-                    impacts[n_impacts, 1] = speed
+                    impacts[n_impacts, 0], impacts[n_impacts, 1] = clock.base + t, motion.speed
                 n_impacts += 1
-            coefficient = restitution_at(speed, speeds, coefficients)
-            q, rate = 0.0, coefficient * speed
-            z = -a_z / omega**2 * math.cos(theta)
-            vz = a_z / omega * math.sin(theta) + rate
-            bound = plate.friction * (1.0 + coefficient) * speed
-            slip = plate_speed(plate, theta) - vx
-            if abs(slip) <= bound:
-                vx += slip
-                slip = 0.0
-            else:
-                vx += math.copysign(bound, slip)
-            pressure = gravity + a_z * math.cos(theta)
-            resting = pressure > 0.0 and 2.0 * omega * rate <= COLLAPSE * pressure
-            sigma = slip_direction(plate, theta, slip)
-            skip = 0.0 if pressure > 0.0 else safe_flight(theta, omega)
-            arriving = False
-        elif resting:
-            slip = plate_speed(plate, theta) - vx if sigma != 0.0 else 0.0
-            leave = rest_end(plate, theta) / omega
-            limit = min(leave, end - base - t)
-            if sigma == 0.0:
-                change = stick_end(plate, theta) / omega
-            else:
-                change = slip_end(plate, theta, slip, sigma, omega * limit) / omega
-            tau = min(leave, change)
-            while n_sampled < len(times) and base + t + tau >= times[n_sampled]:
-                ahead = times[n_sampled] - base - t
-                phase = theta + omega * ahead
-                x_then, vx_then = rest_motion(plate, theta, x, vx, sigma, ahead)
-                z_then, vz_then = -a_z / omega**2 * math.cos(phase), a_z / omega * math.sin(phase)
-                samples[n_sampled] = (x_then, vx_then, z_then, vz_then)
-                n_sampled += 1
-            if n_sampled == len(times):
-                break
-            x, vx = rest_motion(plate, theta, x, vx, sigma, tau)
+            motion = bounce(plate, motion, theta, restitution_at(motion.speed, speeds, coefficients))
+        elif motion.kind == RESTING:
+            tau, leaves = rest_duration(plate, motion, theta, left)
+            sampled = sample_rest(plate, motion, theta, clock, tau, (times, samples, sampled))
+            motion = end_rest(plate, motion, theta, tau, leaves)
             t += tau
-            theta += omega * tau
-            if leave <= change:
-                resting = False
-                skip = safe_flight(theta, omega)
-                z, vz = -a_z / omega**2 * math.cos(theta), a_z / omega * math.sin(theta)
-            elif sigma == 0.0:
-                sigma = math.copysign(1.0, plate.a_x * math.cos(theta + plate.shift) + plate.downhill)
-            else:
-                vx = plate_speed(plate, theta)
-                sigma = slip_direction(plate, theta, 0.0)
         else:
+            _, x, vx, z, vz, sigma, q, rate, _, skip = motion
             flight = Flight(z, vz, theta, gravity, a_z, omega)
             if skip > 0.0:
                 q, rate = gap(flight, skip)
                 if q <= 0.0:
                     # The plate is back before it has really left.
                     x, vx = rest_motion(plate, theta, x, vx, sigma, skip)
+                    motion = Motion(RESTING, x, vx, z, vz, sigma, q, rate, motion.speed, skip)
                     t += skip
-                    resting = True
                     continue
-            z_then, vz_then = z + (vz - 0.5 * gravity * skip) * skip, vz - gravity * skip
-            ahead = Flight(z_then, vz_then, theta + omega * skip, gravity, a_z, omega)
-            tau, speed = next_impact(ahead, q, rate, end - base - t - skip)
+            ahead = Flight(
+                z + (vz - 0.5 * gravity * skip) * skip, vz - gravity * skip, theta + omega * skip, gravity, a_z, omega
+            )
+            tau, speed = next_impact(ahead, q, rate, left - skip)
             tau += skip
             if not tau <= math.inf:
-                samples[n_sampled:] = math.nan
+                samples[sampled:] = math.nan
                 return n_impacts, max_gap, IMPACT_NOT_FOUND
-            flown = min(tau, end - base - t)
-            max_gap = max(max_gap, highest_gap(flight, flown))
-            while n_sampled < len(times) and base + t + tau >= times[n_sampled]:
-                ahead = times[n_sampled] - base - t
-                x_then, vx_then = slid(plate, x, vx, ahead)
-                samples[n_sampled] = (
-                    x_then,
-                    vx_then,
-                    z + (vz - 0.5 * gravity * ahead) * ahead,
-                    vz - gravity * ahead,
-                )
-                n_sampled += 1
-            if n_sampled == len(times):
-                break
-            x, vx = slid(plate, x, vx, tau)
+            max_gap = max(max_gap, highest_gap(flight, min(tau, left)))
+            sampled = sample_flight(plate, motion, clock, tau, (times, samples, sampled))
+            x, vx = slide(plate, x, vx, tau)
+            motion = Motion(ARRIVING, x, vx, z, vz, sigma, q, rate, speed, skip)
             t += tau
-            arriving = True
     return n_impacts, max_gap, OK
 
 
