@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .arguments import check_array, check_choice, check_count
+from .arguments import check_array, check_choice, check_count, check_packed, check_threads
 from .methods import euler_lanes, fixed_step
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, LONGEST, check_run
 from .solver import trajectory, vertical_lanes
@@ -105,13 +105,13 @@ def run(
     "ok", or why the point has no result: its numbers are then NaN where they are not known)
     """
     check_choice("needs", needs, NEEDS)
-    check_count("threads", threads, 1, 1024)
+    check_threads(threads)
     check_count("chunk", chunk, 1, 10**9)
     durations = check_array("duration", duration, np.finfo(np.float64).tiny, LONGEST, "s", least=0)
     check_run(durations.max() if durations.size else LONGEST, method, tolerance, step)
     if method != "event" and durations.ndim > 0:
         raise ValueError("duration: only the event-driven method takes one for each point")
-    parameters = np.ascontiguousarray(parameters, dtype=np.float64)
+    parameters = check_packed(parameters)
     if durations.ndim > 0 and durations.shape != (len(parameters),):
         raise ValueError(f"duration has the shape {durations.shape}, but there are {len(parameters)} points")
     out = np.empty((CODE + 1, len(parameters)))

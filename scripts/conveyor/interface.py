@@ -22,16 +22,23 @@ from .analysis.chaos import lyapunov
 from .analysis.chaos.lyapunov import Spectrum
 from .analysis.fractals import box_counting, correlation_sum
 from .analysis.fractals.scaling_region import Dimension
-from .arguments import check_array, check_count, check_number, check_parameters, check_type
+from .arguments import (
+    LARGEST_COORDINATE,
+    MOST_CYCLES,
+    check_array,
+    check_count,
+    check_number,
+    check_parameters,
+    check_threads,
+    check_tolerance,
+    check_type,
+)
 from .parameters import RANGES
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, check_run
 from .solver.model import Conveyor, Start, pack, set_columns
 
 AXES = (*(field.name for field in fields(Conveyor) if field.name in RANGES), "z", "vz")
-MOST_CYCLES = 10**6
-MOST_THREADS = 256
 LARGEST_PERIOD = 1024
-LARGEST_COORDINATE = 1e100
 AT_REST = Start()
 
 
@@ -77,14 +84,6 @@ def pack_all(conveyor: Conveyor, start: Start, values: dict[str, ArrayLike]) -> 
 def reshape(record: NamedTuple, shape: tuple[int, ...]) -> NamedTuple:
     """The record with all of its fields, of the shape (n,), in the shape of the points."""
     return type(record)(*(column.reshape(shape) for column in record))
-
-
-def check_threads(threads: int) -> int:
-    return check_count("threads", threads, 1, MOST_THREADS)
-
-
-def check_tolerance(tolerance: float) -> float:
-    return check_number("tolerance", tolerance, 1e-14, 1e-2)
 
 
 def sweep(
@@ -272,7 +271,7 @@ def periodic_orbit(
     state = stroboscopic_map.initial_states(rows, periodic_orbits.TOLERANCE)[0]
     strobes, features = np.empty((transient, 2)), np.empty((transient, stroboscopic_map.FEATURES))
     stroboscopic_map.follow(rows[0], periodic_orbits.TOLERANCE, state, transient, strobes, features)
-    return periodic_orbits.find_orbit(rows[0], conveyor.acceleration, state, period)
+    return periodic_orbits.orbit_near(rows[0], conveyor.acceleration, state, period)
 
 
 def continue_orbit(conveyor: Conveyor, orbit: Orbit, *, low: float, high: float) -> Branch:

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .arguments import check_array, check_choice, check_flag, check_number, check_type
+from .arguments import check_array, check_choice, check_flag, check_number, check_tolerance, check_type
 from .methods import fixed_step
 from .solver import trajectory
 from .solver.horizontal import EVENTS, SAMPLES
@@ -108,7 +108,7 @@ def check_run(duration: float, method: str, tolerance: float, step: float) -> No
     """ValueError that names the argument of `simulate` that cannot be used."""
     check_number("duration", duration, 0.0, LONGEST, "s", above=True)
     check_choice("method", method, METHODS)
-    check_number("tolerance", tolerance, 1e-14, 1e-2)
+    check_tolerance(tolerance)
     check_number("step", step, 0.0, LONGEST, "s", above=True)
     if method != "event" and duration / step > MOST_STEPS:
         raise ValueError(f"step = {step!r} s makes more than {MOST_STEPS:g} steps of the duration of {duration!r} s")

@@ -23,7 +23,7 @@ from ..solver import model
 from ..solver.jit import compiled
 from . import cyrk_peer, heyoka_peer, sundials_peer
 from .force_law import contact_acceleration, friction_acceleration
-from .leg import Leg, Task
+from .leg import Leg, Mode, Task
 from .rivals import RIVALS, installed_version
 
 HEYOKA = "heyoka"
@@ -226,20 +226,14 @@ class Trajectory:
         return rates(t, state, self.parameters, self.mode)
 
 
-def watch(parameters: np.ndarray, function: Callable, direction: float) -> Callable:
-    """An event of solve_ivp that ends the integration."""
-
-    def event(t, state):
-        return function(t, state, parameters)
-
-    event.terminal, event.direction = True, direction
-    return event
+def mode_of(trajectory: Trajectory) -> Mode:
+    """The present mode of a trajectory."""
+    return Mode(counted_rates, trajectory.parameters, trajectory.mode, ENDS[trajectory.mode])
 
 
 def leg_of_scipy(trajectory: Trajectory, task: Task) -> Leg:
     """Follow the part in one mode, `ended` by a place in ENDS."""
-    ends = ENDS[trajectory.mode]
-    watched = [watch(trajectory.parameters, function, direction) for function, direction in ends]
+    watched = mode_of(trajectory).terminal_events()
     options = {"method": trajectory.integrator, "rtol": task.rtol, "atol": task.atol}
     options |= {"dense_output": len(task.times) > 0}
     before = trajectory.evaluations
@@ -260,23 +254,21 @@ def leg_of_scipy(trajectory: Trajectory, task: Task) -> Leg:
 
 def leg_of(trajectory: Trajectory, task: Task) -> Leg:
     """Follow the part in one mode by the trajectory's integrator, `ended` by an event function."""
-    mode, parameters = trajectory.mode, trajectory.parameters
+    number, parameters = trajectory.mode, trajectory.parameters
     _, module, method, _ = RIVALS[trajectory.integrator]
     if module == "heyoka":
-        leg = heyoka_peer.follow(parameters, HEYOKA_MODES[mode], task)
+        leg = heyoka_peer.follow(parameters, HEYOKA_MODES[number], task)
         return leg._replace(ended=HEYOKA_EVENTS.get(leg.ended))
     if module == "scipy":
         leg = leg_of_scipy(trajectory, task)
     elif module == "CyRK":
-        leg = cyrk_peer.follow(method, counted_rates, parameters, mode, ENDS[mode], task)
+        leg = cyrk_peer.follow(method, mode_of(trajectory), task)
     else:
-        if mode not in trajectory.solvers:
-            task = task._replace(limit=trajectory.limit)
-            trajectory.solvers[mode] = sundials_peer.solver_of(
-                method, counted_rates, parameters, mode, ENDS[mode], task
-            )
-        leg = sundials_peer.follow(trajectory.solvers[mode], task)
-    return leg._replace(ended=None if leg.ended is None else ENDS[mode][leg.ended][0])
+        if number not in trajectory.solvers:
+            whole = task._replace(limit=trajectory.limit)
+            trajectory.solvers[number] = sundials_peer.solver_of(method, mode_of(trajectory), whole)
+        leg = sundials_peer.follow(trajectory.solvers[number], task)
+    return leg._replace(ended=None if leg.ended is None else ENDS[number][leg.ended][0])
 
 
 def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, treatment: str, rtol: float):

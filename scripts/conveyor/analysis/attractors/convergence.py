@@ -25,7 +25,7 @@ PERIODIC, IN_CHAOTIC_SET, NOT_CONVERGED, FAILED, GOES_ON = range(5)
 # The history of a search: δ (m) and v (m/s) at the ends of the last PAST cycles, and the longest flights in them (s).
 PAST = 2 * MAX_PERIOD
 DELTA, V, FLIGHTS = range(3)
-# Its counters: cycles followed, the last period found and the cycles for which it held, cycles in a row in chaotic sets.
+# Its counters: cycles followed, the last period found, cycles for which it has held, cycles in a row in chaotic sets.
 FOLLOWED, CANDIDATE, REPEATS, STAYED = range(4)
 
 

@@ -15,6 +15,7 @@ from .newton import follow_curve
 from .periodic_orbits import Orbit, ReturnMap
 
 SAME = 1e-5  # orbits this close are one, in scaled unknowns
+DOUBLED = 0.02  # distance from a period doubling to the orbit of twice the period, in scaled unknowns
 # Following a branch: arclength of a step in scaled unknowns, about that in â (m/s²), its first part and its smallest.
 LARGEST_STEP, FIRST_STEP, SMALLEST_STEP = 0.1, 1e-3, 1e-7
 STRAIGHT = 0.95  # cosine of the largest turn of a branch within one step
@@ -138,15 +139,15 @@ def _zero(at: Callable[[float], Orbit | None], test: Callable[[Orbit], float]) -
         return None
 
 
-def doubled(parameters: np.ndarray, bifurcation: Bifurcation, distance: float = 0.02) -> Orbit | None:
-    """An orbit of twice the period near a period doubling, `distance` (scaled) from it along the eigenvector of -1."""
+def doubled(parameters: np.ndarray, bifurcation: Bifurcation) -> Orbit | None:
+    """An orbit of twice the period at the distance DOUBLED from a period doubling, along the eigenvector of -1."""
     orbit = bifurcation.orbit
     single, double = ReturnMap(parameters, orbit.period), ReturnMap(parameters, 2 * orbit.period)
     unknown = single.scaled(orbit.acceleration, orbit.state)
     values, vectors = np.linalg.eig(single.residual(unknown)[1] + np.eye(2))
     along = np.append(vectors[:, np.argmin(np.abs(values + 1.0))].real, 0.0)
     along /= np.linalg.norm(along)
-    found = double.correct(unknown + distance * along, along)
+    found = double.correct(unknown + DOUBLED * along, along)
     return None if found is None else double.describe(found)
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .continuation import Bifurcation, doubling_test
-from .periodic_orbits import find_orbit, settled_orbit
+from .periodic_orbits import orbit_near, settled_orbit
 
 FEIGENBAUM = 4.669201609102990
 RESOLVED = 1e-6  # of 1 + μ at a doubling of the cascade: six digits of its distance to the next one
@@ -25,7 +25,7 @@ def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurca
         before, _ = settled_orbit(parameters, last.acceleration + 0.5 * gap, last.state, (period,), 30 * period)
         if before is None:
             return cascade
-        here = find_orbit(parameters, last.acceleration + 0.6 * gap, before.state, period)
+        here = orbit_near(parameters, last.acceleration + 0.6 * gap, before.state, period)
         for _ in range(SECANT_STEPS):
             if here is None or abs(doubling_test(here)) <= RESOLVED:
                 break
@@ -33,7 +33,7 @@ def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurca
             part = doubling_test(here) / (doubling_test(before) - doubling_test(here))
             acceleration = here.acceleration + part * (here.acceleration - before.acceleration)
             state = here.state + part * (here.state - before.state)
-            before, here = here, find_orbit(parameters, acceleration, state, period)
+            before, here = here, orbit_near(parameters, acceleration, state, period)
             if abs(acceleration - last.acceleration - gap) > 0.5 * abs(gap) or acceleration == before.acceleration:
                 return cascade
         if here is None or abs(doubling_test(here)) > RESOLVED:

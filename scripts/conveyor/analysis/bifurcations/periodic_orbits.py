@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...arguments import LARGEST_COORDINATE, LONGEST_PERIOD, check_array, check_count, check_number, check_packed
+from ...parameters import RANGES
 from ...solver import contact
 from ...solver.model import ACCELERATION, DAMPING, MASS
 from ...solver.trajectory import OK
@@ -152,7 +154,23 @@ def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, p
     """The orbit of `period` cycles that Newton's iteration finds from `state` (δ in m, v in m/s), or None.
 
     An orbit whose period is a part of `period` is one of `period` cycles, too.
+
+    Raises
+    ------
+    ValueError
+        names the argument that cannot be used
     """
+    (parameters,) = check_packed([parameters])
+    check_number("acceleration", acceleration, *RANGES["acceleration"], "m/s²")
+    check_count("period", period, 1, LONGEST_PERIOD)
+    state = check_array("state", state, -LARGEST_COORDINATE, LARGEST_COORDINATE)
+    if state.shape != (2,):
+        raise ValueError(f"state must be δ (m) and v (m/s), got the shape {state.shape}")
+    return orbit_near(parameters, acceleration, state, period)
+
+
+def orbit_near(parameters: np.ndarray, acceleration: float, state: np.ndarray, period: int) -> Orbit | None:
+    """`find_orbit` without checks: None, too, for arguments that are not finite."""
     found = ReturnMap(parameters, period)
     unknown = found.newton(found.scaled(acceleration, state))
     return None if unknown is None else found.describe(unknown)
@@ -180,7 +198,7 @@ def settled_orbit(
     unit = ReturnMap(parameters, 1).unit[:2]
     for period in periods:
         if np.abs((strobes[-1] - strobes[-1 - period]) / unit).max() < 1e-2:
-            orbit = find_orbit(parameters, acceleration, end, period)
+            orbit = orbit_near(parameters, acceleration, end, period)
             if orbit is not None and orbit.stable and np.abs((orbit.state - end) / unit).max() < 0.1:
                 return orbit, end
     return None, end

@@ -10,6 +10,16 @@ from typing import NamedTuple
 import numpy as np
 
 from ... import ensemble
+from ...arguments import (
+    LARGEST_COORDINATE,
+    MOST_BLOCKS,
+    MOST_CYCLES,
+    check_array,
+    check_count,
+    check_packed,
+    check_threads,
+    check_tolerance,
+)
 from ...methods import fixed_step
 from ...simulation import DEFAULT_STEP, DEFAULT_TOLERANCE
 from ...solver import contact, trajectory
@@ -90,12 +100,18 @@ def spectrum(
     cycles, blocks : `blocks` ≥ 2 blocks of `cycles` excitation cycles are counted
     tolerance, threads, progress : as in ensemble.run
     """
-    if blocks < 2 or cycles < 1 or transient < 0:
-        raise ValueError("blocks must be at least 2, cycles at least 1, transient not negative")
-    parameters = np.ascontiguousarray(parameters, dtype=np.float64)
-    states = (
-        stroboscopic_map.initial_states(parameters, tolerance) if states is None else np.array(states, dtype=np.float64)
-    )
+    parameters = check_packed(parameters)
+    check_tolerance(tolerance)
+    check_threads(threads)
+    check_count("transient", transient, 0, MOST_CYCLES)
+    check_count("cycles", cycles, 1, MOST_CYCLES)
+    check_count("blocks", blocks, 2, MOST_BLOCKS)
+    if states is None:
+        states = stroboscopic_map.initial_states(parameters, tolerance)
+    else:
+        states = check_array("states", states, -LARGEST_COORDINATE, LARGEST_COORDINATE, least=0).copy()
+        if states.shape != (len(parameters), 2):
+            raise ValueError(f"states must have the shape ({len(parameters)}, 2), got {states.shape}")
     stretches = np.empty((len(parameters), blocks * cycles, 2))
     contact_times = np.full((len(parameters), blocks * cycles), np.nan)
     codes = np.zeros(len(parameters), dtype=np.int64)
@@ -190,8 +206,8 @@ def spectrum_on_attractors(
 ) -> Spectrum:
     """Both vertical Lyapunov exponents of motions that begin on their attractors, or close to them.
 
-    A motion that repeats itself within REPEATS_WITHIN cycles, bit for bit, has the exponents of its Floquet multipliers,
-    with a standard error of 0. Any other motion is followed: see `spectrum`, with the same arguments.
+    A motion that repeats itself bit for bit within REPEATS_WITHIN cycles has the exponents of its Floquet multipliers,
+    with a standard error of 0. Any other motion is followed by `spectrum`, with the same arguments.
     """
     states = stroboscopic_map.initial_states(parameters, tolerance)
     logarithms, contact_times = np.empty((len(parameters), 2)), np.empty(len(parameters))
