@@ -174,23 +174,44 @@ def next_cycle(c, motion, piece):
 
 
 @compiled_into_callers
+def find_piece(c, kept, place, at, motion, limit, reuse):
+    """The Piece that begins with `motion`, and whether it is a kept one.
+
+    place, at : of the contact step that may begin here, and the first row of its series
+    limit : s, duration of the longest flight that is wanted
+    reuse : whether steps may be repeated
+    """
+    if reuse and motion.touching and repeated_steps.repeats(c, kept, place, motion):
+        return repeated_steps.recall(kept, place), True
+    piece = next_piece(c, kept.series, at, motion, c.period - motion.t if motion.touching else limit)
+    if piece.kind == CONTACT:
+        repeated_steps.keep(kept, place, motion, piece)
+    return piece, False
+
+
+@compiled_into_callers
+def touch_down(c, motion, horizontal):
+    """The Horizontal motion of a part that has just come into contact."""
+    force = contact.force(c, motion.w, motion.v)
+    sigma = slip_direction(c, motion.sine, motion.cosine, horizontal.vx, force, c.static_friction)
+    return Horizontal(horizontal.x, horizontal.vx, sigma)
+
+
+@compiled_into_callers
 def follow_part(parameters, options, record, result, kept):
     """Follow the part of a row of `parameters`, shape (16,); fill its Record and `result`, shape (9,)."""
     repeated_steps.clear(kept)
     c = contact.constants(parameters, options.tolerance)
     most = longest_eventless(c)
     times, samples = record.times, record.samples
-    end = times[-1]
-    since = times[-2] if times.size > 1 else 0.0
+    end, since = times[-1], times[-2] if times.size > 1 else 0.0
     offset = ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega
-    cycle = 0
-    base = -offset
+    cycle, base = 0, -offset
     q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)
     motion = motion_at(c, q, rate, offset, c.psi0)
     horizontal = Horizontal(0.0, 0.0, 0.0)
     if motion.touching:
-        force = contact.force(c, motion.w, motion.v)
-        horizontal = Horizontal(0.0, 0.0, slip_direction(c, motion.sine, motion.cosine, 0.0, force, c.static_friction))
+        horizontal = touch_down(c, motion, horizontal)
     sampled = events = impacts = steps = repeats = pieces = eventless = place = 0
     contact_time = impact_speed = peak_force = 0.0
     max_gap = max(q, 0.0)
@@ -203,15 +224,7 @@ def follow_part(parameters, options, record, result, kept):
             break
         at = repeated_steps.first_row(kept, place)
         begins = base + motion.t
-        if options.reuse and motion.touching and repeated_steps.repeats(c, kept, place, motion):
-            piece = repeated_steps.recall(kept, place)
-            repeats += 1
-        else:
-            limit = c.period - motion.t if motion.touching else end - begins
-            piece = next_piece(c, kept.series, at, motion, limit)
-            if piece.kind == CONTACT:
-                repeated_steps.keep(kept, place, motion, piece)
-                steps += 1
+        piece, is_kept = find_piece(c, kept, place, at, motion, end - begins, options.reuse)
         eventless = eventless + 1 if piece.end == NOTHING else 0
         ends = begins + piece.duration
         if piece.kind == FLIGHT:
@@ -229,15 +242,15 @@ def follow_part(parameters, options, record, result, kept):
                 impact_speed = max(impact_speed, piece.v)
             events = note(record, events, ends, IMPACT)
         elif piece.kind == CONTACT:
-            here = place
-            place = min(place + 1, repeated_steps.PLACES - 1)
+            repeats, steps = repeats + is_kept, steps + (not is_kept)
             if not (motion.pulled and c.tension == TENSION_CLIP):
-                # A repeated step has the duration of the one it repeats; what counts is where the cycle ends.
+                # A repeated step has the duration of the kept one; the contact time counts up to the end of the cycle.
                 lasts = c.period - motion.t if piece.end == LIMIT else piece.duration
                 contact_time += min(lasts, end - begins)
                 if ends > since:
-                    force = peak_of_step(c, kept, here, at, motion, piece, since - begins, end - begins)
+                    force = peak_of_step(c, kept, place, at, motion, piece, since - begins, end - begins)
                     peak_force = max(peak_force, force)
+            place = min(place + 1, repeated_steps.PLACES - 1)
             step = Step(kept.series, at, motion, piece, begins)
             horizontal, sampled, events, segments = feed(c, step, horizontal, options.feeding, record, sampled, events)
             if sampled == times.size:
@@ -254,17 +267,14 @@ def follow_part(parameters, options, record, result, kept):
             status = NOT_FINITE
             break
         events = note_end(record, events, ends, piece, pulled, motion)
-        # Every cycle begins with a step of its own, so that its steps are comparable with the last one's.
+        # Each cycle begins with a step of its own, so that its steps can be compared with those of the last cycle.
         motion, cycles = next_cycle(c, motion, piece)
         if cycles > 0:
             cycle += cycles
             base = cycle * c.period - offset
             pieces = place = 0
         if piece.kind == FLIGHT and options.feeding:
-            x, vx, _ = horizontal
-            force = contact.force(c, motion.w, motion.v)
-            sigma = slip_direction(c, motion.sine, motion.cosine, vx, force, c.static_friction)
-            horizontal = Horizontal(x, vx, sigma)
+            horizontal = touch_down(c, motion, horizontal)
     if not options.feeding:
         samples[:, X] = samples[:, VX] = samples[:, FRICTION_FORCE] = np.nan
     samples[sampled:] = np.nan
