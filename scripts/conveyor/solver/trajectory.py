@@ -28,8 +28,8 @@ from .horizontal import (
     Step,
     X,
     Z,
-    feed,
-    note,
+    follow_horizontal,
+    record_event,
     slide,
     slip_direction,
 )
@@ -37,38 +37,38 @@ from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import TENSION_CLIP, VZ0, Z0
 from .vertical import CONTACT, FLIGHT, LIMIT, LOST, arrive, begin, flight_from, in_cycle, motion_at, next_piece
 
-# Phase at which a cycle is taken to begin, rad: the plate's top, where a part that leaves the plate is in the air.
+# Phase at which a cycle begins, rad: the plate is at its top, where a part that leaves the plate is in the air.
 BEGIN_OF_CYCLE = -math.pi
 
 # Status of a run.
 OK, TOO_MANY_EVENTS, TOO_STIFF, IMPACT_LOST, NOT_FINITE = range(5)
 STATUS = ("ok", "too many events", "contact too stiff", "impact not found", "not finite")
 
-# Pieces within one excitation cycle after which a contact is too stiff to be followed.
+# Pieces in one excitation cycle after which a run ends with "contact too stiff".
 MAX_PIECES = 100_000
-# A contact whose own rates would need this many times as many steps in a cycle is given up after so many steps in a row
-# without an event: it would last a fiftieth of the cycle at most.
+# A contact whose own rates need this many times MAX_PIECES steps in a cycle ends a run sooner, after fewer steps in a
+# row without an event: MAX_PIECES steps would cover a fiftieth of the cycle at most.
 HOPELESS = 50.0
 LONGEST_EVENTLESS_IF_HOPELESS = 10_000
 
 
 @compiled
 def longest_eventless(c):
-    """Contact steps in a row without an event after which a contact is too stiff to be followed.
+    """Contact steps in a row without an event after which a run ends with "contact too stiff".
 
-    Its own rates, d_c/m and the frequency at the static penetration, tell how many steps it would need in a cycle.
+    The contact's own rates are d_c/m and the frequency at the static penetration.
     """
     rate = max(c.damping, c.scale_v / (c.scale_w * c.scale_w))
     return LONGEST_EVENTLESS_IF_HOPELESS if rate * c.period > HOPELESS * MAX_PIECES else MAX_PIECES
 
 
 # Columns of the results of runs: the status code, numbers of events and of impacts, the time with contact force (s),
-# the largest gap (m), numbers of contact steps that were computed and repeated; the largest speed of approach at an
-# impact (m/s) and the largest contact force (N) between the last two times of a run, 0 where there is none.
+# the largest gap (m), numbers of computed and of repeated contact steps; the largest speed of approach at an impact
+# (m/s) and the largest contact force (N) between the last two times of a run, 0 where there is none.
 CODE, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, STEPS, REPEATS, IMPACT_SPEED, PEAK_FORCE = range(9)
 RESULTS = 9
 
-# The arguments of `integrate` that are the same for all runs.
+# The arguments of `integrate` that all runs share.
 Options = namedtuple("Options", "tolerance feeding reuse")
 
 
@@ -97,12 +97,12 @@ def integrate(
     -------
     samples, results : float64, shape (n, k, 6), the columns horizontal.SAMPLES (m, m/s, N); shape (n, 9), see above
     """
-    times = np.ascontiguousarray(times)  # `follow` would be compiled, for seconds, for every other layout
+    times = np.ascontiguousarray(times)  # numba would compile `follow`, for seconds, for each other layout
     n, k = times.shape
     samples, results = np.empty((n, k, len(SAMPLES))), np.empty((n, RESULTS))
     if event_times is None or event_kinds is None:
         event_times, event_kinds = np.empty((n, 0)), np.empty((n, 0), np.int8)
-    # Plain tuples: numba takes several microseconds of each call to see the type of a named one.
+    # Plain tuples, because numba takes several microseconds per call to find the type of a named tuple.
     records = (times, samples, event_times, event_kinds)
     follow(parameters, (tolerance, feeding, reuse), records, results, repeated_steps.new_arrays())
     return samples, results
@@ -110,7 +110,7 @@ def integrate(
 
 @compiled
 def follow(parameters, options, records, results, room):
-    """`integrate` with its arrays in order.
+    """The compiled part of `integrate`.
 
     Parameters
     ----------
@@ -133,25 +133,28 @@ def follow(parameters, options, records, results, room):
 
 @compiled_into_callers
 def sample_flight(c, motion, horizontal, tau, sample):
-    """Fill a `sample`, shape (6,), at the time tau (s) of a flight."""
+    """Fill a `sample`, shape (6,), at a time tau (s) after the beginning of a flight."""
     sample[X], sample[VX] = slide(c, horizontal.x, horizontal.vx, tau)
     sample[Z], sample[VZ] = motion.z + (motion.vz - 0.5 * c.gravity * tau) * tau, motion.vz - c.gravity * tau
     sample[CONTACT_FORCE] = sample[FRICTION_FORCE] = 0.0
 
 
 @compiled_inline
-def note_end(record, events, time, piece, pulled, motion):
-    """Record what ends a contact step, `pulled` before it and `motion` behind it; the number of events with it."""
+def record_end(record, events, time, piece, pulled, motion):
+    """Record the event that ends a contact step, if any. Returns the number of events so far.
+
+    pulled, motion : whether the force pulled before the end, and the Motion after it
+    """
     if piece.end == SEPARATION and not motion.touching:
-        return note(record, events, time, SEPARATED)
+        return record_event(record, events, time, SEPARATED)
     if piece.end == FORCE_SIGN:
-        return note(record, events, time, TENSION_ENDS if pulled else TENSION_BEGINS)
+        return record_event(record, events, time, TENSION_ENDS if pulled else TENSION_BEGINS)
     return events
 
 
 @compiled_into_callers
 def peak_of_step(c, kept, place, at, motion, piece, first, last):
-    """Largest F_c/m (m/s²) of the contact step in a place, between the times `first` and `last` (s) since it began."""
+    """Largest F_c/m (m/s²) of the contact step in a place, from `first` to `last` (s) after its beginning."""
     if first > 0.0 or last < piece.duration:
         return peaks.largest_force_between(c, kept.series, at, piece, first, last)
     found = kept.steps[place, repeated_steps.PEAK]
@@ -165,7 +168,7 @@ def peak_of_step(c, kept, place, at, motion, piece, first, last):
 
 @compiled_inline
 def next_cycle(c, motion, piece):
-    """The same Motion in the cycle in which a Piece ends, and the number of cycles that begin until then."""
+    """The same Motion with its time in the cycle in which a Piece ends, and the number of cycles that have begun."""
     if motion.t < c.period and piece.end != LIMIT:
         return motion, 0
     cycles = 1 if piece.end == LIMIT else int(motion.t / c.period)
@@ -240,7 +243,7 @@ def follow_part(parameters, options, record, result, kept):
             impacts += 1
             if ends >= since:
                 impact_speed = max(impact_speed, piece.v)
-            events = note(record, events, ends, IMPACT)
+            events = record_event(record, events, ends, IMPACT)
         elif piece.kind == CONTACT:
             repeats, steps = repeats + is_kept, steps + (not is_kept)
             if not (motion.pulled and c.tension == TENSION_CLIP):
@@ -252,7 +255,9 @@ def follow_part(parameters, options, record, result, kept):
                     peak_force = max(peak_force, force)
             place = min(place + 1, repeated_steps.PLACES - 1)
             step = Step(kept.series, at, motion, piece, begins)
-            horizontal, sampled, events, segments = feed(c, step, horizontal, options.feeding, record, sampled, events)
+            horizontal, sampled, events, segments = follow_horizontal(
+                c, step, horizontal, options.feeding, record, sampled, events
+            )
             if sampled == times.size:
                 break
             if segments == MAX_SEGMENTS:
@@ -266,7 +271,7 @@ def follow_part(parameters, options, record, result, kept):
         if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
             status = NOT_FINITE
             break
-        events = note_end(record, events, ends, piece, pulled, motion)
+        events = record_end(record, events, ends, piece, pulled, motion)
         # Each cycle begins with a step of its own, so that its steps can be compared with those of the last cycle.
         motion, cycles = next_cycle(c, motion, piece)
         if cycles > 0:

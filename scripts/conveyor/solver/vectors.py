@@ -1,8 +1,8 @@
-"""One number of each of several trajectories in a vector register: what intrinsics that follow them are written with.
+"""Arithmetic on vector registers that hold one number of each of several trajectories, to write intrinsics with.
 
-A register of 512 bits holds eight numbers, and one instruction works on all of them. Each operation is rounded as IEEE
-754 defines it, none is merged with another or moved: a lane gives the bits that scalar code with the same operations
-gives, whatever its neighbours and the number of lanes are.
+A register of 512 bits holds eight numbers, and one instruction works on all of them. IEEE 754 defines the rounding of
+each operation, and no operation is moved or merged with another. A lane therefore gives the same bits as scalar code
+with the same operations, whatever its neighbours and the number of lanes are.
 """
 
 from llvmlite import ir
@@ -135,7 +135,7 @@ class Memory:
 
 
 def lanes_of_processor() -> int:
-    """How many float64 the widest vector register of this machine holds; 1 if it is not known."""
+    """The number of float64 in the widest vector register of this machine; 1 if it is unknown."""
     present = get_host_cpu_features()
     widths = {"avx512f": 8, "avx": 4, "sse2": 2, "neon": 2}
     return max((lanes for name, lanes in widths.items() if present.get(name)), default=1)

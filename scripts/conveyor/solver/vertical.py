@@ -1,8 +1,8 @@
 """The vertical motion, piece by piece: a flight, a moment of rest at the plate's surface, or one step of the contact.
 
-`next_piece` finds the piece that begins now and `arrive` the motion at its end. What a consumer adds (slip, stick and
-samples in `trajectory`, perturbations in `stroboscopic_map`) happens in between. Time counts from the beginning of an
-excitation cycle, at which the excitation has the phase `origin` of the consumer.
+`next_piece` finds the piece that begins now, and `arrive` finds the motion at its end. Between the two calls
+`trajectory` adds slip, stick and samples, and `stroboscopic_map` adds perturbations. Time counts from the beginning of
+an excitation cycle, at which the excitation has the phase `origin`.
 """
 
 import math
@@ -14,29 +14,29 @@ from .flight import Flight, gap, next_impact
 from .jit import compiled, compiled_inline, compiled_into_callers
 from .model import TENSION_ALLOW
 
-# What a piece is.
+# Kinds of pieces.
 FLIGHT, GRAZE, CONTACT = range(3)
-# What ends it besides contact.NOTHING, SEPARATION and FORCE_SIGN; a flight may also end with LOST, the impact unknown.
+# Ends of a piece besides contact.NOTHING, SEPARATION and FORCE_SIGN; LOST is a flight whose impact was not found.
 IMPACT, LIMIT, LOST = range(3, 6)
 
 # The motion at a time t (s) of its cycle, at the phase theta (rad) with the given sine and cosine. On the plate: the
 # square root w of the penetration (√m), the speed of approach v (m/s), and whether the contact force is negative
 # (looked at for `frictionless` and `clip` only). In the air: height z, velocity vz, gap q and its rate (m, m/s).
 Motion = namedtuple("Motion", "t theta sine cosine touching w v pulled z vz q rate")
-# A piece: what it is, its duration (s), its length in s if it is a step, what ends it, and w, v, sine, cosine then.
+# A piece: its kind, its duration (s), the length in s of a contact step, its end, and w, v, sine and cosine there.
 Piece = namedtuple("Piece", "kind duration length end w v sine cosine")
 
 
 @compiled
 def begin(c, z0, vz0, theta):
-    """Gap (m) and its rate (m/s) at the start; exactly 0 for a start on the conveyor (z0 is NaN, Eq. 15)."""
+    """Gap (m) and its rate (m/s) of an initial condition; the gap is exactly 0 on the plate (z0 is NaN, Eq. 15)."""
     q = 0.0 if math.isnan(z0) else z0 + c.a_z / (c.omega * c.omega) * math.cos(theta)
     return q, vz0 - c.a_z / c.omega * math.sin(theta)
 
 
 @compiled
 def in_contact(c, q, rate, theta):
-    """Whether a part with this gap and rate of the gap is in contact, or comes into it at once."""
+    """Whether a part with this gap and rate is in contact, or comes into contact at once."""
     if q != 0.0:
         return q < 0.0
     if rate != 0.0:
@@ -59,7 +59,7 @@ def motion_at(c, q, rate, t, theta):
 def press_on(c, cosine):
     """√penetration, speed of approach and elapsed time just after a part at relative rest begins to sink in.
 
-    At w = v = 0 the equations in s stand still. The motion leaves that point as δ = a τ²/2 with a = g + a_z cos θ.
+    The equations in s have a fixed point at w = v = 0. The motion leaves it as δ = a τ²/2 with a = g + a_z cos θ.
     """
     acceleration = c.gravity + c.a_z * cosine
     w = 1e-9 * c.scale_w
@@ -69,10 +69,10 @@ def press_on(c, cosine):
 
 @compiled
 def invert_time(series, at, length, tau):
-    """The s in [0, length] of a contact step at which the time since its start is `tau` (s)."""
+    """The s in [0, length] that a contact step reaches at the time `tau` (s) after its beginning."""
     low, high = 0.0, length
     total = polynomial.value(series, at + contact.T, length)
-    if tau >= total:  # also a step that is too short to take time
+    if tau >= total:  # also for a step too short to take time
         return length
     s = length * max(tau / total, 0.0)
     for _ in range(100):
@@ -92,7 +92,7 @@ def invert_time(series, at, length, tau):
 
 @compiled_inline
 def shortened(series, at, length, duration, end):
-    """The piece that is the part of a contact step up to `length` in s, after `duration` (s)."""
+    """The Piece of a contact step that is cut at `length` in s, after `duration` (s)."""
     return Piece(
         CONTACT,
         duration,
@@ -130,7 +130,7 @@ def is_grazing(c, motion):
 
 @compiled_into_callers
 def graze(c, motion):
-    """The Piece of a part that is `grazing`."""
+    """The Piece of a part for which `is_grazing` holds."""
     if c.gravity + c.a_z * motion.cosine > 0.0:
         w, v, lapse = press_on(c, motion.cosine)
         return Piece(GRAZE, lapse, 0.0, NOTHING, w, v, motion.sine, motion.cosine)
@@ -176,7 +176,7 @@ def arrive(c, motion, piece, origin):
         return Motion(t, theta, sine, cosine, False, 0.0, 0.0, False, z, rate + c.a_z / c.omega * sine, q, rate)
     touching = True
     if piece.end == SEPARATION:
-        # A separation too slow to be told from rest, while the plate presses on, is none.
+        # A separation slower than rest_speed does not count while the plate presses on.
         touching = piece.kind == CONTACT and v >= -c.rest_speed and c.gravity + c.a_z * cosine > 0.0
         v = 0.0 if touching else v
     pulled = motion.pulled != (piece.end == FORCE_SIGN)
