@@ -1,6 +1,6 @@
 """Sampled initial conditions of a conveyor, and the attractors that they lead to.
 
-The samples depend on the conveyor alone, so that the attractors that are found do not depend on who asks.
+The samples depend only on the conveyor. The attractors that are found therefore do not depend on the caller.
 """
 
 import math
@@ -16,14 +16,15 @@ from .attractor_table import NO_ATTRACTORS, AttractorTable
 from .convergence import Trajectories, new_trajectories
 
 SAMPLES = 32
-SHORT_SEARCH = 400  # cycles within which a trajectory that does not end in chaos has mostly settled
+SHORT_SEARCH = 400  # cycles in which most trajectories become periodic that do not end in chaos
 
 
 def initial_conditions(parameters: np.ndarray) -> np.ndarray:
     """Initial conditions of one conveyor, shape (16,): (δ, v) in the air at the plate's top, shape (SAMPLES, 2).
 
-    A part that leaves the plate has at most its speed and half of g T or so to jump over a cycle or two: their sum
-    bounds the velocities, and what a part reaches with it the heights. The points are those of an R2 sequence.
+    To jump over one or two cycles a part leaves the plate with about the plate's speed plus half of g T at most. This
+    sum bounds the velocities, and the height that a part reaches with it bounds the heights. The points are an R2
+    sequence.
     """
     c = contact.constants(parameters, 1e-8)
     fastest = math.pi * (c.gravity + c.a_z) / c.omega

@@ -1,4 +1,4 @@
-"""The motion that a slow change of the conveyor leads to: each amplitude begins where the last one ended."""
+"""The motion under a slow change of the conveyor: each conveyor begins where the one before ended."""
 
 import numpy as np
 
@@ -30,7 +30,7 @@ def follow_attractor(
     ----------
     parameters : float64, shape (n, 16), rows as from model.pack, in order; only the first initial condition counts
     transient : excitation cycles after each step that are not recorded
-    strobes : excitation cycles that are
+    strobes : excitation cycles that are recorded
     tolerance : of the contact steps
 
     Returns

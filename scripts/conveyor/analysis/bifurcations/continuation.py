@@ -1,8 +1,8 @@
 """Branches of periodic orbits in the amplitude â, and the bifurcations on them.
 
-Branches are followed by pseudo-arclength (Keller 1977), so that they pass folds. Where a multiplier passes +1 a branch
-folds, where one passes -1 its period doubles, and where a contact begins or ceases to exist an impact grazes. The
-product of the multipliers is positive and at most 1, so that no other bifurcation of a single orbit is generic.
+Pseudo-arclength (Keller 1977) follows a branch past its folds. A branch folds where a multiplier passes +1. Its period
+doubles where a multiplier passes -1. An impact grazes where a contact begins or ceases to exist. The product of the
+multipliers is positive and at most 1, so that no other bifurcation of a single orbit is generic.
 """
 
 from collections.abc import Callable, Iterable
@@ -16,7 +16,7 @@ from .periodic_orbits import Orbit, ReturnMap
 
 SAME = 1e-5  # orbits this close are one, in scaled unknowns
 DOUBLED = 0.02  # distance from a period doubling to the orbit of twice the period, in scaled unknowns
-# Following a branch: arclength of a step in scaled unknowns, about that in â (m/s²), its first part and its smallest.
+# Arclength of the largest, the first and the smallest step along a branch, in scaled unknowns (about m/s² in â).
 LARGEST_STEP, FIRST_STEP, SMALLEST_STEP = 0.1, 1e-3, 1e-7
 STRAIGHT = 0.95  # cosine of the largest turn of a branch within one step
 MAX_ORBITS = 5000
@@ -31,7 +31,7 @@ class Bifurcation(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """A branch of periodic orbits in the order of its arclength, what was found on it, and why it ends."""
+    """A branch of periodic orbits in the order of its arclength, its bifurcations, and the reasons of its ends."""
 
     orbits: list[Orbit]
     bifurcations: list[Bifurcation]
@@ -75,7 +75,7 @@ def follow_branch(parameters: np.ndarray, orbit: Orbit, limits: tuple[float, flo
 
 
 def _follow(parameters, orbit, limits, direction):
-    """Orbits and bifurcations in the order in which they are met, the reason of the end and the orbit's parent."""
+    """Orbits and bifurcations in the order in which they are met, the reason of the end, and the orbit's parent."""
     returns = ReturnMap(parameters, orbit.period)
     here = returns.scaled(orbit.acceleration, orbit.state)
     beginning = returns.strobes(here)
@@ -125,7 +125,7 @@ def bifurcations_between(parameters: np.ndarray, before: Orbit, after: Orbit) ->
 
 
 def _zero(at: Callable[[float], Orbit | None], test: Callable[[Orbit], float]) -> float | None:
-    """Where a test function of the orbits along a step, parts 0 … 1, is zero; None if an orbit is not found there."""
+    """The part (0 … 1) of a step at which a test function of its orbits is zero; None if an orbit is not found."""
 
     def value(part):
         orbit = at(part)
@@ -172,7 +172,7 @@ def on_branch(parameters: np.ndarray, branch: Branch, orbit: Orbit) -> bool:
 def explore(
     parameters: np.ndarray, seeds: Iterable[Orbit], limits: tuple[float, float], max_period: int
 ) -> list[Branch]:
-    """All branches that hang together with the seeds through period doublings, each once.
+    """All branches that are connected with the seeds through period doublings, each once.
 
     Parameters
     ----------

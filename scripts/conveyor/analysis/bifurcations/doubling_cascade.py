@@ -13,9 +13,9 @@ SECANT_STEPS = 12  # after which a doubling of the cascade is not resolved
 def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurcation) -> list[Bifurcation]:
     """The period doublings that follow two successive ones, as far as double precision resolves them.
 
-    Each doubling lies by Feigenbaum's ratio closer to the last one than that to its predecessor. Halfway there the
-    doubled orbit is about superstable: a trajectory comes to it at once, and Newton's iteration follows it in â to
-    where its multiplier is -1.
+    The distance between doublings shrinks by Feigenbaum's ratio each time. Halfway to the next doubling the doubled
+    orbit is about superstable, so that a trajectory reaches it at once. Newton's iteration follows it in â from there
+    to the multiplier -1.
     """
     cascade = [first, second]
     while True:
@@ -48,7 +48,7 @@ def ratios(amplitudes: np.ndarray) -> np.ndarray:
 
 
 def accumulation(amplitudes: np.ndarray) -> tuple[float, float]:
-    """Limit of successive doublings by Aitken's process, and its error: how far the last doubling moved it."""
+    """Limit of successive doublings by Aitken's process, and its error: the change due to the last doubling."""
     before, gap = amplitudes[:-2], np.diff(amplitudes)
     limits = before - gap[:-1] ** 2 / (gap[1:] - gap[:-1])
     return float(limits[-1]), float(abs(limits[-1] - limits[-2]))

@@ -21,7 +21,7 @@ from .newton import newton, solve
 TOLERANCE = 1e-13
 AMPLITUDE_STEP = 1e-6  # m/s², of the central difference ∂P/∂â
 CONVERGED = 1e-10  # of Newton's last correction, in scaled unknowns
-STAGNANT = 1e-6  # corrections below this that converge no further are round-off
+STAGNANT = 1e-6  # corrections below this that no longer shrink are round-off
 
 
 class Orbit(NamedTuple):
@@ -153,7 +153,7 @@ class ReturnMap:
 def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, period: int) -> Orbit | None:
     """The orbit of `period` cycles that Newton's iteration finds from `state` (δ in m, v in m/s), or None.
 
-    An orbit whose period is a part of `period` is one of `period` cycles, too.
+    An orbit whose period divides `period` is an orbit of `period` cycles, too.
 
     Raises
     ------
@@ -186,8 +186,8 @@ def settled_orbit(
     parameters : float64, shape (16,); its amplitude is ignored
     acceleration : amplitude, m/s²
     state : δ (m) and v (m/s)
-    periods : that are tried, in this order; the orbit is None if it has none of them
-    cycles : excitation cycles after which the motion has come near its orbit; Newton's iteration does the rest
+    periods : the periods to try, in this order; the orbit is None if no period fits
+    cycles : excitation cycles that bring the trajectory near its orbit; Newton's iteration does the rest
     """
     row = parameters.copy()
     row[ACCELERATION] = acceleration

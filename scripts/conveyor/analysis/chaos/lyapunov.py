@@ -32,7 +32,7 @@ from . import stretching
 
 # Cycles within which a motion near its attractor repeats itself bit for bit, if it ever does.
 REPEATS_WITHIN = 400
-# Excitation cycles after which the sign is decided: chaos mostly shows after the first, weak chaos after the second.
+# Excitation cycles after which the sign is decided. Weak chaos shows only after the second number.
 LOOKS = (400, 2000)
 BLOCKS = 20
 SIGNIFICANT = 3.0  # standard errors by which an exponent with a sign differs from zero
@@ -50,7 +50,7 @@ class Spectrum(NamedTuple):
 
 @compiled
 def stretches_of_points(parameters, states, tolerance, begin_of_cycle, transient, stretches, contact_times, codes):
-    """Follow trajectories from `states`, shape (n, 2), and fill rows of arrays with what happens in their cycles.
+    """Follow trajectories from `states`, shape (n, 2), and fill arrays with the stretching in each cycle.
 
     begin_of_cycle : whether the states are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
     stretches : float64, shape (n, cycles, 2), see stretching; NaN from a failure on
@@ -160,7 +160,7 @@ def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threa
     for cycles in LOOKS:
         rows = np.flatnonzero(found < 1)
         of_them = spectrum_from(parameters[rows], states[rows], cycles, tolerance=tolerance, threads=threads)
-        # A failed motion has NaN here and keeps the sign 0. What is regular after few cycles is followed for more.
+        # A failed motion has NaN here and keeps the sign 0. A sign that is not positive is checked after more.
         different = np.abs(of_them.lambda_1) > SIGNIFICANT * of_them.stderr
         found[rows] = np.where(different, np.sign(of_them.lambda_1), 0.0)
     return found
@@ -168,11 +168,13 @@ def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threa
 
 @compiled
 def multipliers_of_points(parameters, states, tolerance, logarithms, contact_times, periods):
-    """Where motions from `states`, shape (n, 2), at ψ0 repeat themselves bit for bit; rows of the others say nothing.
+    """The periods of motions from `states`, shape (n, 2), at ψ0 that repeat themselves bit for bit.
 
-    logarithms : float64, shape (n, 2), filled with those of the moduli of the Floquet multipliers, the larger one first
-    contact_times : float64, shape (n,), filled: s, in one period
-    periods : int64, shape (n,), filled with cycles after which a motion repeats itself, or 0
+    logarithms : float64, shape (n, 2), filled with the logarithms of the moduli of the Floquet multipliers, the larger
+        one first
+    contact_times : float64, shape (n,), filled with the time with contact force in a period (s)
+    periods : int64, shape (n,), filled with the excitation cycles after which a motion repeats itself, or with 0; the
+        other arrays say nothing about such a motion
     """
     strobes, features = np.empty((REPEATS_WITHIN, 2)), np.empty((REPEATS_WITHIN, stroboscopic_map.FEATURES))
     for i in range(parameters.shape[0]):
@@ -246,10 +248,10 @@ def renormalised_pair(
     cycles: int = 2000,
     tolerance: float = 1e-12,
 ) -> float:
-    """Largest exponent (1/s) of one trajectory from a neighbour that is set back to `distance` after every cycle.
+    """Largest exponent (1/s) of one trajectory, from a neighbour that is set back to a distance after each cycle.
 
-    An independent witness for `spectrum` that uses no variational equation. `distance` is relative to the scales of the
-    part at rest, `state` is a stroboscopic state of shape (2,).
+    It is independent of `spectrum`, because it uses no variational equation. `distance` is relative to the scales of
+    the part at rest; `state` is a stroboscopic state, shape (2,).
     """
     c = contact.constants(parameters, tolerance)
     scale = np.array([c.scale_w**2, c.scale_v])
@@ -316,7 +318,7 @@ def finite_difference_estimate(
             code = fixed_step.METHODS.index(method)
             ensemble.samples_by_steps(both[rows], indices, step, code, column, signals[rows])
 
-    # Fixed steps fill the lanes of a register.
+    # Chunks of fixed-step runs fill the lanes of a register.
     for_each_chunk(work, len(both), threads=threads, chunk=2 if method == "event" else 8, progress=progress)
     here, there = signals[0::2], signals[1::2]
     resolution = np.finfo(np.float64).eps * np.maximum(np.abs(here), np.abs(there)).max(axis=1, keepdims=True)
