@@ -1,4 +1,4 @@
-"""Many trajectories: one row per point, in the order of the points, whatever fails and however the work is shared."""
+"""Many trajectories: one row per point, in the order of the points, whatever fails and however work is shared."""
 
 import numpy as np
 
@@ -87,14 +87,15 @@ def run(
     chunk: int = 1024,
     progress: str | None = None,
 ) -> dict[str, np.ndarray]:
-    """Follow every point for `duration` (s); the event-driven method takes one for each point, too, shape (n,).
+    """Follow every point for `duration` (s), for the event-driven method also one for each point, shape (n,).
 
     Parameters
     ----------
     parameters : float64, shape (n, 16), rows as from model.pack
     duration, method, tolerance, step : as in simulation.simulate
-    needs : "feeding", or "vertical" where nothing horizontal is wanted (event-driven method: its columns are NaN)
-    threads, chunk : how the work is shared; the result does not depend on them
+    needs : "feeding"; or "vertical" for the vertical motion alone, with NaN in the columns of the horizontal motion
+        (event-driven method)
+    threads, chunk : number of threads, and points that a thread takes at a time; the result does not depend on them
     progress : name of a progress bar on stderr, or None
 
     Returns
@@ -102,7 +103,12 @@ def run(
     dict of arrays of shape (n,): mean_velocity (m/s, over the last quarter), z_end, vz_end, x_end, vx_end (m, m/s),
     max_gap (m), impacts (int64), contact_fraction (1), impact_speed (m/s) and peak_force (N), the largest speed of
     approach at an impact and the largest contact force over the last quarter (0 if there is none), and status (str;
-    "ok", or why the point has no result: its numbers are then NaN where they are not known)
+    "ok", or why the run ended early: numbers that are then not known are NaN)
+
+    Raises
+    ------
+    ValueError
+        names the argument that cannot be used
     """
     check_choice("needs", needs, NEEDS)
     check_threads(threads)

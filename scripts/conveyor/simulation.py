@@ -23,11 +23,11 @@ EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U14")])
 
 @dataclass(frozen=True)
 class Run:
-    """What `simulate` found. Only the end and the start of the last quarter are kept; `sample` follows the part again.
+    """The result of `simulate`. It holds the end of the run; `sample` and `events` follow the part again.
 
     Attributes
     ----------
-    conveyor, start, duration, method, tolerance, step, reuse : as they were given
+    conveyor, start, duration, method, tolerance, step, reuse : the arguments of `simulate`
     status : "ok", or why the run ended early
     z_end, vz_end, x_end, vx_end : state at the end, m and m/s
     impacts : number of impacts
@@ -35,7 +35,7 @@ class Run:
     contact_fraction : share of the duration with a contact force
     impact_speed : largest speed of approach at an impact over the last quarter, m/s; 0 if there is none
     peak_force : largest contact force over the last quarter, N; 0 if there is none
-    work : force evaluations (fixed step) or Taylor steps that were computed (event)
+    work : force evaluations (fixed step) or computed Taylor steps (event)
     repeats : Taylor steps of a settled motion that were used again (event)
     """
 
@@ -75,7 +75,7 @@ class Run:
         Returns
         -------
         dict of float64 arrays of the shape of `times`: x, z (m), vx, vz (m/s), contact_force, friction_force (N);
-        NaN behind the point where a run ended early
+        NaN after the point where a run ended early
         """
         times = check_array("times", times, 0.0, self.duration, "s", least=0)
         if self.method != "event":

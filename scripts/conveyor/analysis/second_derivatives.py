@@ -1,14 +1,13 @@
 """The stroboscopic map to second order: what its linearisation does when the state or a parameter changes.
 
-Perturbations are those of (δ, Y) (see stroboscopic_map) by five quantities, in this order:
+Perturbations belong to (δ, Y) (see stroboscopic_map) and to six quantities, in this order:
 
     δ and Y at the beginning of the cycle, a_z (m/s²), d_c/m (1/s), k_c/m (of its unit), p.
 
 The first derivatives solve the linearised equations of motion with the forces that a change of a parameter adds. The
-second ones, by a state and any of the six, solve those equations again, driven by products of the first ones. They
-jump where δ passes zero with the rate v: the equations of (δ, Y) have a kink in their damping there, whose second
-derivative is a Dirac function, and so is the one of the spring where p = 1. `clip` adds the kink where the force
-begins to pull or ceases to.
+second derivatives, by a state and one of the six quantities, solve the same equations, driven by products of first
+derivatives. They jump where δ passes zero with the rate v. The damping has a kink there, whose second derivative is a
+Dirac function; for p = 1 the spring has one, too. `clip` has another kink where the force begins or ceases to pull.
 """
 
 import math
@@ -27,10 +26,10 @@ from .stroboscopic_map import tangent_length
 # What is perturbed; the first two are the state.
 DELTA, Y, AMPLITUDE, DAMPING, STIFFNESS, EXPONENT = range(6)
 QUANTITIES = 6
-# Products of perturbations ring at twice the frequency of each: their steps are half as long.
+# Products of perturbations ring at twice the frequency of each perturbation, so that steps are half as long.
 PART = 0.5
-# The derivative of w^(2p+1) by p has the factor log w, singular at w = 0: a step covers this part of the distance to
-# it, and below this part of the √penetration at rest, where it weighs nothing, it is left out.
+# The derivative of w^(2p+1) by p has the factor log w, which is singular at w = 0. A step covers this part of the
+# distance to w = 0. Below this part of the √penetration at rest the derivative is negligible and left out.
 PART_OF_RADIUS = 0.2
 LOG_EDGE = 1e-5
 
@@ -44,7 +43,7 @@ def power_series(c, series, exponent, out):
         series[contact.SCRATCH, 0] = series[w, 0] ** exponent
         for n in range(1, ORDER):
             series[contact.SCRATCH, n] = contact.power_term(series, w, contact.SCRATCH, exponent, n)
-    for n in range(SIZE):  # to copy a slice takes seconds to compile: it would check the shapes, and word the error
+    for n in range(SIZE):  # a slice would take seconds to compile, with the error message for wrong shapes
         out[n] = series[contact.SCRATCH, n]
 
 
@@ -86,7 +85,7 @@ def expand(c, series, first, second, free, count):
     first : shape (6, 2, SIZE), of δ and Y by each quantity
     second : shape (2, 6, 2, SIZE), of δ and Y by a state and a quantity
     free : whether the contact force is left out
-    count : how many of the quantities are wanted, from the first one on
+    count : number of quantities that are wanted, from the first one on
     """
     series, first, second = no_refcount(series), no_refcount(first), no_refcount(second)
     w, square = series[FIRST + contact.W], series[FIRST + contact.SQUARE]
@@ -125,7 +124,7 @@ def expand(c, series, first, second, free, count):
                 push -= stiffness * product(spring, log, n)
             for i in range(2):
                 if i > j:
-                    continue  # it is the one by the same two states in the other order
+                    continue  # derivatives by two states do not depend on their order
                 of_both = second[i, j]
                 products[i, j, n] = product(first[i, 0], delta, n)
                 drift_of_both = product(w, of_both[1], n) - damping * product(w, of_both[0], n)
@@ -147,9 +146,9 @@ def expand(c, series, first, second, free, count):
 
 @compiled
 def cross_surface(c, first, second, speed, w):
-    """Jump of second derivatives where δ passes zero at a speed (m/s): that of the kinks of damping and spring.
+    """Jump of second derivatives where δ passes zero at a speed (m/s), due to the kinks of damping and spring.
 
-    The spring's is its share up to the √penetration `w` where it is switched on: all of it for p = 1, none for p = 3/2.
+    The spring contributes up to the √penetration `w` where it is switched on: all for p = 1, nothing for p = 3/2.
     """
     stiffness = c.stiffness * c.exponent * w ** (2.0 * c.exponent - 2.0)
     for i in range(2):
@@ -161,9 +160,9 @@ def cross_surface(c, first, second, speed, w):
 
 @compiled
 def switch(c, first, second, delta, pulled):
-    """Take v = Y - (d_c/m) δ in place of Y where `clip` begins to switch the damping off (`pulled`), and back."""
+    """Change from Y to v = Y - (d_c/m) δ where `clip` switches the damping off (`pulled`), and back."""
     sign = -1.0 if pulled else 1.0
-    # The second derivatives by d_c/m contain a first one by the state: before it changes.
+    # The second derivatives by d_c/m contain a first derivative by the state, and so must change before it.
     for i in range(2):
         for j in range(QUANTITIES):
             second[i, j, 1, 0] += sign * c.damping * second[i, j, 0, 0]
@@ -205,12 +204,12 @@ def fly(c, first, second, motion, piece):
 
 @compiled_into_callers
 def press(c, series, first, second, motion, piece, count):
-    """Advance the perturbations along a contact step; return the piece up to where they could go."""
+    """Advance the perturbations along a contact step, and return the step, cut where they are no longer accurate."""
     expand(c, series, first, second, motion.pulled and c.tension == TENSION_CLIP, count)
     longest = PART * tangent_length(c, first[: Y + 1])
     edge = branch_edge(c)
     if c.edge_w == 0.0 and count <= EXPONENT:
-        pass  # nothing has a branch point
+        pass  # there is no branch point
     elif motion.w > edge:
         longest = min(longest, PART_OF_RADIUS * motion.w / abs(0.5 * motion.v))
     else:
@@ -237,7 +236,7 @@ def cycle(parameters, tolerance, state, first, second, count):
     parameters, tolerance, state : see `cycles`
     first : float64, shape (6, 2, SIZE), filled with the derivatives of δ and Y by each quantity
     second : float64, shape (2, 6, 2, SIZE), filled with those by a state and a quantity
-    count : how many of the quantities are wanted; the one by p, the last, takes several times as long as the others
+    count : number of quantities that are wanted; p, the last one, takes several times as long as the others
 
     Returns
     -------
@@ -299,7 +298,7 @@ def cycles(parameters, tolerance, state, first, second, states, impacts):
     parameters : float64, shape (16,); tolerance per step
     state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced
     first : float64, shape (n, 2, k), k = 5 or 6, filled with ∂(δ, Y) at the end of each cycle by the first k
-        quantities at its begin; those by p take several times as long as all others
+        quantities at its beginning; the derivatives by p take several times as long as all others
     second : float64, shape (n, 2, 2, k), filled with the derivatives of first[..., :2] by the same quantities
     states : float64, shape (n, 2), filled with δ and v after each cycle
     impacts : int64, shape (n,), filled with the number of impacts in each cycle

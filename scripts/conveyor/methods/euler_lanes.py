@@ -29,9 +29,9 @@ OK, NOT_FINITE = range(len(STATUSES))
 EVENT_KINDS = ("impact", "separation")
 IMPACT, SEPARATION = range(len(EVENT_KINDS))
 
-# What is known of one trajectory: a row of the results, and the first rows of the memory, which has a column for each
-# lane. There CONTACT_TIME counts steps, EVALUATIONS is the number of the present step, and PEAK_FORCE is per
-# mass. IMPACT_SPEED and PEAK_FORCE count since the last sample.
+# The columns of a trajectory's results, and the first rows of the memory, which has a column for each lane. In the memory
+# CONTACT_TIME is a number of steps, EVALUATIONS the number of the present step, and PEAK_FORCE is per mass.
+# IMPACT_SPEED and PEAK_FORCE count since the last sample.
 X, VX, Z, VZ, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, EVALUATIONS, STATUS, IMPACT_SPEED, PEAK_FORCE = range(12)
 RESULTS = 12
 # Forces per mass (m/s²) and gap (m) at the present step; 1 if the gap was last seen closed, else 0; the slip velocity
@@ -47,7 +47,7 @@ ROWS = 35
 
 TWO_OVER_PI = 0.6366197723675814
 HALF_PI = (1.5707963267948966, 6.123233995736766e-17, -1.4973849048591833e-33)  # their sum is π/2 to 161 bits
-# A number of this size has no digits behind the point: to add it rounds, and its last bits are the whole number.
+# Numbers of this size have no binary places. To add it rounds to a whole number, which is in the last bits of the sum.
 ROUNDER = 1.5 * 2.0**52
 # Coefficients of r³, r⁵, ..., r¹³ and r⁴, r⁶, ..., r¹⁴ on |r| ≤ π/4, the last one first: k_sin.c and k_cos.c of fdlibm
 # (Sun Microsystems 1993).
@@ -99,12 +99,12 @@ def sine_and_cosine(phase: Vector) -> tuple[Vector, Vector]:
         flipped = value.cast(builder.bitcast, INTEGER) ^ (sign & -(2**63))
         return flipped.cast(builder.bitcast, FLOAT)
 
-    # The sine is negative in the quarters 2 and 3, the cosine in 1 and 2.
+    # The sine is negative in the quarters 2 and 3, the cosine in the quarters 1 and 2.
     return signed(where(odd, cosine, sine), bits << 62), signed(where(odd, sine, cosine), (bits << 62) ^ (bits << 63))
 
 
 def spring_length(depth: Vector, exponent: Vector, flying: Vector) -> Vector:
-    """δ^p in m^p from δ (m); anything in the lanes that fly. The power is slow and called only where it is needed."""
+    """δ^p in m^p from δ (m), and anything in lanes that fly. The slow power function is called only where needed."""
     builder = depth.builder
     hertz, hooke = exponent == 1.5, exponent == 1.0
     length = cgutils.alloca_once_value(builder, (depth * where(hertz, call("sqrt", depth), 1.0)).value)
@@ -123,7 +123,7 @@ def spring_length(depth: Vector, exponent: Vector, flying: Vector) -> Vector:
 def forces(typing_context, lanes, general, memory):
     """Evaluate GAP, PUSH and RUB at the present step (Eqs. 7, 11 and 12); True if a gap has opened or closed.
 
-    general : whether a phase shift or a larger static friction counts; then a part whose slip has vanished may stick
+    general : whether there are phase shifts or larger static frictions; a part whose slip has vanished may then stick
     """
 
     def code(context, builder, signature, arguments):
@@ -280,9 +280,9 @@ def record_events(first, memory, running, events, time):
 
 @functools.cache
 def in_lanes(lanes: int, general: int = 1):
-    """`integrate` with a given number of lanes, a power of two. Every one gives the same bits.
+    """`integrate` with a given number of lanes, a power of two. Each number gives the same bits.
 
-    general : 0 for the paper's friction on a level track alone, which takes less time
+    general : 0 for the paper's friction on a level track only, which takes less time
     """
 
     @compiled
@@ -290,7 +290,7 @@ def in_lanes(lanes: int, general: int = 1):
         memory = np.empty((ROWS, lanes))
         running = np.empty(lanes, np.bool_)
         for first in range(0, len(parameters), lanes):
-            # A lane to spare rests in the air for ever, without gravity.
+            # A lane without a trajectory hangs in the air, without gravity.
             memory[:] = 0.0
             memory[Z] = 1.0
             for lane in range(lanes):
@@ -318,7 +318,7 @@ def in_lanes(lanes: int, general: int = 1):
 
 
 def is_general(parameters: np.ndarray) -> bool:
-    """Whether any conveyor differs from the paper's along the track."""
+    """Whether any conveyor has an inclination, a phase shift or a static friction larger than its friction."""
     tilted = (parameters[:, [model.INCLINATION, model.PHASE_SHIFT]] != 0.0).any()
     return bool(tilted or (parameters[:, model.STATIC_FRICTION] > parameters[:, model.FRICTION]).any())
 

@@ -1,10 +1,10 @@
 """Fixed-step integration of the model: explicit Euler as the paper publishes it, semi-implicit Euler, classical RK4.
 
-These are the methods that the event-driven solver is compared with. They step over impacts and separations, and
-friction is sign(ẋ_s - ẋ_p) with sign(0) = 0, so that they chatter where the part should stick. In contact (q ≤ 0) the
-force may be negative, as in Eqs. 7 and 11, unless the model's `tension` says otherwise. Where static_friction exceeds
-friction, a part whose slip has vanished or changed its sign since the last step gets the plate's velocity while
-|ẍ_s + g sin α| ≤ μ_s F_c/m: the published scheme has no stick.
+The event-driven solver is compared with these methods. They step over impacts and separations. Friction has the sign of
+ẋ_s - ẋ_p, with sign(0) = 0, so that they chatter where the part should stick. In contact (q ≤ 0) the force may be
+negative, as in Eqs. 7 and 11, unless the model's `tension` excludes it. The published scheme has no stick. Therefore,
+where static_friction exceeds friction, a part whose slip has vanished or changed its sign since the last step gets the
+plate's velocity while |ẍ_s + g sin α| ≤ μ_s F_c/m.
 
 Each evaluation of the forces takes the plate's sine and cosine directly, as the equations are written. Time is the step
 number times the step and does not drift. The figures need explicit Euler for thousands of trajectories. The module
@@ -45,14 +45,14 @@ from .euler_lanes import (
 from .force_law import contact_acceleration, friction_acceleration
 
 EULER, SEMI_IMPLICIT_EULER, RK4 = range(len(METHODS))
-# Evaluations of the forces in a step of each.
+# Evaluations of the forces in a step of each method.
 EVALUATIONS = (1, 1, 4)
-# What a step h multiplies a decay exp(λt) by, as coefficients of the powers of hλ; None where a step does not.
+# The factor of a step h on a decay exp(λt), as coefficients of the powers of hλ; None for a step without such a factor.
 GROWTH = {"euler": (1.0, 1.0), "semi_implicit_euler": None, "rk4": (1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0)}
 LAST_CODE = len(METHODS) - 1
 SAMPLE_COLUMNS = ("x", "vx", "z", "vz", "contact_force", "friction_force")
 EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U10")])
-WHOLE = 1e-9  # relative: a duration this close to a whole number of steps is one, up to the rounding of both
+WHOLE = 1e-9  # relative distance from a whole number of steps that counts as rounding of duration and step
 
 
 # The constants of one conveyor: amplitudes of z_s, ż_s, ẋ_s and ẍ_s; cosine and sine of the phase shift; k_c/m, d_c/m
@@ -248,7 +248,7 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
     method : the code of one of METHODS, not EULER
     """
     if not EULER < method <= LAST_CODE:
-        raise ValueError("method is the code of no other of METHODS than EULER")
+        raise ValueError("method must be the code of SEMI_IMPLICIT_EULER or RK4")
     omega = 2.0 * math.pi * parameters[0, model.FREQUENCY]
     psi0 = parameters[0, model.PSI0]
     phases = np.empty((CHECK, 6))
@@ -285,7 +285,7 @@ def integrate_all(parameters, step, n_steps, method, sample_indices, samples, ev
 
 
 class Summary(NamedTuple):
-    """What one run comes to: the last state and totals over the run."""
+    """The result of a run: its last state, and totals over the run."""
 
     x: float  # m
     vx: float  # m/s
@@ -313,7 +313,7 @@ def step_count(duration: float, step: float) -> int:
     Raises
     ------
     ValueError
-        if either is not positive and finite, or if the duration is no whole number of steps: a run would end elsewhere
+        if either is not positive and finite, or if the duration is no whole number of steps
     """
     check_positive("duration", duration)
     check_positive("step", step)
@@ -328,7 +328,7 @@ def step_count(duration: float, step: float) -> int:
 
 
 def _integrate(parameters, step, n_steps, method, indices=(), n_events=0):
-    """Follow trajectories, shape (n, 16): their results as lists, samples (NaN where none was reached) and events."""
+    """Follow trajectories, shape (n, 16). Returns their results as lists, samples (NaN where not reached) and events."""
     if method not in METHODS:
         raise ValueError(f"method = {method!r} is not one of {', '.join(METHODS)}")
     indices = np.asarray(indices, dtype=np.int64)
@@ -348,7 +348,7 @@ def run(parameters: np.ndarray, duration: float, step: float, method: str = "eul
 def run_all(
     parameters: np.ndarray, duration: float, step: float, method: str = "euler", last: float = 0.25
 ) -> list[Summary]:
-    """Integrate trajectories from t = 0; side by side they take less time, and end in the same bits.
+    """Integrate trajectories from t = 0; together they take less time than one by one, with the same bits.
 
     Parameters
     ----------

@@ -1,10 +1,10 @@
-"""The next simpler physics: a rigid part that bounces off the plate with a coefficient of restitution.
+"""A simpler model: a rigid part that bounces off the plate with a coefficient of restitution.
 
-An impact takes no time. It reverses the speed of approach u to e u and changes the horizontal velocity by at most
-μ (1 + e) u, towards that of the plate. When bounces have shrunk to nothing the part rests on the plate, pressed on with
-N/m = g cos α + a_z cos θ, and slips or sticks on it until the plate falls away faster than g cos α. Everything between
-impacts is a closed form. The coefficient is a number, or a function of u as a table, for example that of the compliant
-contact (`restitution_coefficients`).
+An impact takes no time. The part leaves with e times its speed of approach u, and friction changes its horizontal
+velocity towards the plate's velocity, by at most μ (1 + e) u. When the bounces have shrunk to nothing, the part rests on
+the plate with the normal force N/m = g cos α + a_z cos θ, and slips or sticks until the plate falls away faster than
+g cos α. Between impacts everything has a closed form. The coefficient is a number, or a table over u, for example the
+one of the compliant contact (`restitution_coefficients`).
 """
 
 import math
@@ -23,13 +23,13 @@ SAMPLE_COLUMNS = ("x", "vx", "z", "vz")
 IMPACT_DTYPE = np.dtype([("time", np.float64), ("speed", np.float64)])
 
 TURN = 2.0 * math.pi
-COLLAPSE = 1e-6  # rad: a bounce shorter than this is the last one
+COLLAPSE = 1e-6  # rad; a bounce shorter than this is the last one
 MAX_EVENTS = 100_000  # within one excitation cycle
-IMPACTS_OF_CYCLE = 100  # on the average, for which there is room at first: one jump ends in some dozens
+IMPACTS_OF_CYCLE = 100  # on average, for which there is room at first; one jump ends in some dozens of bounces
 CONTACT_TOLERANCE = 1e-14  # of the contact steps that follow an impact
 MAX_CONTACT_STEPS = 10_000  # of one impact; an undamped one takes about ten
-OVERDAMPED = 40.0  # d_c/m times the duration of an undamped impact: over six times critical for a linear contact
-CREEPING = 20.0  # durations of an undamped impact: a contact that takes longer goes back without ever separating
+OVERDAMPED = 40.0  # d_c/m times the duration of an undamped impact; over six times critical for a linear contact
+CREEPING = 20.0  # durations of an undamped impact; a contact that takes longer creeps back without a separation
 
 
 class Plate(NamedTuple):
@@ -59,8 +59,8 @@ Clock = namedtuple("Clock", "base t")
 def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
     """Speed of separation over `speed` of approach (m/s) in the compliant contact, without gravity and excitation.
 
-    The solver's contact steps follow the impact. The coefficient is 0 where damping lets the contact creep back without
-    ever separating.
+    The solver's contact steps follow the impact. The coefficient is 0 if the contact is so damped that it creeps back
+    without a separation.
 
     Raises
     ------
@@ -129,10 +129,10 @@ def rest_end(plate, theta):
 
 @compiled
 def safe_flight(theta, omega):
-    """Time (s) in which a part that the plate leaves behind at `theta` cannot be caught.
+    """Time (s) in which the plate cannot catch a part that it has left at `theta`.
 
     With q ≥ 0, q̇ ≥ 0 and q̈ ≥ 0 at θ the gap is at least a_z ω sin θ τ³/6 - a_z ω² τ⁴/24, positive for ωτ < 4 sin θ.
-    Half of that is used: a search from q = 0 would have to make its way out of rounding first.
+    Half of that time is skipped, because a search that begins at q = 0 begins with rounding errors.
     """
     return max(2.0 * math.sin(theta), 0.0) / omega
 
@@ -158,13 +158,13 @@ def advance_to(angle, entry, centre):
 def stick_end(plate, theta):
     """Advance of the phase (rad) from `theta` until a sticking part begins to slip, |ẍ_s + g sin α| > μ_s N/m."""
     grip, lift = plate.static_friction * plate.gravity, plate.static_friction * plate.a_z
-    # -(ẍ_s + g sin α) outgrows μ_s N/m where R cos(θ + δ) falls below -needed.
+    # -(ẍ_s + g sin α) exceeds μ_s N/m where R cos(θ + δ) falls below -needed.
     amplitude, shift = one_wave(plate, lift)
     needed = grip + plate.downhill
     backward = 0.0 if needed < -amplitude else math.inf
     if abs(needed) < amplitude:
         backward = advance_to((theta + shift) % TURN, math.acos(-needed / amplitude), math.pi)
-    # ẍ_s + g sin α outgrows μ_s N/m where R cos(θ + δ) rises above `needed`.
+    # ẍ_s + g sin α exceeds μ_s N/m where R cos(θ + δ) rises above `needed`.
     amplitude, shift = one_wave(plate, -lift)
     needed = grip - plate.downhill
     forward = 0.0 if needed < -abs(amplitude) else math.inf
@@ -186,7 +186,8 @@ def slip_after(plate, theta, slip, sigma, advance):
 def slip_end(plate, theta, slip, sigma, limit):
     """Advance of the phase (rad), up to `limit`, at which the slip velocity of a resting part is back at zero.
 
-    The slip velocity is monotonic between known angles, so that no zero is missed; infinity if there is none.
+    The advance is infinite if there is no zero. The slip velocity is monotonic between known angles, so that no zero is
+    missed.
     """
     swing, shift = one_wave(plate, -sigma * plate.friction * plate.a_z)
     fall = sigma * plate.friction * plate.gravity - plate.downhill
@@ -425,7 +426,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
 
 
 class Summary(NamedTuple):
-    """What one run comes to: the last state and totals over the run."""
+    """The result of a run: its last state, and totals over the run."""
 
     x: float  # m
     vx: float  # m/s
@@ -440,8 +441,8 @@ class Summary(NamedTuple):
 def restitution_coefficients(parameters: np.ndarray, speeds: np.ndarray) -> np.ndarray:
     """Coefficients of restitution of the compliant contact, shape of `speeds` (speeds of approach, m/s, positive).
 
-    They belong to the contact alone, without gravity and excitation, to about 1e-6. ValueError for a speed that is not
-    positive.
+    They belong to the contact alone, without gravity and excitation, and are accurate to about 1e-6. A speed that is
+    not positive raises ValueError.
     """
     speeds = np.asarray(speeds, dtype=np.float64)
     if not (np.isfinite(speeds) & (speeds > 0.0)).all():
@@ -451,7 +452,7 @@ def restitution_coefficients(parameters: np.ndarray, speeds: np.ndarray) -> np.n
 
 
 def _follow(parameters, restitution, times, n_impacts=0):
-    """Call `follow` with new arrays: its result, the samples (NaN behind an early end) and the impacts."""
+    """Call `follow` with new arrays. Returns its result, the samples (NaN after an early end) and the impacts."""
     if np.isscalar(restitution):
         speeds, coefficients = np.zeros(1), np.array([restitution], dtype=np.float64)
     else:
@@ -510,7 +511,7 @@ def impacts(parameters: np.ndarray, duration: float, restitution) -> np.ndarray:
 def samples_and_impacts(
     parameters: np.ndarray, times: np.ndarray, restitution
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """What `sample` and `impacts` give of one run, up to the last of `times`."""
+    """The results of `sample` and `impacts` from one run up to the last of `times`."""
     times = np.asarray(times, dtype=np.float64)
     if not (np.isfinite(times) & (times >= 0.0)).all():
         raise ValueError("times must be finite and not negative")

@@ -11,7 +11,7 @@ from . import sampling
 from .attractor_table import BOXES, NO_ATTRACTORS, ChaoticSets, chaotic_set_table, concatenate
 from .convergence import NOT_CONVERGED, PERIODIC, Trajectories
 
-LATE = 0.1  # share of the cycles; a trajectory that becomes periodic later shows that chaos is a transient here
+LATE = 0.1  # share of the cycles; if a trajectory becomes periodic later, chaos is only a transient
 MOST = 4  # chaotic sets of one conveyor
 
 

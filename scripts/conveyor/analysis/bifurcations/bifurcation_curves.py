@@ -57,7 +57,7 @@ class CodimensionTwoPoint(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """A curve of one bifurcation in the order of its arclength, the points of codimension two on it, and why it ends."""
+    """A curve of one bifurcation in the order of its arclength, its points of codimension two, and why it ends."""
 
     points: list[Point]
     parts: np.ndarray  # λ of each point
@@ -138,7 +138,7 @@ def normal_form(point: Point, along: np.ndarray) -> tuple[float, np.ndarray]:
     """The coefficient whose zero is a cusp or a generalised doubling (Kuznetsov 2004, Sect. 5.4).
 
     For a fold it is l·D²Pⁿ(r, r)/2, with the sign of r along `along`. For a doubling it is the cubic coefficient, which
-    is positive in the supercritical case: the doubled orbit is then stable where the single orbit was.
+    is positive in the supercritical case: the doubled orbit is then stable if the single orbit was.
 
     Returns
     -------
