@@ -29,8 +29,8 @@ OK, NOT_FINITE = range(len(STATUSES))
 EVENT_KINDS = ("impact", "separation")
 IMPACT, SEPARATION = range(len(EVENT_KINDS))
 
-# The columns of a trajectory's results, and the first rows of the memory, which has a column for each lane. In the memory
-# CONTACT_TIME is a number of steps, EVALUATIONS the number of the present step, and PEAK_FORCE is per mass.
+# The columns of a trajectory's results, and the first rows of the memory, which has a column for each lane. In the
+# memory CONTACT_TIME is a number of steps, EVALUATIONS the number of the present step, and PEAK_FORCE is per mass.
 # IMPACT_SPEED and PEAK_FORCE count since the last sample.
 X, VX, Z, VZ, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, EVALUATIONS, STATUS, IMPACT_SPEED, PEAK_FORCE = range(12)
 RESULTS = 12

@@ -328,7 +328,7 @@ def step_count(duration: float, step: float) -> int:
 
 
 def _integrate(parameters, step, n_steps, method, indices=(), n_events=0):
-    """Follow trajectories, shape (n, 16). Returns their results as lists, samples (NaN where not reached) and events."""
+    """Follow trajectories, shape (n, 16). Returns results as lists, samples (NaN where not reached) and events."""
     if method not in METHODS:
         raise ValueError(f"method = {method!r} is not one of {', '.join(METHODS)}")
     indices = np.asarray(indices, dtype=np.int64)

@@ -34,8 +34,8 @@ STATUSES = ("ok", "gave up", "stuck at an event", "step too small", "event lost"
 OK, GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST, NOT_FINITE, NOT_INSTALLED = STATUSES
 
 SIGN, FLIGHT, FORWARD, BACKWARD, STICK = range(5)
-# Where "modes" puts the variable of an event, in units of the plate's motion: a few rounding errors beside zero. At zero
-# or on the wrong side the integrator finds the same event again, or never again, and the part falls through the plate.
+# Where "modes" puts the variable of an event, in units of the plate's motion: a few rounding errors beside zero. At
+# zero or on the wrong side the integrator finds the same event again, or never again, and the part falls through.
 BESIDE = 1e-15
 # heyoka rounds differently. Nearer to the plate a contact would begin outside of it, where its force is NaN.
 BESIDE_OF_HEYOKA = 1e-13

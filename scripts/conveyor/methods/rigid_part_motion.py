@@ -1,10 +1,10 @@
 """A simpler model: a rigid part that bounces off the plate with a coefficient of restitution.
 
 An impact takes no time. The part leaves with e times its speed of approach u, and friction changes its horizontal
-velocity towards the plate's velocity, by at most μ (1 + e) u. When the bounces have shrunk to nothing, the part rests on
-the plate with the normal force N/m = g cos α + a_z cos θ, and slips or sticks until the plate falls away faster than
-g cos α. Between impacts everything has a closed form. The coefficient is a number, or a table over u, for example the
-one of the compliant contact (`restitution_coefficients`).
+velocity towards the plate's velocity, by at most μ (1 + e) u. When the bounces have shrunk to nothing, the part rests
+on the plate with the normal force N/m = g cos α + a_z cos θ, and slips or sticks until the plate falls away faster
+than g cos α. Between impacts everything has a closed form. The coefficient is a number, or a table over u, for example
+the one of the compliant contact (`restitution_coefficients`).
 """
 
 import math
@@ -467,11 +467,6 @@ def _follow(parameters, restitution, times, n_impacts=0):
     return result, samples, impacts
 
 
-def _check_duration(duration: float) -> None:
-    if not 0.0 < duration < math.inf:
-        raise ValueError(f"duration = {duration!r} s is not positive and finite")
-
-
 def run(parameters: np.ndarray, duration: float, restitution, last: float = 0.25) -> Summary:
     """Follow one rigid part from t = 0, at rest in x.
 
@@ -487,7 +482,8 @@ def run(parameters: np.ndarray, duration: float, restitution, last: float = 0.25
     ValueError
         names the argument that cannot be used
     """
-    _check_duration(duration)
+    if not 0.0 < duration < math.inf:
+        raise ValueError(f"duration = {duration!r} s is not positive and finite")
     if not 0.0 < last <= 1.0:
         raise ValueError(f"last = {last!r} is outside (0, 1]")
     times = np.array([(1.0 - last) * duration, duration])
@@ -502,16 +498,10 @@ def sample(parameters: np.ndarray, times: np.ndarray, restitution) -> dict[str, 
     return samples_and_impacts(parameters, times, restitution)[0]
 
 
-def impacts(parameters: np.ndarray, duration: float, restitution) -> np.ndarray:
-    """Impacts in order of time, an array of IMPACT_DTYPE: time (s) and speed of approach (m/s); else as `run`."""
-    _check_duration(duration)
-    return samples_and_impacts(parameters, np.array([duration]), restitution)[1]
-
-
 def samples_and_impacts(
     parameters: np.ndarray, times: np.ndarray, restitution
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """The results of `sample` and `impacts` from one run up to the last of `times`."""
+    """As `sample`, and the impacts up to the last of `times`: time (s) and speed of approach (m/s), of IMPACT_DTYPE."""
     times = np.asarray(times, dtype=np.float64)
     if not (np.isfinite(times) & (times >= 0.0)).all():
         raise ValueError("times must be finite and not negative")

@@ -11,12 +11,12 @@ from . import sampling
 from .attractor_table import BOXES, NO_ATTRACTORS, ChaoticSets, chaotic_set_table, concatenate
 from .convergence import NOT_CONVERGED, PERIODIC, Trajectories
 
-LATE = 0.1  # share of the cycles; if a trajectory becomes periodic later, chaos is only a transient
+LATE = 0.1  # share of the cycles; chaos is only a transient if a trajectory becomes periodic later
 MOST = 4  # chaotic sets of one conveyor
 
 
 def cover_by_boxes(strobes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Lower corner, shape (2,), size of a box, shape (2,), and the boxes that a motion visits, with their neighbours."""
+    """Lower corner and size of a box, shape (2,), and the boxes that a motion visits, with their neighbours."""
     low, high = strobes.min(axis=0), strobes.max(axis=0)
     size = (high - low) / (BOXES - 3)  # leaves an empty box on either side
     low = low - size
