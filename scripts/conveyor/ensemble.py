@@ -3,7 +3,7 @@
 import numpy as np
 
 from .arguments import check_array, check_choice, check_count, check_packed, check_threads
-from .methods import euler_lanes, fixed_step
+from .methods import fixed_step
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, LONGEST, check_run
 from .solver import trajectory, vertical_lanes
 from .solver.horizontal import VX, VZ, X, Z
@@ -42,37 +42,11 @@ def follow_by_events(parameters, durations, tolerance, feeding, out):
 
 def follow_by_steps(parameters, duration, step, method, out):
     """Fill `out`, shape (11, n), for `parameters`, shape (n, 16), with a fixed-step method."""
-    count = fixed_step.step_count(duration, step)
-    first = min(round((1.0 - LAST) * count), count - 1)
-    n = parameters.shape[0]
-    samples = np.full((n, 1, 6), np.nan)
-    results = np.empty((n, euler_lanes.RESULTS))
-    fixed_step.integrate_all(parameters, step, count, method, np.array([first]), samples, np.empty((n, 0, 2)), results)
-    for i in range(n):
-        x, vx, z, vz, _, impacts, contact_time, max_gap, _, status, impact_speed, peak_force = results[i]
-        out[MEAN_VELOCITY, i] = (x - samples[i, 0, 0]) / ((count - first) * step)
-        out[X_END, i], out[VX_END, i], out[Z_END, i], out[VZ_END, i] = x, vx, z, vz
-        out[MAX_GAP, i] = max_gap
-        out[IMPACTS, i] = impacts
-        out[CONTACT_FRACTION, i] = contact_time / (count * step)
-        is_known = status == fixed_step.OK
-        out[IMPACT_SPEED, i], out[PEAK_FORCE, i] = (impact_speed, peak_force) if is_known else (np.nan, np.nan)
-        out[CODE, i] = trajectory.OK if is_known else trajectory.NOT_FINITE
-
-
-def samples_by_events(parameters, times, tolerance, column, feeding, out):
-    """Fill `out`, shape (n, len(times)), with one column of the samples of n event-driven runs."""
-    moments = np.tile(times, (len(parameters), 1))
-    out[:] = trajectory.integrate(parameters, moments, tolerance=tolerance, feeding=feeding)[0][:, :, column]
-
-
-def samples_by_steps(parameters, indices, step, method, column, out):
-    """Fill `out`, shape (n, len(indices)), with one column of the samples of n fixed-step runs."""
-    n = parameters.shape[0]
-    samples = np.full((n, indices.size, 6), np.nan)
-    results = np.empty((n, euler_lanes.RESULTS))
-    fixed_step.integrate_all(parameters, step, indices[-1], method, indices, samples, np.empty((n, 0, 2)), results)
-    out[:] = samples[:, :, column]
+    for i, run in enumerate(fixed_step.run_all(parameters, duration, step, method, LAST)):
+        out[[MEAN_VELOCITY, X_END, VX_END, Z_END, VZ_END], i] = run.mean_velocity, run.x, run.vx, run.z, run.vz
+        out[[MAX_GAP, IMPACTS, CONTACT_FRACTION], i] = run.max_gap, run.impacts, run.contact_fraction
+        out[[IMPACT_SPEED, PEAK_FORCE], i] = run.impact_speed, run.peak_force
+        out[CODE, i] = STATUS.index(run.status)
 
 
 def run(
@@ -129,7 +103,7 @@ def run(
             rows = slice(begin, end)
             follow_by_events(parameters[rows], durations[rows], tolerance, feeding, out[:, rows])
         else:
-            follow_by_steps(parameters[begin:end], duration, step, fixed_step.METHODS.index(method), out[:, begin:end])
+            follow_by_steps(parameters[begin:end], duration, step, method, out[:, begin:end])
         return np.count_nonzero(out[CODE, begin:end] != trajectory.OK)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=chunk, progress=progress)

@@ -327,7 +327,7 @@ def step_count(duration: float, step: float) -> int:
     return count
 
 
-def _integrate(parameters, step, n_steps, method, indices=(), n_events=0):
+def follow(parameters, step, n_steps, method, indices=(), n_events=0):
     """Follow trajectories, shape (n, 16). Returns results as lists, samples (NaN where not reached) and events."""
     if method not in METHODS:
         raise ValueError(f"method = {method!r} is not one of {', '.join(METHODS)}")
@@ -367,7 +367,7 @@ def run_all(
         raise ValueError(f"last = {last!r} is outside (0, 1]")
     n_steps = step_count(duration, step)
     first = min(round((1.0 - last) * n_steps), n_steps - 1)
-    results, samples, _ = _integrate(parameters, step, n_steps, method, [first])
+    results, samples, _ = follow(parameters, step, n_steps, method, [first])
     found = []
     for result, (sample_of_last,) in zip(results, samples.tolist(), strict=True):
         x, vx, z, vz, _, impacts, contact_time, max_gap, evaluations, status, *peaks = result
@@ -407,7 +407,7 @@ def sample(parameters: np.ndarray, times: np.ndarray, step: float, method: str =
     indices = np.rint(times.ravel() / step).astype(np.int64)
     n_steps = int(indices.max(initial=1))
     order = np.argsort(indices, kind="stable")
-    _, (samples,), _ = _integrate(parameters[np.newaxis], step, n_steps, method, indices[order])
+    _, (samples,), _ = follow(parameters[np.newaxis], step, n_steps, method, indices[order])
     values = np.empty_like(samples)
     values[order] = samples
     return {name: values[:, k].reshape(times.shape) for k, name in enumerate(SAMPLE_COLUMNS)}
@@ -420,9 +420,9 @@ def events(parameters: np.ndarray, duration: float, step: float, method: str = "
     "separation"), in order of time.
     """
     n_steps = step_count(duration, step)
-    (results,), _, _ = _integrate(parameters[np.newaxis], step, n_steps, method)
+    (results,), _, _ = follow(parameters[np.newaxis], step, n_steps, method)
     n_events = int(results[EVENTS])
-    _, _, (rows,) = _integrate(parameters[np.newaxis], step, n_steps, method, n_events=n_events)
+    _, _, (rows,) = follow(parameters[np.newaxis], step, n_steps, method, n_events=n_events)
     found = np.empty(n_events, dtype=EVENT_DTYPE)
     found["time"] = rows[:, 0]
     found["kind"] = np.array(EVENT_KINDS)[rows[:, 1].astype(np.int64)]

@@ -200,8 +200,8 @@ def test_sampling_does_not_disturb_the_run():
     n_steps, step = 20_000, 2e-6
     indices = np.sort(np.append(np.arange(0, n_steps + 1, 100), [1, 1, 255, 256, 257]))
     for method in fixed_step.METHODS:
-        (watched,), (samples,), (events,) = fixed_step._integrate(parameters[None], step, n_steps, method, indices, 4)
-        (alone,), _, (same_events,) = fixed_step._integrate(parameters[None], step, n_steps, method, [], 4)
+        (watched,), (samples,), (events,) = fixed_step.follow(parameters[None], step, n_steps, method, indices, 4)
+        (alone,), _, (same_events,) = fixed_step.follow(parameters[None], step, n_steps, method, [], 4)
         # Peaks count since the last sample.
         assert watched[:-2] == alone[:-2]
         assert events[1, 0] > 0.0
@@ -239,9 +239,8 @@ def test_many_are_followed_as_one_is(method):
             assert rows[f"{name}_end"].tolist() == [getattr(run, name) for run in runs]
 
     indices = np.array([0, 17, 5000])
-    signals = np.empty((11, 3))
-    ensemble.samples_by_steps(parameters, indices, step, fixed_step.METHODS.index(method), 1, signals)
-    for row, signal in zip(parameters, signals, strict=True):
+    _, samples, _ = fixed_step.follow(parameters, step, 5000, method, indices)
+    for row, signal in zip(parameters, samples[:, :, 1], strict=True):
         assert signal.tolist() == fixed_step.sample(row, indices * step, step, method)["vx"].tolist()
 
 

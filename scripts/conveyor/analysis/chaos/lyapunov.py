@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ... import ensemble
 from ...arguments import (
     LARGEST_COORDINATE,
     MOST_BLOCKS,
@@ -311,12 +310,13 @@ def finite_difference_estimate(
     signals = np.empty((len(both), len(times)))
 
     def work(begin, end):
-        rows = slice(begin, end)
+        rows = both[begin:end]
         if method == "event":
-            ensemble.samples_by_events(both[rows], times, tolerance, column, feeding, signals[rows])
+            moments = np.tile(times, (len(rows), 1))
+            samples, _ = trajectory.integrate(rows, moments, tolerance=tolerance, feeding=feeding)
         else:
-            code = fixed_step.METHODS.index(method)
-            ensemble.samples_by_steps(both[rows], indices, step, code, column, signals[rows])
+            _, samples, _ = fixed_step.follow(rows, step, indices[-1], method, indices)
+        signals[begin:end] = samples[:, :, column]
 
     # Chunks of fixed-step runs fill the lanes of a register.
     for_each_chunk(work, len(both), threads=threads, chunk=2 if method == "event" else 8, progress=progress)
