@@ -1,8 +1,8 @@
 """Probable enclosures of the Taylor coefficients of a contact step, in compiled double-double arithmetic.
 
-They are not proved here: `taylor` proves them by one evaluation in balls. Without them it would need one evaluation for
-each order, and proofs would take twice as long. A number is a midpoint, the unevaluated sum of two floats with some 30
-digits (Dekker 1971), and a radius.
+Nothing is proved here: `taylor` proves the enclosures by one evaluation in balls. Without them it would need one
+evaluation for each order, and proofs would take twice as long. A number is a midpoint and a radius; the midpoint is the
+unevaluated sum of two floats, with some 30 digits (Dekker 1971).
 """
 
 import numpy as np
@@ -70,7 +70,7 @@ def set_coefficient(series, n, value, rounding):
 
 @compiled_inline
 def integrate(series, n, rate, rounding):
-    """Set the coefficient of order n + 1 from that of order n of the rate."""
+    """Set the coefficient of order n + 1 from the coefficient of order n of the rate."""
     count = n + 1.0
     high = rate[HIGH] / count
     back, lost = two_product(high, count)

@@ -65,7 +65,7 @@ Constants = namedtuple(
 )
 # Consecutive steps: the code of the method, Δt (s), number of the first step, number of steps of the run, and `phases`.
 Stretch = namedtuple("Stretch", "method step begin n_steps phases")
-# What is recorded of one trajectory: the steps to sample, the number of those before the stretch, and arrays to fill.
+# What is recorded of one trajectory: the steps to sample, the number of samples before the stretch, and arrays to fill.
 Record = namedtuple("Record", "indices sampled samples events")
 # What a trajectory remembers from stretch to stretch besides its results.
 IN_CONTACT, LAST_SLIP = range(2)

@@ -197,7 +197,7 @@ class GaveUp(Exception):
 
 
 class Stuck(Exception):
-    """The same mode and state at the same time again: the run would go on so for ever."""
+    """The same mode and state at the same time again: the run would not end."""
 
 
 class EventLost(Exception):

@@ -110,7 +110,7 @@ def direction_at_rest(c, pull, force, mu):
 
     pull : ẍ_s + g sin α, m/s²; force : F_c/m, m/s²; mu : coefficient of static friction that acts
     """
-    # The tolerance rest_force keeps a part that barely touches from alternating between stick and slip for ever.
+    # The tolerance rest_force keeps a part that barely touches from alternating between stick and slip without end.
     if mu > 0.0 and abs(pull) <= mu * (force + c.rest_force):
         return 0.0
     return math.copysign(1.0, pull)

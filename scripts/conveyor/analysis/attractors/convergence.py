@@ -129,7 +129,7 @@ def check_convergence(c, state, flight, max_cycles, attractors, rows, past, coun
     ----------
     c, max_cycles, attractors, rows : as in `follow_to_attractor`
     state : δ (m) and v (m/s) at the end of the cycle
-    flight : longest flight (s) of those that ended in the cycle or go on
+    flight : longest flight (s) that ended in the cycle or goes on
     past, counts : history and counters of the search
 
     Returns

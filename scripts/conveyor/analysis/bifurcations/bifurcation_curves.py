@@ -26,7 +26,7 @@ from .bifurcation_points import GRAZING, SIGNS, Point, derivatives, find_bifurca
 from .newton import follow_curve, newton, solve
 
 CONVERGED, ITERATIONS = 1e-10, 12
-FARTHEST = 1.0  # what a correction may move a point
+FARTHEST = 1.0  # distance over which a correction may move a point
 RESOLUTION = 1e-8  # of a point of codimension two along its curve
 FIRST_STEP, SMALLEST_STEP = 1e-2, 1e-6
 STRAIGHT = 0.9  # cosine of the largest turn within one step
@@ -97,7 +97,7 @@ class Following:
             + found[1][:, 4] * self.path.stiffness * groups.stiffness
         )
         jacobian = np.column_stack([found[1][:, :2], found[1][:, 2] * groups.amplitude, by_path])
-        # The multipliers' function grows with them, the others do not.
+        # Only the function of the multipliers grows with them.
         scale = np.append(np.ones(2), max(1.0, np.linalg.norm(jacobian[2])))
         return found[0] / scale, jacobian / scale[:, None]
 
