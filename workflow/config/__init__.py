@@ -1,17 +1,18 @@
 """The config: read, checked, scaled to the conveyor, and converted to the one form that rules and hashes depend on."""
 
+import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from .checks import problems
 from .entries import by_methods, with_tighter
 from .errors import ConfigError, type_problems
-from .files import merge, read_all
+from .files import DEFAULT_FILES, ROOT, merge, read_all
 from .machine import is_own_machine, refused_figures, scale_config
 from .model import MODEL
 
-__all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems"]
+__all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems", "replace_config"]
 
 
 class Loaded(NamedTuple):
@@ -53,3 +54,18 @@ def load_config(
     if check and (errors := problems(whole, paper)):
         raise ConfigError(errors)
     return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_machine, refused_figures(paper, whole))
+
+
+def replace_config(workflow: Any, config: dict) -> tuple[Loaded, list[str]]:
+    """Replace Snakemake's merged config by the canonical one, and return it with the paths of the overlays.
+
+    The object stays the same, because Snakemake hands it to the report. As a module of another workflow, all
+    that counts is the config that the other workflow passes. ConfigError says what is wrong with the config.
+    """
+    is_module = not Path(workflow.main_snakefile).resolve().is_relative_to(ROOT)
+    overlays = [] if is_module else [os.path.relpath(file) for file in workflow.overwrite_configfiles]
+    # Jobs start Snakemake again; the config has been checked by then.
+    loaded = load_config(DEFAULT_FILES, overlays, config, check=workflow.is_main_process)
+    config.clear()
+    config.update(loaded.config)
+    return loaded, overlays

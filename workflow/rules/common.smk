@@ -5,6 +5,7 @@ import signal
 
 from scripts.pipeline.source_hash import source_hash
 from workflow.config.entries import ENTRIES, resolve
+from workflow.config.files import DEFAULT_FILES, ROOT
 from workflow.config.sharing import THREADS, plan
 from workflow.config.tables import kind_of, settings_of
 
