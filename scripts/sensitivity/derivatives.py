@@ -85,7 +85,7 @@ class Moved(NamedTuple):
 
 def move_bifurcation(parameters: np.ndarray, one: Selected) -> Moved:
     """A bifurcation of an orbit."""
-    moves = None if one.point is None else bifurcation_points.moves(one.point)
+    moves = None if one.point is None else bifurcation_points.differentiate_unknowns(one.point)
     here = at(parameters, one.acceleration)
     if moves is None:
         status = "not found again" if one.point is None else "singular"

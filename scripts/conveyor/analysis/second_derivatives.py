@@ -20,7 +20,7 @@ from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_re
 from ..solver.model import TENSION_CLIP
 from ..solver.polynomial import ORDER, SIZE
 from ..solver.trajectory import IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, longest_eventless
-from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, motion_at, next_piece, shortened
+from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, cut_step, motion_at, next_piece
 from .stroboscopic_map import tangent_length
 
 # What is perturbed; the first two are the state.
@@ -218,7 +218,7 @@ def press(c, series, first, second, motion, piece, count):
             longest *= 0.5
     if longest < piece.length:
         duration = polynomial.value(series, FIRST + contact.T, longest)
-        piece = shortened(series, FIRST, longest, duration, contact.NOTHING)
+        piece = cut_step(series, FIRST, longest, duration, contact.NOTHING)
     for j in range(count):
         for of in range(2):
             first[j, of, 0] = polynomial.value(first[j], of, piece.length)

@@ -22,7 +22,7 @@ from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_re
 from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
 from ..solver.polynomial import ORDER, SIZE
 from ..solver.trajectory import BEGIN_OF_CYCLE, IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, longest_eventless
-from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, begin, motion_at, next_piece, shortened
+from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, begin, cut_step, motion_at, next_piece
 
 # Features of a cycle.
 IMPACTS, CONTACT_TIME, LONGEST_FLIGHT, AIRBORNE = range(4)
@@ -123,7 +123,7 @@ def advance_tangent(c, series, tangent, expansions, motion, piece):
     longest = tangent_length(c, expansions)
     if longest < piece.length:
         duration = polynomial.value(series, FIRST + contact.T, longest)
-        piece = shortened(series, FIRST, longest, duration, contact.NOTHING)
+        piece = cut_step(series, FIRST, longest, duration, contact.NOTHING)
     for i in range(tangent.shape[0]):
         tangent[i, 0] = polynomial.value(expansions[i], ETA, piece.length)
         tangent[i, 1] = polynomial.value(expansions[i], ZETA, piece.length)
@@ -251,7 +251,7 @@ def follow(parameters, tolerance, state, cycles, strobes, features):
             return status
         strobes[n, :] = state
         features[n, :] = found
-        if mark < n and same(strobes, features, n, mark):
+        if mark < n and repeats_bit_for_bit(strobes, features, n, mark):
             for later in range(n + 1, cycles):
                 before = later - n + mark
                 for k in range(2):
@@ -266,7 +266,7 @@ def follow(parameters, tolerance, state, cycles, strobes, features):
 
 
 @compiled_inline
-def same(strobes, features, n, mark):
+def repeats_bit_for_bit(strobes, features, n, mark):
     """Whether the cycles after two cycles are equal: the states and the times since the last separation are."""
     return (
         strobes[n, 0] == strobes[mark, 0]
@@ -276,7 +276,7 @@ def same(strobes, features, n, mark):
 
 
 @compiled
-def repeated(strobes):
+def find_repetition(strobes):
     """The number of cycles after which the motion of `follow` was back at its last state, bit for bit; 0 for never."""
     last = strobes.shape[0] - 1
     for cycles in range(1, last + 1):

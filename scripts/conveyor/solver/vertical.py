@@ -91,7 +91,7 @@ def invert_time(series, at, length, tau):
 
 
 @compiled_inline
-def shortened(series, at, length, duration, end):
+def cut_step(series, at, length, duration, end):
     """The Piece of a contact step that is cut at `length` in s, after `duration` (s)."""
     return Piece(
         CONTACT,
@@ -142,7 +142,7 @@ def press(c, series, at, motion, length, limit):
     """The Piece that is a contact step from `motion`, of at most `limit` (s); its series is good up to `length`."""
     length, w, v, lapse, end = contact.end_step(c, series, at, motion.w, motion.v, motion.pulled, length)
     if lapse > limit:
-        return shortened(series, at, invert_time(series, at, length, limit), limit, LIMIT)
+        return cut_step(series, at, invert_time(series, at, length, limit), limit, LIMIT)
     sine = polynomial.value(series, at + contact.SINE, length)
     cosine = polynomial.value(series, at + contact.COSINE, length)
     return Piece(CONTACT, lapse, length, end, w, v, sine, cosine)

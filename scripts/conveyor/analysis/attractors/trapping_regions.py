@@ -81,7 +81,7 @@ def contracting_norm(matrix: np.ndarray) -> np.ndarray | None:
     return np.linalg.cholesky(square / np.linalg.eigvalsh(square)[0], upper=True)
 
 
-def neighbourhood(
+def find_trapping_region(
     parameters: np.ndarray, tolerance: float, state: np.ndarray, period: int
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """Centre, shape (2,), and factor, shape (3,), of the largest trapping region of a point of an orbit; None for none.
@@ -122,7 +122,7 @@ def find_attracting_orbits(parameters: np.ndarray, trajectories: Trajectories, t
         if stroboscopic_map.follow(at_top, tolerance, state.copy(), period, strobes, features) != OK:
             continue
         seen = np.concatenate([seen, strobes])
-        around = neighbourhood(parameters, tolerance, state, period)
+        around = find_trapping_region(parameters, tolerance, state, period)
         if around is not None:
             found.append((*around, period, float(trajectories.flights[k])))
     return orbit_table(parameters, found)

@@ -52,7 +52,7 @@ class BoundaryPoint(NamedTuple):
 OTHERS = (DAMPING, STIFFNESS, EXPONENT, VELOCITY, PHASE)
 
 
-def launched(launch: InitialCondition, groups: Groups) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def scaled_state(launch: InitialCondition, groups: Groups) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The scaled state (x, y) of an initial condition at its phase, and its derivatives.
 
     Returns
@@ -84,7 +84,7 @@ def launched(launch: InitialCondition, groups: Groups) -> tuple[np.ndarray, np.n
 
 def find_saddle(launch: InitialCondition, groups: Groups) -> tuple[int, np.ndarray, int] | None:
     """The saddle that a trajectory comes nearest to: its period, (x, y), and after how many of its periods; or None."""
-    state, _, _ = launched(launch, groups)
+    state, _, _ = scaled_state(launch, groups)
     found = derivatives(groups, state, SEARCHED, launch.psi0)
     if found is None:
         return None
@@ -124,7 +124,7 @@ def find_boundary_point(launch: InitialCondition, groups: Groups, unknown: int) 
     if near is None:
         return "the start comes near no saddle"
     period, saddle, turn = near
-    state, _, _ = launched(launch, groups)
+    state, _, _ = scaled_state(launch, groups)
     images = [state]
     for _ in range(turn):
         images.append(derivatives(groups, images[-1], period, launch.psi0).image)
@@ -150,7 +150,7 @@ def _linearised(launch, groups, period, saddle, images, *, exponent=False):
     left = vectors[:, unstable].real
     # How the saddle moves with Γ, D, K (and p).
     along = np.linalg.solve(np.eye(2) - at_saddle.first[:, :2], at_saddle.first[:, 2:])
-    state, by_unknown, by_quantities = launched(launch, groups)
+    state, by_unknown, by_quantities = scaled_state(launch, groups)
     count = len(images)
     residual = np.zeros(2 * count + 1)
     jacobian, others = np.zeros((2 * count + 1, 2 * count + 2)), np.zeros((2 * count + 1, len(OTHERS)))

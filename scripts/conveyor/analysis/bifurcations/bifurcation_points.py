@@ -99,7 +99,7 @@ def system(
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """The functions whose zero is a bifurcation, shape (k,), and their derivatives by its k unknowns, D, K (and p)."""
     if kind == GRAZING:
-        return touching(period, unknown, groups, exponent=exponent)
+        return touch_system(period, unknown, groups, exponent=exponent)
     here = groups._replace(amplitude=float(unknown[2]))
     found = derivatives(here, unknown[:2], period, exponent=exponent)
     if found is None:
@@ -117,7 +117,7 @@ def system(
     return np.append(found.image - unknown[:2], test), jacobian
 
 
-def touching(
+def touch_system(
     period: int, unknown: np.ndarray, groups: Groups, *, exponent: bool = False
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """The state n cycles after a part touches the plate at relative rest, and its derivatives by ψ, Γ, D, K (and p)."""
@@ -146,7 +146,7 @@ def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups
     return None if here is None else Point(kind, period, here, groups._replace(amplitude=float(here[-1])))
 
 
-def moves(point: Point) -> np.ndarray | None:
+def differentiate_unknowns(point: Point) -> np.ndarray | None:
     """Derivatives of the unknowns of a bifurcation by D, K and p, shape (k, 3), by the implicit function theorem.
 
     The last row is that of Γ. None where the system is singular (a codimension-two point) or cannot be evaluated.

@@ -139,7 +139,7 @@ def _zero(at: Callable[[float], Orbit | None], test: Callable[[Orbit], float]) -
         return None
 
 
-def doubled(parameters: np.ndarray, bifurcation: Bifurcation) -> Orbit | None:
+def find_doubled_orbit(parameters: np.ndarray, bifurcation: Bifurcation) -> Orbit | None:
     """An orbit of twice the period at the distance DOUBLED from a period doubling, along the eigenvector of -1."""
     orbit = bifurcation.orbit
     single, double = ReturnMap(parameters, orbit.period), ReturnMap(parameters, 2 * orbit.period)
@@ -193,5 +193,5 @@ def explore(
             waiting.append(branch.parent)
         if 2 * orbit.period <= max_period:
             doublings = [b for b in branch.bifurcations if b.kind == "period_doubling"]
-            waiting += [new for b in doublings if (new := doubled(parameters, b)) is not None]
+            waiting += [new for b in doublings if (new := find_doubled_orbit(parameters, b)) is not None]
     return branches

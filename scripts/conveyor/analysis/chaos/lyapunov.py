@@ -183,7 +183,7 @@ def multipliers_of_points(parameters, states, tolerance, logarithms, contact_tim
             != trajectory.OK
         ):
             continue
-        period = stroboscopic_map.repeated(strobes)
+        period = stroboscopic_map.find_repetition(strobes)
         matrices = np.empty((period, 2, 2))
         if (
             stroboscopic_map.monodromy(parameters[i], tolerance, states[i], matrices, features[:period])

@@ -61,7 +61,7 @@ def test_a_curve_far_out_does_not_come_inside():
     row = conveyor_of(40.0)
     (motions,) = sampling.sample_conveyors(row[None], 400, TOLERANCE)
     k = int(np.argmax(motions.flights))
-    centre, factor = trapping_regions.neighbourhood(row, TOLERANCE, motions.states[k], 1)
+    centre, factor = trapping_regions.find_trapping_region(row, TOLERANCE, motions.states[k], 1)
     assert trapping_regions.comes_inside(row, TOLERANCE, centre, factor, 1, 1.0)
     assert not trapping_regions.comes_inside(row, TOLERANCE, centre, factor, 1, 8.0)
 
@@ -70,7 +70,7 @@ def test_an_orbit_that_does_not_attract_has_no_neighbourhood():
     """A part on an undamped spring swings for ever."""
     row = conveyor_of(0.0, damping=0.0, exponent=1.0, stiffness=3e3)
     state = np.array([1.5 * 0.7e-3 * 9.81 / 3e3, 0.0])
-    assert trapping_regions.neighbourhood(row, TOLERANCE, state, 1) is None
+    assert trapping_regions.find_trapping_region(row, TOLERANCE, state, 1) is None
 
 
 def test_norm_contracts_in_each_step():
