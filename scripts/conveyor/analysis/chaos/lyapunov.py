@@ -13,8 +13,8 @@ from ...arguments import (
     LARGEST_COORDINATE,
     MOST_BLOCKS,
     MOST_CYCLES,
-    check_array,
     check_count,
+    check_numbers,
     check_packed,
     check_threads,
     check_tolerance,
@@ -93,7 +93,8 @@ def spectrum(
     Parameters
     ----------
     parameters : float64, shape (n, 16), rows as from model.pack
-    states : float64, shape (n, 2), stroboscopic states to begin with (default: the initial conditions in `parameters`)
+    states : float64, shape (n, 2), stroboscopic states to begin with (default: the initial conditions in `parameters`);
+        NaN for a motion that failed
     begin_of_cycle : whether `states` are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
     transient : excitation cycles that are followed and not counted
     cycles, blocks : `blocks` ≥ 2 blocks of `cycles` excitation cycles are counted
@@ -108,9 +109,11 @@ def spectrum(
     if states is None:
         states = stroboscopic_map.initial_states(parameters, tolerance)
     else:
-        states = check_array("states", states, -LARGEST_COORDINATE, LARGEST_COORDINATE, least=0).copy()
+        states = check_numbers("states", states).astype(np.float64)
         if states.shape != (len(parameters), 2):
             raise ValueError(f"states must have the shape ({len(parameters)}, 2), got {states.shape}")
+        if (np.abs(states) > LARGEST_COORDINATE).any():  # NaN is the state of a motion that failed
+            raise ValueError(f"states must lie in [{-LARGEST_COORDINATE:g}, {LARGEST_COORDINATE:g}]")
     stretches = np.empty((len(parameters), blocks * cycles, 2))
     contact_times = np.full((len(parameters), blocks * cycles), np.nan)
     codes = np.zeros(len(parameters), dtype=np.int64)
