@@ -1,8 +1,8 @@
-"""The script of the rule that puts into one folder what a reader of the figures needs, and can draw them again from.
+"""The script of the rule that makes the archive, from which readers can draw the figures again.
 
-Figures, the tables that they, their captions and the claims are made from, where all that comes from, the sources and
-their environment, and the SHA-256 of every file. Runs end in states that nothing is drawn from: the tables come without
-these columns, which are half of their bytes.
+The archive contains the figures, the tables behind figures, captions and claims, the provenance, the sources with their
+environment, and the SHA-256 of every file. The tables lack the final states of runs, which take half of their bytes and
+are not drawn.
 """
 
 import hashlib
@@ -18,19 +18,19 @@ from pipeline import fields, tables
 from pipeline.rule_log import logged
 
 SUMS = "SHA256SUMS"
-# What scripts/redraw.py draws: the tables of each figure by their names in its plot, their kinds, and its settings.
+# Input of scripts/redraw.py: tables of each figure by role, their kinds, and the settings of the figure.
 DRAWN = "figures.json"
 ENDS = {field.name for field in fields.ENDS}
 
 
 def copy_table(source: Path, target: Path) -> None:
-    """Copy a table without the columns of ends of runs."""
+    """Copy a table without the final states of runs."""
     table = pq.read_table(source)
     tables.write(target, table.drop_columns([name for name in table.column_names if name in ENDS]))
 
 
 def copy(names: Iterable[str], base: str | Path, folder: Path) -> None:
-    """Copy files from below a base folder to the same places below another one."""
+    """Copy files below a base folder to the same places below another folder."""
     for name in names:
         source, target = Path(name), folder / os.path.relpath(name, base)
         target.parent.mkdir(parents=True, exist_ok=True)
@@ -40,8 +40,8 @@ def copy(names: Iterable[str], base: str | Path, folder: Path) -> None:
             shutil.copyfile(source, target)
 
 
-def sums(folder: Path) -> str:
-    """The SHA-256 of all files below a folder, as sha256sum checks them."""
+def hash_files(folder: Path) -> str:
+    """The SHA-256 of all files below a folder, in the format of sha256sum."""
     files = sorted(path for path in folder.rglob("*") if path.is_file())
     return "".join(
         f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(folder).as_posix()}\n" for path in files
@@ -49,13 +49,13 @@ def sums(folder: Path) -> str:
 
 
 def check_size(folder: Path, limit: float) -> None:
-    """Raise ValueError if a folder has more than `limit` MB; it names the largest files and the key of the limit."""
+    """Raise ValueError if a folder has more than `limit` MB; the message names the largest files and the config key."""
     sizes = sorted(((path.stat().st_size, path) for path in folder.rglob("*") if path.is_file()), reverse=True)
     megabytes = sum(size for size, _ in sizes) / 1e6
     if megabytes > limit:
         largest = ", ".join(f"{path.relative_to(folder).as_posix()} ({size / 1e6:.3g})" for size, path in sizes[:3])
         raise ValueError(
-            f"the archive has {megabytes:.3g} MB, more than archive.megabytes = {limit:g}, most of all {largest}; "
+            f"the archive has {megabytes:.3g} MB, more than archive.megabytes = {limit:g}; largest files: {largest}; "
             "raise that key, or give the sweeps fewer points"
         )
 
@@ -69,5 +69,5 @@ if __name__ == "__main__":
         copy(snakemake.input.overlays, os.curdir, archive)
         shutil.copyfile(snakemake.input.readme, archive / "ARCHIVE.md")
         (archive / DRAWN).write_text(json.dumps(snakemake.params.figures, indent=1) + "\n", encoding="utf-8")
-        (archive / SUMS).write_text(sums(archive), encoding="utf-8")
+        (archive / SUMS).write_text(hash_files(archive), encoding="utf-8")
         check_size(archive, snakemake.params.megabytes)

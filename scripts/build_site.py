@@ -1,4 +1,4 @@
-"""The script of the rule that makes the site: it puts pages, pictures and files together, and runs Sphinx."""
+"""The script of the rule that makes the site: it collects pages, pictures and files, and runs Sphinx."""
 
 import os
 import tempfile
@@ -7,8 +7,7 @@ from docs import site
 from pipeline.rule_log import logged
 
 if __name__ == "__main__":
-    # The library's functions are documented as Python has them, not as compiled objects without a signature; Sphinx has
-    # not imported them yet.
+    # Compiled functions have no signature for the documentation. Must be set before Sphinx imports the library.
     os.environ["NUMBA_DISABLE_JIT"] = "1"
     with logged(snakemake.log[0]), tempfile.TemporaryDirectory() as folder:
         given = snakemake.input

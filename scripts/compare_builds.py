@@ -3,7 +3,7 @@
     python scripts/compare_builds.py results ../other/results --tolerance 1e-9
 
 Columns are compared exactly first, then within the relative tolerance. The exit status is 0 if all columns are equal or
-within the tolerance, and 1 otherwise. Tables with measured times, as manifest.sha256 names them, do not count.
+within the tolerance, and 1 otherwise. Tables with measured times, which manifest.sha256 lists, are ignored.
 """
 
 import argparse
@@ -22,7 +22,7 @@ EQUAL, WITHIN, DIFFERENT, TIMES = "equal", "within tolerance", "DIFFERENT", "mea
 
 
 def timed_files(folder: Path) -> list[str]:
-    """The files that the manifest of a folder of results names as made from measured times."""
+    """The files with measured times, according to the manifest in a folder of results."""
     manifest = folder / "manifest.sha256"
     lines = manifest.read_text(encoding="utf-8").splitlines() if manifest.is_file() else []
     return [line.removeprefix(MAY_DIFFER) for line in lines if line.startswith(MAY_DIFFER)]
@@ -33,7 +33,7 @@ def tables_below(folder: Path) -> set[str]:
 
 
 def compare_column(name: str, one: pa.ChunkedArray, other: pa.ChunkedArray, tolerance: float) -> tuple[str, str]:
-    """Verdict on a column that is not equal, and by how much it differs."""
+    """Verdict on a column that is not equal, and its differences in words."""
     if not pa.types.is_floating(one.type):
         first = next(row for row, (a, b) in enumerate(zip(one, other, strict=True)) if not a.equals(b))
         return DIFFERENT, f"{name}: first in row {first}, {one[first]} and {other[first]}"
@@ -43,7 +43,7 @@ def compare_column(name: str, one: pa.ChunkedArray, other: pa.ChunkedArray, tole
         absolute = np.where(same, 0.0, np.abs(values - others))
         scale = np.maximum(np.abs(values), np.abs(others))
         relative = np.where(same, 0.0, absolute / np.where(scale > 0.0, scale, 1.0))
-    # A number on one side only differs by infinity.
+    # If only one of two values is missing, the difference is infinite.
     absolute, relative = (np.where(np.isnan(difference), np.inf, difference) for difference in (absolute, relative))
     first = int(np.argmin(same))
     text = (
@@ -63,7 +63,6 @@ def compare_tables(one: pa.Table, other: pa.Table, tolerance: float) -> tuple[st
         return DIFFERENT, [f"rows: {len(one)} and {len(other)}"]
     unequal = [name for name in one.column_names if not one[name].equals(other[name])]
     found = [compare_column(name, one[name], other[name], tolerance) for name in unequal]
-    # NaN is not equal to itself, but null is; tables hold null.
     verdicts = {verdict for verdict, _ in found}
     return next((verdict for verdict in (DIFFERENT, WITHIN) if verdict in verdicts), EQUAL), [text for _, text in found]
 

@@ -1,4 +1,4 @@
-"""The script of every rule that draws a figure: read its tables, call its plot, save what it draws."""
+"""The script of every rule that draws a figure: read its tables, call its plot function, save the figure."""
 
 import importlib
 from collections.abc import Mapping
@@ -11,12 +11,12 @@ from pipeline.rule_log import logged
 
 
 def draw(name: str, paths: Mapping[str, str], expected: Mapping[str, list], settings: dict) -> Figure:
-    """Figure `name` from its tables.
+    """Draw the figure `name` from its tables.
 
     Parameters
     ----------
-    paths : of the tables, by their roles in the plot
-    expected : kind and settings that each table must have, by its path
+    paths : of the tables, by role in the plot function
+    expected : kind and settings that each table must have, by path
     settings : of the figure
 
     Raises

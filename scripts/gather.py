@@ -1,4 +1,4 @@
-"""The script of the rule that puts the shards of a table below each other, in the order of their rows."""
+"""The script of the rule that joins the shards of a table in the order of their rows."""
 
 from functools import partial
 
@@ -9,5 +9,5 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]):
         (kind,) = snakemake.output.keys()
         params = snakemake.params
-        wanted = partial(grid.columns_of_axes, params.settings["axes"])
-        tables.gather(snakemake.output[0], snakemake.input, kind, params.settings, params.points, wanted)
+        expected = partial(grid.columns_of_axes, params.settings["axes"])
+        tables.gather(snakemake.output[0], snakemake.input, kind, params.settings, params.points, expected)

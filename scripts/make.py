@@ -1,10 +1,14 @@
-"""The script of every rule that makes tables or pages: read its inputs, call one function, write what that returns.
+"""The script of every rule that makes tables or pages: read its inputs, call a function `make`, write its results.
 
-A module of a stage has such a function, `make`, and TABLES, the schemas of the tables that it makes, by their kinds.
-Its arguments are the named inputs of the rule (tables, texts, or paths of pictures; lists where the rule has lists),
-its params other than NOT_FOR_THE_STAGE, and, if it has such arguments, `threads` and `progress`. It returns the content
-of the output: the columns of a table (an iterator: of blocks of its rows), a text, bytes or a picture. For several
-outputs it returns a mapping by their names, or a list if they have no names.
+The module of a stage has the function `make`, and TABLES, the schemas of its tables by kind. The arguments of `make`
+are
+
+- the named inputs of the rule: tables, texts, or paths of pictures; lists where the rule has lists,
+- the params of the rule, except for NOT_FOR_THE_STAGE,
+- `threads` and `progress`, if it has these arguments.
+
+It returns the content of the output: the columns of a table, an iterator over the columns of blocks of its rows, a
+text, bytes, or a picture. For several outputs, it returns a mapping by name, or a list if the outputs have no names.
 """
 
 import importlib
@@ -17,7 +21,7 @@ from typing import Any
 from pipeline import fields, tables
 from pipeline.rule_log import logged
 
-# The module of the stage, the hash of its sources, and kind and settings that each input table must have, by its path.
+# Params for this script: module of the stage, hash of its sources, and expected kind and settings of each input table.
 NOT_FOR_THE_STAGE = STAGE, CODE, EXPECTED = "stage", "code", "expected"
 
 
@@ -29,24 +33,24 @@ def read(path: str, expected: dict[str, list]) -> Any:
 
 
 def read_inputs(paths: dict[str, Any], expected: dict[str, list]) -> dict[str, Any]:
-    """The contents of inputs by their names."""
+    """The contents of inputs by name."""
     return {
         name: read(path, expected) if isinstance(path, str) else [read(one, expected) for one in path]
         for name, path in paths.items()
     }
 
 
-def contents(outputs: Any, made: Any) -> Iterator[tuple[str, str, Any]]:
-    """Name, path and content of each output."""
+def contents(outputs: Any, results: Any) -> Iterator[tuple[str, str, Any]]:
+    """Name, path and content of each output, from what `make` returned."""
     names = dict(outputs.items())
-    if isinstance(made, list):
-        yield from (("", path, content) for path, content in zip(outputs, made, strict=True))
+    if isinstance(results, list):
+        yield from (("", path, content) for path, content in zip(outputs, results, strict=True))
     elif len(outputs) == 1:
-        yield next(iter(names), ""), outputs[0], made
+        yield next(iter(names), ""), outputs[0], results
     else:
-        if set(names) != set(made):
-            raise ValueError(f"the rule has outputs {', '.join(names)}, but its stage returns {', '.join(made)}")
-        yield from ((name, path, made[name]) for name, path in names.items())
+        if set(names) != set(results):
+            raise ValueError(f"the rule has outputs {', '.join(names)}, but its stage returns {', '.join(results)}")
+        yield from ((name, path, results[name]) for name, path in names.items())
 
 
 def write(stage: ModuleType, name: str, path: str, content: Any, settings: dict) -> None:
@@ -73,9 +77,9 @@ def run(job: Any) -> None:
     arguments = read_inputs(dict(job.input.items()), params.get(EXPECTED, {}))
     arguments |= {name: value for name, value in params.items() if name not in NOT_FOR_THE_STAGE}
     threads = job.resources.get("cpus_per_task", job.threads)
-    offered = {"threads": threads, "progress": " ".join([job.rule, *job.wildcards])}
-    wanted = inspect.signature(stage.make).parameters
-    arguments |= {name: value for name, value in offered.items() if name in wanted}
+    optional = {"threads": threads, "progress": " ".join([job.rule, *job.wildcards])}
+    parameters = inspect.signature(stage.make).parameters
+    arguments |= {name: value for name, value in optional.items() if name in parameters}
     for name, path, content in contents(job.output, stage.make(**arguments)):
         write(stage, name, path, content, params.get("settings", {}))
 

@@ -1,8 +1,8 @@
-"""Draw the figures of an archive again from its tables, without a simulation, and compare them with those in it.
+"""Draw the figures of an archive again from its tables, without a simulation, and compare them with the originals.
 
-    python scripts/redraw.py        in the folder of the archive; the figures come below redrawn/
+    python scripts/redraw.py        in the folder of the archive; writes the figures below redrawn/
 
-Figures are equal to the byte where the packages of environment.txt are installed.
+With the packages of environment.txt, the figures are equal byte for byte.
 """
 
 import hashlib
@@ -22,19 +22,19 @@ ARCHIVE = Path(__file__).resolve().parents[1]
 REDRAWN = "redrawn"
 
 
-def sums(archive: Path) -> dict[str, str]:
-    """The SHA-256 of the files of an archive, by their names."""
+def read_hashes(archive: Path) -> dict[str, str]:
+    """The SHA-256 of the files of an archive, by name."""
     lines = (archive / "SHA256SUMS").read_text(encoding="utf-8").splitlines()
     return {name: digest for digest, name in (line.split("  ", maxsplit=1) for line in lines)}
 
 
 def redraw(archive: Path, file: str, entry: dict) -> str:
-    """Draw a figure below the folder `redrawn` of an archive, and give its SHA-256.
+    """Draw a figure into the folder REDRAWN of an archive, and return its SHA-256.
 
     Parameters
     ----------
-    file : of the figure in the archive
-    entry : its name, the paths of its tables, their kinds and its settings
+    file : path of the figure in the archive
+    entry : name and settings of the figure, paths and kinds of its tables
     """
     target = archive / REDRAWN / file
     target.parent.mkdir(parents=True, exist_ok=True)
@@ -45,15 +45,15 @@ def redraw(archive: Path, file: str, entry: dict) -> str:
 
 
 def main(archive: Path) -> str | None:
-    """Draw all figures of an archive; a message if some differ."""
-    begin, known = time.perf_counter(), sums(archive)
-    drawn = json.loads((archive / "figures.json").read_text(encoding="utf-8"))
+    """Draw all figures of an archive. Returns a message if some differ from the originals, else None."""
+    begin, originals = time.perf_counter(), read_hashes(archive)
+    figures = json.loads((archive / "figures.json").read_text(encoding="utf-8"))
     with ProcessPoolExecutor(os.cpu_count()) as pool:
-        digests = pool.map(partial(redraw, archive), drawn, drawn.values())
-        found = dict(zip(drawn, bar(digests, total=len(drawn), label="drawn", unit="figures"), strict=True))
-    if different := [file for file, digest in found.items() if digest != known[file]]:
-        return f"{len(different)} of {len(drawn)} figures differ from those of the archive: {', '.join(different)}"
-    print(f"{len(drawn)} figures drawn in {time.perf_counter() - begin:.0f} s, equal to those of the archive")
+        hashes = pool.map(partial(redraw, archive), figures, figures.values())
+        redrawn = dict(zip(figures, bar(hashes, total=len(figures), label="drawn", unit="figures"), strict=True))
+    if different := [file for file, digest in redrawn.items() if digest != originals[file]]:
+        return f"{len(different)} of {len(figures)} figures differ from the archive: {', '.join(different)}"
+    print(f"{len(figures)} figures drawn in {time.perf_counter() - begin:.0f} s, equal to the archive")
     return None
 
 

@@ -1,7 +1,7 @@
-"""Score solvers on the open benchmark of docs/benchmark, and draw them beside this solver and the paper's method.
+"""Score solvers on the open benchmark in docs/benchmark, and compare them with this solver and the published method.
 
     python scripts/score.py my_solver.py              a file with the function solve(scene, tolerance)
-    python scripts/score.py my_numbers.csv            numbers of a program in any language
+    python scripts/score.py my_numbers.csv            results of a program in any language
     python scripts/score.py my_solver.py --chart mine.png --scenes docs/benchmark
 
 docs/add_your_solver.md describes the scenes, both kinds of files, and the errors.
@@ -20,11 +20,11 @@ from figures import style
 ROOT = Path(__file__).resolve().parents[1]
 COLOURS = {"this solver": style.CONVERGED, "explicit Euler": style.EULER}
 MARKERS = "os^Dv"
-LOWEST = 1e-13  # least error of the chart
+LOWEST = 1e-13  # smallest error of the chart
 
 
 def draw(table: pd.DataFrame, scenes: dict[str, dict]) -> Figure:
-    """Error of the trajectory over the processor time, a panel for each scene; grey: the error of the reference."""
+    """Draw the error of the trajectory over processor time, a panel for each scene; grey: error of the reference."""
     with style.applied():
         figure = style.figure(style.PAGE, 110.0)
         panels = figure.subplots(-(-len(scenes) // 2), 2, squeeze=False, sharey=True).ravel()
@@ -43,7 +43,7 @@ def draw(table: pd.DataFrame, scenes: dict[str, dict]) -> Figure:
             axes.set_ylim(bottom=0.1 * LOWEST)
             axes.set_xlabel("processor time in s")
         for axes in panels[::2]:
-            axes.set_ylabel("error of x and z,\nin amplitudes of the plate")
+            axes.set_ylabel("error of $x$ and $z$ in\namplitudes of the plate")
         for axes in panels[len(scenes) :]:
             axes.set_visible(False)
         style.legend_above(figure, panels[0], ncols=4)

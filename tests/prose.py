@@ -1,8 +1,8 @@
-"""Numbers that stand in the text of a template, where a table should have given them."""
+"""Numbers typed into the text of a template, where a table should give them."""
 
 import re
 
-# What may stand there: fields, references, names, units, code, and in formulas single digits.
+# What is allowed: fields, references, citations, names, units, code, and in formulas single digits.
 ALLOWED = (
     r"\{\{.*?\}\}|\{%.*?%\}",
     r"(?ms)^```.*?^```$",
@@ -14,6 +14,8 @@ ALLOWED = (
     r"(?m)^:scale: \d+$|^\d+\. ",
     r"(?m)^:::\{figure\} \S+$",
     r"1/s\b",
+    r"\b[A-Z]\w+ \((18|19|20)\d\d\)|\([A-Z][^()\d]* (18|19|20)\d\d(;\s[A-Z][^()\d]* (18|19|20)\d\d)*\)",
+    r"(?ms)^## References.*?(?=^## )",
     r"a confidence of 95 %",
     r"DOP853|RK4\d?|SHA-256|BSD-3-Clause|Python 3\.11(, 3\.12 or 3\.13)?|x86-64|\bD_2\b",
 )

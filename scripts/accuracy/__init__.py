@@ -1,1 +1,1 @@
-"""Stage accuracy: how accurate, how fast, how robust the solver and the estimates are."""
+"""Stage accuracy: accuracy, speed and robustness of the solver and of the estimators."""

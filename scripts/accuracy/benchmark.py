@@ -1,8 +1,8 @@
-"""The solver against the paper's method, both compiled, both through `simulate`, one thread.
+"""Speed of the solver compared with the paper's method, both compiled, both through `simulate`, in one thread.
 
-In each round every case gets its turn: some runs of the solver, some that compute every step of a settled motion anew,
-then one of Euler, so that whatever else the machine does slows all. The truth is an independent integration, scipy's
-DOP853 from event to event.
+In each round, every case has a turn: several runs of the solver, several runs without reuse of steps, and one run of
+Euler, so that other load on the machine affects all of them. The reference is an independent integration by SciPy's
+DOP853 with events.
 """
 
 from time import perf_counter
@@ -20,39 +20,39 @@ from pipeline.templates import render
 TABLES = {
     "benchmark": (
         fields.text("case", "name of the case"),
-        fields.text("motion", "what the part does"),
+        fields.text("motion", "motion of the part in words"),
         fields.text(
-            "chosen", "which tolerance this is: default, or the loosest that keeps the error, chosen against the truth"
+            "chosen", "choice of the tolerance: default, or the loosest that keeps the error against the reference"
         ),
         fields.number("tolerance", "1", "relative error of a step"),
         fields.number("acceleration", "m/s²", "amplitude of the excitation"),
         fields.number("z0", "m", "initial height"),
-        fields.number("duration", "s", "length of the timed runs"),
-        fields.number("compared", "s", "length of the runs whose mean velocities are compared"),
+        fields.number("duration", "s", "duration of the timed runs"),
+        fields.number("compared", "s", "duration of the runs whose mean velocities are compared"),
         fields.number("mean_velocity", "m/s", "mean feeding velocity, from an independent integration"),
         fields.number("error", "1", "relative error of the solver's mean velocity"),
         fields.number("euler_error", "1", "relative error of Euler's mean velocity"),
-        fields.count("steps", "Taylor steps that a timed run computes"),
-        fields.count("repeated_steps", "Taylor steps of a settled motion that it repeats"),
+        fields.count("steps", "computed Taylor steps of a timed run"),
+        fields.count("repeated_steps", "reused Taylor steps of a periodic motion in a timed run"),
         fields.count("evaluations", "derivatives of the contact force in a timed run"),
         fields.count("events", "events of a timed run"),
         fields.count("euler_steps", "steps of Euler in a timed run"),
         fields.number("seconds", "s", "median wall time of the solver"),
-        fields.number("seconds_without", "s", "the same if every step is computed"),
+        fields.number("seconds_without", "s", "median wall time of the solver without reuse of steps"),
         fields.number("euler_seconds", "s", "median wall time of Euler"),
-        fields.number("speed", "1", "wall time of Euler over that of the solver"),
-        fields.number("speed_without", "1", "the same if every step is computed"),
+        fields.number("speed", "1", "wall time of Euler over wall time of the solver"),
+        fields.number("speed_without", "1", "wall time of Euler over wall time of the solver without reuse of steps"),
         fields.count("repeats", "rounds of timed runs"),
     ),
 }
 
 TRUTH = {"integrator": "DOP853", "treatment": "modes", "tolerance": 1e-13, "max_evaluations": 10_000_000}
-# Runs of the solver for each run of Euler.
+# Runs of the solver per run of Euler.
 RUNS = 20
 
 
-def timed(case: dict, duration: float, method: str, reuse: bool = True) -> tuple[float, Run]:
-    """Wall time (s) of a run and its mean velocity, and the run."""
+def time_run(case: dict, duration: float, method: str, reuse: bool = True) -> tuple[float, Run]:
+    """Wall time (s) of a run with its mean velocity, and the run."""
     conveyor, start = grid.conveyor_and_start(case["model"])
     accuracy = {"tolerance": case["tolerance"], "step": case["step"], "reuse": reuse}
     begin = perf_counter()
@@ -61,26 +61,25 @@ def timed(case: dict, duration: float, method: str, reuse: bool = True) -> tuple
     return perf_counter() - begin, run
 
 
-def times(cases: list[dict], repeats: int, progress: str | None) -> np.ndarray:
-    """Median wall times (s) of the solver, of the solver that repeats no step, and of Euler: shape (3, cases).
+def measure_times(cases: list[dict], repeats: int, progress: str | None) -> np.ndarray:
+    """Median wall times (s) of the solver, of the solver without reuse of steps, and of Euler: shape (3, cases).
 
-    A first round, which compiles, does not count.
+    The first round, which compiles code, does not count.
     """
     spent = [[[], [], []] for _ in cases]
     for turn in bar(range(repeats + 1), label=progress, unit="rounds"):
-        for case, (ours, without, theirs) in zip(cases, spent, strict=True):
-            solver = [timed(case, case["duration"], "event")[0] for _ in range(RUNS)]
-            anew = [timed(case, case["duration"], "event", reuse=False)[0] for _ in range(RUNS)]
-            euler = timed(case, case["duration"], "euler")[0]
+        for case, times in zip(cases, spent, strict=True):
+            solver = [time_run(case, case["duration"], "event")[0] for _ in range(RUNS)]
+            without = [time_run(case, case["duration"], "event", reuse=False)[0] for _ in range(RUNS)]
+            euler = [time_run(case, case["duration"], "euler")[0]]
             if turn > 0:
-                ours += solver
-                without += anew
-                theirs.append(euler)
-    return np.array([[np.median(one) for one in case] for case in spent]).T
+                for method_times, new in zip(times, (solver, without, euler), strict=True):
+                    method_times += new
+    return np.array([[np.median(method_times) for method_times in times] for times in spent]).T
 
 
-def at_each_tolerance(cases: dict[str, dict], default: float) -> list[dict]:
-    """Every case at the default tolerance, then those again for which another one was chosen."""
+def list_runs(cases: dict[str, dict], default: float) -> list[dict]:
+    """Every case at the default tolerance, and again at its loosest tolerance, if the config has one."""
     rows = []
     for name, case in cases.items():
         rows.append({**case, "case": name, "tolerance": default, "chosen": "default"})
@@ -90,18 +89,18 @@ def at_each_tolerance(cases: dict[str, dict], default: float) -> list[dict]:
 
 
 def columns(cases: dict[str, dict], tolerance: float, repeats: int, *, progress: str | None = None) -> dict:
-    """The columns of the benchmark's table for cases by name, each resolved as an entry of the config."""
-    rows = at_each_tolerance(cases, tolerance)
-    runs = [timed(case, case["duration"], "event")[1] for case in rows]
-    eulers = [timed(case, case["duration"], "euler")[1] for case in rows]
+    """The columns of the table for cases by name, each resolved like an entry of the config."""
+    rows = list_runs(cases, tolerance)
+    runs = [time_run(case, case["duration"], "event")[1] for case in rows]
+    eulers = [time_run(case, case["duration"], "euler")[1] for case in rows]
     truths = {
         name: peers.run(grid.packed(case["model"]), case["compared"], **TRUTH).mean_velocity
         for name, case in cases.items()
     }
     truth = np.array([truths[case["case"]] for case in rows])
-    found = [timed(case, case["compared"], "event")[1].mean_velocity() for case in rows]
-    euler = [timed(case, case["compared"], "euler")[1].mean_velocity() for case in rows]
-    seconds, without, euler_seconds = times(rows, repeats, progress)
+    found = [time_run(case, case["compared"], "event")[1].mean_velocity() for case in rows]
+    euler = [time_run(case, case["compared"], "euler")[1].mean_velocity() for case in rows]
+    seconds, without, euler_seconds = measure_times(rows, repeats, progress)
     return {
         **{name: np.array([case[name] for case in rows]) for name in ("case", "motion", "chosen", "tolerance")},
         **{name: np.array([case["model"][name] for case in rows]) for name in ("acceleration", "z0")},
@@ -124,7 +123,7 @@ def columns(cases: dict[str, dict], tolerance: float, repeats: int, *, progress:
 
 
 def report(template: str, found: dict[str, np.ndarray], settings: dict) -> str:
-    """The page on the benchmark, with what is wanted of each case."""
+    """The page on the benchmark, with the goals of each case."""
     cases = settings["cases"]
     rows = [row | {"wanted": cases[row["case"]]["wanted"]} for row in pd.DataFrame(found).to_dict("records")]
 
@@ -143,6 +142,6 @@ def report(template: str, found: dict[str, np.ndarray], settings: dict) -> str:
 
 
 def make(settings: dict, template: str, *, progress: str | None = None) -> dict:
-    """The columns of the table, and the page from its template, for cases, the default tolerance and the repeats."""
+    """The columns of the table, and the page from its template; `settings` are the arguments of `columns`."""
     found = columns(**settings, progress=progress)
     return {"benchmark": found, "report": report(template, found, settings)}

@@ -1,4 +1,4 @@
-"""An example for the open benchmark: SciPy's RK45, which sees impacts and slip only as signs in the force."""
+"""An example for the open benchmark: SciPy's RK45 without events, so that impacts and slip are signs in the force."""
 
 import numpy as np
 from scipy.integrate import solve_ivp

@@ -1,14 +1,14 @@
-"""State maps by brute force: random points of maps, followed at a tight tolerance until their attractor is certain.
+"""State maps by brute force: random points of maps, simulated with a tight tolerance until their attractor is certain.
 
-The labels of a map come from a fast search: a loose tolerance, many parts at a time, and an end as soon as a part must
-stay at an attractor that is already known. Here every part is followed alone by the event-driven solver, and no step,
-orbit or chaotic set is used again. An attractor is certain in two cases:
+The labels of a map come from a fast search: with a loose tolerance, with many parts at a time, and only until a part
+cannot leave a known attractor. Here, every part is simulated alone by the event-driven solver, without reuse of steps,
+orbits or chaotic sets. An attractor is certain in two cases:
 
-- The part has repeated its height and velocity at the end of a cycle, with one period, for many cycles in a row.
-- It has not done so within the largest number of cycles, and its largest Lyapunov exponent is positive by several
-  standard errors: chaos.
+- The part repeats its height and velocity at the end of a cycle with one period for many cycles in a row.
+- It does not do so within the largest number of cycles, and its largest Lyapunov exponent is positive by several
+  standard errors, which means chaos.
 
-Anything else is `undecided` and counts as a different label.
+All other points are `undecided` and count as different labels.
 """
 
 from typing import NamedTuple
@@ -28,28 +28,28 @@ from pipeline import fields, grid
 
 TABLES = {
     "map_check": (
-        fields.text("map", "sweep whose label is checked"),
+        fields.text("map", "name of the sweep"),
         fields.count("row", "row of the sweep"),
         fields.flag("near_boundary", "whether a neighbour in the map has another label"),
         fields.text("label", "state of motion in the map"),
         fields.text("state", "state of motion by brute force"),
         fields.count("period", "excitation cycles; 0 for none"),
-        fields.count("cycles", "excitation cycles that were followed"),
+        fields.count("cycles", "simulated excitation cycles"),
         fields.number("exponent", "1/s", "largest Lyapunov exponent; null for periodic motions"),
         fields.number("exponent_error", "1/s", "its standard error; null for periodic motions"),
     ),
 }
 
-BLOCK = 256  # cycles that are followed at a time
-EXPONENT = {"transient": 0, "cycles": 100, "blocks": 20}  # blocks of cycles behind the exponent
-MOST_EVENTS = 100  # in a cycle, for which there is room
+BLOCK = 256  # cycles per call of the solver
+EXPONENT = {"transient": 0, "cycles": 100, "blocks": 20}  # cycles in each block, and blocks, for the exponent
+MOST_EVENTS = 100  # most events in a cycle
 
 
-class Followed(NamedTuple):
-    """What one part comes to."""
+class Settled(NamedTuple):
+    """The end of a simulation until the motion repeats itself, or until the limit."""
 
     period: int  # cycles; 0 for none
-    cycles: int  # that were followed
+    cycles: int  # simulated cycles
     end: np.ndarray  # z (m), ż (m/s)
 
 
@@ -64,25 +64,25 @@ def is_near_boundary(labels: np.ndarray) -> np.ndarray:
     return near
 
 
-def draw(near: np.ndarray, points: int, share: float, random: np.random.Generator) -> np.ndarray:
-    """Random rows of a map, a share of them near a boundary; fewer where the map has not so many.
+def draw_rows(near: np.ndarray, points: int, share: float, random: np.random.Generator) -> np.ndarray:
+    """Random rows of a map, a share of them near a boundary; fewer if the map does not have enough.
 
     Parameters
     ----------
-    near : bool, shape (n,)
+    near : whether each row is near a boundary, bool, shape (n,)
     points : number of rows
-    share : of the rows near a boundary
+    share : share of rows near a boundary
     """
     close, far = np.flatnonzero(near), np.flatnonzero(~near)
-    wanted = min(round(share * points), len(close))
-    others = min(points - wanted, len(far))
+    close_count = min(round(share * points), len(close))
+    far_count = min(points - close_count, len(far))
     return np.sort(
-        np.concatenate([random.choice(close, wanted, replace=False), random.choice(far, others, replace=False)])
+        np.concatenate([random.choice(close, close_count, replace=False), random.choice(far, far_count, replace=False)])
     )
 
 
 def repeated_period(strobes: np.ndarray, scale: np.ndarray, close: float, repeats: int) -> int:
-    """The least period with which the last `repeats` of some strobes, shape (n, 2), repeat earlier ones; 0 for none."""
+    """The least period (cycles) of the last `repeats` of some strobes, shape (n, 2); 0 for none."""
     scaled = strobes / scale
     last = scaled[-repeats:]
     for period in range(1, min(MAX_PERIOD, len(scaled) - repeats) + 1):
@@ -91,8 +91,8 @@ def repeated_period(strobes: np.ndarray, scale: np.ndarray, close: float, repeat
     return 0
 
 
-def follow(row: np.ndarray, settings: dict) -> Followed:
-    """Follow one part from the start in its parameter vector, shape (13,), until it repeats itself."""
+def simulate_until_settled(row: np.ndarray, settings: dict) -> Settled:
+    """Simulate the motion of a parameter vector, shape (16,), until it repeats itself."""
     row = row.copy()
     scale = peers.scales(row)[2:]
     times = np.arange(1, BLOCK + 1)[None] / row[FREQUENCY]
@@ -106,12 +106,12 @@ def follow(row: np.ndarray, settings: dict) -> Followed:
         row[Z0], row[VZ0] = strobes[-1]
         cycles += BLOCK
         period = repeated_period(strobes, scale, settings["close"], settings["repeats"])
-    return Followed(period, cycles, row[[Z0, VZ0]])
+    return Settled(period, cycles, row[[Z0, VZ0]])
 
 
 def longest_flight(row: np.ndarray, period: int, tolerance: float) -> float:
-    """The longest flight (excitation cycles) of a periodic motion on which a parameter vector starts."""
-    cycles = 2 * period + 1  # a flight may begin before the start and be longer than a cycle
+    """The longest flight (excitation cycles) of the periodic motion from a parameter vector on its orbit."""
+    cycles = 2 * period + 1  # a flight may begin before the initial time and be longer than a cycle
     room = MOST_EVENTS * cycles
     times, kinds = np.full((1, room), np.inf), np.full((1, room), -1, np.int8)
     end = np.array([[cycles / row[FREQUENCY]]])
@@ -128,14 +128,14 @@ def longest_flight(row: np.ndarray, period: int, tolerance: float) -> float:
 
 
 def brute_force(rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict:
-    """State, period, followed cycles and exponent of each parameter vector, rows of shape (n, 13)."""
-    found: list[Followed] = [None] * len(rows)
+    """State, period, simulated cycles and exponent of each parameter vector, rows of shape (n, 16)."""
+    found: list[Settled] = [None] * len(rows)
     flights = np.zeros(len(rows))
     ends = rows.copy()
 
     def work(begin, end):
         for k in range(begin, end):
-            found[k] = follow(rows[k], settings)
+            found[k] = simulate_until_settled(rows[k], settings)
             ends[k, [Z0, VZ0]] = found[k].end
             if found[k].period:
                 flights[k] = longest_flight(ends[k], found[k].period, settings["tolerance"])
@@ -167,7 +167,7 @@ def make(
     Parameters
     ----------
     settings : the section `map_check` of the config
-    maps : tables of the sweeps over two parameters that it names, in their order
+    maps : tables of its sweeps over two parameters, in order
     threads, progress : as in conveyor.ensemble.run
     """
     random = np.random.default_rng(settings["seed"])
@@ -175,7 +175,7 @@ def make(
     for name, table in zip(settings["maps"], maps, strict=True):
         axes = table.attrs["axes"]
         near = is_near_boundary(table.state.to_numpy().reshape([grid.count_values(axis) for axis in axes.values()]))
-        rows = draw(near.ravel(), settings["points"], settings["boundary"], random)
+        rows = draw_rows(near.ravel(), settings["points"], settings["boundary"], random)
         label, near_boundary = table.state.to_numpy()[rows], near.ravel()[rows]
         chosen.append(pd.DataFrame({"map": name, "row": rows, "near_boundary": near_boundary, "label": label}))
         parameters += [grid.product(axes, table.attrs["model"], (row, row + 1))[1] for row in rows.tolist()]

@@ -1,8 +1,8 @@
-"""The motion in arithmetic of many digits: a reference that shares no code, step or rounding with the solver.
+"""Trajectories in multiprecision arithmetic: a reference that shares no code, step or rounding with the solver.
 
-Taylor series of Eqs. 7 and 11 in contact (tension = allow), a parabola in flight. The spring's force grows with the
-power 1.5 of the depth, so that steps shrink with it, and begin and end CLOSE to the surface. Numbers are midpoints of
-python-flint's balls. Made for motions that are off the plate for a good part of a cycle, as in the jumping scene.
+Taylor series of Eqs. 7 and 11 in contact (tension = allow), a parabola in flight. The force of the spring is not smooth
+at the surface, so that steps shrink with the depth, and contact begins and ends at the depth CLOSE. Numbers are
+midpoints of python-flint's balls. Suitable for motions with a flight in each cycle, as in the jumping scene.
 """
 
 from collections.abc import Callable
@@ -14,12 +14,12 @@ from flint import arb, ctx
 from conveyor.solver.model import Conveyor, Start
 
 ORDER = 24
-CLOSE = 1e-12  # m: shallower than that, the spring changes the velocity by less than one part in 1e18
-INSIDE = 4  # places within a step, and
-SCAN = 400  # within a cycle of flight, at which events are looked for
+CLOSE = 1e-12  # m: above this depth, the spring changes the velocity by less than one part in 1e18
+INSIDE = 4  # checks for events in a step
+SCAN = 400  # checks for an impact in a cycle of flight
 
 
-def root(function: Callable, low: arb, high: arb) -> arb:
+def find_root(function: Callable, low: arb, high: arb) -> arb:
     """The zero between two places at which a function has different signs, by the Illinois method."""
     f_low, f_high = function(low), function(high)
     for _ in range(300):
@@ -27,21 +27,21 @@ def root(function: Callable, low: arb, high: arb) -> arb:
         found = function(place)
         if found == 0 or place in (low, high):
             break
-        # The value at an end that stays is halved.
+        # The Illinois method halves the value at the end that stays.
         low, f_low = (high, f_high) if (found > 0) != (f_high > 0) else (low, f_low / 2)
         high, f_high = place, found
     return place
 
 
-def horner(coefficients: list[arb], at: arb) -> arb:
+def evaluate_polynomial(coefficients: list[arb], at: arb) -> arb:
     total = arb(0)
-    for one in reversed(coefficients):
-        total = total * at + one
+    for coefficient in reversed(coefficients):
+        total = total * at + coefficient
     return total.mid()
 
 
 class Motion:
-    """A part on its way: t, x, ẋ, z, ż, and the sign of its slip, 0 for stick."""
+    """The current state of a part: t, x, ẋ, z, ż, and the sign of its slip, 0 for stick."""
 
     def __init__(self, conveyor: Conveyor, start: Start, digits: int):
         ctx.dps = self.digits = digits
@@ -66,7 +66,7 @@ class Motion:
         )
 
     def fly(self, end: arb) -> tuple[arb, Callable]:
-        """The time of the next impact, or `end`, and the state (x, ẋ, z, ż) up to it as a function of time."""
+        """The time of the next impact, at most `end`, and the state (x, ẋ, z, ż) as a function of time until then."""
         t, x, vx, z, vz, g = self.t, self.x, self.vx, self.z, self.vz, self.p["gravity"]
 
         def state(now):
@@ -80,10 +80,10 @@ class Motion:
         low, high = t, min((t + spacing).mid(), end)
         while gap(high) > 0 and high < end:
             low, high = high, min((high + spacing).mid(), end)
-        return (root(gap, low, high) if gap(high) <= 0 else end), state
+        return (find_root(gap, low, high) if gap(high) <= 0 else end), state
 
     def series(self, depth: arb, speed: arb) -> tuple[list[arb], list[arb], list[arb]]:
-        """Taylor coefficients of the depth, its rate and F_c/m from the time t on."""
+        """Taylor coefficients of the depth, its rate and F_c/m around the current time."""
         stiffness, damping = (self.p[name] / self.p["mass"] for name in ("stiffness", "damping"))
         exponent, phase = self.p["exponent"], self.omega * self.t + self.p["psi0"]
         deep, fast, spring, force, turn = [depth], [speed], [], [], self.a_z
@@ -101,8 +101,11 @@ class Motion:
             turn = turn * self.omega / (n + 1)
         return deep, fast, force
 
-    def touch(self, end: arb) -> tuple[arb, Callable, int | None]:
-        """The end of a step in contact, the state up to it, and the sign of the slip that begins there, if one does."""
+    def step_in_contact(self, end: arb) -> tuple[arb, Callable, int | None]:
+        """The end of a step in contact, the state as a function of time, and the sign of a slip that begins at its end.
+
+        The sign is 0 if the part begins to stick, and None without a change.
+        """
         t, x, vx, slip = self.t, self.x, self.vx, self.slip
         zs, vzs, _, _ = self.plate(t)
         depth, speed = (zs - self.z).mid(), (vzs - self.vz).mid()
@@ -120,34 +123,37 @@ class Motion:
             tau = now - t
             z, vz, vx_s, _ = self.plate(now)
             if slip:
-                x_now, vx_now = x + vx * tau + tau**2 * horner(path, tau), vx + tau * horner(rate, tau)
+                x_now, vx_now = (
+                    x + vx * tau + tau**2 * evaluate_polynomial(path, tau),
+                    vx + tau * evaluate_polynomial(rate, tau),
+                )
             else:
                 swing = (self.omega * t + self.p["psi0"]).cos() - (self.omega * now + self.p["psi0"]).cos()
                 x_now, vx_now = x + self.a_x / self.omega**2 * swing, vx_s
-            return x_now, vx_now, z - horner(deep, tau), vz - horner(fast, tau)
+            return x_now, vx_now, z - evaluate_polynomial(deep, tau), vz - evaluate_polynomial(fast, tau)
 
         def margin(now):
-            """Of the mode: the slip in its direction, or what friction can hold beyond what stick needs."""
+            """Positive while the mode lasts: slip speed, or in stick the largest friction minus the needed one."""
             _, _, vx_s, ax_s = self.plate(now)
             if slip:
                 return (slip * (vx_s - state(now)[1])).mid()
-            return (friction * horner(force, now - t) - abs(ax_s)).mid()
+            return (friction * evaluate_polynomial(force, now - t) - abs(ax_s)).mid()
 
         step = min(arb(step), end - t).mid()
         places = [(t + step * k / INSIDE).mid() for k in range(1, INSIDE + 1)]
         before = t
         for place in places:
             if margin(place) < 0:
-                now = root(margin, before, place) if margin(before) > 0 else place
+                now = find_root(margin, before, place) if margin(before) > 0 else place
                 _, _, _, ax_s = self.plate(now)
                 away = 1 if ax_s > 0 else -1
-                held = friction * horner(force, now - t) - abs(ax_s) >= 0
+                held = friction * evaluate_polynomial(force, now - t) - abs(ax_s) >= 0
                 return now, state, (0 if slip and held else away)
             before = place
         return places[-1], state, None
 
-    def graze(self) -> None:
-        """Pass between the surface and the depth CLOSE, inwards after an impact and outwards before a separation."""
+    def cross_surface(self) -> None:
+        """Move between the surface and the depth CLOSE: inwards after an impact, outwards before a separation."""
         zs, vzs, _, _ = self.plate(self.t)
         depth, speed = (zs - self.z).mid(), (vzs - self.vz).mid()
         target = arb(CLOSE) if speed > 0 else arb(0)
@@ -166,16 +172,16 @@ class Motion:
         self.z, self.vz = (zs - target).mid(), (vzs - speed - pull * tau).mid()
 
 
-def follow(conveyor: Conveyor, start: Start, times: np.ndarray, digits: int) -> tuple[np.ndarray, list[float]]:
+def simulate(conveyor: Conveyor, start: Start, times: np.ndarray, digits: int) -> tuple[np.ndarray, list[float]]:
     """States x, ẋ, z, ż at ascending times (s), shape (n, 4), and the times of impacts and separations (s).
 
-    The part starts above the plate. Values are rounded to double precision at the end.
+    The initial position must be above the plate. The results are rounded to double precision.
     """
     motion, samples, contact = Motion(conveyor, start, digits), [], False
     end = arb(float(times[-1]))
     while motion.t < end:
         if contact:
-            now, state, slip = motion.touch(end)
+            now, state, slip = motion.step_in_contact(end)
         else:
             now, state = motion.fly(end)
             slip = None
@@ -190,12 +196,12 @@ def follow(conveyor: Conveyor, start: Start, times: np.ndarray, digits: int) -> 
             contact = True
             motion.events.append(float(now))
             motion.slip = 1 if vxs > motion.vx else -1
-            motion.graze()
+            motion.cross_surface()
             continue
         if slip is not None:
             motion.slip = slip
         if float(zs - motion.z) < CLOSE and motion.vz > vzs:
-            motion.graze()
+            motion.cross_surface()
             motion.events.append(float(motion.t))
             contact = False
     return np.array(samples), motion.events

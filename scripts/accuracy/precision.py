@@ -1,11 +1,10 @@
 """Error, force evaluations and processor time of every method over its tolerances or steps, in one scene.
 
-The reference is the solver at its tightest tolerance. It is not its own judge: an independent integration, scipy's
-DOP853 from event to event at its tightest tolerance, is among the rows, and its error is the difference of the two. For
-one scene `reference_check` compares the reference with a solution in arithmetic of many digits.
+The reference is the solver at its tightest tolerance. It is checked by an independent integration: the error of SciPy's
+DOP853 with events at its tightest tolerance, which is one of the rows. For one scene, `reference_check` compares the
+reference with a multiprecision solution.
 
-Times differ from run to run and from machine to machine. They have a table of their own, so that what does not stays as
-it is.
+Times differ between runs and machines. They have a table of their own, so that the main table is reproducible.
 """
 
 import math
@@ -14,31 +13,31 @@ from typing import NamedTuple
 
 import numpy as np
 
-from accuracy.timing import in_turns
+from accuracy.timing import run_in_turns
 from conveyor.analysis.attractors import labels
 from conveyor.methods import fixed_step, peers
-from conveyor.simulation import simulate
+from conveyor.simulation import Run, simulate
 from conveyor.solver.model import conveyor_motion, pack
 from conveyor.solver.polynomial import ORDER
 from pipeline import fields, grid
 
 RUN = (
-    fields.text("method", "event, a fixed-step method, or one of scipy's integrators"),
+    fields.text("method", "event, a fixed-step method, or another integrator"),
     fields.text(
         "treatment",
-        "of impacts and slip reversals: exact, with or without repeated steps, fixed step, sign, events or modes",
+        "treatment of impacts and slip reversals: exact (with or without reuse), fixed step, sign, events, modes",
     ),
     fields.number("tolerance", "1", "relative tolerance; null for fixed steps"),
-    fields.number("step", "s", "step; null for tolerances"),
+    fields.number("step", "s", "time step; null for methods with a tolerance"),
 )
 
 TABLES = {
     "precision": (
         *RUN,
-        fields.count("evaluations", "force evaluations that are computed; derivatives of the force for a Taylor step"),
-        fields.count("repeated_evaluations", "those of a settled motion that are used again instead"),
+        fields.count("evaluations", "computed force evaluations; computed derivatives of the force for a Taylor step"),
+        fields.count("repeated_evaluations", "force evaluations saved by reusing the steps of a periodic motion"),
         fields.number("mean_velocity", "m/s", "mean feeding velocity over the last quarter"),
-        fields.number("velocity_error", "1", "its relative error"),
+        fields.number("velocity_error", "1", "relative error of the mean velocity"),
         fields.number("state_error", "1", "largest error of ẋ, z, ż at the end, in units of the plate's motion"),
         fields.number(
             "trajectory_error", "1", "root mean square error of x and z at fixed times, in units of the plate's motion"
@@ -46,9 +45,9 @@ TABLES = {
         fields.number(
             "event_error",
             "1",
-            "largest error of a time of impact or separation, in cycles; null where their number is wrong, or unknown",
+            "largest error of a time of impact or separation, in cycles; null if their number is wrong or unknown",
         ),
-        fields.text("outcome", "ok, or what is wrong, whatever the run itself reports"),
+        fields.text("outcome", "ok, or the failure, independent of the status that the method reports"),
     ),
     "precision_times": (
         *RUN,
@@ -57,11 +56,11 @@ TABLES = {
     ),
 }
 
-TRUTH = 1e-14  # tolerance
-SHORT = {"duration": 1e-3, "max_evaluations": 1000}  # of runs that only load or compile what the method needs
-# Treatments of the event-driven solver: as it is, and with every step of a settled motion computed.
-EXACT, ANEW = "exact", "exact, nothing repeated"
-# Where a run ends in another state of motion, and where its part is deeper in the plate than the plate moves.
+TRUTH = 1e-14  # tolerance of the reference
+SHORT = {"duration": 1e-3, "max_evaluations": 1000}  # of runs that only compile or load the code of a method
+# Treatments of the event-driven solver: with and without reuse of the steps of a periodic motion.
+EXACT, NO_REUSE = "exact", "exact, nothing repeated"
+# Outcomes of runs that lead to another state of motion, or whose part is deeper in the plate than the plate's stroke.
 WRONG = "wrong state"
 THROUGH = "through the plate"
 
@@ -70,24 +69,28 @@ class Method(NamedTuple):
     """One run of the chart; the tolerance or the step is None."""
 
     method: str
-    treatment: str  # of impacts and slip reversals: EXACT, ANEW, fixed step, or one of peers.TREATMENTS
+    treatment: str  # of impacts and slip reversals: EXACT, NO_REUSE, fixed step, or one of peers.TREATMENTS
     tolerance: float | None
     step: float | None
 
 
 class Result(NamedTuple):
-    """What a run comes to, in the terms that all methods share."""
+    """The quantities of a run that all methods have."""
 
     mean_velocity: float  # m/s
     end: np.ndarray  # ẋ, z, ż (m/s, m, m/s), shape (3,)
     evaluations: int
-    repeated: int  # evaluations of a settled motion that were used again
+    repeated: int  # evaluations saved by reusing the steps of a periodic motion
     status: str
 
 
 def methods(settings: dict) -> list[Method]:
     """All runs of a scene in the order of the table."""
-    listed = [Method("event", one, tolerance, None) for one in (EXACT, ANEW) for tolerance in settings["tolerances"]]
+    listed = [
+        Method("event", treatment, tolerance, None)
+        for treatment in (EXACT, NO_REUSE)
+        for tolerance in settings["tolerances"]
+    ]
     listed += [Method(name, "fixed step", None, step) for name in fixed_step.METHODS for step in settings["steps"]]
     for treatment, integrators in settings["peers"].items():
         for name, tolerances in integrators.items():
@@ -95,8 +98,16 @@ def methods(settings: dict) -> list[Method]:
     return listed
 
 
-def follow(method: Method, settings: dict) -> Result:
-    """One run. A Taylor step of order n counts as n force evaluations: it finds n derivatives of the force."""
+def simulate_method(method: Method, settings: dict) -> Run:
+    """A run of the event-driven solver or of a fixed-step method."""
+    conveyor, start = grid.conveyor_and_start(settings["model"])
+    accuracy = {"tolerance": method.tolerance} if method.step is None else {"step": method.step}
+    reuse = method.treatment != NO_REUSE
+    return simulate(conveyor, start, duration=settings["duration"], method=method.method, reuse=reuse, **accuracy)
+
+
+def run_method(method: Method, settings: dict) -> Result:
+    """The result of a run. A Taylor step of order n counts as n force evaluations, for n derivatives of the force."""
     conveyor, start = grid.conveyor_and_start(settings["model"])
     if method.treatment in peers.TREATMENTS:
         run = peers.run(
@@ -108,9 +119,7 @@ def follow(method: Method, settings: dict) -> Result:
             settings["max_evaluations"],
         )
         return Result(run.mean_velocity, np.array([run.vx, run.z, run.vz]), run.evaluations, 0, run.status)
-    accuracy = {"tolerance": method.tolerance} if method.step is None else {"step": method.step}
-    reuse = method.treatment != ANEW
-    run = simulate(conveyor, start, duration=settings["duration"], method=method.method, reuse=reuse, **accuracy)
+    run = simulate_method(method, settings)
     order = ORDER if method.method == "event" else 1
     end = np.array([run.vx_end, run.z_end, run.vz_end])
     return Result(run.mean_velocity(), end, order * run.work, order * run.repeats, run.status)
@@ -127,27 +136,23 @@ def contact_changes(events: np.ndarray) -> np.ndarray:
     return events["time"][np.isin(events["kind"], ["impact", "separation"])]
 
 
-def trajectory(method: Method, settings: dict) -> tuple[np.ndarray, np.ndarray]:
+def sample_trajectory(method: Method, settings: dict) -> tuple[np.ndarray, np.ndarray]:
     """x and z (m) at the fixed times, shape (n, 2), and the times (s) of impacts and separations."""
-    conveyor, start = grid.conveyor_and_start(settings["model"])
-    times, duration = sample_times(settings), settings["duration"]
+    times = sample_times(settings)
     if method.treatment in peers.TREATMENTS:
-        # To interpolate may take evaluations, too.
+        # Twice as many, because interpolation may need evaluations.
         limit = 2 * settings["max_evaluations"]
-        run = peers.run(
-            pack(conveyor, start), duration, method.method, method.treatment, method.tolerance, limit, times=times
-        )
+        parameters, duration = grid.packed(settings["model"]), settings["duration"]
+        run = peers.run(parameters, duration, method.method, method.treatment, method.tolerance, limit, times=times)
         return run.samples[:, [0, 2]], run.events
-    accuracy = {"tolerance": method.tolerance} if method.step is None else {"step": method.step}
-    reuse = method.treatment != ANEW
-    run = simulate(conveyor, start, duration=duration, method=method.method, reuse=reuse, **accuracy)
+    run = simulate_method(method, settings)
     samples = run.sample(times)
     return np.stack([samples["x"], samples["z"]], axis=1), contact_changes(run.events)
 
 
 def trajectory_errors(method: Method, truth: tuple[np.ndarray, np.ndarray], settings: dict) -> tuple[float, float]:
     """RMS error of x and z in units of the plate's motion, and largest error of an event time in cycles."""
-    positions, events = trajectory(method, settings)
+    positions, events = sample_trajectory(method, settings)
     scale = peers.scales(grid.packed(settings["model"]))[[0, 2]]
     error = math.sqrt(np.mean(((positions - truth[0]) / scale) ** 2))
     if len(events) != len(truth[1]):
@@ -156,15 +161,15 @@ def trajectory_errors(method: Method, truth: tuple[np.ndarray, np.ndarray], sett
     return error, float(np.abs(events - truth[1]).max(initial=0.0) * conveyor.frequency)
 
 
-def leads_to(settings: dict, end: np.ndarray) -> str:
-    """State of motion that a run with this end leads to."""
+def find_state(settings: dict, end: np.ndarray) -> str:
+    """The state of motion that a run leads to, from its `end`, shape (3,)."""
     parameters = grid.packed(settings["model"])[None]
     later = labels.continued(parameters, end[1:2], end[2:3], settings["duration"])
     return str(labels.classify(later).state[0])
 
 
-def outcome(result: Result, error: float, settings: dict, state: str) -> str:
-    """ "ok", or what is wrong with a run, which its own status need not say; `state` is the right state of motion."""
+def judge_run(result: Result, error: float, settings: dict, state: str) -> str:
+    """ "ok", or the failure of a run, which its own status may not report; `state` is the right state of motion."""
     if result.status != "ok":
         return result.status
     conveyor, _ = grid.conveyor_and_start(settings["model"])
@@ -172,7 +177,7 @@ def outcome(result: Result, error: float, settings: dict, state: str) -> str:
     stroke = np.abs(plate).max()
     if result.end[1] < plate[0] - stroke:
         return THROUGH
-    if not error < 1.0 or leads_to(settings, result.end) != state:
+    if not error < 1.0 or find_state(settings, result.end) != state:
         return WRONG
     return "ok"
 
@@ -183,24 +188,27 @@ def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[s
     Parameters
     ----------
     settings : of one scene with its model
-    timing : `repeats` and `seconds`, see `timing.in_turns`
+    timing : `repeats` and `seconds` of `timing.run_in_turns`
     progress : name of a progress bar, or None
     """
-    truth = follow(Method("event", ANEW, TRUTH, None), settings)
+    reference_method = Method("event", NO_REUSE, TRUTH, None)
+    truth = run_method(reference_method, settings)
     _, *scale = peers.scales(grid.packed(settings["model"]))
     listed = methods(settings)
     for method in listed:
-        follow(method, settings | SHORT)
-    results, times = in_turns([partial(follow, method, settings) for method in listed], **timing, progress=progress)
-    state = leads_to(settings, truth.end)
+        run_method(method, settings | SHORT)
+    runs = [partial(run_method, method, settings) for method in listed]
+    results, times = run_in_turns(runs, **timing, progress=progress)
+    state = find_state(settings, truth.end)
     velocity = np.array([result.mean_velocity for result in results])
     velocity_error = np.abs(velocity / truth.mean_velocity - 1.0)
-    outcomes = [outcome(result, error, settings, state) for result, error in zip(results, velocity_error, strict=True)]
-    reference = trajectory(Method("event", ANEW, TRUTH, None), settings)
-    lost = (math.nan, math.nan)
+    outcomes = [
+        judge_run(result, error, settings, state) for result, error in zip(results, velocity_error, strict=True)
+    ]
+    reference = sample_trajectory(reference_method, settings)
     errors = [
-        trajectory_errors(method, reference, settings) if found == "ok" else lost
-        for method, found in zip(listed, outcomes, strict=True)
+        trajectory_errors(method, reference, settings) if outcome == "ok" else (math.nan, math.nan)
+        for method, outcome in zip(listed, outcomes, strict=True)
     ]
     run = {
         "method": np.array([method.method for method in listed]),

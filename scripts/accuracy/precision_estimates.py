@@ -1,4 +1,4 @@
-"""Error against work of estimates of the largest exponent, of the dimension and of the fit."""
+"""Error over work of estimators of the largest Lyapunov exponent, of the dimension and of the fit."""
 
 import math
 
@@ -17,7 +17,7 @@ from pipeline import fields, grid
 TABLES = {
     "precision_estimates": (
         fields.text("quantity", "exponent, dimension or fit"),
-        fields.text("estimator", "how it is estimated"),
+        fields.text("estimator", "name of the estimator"),
         fields.number("work", "1", "simulated cycles, points or evaluations"),
         fields.number(
             "error", "1", "relative error of the exponent; error of the dimension; relative gap to the best fit"
@@ -26,14 +26,14 @@ TABLES = {
 }
 
 TOLERANCE = 1e-12
-# A pair without renormalisation is compared at the end of the run only.
+# Share of the run over which a pair without renormalisation is compared: its end only.
 AT_END = 1e-9
 
 
 def exponent_rows(settings: dict, model: dict) -> list[dict]:
-    """Three estimates of the exponent of a settled orbit, which its Floquet multiplier tells exactly."""
-    start = {name: [settings[name]] for name in ("acceleration", "z0")}
-    _, rows = grid.product(start, model)
+    """Three estimates of the exponent of a periodic orbit, whose true value follows from its Floquet multiplier."""
+    axes = {name: [settings[name]] for name in ("acceleration", "z0")}
+    _, rows = grid.product(axes, model)
     state = stroboscopic_map.initial_states(rows, TOLERANCE)[0]
     orbit, _ = periodic_orbits.settled_orbit(rows[0], settings["acceleration"], state, (1, 2, 4), 1000)
     cycle = 1.0 / model["frequency"]
@@ -72,14 +72,14 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
 
 
 def dimension_rows(settings: dict, seed: int) -> list[dict]:
-    """Median error of both dimensions over sets of known dimension."""
-    ways = {
+    """Median errors of the estimators of the dimension over sets of known dimension."""
+    estimators = {
         "boxes": box_counting.box_dimension,
         "boxes, as in the paper": box_counting.box_dimension_of_paper,
         "correlation sum": lambda points: correlation_sum.correlation_dimension(points, 0),
     }
     found = []
-    for name, estimate in ways.items():
+    for name, estimate in estimators.items():
         for count in settings["points"]:
             rng = np.random.default_rng(seed)
             errors = [
@@ -92,7 +92,7 @@ def dimension_rows(settings: dict, seed: int) -> list[dict]:
 
 
 def fit_rows(settings: dict, data: pd.DataFrame, fit: dict, seed: int) -> list[dict]:
-    """Relative gap of the mean squared error to that of the best fit, over the triples tried."""
+    """Relative gap of the mean squared error to the best fit, over the number of evaluated triples."""
     low, high = fit["acceleration"]
     rows = data[data.is_critical & data.acceleration.between(low, high)]
     values = rows.acceleration.to_numpy(), rows.z0.to_numpy()
@@ -110,7 +110,7 @@ def fit_rows(settings: dict, data: pd.DataFrame, fit: dict, seed: int) -> list[d
 
 
 def make(settings: dict, model: dict, fit: dict | None = None, critical: pd.DataFrame | None = None) -> dict:
-    """The columns of the table; those of the fit need an entry and its critical heights."""
+    """The columns of the table; rows of the fit need the entry `fit` of the config and its critical heights."""
     rows = exponent_rows(settings["exponent"], model)
     rows += dimension_rows(settings["dimension"], settings["seed"])
     if critical is not None:

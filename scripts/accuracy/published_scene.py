@@ -1,4 +1,4 @@
-"""One scene of the open benchmark as JSON: parameters, initial state, reference states with error bars, and events."""
+"""A scene of the open benchmark as JSON: parameters, initial state, reference states with error bars, and events."""
 
 import json
 
@@ -11,17 +11,17 @@ from conveyor.solver.model import Conveyor, Start, pack
 from pipeline import grid
 
 STATE = {"x": "m", "vx": "m/s", "z": "m", "vz": "m/s"}
-ROUNDING = 4.0 * np.finfo(np.float64).eps  # of the largest value: no error bar is smaller
+ROUNDING = 4.0 * np.finfo(np.float64).eps  # smallest error bar, over the largest value
 
 
 def error_bars(reference: np.ndarray, others: list[np.ndarray]) -> np.ndarray:
-    """The largest difference of other solutions from the reference up to each time, each of shape (n,)."""
+    """The largest difference of `others` from the reference up to each time; all of shape (n,)."""
     differences = np.max([np.abs(other - reference) for other in others], axis=0)
     return np.maximum.accumulate(np.maximum(differences, ROUNDING * np.abs(reference).max()))
 
 
 def event_rows(run: Run, others: list[Run]) -> list[dict]:
-    """Time (s), error bar (s) and kind of each event; no error bar if another solution has other kinds of events."""
+    """Time (s), error bar (s) and kind of each event; no error bars if the kinds differ between solutions."""
     events = run.events
     same = all(np.array_equal(other.events["kind"], events["kind"]) for other in others)
     bars = error_bars(events["time"], [other.events["time"] for other in others]) if same and len(events) else None
@@ -31,14 +31,14 @@ def event_rows(run: Run, others: list[Run]) -> list[dict]:
     ]
 
 
-def start_of(conveyor: Conveyor, start: Start) -> dict[str, float]:
-    """The initial state: the part is at rest along the track."""
+def initial_state(conveyor: Conveyor, start: Start) -> dict[str, float]:
+    """The initial state of the part, which is at rest along the track."""
     state = simulate(conveyor, start, duration=1e-9).sample(np.zeros(1))
     return {name: float(state[name][0]) for name in STATE}
 
 
-def scene(settings: dict) -> dict:
-    """The content of the file; `settings` are those of the scene in the config."""
+def describe_scene(settings: dict) -> dict:
+    """The content of the file, from the settings of the scene in the config."""
     conveyor, start = grid.conveyor_and_start(settings["model"])
     options = {"duration": settings["duration"], "reuse": False}
     run, *others = (
@@ -56,7 +56,7 @@ def scene(settings: dict) -> dict:
             for name, value in parameters.items()
         },
         "units": {"times": "s", "events": "s", **STATE},
-        "initial": start_of(conveyor, start),
+        "initial": initial_state(conveyor, start),
         "duration": settings["duration"],
         "scales": scales,
         "times": times.tolist(),
@@ -67,6 +67,7 @@ def scene(settings: dict) -> dict:
 
 
 def make(settings: dict) -> str:
-    """The file of one scene, a key on each line."""
-    lines = (f"{json.dumps(key)}: {json.dumps(value, ensure_ascii=False)}" for key, value in scene(settings).items())
+    """The file of a scene, with one key per line."""
+    scene = describe_scene(settings)
+    lines = (f"{json.dumps(key)}: {json.dumps(value, ensure_ascii=False)}" for key, value in scene.items())
     return "{\n" + ",\n".join(lines) + "\n}\n"

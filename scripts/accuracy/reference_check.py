@@ -1,4 +1,4 @@
-"""How far the reference of the charts, the solver at its tightest tolerance, meets a solution with many digits."""
+"""Check of the reference of the charts, the solver at its tightest tolerance, with a multiprecision solution."""
 
 import numpy as np
 
@@ -10,21 +10,29 @@ from pipeline import fields, grid
 
 TABLES = {
     "reference_check": (
-        fields.text("quantity", "x, vx, z, vz at fixed times, or event: an impact or a separation"),
-        fields.number("time", "s", "time; of an event in the solution with many digits"),
-        fields.number("value", "m, m/s", "value in the solution with many digits; null for events"),
+        fields.text("quantity", "x, vx, z, vz at fixed times, or event for an impact or a separation"),
+        fields.number("time", "s", "time; time of an event in the multiprecision solution"),
+        fields.number("value", "m, m/s", "value in the multiprecision solution; null for events"),
         fields.number(
-            "difference", "1", "of the solver at its tightest tolerance, in units of the plate's motion; events: cycles"
+            "difference",
+            "1",
+            "difference of the solver at its tightest tolerance, in units of the plate's motion; in cycles for events",
         ),
     ),
 }
 
 
 def make(settings: dict) -> dict[str, np.ndarray]:
-    """The columns of the table, from the settings of a scene and the number of `digits`."""
+    """The columns of the table, from the settings of a scene and the number of `digits`.
+
+    Raises
+    ------
+    RuntimeError
+        if both solutions have different numbers of events
+    """
     conveyor, start = grid.conveyor_and_start(settings["model"])
     times = sample_times(settings)
-    states, events = multiprecision.follow(conveyor, start, times, settings["digits"])
+    states, events = multiprecision.simulate(conveyor, start, times, settings["digits"])
     run = simulate(conveyor, start, duration=settings["duration"], tolerance=TRUTH)
     own = run.sample(times)
     scales = peers.scales(grid.packed(settings["model"]))
@@ -36,7 +44,10 @@ def make(settings: dict) -> dict[str, np.ndarray]:
     found = contact_changes(run.events)
     found = found[found <= times[-1]]
     if len(found) != len(events):
-        raise RuntimeError(f"{len(events)} impacts and separations with many digits, {len(found)} by the solver")
+        raise RuntimeError(
+            f"the multiprecision solution has {len(events)} impacts and separations, the solver {len(found)}; increase "
+            "the digits"
+        )
     differences = (found - events) * conveyor.frequency
     rows += [
         {"quantity": "event", "time": time, "value": np.nan, "difference": difference}

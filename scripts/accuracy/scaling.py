@@ -1,10 +1,10 @@
-"""What the jobs of sweeps take over points, threads, shards and conveyors: wall times, and the most memory they have.
+"""Wall times and peak memory of the jobs of sweeps, over points, threads, shards and conveyors.
 
-Every job is measured in a process of its own, from its start on, as a cluster starts it. A shard's first points are
-computed twice: the first time loads the compiled code, which can so be told from computing. What a few seconds take
-depends on what else the machine does: such shards are made several times, in turns with those of other sweeps, and
-medians count. Of the largest sweeps one shard is made; what puts the shards together is measured on copies of it, of
-which more change nothing but the time.
+Every job runs in a process of its own, as on a cluster, and is measured from the start of Python. The first points of a
+shard are computed twice: the first time loads the compiled code, which separates loading from computing. Short times
+depend on the load of the machine. Short shards are therefore computed several times, in turns with other sweeps, and
+medians are taken. Of the largest sweeps, only one shard is computed, and the job that joins the shards is measured on
+copies of it.
 """
 
 import json
@@ -30,49 +30,41 @@ from pipeline import fields, tables
 from sweeps import shards
 
 SCRIPTS = Path(__file__).resolve().parents[1]
-# Rounds in which the shards of each sweep are made again, until those of it have taken so many seconds.
+# Most rounds of computing the shards of a sweep, and seconds after which they are not computed again.
 ROUNDS, ENOUGH = 5, 30.0
-MOST_GATHERED = 3  # copies of a shard of which a measured table is put together
+MOST_GATHERED = 3  # most copies of a shard that are joined
 
 TABLES = {
     "scaling": (
-        fields.text("varied", "what the rows of this kind differ in: points, conveyors, threads, shards"),
-        fields.count("points", "of the sweep"),
-        fields.count("conveyors", "of the sweep"),
-        fields.count("shards", "of the sweep"),
-        fields.count("rows", "of a shard"),
-        fields.count("threads", "of a shard"),
-        fields.count(
-            "measured", "shards that were made; of their memory the most counts below, of short times the median"
-        ),
-        fields.count("computed", "points of these shards"),
-        fields.number("shard_seconds", "s", "wall time of a shard, from the start of Python; of several the sum"),
-        fields.number(
-            "loading_seconds", "s", "of it the first points alone, which load the compiled code; of several the sum"
-        ),
-        fields.number(
-            "computing_seconds", "s", "of it all points after that, with the writing of them; of several the sum"
-        ),
-        fields.number("shard_memory", "MB", "most resident memory of a shard"),
-        fields.number(
-            "estimated_seconds", "s", "of a shard on its threads, as the config estimates it to cut the sweep"
-        ),
-        fields.number("estimated_memory", "MB", "of a shard, as it asks a cluster for it"),
-        fields.count("gathered", "rows that were put together"),
-        fields.number("gathering_seconds", "s", "wall time of that, from the start of Python"),
-        fields.number("gathering_memory", "MB", "most resident memory of that"),
-        fields.number("bytes", "B", "size of the file, for each row"),
+        fields.text("varied", "varied quantity: points, conveyors, threads or shards"),
+        fields.count("points", "points of the sweep"),
+        fields.count("conveyors", "conveyors of the sweep"),
+        fields.count("shards", "shards of the sweep"),
+        fields.count("rows", "rows of a shard"),
+        fields.count("threads", "threads of a shard"),
+        fields.count("measured", "number of computed shards"),
+        fields.count("computed", "points of the computed shards"),
+        fields.number("shard_seconds", "s", "sum of the wall times of the shards, from the start of Python"),
+        fields.number("loading_seconds", "s", "the part of it for the first points, which load the compiled code"),
+        fields.number("computing_seconds", "s", "the part of it for computing and writing all points afterwards"),
+        fields.number("shard_memory", "MB", "peak resident memory of a shard, the largest of all"),
+        fields.number("estimated_seconds", "s", "wall time of a shard by the estimate that determines its size"),
+        fields.number("estimated_memory", "MB", "memory of a shard that a cluster is asked for"),
+        fields.count("gathered", "rows of the joined shards"),
+        fields.number("gathering_seconds", "s", "wall time of joining the shards, from the start of Python"),
+        fields.number("gathering_memory", "MB", "peak resident memory of joining the shards"),
+        fields.number("bytes", "B", "size of the file per row"),
     ),
 }
 
 
 def peak_memory() -> float:
-    """MB, the most resident memory that this process has had; not what it inherited from the one that started it."""
+    """Peak resident memory (MB) of this process, without the memory of its parent, unlike getrusage."""
     return int(re.search(r"VmHWM:\s+(\d+) kB", Path("/proc/self/status").read_text())[1]) * 1024 / 1e6
 
 
 def make_shard(path: str, settings: dict, rows: tuple[int, int], threads: int) -> float:
-    """Write some rows of a sweep to `path`; the wall time (s) of that."""
+    """Write some rows of a sweep to `path`, and return the wall time (s)."""
     begin = perf_counter()
     schema = [*(fields.AXES[axis] for axis in settings["axes"]), *shards.TABLES["sweeps"]]
     blocks = shards.make(settings, rows, threads=threads)
@@ -80,28 +72,28 @@ def make_shard(path: str, settings: dict, rows: tuple[int, int], threads: int) -
     return perf_counter() - begin
 
 
-def job() -> None:
-    """What a measured process does: as the task on stdin says; it answers on stdout."""
+def run_job() -> None:
+    """The main function of a measured process: reads its task from stdin and writes times and memory to stdout."""
     task = json.load(sys.stdin)
     times = {}
     if "shards" in task:
-        # Copies of shards do not hold the rows that their places ask for.
+        # No expected values, because copies of a shard have equal rows.
         tables.gather(task["path"], task["shards"], "sweeps", task["settings"], task["rows"], lambda rows: {})
     else:
         begin, end = task["rows"]
-        # Fewer would not load the code of starts that are followed side by side.
+        # With fewer points, the code for several initial conditions side by side would not be loaded.
         first_points = task | {"rows": (begin, min(begin + convergence_lanes.SIDE_BY_SIDE, end))}
         times = {"loading": make_shard(**first_points)}
-        os.unlink(task["path"])  # no job writes over a file
+        os.unlink(task["path"])  # as in a real job, the file must not exist
         times["computing"] = make_shard(**task)
     json.dump(times | {"memory": peak_memory()}, sys.stdout)
 
 
-def run(**task: Any) -> dict[str, float]:
-    """Most memory (MB) and wall times (s) of one job: the whole from the start of Python, and what a shard's is of."""
+def measure_job(**task: Any) -> dict[str, float]:
+    """Peak memory (MB) and wall times (s) of one job: `whole` from the start of Python, and the parts of a shard."""
     begin = perf_counter()
     done = subprocess.run(
-        [sys.executable, "-c", "from accuracy import scaling; scaling.job()"],
+        [sys.executable, "-c", "from accuracy import scaling; scaling.run_job()"],
         input=json.dumps(task),
         stdout=subprocess.PIPE,
         text=True,
@@ -111,11 +103,11 @@ def run(**task: Any) -> dict[str, float]:
     return json.loads(done.stdout) | {"whole": perf_counter() - begin}
 
 
-def shards_of(case: dict, folder: Path) -> list[dict[str, float]]:
-    """`run` for each shard of a case that is to be made."""
+def measure_shards(case: dict, folder: Path) -> list[dict[str, float]]:
+    """The results of `measure_job` for each computed shard of a case."""
     rows, points = case["plan"]["rows"], case["plan"]["points"]
     return [
-        run(
+        measure_job(
             settings=case["settings"],
             threads=case["threads"],
             path=str(folder / f"{k}.parquet"),
@@ -125,28 +117,28 @@ def shards_of(case: dict, folder: Path) -> list[dict[str, float]]:
     ]
 
 
-def gather_shards(case: dict, folder: Path) -> dict[str, float]:
-    """`run` for what puts the shards of a case together, how many rows it has, and the size (B) of the file."""
-    paths, shards_of_all = [str(folder / f"{k}.parquet") for k in range(case["measured"])], case["plan"]["shards"]
-    copies = paths if len(paths) == shards_of_all else paths * min(shards_of_all, MOST_GATHERED)
+def measure_gathering(case: dict, folder: Path) -> dict[str, float]:
+    """The results of `measure_job` for joining the shards of a case, with the rows and the size (B) of the file."""
+    paths, count = [str(folder / f"{k}.parquet") for k in range(case["measured"])], case["plan"]["shards"]
+    copies = paths if len(paths) == count else paths * min(count, MOST_GATHERED)
     rows = sum(pq.read_metadata(path).num_rows for path in copies)
-    whole = folder / "all.parquet"
-    found = run(settings=case["settings"], shards=copies, rows=rows, path=str(whole))
-    return found | {"rows": rows, "bytes": whole.stat().st_size}
+    joined = folder / "all.parquet"
+    found = measure_job(settings=case["settings"], shards=copies, rows=rows, path=str(joined))
+    return found | {"rows": rows, "bytes": joined.stat().st_size}
 
 
-def medians(rounds: list[list[dict[str, float]]]) -> list[dict[str, float]]:
-    """Of each shard over rounds the medians of its times, and its most memory."""
+def summarise(rounds: list[list[dict[str, float]]]) -> list[dict[str, float]]:
+    """The median times and the largest memory of each shard over all rounds."""
     return [
-        {name: (max if name == "memory" else median)(one[name] for one in of_one) for name in of_one[0]}
-        for of_one in zip(*rounds, strict=True)
+        {name: (max if name == "memory" else median)(one[name] for one in shard) for name in shard[0]}
+        for shard in zip(*rounds, strict=True)
     ]
 
 
-def row(case: dict, made: list[dict[str, float]], together: dict[str, float]) -> dict[str, Any]:
-    """A row of the table for one `case`, from `medians` of its shards and what `gather_shards` says.
+def make_row(case: dict, shard_results: list[dict[str, float]], gathering: dict[str, float]) -> dict[str, Any]:
+    """The row of a case, from `summarise` of its shards and from `measure_gathering`.
 
-    A case says what is varied, the settings of its sweep, its plan, its threads, and how many shards are to be made.
+    A case has the varied quantity, settings, plan and threads of its sweep, and the number of shards to compute.
     """
     plan = case["plan"]
     return {
@@ -156,35 +148,34 @@ def row(case: dict, made: list[dict[str, float]], together: dict[str, float]) ->
         "shards": plan["shards"],
         "rows": plan["rows"],
         "threads": case["threads"],
-        "measured": len(made),
-        "computed": min(len(made) * plan["rows"], plan["points"]),
-        "shard_seconds": math.fsum(one["whole"] for one in made),
-        "loading_seconds": math.fsum(one["loading"] for one in made),
-        "computing_seconds": math.fsum(one["computing"] for one in made),
-        "shard_memory": max(one["memory"] for one in made),
+        "measured": len(shard_results),
+        "computed": min(len(shard_results) * plan["rows"], plan["points"]),
+        "shard_seconds": math.fsum(shard["whole"] for shard in shard_results),
+        "loading_seconds": math.fsum(shard["loading"] for shard in shard_results),
+        "computing_seconds": math.fsum(shard["computing"] for shard in shard_results),
+        "shard_memory": max(shard["memory"] for shard in shard_results),
         "estimated_seconds": plan["seconds"] / case["threads"],
         "estimated_memory": plan["memory"],
-        "gathered": together["rows"],
-        "gathering_seconds": together["whole"],
-        "gathering_memory": together["memory"],
-        "bytes": together["bytes"] / together["rows"],
+        "gathered": gathering["rows"],
+        "gathering_seconds": gathering["whole"],
+        "gathering_memory": gathering["memory"],
+        "bytes": gathering["bytes"] / gathering["rows"],
     }
 
 
 def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> dict[str, np.ndarray]:
-    """The columns of the table for `cases`, one row each; what has to be compiled is compiled before."""
-
+    """The columns of the table, with one row per case. Code is compiled before the first measurement."""
     with tempfile.TemporaryDirectory() as folder:
         for one in cases:
             rows = [0, min(convergence_lanes.SIDE_BY_SIDE, one["plan"]["points"])]
-            run(settings=one["settings"], threads=1, rows=rows, path=f"{folder}/one.parquet")
-    times, together = [[] for _ in cases], {}
+            measure_job(settings=one["settings"], threads=1, rows=rows, path=f"{folder}/one.parquet")
+    times, gathering = [[] for _ in cases], {}
     for number, k in bar(list(product(range(ROUNDS), range(len(cases)))), label=progress, unit="sweeps"):
         if math.fsum(one["whole"] for shards in times[k] for one in shards) >= ENOUGH:
             continue
         with tempfile.TemporaryDirectory() as folder:
-            times[k].append(shards_of(cases[k], Path(folder)))
+            times[k].append(measure_shards(cases[k], Path(folder)))
             if number == 0:
-                together[k] = gather_shards(cases[k], Path(folder))
-    rows = (row(case, medians(times[k]), together[k]) for k, case in enumerate(cases))
+                gathering[k] = measure_gathering(cases[k], Path(folder))
+    rows = (make_row(case, summarise(times[k]), gathering[k]) for k, case in enumerate(cases))
     return {name: column.to_numpy() for name, column in pd.DataFrame(rows).items()}

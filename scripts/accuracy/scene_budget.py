@@ -1,9 +1,9 @@
-"""What the data of each figure need, what that costs, and what a reader would see of less.
+"""Cost and visible effect of cheaper variants of the table behind each figure.
 
-Some points of each table that a figure draws are computed as the config says, with the full model at a tight tolerance,
-and with variants of both: other tolerances, with the horizontal motion, half the time, a rigid bouncing part in place
-of the contact. Drawn values that shifts of the initial height nobody can set (config) change visibly, or an even
-tighter tolerance, as in chaos and in long transients, do not count: there the model itself makes no statement.
+Some points of each table are computed with the settings of the config, with the full model at a tight tolerance, and
+with variants: other tolerances, with the horizontal motion, half the duration, a rigid bouncing part in place of the
+contact. Some drawn values change visibly with tiny shifts of the initial height or with an even tighter tolerance, as
+in chaos and in long transients. They do not count, because the model itself makes no statement about them.
 """
 
 from collections.abc import Callable
@@ -24,36 +24,36 @@ from pipeline import fields, grid
 TABLES = {
     "scene_budget": (
         fields.text("figure", "figure of the config"),
-        fields.text("table", "table that it draws, SECTION/NAME; none for a drawing"),
+        fields.text("table", "table behind the figure, SECTION/NAME; none for a drawing"),
         fields.text("needs", "feeding or vertical motion, or nothing"),
-        fields.text("shows", "what the figure shows of the table"),
-        fields.flag("settled", "whether that is of the motion that a start ends in, not of the way there"),
+        fields.text("shows", "drawn quantities of the table"),
+        fields.flag("settled", "whether the table describes attractors, not transients"),
         fields.text("variant", "full model, feeding or vertical needs, half the time, rigid part, or drawing"),
         fields.number("tolerance", "1", "relative error of a step; null where there is none"),
-        fields.number("duration", "s", "length of the runs; null where they last until they settle"),
-        fields.count("points", "points of the table that were computed"),
-        fields.number("steps", "1/s", "Taylor steps in a second of the motion; null for the rigid part"),
+        fields.number("duration", "s", "duration of the runs; null if they last until they settle"),
+        fields.count("points", "computed points of the table"),
+        fields.number("steps", "1/s", "Taylor steps per second of the motion; null for the rigid part"),
         fields.number("sticks", "1", "share of the points whose part sticks at some time"),
-        fields.number("known", "1", "share of the drawn values that a tiny shift of the start does not change visibly"),
+        fields.number("known", "1", "share of the drawn values without a visible change by a tiny shift of the height"),
         fields.number(
-            "changed", "1", "share of those that differ visibly from the full model's, the worst of the columns"
+            "changed", "1", "share of these values that differ visibly from the full model, for the worst column"
         ),
         fields.flag("visible", "whether a reader would see the difference"),
-        fields.flag("chosen", "whether this is what the config chooses"),
-        fields.text("reason", "why the choice is tighter than the picture needs; null where it is not"),
+        fields.flag("chosen", "whether the config chooses this variant"),
+        fields.text("reason", "reason for a choice that is tighter than necessary; null for none"),
     ),
     "budget_times": (
-        fields.text("table", "table that a figure draws, SECTION/NAME"),
+        fields.text("table", "table behind a figure, SECTION/NAME"),
         fields.text("variant", "as in the table of budgets"),
         fields.number("tolerance", "1", "relative error of a step; null where there is none"),
         fields.number("seconds", "s", "processor time of a point"),
         fields.number("full_seconds", "s", "processor time of a point of the full model at tight tolerance"),
-        fields.number("ratio", "1", "the latter over the former"),
+        fields.number("ratio", "1", "full_seconds over seconds"),
     ),
 }
 
 TIGHT, TIGHTER = 1e-13, 3e-14
-ROUNDS, ENOUGH = 3, 0.2  # of a timed run: at most that many, until that many seconds altogether
+ROUNDS, ENOUGH = 3, 0.2  # most rounds of a timed run, and seconds after which it is not repeated
 FULL, HALF, RIGID, DRAWING = "full model", "half the time", "rigid part", "drawing"
 NOTHING = {
     "table": "none",
@@ -78,9 +78,9 @@ TIMES = ("table", "variant", "tolerance", "seconds", "full_seconds", "ratio")
 
 
 def least_time(work: Callable[[], Any]) -> tuple[float, Any]:
-    """Least processor time (s) of repeated rounds in this thread, and what `work` returns.
+    """The least processor time (s) of several rounds in this thread, and the result of `work`.
 
-    Other load on the machine only adds to a time.
+    The least time, because other load on the machine can only add to it.
     """
     times = []
     while not times or (len(times) < ROUNDS and sum(times) < ENOUGH):
@@ -91,12 +91,12 @@ def least_time(work: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def variants_of(section: str, settings: dict, tolerances: list[float]) -> list[tuple[str, dict]]:
-    """Names and settings of all variants of a table, that of the config first."""
+    """Names and settings of all variants of a table; the config's own variant comes first."""
     needs = settings.get("needs", "feeding")
     name = "vertical" if SHOWN[section].vertical else needs
     found = [(name, settings)]
     if section == "impacts":
-        return found  # closed forms without a tolerance
+        return found  # closed forms have no tolerance
     found += [
         (name, settings | {"tolerance": tolerance}) for tolerance in tolerances if tolerance != settings["tolerance"]
     ]
@@ -107,33 +107,33 @@ def variants_of(section: str, settings: dict, tolerances: list[float]) -> list[t
     return found
 
 
-def work_of(parameters: np.ndarray, tolerance: float) -> tuple[float, float]:
-    """Taylor steps of a second of the motion, the mean over the points, and the share of points whose part sticks."""
+def measure_work(parameters: np.ndarray, tolerance: float) -> tuple[float, float]:
+    """Mean number of Taylor steps per second of the motion, and the share of points whose part sticks."""
     runs = [simulate(*unpack(row), tolerance=tolerance) for row in parameters]
     return float(np.mean([run.work for run in runs])), float(np.mean(["stick" in run.events["kind"] for run in runs]))
 
 
 def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
-    """One row for each variant of one table, SECTION/NAME, with the settings of its entry."""
+    """The rows of a table, SECTION/NAME, one for each variant, from the settings of its entry."""
     section = reference.split("/")[0]
     shown = SHOWN[section]
     needs = "vertical" if shown.vertical else settings.get("needs", "feeding")
     if section == "sweeps" and needs == "vertical":
         shown = shown._replace(drawn=("state",), what="state", settled=True)
-    thinned = observables.thinned(settings["axes"], budget["points"][section])
+    thinned = observables.thin_axes(settings["axes"], budget["points"][section])
     settings = settings | {"axes": thinned} | budget["shortened"].get(section, {})
     _, parameters = grid.product(settings["axes"], settings["model"])
     full_settings = settings | {"needs": "feeding", "tolerance": TIGHT}
-    # What is not timed comes first: it loads compiled code.
+    # Runs without timing come first, because they load compiled code.
     alike = observables.observe_shifted(shown, full_settings, budget["shifts"])
     alike.append(shown.observe(full_settings | {"tolerance": TIGHTER}))
     full_seconds, truth = least_time(lambda: shown.observe(full_settings))
-    known = observables.known_values(shown, truth, alike, settings["axes"], budget["line"])
-    work_at = cache(partial(work_of, parameters[:: max(1, len(parameters) // 50)]))
+    robust = observables.robust_values(shown, truth, alike, settings["axes"], budget["line"])
+    work_at = cache(partial(measure_work, parameters[:: max(1, len(parameters) // 50)]))
 
     def row(variant: str, of: dict, seconds: float, found: pd.DataFrame) -> dict:
-        seen = observables.differences(shown, truth, found, settings["axes"], budget["line"])
-        shares = [seen[name][known[name]].mean() for name in shown.drawn if known[name].any()]
+        visible = observables.visible_differences(shown, truth, found, settings["axes"], budget["line"])
+        shares = [visible[name][robust[name]].mean() for name in shown.drawn if robust[name].any()]
         steps, sticks = work_at(of["tolerance"])
         return {
             "table": reference,
@@ -149,7 +149,7 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
             "ratio": full_seconds / seconds,
             "steps": np.nan if variant == RIGID else steps,
             "sticks": sticks,
-            "known": float(known.to_numpy().mean()),
+            "known": float(robust.to_numpy().mean()),
             "changed": float(max(shares, default=0.0)),
             "visible": bool(max(shares, default=0.0) > budget["pixels"]),
             "chosen": of is settings,
@@ -160,10 +160,10 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     for variant, of in variants_of(section, settings, budget["tolerances"]):
         rows.append(row(variant, of, *least_time(lambda of=of: shown.observe(of))))
     if section == "sweeps" and "tension" not in settings["axes"]:
-        # As long as starts on the contact are followed, and no shorter than what tells whether a motion repeats itself.
-        swept = partial(rigid_part.swept, cycles=max(settings["settling"], 2 * rigid_part.MAX_PERIOD))
-        swept(settings | {"axes": observables.thinned(thinned, 1)})
-        seconds, found = least_time(lambda: swept(settings))
+        # As many cycles as for the contact, but enough to find the longest period.
+        sweep = partial(rigid_part.sweep, cycles=max(settings["settling"], 2 * rigid_part.MAX_PERIOD))
+        sweep(settings | {"axes": observables.thin_axes(thinned, 1)})
+        seconds, found = least_time(lambda: sweep(settings))
         rows.append(row(RIGID, settings | {"rigid": True}, seconds, found))
     return rows
 
@@ -176,23 +176,23 @@ def make(
     threads: int = 1,
     progress: str | None = None,
 ) -> dict[str, dict[str, np.ndarray]]:
-    """The columns of the table of budgets, rows by figure, table and variant, and of that of their processor times.
+    """The columns of the table of budgets, by figure, table and variant, and of the table of processor times.
 
     Parameters
     ----------
     settings : the section `scene_budget` of the config
-    entries : settings of the tables by their names, SECTION/NAME
-    drawn : names of the tables that each figure draws
-    threads : on which tables are looked at
+    entries : settings of the tables by name, SECTION/NAME
+    drawn : names of the tables behind each figure
+    threads : number of threads, which share the tables
     progress : name of a progress bar, or None
     """
     found: dict[str, list[dict]] = {}
-    # The longest ones come last: they begin first, so that the threads end together.
+    # The slowest tables come last in the config and are started first, so that all threads end together.
     listed = list(entries.items())[::-1]
 
     def work(begin: int, end: int) -> None:
-        for reference, of_table in listed[begin:end]:
-            found[reference] = rows_of_table(reference, of_table, settings)
+        for reference, entry in listed[begin:end]:
+            found[reference] = rows_of_table(reference, entry, settings)
 
     for_each_chunk(work, len(listed), threads=threads, chunk=1, progress=progress)
     rows = [

@@ -1,4 +1,4 @@
-"""Scores of a solver on the open benchmark: error of the trajectory and of the events, and processor time."""
+"""Scores of a solver on the open benchmark: errors of trajectory and events, and processor time."""
 
 import json
 import runpy
@@ -17,15 +17,15 @@ from conveyor.solver.model import Conveyor, Start, pack
 Solver = Callable[[dict, float], dict]
 
 COMPARED = ("x", "z")
-TOLERANCES = (1e-4, 1e-6, 1e-8)  # of a solver whose file has no list TOLERANCES of its own
-OWN_TOLERANCES = (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
-EULER_STEPS = (1e-5, 2e-6, 5e-7)  # s; the last one is the paper's
-REPEATS, SECONDS = 21, 0.5  # timed runs, and processor time after which a run is not repeated
-COLUMNS = ("scene", "run", "seconds", "time", *COMPARED)  # of a file of numbers
+TOLERANCES = (1e-4, 1e-6, 1e-8)  # for solvers whose file has no TOLERANCES
+OWN_TOLERANCES = (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)  # of this project's solver
+EULER_STEPS = (1e-5, 2e-6, 5e-7)  # s; the last one is the published step
+REPEATS, SECONDS = 21, 0.5  # most timed runs, and processor time after which a run is not repeated
+COLUMNS = ("scene", "run", "seconds", "time", *COMPARED)  # of a CSV file with results
 
 
 def read_scenes(folder: Path) -> dict[str, dict]:
-    """The scenes of the benchmark by their names."""
+    """The scenes of the benchmark by name; ValueError if the folder has none."""
     found = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted(folder.glob("*.json"))}
     if not found:
         raise ValueError(f"{folder} has no scenes; make them: snakemake docs/add_your_solver.md")
@@ -33,13 +33,13 @@ def read_scenes(folder: Path) -> dict[str, dict]:
 
 
 def root_mean_square(scene: dict, errors: dict[str, np.ndarray]) -> float:
-    """Errors of x and z (m) at all times as one number, in units of the plate's motion."""
+    """Root mean square of the errors of x and z (m) at all times, in units of the plate's motion."""
     scaled = [np.asarray(errors[name]) / scene["scales"][name] for name in COMPARED]
     return float(np.sqrt(np.mean(np.square(scaled))))
 
 
 def error_bar(scene: dict) -> float:
-    """Error of the reference solution itself, in the same unit."""
+    """Error of the reference solution, in units of the plate's motion."""
     return root_mean_square(scene, scene["error"])
 
 
@@ -49,7 +49,7 @@ def trajectory_error(scene: dict, solution: dict) -> float:
     Raises
     ------
     ValueError
-        names what the solution lacks
+        names a missing quantity, or one of a wrong shape
     """
     errors = {}
     for name in COMPARED:
@@ -63,7 +63,7 @@ def trajectory_error(scene: dict, solution: dict) -> float:
 
 
 def event_error(scene: dict, solution: dict) -> float:
-    """Largest error of the impact times (s); NaN without events, infinity for another number of impacts."""
+    """Largest error of the impact times (s); NaN without events, infinity for a wrong number of impacts."""
     if "events" not in solution:
         return np.nan
     times = [event["time"] for event in scene["events"] if event["kind"] == "impact"]
@@ -73,8 +73,8 @@ def event_error(scene: dict, solution: dict) -> float:
     return float(np.abs(np.subtract(found, times)).max(initial=0.0))
 
 
-def timed(solve: Solver, scene: dict, tolerance: float) -> tuple[dict, float]:
-    """A solution, and the median processor time (s) behind it. The first run, which may compile, is not timed."""
+def time_solver(solve: Solver, scene: dict, tolerance: float) -> tuple[dict, float]:
+    """A solution, and its median processor time (s). The first run, which may compile code, is not timed."""
     solution = solve(scene, tolerance)
     spent: list[float] = []
     while len(spent) < REPEATS and sum(spent) < SECONDS:
@@ -96,11 +96,11 @@ def score_function(
     """Scores of a Python function at some tolerances."""
     for scene in scenes.values():
         for tolerance in tolerances:
-            yield score(scene, name, f"{key} {tolerance:g}", *timed(solve, scene, tolerance))
+            yield score(scene, name, f"{key} {tolerance:g}", *time_solver(solve, scene, tolerance))
 
 
 def score_numbers(scenes: dict[str, dict], name: str, table: pd.DataFrame) -> Iterator[dict]:
-    """Scores of a table of numbers with COLUMNS: one row per scene, run and time."""
+    """Scores of a table of results with COLUMNS and one row per scene, run and time."""
     if missing := [column for column in COLUMNS if column not in table]:
         raise ValueError(f"{name} lacks the columns {', '.join(missing)}")
     for (scene, run), rows in table.groupby(["scene", "run"], sort=False):
@@ -109,12 +109,12 @@ def score_numbers(scenes: dict[str, dict], name: str, table: pd.DataFrame) -> It
         rows = rows.sort_values("time")
         times = scenes[scene]["times"]
         if len(rows) != len(times) or not np.allclose(rows.time, times, rtol=0.0, atol=1e-9):
-            raise ValueError(f"{name}: scene {scene}, run {run}: the times are not those of the scene")
+            raise ValueError(f"{name}: scene {scene}, run {run}: the times differ from the times of the scene")
         yield score(scenes[scene], name, str(run), rows[list(COMPARED)].to_dict("list"), float(rows.seconds.iloc[0]))
 
 
 def score_file(scenes: dict[str, dict], file: Path) -> list[dict]:
-    """Scores of a Python file with the function `solve`, or of a CSV file of numbers."""
+    """Scores of a Python file with the function `solve`, or of a CSV file with results."""
     if file.suffix == ".csv":
         return list(score_numbers(scenes, file.stem, pd.read_csv(file)))
     found = runpy.run_path(str(file))
@@ -123,17 +123,17 @@ def score_file(scenes: dict[str, dict], file: Path) -> list[dict]:
     return list(score_function(scenes, file.stem, found["solve"], found.get("TOLERANCES", TOLERANCES)))
 
 
-def packed(scene: dict) -> np.ndarray:
-    """The parameter vector of a scene, shape (13,)."""
+def pack_scene(scene: dict) -> np.ndarray:
+    """The parameter vector of a scene, shape (16,)."""
     parameters = {name: entry["value"] for name, entry in scene["parameters"].items()}
     return pack(Conveyor(**parameters), Start(z=scene["initial"]["z"], vz=scene["initial"]["vz"]))
 
 
-def own_solver(scene: dict, tolerance: float) -> dict:
-    """This project's solver, with every step computed."""
+def solve_by_events(scene: dict, tolerance: float) -> dict:
+    """Solve a scene with this project's solver, without reuse of steps."""
     times, kinds = np.empty((1, len(scene["events"]))), np.empty((1, len(scene["events"])), np.int8)
     samples, _ = trajectory.integrate(
-        packed(scene)[None],
+        pack_scene(scene)[None],
         np.array([scene["times"]]),
         tolerance=tolerance,
         reuse=False,
@@ -143,14 +143,14 @@ def own_solver(scene: dict, tolerance: float) -> dict:
     return {name: samples[0, :, SAMPLES.index(name)] for name in COMPARED}
 
 
-def paper_method(scene: dict, step: float) -> dict:
-    """The paper's explicit Euler method with a time step (s)."""
-    return fixed_step.sample(packed(scene), np.array(scene["times"]), step, "euler")
+def solve_by_euler(scene: dict, step: float) -> dict:
+    """Solve a scene with the published method, explicit Euler, and a time step (s)."""
+    return fixed_step.sample(pack_scene(scene), np.array(scene["times"]), step, "euler")
 
 
 def compared_scores(scenes: dict[str, dict]) -> list[dict]:
-    """Scores of this project's solver and of the paper's method on the present machine."""
+    """Scores of this project's solver and of the published method on this machine."""
     return [
-        *score_function(scenes, "this solver", own_solver, OWN_TOLERANCES),
-        *score_function(scenes, "explicit Euler", paper_method, EULER_STEPS, "step"),
+        *score_function(scenes, "this solver", solve_by_events, OWN_TOLERANCES),
+        *score_function(scenes, "explicit Euler", solve_by_euler, EULER_STEPS, "step"),
     ]

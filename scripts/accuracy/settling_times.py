@@ -1,4 +1,4 @@
-"""After how many excitation cycles starts have settled, to choose how long to follow one."""
+"""Excitation cycles until motions settle, as a basis for the limit of the search for attractors."""
 
 import math
 
@@ -12,17 +12,15 @@ TABLES = {
     "settling_times": (
         fields.number("acceleration", "m/s²", "amplitude of the excitation"),
         fields.number("z0", "m", "initial height"),
-        fields.number("psi0", "rad", "phase of the excitation at the start"),
+        fields.number("psi0", "rad", "initial phase of the excitation"),
         *fields.STATE,
-        fields.count(
-            "cycles", "excitation cycles for which the start was followed: until it settled, or as long as asked for"
-        ),
+        fields.count("cycles", "simulated excitation cycles: until the motion settled, or the limit of the config"),
     ),
 }
 
 
-def starts(acceleration: float, settings: dict, model: dict) -> np.ndarray:
-    """Parameter vectors with random heights and phases, shape (starts, 16); the same for every amplitude (m/s²)."""
+def draw_initial_conditions(acceleration: float, settings: dict, model: dict) -> np.ndarray:
+    """Parameter vectors with random heights and phases, shape (starts, 16), equal for every amplitude (m/s²)."""
     _, parameters = grid.product({"acceleration": [acceleration]}, model)
     rows = np.repeat(parameters, settings["starts"], axis=0)
     generator = np.random.default_rng(settings["seed"])
@@ -34,7 +32,9 @@ def starts(acceleration: float, settings: dict, model: dict) -> np.ndarray:
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table of settling times, from the section of the config with model and tolerance."""
     amplitudes = settings["acceleration"]
-    parameters = np.concatenate([starts(acceleration, settings, settings["model"]) for acceleration in amplitudes])
+    parameters = np.concatenate(
+        [draw_initial_conditions(acceleration, settings, settings["model"]) for acceleration in amplitudes]
+    )
     found = labels.classify(
         parameters, cycles=settings["cycles"], tolerance=settings["tolerance"], threads=threads, progress=progress
     )

@@ -1,4 +1,4 @@
-"""Factors in processor time between methods at equal error of the trajectory."""
+"""Ratios of processor times between methods at equal error of the trajectory."""
 
 from typing import NamedTuple
 
@@ -9,7 +9,7 @@ OWN = "exact, nothing repeated"  # the solver with every step computed
 
 
 class Factor(NamedTuple):
-    """The solver against another run, at an error that both keep."""
+    """Comparison of the solver with another run at an error that neither exceeds."""
 
     method: str
     error: float
@@ -21,13 +21,13 @@ class Factor(NamedTuple):
         return self.milliseconds / self.own_milliseconds
 
 
-def timed(work: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
+def successful_runs(work: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
     """Runs that end in the right state, with their processor times in `milliseconds`."""
     return work.assign(milliseconds=1e3 * times.seconds)[work.outcome == "ok"]
 
 
 def fastest(runs: pd.DataFrame, error: float) -> pd.Series | None:
-    """The fastest of the runs that keep an error; None if none does."""
+    """The fastest run whose error is at most `error`; None if there is none."""
     good = runs[runs.trajectory_error <= error]
     return None if good.empty else good.loc[good.milliseconds.idxmin()]
 
@@ -38,9 +38,9 @@ def paper_run(runs: pd.DataFrame, paper_step: float) -> pd.Series:
 
 
 def factors(runs: pd.DataFrame, paper_step: float, equal_error: float) -> list[Factor]:
-    """The solver against the paper's run at its error, and against the fastest rival at `equal_error`.
+    """The solver compared with the paper's run at its error, and with the fastest other method at `equal_error`.
 
-    A rival is any run that is not the solver's. The list is shorter where no run keeps an error.
+    A comparison is left out if no run reaches its error.
     """
     own, others = runs[runs.treatment == OWN], runs[runs.method != "event"]
     paper = paper_run(runs, paper_step)

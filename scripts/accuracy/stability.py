@@ -1,4 +1,4 @@
-"""Where methods stop working, over step and stiffness, damping, impact velocity or amplitude."""
+"""Stability limits of methods with a time step, over stiffness, damping, impact velocity and amplitude."""
 
 import math
 from collections.abc import Callable
@@ -19,47 +19,47 @@ TABLES = {
         fields.text(
             "panel", "stiffness, damping, impact velocity, conveyor; edge of one of them; chatter; or hard and a case"
         ),
-        fields.text("method", "euler, semi_implicit_euler, rk4, event, or in hard cases a rival"),
-        fields.number("x", "see panel", "step in s, null for event; hard: number of events"),
+        fields.text("method", "euler, semi_implicit_euler, rk4, event, or in hard cases another integrator"),
+        fields.number("x", "see panel", "time step in s, null for event; hard: number of events"),
         fields.number(
             "y",
             "see panel",
             "stiffness in N/m, damping in N s/m, velocity in m/s, conveyor: amplitude in m/s²; chatter: slip in m/s; "
             "hard: relative error of the height at the end",
         ),
-        fields.text("outcome", "right, wrong state, energy grows or blow-up; of a rival also its own failure"),
-        fields.number("theory", "s", "largest stable step in theory; null where there is none"),
+        fields.text("outcome", "right, wrong state, energy grows or blow-up; or the failure of another integrator"),
+        fields.number("theory", "s", "theoretical stability limit of the time step; null for none"),
     ),
 }
 
 RIGHT, WRONG, GROWS, BLOWS_UP = "right", "wrong state", "energy grows", "blow-up"
 THROUGH = "through the plate"
-SUNK = 1e-3  # m: a part so far below its right height has fallen through the plate
-# What is varied beside the step, and how its values are spaced.
+SUNK = 1e-3  # m: a part this far below its right height has fallen through the plate
+# Varied quantities besides the step, and the spacing of their values.
 PANELS = {"stiffness": np.geomspace, "damping": np.geomspace, "impact velocity": np.geomspace, "conveyor": np.linspace}
-TRUTH = 1e-13  # tolerance of the solver where it is the reference
-FAR = 1.0  # m: a part that far away has blown up
-# The part rests in a Hooke contact and is pressed in by this share of its static penetration.
+TRUTH = 1e-13  # tolerance of the solver as the reference
+FAR = 1.0  # m: distance of a part after a blow-up
+# Initial compression of a linear contact beyond its static penetration, as a share of it.
 PRESSED = 0.5
-# A contact that decays by this many e-foldings is at rest.
+# Duration of a run at rest in decay times of the contact.
 FOLDINGS = 8.0
-RESTITUTION = 0.05  # error of a restitution coefficient that leaves a bounce what it is
-VELOCITY = 0.05  # relative error of a mean velocity that leaves a state of motion what it is
-FINE = 1e-6  # error of the solver in hard cases, and
-COARSE = 1e-2  # of Euler: beyond that its curve leaves the right one
+RESTITUTION = 0.05  # largest error of a coefficient of restitution that counts as right
+VELOCITY = 0.05  # largest relative error of a mean velocity that counts as the right state
+FINE = 1e-6  # largest error of the solver in hard cases that counts as right
+COARSE = 1e-2  # largest error of other methods in hard cases that counts as right
 
 
 def characteristic(stiffness: float, damping: float, mass: float) -> tuple[complex, complex]:
-    """Both roots of λ² + (d/m) λ + k/m, 1/s."""
+    """Both roots of λ² + (d/m) λ + k/m (1/s)."""
     root = np.sqrt(complex(0.25 * (damping / mass) ** 2 - stiffness / mass))
     return -0.5 * damping / mass + root, -0.5 * damping / mass - root
 
 
-def limit(method: str, stiffness: float, damping: float, mass: float) -> float:
-    """Largest stable step (s) of a method in a linear contact: k N/m, d N s/m, m kg.
+def stability_limit(method: str, stiffness: float, damping: float, mass: float) -> float:
+    """Largest stable step h (s) of a method in a linear contact with k (N/m), d (N s/m) and m (kg).
 
-    Semi-implicit Euler: h² k/m + 2 h d/m = 4, near 2/ω. All others: |R(hλ)| = 1 for the polynomial R by which a step
-    multiplies a decay; explicit Euler: h = d/k for an oscillation, RK4: near 2.78/ω.
+    Semi-implicit Euler: h² k/m + 2 h d/m = 4, near 2/ω. Other methods: |R(hλ)| = 1 with the stability polynomial R;
+    explicit Euler: h = d/k for an oscillation, RK4: near 2.78/ω.
     """
     if method not in fixed_step.METHODS:
         raise ValueError(f"method = {method!r} is not one of {', '.join(fixed_step.METHODS)}")
@@ -73,7 +73,7 @@ def limit(method: str, stiffness: float, damping: float, mass: float) -> float:
     def growth(step):
         return max(abs(np.polynomial.Polynomial(fixed_step.GROWTH[method])(step * root)) for root in roots) - 1.0
 
-    # The first step with growth, which may be far below 1/|λ|: the polynomial may turn soon.
+    # A scan, because the first step with growth may be far below 1/|λ|.
     size = max(map(abs, roots))
     steps = np.geomspace(1e-4, 10.0, 200) / size
     last = next(place for place, step in enumerate(steps) if growth(step) > 0.0)
@@ -81,27 +81,32 @@ def limit(method: str, stiffness: float, damping: float, mass: float) -> float:
 
 
 def whole_steps(duration: float, step: float) -> float:
-    """The least whole number of steps (s) that lasts for a duration (s)."""
+    """A duration (s) rounded up to a whole number of steps (s)."""
     return math.ceil(duration / step - 1e-9) * step
 
 
-def resting(stiffness: float, damping: float) -> tuple[Conveyor, float, float]:
-    """A plate at rest with a Hooke contact, the static penetration (m) and the time (s) in which a motion decays."""
+def run_to_end(
+    method: str, conveyor: Conveyor, start: Start, duration: float, step: float, tolerance: float = DEFAULT_TOLERANCE
+) -> tuple[float, float, float]:
+    """Height (m) and velocity (m/s) at the end of a run, and its largest gap (m); `event` uses no step."""
+    if method == "event":
+        run = simulate(conveyor, start, duration=duration, tolerance=tolerance)
+        return run.z_end, run.vz_end, run.max_gap
+    found = fixed_step.run(pack(conveyor, start), whole_steps(duration, step), step, method)
+    return found.z, found.vz, found.max_gap
+
+
+def plate_at_rest(stiffness: float, damping: float) -> tuple[Conveyor, float, float]:
+    """A plate at rest with a linear contact, its static penetration (m), and the duration (s) of a decay to rest."""
     conveyor = Conveyor(acceleration=0.0, exponent=1.0, stiffness=stiffness, damping=damping)
     slowest = max(root.real for root in characteristic(stiffness, damping, conveyor.mass))
     return conveyor, conveyor.mass * conveyor.gravity / stiffness, FOLDINGS / -slowest
 
 
 def outcome_at_rest(method: str, step: float, stiffness: float, damping: float) -> str:
-    """What becomes of a part that is pressed into a plate at rest and let go."""
-    conveyor, depth, duration = resting(stiffness, damping)
-    start = Start(-(1.0 + PRESSED) * depth)
-    if method == "event":
-        run = simulate(conveyor, start, duration=duration)
-        z, vz, highest = run.z_end, run.vz_end, run.max_gap
-    else:
-        found = fixed_step.run(pack(conveyor, start), whole_steps(duration, step), step, method)
-        z, vz, highest = found.z, found.vz, found.max_gap
+    """Outcome for a part that is pressed into a plate at rest and released."""
+    conveyor, depth, duration = plate_at_rest(stiffness, damping)
+    z, vz, highest = run_to_end(method, conveyor, Start(-(1.0 + PRESSED) * depth), duration, step)
     if not (math.isfinite(z) and math.isfinite(vz)) or max(abs(z), highest) > FAR:
         return BLOWS_UP
     square = stiffness / conveyor.mass
@@ -114,45 +119,39 @@ def outcome_at_rest(method: str, step: float, stiffness: float, damping: float) 
 def restitution(
     method: str, step: float, speed: float, conveyor: Conveyor, tolerance: float = DEFAULT_TOLERANCE
 ) -> float:
-    """Speed after one impact on a plate at rest over that before; infinity for a part that blows up."""
+    """Coefficient of restitution of one impact on a plate at rest; 0 if the part stays, infinity after a blow-up."""
     height = 1e-6
     duration = 4.0 * height / speed + 6.0 * impact_time(conveyor, speed)
-    start = Start(height, -speed)
-    if method == "event":
-        run = simulate(conveyor, start, duration=duration, tolerance=tolerance)
-        z, vz = run.z_end, run.vz_end
-    else:
-        found = fixed_step.run(pack(conveyor, start), whole_steps(duration, step), step, method)
-        z, vz = found.z, found.vz
+    z, vz, _ = run_to_end(method, conveyor, Start(height, -speed), duration, step, tolerance)
     if not (math.isfinite(z) and abs(z) < FAR):
         return math.inf
     return math.sqrt(max(vz * vz + 2.0 * conveyor.gravity * (z - height), 0.0)) / speed if z > 0.0 else 0.0
 
 
-def deepest(conveyor: Conveyor, speed: float) -> float:
-    """Penetration (m) of an undamped Hertz impact."""
+def hertz_penetration(conveyor: Conveyor, speed: float) -> float:
+    """Largest penetration (m) of an undamped Hertz impact."""
     return (1.25 * conveyor.mass * speed * speed / conveyor.stiffness) ** 0.4
 
 
 def impact_time(conveyor: Conveyor, speed: float) -> float:
-    """Duration (s) of an undamped Hertz impact: 2.943 δ_max / v."""
-    return 2.9432750658 * deepest(conveyor, speed) / speed
+    """Duration (s) of an undamped Hertz impact, 2.943 δ_max / v."""
+    return 2.9432750658 * hertz_penetration(conveyor, speed) / speed
 
 
 def impact_limit(method: str, conveyor: Conveyor, speed: float) -> float:
-    """Largest step (s) with which a method takes energy from a Hertz impact, or is stable at its deepest point.
+    """Stability limit of the step (s) in a Hertz impact.
 
-    Explicit Euler adds Δt ∫ k v² dt to the energy of an impact, from its modified equation, and damping takes
-    d_c ∫ v² dt: the limit is that of a linear contact with the stiffness's mean over the path, weighted by the speed.
+    Explicit Euler adds the energy Δt ∫ k v² dt to an impact (from its modified equation), and damping dissipates
+    d_c ∫ v² dt. The limit is the step at which both are equal. Other methods have the limit at the deepest point.
     """
-    stiffness = 1.5 * conveyor.stiffness * math.sqrt(deepest(conveyor, speed))
+    stiffness = 1.5 * conveyor.stiffness * math.sqrt(hertz_penetration(conveyor, speed))
     if method == "euler":
         return conveyor.damping / stiffness * beta(0.4, 1.5) / beta(0.6, 1.5)
-    return limit(method, stiffness, conveyor.damping, conveyor.mass)
+    return stability_limit(method, stiffness, conveyor.damping, conveyor.mass)
 
 
 def outcome_of_impact(method: str, step: float, speed: float, conveyor: Conveyor) -> str:
-    """What becomes of one Hertz impact, against the event-driven solver."""
+    """Outcome of one Hertz impact, compared with the event-driven solver."""
     found, truth = restitution(method, step, speed, conveyor), restitution("event", math.nan, speed, conveyor, TRUTH)
     if not math.isfinite(found):
         return BLOWS_UP
@@ -162,7 +161,7 @@ def outcome_of_impact(method: str, step: float, speed: float, conveyor: Conveyor
 
 
 def outcome_on_conveyor(found: fixed_step.Summary, conveyor: Conveyor, start: Start, duration: float) -> str:
-    """What becomes of a part on the vibrating plate by a fixed-step method, against the event-driven solver."""
+    """Outcome for a part on the vibrating plate by a fixed-step method, compared with the event-driven solver."""
     truth = simulate(conveyor, start, duration=duration)
     if found.status != "ok" or max(abs(found.z), found.max_gap) > FAR:
         return BLOWS_UP
@@ -172,8 +171,8 @@ def outcome_on_conveyor(found: fixed_step.Summary, conveyor: Conveyor, start: St
     return RIGHT if abs(found.mean_velocity - velocity) < VELOCITY * abs(velocity) else WRONG
 
 
-def deepest_on_conveyor(conveyor: Conveyor, start: Start, duration: float) -> float:
-    """Largest penetration (m) in the last quarter of a run, by the largest contact force."""
+def penetration_on_conveyor(conveyor: Conveyor, start: Start, duration: float) -> float:
+    """Largest penetration (m) in the last quarter of a run, from the largest contact force."""
     run = simulate(conveyor, start, duration=duration)
     force = run.sample(np.linspace(0.75, 1.0, 5001) * duration)["contact_force"].max()
     return (force / conveyor.stiffness) ** (1.0 / conveyor.exponent)
@@ -182,47 +181,47 @@ def deepest_on_conveyor(conveyor: Conveyor, start: Start, duration: float) -> fl
 def experiments(
     panel: str, method: str, values: np.ndarray, settings: dict
 ) -> list[tuple[Callable[[float], str], float]]:
-    """For each value the outcome as a function of the step (s), and the largest stable step (s) in theory."""
+    """For each value, the outcome as a function of the step (s), and the theoretical stability limit (s)."""
     if panel == "conveyor":
-        return on_conveyors(method, values, **{name: settings[panel][name] for name in ("z0", "duration")})
-    return [experiment(panel, method, value, settings) for value in values]
+        return conveyor_experiments(method, values, **{name: settings[panel][name] for name in ("z0", "duration")})
+    return [rest_experiment(panel, method, value, settings) for value in values]
 
 
-def on_conveyors(
+def conveyor_experiments(
     method: str, values: np.ndarray, z0: float, duration: float
 ) -> list[tuple[Callable[[float], str], float]]:
-    """`experiments` on the vibrating plate: with each step, parts at all amplitudes are followed side by side."""
+    """`experiments` on the vibrating plate; for each step, parts at all amplitudes are simulated side by side."""
     conveyors, start = [Conveyor(acceleration=value) for value in values], Start(z0)
     parameters = np.array([pack(conveyor, start) for conveyor in conveyors])
     runs = cache(lambda step: fixed_step.run_all(parameters, whole_steps(duration, step), step, method))
 
-    def one(place: int, conveyor: Conveyor) -> tuple[Callable[[float], str], float]:
-        stiffness = 1.5 * conveyor.stiffness * math.sqrt(deepest_on_conveyor(conveyor, start, duration))
-        theory = limit(method, stiffness, conveyor.damping, conveyor.mass)
+    def experiment(place: int, conveyor: Conveyor) -> tuple[Callable[[float], str], float]:
+        stiffness = 1.5 * conveyor.stiffness * math.sqrt(penetration_on_conveyor(conveyor, start, duration))
+        theory = stability_limit(method, stiffness, conveyor.damping, conveyor.mass)
         return lambda step: outcome_on_conveyor(runs(step)[place], conveyor, start, whole_steps(duration, step)), theory
 
-    return [one(place, conveyor) for place, conveyor in enumerate(conveyors)]
+    return [experiment(place, conveyor) for place, conveyor in enumerate(conveyors)]
 
 
-def experiment(panel: str, method: str, value: float, settings: dict) -> tuple[Callable[[float], str], float]:
+def rest_experiment(panel: str, method: str, value: float, settings: dict) -> tuple[Callable[[float], str], float]:
     """One of the `experiments` with a plate at rest."""
     contact, mass = settings["contact"], Conveyor().mass
     if panel in ("stiffness", "damping"):
         stiffness, damping = (contact | {panel: value}).values()
-        theory = limit(method, stiffness, damping, mass)
+        theory = stability_limit(method, stiffness, damping, mass)
         return lambda step: outcome_at_rest(method, step, stiffness, damping), theory
     conveyor = Conveyor(acceleration=0.0, gravity=1e-3, damping=contact["damping"])
     theory = impact_limit(method, conveyor, value)
     return lambda step: outcome_of_impact(method, step, value, conveyor), theory
 
 
-def has_edge(panel: str, method: str) -> bool:
-    """Whether theory gives the step at which energy begins to grow, and not only an estimate of it."""
+def has_exact_limit(panel: str, method: str) -> bool:
+    """Whether the theoretical limit is exact, and not only an estimate."""
     return panel in ("stiffness", "damping") or (panel == "impact velocity" and method == "euler")
 
 
-def edge(outcome: Callable[[float], str], theory: float) -> float:
-    """Largest step (s) with which energy does not grow, by bisection to a hundredth."""
+def measure_limit(outcome: Callable[[float], str], theory: float) -> float:
+    """Largest step (s) without growth of energy, by bisection to one per cent."""
     low, high = 0.3 * theory, 3.0 * theory
     while high > 1.01 * low:
         middle = math.sqrt(low * high)
@@ -230,25 +229,30 @@ def edge(outcome: Callable[[float], str], theory: float) -> float:
     return low
 
 
+def panel_values(panel: str, settings: dict) -> np.ndarray:
+    """The values of the varied quantity of a panel."""
+    return PANELS[panel](*(settings[panel.replace(" ", "_")][name] for name in ("start", "stop", "num")))
+
+
 def region_rows(settings: dict, progress: str | None) -> list[dict]:
-    """Outcomes over the steps and one other quantity, and the measured edges where there is a theory."""
+    """Outcomes over the step and one other quantity, and measured limits where theory is exact."""
     steps = np.geomspace(*(settings["step"][name] for name in ("start", "stop", "num")))
     lines = []
-    for panel, spaced in PANELS.items():
-        values = spaced(*(settings[panel.replace(" ", "_")][name] for name in ("start", "stop", "num")))
+    for panel in PANELS:
+        values = panel_values(panel, settings)
         for method in settings["methods"]:
             found = experiments(panel, method, values, settings)
             lines += [(panel, method, value, *one) for value, one in zip(values, found, strict=True)]
     rows = []
     for panel, method, value, outcome, theory in bar(lines, label=progress, unit="lines"):
         rows += [row(panel, method, step, value, outcome(step), theory) for step in steps]
-        if has_edge(panel, method):
-            rows.append(row(f"edge: {panel}", method, edge(outcome, theory), value, RIGHT, theory))
+        if has_exact_limit(panel, method):
+            rows.append(row(f"edge: {panel}", method, measure_limit(outcome, theory), value, RIGHT, theory))
     return rows
 
 
 def outcome_of_solver(panel: str, value: float, settings: dict) -> str:
-    """What becomes of a part by the solver at its default tolerance, by the measures of the methods with a step."""
+    """Outcome by the solver at its default tolerance, with the criteria for methods with a step."""
     contact = settings["contact"]
     if panel in ("stiffness", "damping"):
         return outcome_at_rest("event", math.nan, *(contact | {panel: value}).values())
@@ -264,13 +268,13 @@ def outcome_of_solver(panel: str, value: float, settings: dict) -> str:
     return RIGHT if run.status == "ok" and error < VELOCITY * abs(truth.mean_velocity()) else WRONG
 
 
-def own_rows(settings: dict) -> list[dict]:
-    """Outcomes of the solver over each quantity; it has no step."""
-    rows = []
-    for panel, spaced in PANELS.items():
-        values = spaced(*(settings[panel.replace(" ", "_")][name] for name in ("start", "stop", "num")))
-        rows += [row(panel, "event", math.nan, value, outcome_of_solver(panel, value, settings)) for value in values]
-    return rows
+def solver_rows(settings: dict) -> list[dict]:
+    """Outcomes of the solver, which has no step, over each quantity."""
+    return [
+        row(panel, "event", math.nan, value, outcome_of_solver(panel, value, settings))
+        for panel in PANELS
+        for value in panel_values(panel, settings)
+    ]
 
 
 def row(panel: str, method: str, x: float, y: float, outcome: str, theory: float = math.nan) -> dict:
@@ -278,7 +282,7 @@ def row(panel: str, method: str, x: float, y: float, outcome: str, theory: float
 
 
 def chatter_rows(settings: dict) -> list[dict]:
-    """Root mean square slip velocity (m/s) of Euler while the part should stick, over the step (s)."""
+    """Root mean square slip velocity (m/s) of a part that should stick, over the step (s)."""
     conveyor = Conveyor(**settings["stick"])
     rows = []
     for step in settings["chatter_steps"]:
@@ -293,7 +297,7 @@ def chatter_rows(settings: dict) -> list[dict]:
 
 
 def outcome_of_rival(run: peers.Summary, error: float, truth: Run) -> str:
-    """What becomes of a part by another integrator in a hard case: its own status where it failed by that."""
+    """Outcome by another integrator in a hard case: its own status if it reports a failure."""
     if run.status != "ok":
         return run.status
     if run.z < truth.z_end - SUNK:
@@ -302,9 +306,9 @@ def outcome_of_rival(run: peers.Summary, error: float, truth: Run) -> str:
 
 
 def hard_rows(settings: dict, step: float, rivals: dict) -> list[dict]:
-    """The event-driven solver, Euler and rivals in hard cases: relative error of the height at the end.
+    """Relative errors of the height at the end in hard cases, by the solver, Euler and other integrators.
 
-    The truth is the solver at a tolerance of 1e-13; in each case it has the same events at both tolerances.
+    The reference is the solver at the tolerance TRUTH; in each case it has the same events as at the default tolerance.
     """
     rows = []
     for case in settings.values():
@@ -335,6 +339,6 @@ def hard_rows(settings: dict, step: float, rivals: dict) -> list[dict]:
 
 def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table of stability."""
-    rows = region_rows(settings, progress) + own_rows(settings) + chatter_rows(settings)
+    rows = region_rows(settings, progress) + solver_rows(settings) + chatter_rows(settings)
     rows += hard_rows(settings["hard"], settings["paper_step"], settings["rivals"])
     return fields.columns(rows, TABLES["stability"])

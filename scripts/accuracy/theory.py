@@ -1,7 +1,7 @@
-"""Quantities with a published closed form beside the same quantities from the solver.
+"""Comparison of the solver with published theory and closed forms.
 
-An isolated impact has neither weight nor a moving plate. The contact of a rigid ball is the limit of a stiff linear
-contact whose damping keeps the coefficient of restitution constant.
+Isolated impacts are computed without gravity on a plate at rest. A rigid ball is the limit of a stiff linear contact
+whose damping keeps the coefficient of restitution constant.
 """
 
 import math
@@ -21,26 +21,26 @@ from pipeline import fields, grid
 
 TABLES = {
     "theory": (
-        fields.text("kind", "rigid, cascade or impact: the key of its accepted difference"),
-        fields.text("quantity", "what is compared"),
-        fields.text("case", "for which parameters"),
-        fields.text("unit", "of theory, computed and error"),
+        fields.text("kind", "rigid, cascade or impact: the key of the accepted difference in the config"),
+        fields.text("quantity", "compared quantity"),
+        fields.text("case", "parameters"),
+        fields.text("unit", "unit of theory, computed and error"),
         fields.number("theory", "see unit", "published value or closed form"),
-        fields.number("computed", "see unit", "the same quantity from the solver"),
-        fields.number("error", "see unit", "estimated error of the computed value; null where it is not estimated"),
+        fields.number("computed", "see unit", "value from the solver"),
+        fields.number("error", "see unit", "estimated error of the computed value; null if it is not estimated"),
         fields.number("difference", "1", "relative difference of computed and theory"),
         fields.number("accepted", "1", "largest accepted relative difference"),
-        fields.text("source", "of the closed form; the page lists the sources"),
+        fields.text("source", "source of the theory; the page lists the sources"),
     ),
 }
 
 # Limit of the ratios of successive distances of period doublings (Feigenbaum 1978; digits: Briggs 1991).
 FEIGENBAUM = 4.669201609102990672
 TOLERANCE = 1e-14  # of contact steps
-LIGHT = 1e-5  # dimensionless damping at which the loss of speed is proportional to the damping
+LIGHT = 1e-5  # dimensionless damping so small that the loss of speed is proportional to it
 RUN = 20.0  # duration of a run in durations of an undamped impact
-REFERENCE = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-15}  # of the dimensionless impact
-CYCLES = 200  # until the stiff part is near its orbit
+REFERENCE = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-15}  # settings of SciPy for the dimensionless impact
+CYCLES = 200  # excitation cycles until a part with a stiff contact is close to its orbit
 
 
 class Impact(NamedTuple):
@@ -73,8 +73,8 @@ def light_loss(exponent: float) -> float:
 def reduced_restitution(exponent: float, beta: float) -> float:
     """Coefficient of restitution of X'' = -(p+1)/2 X^p - β X' from X = 0, X' = 1 back to X = 0.
 
-    X is the penetration over the undamped `compression`, and β = (d_c/m) compression/speed, so that the coefficient
-    depends on nothing but p and β (dimensional analysis as in Ramírez et al. 1999).
+    X is the penetration over the undamped `compression`, and β = (d_c/m) compression/speed. The coefficient depends
+    only on p and β (dimensional analysis as in Ramírez et al. 1999).
     """
 
     def rates(_, state):
@@ -88,8 +88,8 @@ def reduced_restitution(exponent: float, beta: float) -> float:
     return -run.y_events[0][0][1]
 
 
-def impact(conveyor: Conveyor, speed: float) -> Impact:
-    """Follow one impact at a speed (m/s) on a plate at rest, without gravity.
+def simulate_impact(conveyor: Conveyor, speed: float) -> Impact:
+    """One impact at a speed (m/s) on a plate at rest, without gravity, by the solver.
 
     Raises
     ------
@@ -97,7 +97,7 @@ def impact(conveyor: Conveyor, speed: float) -> Impact:
         if the part has not separated after RUN durations of an undamped impact
     """
     row = pack(conveyor, Start(z=compression(conveyor, speed), vz=-speed))
-    row[ACCELERATION] = row[GRAVITY] = 0.0  # below the range of a conveyor's gravity, which the kernels do not need
+    row[ACCELERATION] = row[GRAVITY] = 0.0  # a Conveyor must have gravity, but the solver does not need it
     end = RUN * undamped_duration(conveyor, speed)
     instants, kinds = np.empty((1, 8)), np.full((1, 8), -1, np.int8)
     options = {"tolerance": TOLERANCE, "reuse": False}
@@ -115,37 +115,42 @@ def impact(conveyor: Conveyor, speed: float) -> Impact:
 
 
 def damping_ratio(restitution: float) -> float:
-    """Damping ratio of a linear contact that ends with the penetration, e = exp(-π ζ/√(1 - ζ²))."""
+    """Damping ratio ζ of a linear contact that ends at zero penetration, from e = exp(-π ζ/√(1 - ζ²))."""
     loss = -math.log(restitution)
     return loss / math.hypot(math.pi, loss)
 
 
-def linear(model: dict, stiffness: float, restitution: float, **changes: float | str) -> Conveyor:
+def linear_contact(model: dict, stiffness: float, restitution: float, **changes: float | str) -> Conveyor:
     """A conveyor with a linear contact of a given stiffness (N/m) and coefficient of restitution."""
     damping = 2.0 * damping_ratio(restitution) * math.sqrt(stiffness * model["mass"])
     contact = {"exponent": 1.0, "stiffness": stiffness, "damping": damping, "tension": "allow"}
     return grid.conveyor_and_start({**model, **contact, **changes})[0]
 
 
-def without_pull(restitution: float) -> float:
-    """Coefficient of restitution of the same linear contact where it ends with the force (Schwager, Pöschel 2007)."""
+def restitution_without_tension(restitution: float) -> float:
+    """Coefficient of restitution of a linear contact that ends at zero force (Schwager, Pöschel 2007).
+
+    restitution : of the same contact if it ends at zero penetration
+    """
     ratio = damping_ratio(restitution)
     frequency = math.sqrt(1.0 - ratio**2)
     return math.exp(-ratio / frequency * (math.pi - math.atan2(2.0 * ratio * frequency, frequency**2 - ratio**2)))
 
 
 def rigid_range(restitution: float) -> tuple[float, float]:
-    """a_z/g between which a rigid ball's motion with one impact per cycle is stable (Luo, Han 1996).
+    """Range of a_z/g in which a rigid ball's motion with one impact per cycle is stable (Luo, Han 1996).
 
-    It is born in a fold at the lower end and doubles its period at the upper one. For e = 1 the upper end is that of
-    the approximate map of Holmes (1982).
+    The lower end is a fold, the upper end a period doubling. For e = 1, the upper end agrees with the approximate map
+    of Holmes (1982).
     """
     fold = math.pi * (1.0 - restitution) / (1.0 + restitution)
     return fold, math.hypot(fold, 2.0 * (1.0 + restitution**2) / (1.0 + restitution) ** 2)
 
 
 def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[float, float]:
-    """The same of a part with a stiff linear contact, by continuation of its orbit.
+    """Range of a_z/g in which a part with a stiff linear contact has a stable orbit with one impact per cycle.
+
+    The ends are found by continuation of the orbit.
 
     Raises
     ------
@@ -155,9 +160,9 @@ def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[floa
     low, high = rigid_range(restitution)
     gravity, vertical = model["gravity"], math.sin(model["angle"])
     middle = 0.5 * (low + high)
-    # The rigid orbit leaves the plate with the velocity g T/2 while the plate moves with g T (1 - e)/(1 + e)/2.
+    # On the rigid orbit, the part leaves with the velocity g T/2, and the plate has the velocity g T (1 - e)/(1 + e)/2.
     phase = math.pi - math.asin(low / middle)
-    conveyor = linear(model, stiffness, restitution, acceleration=middle * gravity / vertical, psi0=phase)
+    conveyor = linear_contact(model, stiffness, restitution, acceleration=middle * gravity / vertical, psi0=phase)
     plate = conveyor_motion(conveyor, np.zeros(1))["z"][0]
     start = Start(z=plate, vz=0.5 * gravity / model["frequency"])
     orbit = periodic_orbit(conveyor, start, transient=CYCLES)
@@ -171,8 +176,8 @@ def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[floa
     return ends["fold"], ends["period_doubling"]
 
 
-def limit(places: np.ndarray, values: np.ndarray) -> tuple[float, float]:
-    """Value at 0 of the polynomial through `values` at `places`, shape (n,), and its change by the first of them."""
+def extrapolate_to_zero(places: np.ndarray, values: np.ndarray) -> tuple[float, float]:
+    """Value at 0 of the polynomial through `values` at `places`, shape (n,), and its change without the first one."""
     weights = [math.prod(other / (other - place) for other in places if other != place) for place in places]
     fewer = [math.prod(other / (other - place) for other in places[1:] if other != place) for place in places[1:]]
     value = float(np.dot(weights, values))
@@ -180,19 +185,19 @@ def limit(places: np.ndarray, values: np.ndarray) -> tuple[float, float]:
 
 
 def rigid_rows(settings: dict) -> Iterator[dict]:
-    """Stable range of a bouncing ball, from contacts of growing stiffness k: an impact lasts as long as 1/√k."""
+    """Rows of the stable range of a bouncing ball, extrapolated in the duration of an impact, which is as 1/√k."""
     stiffness = np.array(settings["stiffness"])
     for restitution in settings["restitution"]:
         ranges = np.array([stiff_range(settings["model"], k, restitution) for k in stiffness])
         names = ("least a_z/g of one impact per cycle", "a_z/g of the first period doubling")
         for name, theory, values in zip(names, rigid_range(restitution), ranges.T, strict=True):
-            computed, error = limit(stiffness**-0.5, values)
+            computed, error = extrapolate_to_zero(stiffness**-0.5, values)
             case, source = f"rigid ball, e = {restitution:g}", "Luo and Han 1996"
             yield row(settings, "rigid", name, case, "1", theory, computed, source, error)
 
 
 def cascade_row(settings: dict, cascade: pd.DataFrame) -> dict:
-    """Feigenbaum's constant: the last ratio of the stored cascade, whose error is its last change."""
+    """The row of Feigenbaum's constant: the last ratio of the cascade, with its last change as the error."""
     ratios = cascade.sort_values("number").ratio.dropna()
     before, last = ratios.iloc[-2:]
     case, source = f"{len(cascade)} period doublings", "Feigenbaum 1978"
@@ -201,12 +206,12 @@ def cascade_row(settings: dict, cascade: pd.DataFrame) -> dict:
 
 
 def impact_rows(settings: dict) -> Iterator[dict]:
-    """Duration, peak force and restitution of isolated impacts."""
+    """Rows of duration, peak force and restitution of isolated impacts."""
     model = settings["model"] | {"tension": "allow"}
     damped, _ = grid.conveyor_and_start(model)
     elastic, _ = grid.conveyor_and_start(model | {"damping": 0.0})
     for speed in settings["speed"]:
-        found, depth = impact(elastic, speed), compression(elastic, speed)
+        found, depth = simulate_impact(elastic, speed), compression(elastic, speed)
         case = f"undamped, {speed:g} m/s"
         duration = undamped_duration(elastic, speed)
         force = elastic.stiffness * depth**elastic.exponent
@@ -214,7 +219,7 @@ def impact_rows(settings: dict) -> Iterator[dict]:
         yield row(settings, "impact", "peak force of an impact", case, "N", force, found.peak, "Hertz 1882")
     for speed in settings["speed"]:
         beta = damped.damping / damped.mass * compression(damped, speed) / speed
-        theory, found = reduced_restitution(damped.exponent, beta), impact(damped, speed)
+        theory, found = reduced_restitution(damped.exponent, beta), simulate_impact(damped, speed)
         case, source = f"F = k δ^p + d δ̇, {speed:g} m/s", "reduced equation, SciPy"
         yield row(settings, "impact", "coefficient of restitution", case, "1", theory, found.restitution, source)
     speed = settings["speed"][0]
@@ -222,16 +227,17 @@ def impact_rows(settings: dict) -> Iterator[dict]:
 
     def loss(beta: float) -> float:
         light, _ = grid.conveyor_and_start(model | {"damping": beta * unit})
-        return (1.0 - impact(light, speed).restitution) / beta
+        return (1.0 - simulate_impact(light, speed).restitution) / beta
 
-    computed, error = limit(np.array([2.0 * LIGHT, LIGHT]), np.array([loss(2.0 * LIGHT), loss(LIGHT)]))
+    computed, error = extrapolate_to_zero(np.array([2.0 * LIGHT, LIGHT]), np.array([loss(2.0 * LIGHT), loss(LIGHT)]))
     theory, source = light_loss(elastic.exponent), "work of the damper"
     name, case = "loss of speed (1 - e)/β", "F = k δ^p + d δ̇, β → 0"
     yield row(settings, "impact", name, case, "1", theory, computed, source, error)
     for restitution in settings["restitution"]:
-        for tension, theory in (("allow", restitution), ("clip", without_pull(restitution))):
-            contact = linear(model, settings["stiffness"][0], restitution, tension=tension)
-            found, case = impact(contact, speed), f"F = k δ + d δ̇, ζ = {damping_ratio(restitution):.3g}, {tension}"
+        for tension, theory in (("allow", restitution), ("clip", restitution_without_tension(restitution))):
+            contact = linear_contact(model, settings["stiffness"][0], restitution, tension=tension)
+            found = simulate_impact(contact, speed)
+            case = f"F = k δ + d δ̇, ζ = {damping_ratio(restitution):.3g}, {tension}"
             source = "Schwager and Pöschel 2007"
             yield row(settings, "impact", "coefficient of restitution", case, "1", theory, found.restitution, source)
 
@@ -247,6 +253,7 @@ def row(
     source: str,
     error: float = math.nan,
 ) -> dict:
+    """A row of the table; `kind` selects the accepted difference of the settings."""
     return {
         "kind": kind,
         "quantity": quantity,

@@ -1,4 +1,4 @@
-"""Processor times of runs of one thread that take turns: they do not need the machine to themselves."""
+"""Processor times of single-threaded runs that take turns, so that other load affects all of them alike."""
 
 from collections.abc import Callable, Sequence
 from time import thread_time
@@ -6,25 +6,25 @@ from typing import Any
 
 from conveyor.solver.progress import bar
 
-# A turn of a fast run lasts so long, so that what ran before it leaves no trace in the median.
+# Shortest turn: a fast run is repeated within it, so that the first repetition with a cold cache does not matter.
 TURN = 0.01  # s
 
 
-def in_turns(
+def run_in_turns(
     runs: Sequence[Callable[[], Any]], *, repeats: int, seconds: float, progress: str | None = None
 ) -> tuple[list[Any], list[list[float]]]:
-    """What each run returns, and the processor times (s) of all its repetitions.
+    """The results of runs, and the processor times (s) of all their repetitions.
 
-    In each of `repeats` rounds every run gets a turn, unless `seconds` have been spent on it: a slow one is made once.
-    What has to be compiled must have been before.
+    In each of `repeats` rounds, every run has a turn unless `seconds` have been spent on it, so that a slow run is made
+    once. All code must have been compiled before.
     """
-    found: list[Any] = [None] * len(runs)
+    results: list[Any] = [None] * len(runs)
     times: list[list[float]] = [[] for _ in runs]
     for place in bar([*range(len(runs))] * repeats, label=progress, unit="turns"):
         spent = times[place]
         turn_ends = min(sum(spent) + TURN, seconds)
         while sum(spent) < turn_ends:
             begin = thread_time()
-            found[place] = runs[place]()
+            results[place] = runs[place]()
             spent.append(thread_time() - begin)
-    return found, times
+    return results, times

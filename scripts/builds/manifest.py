@@ -1,6 +1,6 @@
-"""The manifest: every result and figure with its SHA-256, or a note that the file may differ from build to build.
+"""The manifest: the SHA-256 of every result and figure, or a note that the file may differ between builds.
 
-The manifest itself is equal in every build of a config, so that two builds are compared by their manifests.
+All builds of a config have the same manifest, so that two builds can be compared by their manifests.
 """
 
 import hashlib
@@ -16,12 +16,12 @@ MAY_DIFFER = "# may differ, as measured times stand in it: "
 
 
 def line(file: str, timed: bool) -> str:
-    """The line of a file; sha256sum takes the lines of files that may differ for remarks."""
+    """The line of a file; for a file that may differ between builds a comment, which sha256sum ignores."""
     if timed:
         return f"{MAY_DIFFER}{file}\n"
     return f"{hashlib.sha256(Path(file).read_bytes()).hexdigest()}  {file}\n"
 
 
 def list_files(files: Iterable[str], timed: Collection[str]) -> str:
-    """The manifest of `files`; the files in `timed` hold measured times, and may differ from run to run."""
+    """The manifest of `files`; the files in `timed` contain measured times and may differ between builds."""
     return HEAD + "".join(line(file, file in timed) for file in files)

@@ -21,8 +21,8 @@ ROOT = Path(__file__).resolve().parents[2]
 UNKNOWN = "unknown"
 
 
-def git(root: Path, *arguments: str) -> str | None:
-    """What git says of the repository in `root` itself, not of one around it; None if there is none, or no git."""
+def run_git(root: Path, *arguments: str) -> str | None:
+    """The output of git for the repository in `root`, not a parent folder; None without a repository or git."""
     environment = os.environ | {"GIT_CEILING_DIRECTORIES": str(root.parent)}
     try:
         run = subprocess.run(["git", *arguments], cwd=root, env=environment, capture_output=True, text=True, check=True)
@@ -32,20 +32,20 @@ def git(root: Path, *arguments: str) -> str | None:
 
 
 def sources(root: Path) -> dict[str, str | bool]:
-    """The commit of the sources in `root`, and whether nothing differs from it."""
-    commit, changes = git(root, "rev-parse", "HEAD"), git(root, "status", "--porcelain")
+    """The commit of the sources in `root`, and whether they are unchanged since."""
+    commit, changes = run_git(root, "rev-parse", "HEAD"), run_git(root, "status", "--porcelain")
     return {"commit": commit or UNKNOWN, "clean": UNKNOWN if commit is None or changes is None else not changes}
 
 
 def processor() -> str:
-    """The name of the processor, as far as the system tells it."""
-    told = Path("/proc/cpuinfo")
-    found = told.is_file() and re.search(r"^model name\s*: (.+)$", told.read_text(encoding="utf-8"), re.MULTILINE)
+    """The name of the processor."""
+    file = Path("/proc/cpuinfo")
+    found = file.is_file() and re.search(r"^model name\s*: (.+)$", file.read_text(encoding="utf-8"), re.MULTILINE)
     return found[1] if found else platform.processor() or platform.machine() or UNKNOWN
 
 
 def seconds(folder: Path) -> dict[str, float]:
-    """Wall times (s) of the jobs whose benchmark files lie below a folder, summed by the folders in it."""
+    """Total wall time (s) of the jobs in each subfolder of a folder of benchmark files."""
     return {
         part.name: round(sum(float(pd.read_csv(file, sep="\t")["s"].sum()) for file in sorted(part.rglob("*.tsv"))), 1)
         for part in sorted(folder.iterdir())
@@ -68,7 +68,7 @@ def make(files: list[str], timed: list[str], config: str, benchmarks: str, *, th
     timed : the files with measured times
     config : hash of the canonical config
     benchmarks : folder of the benchmark files
-    threads : cores that Snakemake was given
+    threads : cores available to Snakemake
     """
     provenance = {
         **sources(ROOT),

@@ -4,40 +4,40 @@ import numpy as np
 import pandas as pd
 
 from claims import about_proofs
-from claims.finding import METHODS, NONE, Finding, by_both, by_method, format_value, lowest, onset
+from claims.finding import METHODS, NONE, Finding, by_method, format_amplitude, lowest, onset, single_quantity
 
 LONGEST_PERIOD = 64  # excitation cycles
-BACK = 0.05  # of the largest position or velocity: nearer than that, a motion has come back
+CLOSE = 0.05  # distance from an earlier state, over the largest position or velocity, of a motion that has returned
 NAMES = {"euler": "by the paper's method", "converged": "converged"}
 
 
-def least_return(run: pd.DataFrame) -> tuple[float, int]:
-    """How near a motion, seen once in an excitation cycle, comes back again and again, and after how many cycles.
+def closest_return(run: pd.DataFrame) -> tuple[float, int]:
+    """The least distance between a motion, sampled once per excitation cycle, and itself one period (cycles) before.
 
-    The distance is the largest one of the last LONGEST_PERIOD samples from those one period before, in units of the
-    largest position and velocity; the period is that with the least distance.
+    The distance of a period is the largest one over the last LONGEST_PERIOD samples, in units of the largest position
+    and velocity. The period is the one with the least distance.
     """
-    seen = run.sort_values("time")[["z", "vz"]].to_numpy()
-    seen = seen / np.abs(seen).max(axis=0)
-    last = np.arange(len(seen) - LONGEST_PERIOD, len(seen))
-    distances = [float(np.abs(seen[last] - seen[last - period]).max()) for period in range(1, LONGEST_PERIOD + 1)]
+    states = run.sort_values("time")[["z", "vz"]].to_numpy()
+    states = states / np.abs(states).max(axis=0)
+    last = np.arange(len(states) - LONGEST_PERIOD, len(states))
+    distances = [float(np.abs(states[last] - states[last - period]).max()) for period in range(1, LONGEST_PERIOD + 1)]
     return min(distances), int(np.argmin(distances)) + 1
 
 
 def no_period(*, euler: pd.DataFrame, converged: pd.DataFrame, horseshoes: pd.DataFrame | None = None) -> Finding:
-    """Share of the starts whose motion has no period of up to 64 cycles at the end of a long run."""
+    """Share of the initial heights whose motion has no period of up to 64 cycles at the end of a long run."""
 
-    def all_returns(table: pd.DataFrame) -> list[tuple[float, int]]:
-        return [least_return(run) for _, run in table.groupby("z0")]
+    def find_returns(table: pd.DataFrame) -> list[tuple[float, int]]:
+        return [closest_return(run) for _, run in table.groupby("z0")]
 
-    returns = by_method(all_returns, euler, converged)
-    nearest = {method: min(found) for method, found in returns.items()}
-    note = "the motions come back no nearer than " + " and ".join(
-        f"{100 * distance:.2g} % of their extent, after {period} cycles ({NAMES[method]})"
-        for method, (distance, period) in nearest.items()
+    returns = by_method(find_returns, euler, converged)
+    closest = {method: min(found) for method, found in returns.items()}
+    note = "the motions return to earlier states no closer than " + " and ".join(
+        f"{100 * distance:.0f} % of their extent, after {period} cycles ({NAMES[method]})"
+        for method, (distance, period) in closest.items()
     )
-    shares = ({"share": float(np.mean([distance > BACK for distance, _ in found]))} for found in returns.values())
-    return Finding(*shares, note + about_proofs.chaotic(horseshoes))
+    shares = ({"share": float(np.mean([distance > CLOSE for distance, _ in found]))} for found in returns.values())
+    return Finding(*shares, note + about_proofs.describe_chaos(horseshoes))
 
 
 def irregular(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
@@ -47,7 +47,7 @@ def irregular(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
         velocity = table.sort_values("z0").mean_velocity.to_numpy()
         return np.median(np.abs(np.diff(velocity))) / np.std(velocity)
 
-    return by_both("step", step, euler, converged)
+    return single_quantity("step", step, euler, converged)
 
 
 def height_estimate(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
@@ -61,6 +61,7 @@ def height_estimate(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
 
 
 def positive_onset(table: pd.DataFrame) -> float:
+    """Amplitude (m/s²) from which the estimated exponent is positive."""
     return onset(table.acceleration.to_numpy(), (table["lambda"] > 0.0).to_numpy())
 
 
@@ -72,6 +73,7 @@ def phase_estimate(
     estimates: pd.DataFrame,
     certificates: pd.DataFrame | None = None,
 ) -> Finding:
+    """Amplitude (m/s²) from which the estimate of Fig. 22 is positive."""
     found = by_method(positive_onset, euler, converged)
     settled = states[(states.acceleration >= found["euler"]) & (states.acceleration < found["converged"])]
     settled = settled[settled.z0 == settled.z0.min()]
@@ -84,28 +86,28 @@ def phase_estimate(
         for method, values in between.items()
     ]
     note = (
-        f"between {format_value(found['euler'])} and {format_value(found['converged'])} the estimate is positive at "
-        f"{texts[0]} and at {texts[1]}, and {100 * (settled.period > 0).mean():.0f} % settle to a period; "
-        f"{of_perturbations(estimates)}"
+        f"between {format_amplitude(found['euler'])} and {format_amplitude(found['converged'])}, the estimate is "
+        f"positive at {texts[0]} and at {texts[1]}, but {100 * (settled.period > 0).mean():.0f} % of the motions are "
+        f"periodic; {describe_perturbations(estimates)}"
     )
-    proved = about_proofs.regular(certificates, found["euler"])
+    proved = about_proofs.describe_periodic(certificates, found["euler"])
     return Finding(*({"amplitude": found[method]} for method in METHODS), note + proved)
 
 
-def of_perturbations(estimates: pd.DataFrame) -> str:
-    """How the estimate in a regular motion depends on the perturbation."""
+def describe_perturbations(estimates: pd.DataFrame) -> str:
+    """How the estimate for a periodic motion depends on the perturbation, in words."""
     rows = estimates[(estimates.panel == "perturbation") & (estimates.case == "orbit_phase")]
     by_euler, converged = (rows[rows.estimator == method].value for method in ("euler", "event"))
     acceleration = estimates.attrs["exponent"]["cases"]["orbit_phase"]["acceleration"]
     return (
-        f"at {acceleration:g} m/s², a settled motion, perturbations from {rows.epsilon.min():g} to "
+        f"at {acceleration:g} m/s², where the motion is periodic, perturbations from {rows.epsilon.min():g} to "
         f"{rows.epsilon.max():g} rad give {by_euler.min():+.2f} to {by_euler.max():+.2f} 1/s by the paper's method and "
         f"{converged.min():+.2f} to {converged.max():+.2f} 1/s converged"
     )
 
 
 def portraits(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
-    """Dimensions of the portraits in the first state, the second state and chaos."""
+    """Dimensions of the phase portraits in the first state, the second state and chaos."""
 
     def dimensions(table: pd.DataFrame) -> dict[str, float]:
         table = table.sort_values(["acceleration", "z0"])
@@ -116,19 +118,19 @@ def portraits(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
     found = by_method(dimensions, euler, converged)
     texts = {method: ", ".join(f"{value:.3f}" for value in values.values()) for method, values in found.items()}
     note = (
-        f"converged {texts['converged']} with 95 % intervals of at most ±{converged.error.max():.2f}; boxes counted as "
-        f"in the paper take the transient and too few scales: {texts['euler']}"
+        f"converged {texts['converged']} with 95 % intervals of at most ±{converged.error.max():.2f}; box counting as "
+        f"in the paper includes the transient and uses too few scales: {texts['euler']}"
     )
     return Finding(found["euler"], found["converged"], note)
 
 
 def known_dimensions(table: pd.DataFrame) -> pd.DataFrame:
-    """The rows in which a dimension could be told, by amplitude."""
+    """The rows with a dimension, in the order of the amplitude."""
     return table.dropna(subset="dimension").sort_values("acceleration")
 
 
 def dimension_onset(table: pd.DataFrame) -> float:
-    """Amplitude (m/s²) from which on the dimension is nearer to its values at the upper end than at the lower one."""
+    """Amplitude (m/s²) from which the dimension is closer to its values at the upper end than at the lower end."""
     rows = known_dimensions(table)
     tenth = max(1, len(rows) // 10)
     middle = 0.5 * (rows.dimension.head(tenth).median() + rows.dimension.tail(tenth).median())
@@ -143,8 +145,9 @@ def predicted_onset(
     converged_exponent: pd.DataFrame,
     states: pd.DataFrame,
 ) -> Finding:
-    """Distance (m/s²) between the onset by dimension and the onset by the exponent of Fig. 22, and fluctuation: largest
-    step of the dimension between neighbouring amplitudes at which it is known.
+    """Distance (m/s²) between the onsets by dimension and by the exponent of Fig. 22, and fluctuation of the dimension.
+
+    The fluctuation is the largest step of the dimension between neighbouring amplitudes with an estimate.
     """
     found = []
     for table, exponent in ((euler, euler_exponent), (converged, converged_exponent)):
@@ -155,18 +158,18 @@ def predicted_onset(
         )
     unknown = converged[converged.dimension.isna()].acceleration
     note = (
-        f"by dimension chaos begins at {format_value(dimension_onset(converged))}, by the estimate of Fig. 22 at "
-        f"{format_value(positive_onset(converged_exponent))}; by the paper's method at "
-        f"{format_value(dimension_onset(euler))} and {format_value(positive_onset(euler_exponent))}, where the "
-        f"second state begins: its boxes give {dimension_range(euler, states, 'second')} in that and "
-        f"{dimension_range(euler, states, 'chaos')} in chaos; converged portraits have no scaling region at "
-        f"{len(unknown)} of {len(converged)} amplitudes"
+        f"by the dimension, chaos begins at {format_amplitude(dimension_onset(converged))}, by the estimate of Fig. 22 "
+        f"at {format_amplitude(positive_onset(converged_exponent))}; by the paper's method, at "
+        f"{format_amplitude(dimension_onset(euler))} and {format_amplitude(positive_onset(euler_exponent))}, where the "
+        f"second state begins, because its box counting gives {dimension_range(euler, states, 'second')} in the second "
+        f"state and {dimension_range(euler, states, 'chaos')} in chaos; converged phase portraits have no scaling "
+        f"region at {len(unknown)} of {len(converged)} amplitudes"
     )
     return Finding(*found, note)
 
 
 def dimension_range(euler: pd.DataFrame, states: pd.DataFrame, state: str) -> str:
-    """Least and largest dimension by the paper's boxes of the motions that settle to a state, from the same start."""
+    """Least and largest dimension, by box counting as in the paper, of the motions that settle to a state."""
     states = states[states.z0 == states.z0.min()].sort_values("acceleration")[["acceleration", "state"]]
     rows = pd.merge_asof(euler.sort_values("acceleration"), states, on="acceleration", direction="nearest")
     found = rows[rows.state == state].dimension

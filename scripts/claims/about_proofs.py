@@ -1,4 +1,4 @@
-"""What the certificates prove of the statements: sentences for their reasons, empty without the table of proofs."""
+"""Sentences on what the certificates prove, for the notes of findings; empty without the table of proofs."""
 
 import pandas as pd
 
@@ -6,9 +6,10 @@ PAGE = "docs/certificates.md"
 
 
 def stable_motions(table: pd.DataFrame) -> pd.Series:
-    """Number of different orbits that are proved to be stable, by amplitude (m/s²).
+    """Number of different orbits with proved stability, by amplitude (m/s²).
 
-    Two orbits differ if their times in contact do: those do not depend on where an orbit begins.
+    Two orbits differ if the enclosures of their contact times are disjoint. The contact time does not depend on the
+    cycle at which a stored orbit begins.
     """
 
     def count(rows: pd.DataFrame) -> int:
@@ -20,8 +21,8 @@ def stable_motions(table: pd.DataFrame) -> pd.Series:
     return pd.Series({amplitude: count(rows) for amplitude, rows in stable.groupby("acceleration")}, dtype=int)
 
 
-def both_states(certificates: pd.DataFrame | None) -> str:
-    """At which amplitudes a riding or bouncing motion and a jumping one are proved to be stable both."""
+def describe_coexistence(certificates: pd.DataFrame | None) -> str:
+    """The amplitudes at which two stable motions are proved."""
     if certificates is None:
         return ""
     counts = stable_motions(certificates)
@@ -34,8 +35,8 @@ def both_states(certificates: pd.DataFrame | None) -> str:
     )
 
 
-def regular(certificates: pd.DataFrame | None, begin: float) -> str:
-    """At which amplitudes from `begin` (m/s²) on a periodic motion is proved to be stable."""
+def describe_periodic(certificates: pd.DataFrame | None, begin: float) -> str:
+    """The amplitudes from `begin` (m/s²) on at which a stable periodic motion is proved."""
     if certificates is None:
         return ""
     counts = stable_motions(certificates)
@@ -48,12 +49,12 @@ def regular(certificates: pd.DataFrame | None, begin: float) -> str:
     )
 
 
-def chaotic(horseshoes: pd.DataFrame | None) -> str:
-    """At which amplitudes chaotic motions are proved to exist."""
+def describe_chaos(horseshoes: pd.DataFrame | None) -> str:
+    """The amplitudes at which the existence of chaotic motions is proved."""
     if horseshoes is None:
         return ""
     rows = horseshoes[horseshoes.proved]
     if rows.empty:
         return ""
     amplitudes = ", ".join(f"{acceleration:g}" for acceleration in rows.acceleration)
-    return f"; that chaotic motions exist is proved at {amplitudes} m/s² ({PAGE})"
+    return f"; the existence of chaotic motions is proved at {amplitudes} m/s² ({PAGE})"

@@ -1,4 +1,4 @@
-"""The tests of what has been made, tests/results, in a process of their own."""
+"""Run the tests of the results, tests/results, in a process of their own."""
 
 import json
 import os
@@ -8,7 +8,7 @@ import sys
 
 
 def make(results: str, figures: dict, tests: str) -> str:
-    """How many tests passed, in pytest's words.
+    """The number of passed tests, in pytest's words.
 
     Parameters
     ----------
@@ -19,11 +19,11 @@ def make(results: str, figures: dict, tests: str) -> str:
     Raises
     ------
     RuntimeError
-        with all that pytest says, if a test fails
+        with pytest's output, if a test fails
     """
     environment = {"CONVEYOR_RESULTS": results, "CONVEYOR_FIGURES": json.dumps(figures)}
     run = subprocess.run(
-        # The interpreter that runs this: another one on PATH, or none, is no concern of ours.
+        # The interpreter of this process: PATH may have another one, or none.
         [sys.executable, "-m", "pytest", tests, "--dist=worksteal"],
         env={**os.environ, **environment},
         stdout=subprocess.PIPE,

@@ -1,4 +1,4 @@
-"""What a finding is, and how tables are searched for onsets."""
+"""Findings, the onset of a property over the amplitude, and numbers in words."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -11,9 +11,10 @@ METHODS = ("euler", "converged")
 
 
 class Finding(NamedTuple):
-    """The quantities of one statement by both methods, by their names, and what stands behind them.
+    """The quantities of one statement by both methods, by name, with an explanation.
 
-    The note is the reason if the numbers are not the paper's. A method that has no say in it has no quantities.
+    The note becomes the reason of the verdict if the numbers are not the paper's. If a statement does not concern a
+    method, that method has no quantities.
     """
 
     euler: dict[str, float]
@@ -21,26 +22,32 @@ class Finding(NamedTuple):
     note: str = ""
 
 
-def by_method(value: Callable[[pd.DataFrame], Any], euler: pd.DataFrame, converged: pd.DataFrame) -> dict[str, Any]:
-    """A function of both methods' tables, by the names of the methods."""
-    return {"euler": value(euler), "converged": value(converged)}
+def by_method(measure: Callable[[pd.DataFrame], Any], euler: pd.DataFrame, converged: pd.DataFrame) -> dict[str, Any]:
+    """What `measure` returns for the table of each method, by method."""
+    return {"euler": measure(euler), "converged": measure(converged)}
 
 
-def by_both(name: str, value: Callable[[pd.DataFrame], float], euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
-    """The Finding with one quantity, a function of a method's table."""
-    return Finding({name: float(value(euler))}, {name: float(value(converged))})
+def single_quantity(
+    name: str, measure: Callable[[pd.DataFrame], float], euler: pd.DataFrame, converged: pd.DataFrame
+) -> Finding:
+    """The Finding with one quantity, which `measure` returns for the table of each method."""
+    return Finding({name: float(measure(euler))}, {name: float(measure(converged))})
 
 
 def lowest(values: pd.Series | pd.Index) -> float:
+    """The minimum; NaN for no values."""
     return float(values.min()) if len(values) else NONE
 
 
 def highest(values: pd.Series) -> float:
+    """The maximum; NaN for no values."""
     return float(values.max()) if len(values) else NONE
 
 
 def onset(x: np.ndarray, holds: np.ndarray) -> float:
-    """The x that separates best: few hold below it, few do not from it on; NaN if "never" separates as well.
+    """The x from which a property holds: the threshold with the fewest exceptions on both sides.
+
+    NaN if "never" has as few exceptions.
 
     Parameters
     ----------
@@ -48,11 +55,23 @@ def onset(x: np.ndarray, holds: np.ndarray) -> float:
     holds : bool, shape (n,)
     """
     x, holds = np.asarray(x, dtype=float), np.asarray(holds, dtype=bool)
-    wrong = np.append(np.cumsum(holds) - holds + np.cumsum(~holds[::-1])[::-1], holds.sum())
-    best = wrong.min()
-    return NONE if wrong[-1] == best else float(x[np.argmin(wrong)])
+    exceptions = np.append(np.cumsum(holds) - holds + np.cumsum(~holds[::-1])[::-1], holds.sum())
+    least = exceptions.min()
+    return NONE if exceptions[-1] == least else float(x[np.argmin(exceptions)])
 
 
-def format_value(value: float, unit: str = "m/s²") -> str:
-    """An amplitude in words: "nowhere" for NaN."""
-    return "nowhere" if np.isnan(value) else f"{value:g} {unit}"
+def format_amplitude(value: float) -> str:
+    """An amplitude (m/s²) in words, "nowhere" for NaN."""
+    return "nowhere" if np.isnan(value) else f"{value:g} m/s²"
+
+
+def format_number(value: float | None) -> str:
+    """A number in four digits; a dash for None or NaN."""
+    return "–" if value is None or np.isnan(value) else f"{value:.4g}"
+
+
+def format_interval(low: float | None, high: float | None, digits: int = 4) -> str:
+    """An accepted interval; None or NaN is no bound."""
+    below = "-∞" if low is None or np.isnan(low) else f"{low:.{digits}g}"
+    above = "∞" if high is None or np.isnan(high) else f"{high:.{digits}g}"
+    return f"[{below}, {above}]"

@@ -1,4 +1,4 @@
-"""One of the paper's statements, looked at alone: only its own tables are needed."""
+"""One of the paper's statements, checked alone, so that only its own tables are needed."""
 
 import pandas as pd
 

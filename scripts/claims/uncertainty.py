@@ -1,4 +1,4 @@
-"""How sure the numbers of the paper's statements are: by how much tighter tolerances change them."""
+"""Uncertainty of the numbers of the paper's statements: their change with tighter tolerances."""
 
 import json
 import math
@@ -9,25 +9,25 @@ from claims import verdicts
 
 
 def differences(now: list[float], tighter: list[float]) -> list[float | None]:
-    """By how much each number changes; None where one of both is none."""
+    """The absolute change of each number; None if one of the two is NaN."""
     found = [abs(one - other) for one, other in zip(now, tighter, strict=True)]
     return [None if math.isnan(value) else value for value in found]
 
 
 def make(settings: dict, references: list[str], read: list[pd.DataFrame], claims: pd.DataFrame) -> str:
-    """Differences of the converged numbers, and the verdict by the tighter ones, of each statement, as JSON.
+    """The change of each converged number, and whether the verdict stays the same, by statement, as JSON.
 
     Parameters
     ----------
-    settings : `claims`, entries of the config whose tables are those of tighter tolerances
-    references, read : these tables with their names, SECTION/NAME
-    claims : the table of all claims as they are
+    settings : `claims`, entries of the config that refer to tables with tighter tolerances
+    references, read : names of these tables, SECTION/NAME, and the tables
+    claims : the table of all claims at the usual tolerances
     """
     tables = dict(zip(references, read, strict=True))
     before = claims.set_index("id")
     found = {}
     for name, claim in settings["claims"].items():
-        finding = verdicts.find(claim, tables)
+        finding = verdicts.evaluate(claim, tables)
         now = before.loc[name, "converged"]
         tighter = [finding.converged[quantity] for quantity in claim["quantities"]] if finding.converged else []
         verdict = verdicts.verdict(finding, claim["quantities"])

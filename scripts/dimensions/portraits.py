@@ -1,4 +1,4 @@
-"""Fractal dimension of the phase portrait ż_p over z_p, over the axes of an entry of the config."""
+"""Fractal dimensions of the phase portraits ż_p over z_p, over the axes of an entry of the config."""
 
 import math
 
@@ -19,9 +19,9 @@ TABLES = {
         fields.number(
             "dimension",
             "1",
-            "fractal dimension of the phase portrait ż_p over z_p (Eq. 25); null where nothing is known",
+            "fractal dimension of the phase portrait ż_p over z_p (Eq. 25); null for no estimate",
         ),
-        fields.number("error", "1", "half-width of its 95 % interval; null where the points resolve too few scales"),
+        fields.number("error", "1", "half-width of its 95 % interval; null if the points resolve too few scales"),
         fields.number("scale_low", "1", "smallest scale of the scaling region, in units of the portrait's extent"),
         fields.number("scale_high", "1", "largest scale of the scaling region, in units of the portrait's extent"),
         fields.text("status", "ok, or why there is no dimension"),
@@ -33,7 +33,7 @@ def portrait(parameters: np.ndarray, settings: dict) -> np.ndarray:
     """Consecutive points (z_p in m, ż_p in m/s) of one trajectory, shape (samples, 2)."""
     times = settings["begin"] + settings["interval"] * np.arange(settings["samples"]) / parameters[FREQUENCY]
     if settings["method"] == "event":
-        # The vertical motion alone, once, and without its results.
+        # Cheaper than `simulate`, which also integrates the horizontal motion.
         tolerance = settings.get("tolerance", DEFAULT_TOLERANCE)
         (motion,), _ = trajectory.integrate(parameters[None], times[None], tolerance=tolerance, feeding=False)
         return motion[:, [Z, VZ]]
@@ -42,7 +42,7 @@ def portrait(parameters: np.ndarray, settings: dict) -> np.ndarray:
 
 
 def estimate(points: np.ndarray, settings: dict) -> Dimension:
-    """The dimension of a portrait by the estimator that the settings name."""
+    """The dimension of a portrait by the estimator of the settings."""
     match settings["estimator"]:
         case "paper":
             return box_counting.box_dimension_of_paper(points, 0.5 ** np.arange(1, settings["octaves"] + 1))

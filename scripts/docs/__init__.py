@@ -1,1 +1,1 @@
-"""Stage docs: pages that are made from results."""
+"""Stage docs: pages from results."""

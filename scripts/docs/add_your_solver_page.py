@@ -1,4 +1,4 @@
-"""The page that says how to score another solver on the open benchmark."""
+"""The page on scoring another solver on the open benchmark."""
 
 import json
 
@@ -11,7 +11,7 @@ def scene_row(scene: dict) -> list[str]:
     name = scene["scene"]
     impacts = sum(event["kind"] == "impact" for event in scene["events"])
     return [
-        f'<a href="benchmark/{name}.json">{name}</a>',  # Sphinx resolves no Markdown links to files like these
+        f'<a href="benchmark/{name}.json">{name}</a>',  # HTML: Sphinx does not resolve Markdown links to JSON files
         f"{scene['parameters']['acceleration']['value']:g}",
         f"{1e3 * scene['initial']['z']:g}",
         f"{scene['duration']:g}",

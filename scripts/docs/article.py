@@ -1,4 +1,4 @@
-"""The article as a PDF: pandoc makes Typst of its text, and Typst a page."""
+"""The article as a PDF: pandoc converts its text to Typst, and Typst typesets it."""
 
 import tempfile
 from pathlib import Path
@@ -6,15 +6,15 @@ from pathlib import Path
 import pypandoc
 import typst
 
-# Headings of the text: the first one is the title.
+# Shifts headings, because the first heading of the text is the title.
 OPTIONS = ("--standalone", "--shift-heading-level-by=-1", "--wrap=preserve")
 
 
 def make(text: str, frame: str) -> bytes:
-    """The PDF of a text in Markdown within a frame, a template of pandoc for Typst.
+    """The PDF of a text in Markdown; `frame` is a pandoc template for Typst.
 
-    Figures are named by their paths below the folder in which this runs, from a slash on. The same text, fonts and
-    figures give equal bytes: Typst's own fonts are used, and no date.
+    Paths of figures begin with a slash, which stands for the current folder. The same text and figures give equal
+    bytes, because only the fonts of Typst are used, and no date.
     """
     with tempfile.TemporaryDirectory(dir=".") as folder:
         template = Path(folder, "frame.typ")

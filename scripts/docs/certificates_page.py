@@ -1,4 +1,4 @@
-"""The numbers of the page of what is proved."""
+"""The page of certificates: what interval arithmetic proves."""
 
 from collections.abc import Iterable
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
@@ -11,7 +11,7 @@ from pipeline.templates import render
 
 
 def interval(low: float, high: float) -> str:
-    """An interval around two bounds in decimals, with a digit more than their width needs."""
+    """An interval in decimals that contains both bounds, with one digit more than its width needs."""
     width = Decimal(high) - Decimal(low)
     places = max(0, 1 - width.adjusted()) if width else 15
     unit = Decimal(1).scaleb(-places)
@@ -54,7 +54,7 @@ def feigenbaum_ratios(bifurcations: pd.DataFrame) -> str:
     for k in range(1, len(rows) - 1):
         least = (low[k] - high[k - 1]) / (high[k + 1] - low[k])
         most = (high[k] - low[k - 1]) / (low[k + 1] - high[k])
-        # One step outwards for each of the roundings above would be enough; these are many.
+        # A margin far beyond the rounding errors of the division above.
         ratios.append(interval(least * (1.0 - 1e-12), most * (1.0 + 1e-12)))
     return ", ".join(ratios) or "none"
 

@@ -1,4 +1,4 @@
-"""The page that says how the numbers were checked."""
+"""The page on checks of the numbers against theory and brute force."""
 
 import math
 
@@ -6,10 +6,10 @@ import pandas as pd
 
 from pipeline.templates import render
 
-ROUNDING = 1e-13  # smaller differences are rounding errors, whose digits mean nothing
+ROUNDING = 1e-13  # smaller differences are rounding errors
 
 
-def order(value: float) -> str:
+def format_difference(value: float) -> str:
     """A difference in one digit."""
     return f"{value:.0e}" if value >= ROUNDING else f"below {ROUNDING:g}"
 
@@ -22,7 +22,7 @@ def theory_row(row) -> list[str]:
         f"{row.case}: {row.quantity}",
         f"{row.theory:.9g}{unit}",
         f"{row.computed:.9g}{error}{unit}",
-        order(row.difference),
+        format_difference(row.difference),
         f"{row.accepted:.0e}",
         row.source,
     ]
@@ -40,7 +40,7 @@ def map_rows(points: pd.DataFrame) -> list[list]:
 
 
 def make(template: str, theory: pd.DataFrame, map_check: pd.DataFrame) -> str:
-    """The page from its template, the quantities with a closed form, and the checked points of maps."""
+    """The page from its template, the table of quantities with a closed form, and the table of checked map points."""
     settings = map_check.attrs
     return render(
         template,

@@ -1,4 +1,4 @@
-"""What large sweeps cost on a cluster, and what breaks first, from measured jobs."""
+"""The page on the cost of large sweeps on a cluster, from measured jobs."""
 
 import math
 
@@ -8,8 +8,8 @@ import pandas as pd
 from pipeline.templates import render
 
 
-def costs(table: pd.DataFrame) -> pd.DataFrame:
-    """What each sweep of the table takes as a whole: in proportion to its points where not all shards were made."""
+def total_costs(table: pd.DataFrame) -> pd.DataFrame:
+    """The costs of each whole sweep, in proportion to its points if not all of its shards were computed."""
     rows = table[table.varied == "points"].sort_values("points")
     seconds_of_row = (rows.gathering_seconds / rows.gathered).iloc[-1]
     return rows.assign(
@@ -21,8 +21,8 @@ def costs(table: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-def cells(row) -> list[str]:
-    """The row of a sweep in the table of the page."""
+def sweep_row(row) -> list[str]:
+    """The cells of a sweep in the table of the page."""
     return [
         f"{row.points:,}",
         f"{row.shards}",
@@ -44,10 +44,10 @@ def values(table: pd.DataFrame, sharing: dict) -> dict[str, str | bool | list]:
 
     Parameters
     ----------
-    table : of scaling
-    sharing : the section of the config
+    table : the table `scaling`
+    sharing : the section `sharing` of the config
     """
-    rows = costs(table)
+    rows = total_costs(table)
     largest = rows.iloc[-1]
     conveyors = table[table.varied == "conveyors"].sort_values("points").iloc[-1]
     long = table[table.computing_seconds > 1.0]
@@ -57,7 +57,7 @@ def values(table: pd.DataFrame, sharing: dict) -> dict[str, str | bool | list]:
     start = table.shard_seconds.sub(table.computing_seconds).div(table.measured).median() - loading
     estimated_hours = largest.shards * largest.estimated_seconds * largest.threads / 3600.0
     return {
-        "rows": [cells(row) for row in rows.itertuples()],
+        "rows": [sweep_row(row) for row in rows.itertuples()],
         "points": f"{largest.points:,}",
         "jobs": f"{largest.shards}",
         "core_hours": f"{largest.core_hours:.2g}",

@@ -1,8 +1,7 @@
-"""The keys of the config for readers: from its JSON Schema, and from the values and comments of the default files."""
+"""The keys of the config for the documentation, from its JSON Schema and from the comments of the default files."""
 
 import re
 from collections.abc import Iterator
-from pathlib import Path
 from typing import NamedTuple
 
 import yaml
@@ -21,8 +20,8 @@ class Key(NamedTuple):
     description: str
 
 
-class Written(NamedTuple):
-    """A key of a file: its value as written ("" for a block of keys), the comments beside and above it."""
+class FileKey(NamedTuple):
+    """A key of a file: its value as text ("" for a block of keys), and the comments beside and above it."""
 
     path: tuple[str, ...]
     value: str
@@ -31,6 +30,7 @@ class Written(NamedTuple):
 
 
 def describe_range(schema: dict) -> str:
+    """The range of a number in words."""
     low, high = (schema.get(end, schema.get(f"exclusive{end.capitalize()}")) for end in ("minimum", "maximum"))
     ends = "[" if "minimum" in schema else "(", "]" if "maximum" in schema else ")"
     if high is None:
@@ -39,7 +39,7 @@ def describe_range(schema: dict) -> str:
 
 
 def describe_values(schema: dict) -> str:
-    """The admissible values of a key in words."""
+    """The allowed values of a key in words."""
     options = options_of(schema)
     if len(options) > 1:
         return ", or ".join(describe_values(option) for option in options)
@@ -68,7 +68,7 @@ def describe_values(schema: dict) -> str:
 
 
 def unit_of(schema: dict) -> str:
-    """The unit of a number, or of the numbers in a list or a span."""
+    """The unit of a number, or of the numbers in a list or range; "" for none."""
     for option in options_of(schema):
         inner = option.get("items") or option.get("properties", {}).get("start")
         if unit := option.get("unit") or (unit_of(inner) if inner else ""):
@@ -76,7 +76,7 @@ def unit_of(schema: dict) -> str:
     return ""
 
 
-def keys(schema: dict, path: tuple[str, ...] = ()) -> Iterator[Key]:
+def list_keys(schema: dict, path: tuple[str, ...] = ()) -> Iterator[Key]:
     """All keys of the schema, in its order."""
     (inner, *more), allowed = options_of(schema), describe_values(schema)
     properties = inner.get("properties", {})
@@ -84,24 +84,24 @@ def keys(schema: dict, path: tuple[str, ...] = ()) -> Iterator[Key]:
         yield Key(path, "keys of `model`", "", schema["description"])
     elif properties and allowed == "keys below":
         for name, item in properties.items():
-            yield from keys(item, (*path, name))
+            yield from list_keys(item, (*path, name))
     elif allowed == "keys below":
-        of_names = inner.get("additionalProperties") or next(iter(inner["patternProperties"].values()))
-        yield from keys(of_names, (*path, "NAME"))
+        entry = inner.get("additionalProperties") or next(iter(inner["patternProperties"].values()))
+        yield from list_keys(entry, (*path, "NAME"))
     elif not more and allowed == "list, each keys below":
-        yield from keys(inner["items"], (*path, "[]"))
+        yield from list_keys(inner["items"], (*path, "[]"))
     else:
         yield Key(path, allowed, unit_of(schema), schema["description"])
 
 
 def comment_of(line: str) -> str:
-    """The comment at the end of a line, or that which is all of it."""
+    """The comment of a line, after a value or alone; "" for none."""
     found = re.search(r"(?:^|\s)#\s*(.*)$", QUOTED.sub(lambda quoted: "_" * len(quoted[0]), line))
     return line[found.start(1) :].strip() if found else ""
 
 
-def above(lines: list[str], line: int) -> str:
-    """The comment on whole lines directly above a line, as deep as it is."""
+def comment_above(lines: list[str], line: int) -> str:
+    """The comment lines directly above a line with the same indentation, joined."""
     depth = len(lines[line]) - len(lines[line].lstrip())
     first = line
     while first and lines[first - 1].startswith(" " * depth + "#"):
@@ -109,24 +109,19 @@ def above(lines: list[str], line: int) -> str:
     return " ".join(comment_of(text) for text in lines[first:line])
 
 
-def written(text: str) -> Iterator[Written]:
-    """All keys of a file in YAML that begin a line."""
+def parse_file(text: str) -> Iterator[FileKey]:
+    """All keys at the beginning of a line in the text of a YAML file."""
     lines = text.splitlines()
 
-    def below(node: yaml.Node, path: tuple[str, ...]) -> Iterator[Written]:
+    def parse_node(node: yaml.Node, path: tuple[str, ...]) -> Iterator[FileKey]:
         for key, value in node.value if isinstance(node, yaml.MappingNode) else ():
             line, column = key.start_mark.line, key.start_mark.column
             is_block = isinstance(value, yaml.CollectionNode) and not value.flow_style
             if not lines[line][:column].strip():
-                shown = "" if is_block else " ".join(text[value.start_mark.index : value.end_mark.index].split())
-                yield Written((*path, key.value), shown, comment_of(lines[line]), above(lines, line))
-            # What an alias stands for is written elsewhere.
+                source = "" if is_block else " ".join(text[value.start_mark.index : value.end_mark.index].split())
+                yield FileKey((*path, key.value), source, comment_of(lines[line]), comment_above(lines, line))
+            # The value of an alias is at its anchor, elsewhere in the file.
             if value.start_mark.index > key.start_mark.index:
-                yield from below(value, (*path, key.value))
+                yield from parse_node(value, (*path, key.value))
 
-    yield from below(yaml.compose(text), ())
-
-
-def all_written(files: list[str]) -> list[Written]:
-    """All keys of some files."""
-    return [key for file in files for key in written(Path(file).read_text(encoding="utf-8"))]
+    yield from parse_node(yaml.compose(text), ())

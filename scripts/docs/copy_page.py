@@ -1,6 +1,6 @@
-"""A page or a text that the repository keeps."""
+"""A copy of a page or text for the repository."""
 
 
 def make(page: str) -> str:
-    """The same page."""
+    """The page itself."""
     return page

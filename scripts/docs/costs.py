@@ -1,4 +1,4 @@
-"""What each figure and claim took, from the benchmark files of the jobs that the workflow says it needs."""
+"""Time and memory of each figure and claim, from the benchmark files of all jobs behind it."""
 
 import io
 import json
@@ -9,7 +9,7 @@ import pandas as pd
 
 
 def summary(targets: list[str], snakefile: str, configfiles: list[str]) -> pd.DataFrame:
-    """Snakemake's own account of all files behind some targets: output_file, rule, log-file(s), input-file(s), …"""
+    """Snakemake's detailed summary of all files behind some targets: output_file, log-file(s), input-file(s), …"""
     options = ["--configfile", *configfiles] if configfiles else []
     run = subprocess.run(
         [
@@ -31,7 +31,7 @@ def summary(targets: list[str], snakefile: str, configfiles: list[str]) -> pd.Da
 
 
 def jobs_of(target: str, table: pd.DataFrame) -> set[str]:
-    """The benchmark files of all jobs that a target needs, its own included."""
+    """The benchmark files of all jobs behind a target, including its own."""
     rows = table.set_index("output_file")
     waiting, seen, jobs = [target], set(), set()
     while waiting:
@@ -45,8 +45,8 @@ def jobs_of(target: str, table: pd.DataFrame) -> set[str]:
     return jobs
 
 
-def cost(files: set[str]) -> dict[str, float | int]:
-    """Sum of the wall times (s) and largest resident memory (MiB) of the jobs with these benchmark files."""
+def sum_costs(files: set[str]) -> dict[str, float | int]:
+    """Sum of the wall times (s) and peak memory (MiB) of the jobs with these benchmark files."""
     if not files:
         return {"seconds": 0.0, "memory": 0.0, "jobs": 0}
     rows = pd.concat([pd.read_csv(file, sep="\t", na_values="-") for file in sorted(files)])
@@ -58,8 +58,8 @@ def make(figures: dict[str, list[str]], claims: dict[str, list[str]], snakefile:
 
     Parameters
     ----------
-    figures, claims : the files that each is made from
-    snakefile, configfiles : the workflow that says which jobs a file needs
+    figures, claims : the files behind each figure and claim, by name
+    snakefile, configfiles : of the workflow
     """
     table = summary(
         sorted({file for files in [*figures.values(), *claims.values()] for file in files}), snakefile, configfiles
@@ -68,11 +68,9 @@ def make(figures: dict[str, list[str]], claims: dict[str, list[str]], snakefile:
     def jobs(files: list[str]) -> set[str]:
         return set().union(*(jobs_of(file, table) for file in files))
 
-    of_figures, of_claims = ({name: jobs(files) for name, files in group.items()} for group in (figures, claims))
-    everything = set().union(*of_figures.values(), *of_claims.values())
+    groups = {"figures": figures, "claims": claims}
     found = {
-        "figures": {name: cost(files) for name, files in of_figures.items()},
-        "claims": {name: cost(files) for name, files in of_claims.items()},
-        "everything": cost(everything),
+        group: {name: sum_costs(jobs(files)) for name, files in entries.items()} for group, entries in groups.items()
     }
-    return json.dumps(found, indent=1)
+    everything = jobs([file for entries in groups.values() for files in entries.values() for file in files])
+    return json.dumps({**found, "everything": sum_costs(everything)}, indent=1)

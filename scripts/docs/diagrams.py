@@ -1,4 +1,4 @@
-"""Pictures for the explanation of the solver, drawn from trajectories of the library on the paper's conveyor."""
+"""Diagrams for the explanation of the solver, from trajectories on the paper's conveyor."""
 
 import io
 
@@ -15,7 +15,7 @@ JUMPING = Start(z=3e-4)
 
 
 def shade(axes, times: np.ndarray, where: np.ndarray, label: str) -> None:
-    """A grey background while a condition holds."""
+    """Draw a grey background while a condition holds."""
     axes.fill_between(times, 0, 1, where=where, transform=axes.get_xaxis_transform(), color="0.92", label=label)
 
 
@@ -26,7 +26,7 @@ def event_times(run: Run, kind: str, begin: float) -> np.ndarray:
 
 
 def draw_cycle() -> Figure:
-    """Flight and contact over two cycles of a settled jumping motion."""
+    """Draw flight and contact over two cycles of a settled jumping motion."""
     conveyor = Conveyor(acceleration=40.0)
     run = simulate(conveyor, JUMPING, duration=1.0)
     begin = run.duration - 2.0 / conveyor.frequency
@@ -34,12 +34,14 @@ def draw_cycle() -> Figure:
     part, plate = run.sample(times), conveyor_motion(conveyor, times)
     figure = style.figure(style.PAGE, 66.0)
     axes = figure.subplots()
-    shade(axes, times, part["contact_force"] > 0.0, "contact: integrated by Taylor series")
+    shade(axes, times, part["contact_force"] > 0.0, "contact (Taylor series)")
     axes.plot(times, 1e3 * plate["z"], **style.PLATE_CURVE)
-    axes.plot(times, 1e3 * part["z"], color=style.CONVERGED, label="part; between contacts a parabola")
+    axes.plot(times, 1e3 * part["z"], color=style.CONVERGED, label="part (parabola in flight)")
     for kind, marker in (("impact", "v"), ("separation", "^")):
         at = event_times(run, kind, begin)
-        axes.plot(at, 1e3 * run.sample(at)["z"], marker, color=style.EULER, markersize=5, label=f"{kind}: a root")
+        axes.plot(
+            at, 1e3 * run.sample(at)["z"], marker, color=style.EULER, markersize=5, label=f"{kind} (root of the gap)"
+        )
     axes.set_xlabel("time in s")
     axes.set_ylabel("height in mm")
     figure.legend(loc="outside upper center", ncols=3)
@@ -47,12 +49,12 @@ def draw_cycle() -> Figure:
 
 
 def draw_contact() -> Figure:
-    """One contact in time and in the variables of the solver."""
+    """Draw one contact in time and in the variables of the solver."""
     conveyor = Conveyor(acceleration=40.0)
     run = simulate(conveyor, JUMPING, duration=1.0)
     begin = event_times(run, "impact", 0.9)[0]
     end = event_times(run, "separation", begin)[0]
-    # Denser towards both ends, where the square root is steep.
+    # More samples towards both ends, where the square root is steep.
     times = begin + (end - begin) * 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, 4001)))
     penetration = np.maximum(conveyor_motion(conveyor, times)["z"] - run.sample(times)["z"], 0.0)
     root = np.sqrt(penetration)
@@ -71,14 +73,14 @@ def draw_contact() -> Figure:
 
 
 def draw_friction() -> Figure:
-    """Slip and stick of a part that is always in contact."""
+    """Draw slip and stick of a part that is always in contact."""
     conveyor = Conveyor(acceleration=2.0)
     run = simulate(conveyor, Start("conveyor"), duration=0.2)
     times = np.linspace(run.duration - 2.0 / conveyor.frequency, run.duration, 2001)
     part, plate = run.sample(times), conveyor_motion(conveyor, times)
     figure = style.figure(style.PAGE, 60.0)
     axes = figure.subplots()
-    shade(axes, times, np.abs(part["vx"] - plate["vx"]) < 1e-9, "stick: equal velocities")
+    shade(axes, times, np.abs(part["vx"] - plate["vx"]) < 1e-9, "stick")
     axes.plot(times, plate["vx"], **style.PLATE_CURVE)
     axes.plot(times, part["vx"], color=style.CONVERGED, label="part")
     axes.set_xlabel("time in s")
@@ -88,11 +90,11 @@ def draw_friction() -> Figure:
 
 
 def draw_states() -> Figure:
-    """Gaps at one phase of successive cycles: two that settle, and one that does not."""
+    """Draw the gap at one phase of successive cycles in the first state, the second state and chaos."""
     figure = style.figure(style.PAGE, 62.0)
     panels = figure.subplots(1, 2)
-    starts = {"first": (40.0, 0.0), "second": (40.0, 3e-4), "chaos": (80.0, 3e-4)}
-    for state, (acceleration, height) in starts.items():
+    cases = {"first": (40.0, 0.0), "second": (40.0, 3e-4), "chaos": (80.0, 3e-4)}
+    for state, (acceleration, height) in cases.items():
         conveyor = Conveyor(acceleration=acceleration)
         cycles = np.arange(1, 121)
         run = simulate(conveyor, Start(z=height), duration=(cycles[-1] + 0.5) / conveyor.frequency)
@@ -111,14 +113,14 @@ def draw_states() -> Figure:
 
 
 def to_picture(figure: Figure) -> Image.Image:
-    """A figure at the resolution of the PNG files of figures."""
+    """A figure as an image with the resolution of all PNG files."""
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=style.RESOLUTION)
     return Image.open(buffer).convert("RGB")
 
 
 def make() -> dict[str, Image.Image]:
-    """The diagrams by their names."""
+    """The diagrams by name."""
     draw = {"cycle": draw_cycle, "contact": draw_contact, "friction": draw_friction, "states": draw_states}
     with style.applied():
         return {name: to_picture(function()) for name, function in draw.items()}

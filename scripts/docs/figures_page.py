@@ -1,4 +1,4 @@
-"""The page of what each figure costs."""
+"""The page on the cost of each figure."""
 
 import json
 

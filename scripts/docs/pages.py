@@ -1,23 +1,24 @@
-"""Pages from their templates: README, article, site and metadata tell the same facts in the same words.
+"""README, article, site and metadata from their templates, with the same facts in the same words.
 
-A template is Markdown (or YAML) with Jinja's fields. What it may ask for: the facts of docs.facts, and the names below.
+A template is Markdown (or YAML) with Jinja fields. It can use the facts of docs.facts and these names:
 
-    prefix            of the config; nothing for the paper's
-    step              of the paper's method, s
-    tighter           how many times tighter the tolerances are from which the uncertainty of the claims follows
-    figures           titles, sections, captions and labels of all figures, by their names
-    of_the_paper      names of the paper's figures; the others are this project's own
-    statements        the claims as docs.facts tells them, with their uncertainty
-    tightened         how many of them were looked at with tighter tolerances; same_verdicts: how many did not change
+    prefix            prefix of the config; empty for the paper's config
+    step              time step of the paper's method, s
+    tighter           factor between the usual tolerances and the tighter ones that give the uncertainty of the claims
+    figures           titles, sections, captions and labels of all figures, by name
+    of_the_paper      names of the paper's figures; the remaining ones are this project's own
+    statements        the claims as described by docs.facts, with their uncertainty
+    tightened         number of claims evaluated with tighter tolerances
+    same_verdicts     number of them whose verdict does not change
     costs             seconds, memory (MiB) and jobs of all `figures`, all `claims`, and of `everything`
     gaps              keys of the config whose comment says that the paper leaves them open
-    keys              all keys of the config, by their sections, with the values of the default config
-    entries           entries of a section of the paper's config, with the comments above them
-    modules           modules of the library, by the rooms they stand in
+    keys              all keys of the config by section, with the values of the default config
+    entries           entries of the sections of the paper's config, with their comments
+    modules           modules of the library by package
     proved            the page of what is proved
     columns           the page of all tables and their columns
-    findings          the page of what was found beyond the paper
-    figure(name)      a figure with its caption, as the medium wants it
+    findings          the list of findings beyond the paper
+    figure(name)      a figure with its caption, in the markup of the medium
     cell(text)        a text for a cell of a table
 """
 
@@ -28,41 +29,44 @@ from collections.abc import Callable
 
 import pandas as pd
 
-from docs.config_keys import Key, Written, keys, written
-from docs.facts import facts, of_claims, plain
+from docs.config_keys import FileKey, Key, list_keys, parse_file
+from docs.facts import collect_facts, describe_claims, plain
 from pipeline.templates import render
 
-# How a subscript is written for pandoc and for Sphinx; captions are reStructuredText.
+# Markup of a subscript for pandoc and for Sphinx; captions are reStructuredText.
 SUBSCRIPTS = {"print": r"~\1~", "site": r"{sub}`\1`"}
 # Names of the paper's figures.
 PAPER = re.compile(r"fig\d\d")
+# The comment of a value that the paper leaves open.
 OPEN = re.compile(r"\bopen\b")
+# Sections of the config that do not describe the paper, so that the paper leaves nothing open in them.
+NOT_OF_THE_PAPER = ("companion", "figures", "claims", "benchmark", "stability", "precision")
 
 
-def label(name: str) -> str:
-    """What a figure is called: "Fig. 3" for one of the paper's, else by its name."""
+def figure_label(name: str) -> str:
+    """ "Fig. 3" for a figure of the paper, "Figure `name`" for any other one."""
     return f"Fig. {int(name[3:])}" if PAPER.fullmatch(name) else f"Figure `{name}`"
 
 
-def cell(text: str) -> str:
-    """A text in a cell of a table."""
+def format_cell(text: str) -> str:
+    """A text for a cell of a Markdown table."""
     return " ".join(str(text).split()).replace("|", "\\|")
 
 
-def in_markdown(caption: str, medium: str) -> str:
+def to_markdown(caption: str, medium: str) -> str:
     """A caption on one line of Markdown."""
-    # "m\\ :sub:`p`": the space that is none ends the word before.
+    # In "m\\ :sub:`p`", the escaped space only separates the markup from the word.
     return re.sub(r"(?:\\ )?:sub:`([^`]*)`(?:\\ )?", SUBSCRIPTS[medium], " ".join(caption.split()))
 
 
-def printed(figure: dict, folder: str) -> str:
-    """A figure for pandoc."""
+def figure_for_pandoc(figure: dict, folder: str) -> str:
+    """Markup of a figure for pandoc."""
     caption = re.sub(r"([\[\]])", r"\\\1", figure["caption"])
     return f"![**{figure['label']}.** {caption}](/{folder}{figure['name']}.pdf)"
 
 
-def shown(figure: dict, folder: str) -> str:
-    """A figure for Sphinx."""
+def figure_for_sphinx(figure: dict, folder: str) -> str:
+    """Markup of a figure for Sphinx."""
     name = figure["name"]
     return (
         f":::{{figure}} {folder}{name}.png\n:alt: {figure['title']}\n:scale: 50\n\n"
@@ -70,49 +74,45 @@ def shown(figure: dict, folder: str) -> str:
     )
 
 
-FIGURE: dict[str, Callable[[dict, str], str]] = {"print": printed, "site": shown}
+FIGURE: dict[str, Callable[[dict, str], str]] = {"print": figure_for_pandoc, "site": figure_for_sphinx}
 
 
-def of_figures(figures: dict[str, dict], captions: list[str], medium: str) -> dict[str, dict]:
-    """Figures with their names, labels and captions, which the README does without."""
+def describe_figures(figures: dict[str, dict], captions: list[str], medium: str) -> dict[str, dict]:
+    """The entries of figures with names, labels and captions; the README has no captions."""
     captions = captions or [""] * len(figures)
     return {
-        name: {**entry, "name": name, "label": label(name), "caption": in_markdown(caption, medium)}
+        name: {**entry, "name": name, "label": figure_label(name), "caption": to_markdown(caption, medium)}
         for (name, entry), caption in zip(figures.items(), captions, strict=True)
     }
 
 
-def readable(path: tuple[str, ...]) -> str:
-    """ "orbits.seeds[].z0" of the path of a key."""
+def format_path(path: tuple[str, ...]) -> str:
+    """The path of a key as text, "orbits.seeds[].z0"."""
     return ".".join(path).replace(".[]", "[]")
 
 
-def of_gaps(defaults: list[Written]) -> list[dict]:
-    """What the paper leaves open: keys, their values, and the comments that say so, each once."""
+def find_gaps(defaults: list[FileKey]) -> list[dict]:
+    """Keys that the paper leaves open, with their values and the comments that say so."""
     return [
-        {"key": readable(key.path), "value": key.value, "comment": comment}
+        {"key": format_path(key.path), "value": key.value, "comment": comment}
         for key in defaults
         for comment in (key.beside, key.above)
         if OPEN.search(comment) and key.path[0] not in NOT_OF_THE_PAPER
     ]
 
 
-# Sections of the config with things of this project's own, where nothing of the paper can be open.
-NOT_OF_THE_PAPER = ("companion", "figures", "claims", "benchmark", "stability", "precision")
-
-
-def of_keys(known: list[Key], defaults: list[Written]) -> dict[str, list[dict]]:
-    """All keys by their sections, with the value of the default config where a key has one name only."""
+def group_keys(known: list[Key], defaults: list[FileKey]) -> dict[str, list[dict]]:
+    """All keys by section, with their default values; a key below a free name has none."""
     values = {key.path: key.value for key in defaults}
     found = {}
     for key in known:
         value = values.get(key.path, "")
-        found.setdefault(key.path[0], []).append({**key._asdict(), "key": readable(key.path), "value": value})
+        found.setdefault(key.path[0], []).append({**key._asdict(), "key": format_path(key.path), "value": value})
     return found
 
 
-def of_entries(known: list[Key], defaults: list[Written]) -> dict[str, list[dict]]:
-    """Entries of the sections whose entries have names of one's own choice, with the comments above them."""
+def list_entries(known: list[Key], defaults: list[FileKey]) -> dict[str, list[dict]]:
+    """Entries of the sections in which the user names the entries, with their comments."""
     named = {key.path[0] for key in known if len(key.path) > 1 and key.path[1] == "NAME"}
     found = {section: [] for section in named}
     for key in defaults:
@@ -122,68 +122,23 @@ def of_entries(known: list[Key], defaults: list[Written]) -> dict[str, list[dict
     return found
 
 
-def of_modules(library: list[str]) -> dict[str, list[str]]:
-    """Modules of the library by their rooms; those in none by "conveyor"."""
+def group_modules(library: list[str]) -> dict[str, list[str]]:
+    """Modules of the library by package; modules in no subpackage under "conveyor"."""
     found = {}
     for path in library:
-        _, *room, _ = path.split("/")
-        found.setdefault(room[0] if room else "conveyor", []).append(path.replace("/", "."))
+        _, *package, _ = path.split("/")
+        found.setdefault(package[0] if package else "conveyor", []).append(path.replace("/", "."))
     return found
 
 
-def with_uncertainty(claims: dict[str, dict], sure: dict[str, dict]) -> dict[str, dict]:
-    """Claims with what tighter tolerances change in each of their quantities; a dash where nobody looked."""
+def add_uncertainty(claims: dict[str, dict], tighter: dict[str, dict]) -> dict[str, dict]:
+    """Claims with the change of each quantity at tighter tolerances; a dash for quantities without a change."""
 
-    def changes(name: str) -> list[str]:
-        found = sure.get(name, {}).get("changes", [])
-        return [f"{value:.1g}" if value is not None else "–" for value in found] or ["–"] * len(
-            claims[name]["quantities"]
-        )
+    def format_changes(name: str) -> list[str]:
+        changes = tighter.get(name, {}).get("changes", []) or [None] * len(claims[name]["quantities"])
+        return [f"{value:.1g}" if value is not None else "–" for value in changes]
 
-    return {name: claim | {"uncertainty": changes(name)} for name, claim in claims.items()}
-
-
-def context(
-    tables: dict[str, pd.DataFrame],
-    figures: dict[str, dict],
-    values: dict[str, float | str],
-    captions: list[str],
-    costs: str,
-    uncertainty: str,
-    proved: str,
-    findings: str,
-    columns: str,
-    medium: str,
-    folder: str,
-    defaults: list[Written],
-    known: list[Key],
-    library: list[str],
-) -> dict:
-    """All that a template may ask for."""
-    told = of_figures(figures, captions, medium)
-    sure = json.loads(uncertainty) if uncertainty else {}
-    claims = with_uncertainty(of_claims(tables["claims"]), sure)
-    return {
-        **facts(tables),
-        **{name: value if isinstance(value, str) else plain(value) for name, value in values.items()},
-        "figures": told,
-        "of_the_paper": [name for name in told if PAPER.fullmatch(name)],
-        "statements": claims,
-        "tightened": str(len(sure)),
-        "same_verdicts": str(sum(one["same_verdict"] for one in sure.values())),
-        "verdicts": Counter(claim["verdict"] for claim in claims.values()),
-        "costs": json.loads(costs) if costs else {},
-        "proved": proved,
-        "findings": findings,
-        "columns": columns,
-        "gaps": of_gaps(defaults),
-        "keys": of_keys(known, defaults),
-        "entries": of_entries(known, defaults),
-        "modules": of_modules(library),
-        "figure": lambda name: FIGURE[medium](told[name], folder),
-        "cell": cell,
-        "medium": medium,
-    }
+    return {name: claim | {"uncertainty": format_changes(name)} for name, claim in claims.items()}
 
 
 def make(
@@ -203,42 +158,50 @@ def make(
     library: list[str] = (),
     **tables: pd.DataFrame,
 ) -> list[str] | str:
-    """The pages of some templates, in their order, or the one page of one.
+    """The pages from templates, in order; the page itself if there is one template.
 
     Parameters
     ----------
     figures : entries of the config, with title and section
-    values : of the config, by the names under which templates ask for them
-    captions : of all figures, in their order
-    costs : of figures and claims, as JSON
-    uncertainty : by how much tighter tolerances change the claims, as JSON
+    values : values of the config, by the names that templates use
+    captions : of all figures, in order
+    costs : costs of figures and claims, as JSON
+    uncertainty : changes of the claims with tighter tolerances, as JSON
     proved : the page of what is proved
     findings : the list of findings beyond the paper
     columns : the page of all tables and their columns
     medium : print or site
-    folder : where the figures are, as the page says it
+    folder : folder of the figures, relative to the page
     config : texts of the default config files
     schema : JSON Schema of the config
-    library : files of the library's modules, without their endings
-    tables : those that docs.facts asks for
+    library : files of the library's modules, without extensions
+    tables : the tables that docs.facts needs
     """
-    defaults = [key for text in config for key in written(text)]
-    known = list(keys(json.loads(schema))) if schema else []
-    fields = context(
-        tables,
-        figures,
-        values,
-        captions,
-        costs,
-        uncertainty,
-        proved,
-        findings,
-        columns,
-        medium,
-        folder,
-        defaults,
-        known,
-        library,
-    )
+    defaults = [key for text in config for key in parse_file(text)]
+    known = list(list_keys(json.loads(schema))) if schema else []
+    described = describe_figures(figures, captions, medium)
+    changes = json.loads(uncertainty) if uncertainty else {}
+    claims = add_uncertainty(describe_claims(tables["claims"]), changes)
+    fields = {
+        **collect_facts(tables),
+        **{name: value if isinstance(value, str) else plain(value) for name, value in values.items()},
+        "figures": described,
+        "of_the_paper": [name for name in described if PAPER.fullmatch(name)],
+        "statements": claims,
+        "tightened": str(len(changes)),
+        "same_verdicts": str(sum(one["same_verdict"] for one in changes.values())),
+        "verdicts": Counter(claim["verdict"] for claim in claims.values()),
+        "costs": json.loads(costs) if costs else {},
+        "proved": proved,
+        "findings": findings,
+        "columns": columns,
+        "gaps": find_gaps(defaults),
+        "keys": group_keys(known, defaults),
+        "entries": list_entries(known, defaults),
+        "modules": group_modules(library),
+        "figure": lambda name: FIGURE[medium](described[name], folder),
+        "cell": format_cell,
+        "medium": medium,
+    }
     pages = [render(template, fields) for template in templates]
     return pages if len(pages) > 1 else pages[0]

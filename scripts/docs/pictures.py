@@ -1,4 +1,4 @@
-"""Pictures of figures for screens: scaled and with a palette, a fraction of the bytes of the figure in print."""
+"""Pictures of figures for screens: scaled down and with a palette, so that they take fewer bytes."""
 
 from PIL import Image
 
@@ -9,7 +9,7 @@ COLOURS = 256
 
 
 def for_screens(path: str) -> Image.Image:
-    """The picture of a PNG file."""
+    """The picture from a PNG file."""
     with Image.open(path) as image:
         size = [max(1, round(extent * SCREEN / RESOLUTION)) for extent in image.size]
         small = image.convert("RGB").resize(size, Image.Resampling.BICUBIC, reducing_gap=2.0)
@@ -17,5 +17,5 @@ def for_screens(path: str) -> Image.Image:
 
 
 def make(png: str) -> Image.Image:
-    """The picture of a figure, a PNG file."""
+    """The picture of a figure from its PNG file."""
     return for_screens(png)

@@ -1,4 +1,4 @@
-"""The site: Sphinx on pages in Markdown, with pictures that fit a screen."""
+"""The site: HTML by Sphinx from pages in Markdown, with pictures for screens."""
 
 import shutil
 from collections.abc import Iterable
@@ -37,8 +37,14 @@ SETTINGS = {
 def gather(
     folder: str, pages: Iterable[str], style: str, pictures: Iterable[str], extra: dict[str, Iterable[str]]
 ) -> None:
-    """Put into a folder what Sphinx needs: pages, their style, pictures in figures/, and files that are copied as they
-    are, by the folders that they go to.
+    """Copy the sources of the site into a folder.
+
+    Parameters
+    ----------
+    folder : of the sources
+    pages, style : Markdown pages and the style sheet
+    pictures : PNG files, scaled down into figures/
+    extra : files that are copied unchanged, by target folder
     """
     source = Path(folder)
     (source / "style").mkdir()
@@ -55,17 +61,16 @@ def gather(
 
 
 def build(source: str, output: str) -> None:
-    """Run Sphinx from a folder of pages to one of HTML.
+    """Run Sphinx on a folder of pages.
 
     Raises
     ------
     RuntimeError
-        with all warnings if there is one: a page that is missing, a link that leads nowhere, a docstring that cannot
-        be read
+        with all warnings if there are any: for a missing page, a broken link, an invalid docstring
     """
     warnings = StringIO()
     doctrees = str(Path(source, "_doctrees"))
-    # As Sphinx's own command does it: what one build registers with docutils is not there for the next one.
+    # As in Sphinx's own command: a build must not see what an earlier one registered with docutils.
     with patch_docutils(source), docutils_namespace():
         app = Sphinx(source, None, output, doctrees, "html", SETTINGS, status=None, warning=warnings, freshenv=True)
         app.build(force_all=True)

@@ -1,4 +1,4 @@
-"""Extension of Sphinx: formulas without a network, and docstrings and signatures in the form that the library uses."""
+"""Extension of Sphinx: formulas without a network, and docstrings and signatures in the library's style."""
 
 import re
 from typing import Any
@@ -8,9 +8,9 @@ from latex2mathml.converter import convert
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxTranslator
 
-# How Sphinx spells out NumPy's ArrayLike.
+# Sphinx's expansion of NumPy's ArrayLike.
 ARRAY_LIKE = re.compile(r"[~\w.]*_Buffer \|.*?_NestedSequence\[[^\[\]]*complex[^\[\]]*\]")
-# What reStructuredText takes for markup and docstrings mean literally: |x| and a * b.
+# Literal characters of docstrings, |x| and a * b, that are markup in reStructuredText.
 LITERAL = re.compile(r"([|*])")
 
 
@@ -25,26 +25,26 @@ def block(self: SphinxTranslator, node: nodes.math_block) -> None:
 
 
 def escape(app: Sphinx, what: str, name: str, of: Any, options: Any, lines: list[str]) -> None:
-    """Docstrings are plain text: bars and asterisks in them are no markup."""
+    """Escape bars and asterisks, because docstrings are plain text."""
     lines[:] = [LITERAL.sub(r"\\\1", line) for line in lines]
 
 
 def shorten(
     app: Sphinx, what: str, name: str, of: Any, options: Any, signature: str | None, returned: str | None
 ) -> tuple[str | None, str | None]:
-    """A signature with ArrayLike by its name."""
+    """The signature with the name ArrayLike in place of its expansion."""
     return signature and ARRAY_LIKE.sub("ArrayLike", signature), returned
 
 
 def skip(app: Sphinx, what: str, name: str, of: Any, skipped: bool, options: Any) -> bool | None:
-    """Fields of a named tuple say no more than their number."""
+    """Skip fields of named tuples without a docstring of their own."""
     return True if str(getattr(of, "__doc__", "")).startswith("Alias for field number") else None
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
-    """Called by Sphinx."""
+    """Register the functions above; called by Sphinx."""
     app.add_html_math_renderer("mathml", (inline, None), (block, None))
-    # Before napoleon, which writes markup.
+    # Before napoleon, which adds markup.
     app.connect("autodoc-process-docstring", escape, priority=400)
     app.connect("autodoc-process-signature", shorten)
     app.connect("autodoc-skip-member", skip)

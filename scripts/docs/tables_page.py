@@ -1,4 +1,4 @@
-"""The page of all tables: each with its columns, units and meanings, from the schemas of the stages."""
+"""The page of all tables: columns, units and meanings, from the schemas of the stages."""
 
 from collections.abc import Sequence
 from types import ModuleType
@@ -76,7 +76,7 @@ MODULES = (
 
 
 def file_of(kind: str) -> str:
-    """Where the tables of a kind are; NAME stands for the name of an entry of the config."""
+    """The file of the tables of a kind; NAME stands for the name of an entry of the config."""
     folders = [reference.split("/")[0] for reference in TABLES if reference.split("/")[1] == kind]
     if not folders:
         return f"results/{kind}/NAME.parquet"
@@ -94,8 +94,8 @@ def tables_of_stages(modules: Sequence[ModuleType]) -> dict[str, list[dict]]:
     """Files and columns of all tables, by stage."""
     found = {}
     for module in modules:
-        of_stage = found.setdefault(module.__name__.split(".")[0], [])
-        of_stage += [
+        tables = found.setdefault(module.__name__.split(".")[0], [])
+        tables += [
             {"kind": kind, "file": file_of(kind), "columns": [describe(column) for column in schema]}
             for kind, schema in module.TABLES.items()
         ]

@@ -1,4 +1,4 @@
-"""The captions of all figures, their numbers filled in from the tables that the figures draw."""
+"""Captions of all figures: numbers from the tables that the figures draw, filled into templates."""
 
 import inspect
 from collections.abc import Callable
@@ -11,7 +11,7 @@ from accuracy import speed
 from accuracy.rigid_part import CONTACT, RIGID
 from accuracy.stability import PANELS, VELOCITY
 from claims.about_chaos import positive_onset
-from claims.about_states import runs_of, second_from_rest, written_runs
+from claims.about_states import find_runs, format_runs, second_from_rest
 from claims.finding import lowest
 from figures.plots.throw import proved_fold
 from identification import findings
@@ -20,9 +20,9 @@ from operating.drive_page import last_growth
 from pipeline.templates import render
 
 MM = 1e3
-SMALL_ELASTICITY = 1e-3  # errors of smaller ones are told by no relative number
-TEXTBOOK_AGREES = 0.1  # relative difference up to which the caption says that the textbook velocity is right
-SIGNIFICANT = 3.0  # standard errors by which an exponent is positive
+SMALL_ELASTICITY = 1e-3  # below it, a relative error means nothing
+TEXTBOOK_AGREES = 0.1  # largest relative difference from the textbook velocity that counts as agreement
+SIGNIFICANT = 3.0  # standard errors from zero of an exponent whose sign is certain
 
 
 def heights(table: pd.DataFrame) -> dict[str, str]:
@@ -32,13 +32,13 @@ def heights(table: pd.DataFrame) -> dict[str, str]:
 
 
 def run_numbers(table: pd.DataFrame) -> dict[str, str]:
-    """How long the runs of a table are, and the step of those by Euler."""
+    """Duration of the runs of a table (s), and their time step (µs) if they have a fixed one."""
     numbers = {"duration": f"{table.attrs['duration']:g}"}
     return numbers | ({"step_us": f"{1e6 * table.attrs['step']:g}"} if "step" in table.attrs else {})
 
 
-def chaotic(spectrum: pd.DataFrame) -> pd.Series:
-    """Where the exponent of a motion is positive beyond its error."""
+def is_chaotic(spectrum: pd.DataFrame) -> pd.Series:
+    """Whether the exponent of each motion is significantly positive."""
     return spectrum.lambda_1 > SIGNIFICANT * spectrum.stderr
 
 
@@ -51,7 +51,7 @@ def fig08(*, converged: pd.DataFrame) -> dict[str, str]:
 
 
 def format_change(least: float, most: float) -> str:
-    """How changes between two bounds (%) are written, "1.1 to 4.2 % below"."""
+    """A range of relative changes (%) in words, "1.1 to 4.2 % below"."""
     if least * most < 0.0:
         return f"between {min(least, most):+.1f} and {max(least, most):+.1f} % off"
     low, high = sorted((abs(least), abs(most)))
@@ -83,7 +83,7 @@ def fig22(*, converged: pd.DataFrame, spectrum: pd.DataFrame, euler: pd.DataFram
     up = spectrum[(spectrum.branch == "up")].sort_values("acceleration")
     joined = pd.merge_asof(
         converged.sort_values("acceleration"),
-        up[["acceleration", "lambda_1"]].assign(chaotic=chaotic(up)),
+        up[["acceleration", "lambda_1"]].assign(chaotic=is_chaotic(up)),
         on="acceleration",
         direction="nearest",
     )
@@ -115,14 +115,14 @@ def bifurcation(*, spectrum: pd.DataFrame, cascade: pd.DataFrame, longest_period
     accumulation, runs = found.iloc[-1], {}
     for branch, rows in spectrum.sort_values("acceleration").groupby("branch"):
         early = rows[rows.acceleration < accumulation]
-        runs[branch] = runs_of(early.acceleration, chaotic(early))
+        runs[branch] = find_runs(early.acceleration, is_chaotic(early))
     late = spectrum[spectrum.acceleration > accumulation].sort_values("acceleration")
     regular = (late.lambda_1 < -SIGNIFICANT * late.stderr).groupby(late.acceleration).all()
     return {
         "longest_period": str(longest_period),
         "accumulation": f"{accumulation:.2f}",
-        "early_up": written_runs(runs["up"], 2) if runs.get("up") else "nowhere",
-        "early_down": written_runs(runs["down"], 2) if runs.get("down") else "nowhere",
+        "early_up": format_runs(runs["up"], 2) if runs.get("up") else "nowhere",
+        "early_down": format_runs(runs["down"], 2) if runs.get("down") else "nowhere",
         "regular_share": f"{100.0 * regular.mean():.0f}",
     }
 
@@ -159,7 +159,7 @@ def rigid_part(*, rigid: pd.DataFrame, contact: pd.DataFrame) -> dict[str, str]:
 
 
 def scene_budget(*, budget: pd.DataFrame) -> dict[str, str]:
-    """In how many tables a reader would see that a variant is not the full model."""
+    """Number of tables in which a variant differs visibly from the full model."""
     rows = budget.drop_duplicates(["table", "variant", "tolerance"])
     numbers = {}
     for name, variant in (("rigid", "rigid part"), ("half", "half the time")):
@@ -195,7 +195,7 @@ def speed_accuracy(
     paper_step: float,
     equal_error: float,
 ) -> dict[str, str]:
-    runs = speed.timed(jumping, jumping_times)
+    runs = speed.successful_runs(jumping, jumping_times)
     paper, *rival = speed.factors(runs, paper_step, equal_error)
     missing = dict.fromkeys(jumping[jumping.outcome == "not installed"].method)
     return {
@@ -218,14 +218,15 @@ def stability_maps(*, stability: pd.DataFrame) -> dict[str, str]:
 
 
 def failed_rivals(*, stability: pd.DataFrame) -> dict[str, str]:
-    """Maps of stability, and which rivals fail in which hard case."""
+    """Numbers of the stability maps, and the hard cases in which other integrators fail."""
     rivals = stability.attrs["rivals"]["integrators"]
     rows = stability[stability.panel.str.startswith("hard") & stability.method.isin(rivals)]
-    told = []
-    for (panel, outcome), failed in rows[rows.outcome != "right"].groupby(["panel", "outcome"], sort=False):
-        told.append(f"{panel.removeprefix('hard: ')}: {', '.join(failed.method)} ({outcome})")
+    failures = [
+        f"{panel.removeprefix('hard: ')}: {', '.join(failed.method)} ({outcome})"
+        for (panel, outcome), failed in rows[rows.outcome != "right"].groupby(["panel", "outcome"], sort=False)
+    ]
     return stability_maps(stability=stability) | {
-        "failures": "; ".join(told) or "none",
+        "failures": "; ".join(failures) or "none",
         "tolerance": f"{stability.attrs['rivals']['tolerance']:g}",
         "max_evaluations": f"{stability.attrs['rivals']['max_evaluations']:,}",
     }
@@ -301,16 +302,16 @@ def track(*, track: pd.DataFrame) -> dict[str, Any]:
 def identification(
     *, front: pd.DataFrame, profiles: pd.DataFrame, frictions: pd.DataFrame, generations: pd.DataFrame
 ) -> dict[str, str]:
-    asked = profiles.attrs
+    settings = profiles.attrs
     return {
-        "friction_alone": findings.friction_alone(frictions, asked["numbers"]),
-        "search": findings.search(front, generations),
-        "confidence": f"{100.0 * asked['profiles']['confidence']:g}",
-        "population": str(asked["search"]["population"]),
-        "generations": str(asked["search"]["generations"]),
-        "contacts": str(asked["contacts"]["loss"] * asked["contacts"]["stiffness"]),
-        "points": str(asked["profiles"]["points"]),
-        "coarse": "Coarse: " if findings.coarse(asked) else "",
+        "friction_alone": findings.describe_frictions(frictions, settings["numbers"]),
+        "search": findings.describe_search(front, generations),
+        "confidence": f"{100.0 * settings['profiles']['confidence']:g}",
+        "population": str(settings["search"]["population"]),
+        "generations": str(settings["search"]["generations"]),
+        "contacts": str(settings["contacts"]["loss"] * settings["contacts"]["stiffness"]),
+        "points": str(settings["profiles"]["points"]),
+        "coarse": "Coarse: " if findings.is_coarse(settings) else "",
     }
 
 
@@ -343,32 +344,39 @@ NUMBERS: dict[str, Callable[..., dict[str, Any]]] = {
 }
 
 
-def arguments_of(function: Callable, available: dict) -> dict:
-    """The values whose names are parameters of a function."""
-    return {name: available[name] for name in inspect.signature(function).parameters if name in available}
-
-
 def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings: dict, paper: bool = True) -> str:
-    """The caption of a figure from its template; `paper` tells whether it is about the paper's machine.
+    """The caption of a figure from its template; `paper` says whether it shows the paper's conveyor.
 
     Raises
     ------
     jinja2.UndefinedError
-        if the template asks for a number that NUMBERS does not give
+        if the template uses a number that the function of the figure in NUMBERS does not return
     """
-    function = NUMBERS.get(name)
-    numbers = function(**arguments_of(function, {**tables, **settings})) if function else {}
-    return render(template, numbers | {"paper": paper})
+    numbers = {}
+    if function := NUMBERS.get(name):
+        available = {**tables, **settings}
+        parameters = inspect.signature(function).parameters
+        numbers = function(**{name: available[name] for name in parameters if name in available})
+    conveyor = "the paper's conveyor" if paper else "this conveyor"
+    return render(template, numbers | {"paper": paper, "conveyor": conveyor})
 
 
 def make(
     figures: dict[str, dict], paper: bool, references: list[str], read: list[pd.DataFrame], templates: list[str]
 ) -> list[str]:
-    """The captions of all figures, in their order, from the tables that `references` name as SECTION/NAME."""
+    """The captions of all figures, in order.
+
+    Parameters
+    ----------
+    figures : entries of the config
+    paper : whether the figures show the paper's conveyor
+    references, read : names of the tables, SECTION/NAME, and the tables
+    templates : one per figure
+    """
     tables_by_name = dict(zip(references, read, strict=True))
-    found = []
+    captions = []
     for (name, entry), template in zip(figures.items(), templates, strict=True):
-        of_figure = {**entry["tables"], **entry.get("caption_tables", {})}
-        tables = {role: tables_by_name[reference] for role, reference in of_figure.items()}
-        found.append(caption(template, name, tables, entry.get("settings", {}), paper))
-    return found
+        roles = {**entry["tables"], **entry.get("caption_tables", {})}
+        tables = {role: tables_by_name[reference] for role, reference in roles.items()}
+        captions.append(caption(template, name, tables, entry.get("settings", {}), paper))
+    return captions

@@ -1,4 +1,4 @@
-"""The one look of all figures: sizes, fonts, colours, and the one place that saves them."""
+"""Style of all figures: sizes, fonts, colours, labels, and the function that saves them."""
 
 from collections.abc import Iterable
 from contextlib import AbstractContextManager
@@ -19,14 +19,14 @@ MM = 1.0 / 25.4
 COLUMN = 84.0  # mm, width of a column of the journal
 PAGE = 174.0  # mm, width of its page
 
-# Okabe and Ito's colours, which the colour-blind tell apart.
+# Colours of Okabe and Ito, which colour-blind readers can distinguish.
 STATE_COLOURS = {"first": "#0072B2", "second": "#E69F00", "chaos": "#009E73", "undecided": "#CC79A7"}
 CONVERGED = "#0072B2"
 EULER = "#D55E00"
-SECOND_ESTIMATE = "#CC79A7"  # beside CONVERGED; green means chaos elsewhere
-CONVERGED_LABEL = "converged (exact events)"
-EULER_LABEL = "paper's method (Euler)"
-PANELS = {"euler": EULER_LABEL, "converged": CONVERGED_LABEL}  # of the paper's figures, in their order
+SECOND_ESTIMATE = "#CC79A7"  # next to CONVERGED; not green, which means chaos
+CONVERGED_LABEL = "converged solution"
+EULER_LABEL = "published method (explicit Euler)"
+PANELS = {"euler": EULER_LABEL, "converged": CONVERGED_LABEL}  # titles by role, from left to right
 PLATE = "#555555"
 AMPLITUDE = "acceleration amplitude $\\hat{a}$ in m/s²"
 THROW_NUMBER = "throw number $\\Gamma = a_z / (g\\,\\cos\\alpha)$"
@@ -47,14 +47,13 @@ METHODS = {
     "CVODE BDF": ("#9CCC65", "CVODE BDF"),
     "heyoka": ("#7A4FBF", "heyoka"),
 }
-# Curves of both methods in one panel: where they coincide, the dashes lie on the line.
+# Curves of both methods in one panel: dashes over a solid line, so that both are visible where they coincide.
 CURVES = {
     "converged": {"color": CONVERGED, "linewidth": 1.4, "label": CONVERGED_LABEL},
     "euler": {"color": EULER, "linewidth": 0.8, "linestyle": (0, (3, 3)), "label": EULER_LABEL},
 }
-# The textbook theory of throw conveyors, over the converged motions.
-TEXTBOOK = {"color": "#D55E00", "linewidth": 1.0, "linestyle": (0, (5, 1, 1, 1)), "label": "textbook"}
-# The plate's own curves, behind those of the part.
+TEXTBOOK = {"color": "#D55E00", "linewidth": 1.0, "linestyle": (0, (5, 1, 1, 1)), "label": "textbook theory"}
+# Wide and pale, because it is drawn behind the curves of the part.
 PLATE_CURVE = {"color": "0.8", "linewidth": 2.5, "label": "conveyor"}
 
 RESOLUTION = 600  # dpi of rasterised parts and of PNG files
@@ -81,22 +80,22 @@ PARAMETERS = {
 
 
 def applied() -> AbstractContextManager:
-    """A context within which figures are made in this style."""
+    """A context manager; figures made within it have this style."""
     return mpl.rc_context(PARAMETERS)
 
 
 def figure(width: float, height: float) -> Figure:
-    """An empty figure of a size in mm."""
+    """An empty figure with a width and a height in mm."""
     return Figure(figsize=(width * MM, height * MM))
 
 
 def drop_missing(**tables: pd.DataFrame | None) -> dict[str, pd.DataFrame]:
-    """The tables by their roles, without roles that are None: a machine of one's own may have no Euler table."""
+    """The tables by role, without missing ones: a config for another conveyor may have no table by explicit Euler."""
     return {role: table for role, table in tables.items() if table is not None}
 
 
 def method_panels(figure: Figure, tables: dict[str, pd.DataFrame], xlabel: str, ylabel: str) -> list[Axes]:
-    """Panels side by side with common scales, one for each method's table by its role, with titles and labels."""
+    """Panels side by side, one per method, with common scales, titles and axis labels; `tables` are keyed by role."""
     panels = figure.subplots(1, len(tables), sharex=True, sharey=True, squeeze=False)[0]
     for axes, role in zip(panels, tables, strict=True):
         axes.set_title(PANELS[role])
@@ -106,25 +105,25 @@ def method_panels(figure: Figure, tables: dict[str, pd.DataFrame], xlabel: str, 
 
 
 def from_zero(axes: Axes) -> None:
-    """Let the vertical axis begin at zero, or below what is less."""
+    """Start the vertical axis at zero if no value is negative."""
     low = min((np.nanmin(line.get_ydata()) for line in axes.lines if len(line.get_ydata())), default=0.0)
     if low >= 0.0:
         axes.set_ylim(bottom=0.0)
 
 
 def note(axes: Axes, text: str, place: tuple, offset: tuple[float, float] = (0.0, 0.0), **options) -> None:
-    """A small text at a place of the axes, moved by an offset in points; options as of `Axes.annotate`."""
+    """Write a small text at a place of the axes, shifted by an offset in points; options of `Axes.annotate`."""
     axes.annotate(text, place, xytext=offset, textcoords="offset points", size=7.0, **options)
 
 
 def mark(axes: Axes, x: float, label: str) -> None:
-    """A thin vertical line at x with a label at its upper end."""
+    """Draw a thin vertical line at x with a label at its upper end."""
     axes.axvline(x, color="black", linewidth=0.6, linestyle=":")
     note(axes, label, (x, 1.0), (2, -1), xycoords=("data", "axes fraction"), va="top")
 
 
 def class_map(axes: Axes, classes: pd.DataFrame, colours: dict[str, str]) -> None:
-    """Colour the plane by named classes: a table with x in its columns and y in its index; colours by class."""
+    """Draw a map of named classes; `classes` has x in its columns and y in its index, `colours` is keyed by class."""
     numbers = {name: number for number, name in enumerate(colours)}
     axes.pcolormesh(
         classes.columns.to_numpy(),
@@ -139,29 +138,37 @@ def class_map(axes: Axes, classes: pd.DataFrame, colours: dict[str, str]) -> Non
 
 
 def state_map(axes: Axes, table: pd.DataFrame, x: str, y: str) -> None:
-    """Colour the plane of two axes of a sweep by its column `state`; the axes keep their units."""
+    """Draw a map of the column `state` of a sweep over its axes `x` and `y`, in the units of the table."""
     class_map(axes, table.pivot(index=y, columns=x, values="state"), STATE_COLOURS)
 
 
+def state_label(state: str) -> str:
+    """The name of a state of motion in legends and titles: "first state", "chaos"."""
+    return f"{state} state" if state in ("first", "second") else state
+
+
 def state_handles(*tables: pd.DataFrame) -> list[Artist]:
-    """Handles of a legend of the states that occur in the tables."""
+    """Legend handles of the states of motion that occur in the tables."""
     occur = set().union(*(table.state.unique() for table in tables))
-    return [Patch(color=colour, label=state) for state, colour in STATE_COLOURS.items() if state in occur]
+    return [Patch(color=colour, label=state_label(state)) for state, colour in STATE_COLOURS.items() if state in occur]
 
 
 def phase_axis(axis: Axis) -> None:
-    """Ticks of an axis of phases (rad) at multiples of π/2."""
+    """Set the ticks of an axis of phases (rad) to multiples of π/2."""
     names = ("0", "π/2", "π", "3π/2", "2π")
     axis.set_ticks(0.5 * np.pi * np.arange(len(names)), names)
 
 
 def legend_above(figure: Figure, axes: Axes, **options) -> None:
-    """A legend of the artists of `axes` above all panels, where it hides no data."""
+    """Draw a legend of the artists of `axes` above all panels, where it hides no data."""
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", **options)
 
 
 def save(figure: Figure, paths: Iterable[str]) -> None:
-    """Write a figure to PDF or PNG files, without a date in them; all files have the layout of the first one."""
+    """Write a figure to PDF or PNG files without dates, so that equal figures have equal bytes.
+
+    All files have the layout of the first one.
+    """
     with applied():
         for path in paths:
             metadata = {"CreationDate": None} if path.endswith(".pdf") else None

@@ -1,4 +1,4 @@
-"""Eq. 13 fitted to the critical initial heights, and the valley of nearly equal fits."""
+"""Fits of Eq. 13 to the critical initial heights, and the valley of nearly equal fits."""
 
 import numpy as np
 import pandas as pd
@@ -10,24 +10,23 @@ from pipeline import fields
 TABLES = {
     "regressions": (
         fields.text(
-            "fit", "pymoo, least_squares, paper (the paper's own triple) or valley (the best A and C for a given B)"
+            "fit", "pymoo, least_squares, paper (A, B and C of the paper) or valley (the best A and C for a given B)"
         ),
         fields.number("A", "m²/s²", "parameter of Eq. 13"),
         fields.number("B", "m/s²", "parameter of Eq. 13"),
         fields.number("C", "m", "parameter of Eq. 13"),
         fields.number("error", "m²", "mean squared error of Eq. 13"),
         fields.count(
-            "evaluations", "number of triples, or of values of B, whose error was computed; 0 for given triples"
+            "evaluations", "number of computed errors of triples, or of values of B; 0 for the paper's triple"
         ),
     ),
 }
 
-
-BELOW = 0.999  # of the lowest amplitude: where the pole may lie at most
+BELOW = 0.999  # largest pole of Eq. 13 in units of the lowest amplitude
 
 
 def make(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
-    """The columns of a table of regressions from a table of critical heights; empty for too few of them."""
+    """The columns of a table of regressions from a table of critical heights; no rows for too few amplitudes."""
     low, high = settings.get("acceleration", (critical.acceleration.min(), critical.acceleration.max()))
     data = critical[critical.is_critical & critical.acceleration.between(low, high)]
     data = data.acceleration.to_numpy(), data.z0.to_numpy()
@@ -36,7 +35,7 @@ def make(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
     bounds = {name: tuple(limits) for name, limits in settings["bounds"].items()}
     valley = dict(settings["valley"])
     if "acceleration" not in settings:
-        # Of data that are not known beforehand: the pole of Eq. 13 stays below them.
+        # For a conveyor without known amplitudes, the pole of Eq. 13 must stay below the data.
         valley["start"] = -BELOW * data[0].min()
         bounds["B"] = valley["start"], bounds["B"][1]
     valley = np.linspace(valley["start"], valley["stop"], int(valley["num"]))

@@ -1,1 +1,1 @@
-"""Stage identification: which parameters the numbers of the paper imply."""
+"""Stage identification: the parameters that the numbers of the paper imply."""

@@ -1,7 +1,8 @@
-"""Up to which amplitude each initial height leads to the first state, over the parameters of the contact.
+"""Edges: the amplitude up to which each initial height leads to the first state, over the parameters of the contact.
 
-The vertical motion knows friction not at all, the angle of throw only by the vertical amplitude a_z = â sin φ, and
-`frictionless` not from `allow`: what is found here once for a contact serves all of them.
+The vertical motion does not depend on friction, depends on the angle of throw only through a_z = â sin φ, and is the
+same for the tension modes `frictionless` and `allow`. The edges of a contact therefore hold for all frictions, all
+angles, and both modes.
 """
 
 from collections.abc import Callable
@@ -14,24 +15,24 @@ from pipeline import fields, grid
 
 TABLES = {
     "edges": (
-        fields.number("loss", "1", "share of an impact's speed that damping takes, roughly: see impact_loss"),
+        fields.number("loss", "1", "approximate share of the impact speed that damping dissipates"),
         fields.number("stiffness", "N/m^p", "contact stiffness"),
-        fields.text("tension", "reading of a contact force that pulls: allow (as frictionless) or clip"),
+        fields.text("tension", "mode of a tensile contact force: allow (also for frictionless) or clip"),
         fields.number("z0", "m", "initial height"),
         fields.number("damping", "N s/m", "contact damping, from loss and stiffness"),
         fields.number(
             "vertical_acceleration",
             "m/s²",
-            "vertical amplitude above which the start no longer ends in the first state",
+            "vertical amplitude above which the initial height no longer leads to the first state",
         ),
     ),
 }
-# Readings of the contact force with a vertical motion of their own, and which of them each reading has.
+# Tension modes with different vertical motions, and the vertical motion of each mode.
 VERTICAL = ("allow", "clip")
 VERTICAL_OF = {"allow": "allow", "frictionless": "allow", "clip": "clip"}
-# Excitation cycles after which a start that has not settled is not in the first state: that takes some fifty.
+# Excitation cycles after which an unsettled motion is not in the first state, which settles within about 50.
 CYCLES = 1000
-# Steps in which the first state is looked for above an edge.
+# Amplitudes above an edge at which the first state may come back.
 FURTHER = 10
 # Of the contact steps (see figure scene_budget).
 TOLERANCE = 1e-6
@@ -40,9 +41,9 @@ Decide = Callable[[np.ndarray], np.ndarray]
 
 
 def duration_over_mass(stiffness: np.ndarray, model: dict) -> np.ndarray:
-    """Duration of an impact at the speed g/ω over the part's mass (s/kg), but for a number of order one.
+    """Duration of an impact at the speed g/ω over the part's mass (s/kg), up to a factor of order one.
 
-    From the dimensions of m z̈ = k z^p: T = (m/k)^(1/(p+1)) v^((1-p)/(p+1)).
+    From dimensional analysis of m z̈ = k z^p: T = (m/k)^(1/(p+1)) v^((1-p)/(p+1)).
     """
     p, mass = model["exponent"], model["mass"]
     speed = model["gravity"] / (2.0 * np.pi * model["frequency"])
@@ -50,42 +51,42 @@ def duration_over_mass(stiffness: np.ndarray, model: dict) -> np.ndarray:
 
 
 def impact_loss(damping: np.ndarray, stiffness: np.ndarray, model: dict) -> np.ndarray:
-    """d_c T / m: what the damping takes of the speed of an impact, to first order and but for a number of order one.
+    """Relative loss of speed in an impact, d_c T / m, to first order in the damping and up to a factor of order one.
 
-    Contacts of one loss have nearly one coefficient of restitution: along lines of equal loss in the plane of damping
-    and stiffness the edges change least, and a table over it has no corners in which nothing jumps, or everything.
+    Contacts with equal loss have nearly the same coefficient of restitution. The edges change least along lines of
+    equal loss, and a table over the loss has no corners without jumping motion or with nothing else.
     """
     return damping * duration_over_mass(stiffness, model)
 
 
-def edge(
+def find_edges(
     parameters: np.ndarray, scan: np.ndarray, further: np.ndarray, resolution: float, decide: Decide
 ) -> np.ndarray:
-    """Amplitude (m/s²) above which starts no longer end in the first state, shape (n,); NaN for none in the scan.
+    """Amplitude (m/s²) above which initial conditions no longer lead to the first state, shape (n,); NaN for none.
 
-    A scan from below finds where a start leaves the first state, bisection locates that. Below the edge there may be
-    tongues, narrow intervals of amplitudes at which the start ends otherwise: if the first state comes back at one of
-    the amplitudes `further` above, the search goes on from there. (It must not begin from above: far above the edge
-    there are motions without a long flight that have nothing to do with it.)
+    A scan from below brackets the edge, and bisection locates it. Below the edge there may be tongues: narrow intervals
+    of amplitudes with another state. If the first state comes back at one of the amplitudes `further` above, the search
+    goes on from there. It cannot begin from above, because far above the edge there are unrelated motions without a
+    long flight.
 
     Parameters
     ----------
     parameters : float64, shape (n, 16), rows as from model.pack; their acceleration is not used
-    scan : amplitudes, m/s², ascending, shape (k,), or (k, n) for a scan of each row
-    further : equal steps above an edge at which the first state is looked for, m/s², shape (s,)
-    resolution : m/s², to which the amplitude is enclosed
-    decide : states of motion, str, shape (m,), for parameters of shape (m, 16)
+    scan : ascending amplitudes, m/s², shape (k,), or (k, n) for a scan of each row
+    further : distances above an edge at which the first state may come back, m/s², shape (s,)
+    resolution : largest width of the final bracket, m/s²
+    decide : function from parameters, shape (m, 16), to states of motion, str, shape (m,)
     """
     n = len(parameters)
     scan = np.broadcast_to(scan.T, (n, len(scan))).T
     low, high = np.full(n, np.nan), np.full(n, np.nan)
 
     def is_first(rows: np.ndarray, amplitude: np.ndarray) -> np.ndarray:
-        at = np.array(parameters[rows], dtype=np.float64)
-        at[:, ACCELERATION] = amplitude
-        return decide(at) == "first"
+        selected = np.array(parameters[rows], dtype=np.float64)
+        selected[:, ACCELERATION] = amplitude
+        return decide(selected) == "first"
 
-    def narrow(rows: np.ndarray) -> None:
+    def bisect(rows: np.ndarray) -> None:
         while (wide := rows[high[rows] - low[rows] > resolution]).size:
             middle = 0.5 * (low[wide] + high[wide])
             first = is_first(wide, middle)
@@ -100,12 +101,12 @@ def edge(
         inside = inside[first]
     todo = found = np.flatnonzero(np.isfinite(low + high))
     while len(todo):
-        narrow(todo)
-        looked = high[todo, None] + further
-        back = is_first(np.repeat(todo, len(further)), looked.ravel()).reshape(looked.shape)
+        bisect(todo)
+        above = high[todo, None] + further
+        back = is_first(np.repeat(todo, len(further)), above.ravel()).reshape(above.shape)
         tongue = back.any(axis=1)
-        todo, looked, back = todo[tongue], looked[tongue], back[tongue]
-        low[todo] = np.where(back, looked, -np.inf).max(axis=1, initial=-np.inf)
+        todo, above, back = todo[tongue], above[tongue], back[tongue]
+        low[todo] = np.where(back, above, -np.inf).max(axis=1, initial=-np.inf)
         high[todo] = low[todo] + further[0]
     middle = np.full(n, np.nan)
     middle[found] = 0.5 * (low + high)[found]
@@ -113,9 +114,9 @@ def edge(
 
 
 def conveyors(settings: dict) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """The columns of the table that are given, shape (n,), and the parameters, shape (n, 16), of its rows.
+    """The columns of the table before the search, shape (n,), and the parameters of its rows, shape (n, 16).
 
-    The plate of these conveyors moves vertically, so that their amplitude is the vertical one.
+    The plate moves vertically, so that the amplitude is the vertical amplitude.
     """
     model = settings["model"]
     axes = {name: np.geomspace(*settings["bounds"][name], number) for name, number in settings["contacts"].items()}
@@ -126,27 +127,27 @@ def conveyors(settings: dict) -> tuple[dict[str, np.ndarray], np.ndarray]:
         {"angle": [0.5 * np.pi]}, {name: model[name] for name in model if name not in ("angle", "z0")}
     )
     parameters = np.tile(one, (len(columns["loss"]), 1))
-    parameters[:, TENSION] = [TENSION_MODES.index(reading) for reading in columns["tension"]]
+    parameters[:, TENSION] = [TENSION_MODES.index(mode) for mode in columns["tension"]]
     for name in ("stiffness", "damping", "z0"):
         parameters[:, PARAMETERS.index(name)] = columns[name]
     return columns, parameters
 
 
-def by_events(threads: int) -> Decide:
-    """The states of motion that starts end in, converged."""
+def converged_states(threads: int) -> Decide:
+    """The function that determines states of motion by the converged solution."""
     return lambda rows: classify(rows, cycles=CYCLES, tolerance=TOLERANCE, threads=threads).state
 
 
-def edges_of(parameters: np.ndarray, settings: dict, decide: Decide, scan: np.ndarray | None = None) -> np.ndarray:
-    """The edges of starts, as `edge` finds them with the settings, or in another scan."""
+def search_edges(parameters: np.ndarray, settings: dict, decide: Decide, scan: np.ndarray | None = None) -> np.ndarray:
+    """The edges by `find_edges` with the settings of the config, in their scan or in another one."""
     search = settings["edges"]
     span = search["vertical_acceleration"]
     scan = np.linspace(span["start"], span["stop"], span["num"]) if scan is None else scan
     further = search["further"] / FURTHER * np.arange(1.0, FURTHER + 1.0)
-    return edge(parameters, scan, further, search["resolution"], decide)
+    return find_edges(parameters, scan, further, search["resolution"], decide)
 
 
 def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     """The columns of the table of edges for the settings of the rule."""
     columns, parameters = conveyors(settings)
-    return columns | {"vertical_acceleration": edges_of(parameters, settings, by_events(threads))}
+    return columns | {"vertical_acceleration": search_edges(parameters, settings, converged_states(threads))}

@@ -1,4 +1,4 @@
-"""What the tables of the stage say: intervals, and friction alone."""
+"""Findings from the tables of the stage: confidence intervals, accepted frictions, and convergence of the search."""
 
 from typing import NamedTuple
 
@@ -16,34 +16,42 @@ VELOCITIES = {
 }
 
 
-# Fewer contacts than these are a coarse table of edges.
+# A table of edges with fewer contacts is coarse.
 ENOUGH_CONTACTS = 49
 
 
-def coarse(asked: dict) -> bool:
-    """Whether what was made with these settings shows no more than that it can be made."""
-    return asked["contacts"]["loss"] * asked["contacts"]["stiffness"] < ENOUGH_CONTACTS
+def is_coarse(settings: dict) -> bool:
+    """Whether the settings are too coarse for conclusions about the parameters, as in a reduced config."""
+    return settings["contacts"]["loss"] * settings["contacts"]["stiffness"] < ENOUGH_CONTACTS
 
 
 def lowest_profile(profiles: pd.DataFrame, evidence: str, parameter: str) -> pd.DataFrame:
-    """The rows with the least total for each value of a parameter, under whichever reading, ascending in the value."""
+    """The rows with the least total for each value of a parameter over all tension modes, in ascending order."""
     rows = profiles[(profiles.evidence == evidence) & (profiles.parameter == parameter)]
     return rows.loc[rows.groupby(parameter).total.idxmin()].reset_index(drop=True)
 
 
 class End(NamedTuple):
-    """An end of an interval; `held` tells that another parameter has come to the end of what is searched there."""
+    """An end of an interval; `held` says whether another parameter is at a bound of the search there."""
 
     value: float
     held: bool
 
 
-def ends(x: np.ndarray, total: np.ndarray, at_bound: np.ndarray, level: float) -> tuple[End | None, End | None]:
-    """Outermost values at which a profile passes a level, by straight lines; None where it is below at that end.
+def find_ends(x: np.ndarray, total: np.ndarray, at_bound: np.ndarray, level: float) -> tuple[End | None, End | None]:
+    """The outermost values at which a profile crosses a level, by linear interpolation.
+
+    An end is None if the profile is below the level up to its last value.
 
     Parameters
     ----------
-    x, total, at_bound : values, ascending, their totals, and whether another parameter is at a bound, shape (n,)
+    x, total, at_bound : ascending values, their totals, and whether another parameter is at a bound, shape (n,)
+    level : of the total
+
+    Raises
+    ------
+    ValueError
+        if the whole profile lies above the level
     """
     inside = np.flatnonzero(total <= level)
     if not len(inside):
@@ -59,24 +67,25 @@ def ends(x: np.ndarray, total: np.ndarray, at_bound: np.ndarray, level: float) -
 
 
 def intervals(profiles: pd.DataFrame, optima: pd.DataFrame, evidence: str) -> dict[str, tuple[End | None, End | None]]:
-    """For each parameter the ends of its interval of confidence."""
-    of_set = optima[optima.evidence == evidence]
-    level = of_set.total.min() + of_set.rise.iloc[0]
+    """The ends of the confidence interval of each parameter."""
+    fits = optima[optima.evidence == evidence]
+    level = fits.total.min() + fits.rise.iloc[0]
+    best = fits.loc[[fits.total.idxmin()]]
     found = {}
     for name in PARAMETERS:
         rows = lowest_profile(profiles, evidence, name)
-        best = of_set.loc[[of_set.total.idxmin()]]
         rows = pd.concat([rows, best[[name, "total", "status"]]]).sort_values(name)
-        found[name] = ends(
+        found[name] = find_ends(
             rows[name].to_numpy(), rows.total.to_numpy(), (rows.status == "at a bound").to_numpy(), level
         )
     return found
 
 
 def accepted_frictions(frictions: pd.DataFrame, numbers: dict[str, dict]) -> dict[str, tuple[float, float]]:
-    """From which to which friction each velocity lies in its accepted interval, all else as printed.
+    """The range of friction in which each velocity lies in its accepted interval, with the other printed parameters.
 
-    All three rise with friction; where one does not reach its interval, both ends are that of the frictions.
+    All three velocities rise with friction. If one does not reach its interval, both ends are the same end of the
+    frictions.
     """
     return {
         name: tuple(
@@ -87,15 +96,15 @@ def accepted_frictions(frictions: pd.DataFrame, numbers: dict[str, dict]) -> dic
 
 
 def contradiction(numbers: dict[str, dict]) -> float:
-    """By which factor the intervals of C01 and of the upper end of C02 must be widened to have a value in common.
+    """The factor by which the intervals of C01 and of the upper end of C02 must be widened until they overlap.
 
-    For the model both are one quantity: the amplitude up to which the start z0 = 0 ends in the first state.
+    In the model, both are one quantity: the amplitude up to which the initial height z0 = 0 leads to the first state.
     """
     return smallest_widening(number(numbers[UP_ALONE]), number(numbers[DOWN_ALONE]))
 
 
-def friction_alone(frictions: pd.DataFrame, numbers: dict[str, dict]) -> str:
-    """At which frictions the velocities are accepted, all else as printed, in words."""
+def describe_frictions(frictions: pd.DataFrame, numbers: dict[str, dict]) -> str:
+    """The ranges of friction in which the velocities are accepted, with the other printed parameters, in words."""
     each = accepted_frictions(frictions, numbers)
     low, high = max(low for low, _ in each.values()), min(high for _, high in each.values())
     parts = [
@@ -110,12 +119,14 @@ def friction_alone(frictions: pd.DataFrame, numbers: dict[str, dict]) -> str:
     return f"{', '.join(parts)}, {together}"
 
 
-def search(front: pd.DataFrame, generations: pd.DataFrame) -> str:
+def describe_search(front: pd.DataFrame, generations: pd.DataFrame) -> str:
     """Whether the searches have converged, in words."""
     last = generations[generations.generation == generations.generation.max()]
     parts = []
     for tension, rows in last.groupby("tension", sort=False):
         share = rows.hypervolume
-        state = front[front.tension == tension].status.iloc[0]
-        parts.append(f"{tension}: {state}, hypervolume {share.min():.3f} to {share.max():.3f} of the cube by the seeds")
+        status = front[front.tension == tension].status.iloc[0]
+        parts.append(
+            f"{tension}: {status}, hypervolume {share.min():.3f} to {share.max():.3f} of the cube over all seeds"
+        )
     return "; ".join(parts)

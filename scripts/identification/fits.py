@@ -1,4 +1,4 @@
-"""Least squares of misfits, with some parameters held."""
+"""Least-squares fits of misfits from several initial guesses."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -6,28 +6,28 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import least_squares
 
-# Of logarithms: small against a per cent, large against the tolerance of the trajectories.
+# Step of finite differences in logarithms of parameters: small for the fit, large for the tolerance of trajectories.
 STEP = 1e-3
 EVALUATIONS = 60
-ENOUGH = 1e-6  # relative change of the total, and of the parameters
+ENOUGH = 1e-6  # relative change of the total and of the parameters at which a fit has converged
 
 
 class Fit(NamedTuple):
-    """Parameters, shape (k,), the sum of the squared misfits there, and whether the search came to an end."""
+    """Parameters, shape (k,), the sum of the squared misfits there, and whether the fit has converged."""
 
     x: np.ndarray
     total: float
     settled: bool
 
 
-def fit(residuals: Callable[[np.ndarray], np.ndarray], starts: np.ndarray, bounds: np.ndarray) -> Fit:
-    """The least sum of squares from several starts, by the trust-region method with differences.
+def fit(residuals: Callable[[np.ndarray], np.ndarray], guesses: np.ndarray, bounds: np.ndarray) -> Fit:
+    """The best least-squares fit from several guesses, by SciPy's trust-region method with finite differences.
 
     Parameters
     ----------
-    residuals : shape (n, m), for parameters of shape (n, k)
-    starts : shape (s, k); what lies outside the bounds is moved to them
-    bounds : lower and upper ones, shape (2, k)
+    residuals : function from parameters, shape (n, k), to residuals, shape (n, m)
+    guesses : shape (s, k); values outside the bounds are moved to them
+    bounds : lower and upper bounds, shape (2, k)
     """
     low, high = bounds
     inner = 1e-9 * (high - low)
@@ -40,15 +40,15 @@ def fit(residuals: Callable[[np.ndarray], np.ndarray], starts: np.ndarray, bound
         return values[x.tobytes()]
 
     def slope(x: np.ndarray) -> np.ndarray:
-        # Away from the upper bounds.
+        # Forward differences, backward ones at the upper bounds.
         steps = np.where(x + STEP <= high, STEP, -STEP)
         return ((residuals(x + np.diag(steps)) - value(x)) / steps[:, None]).T
 
     found = []
-    for start in starts:
+    for guess in guesses:
         solution = least_squares(
             value,
-            np.clip(start, low + inner, high - inner),
+            np.clip(guess, low + inner, high - inner),
             jac=slope,
             bounds=bounds,
             max_nfev=EVALUATIONS,
@@ -57,4 +57,4 @@ def fit(residuals: Callable[[np.ndarray], np.ndarray], starts: np.ndarray, bound
             gtol=ENOUGH,
         )
         found.append(Fit(solution.x, 2.0 * float(solution.cost), solution.status > 0))
-    return min(found, key=lambda one: one.total)
+    return min(found, key=lambda result: result.total)

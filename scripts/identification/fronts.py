@@ -1,4 +1,4 @@
-"""Which parameters fit the paper's numbers best, if not all can be fitted at once: fronts by NSGA-II (pymoo)."""
+"""Pareto fronts of the misfits of the paper's numbers, which cannot all be fitted at once, by NSGA-II (pymoo)."""
 
 from collections.abc import Callable
 
@@ -20,23 +20,25 @@ from identification.search_space import PARAMETERS, SEARCHED, bounds_of, values_
 from pipeline import fields
 
 SEARCH = (
-    fields.text("tension", "reading of a contact force that pulls"),
-    fields.count("seed", "of the search"),
+    fields.text("tension", "mode of a tensile contact force"),
+    fields.count("seed", "seed of the search"),
 )
 TABLES = {
     "front": (
         *SEARCH,
         *(fields.number(name, unit, "parameter") for name, unit in PARAMETERS.items()),
-        fields.number("places", "1", "root mean square misfit of where the states change, in half accepted intervals"),
+        fields.number(
+            "places", "1", "root mean square misfit of amplitudes and heights of changes of state, in half intervals"
+        ),
         fields.number("first_velocity", "1", "root mean square misfit of the first state's velocity"),
-        fields.number("second_velocity", "1", "misfit of the fall of the second state's velocity"),
-        fields.flag("on_front", "whether no member of any reading and seed is better in all three"),
-        fields.text("status", "converged, or why the search of its reading is not"),
+        fields.number("second_velocity", "1", "misfit of the decrease of the second state's velocity"),
+        fields.flag("on_front", "whether no member of any tension mode and seed is better in all three"),
+        fields.text("status", "converged, or why the search of its tension mode is not"),
     ),
     "generations": (
         *SEARCH,
         fields.count("generation", "number of the generation, from 1"),
-        fields.number("hypervolume", "1", "share that the front so far dominates of the cube up to the worst misfits"),
+        fields.number("hypervolume", "1", "share of the cube up to the worst misfits that the front dominates"),
     ),
 }
 
@@ -44,36 +46,36 @@ Evaluate = Callable[[np.ndarray], np.ndarray]
 
 
 def objectives(misfits: np.ndarray, sizes: list[int]) -> np.ndarray:
-    """Root mean squares of groups of misfits, shape (n, 3), of misfits in the order of the groups, shape (n, m)."""
+    """Root mean square of each group, shape (n, 3), from misfits in the order of the groups, shape (n, m)."""
     parts = np.split(misfits, np.cumsum(sizes)[:-1], axis=-1)
     return np.stack([root_mean_square(part) for part in parts], axis=-1)
 
 
-def compromises(
+def fit_compromises(
     misfits: Evaluate, sizes: list[int], drawn: np.ndarray, bounds: np.ndarray, settings: dict
 ) -> np.ndarray:
-    """Points near the front by least squares, one for each of some weights of the objectives: shape (k, 4).
+    """Points near the front by least squares, one for each set of weights of the objectives: shape (k, 4).
 
     Parameters
     ----------
-    misfits : in the order of the groups, shape (n, m), of what is searched, shape (n, 4)
-    sizes : numbers of misfits in the groups
-    drawn, bounds : points of which the best ones are the starts, shape (s, 4), and shape (2, 4)
-    settings : `weights`, into how many parts they divide one, and `least`, in place of zero: without any weight an
-        objective would be left anywhere; `starts`, how many
+    misfits : function from searched parameters, shape (n, 4), to misfits in the order of the groups, shape (n, m)
+    sizes : number of misfits in each group
+    drawn, bounds : random points, shape (s, 4), the best of which are guesses, and bounds, shape (2, 4)
+    settings : `weights`, number of partitions of the weights; `least`, smallest weight, because an objective without
+        weight could take any value; `starts`, number of guesses
     """
-    found, of_drawn = [], misfits(drawn)
+    found, drawn_misfits = [], misfits(drawn)
     for weights in get_reference_directions("das-dennis", len(sizes), n_partitions=settings["weights"]):
         factors = np.repeat(np.sqrt(np.maximum(weights, settings["least"]) / sizes), sizes)
-        best = np.argsort(np.sum((factors * of_drawn) ** 2, axis=1), kind="stable")[: settings["starts"]]
+        best = np.argsort(np.sum((factors * drawn_misfits) ** 2, axis=1), kind="stable")[: settings["starts"]]
         found.append(fit(lambda x, factors=factors: factors * misfits(x), drawn[best], bounds).x)
     return np.array(found)
 
 
 class Archive(Callback):
-    """Keeps what no member of any generation betters, and its hypervolume as a share of the cube [0, worst]³.
+    """All non-dominated members so far, and their hypervolume as a share of the cube [0, worst]³.
 
-    A generation has room for some of it only, and drops others: its own hypervolume may fall.
+    A generation drops some of them, because its size is limited, so that its own hypervolume may fall.
     """
 
     def __init__(self, worst: float):
@@ -86,30 +88,30 @@ class Archive(Callback):
     def update(self, algorithm):
         x = np.vstack([self.x, algorithm.pop.get("X")])
         values = np.vstack([self.values, algorithm.pop.get("F")])
-        # Sorted by their objectives, whatever the order in which they were found; each once.
+        # Sorts by the objectives and drops duplicates, so that the result does not depend on the order of discovery.
         values, rows = np.unique(values, axis=0, return_index=True)
-        best = np.sort(not_bettered(values))
+        best = np.sort(non_dominated(values))
         self.x, self.values = x[rows][best], values[best]
         self.shares.append(float(self.indicator(self.values)) / self.cube)
 
 
-def not_bettered(values: np.ndarray) -> np.ndarray:
-    """Rows of objectives, shape (n, 3), that no other row betters."""
+def non_dominated(values: np.ndarray) -> np.ndarray:
+    """Indices of the non-dominated rows of objectives, shape (n, 3)."""
     return NonDominatedSorting().do(values, only_non_dominated_front=True)
 
 
 def search(
     evaluate: Evaluate, first: np.ndarray, bounds: np.ndarray, settings: dict, seed: int
 ) -> tuple[np.ndarray, np.ndarray, list[float]]:
-    """Front of one reading: what is searched, shape (n, 4), its objectives, shape (n, 3), and the hypervolumes.
+    """Front of one tension mode: searched parameters, shape (n, 4), objectives, shape (n, 3), and hypervolumes.
 
-    Parents are recombined along the directions in which they differ (PCX): the valley of equally good contacts and
-    angles lies across all of them.
+    Parents are recombined along the directions in which they differ (PCX), because the valley of equally good contacts
+    and angles is not aligned with any parameter.
 
     Parameters
     ----------
-    evaluate : objectives, shape (n, 3), of what is searched, shape (n, 4)
-    first : points that the first generation holds, shape (k, 4); its others are drawn
+    evaluate : function from searched parameters, shape (n, 4), to objectives, shape (n, 3)
+    first : points of the first generation, shape (k, 4); its remaining points are random
     bounds : shape (2, 4)
     settings : population, generations, worst
     """
@@ -134,13 +136,13 @@ def search(
 
 
 def distance(one: np.ndarray, other: np.ndarray) -> float:
-    """Mean distance (largest difference of an objective) of members of each front from the nearest of the other."""
-    apart = np.abs(one[:, None] - other[None]).max(axis=-1)
-    return 0.5 * float(apart.min(axis=0).mean() + apart.min(axis=1).mean())
+    """Mean distance (largest difference of an objective) between members of a front and the nearest of the other."""
+    distances = np.abs(one[:, None] - other[None]).max(axis=-1)
+    return 0.5 * float(distances.min(axis=0).mean() + distances.min(axis=1).mean())
 
 
 def status(fronts: list[np.ndarray], volumes: list[list[float]], settings: dict) -> str:
-    """Whether the searches of one reading have come to rest, and to the same front."""
+    """Whether all searches of one tension mode have converged, and to the same front."""
     for shares in volumes:
         earlier = shares[3 * len(shares) // 4 - 1]
         if not abs(shares[-1] - earlier) <= settings["settled"] * shares[-1]:
@@ -157,7 +159,7 @@ def status(fronts: list[np.ndarray], volumes: list[list[float]], settings: dict)
 def make(edges: pd.DataFrame, settings: dict) -> dict[str, dict]:
     """The columns of the tables of fronts and of generations."""
     model, options = settings["model"], settings["search"]
-    interpolated = measures.edges_of(edges, model)
+    interpolated = measures.interpolate_edges(edges, model)
     bounds = bounds_of(settings)
     groups = [settings["objectives"][name] for name in OBJECTIVES]
     numbers, sizes = (
@@ -166,25 +168,27 @@ def make(edges: pd.DataFrame, settings: dict) -> dict[str, dict]:
     )
     drawn = np.random.default_rng(options["seeds"][0]).uniform(*bounds, (options["drawn"], len(SEARCHED)))
     members, history = [], []
-    for reading in settings["readings"]:
+    for tension in settings["readings"]:
 
-        def misfits(x, reading=reading):
-            found = measures.at(interpolated, values_of(x, model), reading, settings, measures.by_events)
+        def misfits(x, tension=tension):
+            found = measures.quantities_at(
+                interpolated, values_of(x, model), tension, settings, measures.converged_velocities
+            )
             return numbers.misfits(found)
 
-        first = compromises(misfits, sizes, drawn, bounds, options)
+        first = fit_compromises(misfits, sizes, drawn, bounds, options)
         found = [
             search(lambda x: objectives(misfits(x), sizes), first, bounds, options, seed) for seed in options["seeds"]
         ]
         verdict = status([values for _, values, _ in found], [shares for *_, shares in found], options)
         for seed, (x, values, shares) in zip(options["seeds"], found, strict=True):
-            of_search = {"tension": reading, "seed": seed}
+            label = {"tension": tension, "seed": seed}
             columns = dict(zip(PARAMETERS, values_of(x, model).T, strict=True))
             columns |= dict(zip(OBJECTIVES, values.T, strict=True))
-            members.append(pd.DataFrame(columns).assign(**of_search, status=verdict))
-            counted = {"generation": np.arange(1, len(shares) + 1), "hypervolume": shares}
-            history.append(pd.DataFrame(counted).assign(**of_search))
+            members.append(pd.DataFrame(columns).assign(**label, status=verdict))
+            growth = {"generation": np.arange(1, len(shares) + 1), "hypervolume": shares}
+            history.append(pd.DataFrame(growth).assign(**label))
     front = pd.concat(members, ignore_index=True)
-    best = not_bettered(front[list(OBJECTIVES)].to_numpy())
+    best = non_dominated(front[list(OBJECTIVES)].to_numpy())
     front["on_front"] = np.isin(np.arange(len(front)), best)
     return {"front": front.to_dict("list"), "generations": pd.concat(history).to_dict("list")}

@@ -1,8 +1,8 @@
-"""What the numbers of the paper are for any conveyor: measured as the claims measure them, on a thinner axis.
+"""The quantities of the paper's claims for any conveyor, measured as in the claims but with fewer heights.
 
-The places where the states of motion change follow from the edges of a contact (see edges), which hold for all angles
-and frictions. Only four trajectories are followed for a conveyor: each state of motion at both ends of the interval in
-which the paper tells its velocity.
+The amplitudes and heights at which states of motion change follow from the edges of a contact (see edges), which hold
+for all angles and frictions. Each conveyor needs only four trajectories: both states of motion at both ends of the
+interval in which the paper states their velocities.
 """
 
 from collections.abc import Callable
@@ -20,7 +20,7 @@ from identification.edges import VERTICAL, VERTICAL_OF, impact_loss
 from identification.search_space import packed
 
 MM, CM = 1e3, 1e2
-# Heights between those of the edges, at which their curve is evaluated.
+# Heights at which the curve through the edges is evaluated.
 FINE = 1001
 # Of the four trajectories, s, and of their contact steps (see figure scene_budget).
 DURATION, TOLERANCE = 1.0, 1e-6
@@ -29,20 +29,20 @@ Follow = Callable[[np.ndarray], np.ndarray]
 
 
 class Edges(NamedTuple):
-    """Edges of contacts, interpolated: a spline for each vertical reading, with one value for each height (m)."""
+    """Interpolated edges of contacts: heights (m), and a spline for each tension mode with one value per height."""
 
     heights: np.ndarray
     splines: dict[str, NdBSpline]
     model: dict
 
 
-def edges_of(table: pd.DataFrame, model: dict) -> Edges:
-    """The table of edges as splines over the logarithms of loss and stiffness.
+def interpolate_edges(table: pd.DataFrame, model: dict) -> Edges:
+    """Splines through the table of edges over the logarithms of loss and stiffness.
 
     Raises
     ------
     ValueError
-        if a start of the table has no edge: the bounds of the config are then too wide
+        if a row of the table has no edge, because the bounds of the config are too wide
     """
     if table.vertical_acceleration.isna().any():
         row = table[table.vertical_acceleration.isna()].iloc[0]
@@ -52,20 +52,20 @@ def edges_of(table: pd.DataFrame, model: dict) -> Edges:
         )
     axes = [np.sort(table[name].unique()) for name in ("loss", "stiffness", "z0")]
     splines = {}
-    for reading in VERTICAL:
-        rows = table[table.tension == reading].sort_values(["loss", "stiffness", "z0"])
+    for tension in VERTICAL:
+        rows = table[table.tension == tension].sort_values(["loss", "stiffness", "z0"])
         values = rows.vertical_acceleration.to_numpy().reshape([len(axis) for axis in axes])
         along_loss = make_interp_spline(np.log(axes[0]), values, axis=0)
         along_stiffness = make_interp_spline(np.log(axes[1]), along_loss.c, axis=1)
         coefficients = np.moveaxis(along_stiffness.c, 0, 1) if along_stiffness.axis else along_stiffness.c
-        splines[reading] = NdBSpline((along_loss.t, along_stiffness.t), coefficients, 3)
+        splines[tension] = NdBSpline((along_loss.t, along_stiffness.t), coefficients, 3)
     return Edges(axes[2], splines, model)
 
 
-def vertical_edges(edges: Edges, parameters: np.ndarray, reading: str) -> np.ndarray:
-    """Edges as vertical amplitudes (m/s²) for conveyors, shape (n, 16), under a reading of tension: shape (n, h)."""
+def vertical_edges(edges: Edges, parameters: np.ndarray, tension: str) -> np.ndarray:
+    """Vertical amplitudes (m/s²) of the edges, shape (n, h), of conveyors, shape (n, 16), in a tension mode."""
     loss = impact_loss(parameters[:, DAMPING], parameters[:, STIFFNESS], edges.model)
-    return edges.splines[VERTICAL_OF[reading]](np.log(np.stack([loss, parameters[:, STIFFNESS]], axis=1)))
+    return edges.splines[VERTICAL_OF[tension]](np.log(np.stack([loss, parameters[:, STIFFNESS]], axis=1)))
 
 
 class Curve(NamedTuple):
@@ -75,13 +75,13 @@ class Curve(NamedTuple):
     amplitudes: np.ndarray
 
     def at(self, heights: np.ndarray) -> np.ndarray:
-        """Amplitudes at the edge of starts at some heights (m, shape (m,)): shape (n, m)."""
+        """Amplitudes at the edge, shape (n, m), at some heights (m, shape (m,))."""
         return np.array([np.interp(heights, self.heights, amplitudes) for amplitudes in self.amplitudes])
 
     def critical_height(self, acceleration: np.ndarray) -> np.ndarray:
-        """Lowest height (m) that leaves the first state at amplitudes of shape (n, m): that shape.
+        """Lowest height (m) that does not lead to the first state, at amplitudes of shape (n, m): the same shape.
 
-        Zero where the lowest start leaves it, the height of the lowest edge where none does.
+        The lowest height of the curve if all heights leave the first state, the height of its lowest edge if none does.
         """
         heights = np.empty_like(acceleration)
         for row, (wanted, amplitudes) in enumerate(zip(acceleration, self.amplitudes, strict=True)):
@@ -91,33 +91,33 @@ class Curve(NamedTuple):
 
 
 @lru_cache
-def to_fine(heights: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
-    """Heights in between, shape (k,), and the weights of a spline's values at `heights` there, shape (h, k)."""
+def spline_weights(heights: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Fine heights, shape (k,), and the weights there of the values at `heights` in a cubic spline, shape (h, k)."""
     fine = np.linspace(heights[0], heights[-1], FINE)
     return fine, CubicSpline(heights, np.eye(len(heights)), axis=1)(fine)
 
 
-def curve(heights: np.ndarray, edges: np.ndarray, angle: np.ndarray) -> Curve:
+def edge_curve(heights: np.ndarray, edges: np.ndarray, angle: np.ndarray) -> Curve:
     """The Curve of conveyors with the given angles (rad, shape (n,)) from vertical edges of shape (n, h)."""
-    fine, weights = to_fine(tuple(heights))
-    # Not by @, whose sums may depend on how many conveyors there are.
+    fine, weights = spline_weights(tuple(heights))
+    # Not @, because its rounding may depend on the number of conveyors.
     return Curve(fine, np.einsum("nh,hk->nk", edges, weights) / np.sin(angle)[:, None])
 
 
-def by_events(rows: np.ndarray) -> np.ndarray:
-    """Mean feeding velocities (m/s), shape (n,), of conveyors and starts, shape (n, 16), converged."""
-    # What ensemble.run does for many would cost a search, which asks for four at a time, a seventh of their time.
+def converged_velocities(rows: np.ndarray) -> np.ndarray:
+    """Mean feeding velocities (m/s), shape (n,), of parameter vectors, shape (n, 16), by the converged solution."""
+    # The overhead of ensemble.run would add a seventh to a search that needs four trajectories at a time.
     found = np.empty((ensemble.CODE + 1, len(rows)))
     ensemble.follow_by_events(rows, np.full(len(rows), DURATION), TOLERANCE, True, found)
     return found[ensemble.MEAN_VELOCITY]
 
 
-def starts_of_both_states(parameters: np.ndarray, found: Curve, measured: dict) -> np.ndarray:
-    """Starts in the first and the second state at both ends of the interval of Fig. 9: shape (n, 2, 2, 16).
+def parameters_of_both_states(parameters: np.ndarray, found: Curve, measured: dict) -> np.ndarray:
+    """Parameter vectors that lead to each state at both ends of the interval of Fig. 9: shape (n, 2, 2, 16).
 
-    The axes are state and end. An end that does not have both states gives way to the nearest amplitude that has, and
-    lies as far inside as the step of the amplitudes' axis there. The first state starts in the middle of the heights
-    that lead to it there, the second one at the height whose edge is the lowest.
+    The axes after the first one are state and end. If both states do not coexist at an end, the nearest amplitude at
+    which they do replaces it, moved inside by a step of the amplitude axis. The initial height of the first state is
+    the middle of the heights that lead to it; that of the second state is the height with the lowest edge.
     """
     inside = measured["inside"]
     low, high = measured["interval"]
@@ -131,18 +131,18 @@ def starts_of_both_states(parameters: np.ndarray, found: Curve, measured: dict) 
 
 
 def fitted_amplitudes(measured: dict) -> np.ndarray:
-    """Amplitudes (m/s²) of the critical heights that Eq. 13 is compared with, as far apart as those of the claims."""
+    """Amplitudes (m/s²) at which Eq. 13 is compared with critical heights, with the spacing of the claims."""
     low, high = measured["interval"]
     return np.linspace(low, high, round((high - low) / measured["inside"]) + 1)
 
 
-def places(found: Curve, measured: dict) -> dict[str, np.ndarray]:
-    """The quantities that tell where the states change, by CLAIM.QUANTITY, each of shape (n,), in the claims' units."""
+def changes_of_state(found: Curve, measured: dict) -> dict[str, np.ndarray]:
+    """Amplitudes and heights of changes of state, by CLAIM.QUANTITY, each of shape (n,), in the claims' units."""
     fig_8, fig_11 = (found.at(np.linspace(*measured[name])) for name in ("starts", "moved_starts"))
     low, _ = measured["interval"]
     n = len(found.amplitudes)
-    # The critical height is largest at the lower end, or where the second state begins if that is above it. Then it
-    # hardly depends on where that is: with the slope of Eq. 13 a search is led back to what the paper says.
+    # The critical height is largest at the lower end of the interval, or where the second state begins above it. It
+    # hardly depends on the amplitude there; the slope of Eq. 13 is added so that a search moves to the paper's value.
     lowest = np.maximum(low, found.amplitudes.min(axis=1))
     triple = Hyperbola(**measured["triple"])
     missing = triple.A / (triple.B + low) ** 2 * (lowest - low)
@@ -162,9 +162,9 @@ def places(found: Curve, measured: dict) -> dict[str, np.ndarray]:
 
 
 def velocities(parameters: np.ndarray, found: Curve, measured: dict, follow: Follow) -> dict[str, np.ndarray]:
-    """The quantities that tell how fast the states feed, by CLAIM.QUANTITY, each of shape (n,), in cm/s."""
-    starts = starts_of_both_states(parameters, found, measured)
-    first, second = np.moveaxis(CM * follow(starts.reshape(-1, starts.shape[-1])).reshape(starts.shape[:3]), 1, 0)
+    """Velocities of the states, by CLAIM.QUANTITY, each of shape (n,), in cm/s."""
+    rows = parameters_of_both_states(parameters, found, measured)
+    first, second = np.moveaxis(CM * follow(rows.reshape(-1, rows.shape[-1])).reshape(rows.shape[:3]), 1, 0)
     return {
         "C05.velocity_at_lower_end": first[:, 0],
         "C05.velocity_at_upper_end": first[:, 1],
@@ -179,19 +179,21 @@ def quantities(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 16), rows as from model.pack; their acceleration and start are not used
-    heights, edges : m, shape (h,), and the vertical edges there, m/s², shape (n, h)
-    measured : what of the config the claims are measured with: `interval` of amplitudes and how far `inside` its ends
-        velocities are taken (m/s²), `starts` and `moved_starts` of Figs. 8 and 11 (first, last and number, m),
-        `critical` amplitudes by claim (m/s²), the `triple` of Eq. 13
-    follow : mean velocities (m/s) of rows of parameters
+    parameters : float64, shape (n, 16), rows as from model.pack; their acceleration and initial condition are not used
+    heights, edges : heights, m, shape (h,), and the vertical edges there, m/s², shape (n, h)
+    measured : settings of the claims: `interval` of amplitudes and the distance `inside` its ends at which velocities
+        are taken (m/s²), initial heights `starts` and `moved_starts` of Figs. 8 and 11 (first, last and number, m),
+        `critical` amplitudes by claim (m/s²), and A, B and C of Eq. 13, `triple`
+    follow : function from parameter vectors to mean velocities (m/s)
     """
-    found = curve(heights, edges, parameters[:, ANGLE])
-    return places(found, measured) | velocities(parameters, found, measured, follow)
+    found = edge_curve(heights, edges, parameters[:, ANGLE])
+    return changes_of_state(found, measured) | velocities(parameters, found, measured, follow)
 
 
-def at(edges: Edges, values: np.ndarray, reading: str, settings: dict, follow: Follow) -> dict[str, np.ndarray]:
-    """The quantities at values of the parameters, shape (n, 4), under a reading, with interpolated edges."""
-    parameters = packed(values, reading, settings["model"])
-    vertical = vertical_edges(edges, parameters, reading)
+def quantities_at(
+    edges: Edges, values: np.ndarray, tension: str, settings: dict, follow: Follow
+) -> dict[str, np.ndarray]:
+    """The quantities at values of the parameters, shape (n, 4), in a tension mode, with interpolated edges."""
+    parameters = packed(values, tension, settings["model"])
+    vertical = vertical_edges(edges, parameters, tension)
     return quantities(parameters, edges.heights, vertical, settings["measured"], follow)

@@ -1,24 +1,24 @@
-"""How far measured numbers are from the paper's, in units of the intervals that the claims accept."""
+"""Misfits: differences of measured numbers from the paper's, in units of the accepted intervals of the claims."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-# Groups of numbers whose misfits are made small at once.
+# Groups of numbers, one for each objective of the search.
 OBJECTIVES = ("places", "first_velocity", "second_velocity")
 
 
 class Number(NamedTuple):
-    """The interval that is accepted for a number of the paper; `low` is None for a mean squared error."""
+    """The accepted interval of a number of the paper; `low` is None for a mean squared error."""
 
     low: float | None
     high: float
 
 
 def misfit(values: np.ndarray, number: Number) -> np.ndarray:
-    """Distance from the middle of the accepted interval over half its width: within ±1 if it is accepted.
+    """Distance from the middle of the accepted interval over half its width; accepted values are within ±1.
 
-    Of a mean squared error, for which only a largest value is accepted, the root of its share of that.
+    A mean squared error has an upper bound only; its misfit is the root of its ratio to that bound.
     """
     if number.low is None:
         return np.sqrt(np.maximum(values, 0.0) / number.high)
@@ -31,7 +31,7 @@ def number(entry: dict) -> Number:
 
 
 class Numbers(NamedTuple):
-    """Numbers of the paper by CLAIM.QUANTITY, and what is added to the measured ones before they are compared."""
+    """Numbers of the paper by CLAIM.QUANTITY, and the shifts that are added to measured numbers for comparison."""
 
     of_paper: dict[str, Number]
     shifts: dict[str, float]
@@ -43,15 +43,15 @@ class Numbers(NamedTuple):
 
 
 def numbers_of(settings: dict, names: list[str], shifts: dict[str, float] | None = None) -> Numbers:
-    """The Numbers of these names of the settings."""
+    """The Numbers of the settings with these names."""
     return Numbers({name: number(settings["numbers"][name]) for name in names}, shifts or {})
 
 
 def root_mean_square(values: np.ndarray) -> np.ndarray:
-    """Over the last axis."""
+    """The root mean square over the last axis."""
     return np.sqrt(np.mean(values**2, axis=-1))
 
 
 def smallest_widening(one: Number, other: Number) -> float:
-    """The factor by which two intervals must be widened about their middles until some value lies in both."""
+    """The factor by which two intervals must be widened about their middles until they touch."""
     return abs(one.low + one.high - other.low - other.high) / (one.high - one.low + other.high - other.low)

@@ -1,7 +1,7 @@
-"""The parameters that are searched, and the conveyors that they are.
+"""The searched parameters, and their conversion to parameters of the model and parameter vectors.
 
-The search goes over logarithms of friction, loss (see edges.impact_loss), stiffness and angle. Damping follows from
-loss and stiffness: along the valley of equally good contacts it would have to rise with the stiffness.
+The search goes over the logarithms of friction, loss (see edges.impact_loss), stiffness and angle. Damping follows from
+loss and stiffness, because it rises with the stiffness along the valley of equally good contacts.
 """
 
 import numpy as np
@@ -10,7 +10,7 @@ from conveyor.solver.model import TENSION, TENSION_MODES, UNITS, set_columns
 from identification.edges import duration_over_mass
 from pipeline import grid
 
-# What is told, with units; and what is searched, in its order.
+# Parameters of the tables with their units, and searched parameters in order.
 PARAMETERS = {name: UNITS[name] for name in ("friction", "damping", "stiffness", "angle")}
 SEARCHED = ("friction", "loss", "stiffness", "angle")
 LOSS, STIFFNESS = SEARCHED.index("loss"), SEARCHED.index("stiffness")
@@ -22,7 +22,7 @@ def bounds_of(settings: dict) -> np.ndarray:
 
 
 def values_of(x: np.ndarray, model: dict) -> np.ndarray:
-    """Friction, damping, stiffness and angle, shape (n, 4), of logarithms of what is searched, shape (n, 4)."""
+    """Friction, damping, stiffness and angle, shape (n, 4), from logarithms of searched parameters, shape (n, 4)."""
     values = np.exp(x)
     values[:, LOSS] /= duration_over_mass(values[:, STIFFNESS], model)
     return values
@@ -35,12 +35,12 @@ def searched(values: np.ndarray, model: dict) -> np.ndarray:
     return x
 
 
-def packed(values: np.ndarray, reading: str, model: dict) -> np.ndarray:
-    """Parameter vectors, shape (n, 16), of a model with other values, shape (n, 4), and another reading of tension."""
+def packed(values: np.ndarray, tension: str, model: dict) -> np.ndarray:
+    """Parameter vectors, shape (n, 16), of a model with other `values`, shape (n, 4), and another tension mode."""
     rows = np.tile(grid.packed(model | {"z0": 0.0}), (len(values), 1))
     columns = dict(zip(PARAMETERS, values.T, strict=True))
     if "static_friction" in model:
         columns["static_friction"] = np.maximum(model["static_friction"], columns["friction"])
     set_columns(rows, columns)
-    rows[:, TENSION] = TENSION_MODES.index(reading)
+    rows[:, TENSION] = TENSION_MODES.index(tension)
     return rows

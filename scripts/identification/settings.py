@@ -1,4 +1,4 @@
-"""What each table of the identification needs of the config; imported by the Snakefile, so without slow imports."""
+"""Parts of the config that the tables of the identification need; imported by the Snakefile: no slow imports."""
 
 # Quantities of claims that scripts/identification/measures.py computes for any conveyor.
 NUMBERS_OF_CLAIMS = (
@@ -69,4 +69,5 @@ def measured_quantities(config: dict) -> dict:
 
 
 def published_method(config: dict) -> dict:
+    """The settings of the paper's method, explicit Euler."""
     return {**{name: config["solver"][name] for name in ("duration", "step", "settling")}, "method": "euler"}

@@ -1,1 +1,1 @@
-"""Stage motion: signals, their spectra, first impacts, critical initial heights."""
+"""Stage motion: signals, spectra, first impacts and critical initial heights."""

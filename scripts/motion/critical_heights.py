@@ -1,4 +1,4 @@
-"""The initial heights at which the state of motion changes, over the axes of an entry of the config."""
+"""Initial heights at which the state of motion changes, over the axes of an entry of the config."""
 
 import numpy as np
 
@@ -7,25 +7,25 @@ from conveyor.analysis.attractors.attractor_table import AttractorTable
 from conveyor.analysis.attractors.labels import classify, continued
 from conveyor.analysis.basins import boundary_scan
 from pipeline import fields, grid
-from pipeline.motions import shared_attractors, tolerance_of
+from pipeline.motions import search_tolerance, shared_attractors
 
 TABLES = {
     "critical": (
         fields.number("z0", "m", "initial height at which the state of motion changes"),
-        fields.count("crossing", "number of the change at this conveyor, from below, 1 the first"),
-        fields.text("state_below", "state of motion that starts just below lead to"),
-        fields.text("state_above", "state of motion that starts just above lead to"),
-        fields.flag("is_critical", "the lowest change out of the first state"),
+        fields.count("crossing", "number of the change at this conveyor, from below, beginning with 1"),
+        fields.text("state_below", "state of motion just below this height"),
+        fields.text("state_above", "state of motion just above this height"),
+        fields.flag("is_critical", "whether this is the lowest change out of the first state"),
     ),
 }
 
 
-def decide(parameters: np.ndarray, settings: dict, known: AttractorTable, threads: int) -> np.ndarray:
-    """The state of motion that each start leads to.
+def find_states(parameters: np.ndarray, settings: dict, known: AttractorTable, threads: int) -> np.ndarray:
+    """The state of motion that each initial condition leads to, str, shape (n,), for parameters of shape (n, 16).
 
-    A fixed-step method is followed for the duration, as the paper does; the converged solution goes on from its end.
+    A fixed-step method runs for the duration, as in the paper, and the converged solution continues from its end.
     """
-    options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
+    options = {"cycles": settings["settling"], "tolerance": search_tolerance(settings), "threads": threads}
     if settings["method"] != "event":
         run = {name: settings[name] for name in ("duration", "method", "step")}
         runs = ensemble.run(parameters, needs="vertical", chunk=8, threads=threads, **run)
@@ -36,13 +36,13 @@ def decide(parameters: np.ndarray, settings: dict, known: AttractorTable, thread
 def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     """The columns of a table of critical heights for the resolved `settings` of an entry of the config.
 
-    A conveyor with one state of motion over the whole scan has no row.
+    A conveyor with a single state of motion over the whole scan has no row.
     """
     axes, parameters = grid.product(settings["axes"], settings["model"])
     heights = grid.axis_values("z0", settings["scan"])
     known = shared_attractors(parameters, len(heights), settings, threads=threads)
     found = boundary_scan.find_crossings(
-        parameters, heights, lambda rows: decide(rows, settings, known, threads), settings["resolution"]
+        parameters, heights, lambda rows: find_states(rows, settings, known, threads), settings["resolution"]
     )
     first_row = np.searchsorted(found.point, found.point)
     return {

@@ -1,4 +1,4 @@
-"""The first impact of each start, and the states that the start and its image on the plate lead to."""
+"""The first impact of each initial condition, and the states that both lead to."""
 
 import numpy as np
 
@@ -9,13 +9,15 @@ from pipeline.motions import motions
 TABLES = {
     "impacts": (
         fields.number(
-            "impact_time", "s", "time of the first impact (Eq. 16); null for a start below the plate's surface"
+            "impact_time",
+            "s",
+            "time of the first impact (Eq. 16); null for an initial height below the plate's surface",
         ),
-        fields.number("impact_velocity", "m/s", "vertical velocity of the part then (Eq. 17)"),
-        fields.number("impact_phase", "rad", "phase of the excitation then (Eq. 18), not wrapped"),
-        fields.text("state", "state of motion that the start leads to"),
+        fields.number("impact_velocity", "m/s", "vertical velocity of the part at the impact (Eq. 17)"),
+        fields.number("impact_phase", "rad", "phase of the excitation at the impact (Eq. 18), not wrapped"),
+        fields.text("state", "state of motion that the initial condition leads to"),
         fields.text(
-            "mapped_state", "state that a start on the plate with this phase and velocity leads to; null without impact"
+            "mapped_state", "state that a part on the plate with this phase and velocity leads to; null without impact"
         ),
     ),
 }
@@ -27,11 +29,11 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     impacts = first_impacts(parameters)
     mapped = np.isfinite(impacts.time)
     images = on_conveyor(parameters, impacts)[mapped]
-    # Together: what the starts of a conveyor share is found once.
+    # One call, because the initial conditions of a conveyor share the search for its attractors.
     states = motions(np.concatenate([parameters, images]), settings, threads=threads).state
-    state, of_images = np.split(states, [len(parameters)])
+    state, image_states = np.split(states, [len(parameters)])
     mapped_state = np.full(len(parameters), None, dtype=object)
-    mapped_state[mapped] = of_images
+    mapped_state[mapped] = image_states
     return {
         **axes,
         "impact_time": impacts.time,

@@ -1,7 +1,8 @@
-"""The motion of a few parts, and of their conveyors, over time."""
+"""Trajectories of a few parts and of their conveyors over time."""
 
 import numpy as np
 
+from conveyor.analysis.attractors.labels import Labels
 from conveyor.simulation import Run, simulate
 from conveyor.solver.model import conveyor_motion, unpack
 from pipeline import fields, grid
@@ -15,8 +16,8 @@ TABLES = {
         fields.number("vx", "m/s", "horizontal velocity of the part"),
         fields.number("z", "m", "height of the part"),
         fields.number("vz", "m/s", "vertical velocity of the part"),
-        fields.number("contact_force", "N", "force of the plate on the part, vertical (Eq. 9)"),
-        fields.number("friction_force", "N", "force of the plate on the part, horizontal (Eq. 11)"),
+        fields.number("contact_force", "N", "vertical force of the plate on the part (Eq. 9)"),
+        fields.number("friction_force", "N", "horizontal force of the plate on the part (Eq. 11)"),
         fields.number("plate_x", "m", "horizontal position of the plate"),
         fields.number("plate_vx", "m/s", "horizontal velocity of the plate (Eq. 10)"),
         fields.number("plate_z", "m", "height of the plate (Eq. 4)"),
@@ -25,7 +26,16 @@ TABLES = {
 }
 
 
-def motion(run: Run, times: np.ndarray) -> dict[str, np.ndarray]:
+def simulate_entry(settings: dict, threads: int = 1) -> tuple[dict[str, np.ndarray], list[Run], Labels]:
+    """Axes, runs and states of motion of all points of an entry of the config."""
+    options = {name: settings[name] for name in ("duration", "method", "tolerance", "step") if name in settings}
+    axes, parameters = grid.product(settings["axes"], settings["model"])
+    runs = [simulate(*unpack(row), **options) for row in parameters]
+    ends = np.array([(run.z_end, run.vz_end) for run in runs]).T
+    return axes, runs, motions_after(parameters, *ends, settings, threads=threads)
+
+
+def sample(run: Run, times: np.ndarray) -> dict[str, np.ndarray]:
     """The motion of one part and of its plate at `times` (s)."""
     plate = {f"plate_{name}": values for name, values in conveyor_motion(run.conveyor, times).items()}
     return {"time": times, **run.sample(times), **plate}
@@ -33,13 +43,9 @@ def motion(run: Run, times: np.ndarray) -> dict[str, np.ndarray]:
 
 def make(settings: dict) -> dict[str, np.ndarray]:
     """The columns of a table of signals for the resolved `settings` of an entry of the config."""
-    options = {name: settings[name] for name in ("duration", "method", "tolerance", "step") if name in settings}
     times = np.linspace(settings["times"]["start"], settings["times"]["stop"], int(settings["times"]["num"]))
-    axes, parameters = grid.product(settings["axes"], settings["model"])
-    runs = [simulate(*unpack(row), **options) for row in parameters]
-    ends = np.array([(run.z_end, run.vz_end) for run in runs]).T
-    found = motions_after(parameters, *ends, settings)
-    labels = {**axes, "state": found.state, "period": found.period}
-    motions = [motion(run, times) for run in runs]
+    axes, runs, states = simulate_entry(settings)
+    labels = {**axes, "state": states.state, "period": states.period}
+    samples = [sample(run, times) for run in runs]
     repeated = {name: np.repeat(values, len(times)) for name, values in labels.items()}
-    return repeated | {name: np.concatenate([one[name] for one in motions]) for name in motions[0]}
+    return repeated | {name: np.concatenate([one[name] for one in samples]) for name in samples[0]}

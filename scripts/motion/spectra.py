@@ -1,12 +1,11 @@
-"""Amplitude spectra of a part's velocities at the end of its run."""
+"""Amplitude spectra of a part's velocities at the end of a run."""
 
 import numpy as np
 
 from conveyor.analysis.amplitude_spectrum import Spectrum, harmonics, windowed
-from conveyor.simulation import Run, simulate
-from conveyor.solver.model import unpack
-from pipeline import fields, grid
-from pipeline.motions import motions_after
+from conveyor.simulation import Run
+from motion.signals import simulate_entry
+from pipeline import fields
 
 TABLES = {
     "spectra": (
@@ -20,14 +19,14 @@ SIGNALS = ("vx", "vz")
 
 
 def spectra_of_end(run: Run, period: int, last: float, samples_per_cycle: int) -> dict[str, Spectrum]:
-    """Spectra of the velocities over the last period of a run, or over its last share if it has no period.
+    """Spectra of the velocities over the last period of a run, or over its last part if there is no period.
 
     Parameters
     ----------
-    run : as from simulate
-    period : of the motion it leads to, in excitation cycles; 0 for none
+    run : of one part
+    period : period of its motion in excitation cycles; 0 for none
     last : share of the run, for motions without a period
-    samples_per_cycle : samples in an excitation cycle
+    samples_per_cycle : number of samples in an excitation cycle
     """
     duration = period / run.conveyor.frequency if period else last * run.duration
     count = round(samples_per_cycle * run.conveyor.frequency * duration)
@@ -37,20 +36,16 @@ def spectra_of_end(run: Run, period: int, last: float, samples_per_cycle: int) -
 
 def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     """The columns of a table of spectra for the resolved `settings` of an entry of the config."""
-    options = {name: settings[name] for name in ("duration", "method", "tolerance", "step") if name in settings}
-    axes, parameters = grid.product(settings["axes"], settings["model"])
-    runs = [simulate(*unpack(row), **options) for row in parameters]
-    ends = np.array([(run.z_end, run.vz_end) for run in runs]).T
-    periods = motions_after(parameters, *ends, settings, threads=threads).period
+    axes, runs, states = simulate_entry(settings, threads)
     spectra = [
-        spectra_of_end(run, period, settings["last"], settings["samples_per_cycle"])
-        for run, period in zip(runs, periods, strict=True)
+        (row, name, spectrum)
+        for row, (run, period) in enumerate(zip(runs, states.period, strict=True))
+        for name, spectrum in spectra_of_end(run, period, settings["last"], settings["samples_per_cycle"]).items()
     ]
-    lines = [(row, name, one) for row, of_run in enumerate(spectra) for name, one in of_run.items()]
-    lengths = [len(one.frequency) for _, _, one in lines]
-    rows = np.repeat([row for row, _, _ in lines], lengths)
+    lengths = [len(spectrum.frequency) for _, _, spectrum in spectra]
+    rows = np.repeat([row for row, _, _ in spectra], lengths)
     return {name: values[rows] for name, values in axes.items()} | {
-        "signal": np.repeat([name for _, name, _ in lines], lengths),
-        "frequency": np.concatenate([one.frequency for _, _, one in lines]),
-        "amplitude": np.concatenate([one.amplitude for _, _, one in lines]),
+        "signal": np.repeat([name for _, name, _ in spectra], lengths),
+        "frequency": np.concatenate([spectrum.frequency for _, _, spectrum in spectra]),
+        "amplitude": np.concatenate([spectrum.amplitude for _, _, spectrum in spectra]),
     }

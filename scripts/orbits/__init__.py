@@ -1,1 +1,1 @@
-"""Stage orbits: periodic orbits, attractors, their exponents, and what is proved of them."""
+"""Stage orbits: periodic orbits, attractors, their Lyapunov exponents, and certificates."""

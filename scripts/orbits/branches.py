@@ -13,14 +13,14 @@ TABLES = {
     "branches": (
         fields.count("branch", "number of the branch"),
         fields.count("point", "number of the orbit along its branch"),
-        fields.count("cycle", "excitation cycle within the period; delta and v are those at its end"),
-        fields.flag("stable", "both multipliers inside the unit circle"),
+        fields.count("cycle", "excitation cycle within the period; delta and v are the state at its end"),
+        fields.flag("stable", "whether both multipliers are inside the unit circle"),
         *fields.ORBIT,
     ),
     "folds_and_doublings": (
         fields.text("kind", "fold, period_doubling or grazing"),
         *fields.ORBIT[:2],
-        fields.number("multiplier", "1", "the multiplier at +1 or -1; for a grazing the real part of the larger one"),
+        fields.number("multiplier", "1", "the multiplier at +1 or -1; real part of the larger one for a grazing"),
         *fields.ORBIT[2:],
         fields.count("branch", "number of the branch"),
     ),
@@ -28,9 +28,11 @@ TABLES = {
         fields.count("number", "number of the doubling"),
         *fields.ORBIT,
         fields.number("multiplier", "1", "the multiplier at -1"),
-        fields.number("ratio", "1", "distance to the doubling before over that to the one behind (Feigenbaum: 4.669…)"),
-        fields.number("accumulation", "m/s²", "where the doublings so far accumulate, by Aitken's process"),
-        fields.number("accumulation_error", "m/s²", "how far the last doubling moved it"),
+        fields.number(
+            "ratio", "1", "distance to the previous doubling over distance to the next one (Feigenbaum: 4.669…)"
+        ),
+        fields.number("accumulation", "m/s²", "accumulation point of the doublings so far, by Aitken's process"),
+        fields.number("accumulation_error", "m/s²", "change of the accumulation point by the last doubling"),
     ),
 }
 
@@ -55,7 +57,7 @@ def describe(orbit: Orbit) -> dict[str, float]:
 
 
 def branch_rows(parameters: np.ndarray, branches: list[Branch]) -> list[dict]:
-    """One row for each cycle of each orbit."""
+    """The rows of the table of branches, one for each cycle of each orbit."""
     rows = []
     for number, branch in enumerate(branches):
         returns = ReturnMap(parameters, branch.orbits[0].period)
@@ -69,7 +71,10 @@ def branch_rows(parameters: np.ndarray, branches: list[Branch]) -> list[dict]:
 
 
 def bifurcation_rows(branches: list[Branch]) -> list[dict]:
-    """One row for each bifurcation; a closed branch meets those around its first orbit twice."""
+    """The rows of the table of bifurcations.
+
+    A closed branch passes the bifurcations around its first orbit twice; they have one row.
+    """
     rows = []
     for number, branch in enumerate(branches):
         seen = set()
@@ -82,32 +87,34 @@ def bifurcation_rows(branches: list[Branch]) -> list[dict]:
     return rows
 
 
-def explore_branches(parameters: np.ndarray, starts: list[Orbit], settings: dict) -> list[Branch]:
-    """All branches that hang together with some orbits, each once.
+def explore_branches(parameters: np.ndarray, orbits: list[Orbit], settings: dict) -> list[Branch]:
+    """All branches that are connected with some orbits, each once.
 
-    Orbits that were looked for come in the order of their periods: those of doubled branches lie on what has been found
-    by then, and close to a doubling two branches of one orbit would not be seen to be one.
+    Orbits from a search are explored in the order of their periods. An orbit on a doubled branch then lies on a branch
+    that is already known. In another order, its branch would be found twice, because close to a period doubling both
+    copies cannot be recognised as one.
     """
     options = tuple(settings["limits"]), settings["max_period"]
     if "seeds" in settings:
-        return continuation.explore(parameters, starts, *options)
+        return continuation.explore(parameters, orbits, *options)
     branches = []
-    for period in sorted({orbit.period for orbit in starts}):
-        new = [orbit for orbit in starts if orbit.period == period]
+    for period in sorted({orbit.period for orbit in orbits}):
         new = [
-            orbit for orbit in new if not any(continuation.on_branch(parameters, branch, orbit) for branch in branches)
+            orbit
+            for orbit in orbits
+            if orbit.period == period
+            and not any(continuation.on_branch(parameters, branch, orbit) for branch in branches)
         ]
         branches += continuation.explore(parameters, new, *options)
     return branches
 
 
-def doubles(bifurcation: Bifurcation) -> bool:
-    """Whether a period doubles there."""
+def is_doubling(bifurcation: Bifurcation) -> bool:
     return bifurcation.kind == "period_doubling"
 
 
 def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orbit) -> list[Bifurcation]:
-    """The first two doublings of the orbit that `jumping` becomes when the amplitude grows.
+    """The first two period doublings of the orbit `jumping` with growing amplitude.
 
     Raises
     ------
@@ -117,34 +124,34 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
     begin = jumping.acceleration
     own = [branch for branch in branches if continuation.on_branch(parameters, branch, jumping)]
     first = next(
-        (b for branch in own for b in branch.bifurcations if doubles(b) and b.orbit.acceleration > begin), None
+        (b for branch in own for b in branch.bifurcations if is_doubling(b) and b.orbit.acceleration > begin), None
     )
     if first is None:
         end = max((orbit.acceleration for branch in own for orbit in branch.orbits), default=begin)
         raise ValueError(
-            f"the jumping orbit of {begin:g} m/s² (the last of orbits.seeds) is followed to {end:g} m/s² and does "
-            "not double its period: the upper one of orbits.limits must lie behind its first doubling"
+            f"the jumping orbit at {begin:g} m/s² (the last of orbits.seeds) does not double its period up to "
+            f"{end:g} m/s²; raise the upper value of orbits.limits beyond its first period doubling"
         )
     if (double := continuation.find_doubled_orbit(parameters, first)) is None:
         raise ValueError(f"no orbit of twice the period was found at the doubling at {first.orbit.acceleration:g} m/s²")
     span = (first.orbit.acceleration - 1.0, first.orbit.acceleration + 20.0)
     following = continuation.follow_branch(parameters, double, span)
-    second = min(filter(doubles, following.bifurcations), key=lambda b: b.orbit.acceleration, default=None)
+    second = min(filter(is_doubling, following.bifurcations), key=lambda b: b.orbit.acceleration, default=None)
     if second is None:
         raise ValueError(
             f"the orbit that doubles its period at {first.orbit.acceleration:g} m/s² does not double it again below "
-            f"{span[1]:g} m/s²: there is no cascade behind the last of orbits.seeds"
+            f"{span[1]:g} m/s², so that there is no cascade; choose another orbit as the last of orbits.seeds"
         )
     return [first, second]
 
 
-def cascade_of(
-    parameters: np.ndarray, branches: list[Branch], starts: list[Orbit], settings: dict
+def find_cascade(
+    parameters: np.ndarray, branches: list[Branch], orbits: list[Orbit], settings: dict
 ) -> list[Bifurcation]:
-    """The doubling cascade of the last one of given seeds, or of the first jumping orbit that has one; else nothing."""
+    """The doubling cascade of the last seed of the config, or of the first jumping orbit that has one; else empty."""
     if "seeds" in settings:
-        return doubling_cascade.doubling_cascade(parameters, *first_doublings(parameters, branches, starts[-1]))
-    jumps = [orbit for orbit in starts if orbit.longest_flight >= LONG_FLIGHT]
+        return doubling_cascade.doubling_cascade(parameters, *first_doublings(parameters, branches, orbits[-1]))
+    jumps = [orbit for orbit in orbits if orbit.longest_flight >= LONG_FLIGHT]
     for orbit in sorted(jumps, key=lambda orbit: (orbit.period, orbit.acceleration)):
         try:
             doublings = first_doublings(parameters, branches, orbit)
@@ -155,7 +162,7 @@ def cascade_of(
 
 
 def cascade_rows(cascade: list[Bifurcation]) -> list[dict]:
-    """One row for each doubling, with Feigenbaum's ratio and the accumulation point that the doublings so far tell."""
+    """The rows of the table of the cascade."""
     if not cascade:
         return []
     amplitudes = np.array([b.orbit.acceleration for b in cascade])
@@ -171,12 +178,12 @@ def cascade_rows(cascade: list[Bifurcation]) -> list[dict]:
 def make(settings: dict) -> dict[str, dict[str, np.ndarray]]:
     """The columns of the three tables, by their kinds, for the section `orbits` of the config."""
     parameters = grid.packed(settings["model"])
-    starts = seeds(parameters, settings)
-    branches = explore_branches(parameters, starts, settings)
-    cascade = cascade_of(parameters, branches, starts, settings)
+    orbits = seeds(parameters, settings)
+    branches = explore_branches(parameters, orbits, settings)
+    cascade = find_cascade(parameters, branches, orbits, settings)
     rows = {
         "branches": branch_rows(parameters, branches),
         "folds_and_doublings": bifurcation_rows(branches),
         "cascade": cascade_rows(cascade),
     }
-    return {kind: fields.columns(of_kind, TABLES[kind]) for kind, of_kind in rows.items()}
+    return {kind: fields.columns(rows_of_kind, TABLES[kind]) for kind, rows_of_kind in rows.items()}

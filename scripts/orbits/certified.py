@@ -1,4 +1,4 @@
-"""Periodic orbits, bifurcations and chaos, proved where floating point suggests them."""
+"""Computer-assisted proofs of periodic orbits, bifurcations and chaos that were found in floating point."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -26,11 +26,11 @@ from conveyor.solver.progress import bar
 from pipeline import fields, grid
 
 
-def ends(name: str, unit: str, description: str) -> tuple[Field, Field]:
-    """Two columns: the ends of an interval that holds a number by proof, rounded outwards."""
+def bounds_fields(name: str, unit: str, description: str) -> tuple[Field, Field]:
+    """Two columns: proved bounds of a number, rounded outwards."""
     return (
-        fields.number(f"{name}_low", unit, f"{description}: no larger than it, by proof; null where nothing is proved"),
-        fields.number(f"{name}_high", unit, f"{description}: no smaller than it, by proof"),
+        fields.number(f"{name}_low", unit, f"{description}: proved lower bound; null where nothing is proved"),
+        fields.number(f"{name}_high", unit, f"{description}: proved upper bound"),
     )
 
 
@@ -38,85 +38,87 @@ ARITHMETIC = (
     fields.count("bits", "bits of the arithmetic"),
     fields.count("order", "order of the Taylor series"),
 )
-
-
 TABLES = {
     "certificates": (
-        fields.count("branch", "number of the branch; those above the stored ones are longer orbits of the cascade"),
+        fields.count(
+            "branch", "number of the branch; higher than all stored branches for longer orbits of the cascade"
+        ),
         fields.count("period", "excitation cycles; the least period, if the orbit is proved"),
-        fields.number("acceleration", "m/s²", "amplitude of the excitation, the decimal that is written"),
+        fields.number("acceleration", "m/s²", "amplitude of the excitation, exact as a decimal number"),
         fields.flag("contained", "whether exactly one orbit is proved in a box around the stored one"),
-        fields.text("reason", "why not; null where it is"),
-        fields.text("stability", "proved: stable or unstable; else open"),
+        fields.text("reason", "why not; null if it is proved"),
+        fields.text("stability", "proved stability: stable or unstable; open if not proved"),
         fields.count("impacts", "impacts in a period, proved if the orbit is"),
         fields.number(
             "stored_delta",
             "m",
-            "penetration at the phase ψ0 of the orbit in floating point, found from the stored ones",
+            "penetration at the phase ψ0 of the orbit in floating point, computed from the stored branches",
         ),
-        fields.number("stored_v", "m/s", "its speed of approach there"),
-        *ends("delta", "m", "penetration at the phase ψ0"),
-        *ends("v", "m/s", "speed of approach at the phase ψ0"),
-        *ends("impact_phase", "rad", "phase of the first impact after it"),
-        *ends("impact_speed", "m/s", "speed of approach at the first impact"),
-        *ends("duration", "s", "the period"),
-        *ends("contact_time", "s", "time with contact force in a period"),
-        *ends("trace", "1", "sum of the Floquet multipliers"),
-        *ends("determinant", "1", "their product, exp(-(d_c/m) contact_time)"),
-        *ends("multiplier_1_real", "1", "multiplier of larger modulus, real part; null where it is open which that is"),
-        *ends("multiplier_1_imag", "1", "imaginary part"),
-        *ends("multiplier_2_real", "1", "the other one, real part"),
-        *ends("multiplier_2_imag", "1", "imaginary part"),
+        fields.number("stored_v", "m/s", "speed of approach at the phase ψ0 of the orbit in floating point"),
+        *bounds_fields("delta", "m", "penetration at the phase ψ0"),
+        *bounds_fields("v", "m/s", "speed of approach at the phase ψ0"),
+        *bounds_fields("impact_phase", "rad", "phase of the first impact after ψ0"),
+        *bounds_fields("impact_speed", "m/s", "speed of approach at the first impact"),
+        *bounds_fields("duration", "s", "period"),
+        *bounds_fields("contact_time", "s", "time with contact force in a period"),
+        *bounds_fields("trace", "1", "sum of the Floquet multipliers"),
+        *bounds_fields("determinant", "1", "product of the Floquet multipliers, exp(-(d_c/m) contact_time)"),
+        *bounds_fields(
+            "multiplier_1_real",
+            "1",
+            "multiplier of larger modulus, real part; null if it is not known which one is larger",
+        ),
+        *bounds_fields("multiplier_1_imag", "1", "multiplier of larger modulus, imaginary part"),
+        *bounds_fields("multiplier_2_real", "1", "multiplier of smaller modulus, real part"),
+        *bounds_fields("multiplier_2_imag", "1", "multiplier of smaller modulus, imaginary part"),
         fields.number("half_width", "1", "largest half-width of an enclosure of a state, in g/ω² and g/ω"),
-        fields.number("distance", "1", "of the stored orbit from the enclosed one, in g/ω² and g/ω"),
+        fields.number("distance", "1", "distance of the stored orbit from the enclosed one, in g/ω² and g/ω"),
         *ARITHMETIC,
     ),
     "certified_bifurcations": (
         fields.text("kind", "fold or period_doubling"),
-        fields.count("number", "number of its kind"),
+        fields.count("number", "number of the bifurcation among those of its kind"),
         fields.count("period", "excitation cycles of the orbit that folds or doubles"),
-        fields.flag("proved", "whether it is"),
-        fields.text("reason", "why not; null where it is"),
-        fields.number("stored_acceleration", "m/s²", "amplitude that was computed in floating point"),
-        *ends("acceleration", "m/s²", "amplitude of the bifurcation"),
-        *ends(
+        fields.flag("proved", "whether the bifurcation is proved"),
+        fields.text("reason", "why not; null if it is proved"),
+        fields.number("stored_acceleration", "m/s²", "amplitude in floating point"),
+        *bounds_fields("acceleration", "m/s²", "amplitude of the bifurcation"),
+        *bounds_fields(
             "test_begin",
             "1",
             "(1 ∓ μ1)(1 ∓ μ2) of a fold (-) or doubling (+) at the lower amplitude or first end of the arc",
         ),
-        *ends("test_end", "1", "the same at the higher amplitude or the other end"),
+        *bounds_fields("test_end", "1", "the same at the higher amplitude or last end of the arc"),
         *ARITHMETIC,
     ),
     "certified_chaos": (
-        fields.number("acceleration", "m/s²", "amplitude of the excitation, the decimal that is written"),
-        fields.flag("proved", "whether covering relations that make chaos are proved"),
-        fields.text("reason", "why not; null where they are"),
-        fields.count(
-            "sets", "parallelograms; an excursion from the first one and back takes as many excitation cycles"
-        ),
-        fields.number("entropy", "1", "topological entropy per excitation cycle: no larger than it, by proof"),
+        fields.number("acceleration", "m/s²", "amplitude of the excitation, exact as a decimal number"),
+        fields.flag("proved", "whether covering relations that imply chaos are proved"),
+        fields.text("reason", "why not; null if they are proved"),
+        fields.count("sets", "number of parallelograms, and of excitation cycles of an excursion from the first one"),
+        fields.number("entropy", "1", "topological entropy per excitation cycle, proved lower bound"),
         fields.number("delta", "m", "penetration at the phase ψ0 of the orbit of one cycle in the first parallelogram"),
-        fields.number("v", "m/s", "its speed of approach there"),
+        fields.number("v", "m/s", "speed of approach at the phase ψ0 of that orbit"),
         *ARITHMETIC,
     ),
     "certificate_times": (
-        fields.text("kind", "table of what was proved"),
+        fields.text("kind", "table of the certificate"),
         fields.number("acceleration", "m/s²", "amplitude of the excitation"),
         fields.count("period", "excitation cycles"),
         fields.count("impacts", "impacts in a period"),
-        fields.number("seconds", "s", "of a processor; it differs from run to run"),
+        fields.number("seconds", "s", "processor time, which differs between runs"),
     ),
 }
 
 
 class Line(NamedTuple):
-    """A branch in floating point: points (δ in m, v in m/s, â in m/s²) in their order, shape (n, 3)."""
+    """A branch in floating point: period (cycles) and points (δ in m, v in m/s, â in m/s²) in order, shape (n, 3)."""
 
     period: int
     points: np.ndarray
 
 
-class Known(NamedTuple):
+class FloatOrbit(NamedTuple):
     """An orbit in floating point."""
 
     branch: int
@@ -124,33 +126,34 @@ class Known(NamedTuple):
     strobes: np.ndarray  # (δ, Y) at the beginnings of its cycles in units of the law, shape (period, 2)
 
 
-class Work(NamedTuple):
-    """One thing to prove: the function that does, and what it needs besides the settings."""
+class Task(NamedTuple):
+    """A proof: its function, and the arguments of the function besides the settings."""
 
     prove: Callable[[dict, tuple], dict]
-    about: tuple
+    arguments: tuple
 
 
 def law(settings: dict) -> Law:
-    """The conveyor with its numbers read as decimals."""
+    """The conveyor with its parameters as exact decimal numbers."""
     return law_of(grid.conveyor_and_start(settings["model"])[0])
 
 
 def shooting(settings: dict, period: int) -> Shooting:
-    """The equations of the orbits of a period, with the accuracy of the settings."""
+    """The equations of orbits with a period, with the accuracy of the settings."""
     return Shooting(law(settings), Accuracy(settings["order"], settings["tolerance"]), period)
 
 
-def known(branch: int, returns: ReturnMap, unknown: np.ndarray) -> Known:
+def float_orbit(branch: int, returns: ReturnMap, unknown: np.ndarray) -> FloatOrbit:
     """The orbit of a fixed point of a return map."""
     later = returns.strobes(unknown)[:-1, :2]
-    return Known(branch, returns.describe(unknown), np.vstack([unknown[:2], later]))
+    return FloatOrbit(branch, returns.describe(unknown), np.vstack([unknown[:2], later]))
 
 
-def crossings(parameters: np.ndarray, branch: int, line: Line, acceleration: float) -> list[Known]:
-    """The orbits of a branch at an amplitude, none twice: a branch may come by an orbit in several of its cycles.
+def orbits_at(parameters: np.ndarray, branch: int, line: Line, acceleration: float) -> list[FloatOrbit]:
+    """The different orbits of a branch at an amplitude. A branch may pass one orbit at several of its cycles.
 
-    Where floating point finds none from the neighbours on the branch, their mean is taken: the proof says why it fails.
+    If Newton's method finds no orbit between two points of the branch, their interpolation is used; its proof then
+    fails with a reason.
     """
     returns, found = ReturnMap(parameters, line.period), []
     above = line.points[:, 2] > acceleration
@@ -162,12 +165,12 @@ def crossings(parameters: np.ndarray, branch: int, line: Line, acceleration: flo
         unknown = guess if unknown is None else unknown
         distances = [np.abs(other.strobes - unknown[:2]).max(axis=1).min() for other in found]
         if min(distances, default=np.inf) > continuation.SAME:
-            found.append(known(branch, returns, unknown))
+            found.append(float_orbit(branch, returns, unknown))
     return found
 
 
 def stored_lines(table: pd.DataFrame, longest_period: int) -> dict[int, Line]:
-    """The branches of the table `branches` up to a period, by their numbers."""
+    """The branches of the table `branches` up to a period, by number."""
     last = table[(table.cycle == table.period) & (table.period <= longest_period)].sort_values(["branch", "point"])
     return {
         int(number): Line(int(rows.period.iloc[0]), rows[["delta", "v", "acceleration"]].to_numpy())
@@ -178,7 +181,7 @@ def stored_lines(table: pd.DataFrame, longest_period: int) -> dict[int, Line]:
 def doubled_lines(
     parameters: np.ndarray, cascade: pd.DataFrame, longest: tuple[int, int], limits: tuple[float, float]
 ) -> list[Line]:
-    """Branches of the jumping orbit's doublings whose periods lie between the longest stored and the longest wanted."""
+    """Branches of the cascade whose periods are longer than the stored ones, up to the longest one to prove."""
     found = []
     for row in cascade.itertuples():
         period = 2 * int(row.period)
@@ -193,33 +196,33 @@ def doubled_lines(
 
 
 def amplitudes(settings: dict) -> list[float]:
-    """All amplitudes at which orbits are proved, m/s², ascending."""
+    """All amplitudes at which orbits are proved, ascending, m/s²."""
     return sorted({*grid.axis_values("acceleration", settings["acceleration"]).tolist(), *settings["also"]})
 
 
-def orbits_to_prove(settings: dict, branches: pd.DataFrame, cascade: pd.DataFrame) -> list[Known]:
+def orbits_to_prove(settings: dict, branches: pd.DataFrame, cascade: pd.DataFrame) -> list[FloatOrbit]:
     """All orbits up to the longest period at the amplitudes of the settings."""
-    parameters, wanted = grid.packed(settings["model"]), amplitudes(settings)
+    parameters, chosen = grid.packed(settings["model"]), amplitudes(settings)
     lines = stored_lines(branches, settings["longest_period"])
     periods = int(branches.period.max()), settings["longest_period"]
-    more = doubled_lines(parameters, cascade, periods, (wanted[0], settings["doubled_limit"]))
-    lines |= dict(enumerate(more, start=int(branches.branch.max()) + 1))
+    doubled = doubled_lines(parameters, cascade, periods, (chosen[0], settings["doubled_limit"]))
+    lines |= dict(enumerate(doubled, start=int(branches.branch.max()) + 1))
     return [
-        found
-        for acceleration in wanted
+        orbit
+        for acceleration in chosen
         for number, line in lines.items()
-        for found in crossings(parameters, number, line, acceleration)
+        for orbit in orbits_at(parameters, number, line, acceleration)
     ]
 
 
-def ends(name: str, ball, unit=1) -> dict[str, float]:
-    """Columns NAME_low and NAME_high of a ball in a unit, rounded outwards; null for None."""
+def bounds_columns(name: str, ball, unit=1) -> dict[str, float]:
+    """Columns NAME_low and NAME_high with the bounds of a ball in a unit, rounded outwards; NaN for None."""
     low, high = (np.nan, np.nan) if ball is None else bounds(ball * unit)
     return {f"{name}_low": low, f"{name}_high": high}
 
 
-def certificate(units: Law, orbit: ProvedOrbit | None) -> dict:
-    """The columns of an orbit that is proved; nulls for None."""
+def certificate_columns(units: Law, orbit: ProvedOrbit | None) -> dict:
+    """The columns with the bounds of a proved orbit; NaN for None."""
     columns = {}
     delta = v = duration = contact = trace = determinant = phase = speed = None
     multipliers = [(None, None)] * 2
@@ -232,42 +235,42 @@ def certificate(units: Law, orbit: ProvedOrbit | None) -> dict:
             multipliers = orbit.multipliers()
         first = orbit.impacts[0] if orbit.impacts else None
         phase, speed = (first.phase, first.speed) if first else (None, None)
-    columns |= ends("delta", delta, units.length) | ends("v", v, units.speed)
-    columns |= ends("duration", duration) | ends("contact_time", contact)
-    columns |= ends("impact_phase", phase) | ends("impact_speed", speed, units.speed)
-    columns |= ends("trace", trace) | ends("determinant", determinant)
+    columns |= bounds_columns("delta", delta, units.length) | bounds_columns("v", v, units.speed)
+    columns |= bounds_columns("duration", duration) | bounds_columns("contact_time", contact)
+    columns |= bounds_columns("impact_phase", phase) | bounds_columns("impact_speed", speed, units.speed)
+    columns |= bounds_columns("trace", trace) | bounds_columns("determinant", determinant)
     for number, (real, imag) in enumerate(multipliers, start=1):
-        columns |= ends(f"multiplier_{number}_real", real) | ends(f"multiplier_{number}_imag", imag)
+        columns |= bounds_columns(f"multiplier_{number}_real", real) | bounds_columns(f"multiplier_{number}_imag", imag)
     return columns
 
 
-def prove_known(settings: dict, about: tuple) -> dict:
+def prove_float_orbit(settings: dict, arguments: tuple) -> dict:
     """The row of one orbit."""
-    (start,) = about
-    float_orbit, problem = start.orbit, shooting(settings, start.orbit.period)
+    (found,) = arguments
+    stored, problem = found.orbit, shooting(settings, found.orbit.period)
     row = {
-        "branch": start.branch,
-        "acceleration": float_orbit.acceleration,
-        "period": float_orbit.period,
-        "stored_delta": float_orbit.state[0],
-        "stored_v": float_orbit.state[1],
+        "branch": found.branch,
+        "acceleration": stored.acceleration,
+        "period": stored.period,
+        "stored_delta": stored.state[0],
+        "stored_v": stored.state[1],
         "bits": settings["bits"],
         "order": settings["order"],
     }
     orbit, reason = None, None
     try:
-        orbit = prove_orbit(problem, problem.law.gamma(exactly(float_orbit.acceleration)), start.strobes)
-        distance = check_near(orbit, start.strobes, settings["closeness"])
-        columns = certificate(problem.law, orbit)
+        orbit = prove_orbit(problem, problem.law.gamma(exactly(stored.acceleration)), found.strobes)
+        distance = check_near(orbit, found.strobes, settings["closeness"])
+        columns = certificate_columns(problem.law, orbit)
     except Refused as refused:
         orbit, reason, distance = None, str(refused), np.nan
-        columns = certificate(problem.law, None)
+        columns = certificate_columns(problem.law, None)
     return {
         **row,
         **columns,
         "contained": orbit is not None,
         "reason": reason,
-        "impacts": float_orbit.impacts if orbit is None else len(orbit.impacts),
+        "impacts": stored.impacts if orbit is None else len(orbit.impacts),
         "stability": orbit.stability if orbit else "open",
         "half_width": orbit.half_width if orbit else np.nan,
         "distance": distance,
@@ -277,12 +280,12 @@ def prove_known(settings: dict, about: tuple) -> dict:
 def strobes_of(settings: dict, row) -> np.ndarray:
     """(δ, Y) at the beginnings of the cycles of an orbit of a table, in units of the law."""
     returns = ReturnMap(grid.packed(settings["model"]), int(row.period))
-    return known(0, returns, returns.scaled(row.acceleration, np.array([row.delta, row.v]))).strobes
+    return float_orbit(0, returns, returns.scaled(row.acceleration, np.array([row.delta, row.v]))).strobes
 
 
-def prove_bifurcation(settings: dict, about: tuple) -> dict:
-    """The row of one fold or doubling, given by its number and its row in a table."""
-    kind, number, row = about
+def prove_bifurcation(settings: dict, arguments: tuple) -> dict:
+    """The row of one fold or period doubling, given by its kind, number and row in a table."""
+    kind, number, row = arguments
     problem, strobes = shooting(settings, int(row.period)), strobes_of(settings, row)
     try:
         if kind == "fold":
@@ -300,17 +303,20 @@ def prove_bifurcation(settings: dict, about: tuple) -> dict:
         "stored_acceleration": row.acceleration,
         "proved": reason is None,
         "reason": reason,
-        **ends("acceleration", acceleration),
-        **ends("test_begin", begin),
-        **ends("test_end", end),
+        **bounds_columns("acceleration", acceleration),
+        **bounds_columns("test_begin", begin),
+        **bounds_columns("test_end", end),
         "bits": settings["bits"],
         "order": settings["order"],
     }
 
 
-def prove_chaos(settings: dict, about: tuple) -> dict:
-    """The row of one amplitude: a horseshoe at the orbit of one cycle with the largest multiplier that has one."""
-    acceleration, saddles = about
+def prove_chaos(settings: dict, arguments: tuple) -> dict:
+    """The row of one amplitude: a horseshoe at an unstable orbit of one cycle.
+
+    Orbits are tried in the order of their multipliers, the largest one first.
+    """
+    acceleration, saddles = arguments
     chaos, parameters, units = settings["chaos"], grid.packed(settings["model"]), law(settings)
     system = System(units, units.gamma(exactly(acceleration)), Accuracy(chaos["order"], chaos["tolerance"]))
     row = {
@@ -344,31 +350,31 @@ def prove_chaos(settings: dict, about: tuple) -> dict:
     return row
 
 
-def timed(settings: dict, work: Work) -> tuple[dict, float]:
-    """What one piece of work finds, and the processor time that it takes in s."""
+def run_task(settings: dict, task: Task) -> tuple[dict, float]:
+    """The row of a proof, and its processor time (s)."""
     begin = time.process_time()
-    accuracy = settings["chaos"] if work.prove is prove_chaos else settings
+    accuracy = settings["chaos"] if task.prove is prove_chaos else settings
     with precision(accuracy["bits"], accuracy["order"]):
-        row = work.prove(settings, work.about)
+        row = task.prove(settings, task.arguments)
     return row, time.process_time() - begin
 
 
-def all_done(settings: dict, works: list[Work], processes: int) -> list[tuple[dict, float]]:
-    """What all pieces of work find, in their order, by processes that share nothing."""
+def run_tasks(settings: dict, tasks: list[Task], processes: int) -> list[tuple[dict, float]]:
+    """The rows of all proofs with their processor times (s), in order, from several processes."""
     with ProcessPoolExecutor(processes, mp_context=get_context("fork")) as pool:
-        # The longest ones come last: they begin first, so that the processes end together.
-        futures = [pool.submit(timed, settings, work) for work in reversed(works)]
+        # The longest proofs come last in the list and are started first, so that all processes end together.
+        futures = [pool.submit(run_task, settings, task) for task in reversed(tasks)]
         return [future.result() for future in bar(futures, label="certificates", unit="proofs")][::-1]
 
 
 def numbered(table: pd.DataFrame) -> Iterator[tuple[int, SimpleNamespace]]:
-    """The rows of a table with their numbers from 1 on, in a form that goes to other processes."""
+    """The rows of a table, numbered from 1, as objects that can be sent to other processes."""
     return enumerate((SimpleNamespace(**row) for row in table.to_dict("records")), start=1)
 
 
-def works_of(settings: dict, stored: dict[str, pd.DataFrame]) -> list[Work]:
-    """Everything to prove."""
-    found = orbits_to_prove(settings, stored["branches"], stored["cascade"])
+def list_tasks(settings: dict, stored: dict[str, pd.DataFrame]) -> list[Task]:
+    """All proofs."""
+    orbits = orbits_to_prove(settings, stored["branches"], stored["cascade"])
     first = stored["cascade"].iloc[0]
     bifurcations = stored["folds_and_doublings"]
     doublings = bifurcations[(bifurcations.kind == "period_doubling") & (bifurcations.period == first.period)]
@@ -382,7 +388,7 @@ def works_of(settings: dict, stored: dict[str, pd.DataFrame]) -> list[Work]:
             [
                 saddle
                 for number, line in singles.items()
-                for saddle in crossings(parameters, number, line, acceleration)
+                for saddle in orbits_at(parameters, number, line, acceleration)
                 if abs(saddle.orbit.multipliers[0]) > 1.0
             ],
         )
@@ -390,15 +396,15 @@ def works_of(settings: dict, stored: dict[str, pd.DataFrame]) -> list[Work]:
     ]
     doubled = stored["cascade"].head(settings["doublings"])
     return [
-        *(Work(prove_known, (orbit,)) for orbit in found),
-        *(Work(prove_bifurcation, ("fold", n, row)) for n, row in numbered(folds)),
-        *(Work(prove_bifurcation, ("period_doubling", n, row)) for n, row in numbered(doubled)),
-        *(Work(prove_chaos, about) for about in chaotic),
+        *(Task(prove_float_orbit, (orbit,)) for orbit in orbits),
+        *(Task(prove_bifurcation, ("fold", n, row)) for n, row in numbered(folds)),
+        *(Task(prove_bifurcation, ("period_doubling", n, row)) for n, row in numbered(doubled)),
+        *(Task(prove_chaos, arguments) for arguments in chaotic),
     ]
 
 
 PROVERS = {
-    "certificates": prove_known,
+    "certificates": prove_float_orbit,
     "certified_bifurcations": prove_bifurcation,
     "certified_chaos": prove_chaos,
 }
@@ -414,12 +420,11 @@ def make(
 ) -> dict[str, dict[str, np.ndarray]]:
     """The columns of the four tables, by their kinds, for the section `certificates` of the config."""
     stored = {"branches": branches, "folds_and_doublings": folds_and_doublings, "cascade": cascade}
-    works = works_of(settings, stored)
-    done = all_done(settings, works, threads)
+    tasks = list_tasks(settings, stored)
     kind_of = {prover: kind for kind, prover in PROVERS.items()}
     rows: dict[str, list[dict]] = {kind: [] for kind in TABLES}
-    for work, (row, seconds) in zip(works, done, strict=True):
-        kind = kind_of[work.prove]
+    for task, (row, seconds) in zip(tasks, run_tasks(settings, tasks, threads), strict=True):
+        kind = kind_of[task.prove]
         rows[kind].append(row)
         rows["certificate_times"].append(
             {
@@ -430,4 +435,4 @@ def make(
                 "seconds": seconds,
             }
         )
-    return {kind: fields.columns(of_kind, TABLES[kind]) for kind, of_kind in rows.items()}
+    return {kind: fields.columns(rows_of_kind, TABLES[kind]) for kind, rows_of_kind in rows.items()}

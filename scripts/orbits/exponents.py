@@ -1,24 +1,26 @@
-"""Exponents on the attractors over the amplitude, from multipliers of what repeats itself, else from stretching."""
+"""Lyapunov exponents on the attractors: from Floquet multipliers of periodic orbits, otherwise from stretching."""
 
 import numpy as np
 import pandas as pd
 
 from conveyor.analysis.chaos import lyapunov
-from orbits.starts import starts_on_attractors
+from orbits.attractor_states import parameters_on_attractors
 from pipeline import fields
 
 TABLES = {
     "spectrum": (
         fields.ORBIT[1],
-        fields.text("branch", "up or down, see the strobes"),
+        fields.text("branch", "up or down, as in the table of strobes"),
         fields.number("lambda_1", "1/s", "larger vertical Lyapunov exponent"),
         fields.number("lambda_2", "1/s", "smaller vertical Lyapunov exponent"),
         fields.number(
             "stderr",
             "1/s",
-            "standard error of lambda_1, from means over blocks; 0 for that of a periodic orbit's multipliers",
+            "standard error of lambda_1, from means over blocks; 0 for multipliers of a periodic orbit",
         ),
-        fields.number("contact_fraction", "1", "share of the time with contact force; λ1 + λ2 = -(d_c/m) times it"),
+        fields.number(
+            "contact_fraction", "1", "share of the time with contact force; λ1 + λ2 = -(d_c/m) contact_fraction"
+        ),
         fields.text("status", "ok, or why there is no result"),
     ),
 }
@@ -27,8 +29,8 @@ TABLES = {
 def make(
     strobes: pd.DataFrame, settings: dict, *, threads: int = 1, progress: str | None = None
 ) -> dict[str, np.ndarray]:
-    """The columns of the table of spectra from the table of strobes."""
-    last, parameters = starts_on_attractors(strobes, settings)
+    """The columns of the table of Lyapunov spectra from the table of strobes."""
+    last, parameters = parameters_on_attractors(strobes, settings)
     options = {name: settings[name] for name in ("cycles", "blocks", "tolerance")}
     vertical = lyapunov.spectrum_on_attractors(parameters, **options, threads=threads, progress=progress)
     found = {name: getattr(vertical, name) for name in vertical._fields}

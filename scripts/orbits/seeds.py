@@ -1,4 +1,4 @@
-"""Stable orbits to begin with: those of the config, or those that starts all over the range of amplitudes end in."""
+"""Stable orbits as seeds of branches: from initial conditions of the config, or from a search over all amplitudes."""
 
 from collections.abc import Iterator
 
@@ -11,29 +11,29 @@ from conveyor.analysis.bifurcations.periodic_orbits import Orbit
 from conveyor.solver.model import ACCELERATION
 from pipeline import grid
 
-# Where nothing is said of seeds: amplitudes between the limits, and starts at each.
-AMPLITUDES, STARTS = 15, 8
-DIGITS = 4  # of the longest flight, by which orbits of one period and amplitude are told apart
+# Size of the search: amplitudes between the limits, and initial conditions at each.
+AMPLITUDES, INITIAL_CONDITIONS = 15, 8
+DIGITS = 4  # of the longest flight, by which orbits with the same period and amplitude are distinguished
 
 
-def follow_seeds(parameters: np.ndarray, settings: dict) -> list[Orbit]:
-    """The stable orbits that the starts of the settings end in.
+def follow_seeds(settings: dict) -> list[Orbit]:
+    """The stable orbits that the seeds of the config lead to.
 
     Raises
     ------
     ValueError
-        names the start that does not end in one
+        names the seed that does not lead to a stable orbit
     """
     found = []
-    for start in settings["seeds"]:
-        row = grid.product({name: [value] for name, value in start.items()}, settings["model"])[1]
+    for seed in settings["seeds"]:
+        row = grid.product({name: [value] for name, value in seed.items()}, settings["model"])[1]
         state = stroboscopic_map.initial_states(row, periodic_orbits.TOLERANCE)[0]
         orbit, _ = periodic_orbits.settled_orbit(
-            row[0], start["acceleration"], state, range(1, settings["max_period"] + 1), settings["cycles"]
+            row[0], seed["acceleration"], state, range(1, settings["max_period"] + 1), settings["cycles"]
         )
         if orbit is None:
             raise ValueError(
-                f"orbits.seeds: {start} ends in no stable orbit of up to {settings['max_period']} cycles; "
+                f"orbits.seeds: {seed} leads to no stable orbit of up to {settings['max_period']} cycles; "
                 "choose another amplitude or more cycles"
             )
         found.append(orbit)
@@ -41,13 +41,13 @@ def follow_seeds(parameters: np.ndarray, settings: dict) -> list[Orbit]:
 
 
 def search_seeds(parameters: np.ndarray, settings: dict) -> Iterator[Orbit]:
-    """The stable orbits that starts at amplitudes between the limits end in, each once at each amplitude."""
+    """The different stable orbits that some initial conditions lead to, at amplitudes between the limits."""
     for acceleration in np.linspace(*settings["limits"], AMPLITUDES + 2)[1:-1]:
         row = parameters.copy()
         row[ACCELERATION] = acceleration
         at_rest = stroboscopic_map.initial_states(row[None], periodic_orbits.TOLERANCE)
         seen = set()
-        for state in np.vstack([at_rest, sampling.initial_conditions(row)[:STARTS]]):
+        for state in np.vstack([at_rest, sampling.initial_conditions(row)[:INITIAL_CONDITIONS]]):
             orbit, _ = periodic_orbits.settled_orbit(
                 parameters, acceleration, state, range(1, settings["max_period"] + 1), settings["cycles"]
             )
@@ -57,19 +57,19 @@ def search_seeds(parameters: np.ndarray, settings: dict) -> Iterator[Orbit]:
 
 
 def seeds(parameters: np.ndarray, settings: dict) -> list[Orbit]:
-    """The stable orbits with which branches begin.
+    """The stable orbits from which branches are continued.
 
     Raises
     ------
     ValueError
-        if there are none, or a given start does not end in one
+        if there are none, or a seed of the config does not lead to one
     """
     if "seeds" in settings:
-        return follow_seeds(parameters, settings)
+        return follow_seeds(settings)
     found = list(search_seeds(parameters, settings))
     if not found:
         raise ValueError(
-            f"orbits.seeds: no start between {settings['limits']} m/s² ends in a stable orbit of up to "
-            f"{settings['max_period']} cycles; choose other limits, or give seeds"
+            f"orbits.seeds: no initial condition between {settings['limits']} m/s² leads to a stable orbit of up to "
+            f"{settings['max_period']} cycles; change orbits.limits, or add orbits.seeds"
         )
     return found

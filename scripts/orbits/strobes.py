@@ -1,4 +1,4 @@
-"""Stroboscopic states over the amplitude, swept up and down, with the states of motion."""
+"""Stroboscopic states of the attractors over the amplitude, swept up and down, with their states of motion."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from pipeline import fields, grid
 
 TABLES = {
     "strobes": (
-        fields.text("branch", "up: the amplitude grew step by step; down: it fell"),
+        fields.text("branch", "up for increasing amplitude, down for decreasing amplitude"),
         fields.ORBIT[1],
         fields.count("cycle", "number of the recorded cycle"),
         *fields.STROBE,
@@ -23,7 +23,7 @@ BRANCHES = ("up", "down")
 
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
-    """The columns of the table for the settings of the config; rows by branch, amplitude, cycle."""
+    """The columns of the table for the settings of the config, with rows by branch, amplitude and cycle."""
     amplitudes = grid.axis_values("acceleration", settings["acceleration"])
     _, upwards = grid.product({"acceleration": list(amplitudes)}, settings["model"])
     count, tolerance = settings["strobes"], settings["tolerance"]
@@ -40,10 +40,8 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     for_each_chunk(work, len(BRANCHES), threads=threads, chunk=1)
     points, status = (np.stack(columns) for columns in zip(*swept, strict=True))
     rows = len(BRANCHES) * len(amplitudes)
-    starts = stroboscopic_map.pack_states(np.tile(upwards, (2, 1)), points[:, :, -1].reshape(rows, 2), tolerance)
-    found = labels.classify(
-        starts, cycles=settings["settling"], tolerance=tolerance, threads=threads, progress=progress
-    )
+    last = stroboscopic_map.pack_states(np.tile(upwards, (2, 1)), points[:, :, -1].reshape(rows, 2), tolerance)
+    found = labels.classify(last, cycles=settings["settling"], tolerance=tolerance, threads=threads, progress=progress)
     return {
         "branch": np.repeat(BRANCHES, len(amplitudes) * count),
         "acceleration": np.tile(np.repeat(amplitudes, count), 2),

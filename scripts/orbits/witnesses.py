@@ -1,4 +1,4 @@
-"""Is the motion at each amplitude chaotic by exponent, 0-1 test and period, and where they differ."""
+"""Three criteria of chaos on each attractor: Lyapunov exponent, 0-1 test and period, and reasons for disagreement."""
 
 import numpy as np
 import pandas as pd
@@ -7,26 +7,26 @@ from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.attractors.convergence import MAX_PERIOD
 from conveyor.analysis.chaos.zero_one import zero_one
 from conveyor.solver.parallel import for_each_chunk
-from orbits.starts import starts_on_attractors
+from orbits.attractor_states import parameters_on_attractors
 from pipeline import fields
 
 TABLES = {
     "witnesses": (
         fields.ORBIT[1],
-        fields.text("branch", "up or down, see the strobes"),
+        fields.text("branch", "up or down, as in the table of strobes"),
         fields.number("lambda_1", "1/s", "larger vertical Lyapunov exponent"),
         fields.number("stderr", "1/s", "its standard error"),
         fields.number("zero_one", "1", "K of the 0-1 test: 0 for regular, 1 for chaotic motion"),
         *fields.STATE,
-        fields.flag("by_exponent", "chaotic by the exponent"),
-        fields.flag("by_zero_one", "chaotic by the 0-1 test"),
-        fields.flag("by_period", "chaotic for want of a period"),
-        fields.flag("agree", "whether the three agree"),
-        fields.text("reason", "why not; null where they agree"),
+        fields.flag("by_exponent", "whether the motion is chaotic by its exponent"),
+        fields.flag("by_zero_one", "whether the motion is chaotic by the 0-1 test"),
+        fields.flag("by_period", "whether the motion has no period"),
+        fields.flag("agree", "whether the three criteria agree"),
+        fields.text("reason", "reason of a disagreement; null if they agree"),
     ),
 }
 
-# Strobes that vary less than this, in m/s, are constant.
+# Strobes that vary by less than this, in m/s, are constant.
 RESOLUTION = 1e-9
 
 
@@ -48,16 +48,20 @@ def zero_one_values(parameters: np.ndarray, settings: dict, *, threads: int, pro
 
 
 def reason(row: pd.Series, significant: float) -> str | None:
-    """Why the witnesses of one amplitude differ, in numbers; None where they agree."""
+    """The reason why the criteria disagree, in words; None if they agree."""
     if row.agree:
         return None
     reasons = []
     if abs(row.lambda_1) <= significant * row.stderr:
-        reasons.append(f"λ1 = {row.lambda_1:.3g} ± {row.stderr:.2g} 1/s is not told from zero: next to a bifurcation")
+        reasons.append(
+            f"λ1 = {row.lambda_1:.3g} ± {row.stderr:.2g} 1/s does not differ significantly from 0, near a bifurcation"
+        )
     if 0.1 < row.zero_one < 0.9:
         reasons.append(f"the 0-1 test is undecided, K = {row.zero_one:.2f}")
     if row.period == 0 and row.lambda_1 < 0.0:
-        reasons.append(f"λ1 = {row.lambda_1:.3g} 1/s, but no period up to {MAX_PERIOD}: longer, or still approached")
+        reasons.append(
+            f"λ1 = {row.lambda_1:.3g} 1/s, but no period up to {MAX_PERIOD}: a longer period, or not settled"
+        )
     if row.period > 0 and row.lambda_1 > 0.0:
         reasons.append(f"λ1 = {row.lambda_1:.3g} 1/s along a transient that ends in period {row.period}")
     return (
@@ -69,8 +73,8 @@ def reason(row: pd.Series, significant: float) -> str | None:
 def make(
     strobes: pd.DataFrame, spectrum: pd.DataFrame, settings: dict, *, threads: int = 1, progress: str | None = None
 ) -> dict[str, np.ndarray]:
-    """The columns of the table of witnesses from those of strobes and spectra."""
-    last, parameters = starts_on_attractors(strobes, settings)
+    """The columns of the table of witnesses from the tables of strobes and of Lyapunov spectra."""
+    last, parameters = parameters_on_attractors(strobes, settings)
     rows = last[["acceleration", "branch", "period", "state"]].merge(spectrum, on=["branch", "acceleration"])
     rows["zero_one"] = zero_one_values(parameters, settings, threads=threads, progress=progress)
     rows["by_exponent"] = rows.lambda_1 > settings["significant"] * rows.stderr

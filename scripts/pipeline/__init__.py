@@ -1,1 +1,1 @@
-"""What all stages share at the rim: tables, axes of the config, labels of starts, logs."""
+"""Code that the stages share: tables, axes of the config, states of motion of initial conditions, logs."""

@@ -1,6 +1,6 @@
-"""Columns of tables: how they are made, those of the axes, and groups that several stages have in common.
+"""Columns of tables: constructors, columns of axes, and groups of columns that several stages share.
 
-The schema of a table stands beside the function that makes it, in the module of its stage.
+The schema of a table is in the module of its stage, next to the function that makes it.
 """
 
 from collections.abc import Mapping, Sequence
@@ -11,7 +11,7 @@ from conveyor.solver.model import PARAMETERS, TENSION, UNITS
 
 
 def field(name: str, kind: pa.DataType, unit: str, description: str) -> pa.Field:
-    """One column; dimensionless ones have the unit "1", texts none."""
+    """A column with its unit, "1" for dimensionless numbers, "" for texts."""
     return pa.field(name, kind, metadata={"unit": unit, "description": description})
 
 
@@ -37,12 +37,12 @@ def flag(name: str, description: str) -> pa.Field:
 
 
 def columns(rows: Sequence[Mapping], schema: Sequence[pa.Field]) -> dict[str, list]:
-    """Rows as the columns of a schema; what else the rows have is left out."""
+    """The columns of a schema from rows; other entries of the rows are ignored."""
     return {column.name: [row[column.name] for row in rows] for column in schema}
 
 
 AXES = {name: number(name, UNITS[name], "axis of the sweep") for name in PARAMETERS}
-AXES["z0"] = number("z0", UNITS["z0"], "axis of the sweep; null for a start on the conveyor (Eq. 15)")
+AXES["z0"] = number("z0", UNITS["z0"], "axis of the sweep; null for an initial position on the conveyor (Eq. 15)")
 AXES[PARAMETERS[TENSION]] = text(PARAMETERS[TENSION], "axis of the sweep")
 
 ENDS = (
@@ -56,7 +56,7 @@ RESULTS = (
     *ENDS,
 )
 STATE = (
-    text("state", "state of motion that the run leads to: first, second, chaos, undecided"),
+    text("state", "state of motion that the initial condition leads to: first, second, chaos or undecided"),
     count("period", "period of that motion in excitation cycles; 0 for none"),
 )
 FEATURES = (
@@ -77,10 +77,10 @@ ORBIT = (
     number("acceleration", "m/s²", "amplitude of the excitation"),
     *STROBE,
     number("multiplier_1_real", "1", "Floquet multiplier of larger modulus, real part"),
-    number("multiplier_1_imag", "1", "imaginary part"),
-    number("multiplier_2_real", "1", "the other one, real part"),
-    number("multiplier_2_imag", "1", "imaginary part"),
-    number("determinant", "1", "their product, from the monodromy matrix; exp(-(d_c/m) contact_time)"),
+    number("multiplier_1_imag", "1", "Floquet multiplier of larger modulus, imaginary part"),
+    number("multiplier_2_real", "1", "Floquet multiplier of smaller modulus, real part"),
+    number("multiplier_2_imag", "1", "Floquet multiplier of smaller modulus, imaginary part"),
+    number("determinant", "1", "product of the multipliers, from the monodromy matrix; exp(-(d_c/m) contact_time)"),
     number("contact_time", "s", "time with contact force in a period"),
     count("impacts", "impacts in a period"),
     number("longest_flight", "1", "longest flight, in excitation cycles"),

@@ -26,7 +26,7 @@ def count_values(axis: Axis) -> int:
 
 
 def axis_values(name: str, axis: Axis) -> np.ndarray:
-    """Values of one axis in SI units, shape (n,): float64, or str for tension; z0 is NaN for a start on the conveyor.
+    """Values of an axis in SI units, shape (n,), float64, or str for tension. NaN in z0 stands for `conveyor` (Eq. 15).
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def axis_values(name: str, axis: Axis) -> np.ndarray:
     Raises
     ------
     ValueError
-        names the axis that is empty or has a value outside its range
+        names an axis that is empty or has a value outside its range
     """
     if isinstance(axis, Mapping):
         axis = np.linspace(axis["start"], axis["stop"], int(axis["num"]))
@@ -46,14 +46,12 @@ def axis_values(name: str, axis: Axis) -> np.ndarray:
         if unknown := set(axis) - set(TENSION_MODES):
             raise ValueError(f"tension = {unknown.pop()!r} is not one of {', '.join(TENSION_MODES)}")
         return np.array(axis, dtype=np.str_)
-    starts_on_conveyor = name == PARAMETERS[Z0]
-    return np.array(
-        [math.nan if starts_on_conveyor and value == "conveyor" else check_parameter(name, value) for value in axis]
-    )
+    is_height = name == PARAMETERS[Z0]
+    return np.array([math.nan if is_height and value == "conveyor" else check_parameter(name, value) for value in axis])
 
 
 def columns_of_axes(axes: Mapping[str, Axis], rows: tuple[int, int] | None = None) -> dict[str, np.ndarray]:
-    """Values of the axes at the points of their product, by name, each of shape (n,); arguments as of product()."""
+    """Values of the axes at the points of their product, by name, each of shape (n,); arguments as in `product`."""
     values = {name: axis_values(name, axis) for name, axis in axes.items()}
     shape = tuple(len(value) for value in values.values())
     begin, end = rows or (0, math.prod(shape))
@@ -62,13 +60,13 @@ def columns_of_axes(axes: Mapping[str, Axis], rows: tuple[int, int] | None = Non
 
 
 def conveyor_and_start(model: Mapping[str, float | str]) -> tuple[Conveyor, Start]:
-    """A conveyor and an initial condition from values of model.PARAMETERS that differ from the defaults."""
+    """A conveyor and an initial condition from values of model.PARAMETERS; missing ones have their defaults."""
     start = Start(model.get("z0", 0.0), model.get("vz0", 0.0))
     return Conveyor(**{name: value for name, value in model.items() if name not in ("z0", "vz0")}), start
 
 
 def packed(model: Mapping[str, float | str]) -> np.ndarray:
-    """The same as a parameter vector, shape (16,)."""
+    """The parameter vector of a conveyor and an initial condition, shape (16,); `model` as in `conveyor_and_start`."""
     return pack(*conveyor_and_start(model))
 
 
@@ -79,9 +77,9 @@ def product(
 
     Parameters
     ----------
-    axes : the axes by name, the first one varies slowest
-    model : the other parameters, those of model.PARAMETERS that differ from the paper's defaults
-    rows : first row and row behind the last one, if not all are wanted
+    axes : the axes by name; the first one varies slowest
+    model : values of the remaining parameters; missing ones have the paper's defaults
+    rows : first row and row behind the last one; None for all rows
 
     Returns
     -------
@@ -89,7 +87,7 @@ def product(
     parameters : float64, shape (n, 16), rows as from model.pack
     """
     columns = columns_of_axes(axes, rows)
-    # Which static friction is too small depends on the axes.
+    # Static friction is set last: its lower limit depends on the friction coefficient, which may be an axis.
     alone = {name: value for name, value in model.items() if name != "static_friction"}
     parameters = np.tile(packed(alone), (len(next(iter(columns.values()))), 1))
     codes = {

@@ -1,4 +1,4 @@
-"""Which motions starts end in, for the stages whose entries of the config say how to find that out."""
+"""Attractors that initial conditions lead to, with the settings of an entry of the config."""
 
 import math
 
@@ -12,34 +12,37 @@ from conveyor.solver.model import PARAMETERS, PSI0, VZ0, Z0
 from pipeline import grid
 from pipeline.shared_searches import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED
 
-STARTS = {PARAMETERS[k] for k in (PSI0, Z0, VZ0)}
-# So many conveyors have their attractors in memory at a time, some 30 kB each.
+INITIAL_CONDITIONS = {PARAMETERS[k] for k in (PSI0, Z0, VZ0)}
+# Conveyors per batch: the attractors of a conveyor take some 30 kB of memory.
 CONVEYORS = 2000
 
 
-def starts_per_conveyor(axes: dict) -> int:
-    """Number of starts of each conveyor in the product of some axes."""
-    return math.prod(grid.count_values(axis) for name, axis in axes.items() if name in STARTS)
+def initial_conditions_per_conveyor(axes: dict) -> int:
+    """Number of initial conditions of each conveyor in the product of some axes."""
+    return math.prod(grid.count_values(axis) for name, axis in axes.items() if name in INITIAL_CONDITIONS)
 
 
-def tolerance_of(settings: dict) -> float:
-    """Of the contact steps in the search; what a fixed-step method leaves is followed on at the default."""
+def search_tolerance(settings: dict) -> float:
+    """Tolerance of the contact steps in the search; the default for entries of fixed-step methods, which have none."""
     return settings.get("tolerance", DEFAULT_TOLERANCE)
 
 
 def shared_attractors(
     parameters: np.ndarray, starts: int, settings: dict, *, threads: int = 1, progress: str | None = None
 ) -> AttractorTable:
-    """The attractors of conveyors, shape (n, 16), that are worth finding for so many starts of each of them."""
+    """The attractors that many initial conditions share, for parameters of shape (n, 16).
+
+    Which attractors are worth a search depends on `starts`, the number of initial conditions of each conveyor.
+    """
     if starts < CHAOS_SHARED or starts * settings["settling"] < CYCLES_SHARED:
         return NO_ATTRACTORS
-    options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
+    options = {"cycles": settings["settling"], "tolerance": search_tolerance(settings), "threads": threads}
     progress = progress and f"{progress}: attractors"
     return find_attractors(parameters, orbits=starts >= ORBITS_SHARED, **options, progress=progress)
 
 
 def batches_by_conveyor(parameters: np.ndarray) -> list[np.ndarray]:
-    """Rows of `parameters`, shape (n, 16), in batches that hold all starts of their conveyors."""
+    """Rows of `parameters`, shape (n, 16), in batches; all initial conditions of a conveyor are in one batch."""
     _, conveyor = distinct_conveyors(parameters)
     order = np.argsort(conveyor, kind="stable")
     batch = conveyor[order] // CONVEYORS
@@ -54,15 +57,15 @@ def motions_of_starts(
     threads: int = 1,
     progress: str | None = None,
 ) -> Labels:
-    """The motions that starts end in; what those of a conveyor share is found first if they are many.
+    """The attractors that initial conditions lead to. Attractors that many of them share are found first.
 
     Parameters
     ----------
     parameters : float64, shape (n, 16)
     settings : `settling`, and `tolerance` if it is not the default
-    starts : of each conveyor, in all batches and shards
+    starts : number of initial conditions of each conveyor, in all batches and shards
     """
-    options = {"cycles": settings["settling"], "tolerance": tolerance_of(settings), "threads": threads}
+    options = {"cycles": settings["settling"], "tolerance": search_tolerance(settings), "threads": threads}
     batches = batches_by_conveyor(parameters)
     parts = []
     for number, rows in enumerate(batches, start=1):
@@ -74,13 +77,14 @@ def motions_of_starts(
 
 
 def motions(parameters: np.ndarray, settings: dict, **options) -> Labels:
-    """The motions that the starts of `parameters`, shape (n, 16), end in; `settings` are those of their entry.
+    """The attractors that `parameters`, shape (n, 16), lead to, with the settings of their entry of the config.
 
     options : `threads` and `progress`, as in motions_of_starts
     """
-    return motions_of_starts(parameters, settings, starts=starts_per_conveyor(settings["axes"]), **options)
+    starts = initial_conditions_per_conveyor(settings["axes"])
+    return motions_of_starts(parameters, settings, starts=starts, **options)
 
 
 def motions_after(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, settings: dict, **options) -> Labels:
-    """The motions that runs of `parameters` with these ends (m, m/s) go on to, by whichever method they were made."""
+    """The attractors that runs of `parameters` lead to; the converged solution continues from their ends (m, m/s)."""
     return motions(continued(parameters, z_end, vz_end, settings["duration"]), settings, **options)

@@ -1,4 +1,4 @@
-"""The log of a rule: what a script says on stderr, and its traceback if it fails."""
+"""The log of a rule: the stderr of its script, and the traceback if it fails."""
 
 import sys
 import traceback
@@ -8,7 +8,7 @@ from typing import TextIO
 
 
 class Tee:
-    """A text stream that writes to a terminal and to a log, which has the last look of a bar that draws over itself."""
+    """A text stream that writes to a terminal and to a log; the log gets only the final state of a progress bar."""
 
     def __init__(self, terminal: TextIO, log: TextIO):
         self.terminal, self.log = terminal, log
@@ -20,7 +20,7 @@ class Tee:
     def write(self, text: str) -> int:
         self.terminal.write(text)
         *lines, self.line = (self.line + text).split("\n")
-        self.log.writelines(f"{last_look(line)}\n" for line in lines)
+        self.log.writelines(f"{visible_text(line)}\n" for line in lines)
         return len(text)
 
     def flush(self) -> None:
@@ -28,18 +28,18 @@ class Tee:
         self.log.flush()
 
     def close(self) -> None:
-        """Write what has not ended its line to the log; the terminal stays open."""
-        self.log.write(last_look(self.line))
+        """Write an unfinished line to the log; the terminal stays open."""
+        self.log.write(visible_text(self.line))
 
 
-def last_look(line: str) -> str:
-    """What a terminal shows of a line in the end."""
+def visible_text(line: str) -> str:
+    """The text that a terminal finally shows of a line, after its last carriage return."""
     return line.rpartition("\r")[2]
 
 
 @contextmanager
 def logged(path: str) -> Iterator[None]:
-    """Copy stderr (progress, warnings) to `path` while it still reaches the terminal; a traceback goes there too."""
+    """Copy stderr (progress, warnings) to the file `path`, and write the traceback of an exception to it."""
     terminal = sys.stderr
     with open(path, "w", encoding="utf-8") as log, closing(Tee(terminal, log)) as both:
         sys.stderr = both

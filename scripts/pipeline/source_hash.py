@@ -1,7 +1,7 @@
-"""Content hashes of what a script runs: its own source, the modules that it imports, and the versions of packages.
+"""Content hashes of the code behind a script: its source, the modules that it imports, and the versions of packages.
 
-Snakemake sees a changed script but not a changed module behind it. With such a hash among its params, a rule reruns
-exactly if something that it executes has changed in content. Imported by the Snakefile, so without slow imports.
+Snakemake notices a changed script but not a changed module that the script imports. With this hash among its params, a
+rule reruns if and only if the content of its code has changed. Imported by the Snakefile, so without slow imports.
 """
 
 import hashlib
@@ -15,12 +15,12 @@ from pathlib import Path
 from scripts.conveyor.solver.imports import all_imports
 
 SCRIPTS = Path(__file__).resolve().parents[1]
-# Distributions that others work through.
+# Distributions whose version matters although no source imports them.
 BEHIND = {"numba": ("llvmlite",), "matplotlib": ("pillow",)}
 
 
 def closure(*scripts: str) -> tuple[list[Path], list[str]]:
-    """Sorted files below scripts/ and packages that the scripts, named as in `source_hash`, need at any depth."""
+    """The files below scripts/ and the packages that scripts import directly or indirectly, sorted."""
     files = [SCRIPTS / f"{script}.py" for script in scripts]
     for file in files:
         if not file.is_file():
@@ -48,9 +48,9 @@ def content(file: Path) -> bytes:
 
 
 def versions(packages: Iterable[str]) -> list[str]:
-    """ "NAME==VERSION" of Python and of all installed distributions behind imported names; "NAME: none" for the others.
+    """ "NAME==VERSION" of Python and of the distributions of all imported packages; "NAME: none" if not installed.
 
-    Each of them may change a number or a picture. Modules of the standard library count by the version of Python.
+    Any of them may change a number or a picture. The version of Python stands for the standard library.
     """
     found = {f"python=={platform.python_version()}"}
     for package in packages:
@@ -66,7 +66,7 @@ def versions(packages: Iterable[str]) -> list[str]:
 
 @cache
 def source_hash(*scripts: str) -> str:
-    """Hash of scripts, named by their paths below scripts/ without ".py", and of everything that they import."""
+    """Hash of scripts, given as paths below scripts/ without ".py", and of everything that they import."""
     files, packages = closure(*scripts)
     digest = hashlib.sha256()
     for file in files:

@@ -1,8 +1,8 @@
 """Parquet tables: atomic writing of equal bytes for equal content, checked reading.
 
-Units stand in the metadata of the fields and, for readers that see no fields, in that of the table. What kind of table
-it is and what was computed (model, duration, method, …) stand there, too; pandas.read_parquet shows the latter as
-`attrs`. A column of settings, such as an axis, comes first.
+Units are in the metadata of the columns, and again in the metadata of the table for readers that do not show the
+former. The metadata of the table also contain its kind and the settings that it was made from (model, duration, method,
+…), which pandas.read_parquet shows as `attrs`.
 """
 
 import json
@@ -20,36 +20,41 @@ import pyarrow.parquet as pq
 from pipeline.sizes import ROW_GROUP
 
 REMEDY = "delete it, and the next run makes it again"
-LEVEL = 3  # of zstd: higher ones take longer and save little
+LEVEL = 3  # of zstd: higher levels take longer and save little
 KIND = b"kind"
 UNIT, UNITS = b"unit", b"units"
-# What a key has that is not there.
-NOTHING = "nothing"
-# Values of columns by their names, for a first row and the one behind the last.
-Wanted = Callable[[tuple[int, int]], Mapping[str, np.ndarray]]
-# The key under which pandas keeps DataFrame.attrs.
+# Stands for the value of a missing key in messages.
+MISSING = "nothing"
+# Function from first row and row behind the last one to the expected values of columns, by name.
+Expected = Callable[[tuple[int, int]], Mapping[str, np.ndarray]]
+# The key under which pandas stores DataFrame.attrs.
 SETTINGS = b"PANDAS_ATTRS"
 
 
 class TableError(Exception):
-    """A file that is not the table that was expected; the message names it and what to do."""
+    """A file is not the expected table; the message names the file and the remedy."""
 
 
 def make(kind: str, schema: Sequence[pa.Field], columns: Mapping[str, Sequence], settings: dict) -> pa.Table:
-    """A table of a kind with the columns of its schema, given by name in any order, all of shape (n,).
+    """A table with the columns of a schema. NaN becomes null, and negative zero becomes zero.
 
-    NaN becomes null, and negative zero zero. `settings`, as JSON can write them, are what was computed.
+    Parameters
+    ----------
+    kind : of the table, such as sweeps
+    schema : columns with types and units
+    columns : values by name, each of shape (n,)
+    settings : settings that the table was made from, which JSON can represent
 
     Raises
     ------
     ValueError
-        names the columns that lack, are too many or do not fit their type
+        names columns that are missing, unknown or of a wrong type
     """
-    wanted = pa.schema(schema)
-    if difference := set(wanted.names) ^ set(columns):
-        raise ValueError(f"columns of a table of {kind}: {', '.join(sorted(difference))} lacking or unknown")
+    expected = pa.schema(schema)
+    if difference := set(expected.names) ^ set(columns):
+        raise ValueError(f"columns of a table of {kind}: {', '.join(sorted(difference))} missing or unknown")
     arrays = []
-    for column in wanted:
+    for column in expected:
         try:
             values = columns[column.name]
             if pa.types.is_floating(column.type):
@@ -57,14 +62,14 @@ def make(kind: str, schema: Sequence[pa.Field], columns: Mapping[str, Sequence],
             arrays.append(pa.array(values, type=column.type, from_pandas=True))
         except (ValueError, TypeError) as error:
             raise ValueError(f"column {column.name} of a table of {kind} is not {column.type}: {error}") from error
-    units = {column.name: (column.metadata or {}).get(UNIT, b"").decode() for column in wanted}
+    units = {column.name: (column.metadata or {}).get(UNIT, b"").decode() for column in expected}
     metadata = {KIND: kind, UNITS: json.dumps(units, ensure_ascii=False), SETTINGS: json.dumps(settings)}
-    return pa.Table.from_arrays(arrays, schema=wanted.with_metadata(metadata))
+    return pa.Table.from_arrays(arrays, schema=expected.with_metadata(metadata))
 
 
 @contextmanager
 def replaced(path: str | Path) -> Iterator[Path]:
-    """A file to write in place of `path`, which it replaces at once when all is written, or not at all."""
+    """A temporary file that replaces `path` when the block ends without an error."""
     part = Path(f"{path}.part")
     try:
         yield part
@@ -75,7 +80,7 @@ def replaced(path: str | Path) -> Iterator[Path]:
 
 
 def encoding(schema: pa.Schema) -> dict[str, Any]:
-    """How columns are written: of floats the bytes of equal weight together, which takes two thirds of the room."""
+    """Options of the Parquet writer. Floats are stored as byte streams, which take a third less room."""
     floats = [column.name for column in schema if pa.types.is_floating(column.type)]
     others = [column.name for column in schema if column.name not in floats]
     return {
@@ -87,14 +92,14 @@ def encoding(schema: pa.Schema) -> dict[str, Any]:
 
 
 def write(path: str | Path, table: pa.Table) -> None:
-    """Write a table to `path`; its bytes depend on its content and on pyarrow's version only."""
+    """Write a table to `path`; the bytes depend only on the content and on the version of pyarrow."""
     write_blocks(path, [table])
 
 
 def write_blocks(path: str | Path, blocks: Iterable[pa.Table]) -> None:
-    """Write a table from blocks of its rows, at least one block, with about one row group in memory at a time.
+    """Write a table from one or more blocks of its rows, with about one row group in memory at a time.
 
-    The bytes do not depend on how the rows are cut into blocks.
+    The bytes do not depend on the sizes of the blocks.
     """
     waiting: list[pa.Table] = []
     with replaced(path) as part, ExitStack() as files:
@@ -112,47 +117,55 @@ def write_blocks(path: str | Path, blocks: Iterable[pa.Table]) -> None:
 
 
 def gather(
-    path: str | Path, shards: Sequence[str | Path], kind: str, settings: dict, rows: int, wanted: Wanted
+    path: str | Path, shards: Sequence[str | Path], kind: str, settings: dict, rows: int, expected: Expected
 ) -> None:
-    """Write shards of a table, given in the order of their rows, as one; `wanted` says what some columns hold.
+    """Join the shards of a table, given in the order of their rows.
+
+    Parameters
+    ----------
+    path : of the table
+    shards : files
+    kind, settings : that each shard must have
+    rows : number of rows of the table
+    expected : function to the values that some columns must have
 
     Raises
     ------
     TableError
-        if a shard is no table of this kind, or was made from other settings or of other rows, or all together have
-        not so many `rows`
+        if a shard is not a table of this kind, was made from other settings or has other rows, or if the number of rows
+        is wrong
     """
     for shard in shards:
         check(shard, kind, settings)
     if (found := sum(pq.read_metadata(shard).num_rows for shard in shards)) != rows:
         raise TableError(
-            f"the shards of {path} have {found} rows, not {rows}; delete them: the next run makes new ones"
+            f"the shards of {path} have {found} rows, not {rows}; delete them, and the next run makes them again"
         )
-    write_blocks(path, blocks_of(shards, wanted))
+    write_blocks(path, read_blocks(shards, expected))
 
 
-def blocks_of(shards: Sequence[str | Path], wanted: Wanted) -> Iterator[pa.Table]:
-    """The row groups of shards, one by one; TableError where columns do not hold what is wanted of their rows."""
+def read_blocks(shards: Sequence[str | Path], expected: Expected) -> Iterator[pa.Table]:
+    """The row groups of shards, one by one; TableError for a row group without the expected values."""
     found = 0
     for path in shards:
         with pq.ParquetFile(path) as file:
             for number in range(file.num_row_groups):
                 block = file.read_row_group(number)
                 begin, found = found, found + len(block)
-                if not holds(block, wanted((begin, found))):
-                    raise TableError(f"{path} does not hold rows {begin} to {found - 1} of its table; {REMEDY}")
+                if not has_values(block, expected((begin, found))):
+                    raise TableError(f"{path} does not contain rows {begin} to {found - 1} of its table; {REMEDY}")
                 yield block
 
 
-def holds(block: pa.Table, wanted: Mapping[str, np.ndarray]) -> bool:
+def has_values(block: pa.Table, values: Mapping[str, np.ndarray]) -> bool:
     """Whether columns of a block have these values."""
     return all(
-        pa.array(values, from_pandas=True).equals(block[name].combine_chunks()) for name, values in wanted.items()
+        pa.array(column, from_pandas=True).equals(block[name].combine_chunks()) for name, column in values.items()
     )
 
 
 def check(path: str | Path, kind: str, settings: dict | None = None) -> None:
-    """TableError unless there is a table of this kind at `path`, made from these settings if they are given."""
+    """Raise TableError if `path` is not a table of this kind, or was made from settings other than the given ones."""
     try:
         metadata = pq.read_schema(path).metadata or {}
     except (pa.ArrowException, OSError) as error:
@@ -160,12 +173,14 @@ def check(path: str | Path, kind: str, settings: dict | None = None) -> None:
     if metadata.get(KIND) != kind.encode():
         found = metadata.get(KIND, b"").decode() or "something else"
         raise TableError(f"{path} is not a table of {kind} but of {found}; {REMEDY}")
-    if settings is not None and (other := differing(json.loads(metadata[SETTINGS]), json.loads(json.dumps(settings)))):
-        raise TableError(f"{path} was made from other settings than those that are asked for ({other}); {REMEDY}")
+    if settings is not None:
+        difference = first_difference(json.loads(metadata[SETTINGS]), json.loads(json.dumps(settings)))
+        if difference:
+            raise TableError(f"{path} was made from settings other than those requested ({difference}); {REMEDY}")
 
 
 def read(path: str | Path, kind: str, settings: dict | None = None) -> pd.DataFrame:
-    """The table at `path`, its settings in `attrs`; TableError as from `check`, or if it is damaged."""
+    """The table at `path` with its settings in `attrs`; TableError as in `check`, or if the file is damaged."""
     check(path, kind, settings)
     try:
         return pd.read_parquet(path)
@@ -173,12 +188,12 @@ def read(path: str | Path, kind: str, settings: dict | None = None) -> pd.DataFr
         raise TableError(f"{path} is damaged ({error}); {REMEDY}") from error
 
 
-def differing(found: Any, asked: Any, key: str = "") -> str:
-    """The first place where two settings differ, as "KEY = FOUND, not ASKED"; nothing if they are equal."""
-    if isinstance(found, dict) and isinstance(asked, dict):
-        for name in found | asked:
+def first_difference(found: Any, requested: Any, key: str = "") -> str:
+    """The first difference of two settings as "KEY = FOUND, not REQUESTED"; empty if they are equal."""
+    if isinstance(found, dict) and isinstance(requested, dict):
+        for name in found | requested:
             place = f"{key}.{name}".lstrip(".")
-            if other := differing(found.get(name, NOTHING), asked.get(name, NOTHING), place):
-                return other
+            if difference := first_difference(found.get(name, MISSING), requested.get(name, MISSING), place):
+                return difference
         return ""
-    return "" if found == asked else f"{key} = {found}, not {asked}"
+    return "" if found == requested else f"{key} = {found}, not {requested}"

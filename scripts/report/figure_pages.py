@@ -1,4 +1,4 @@
-"""The figures of each section of the paper on a page, every figure above its caption."""
+"""Pages of the report with the figures of each section of the paper and their captions."""
 
 import base64
 import io
@@ -11,66 +11,63 @@ from PIL import Image
 from figures.style import RESOLUTION
 from report.page import render
 
-# Of the values of a colour, 0 to 255, one in so many: no eye misses the others, and a picture takes fewer bytes. White
-# stays white: 255 is one of them.
+# Colour values are rounded to multiples of this: invisible, but the picture takes fewer bytes. 255 is a multiple, so
+# that white stays white.
 STEP = 5
-# Of the pixels of a PNG file one in so many, in each direction: 300 dpi are enough for a screen.
+# Factor by which a PNG file is scaled down in each direction: 300 dpi are enough for a screen.
 REDUCED = 2
-# Bytes of a page: the report holds it as an address, of which Chromium takes 2 MiB, four letters for three bytes.
+# Largest page in bytes. The report stores a page as a data URI in base64, and Chromium accepts 2 MiB.
 LARGEST = 1_500_000
-# Pixels of a browser in an inch; a figure is shown half as large again as in print.
+# Browser pixels per inch of the figure: 1.5 times the size in print.
 SHOWN = 1.5 * 96
 
 
-def picture(path: str) -> tuple[str, int]:
+def encode_picture(path: str) -> tuple[str, int]:
     """The PNG file of a figure as a data URI of a sixth of its bytes, and its width in a browser (pixels)."""
     with Image.open(path) as file:
         width = round(SHOWN * file.width / RESOLUTION)
         small = file.reduce(REDUCED)
-    few = small.point([STEP * round(value / STEP) for value in range(256)] * len(small.getbands()))
-    bytes_of = io.BytesIO()
-    few.save(bytes_of, "WEBP", lossless=True, method=4)
-    return f"data:image/webp;base64,{base64.b64encode(bytes_of.getvalue()).decode()}", width
+    rounded = small.point([STEP * round(value / STEP) for value in range(256)] * len(small.getbands()))
+    buffer = io.BytesIO()
+    rounded.save(buffer, "WEBP", lossless=True, method=4)
+    return f"data:image/webp;base64,{base64.b64encode(buffer.getvalue()).decode()}", width
 
 
-def html(caption: str) -> Markup:
-    """A caption, in reStructuredText, as HTML."""
+def to_html(caption: str) -> Markup:
+    """A caption in reStructuredText as HTML."""
     return Markup(
         publish_parts(caption, writer="html5", settings_overrides={"report_level": 2, "halt_level": 2})["body"]
     )
 
 
-def of_figure(figure: dict[str, str]) -> dict:
-    """What the page shows of a figure."""
-    uri, width = picture(figure["png"])
-    caption = html(Path(figure["rst"]).read_text(encoding="utf-8"))
+def describe_figure(figure: dict[str, str]) -> dict:
+    """The fields of a figure in the template."""
+    uri, width = encode_picture(figure["png"])
+    caption = to_html(Path(figure["rst"]).read_text(encoding="utf-8"))
     return figure | {"picture": Markup(uri), "width": width, "caption": caption}
 
 
-def make(pages: dict[str, dict], told: dict[str, str]) -> dict[str, str]:
-    """The pages by their names.
+def make(pages: dict[str, dict], notice: dict[str, str]) -> dict[str, str]:
+    """The pages by name.
 
     Parameters
     ----------
-    pages : by their names, with `heading` and `figures`: name, number, title, section, file, png and rst of each
-    told : what stands on top, heading and text; nothing for the paper's config
+    pages : `heading` and `figures` of each page, by name; a figure has name, number, title, section, file, png and rst
+    notice : heading and text on top of each page; empty for the paper's config
 
     Raises
     ------
     ValueError
         names a page that is too large for a browser
     """
-    made = {
-        name: render(
-            "figures.html", title=page["heading"], told=told, figures=[of_figure(figure) for figure in page["figures"]]
-        )
-        for name, page in pages.items()
-    }
-    for name, page in made.items():
-        size = len(page.encode())
+    made = {}
+    for name, page in pages.items():
+        figures = [describe_figure(figure) for figure in page["figures"]]
+        made[name] = render("figures.html", title=page["heading"], notice=notice, figures=figures)
+        size = len(made[name].encode())
         if size > LARGEST:
             raise ValueError(
-                f"{pages[name]['heading']}: its page of the report has {size / 1e6:.2f} MB, but browsers show at most "
+                f"{page['heading']}: its page of the report has {size / 1e6:.2f} MB, but browsers show at most "
                 f"{LARGEST / 1e6:g} MB; put fewer figures on it"
             )
     return made

@@ -1,22 +1,18 @@
-"""What all pages of the report share: templates of this folder, filled in."""
+"""Pages of the report from the templates of this folder."""
 
-import math
 from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined, select_autoescape
 
+from claims.finding import format_number
+
 FOLDER = Path(__file__).parent
 
 
-def written(value: float | None) -> str:
-    """A number of the table of claims, as docs/claims.md has it."""
-    return "–" if value is None or math.isnan(value) else f"{value:.4g}"
-
-
 def render(template: str, **values) -> str:
-    """A template of this folder, filled in."""
+    """The page from a template of this folder; a missing value is an error."""
     environment = Environment(
         loader=FileSystemLoader(FOLDER), autoescape=select_autoescape(), undefined=StrictUndefined, trim_blocks=True
     )
-    environment.filters["number"] = written
+    environment.filters["number"] = format_number
     return environment.get_template(template).render(values)

@@ -1,16 +1,17 @@
-"""Which figures are on which page of the report; imported by the Snakefile, so without slow imports."""
+"""Distribution of the figures over the pages of the report; imported by the Snakefile, so without slow imports."""
 
 import re
 
 BEYOND = "beyond the paper"
-# Figures on a page beyond the paper, because browsers show no page of the report above two megabytes.
+# Figures per page beyond the paper: browsers do not show pages of more than two megabytes.
 FIGURES_ON_PAGE = 5
 
 
 def figure_pages(figures: dict[str, dict], folder: str) -> dict[str, dict]:
-    """File, heading, section, label and figures of each page in a folder, by its name.
+    """File, heading, section, label and figures of each page in a folder, by name.
 
-    Each section of the paper has a page, in its order. The figures beyond the paper come last, on several pages.
+    Each section of the paper has a page, in the order of the paper. The figures beyond the paper come last, on several
+    pages.
     """
     sections = {}
     for name, figure in sorted(figures.items(), key=lambda item: item[1]["section"]):
@@ -22,11 +23,11 @@ def figure_pages(figures: dict[str, dict], folder: str) -> dict[str, dict]:
     sections |= {f"{BEYOND}, {place} of {len(parts)}": part for place, part in enumerate(parts, start=1)}
     names = [f"figures_{place}" for place in range(1, len(sections) + 1)]
     pages = zip(names, sections.items(), strict=True)
-    return {name: {"file": f"{folder}/{name}.html"} | page(*part) for name, part in pages}
+    return {name: {"file": f"{folder}/{name}.html"} | describe_page(*part) for name, part in pages}
 
 
-def page(section: str, figures: list[dict]) -> dict:
-    """One page of the report."""
+def describe_page(section: str, figures: list[dict]) -> dict:
+    """Heading, section, label and figures of a page."""
     first, last = figures[0]["number"], figures[-1]["number"]
     if section.startswith(BEYOND):
         heading, label = section.capitalize(), f"{len(figures)} figures"
@@ -37,7 +38,7 @@ def page(section: str, figures: list[dict]) -> dict:
 
 
 def escape_label(text: str) -> str:
-    """A label that shows {name} as written, by an invisible character: Snakemake would take it for a wildcard."""
+    """A label in which an invisible character keeps Snakemake from taking {name} for a wildcard."""
     return text.replace("{", "{\u2060")
 
 

@@ -8,21 +8,21 @@ import pandas as pd
 from markdown_it import MarkdownIt
 from markupsafe import Markup
 
-from claims import verdicts
+from claims.finding import format_interval
+from claims.verdicts import VERDICTS
 from report.page import render
 
-LISTED = ("quantities", "paper", "paper_method", "converged", "accepted_low", "accepted_high", "because")
+LISTS = ("quantities", "paper", "paper_method", "converged", "accepted_low", "accepted_high", "because")
 
 
-def claim(row: pd.Series) -> dict:
-    """A row of the table of claims, its quantities one by one."""
-    count = len(row.quantities)
-    # A method that has no say has no numbers.
-    columns = {name: list(row[name]) or [None] * count for name in LISTED}
-    quantities = [dict(zip(LISTED, values, strict=True)) for values in zip(*columns.values(), strict=True)]
-    for one in quantities:
-        one["name"] = one["quantities"]
-        one["accepted"] = verdicts.interval(one["accepted_low"], one["accepted_high"])
+def describe_claim(row: pd.Series) -> dict:
+    """The fields of a claim in the templates, with one entry per quantity."""
+    # A claim that does not concern a method has no numbers by it.
+    columns = {name: list(row[name]) or [None] * len(row.quantities) for name in LISTS}
+    quantities = [dict(zip(LISTS, values, strict=True)) for values in zip(*columns.values(), strict=True)]
+    for quantity in quantities:
+        quantity["name"] = quantity["quantities"]
+        quantity["accepted"] = format_interval(quantity["accepted_low"], quantity["accepted_high"])
     reason = None if pd.isna(row.reason) else row.reason
     return {name: row[name] for name in ("id", "where", "statement", "verdict")} | {
         "quantities": quantities,
@@ -30,11 +30,10 @@ def claim(row: pd.Series) -> dict:
     }
 
 
-def counted(found: pd.Series) -> str:
-    """How many verdicts there are of each kind, in words."""
+def count_verdicts(found: pd.Series) -> str:
+    """The number of verdicts of each kind, in words."""
     counts = Counter(found)
-    kinds = (verdicts.REPRODUCED, verdicts.PAPER_METHOD_ONLY, verdicts.NOT_REPRODUCED)
-    parts = ", ".join(f"{counts[kind]} {kind}" for kind in kinds)
+    parts = ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS)
     return f"{len(found)} statements of the paper: {parts}"
 
 
@@ -44,22 +43,22 @@ def link(file: str, place: str, text: str) -> Markup:
     return Markup('<a href="javascript:app.setView({})">{}</a>').format(Markup(view), text)
 
 
-def linked(findings: str, pages: list[dict], claims_page: str) -> Markup:
-    """What was found, in Markdown, with links to the figures and claims of the report.
+def link_findings(findings: str, pages: list[dict], claims_page: str) -> Markup:
+    """The findings, in Markdown, as HTML with links to the figures and claims of the report.
 
-    A figure that the report does not have stays the name of a file.
+    The file name of a figure that is not in the report stays as it is.
     """
     files = {figure["name"]: page["file"] for page in pages for figure in page["figures"]}
 
-    def figure(found: re.Match) -> str:
+    def link_figure(found: re.Match) -> str:
         name = found[1]
         return link(files[name], name, name) if name in files else found[0]
 
-    def claim_of(found: re.Match) -> str:
+    def link_claim(found: re.Match) -> str:
         return link(claims_page, found[1], found[1])
 
-    html = re.sub(r"<code>figures/(\w+)\.pdf</code>", figure, MarkdownIt().render(findings))
-    return Markup(re.sub(r'<a href="docs/claims.md">(\w+)</a>', claim_of, html))
+    html = re.sub(r"<code>figures/(\w+)\.pdf</code>", link_figure, MarkdownIt().render(findings))
+    return Markup(re.sub(r'<a href="docs/claims.md">(\w+)</a>', link_claim, html))
 
 
 def make(
@@ -68,32 +67,32 @@ def make(
     step: float,
     pages: list[dict],
     files: dict[str, str],
-    told: dict[str, str],
+    notice: dict[str, str],
     findings: str = "",
 ) -> dict[str, str]:
-    """The start page, the claims and the provenance, by their names.
+    """The start page, the claims and the provenance, by name.
 
     Parameters
     ----------
     claims : the table of claims
     provenance : as JSON
     step : of the paper's method, s
-    pages : of the figures, in their order, with `heading`, `file` and `figures`: name, number and title of each
-    files : of the other pages, by their names
-    told : what stands on top, heading and text; nothing for the paper's config
-    findings : what was found beyond the paper, a list in Markdown
+    pages : the pages of figures in order, with `heading`, `file` and `figures`: name, number and title of each
+    files : files of the other pages by name
+    notice : heading and text on top of each page; empty for the paper's config
+    findings : findings beyond the paper, a list in Markdown
     """
     shared = {
-        "told": told,
-        "claims": [claim(row) for _, row in claims.iterrows()],
-        "counted": counted(claims.verdict),
+        "notice": notice,
+        "claims": [describe_claim(row) for _, row in claims.iterrows()],
+        "counted": count_verdicts(claims.verdict),
         "origin": json.loads(provenance),
     }
     links = {f"{name}_page": file for name, file in files.items()}
-    found = linked(findings, pages, files["claims"])
+    linked = link_findings(findings, pages, files["claims"])
     return {
         "summary": render(
-            "summary.html", step_us=f"{1e6 * step:g}", pages=pages, findings=found, link=link, **links, **shared
+            "summary.html", step_us=f"{1e6 * step:g}", pages=pages, findings=linked, link=link, **links, **shared
         ),
         "claims": render("claims.html", title="The paper's statements", **shared),
         "provenance": render("provenance.html", title="Provenance", **shared),

@@ -1,0 +1,1 @@
+"""Stage sensitivity: derivatives of bifurcations and critical heights, and bifurcation curves."""

@@ -1,4 +1,4 @@
-"""Which bifurcations of the tables of orbits are looked at, solved again in the dimensionless groups."""
+"""Selection of bifurcations from the tables of orbits, solved again in the dimensionless groups."""
 
 from typing import NamedTuple
 
@@ -11,13 +11,11 @@ from conveyor.analysis.dimensionless_groups import groups_of
 from conveyor.solver.model import ACCELERATION
 from pipeline import fields
 
-# A bifurcation solved again that is farther from its table, relative, is another one.
+# Largest relative difference of the amplitudes of one bifurcation in two tables, or in a table and solved again.
 SAME = 1e-6
-
-
 COLUMNS = (
-    fields.count("doubling", "number of the doubling in the cascade of the jumping orbit; 0 for what is not in it"),
-    fields.flag("rides", "for a grazing: whether the part never leaves the plate until then"),
+    fields.count("doubling", "number of the period doubling in the cascade of the jumping orbit; 0 for none"),
+    fields.flag("rides", "for a grazing: whether the part never leaves the plate at smaller amplitudes"),
 )
 
 
@@ -26,38 +24,38 @@ class Selected(NamedTuple):
 
     kind: str
     period: int
-    acceleration: float  # m/s², of the table
-    point: Point | None  # None where Newton's iteration does not find it again
-    doubling: int  # its number in the cascade, 0 for those that are not in it
-    rides: bool  # of a grazing: whether the part never leaves the plate until then
+    acceleration: float  # m/s², from the table
+    point: Point | None  # None if Newton's method does not find it again
+    doubling: int  # number in the cascade; 0 for none
+    rides: bool  # for a grazing: whether the part never leaves the plate at smaller amplitudes
 
 
 def at(parameters: np.ndarray, acceleration: float) -> np.ndarray:
-    """The same conveyor at an amplitude (m/s²)."""
+    """Parameters with another amplitude (m/s²)."""
     row = parameters.copy()
     row[ACCELERATION] = acceleration
     return row
 
 
-def solved_again(parameters: np.ndarray, row: pd.Series) -> Point | None:
-    """The bifurcation of a row of a table, solved in the groups; None where that finds none or another one."""
+def solve_again(parameters: np.ndarray, row: pd.Series) -> Point | None:
+    """The bifurcation of a row of a table, solved in the groups; None if none, or another one, is found."""
     kind, period = row["kind"], int(row.period)
     here = at(parameters, row.acceleration)
     groups = groups_of(here)
     state = bifurcation_points.at_phase_zero(here, np.array([row.delta, row.v]))
     if state is None:
         return None
-    touches = kind == GRAZING
-    guess = bifurcation_points.touch(groups, state, period) if touches else np.append(state, groups.amplitude)
+    is_grazing = kind == GRAZING
+    guess = bifurcation_points.touch(groups, state, period) if is_grazing else np.append(state, groups.amplitude)
     point = None if guess is None else bifurcation_points.find_bifurcation(kind, period, guess, groups)
-    near = point is not None and abs(point.groups.amplitude / groups.amplitude - 1.0) < SAME
-    return point if near else None
+    is_same = point is not None and abs(point.groups.amplitude / groups.amplitude - 1.0) < SAME
+    return point if is_same else None
 
 
-def selected(
+def select_bifurcations(
     parameters: np.ndarray, bifurcations: pd.DataFrame, cascade: pd.DataFrame, longest_period: int, doublings: int
 ) -> list[Selected]:
-    """The folds, doublings and grazings up to a period, by amplitude, then the first doublings of the cascade."""
+    """Folds, period doublings and grazings up to a period, by amplitude, then the first doublings of the cascade."""
     first = cascade.sort_values("number").head(doublings).assign(kind="period_doubling")
     others = bifurcations[bifurcations.period <= longest_period].sort_values("acceleration")
     repeated = [
@@ -71,7 +69,7 @@ def selected(
             row["kind"],
             int(row.period),
             float(row.acceleration),
-            solved_again(parameters, row),
+            solve_again(parameters, row),
             int(row.number),
             row["kind"] == GRAZING and row.impacts == 0,
         )

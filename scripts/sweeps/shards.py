@@ -1,4 +1,4 @@
-"""Some rows of a sweep: a trajectory for each point of a product of axes, and the state of motion that it leads to."""
+"""Shards of sweeps: a trajectory for each point of a product of axes, and the state of motion that it leads to."""
 
 from collections.abc import Iterator
 
@@ -16,7 +16,9 @@ TABLES = {
         *fields.STATE,
         *fields.FEATURES,
         fields.number(
-            "longest_flight", "1", "of that motion, in excitation cycles; tells motions of one state apart; else null"
+            "longest_flight",
+            "1",
+            "longest flight of that motion in excitation cycles, which differs between motions of one state; else null",
         ),
     ),
 }
@@ -25,7 +27,7 @@ TABLES = {
 def make(
     settings: dict, rows: tuple[int, int], *, threads: int = 1, progress: str | None = None
 ) -> Iterator[dict[str, np.ndarray]]:
-    """The `columns` of some rows of a table of sweeps, in blocks."""
+    """The `columns` of some rows of a table of sweeps, in blocks of rows."""
     blocks = range(*rows, BLOCK)
     for number, begin in enumerate(blocks, start=1):
         label = progress and (f"{progress} ({number} of {len(blocks)})" if len(blocks) > 1 else progress)
@@ -40,7 +42,7 @@ def columns(
     Parameters
     ----------
     settings : of the entry
-    rows : the first one and the one behind the last, in the order of the product of the axes; None for all
+    rows : first row and row behind the last one, in the order of the product of the axes; None for all
     threads, progress : as in conveyor.ensemble.run
     """
     options = {
@@ -49,10 +51,10 @@ def columns(
     axes, parameters = grid.product(settings["axes"], settings["model"], rows)
     runs = ensemble.run(parameters, **options, threads=threads, progress=progress)
     ok = runs["status"] == "ok"
-    those = slice(None) if ok.all() else ok  # no copies
-    starts = parameters[those]
-    continued(starts, runs["z_end"][those], runs["vz_end"][those], settings["duration"], out=starts)
-    found = motions(starts, settings, threads=threads, progress=progress)
+    selected = slice(None) if ok.all() else ok  # a slice makes no copy
+    parameters = parameters[selected]
+    continued(parameters, runs["z_end"][selected], runs["vz_end"][selected], settings["duration"], out=parameters)
+    found = motions(parameters, settings, threads=threads, progress=progress)
     state, period, flight = (
         fill_missing(ok, values, missing)
         for values, missing in ((found.state, "undecided"), (found.period, 0), (found.longest_flight, np.nan))
@@ -61,9 +63,9 @@ def columns(
 
 
 def fill_missing(ok: np.ndarray, values: np.ndarray, missing: str | float) -> np.ndarray:
-    """The `values` in the places where `ok`, of shape (n,), is true, and what is `missing` in the others."""
+    """An array with `values` where `ok`, shape (n,), is true, and `missing` elsewhere."""
     if len(values) == len(ok):
         return values
-    whole = np.full(len(ok), missing, dtype=values.dtype)
-    whole[ok] = values
-    return whole
+    filled = np.full(len(ok), missing, dtype=values.dtype)
+    filled[ok] = values
+    return filled

@@ -102,7 +102,7 @@ def test_runs_take_turns_until_enough_time_is_spent_on_them(monkeypatch):
     monkeypatch.setattr(timing, "thread_time", lambda: clock)
     monkeypatch.setattr(timing, "TURN", 0.25)
     runs = [lasting("fast", 0.125), lasting("slow", 0.5), lasting("slowest", 2.0)]
-    found, times = timing.in_turns(runs, repeats=3, seconds=1.0)
+    found, times = timing.run_in_turns(runs, repeats=3, seconds=1.0)
     assert found == ["fast", "slow", "slowest"]
     fast = ["fast"] * 2
     assert made == [*fast, "slow", "slowest", *fast, "slow", *fast]

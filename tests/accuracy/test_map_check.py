@@ -43,10 +43,10 @@ def test_boundary_points_have_a_neighbour_with_another_label():
     near = map_check.is_near_boundary(labels)
     assert near.tolist() == [[0, 1, 0], [1, 1, 1], [0, 1, 0], [0, 0, 0]]
     random = np.random.default_rng(1)
-    rows = map_check.draw(near.ravel(), 8, 0.5, random)
+    rows = map_check.draw_rows(near.ravel(), 8, 0.5, random)
     assert near.ravel()[rows].sum() == 4
     assert len(set(rows)) == 8
-    assert len(map_check.draw(near.ravel(), 100, 0.5, random)) == 12
+    assert len(map_check.draw_rows(near.ravel(), 100, 0.5, random)) == 12
 
 
 @pytest.mark.parametrize(("period", "expected"), [(1, 1), (3, 3), (64, 64), (65, 0)])

@@ -23,30 +23,30 @@ def curve(**changes):
 
 def test_thinned_axes_keep_their_ends_and_words():
     axes = {"acceleration": {"start": 20.0, "stop": 90.0, "num": 281}, "z0": [0.0, 1e-4], "tension": ["allow", "clip"]}
-    found = observables.thinned(axes, 100)
+    found = observables.thin_axes(axes, 100)
     assert found["acceleration"][0] == 20.0
     assert found["acceleration"][-1] == 90.0
     assert found["z0"] == [0.0, 1e-4]
     assert found["tension"] == ["allow", "clip"]
     assert 50 <= np.prod([len(axis) for axis in found.values()]) <= 200
-    assert observables.thinned({"z0": ["conveyor"]}, 1) == {"z0": ["conveyor"]}
-    assert observables.thinned(AXES, 1000) == AXES
+    assert observables.thin_axes({"z0": ["conveyor"]}, 1) == {"z0": ["conveyor"]}
+    assert observables.thin_axes(AXES, 1000) == AXES
 
 
 def test_a_line_hides_what_is_narrower():
     found = curve(value={1: 2.05, 2: 5.2}, state={3: "second"})
-    seen = observables.differences(CURVE, curve(), found, AXES, line=0.01)
+    seen = observables.visible_differences(CURVE, curve(), found, AXES, line=0.01)
     assert list(seen.value) == [False, False, True, False, False]
     assert list(seen.state) == [False, False, False, True, False]
 
 
 def test_what_is_missing_differs_and_what_was_not_computed_does_not():
-    seen = observables.differences(CURVE, curve(), curve().drop(index=4), AXES, line=0.01)
+    seen = observables.visible_differences(CURVE, curve(), curve().drop(index=4), AXES, line=0.01)
     assert list(seen.value) == [False] * 4 + [True]
     assert list(seen.state) == [False] * 4 + [True]
-    seen = observables.differences(CURVE, curve(), curve().assign(value=np.nan), AXES, line=0.01)
+    seen = observables.visible_differences(CURVE, curve(), curve().assign(value=np.nan), AXES, line=0.01)
     assert not seen.to_numpy().any()
-    seen = observables.differences(CURVE, curve(), curve(value={2: np.nan}), AXES, line=0.01)
+    seen = observables.visible_differences(CURVE, curve(), curve(value={2: np.nan}), AXES, line=0.01)
     assert list(seen.value) == [False, False, True, False, False]
 
 
@@ -54,7 +54,7 @@ def test_samples_behind_a_difference_are_not_known():
     axes = {"z0": [0.0, 1.0]}
     truth = pd.DataFrame({"z0": np.repeat([0.0, 1.0], 3), "time": [0.0, 1.0, 2.0] * 2, "value": [0.0, 5.0, 10.0] * 2})
     other = truth.assign(value=[0.0, 6.0, 10.0, 0.0, 5.0, 10.0])
-    known = observables.known_values(SIGNAL, truth, [truth, other], axes, line=0.01)
+    known = observables.robust_values(SIGNAL, truth, [truth, other], axes, line=0.01)
     assert list(known.value) == [True, False, False, True, True, True]
 
 

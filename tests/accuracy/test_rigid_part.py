@@ -7,7 +7,7 @@ from accuracy import rigid_part
 
 
 def test_states_of_parts_that_move_along_jump_and_jump_without_end():
-    found = rigid_part.swept(
+    found = rigid_part.sweep(
         {"axes": {"acceleration": [15.0, 40.0, 90.0]}, "model": {"z0": 0.3e-3}, "duration": 0.1}, cycles=400
     )
     assert found.state.tolist() == ["first", "second", "undecided"]
@@ -18,6 +18,6 @@ def test_states_of_parts_that_move_along_jump_and_jump_without_end():
 def test_a_period_is_the_first_after_which_heights_come_back(period, found):
     row = np.zeros(16)
     row[rigid_part.FREQUENCY] = 50.0
-    times = rigid_part.times_of_periods(row, 10.0, 4)
+    times = rigid_part.sample_times(row, 10.0, 4)
     jumps = np.sin(100.0 * np.pi * times / period) + 0.1 * np.sin(100.0 * np.pi * times)
-    assert rigid_part.period_of(jumps, range(1, 5)) == found
+    assert rigid_part.find_period(jumps, range(1, 5)) == found

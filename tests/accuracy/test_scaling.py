@@ -30,8 +30,8 @@ def folder(tmp_path_factory):
 
 
 def measured(case, folder):
-    made = scaling.shards_of(case, folder)
-    return scaling.row(case, made, scaling.gather_shards(case, folder))
+    made = scaling.measure_shards(case, folder)
+    return scaling.make_row(case, made, scaling.measure_gathering(case, folder))
 
 
 def test_all_shards_are_made_and_put_together(folder):
@@ -58,7 +58,7 @@ def test_of_several_rounds_medians_count_and_the_most_memory():
 
     rounds = [[shard(3.0, 100.0), shard(9.0, 70.0)], [shard(7.0, 90.0), shard(4.0, 60.0)]]
     rounds.append([shard(4.0, 80.0), shard(5.0, 50.0)])
-    assert scaling.medians(rounds) == [shard(4.0, 100.0), shard(5.0, 70.0)]
+    assert scaling.summarise(rounds) == [shard(4.0, 100.0), shard(5.0, 70.0)]
 
 
 def test_sweeps_are_made_in_turns_until_they_have_taken_long_enough(monkeypatch):
@@ -75,9 +75,9 @@ def test_sweeps_are_made_in_turns_until_they_have_taken_long_enough(monkeypatch)
         together.append(case["conveyors"])
         return {"whole": 2.0, "memory": 50.0, "rows": 20, "bytes": 400}
 
-    monkeypatch.setattr(scaling, "run", lambda **_: None)
-    monkeypatch.setattr(scaling, "shards_of", shards_of)
-    monkeypatch.setattr(scaling, "gather_shards", gather_shards)
+    monkeypatch.setattr(scaling, "measure_job", lambda **_: None)
+    monkeypatch.setattr(scaling, "measure_shards", shards_of)
+    monkeypatch.setattr(scaling, "measure_gathering", gather_shards)
     found = scaling.make({}, cases)
     assert done == [0, 1, 2, 0, 1, 0, 0, 0]
     assert together == [0, 1, 2]
@@ -106,7 +106,7 @@ def test_the_first_points_are_computed_alone_before_all(monkeypatch, tmp_path, e
     monkeypatch.setattr(scaling, "make_shard", make_shard)
     task = {"path": str(path), "settings": {}, "rows": [7, end], "threads": 1}
     monkeypatch.setattr("sys.stdin", io.StringIO(json.dumps(task)))
-    scaling.job()
+    scaling.run_job()
     assert made == [(7, first), (7, end)]
 
 
@@ -114,7 +114,7 @@ def test_the_first_points_are_computed_alone_before_all(monkeypatch, tmp_path, e
 def test_loading_of_compiled_code_is_no_computing(tmp_path, rows):
     """Some points take a millisecond or so, the loading some hundred, also of code for many that few do not run."""
     for name in ("compiled", "some"):
-        made = scaling.run(settings=SETTINGS, threads=1, rows=rows, path=str(tmp_path / f"{name}.parquet"))
+        made = scaling.measure_job(settings=SETTINGS, threads=1, rows=rows, path=str(tmp_path / f"{name}.parquet"))
     assert made["computing"] < 0.5 * made["loading"] < 0.5 * made["whole"]
     assert pq.read_table(tmp_path / "some.parquet")["z0"].to_pylist() == ([0.0, 1.0e-4] * 10)[slice(*rows)]
 
@@ -123,7 +123,7 @@ def test_memory_is_that_of_the_process_itself(tmp_path):
     ballast = np.ones(10**8)
     before = scaling.peak_memory()
     assert before > 800.0
-    row = scaling.run(settings=SETTINGS, threads=1, rows=[0, 1], path=str(tmp_path / "one.parquet"))
+    row = scaling.measure_job(settings=SETTINGS, threads=1, rows=[0, 1], path=str(tmp_path / "one.parquet"))
     assert row["memory"] < before - 300.0 < before
     del ballast
 
@@ -154,19 +154,19 @@ def table() -> pd.DataFrame:
 
 
 def test_what_the_whole_sweep_costs():
-    rows = cluster_page.costs(table()).set_index("points")
+    rows = cluster_page.total_costs(table()).set_index("points")
     assert rows.core_hours.to_dict() == pytest.approx(
         {100: 3.0 * 2 / 3600.0, 250: 8.0 * 2 / 3600.0, 1000: 10 * 3.0 * 2 / 3600.0}
     )
     assert rows.microseconds.tolist() == pytest.approx([2e4, 2e4, 2e4])
     assert rows.minutes.to_dict() == pytest.approx({100: 1.0 / 60.0, 250: 2.0 / 60.0, 1000: 1000 * 6.0 / 300 / 60.0})
     sharing = {"core_hours": 24.0, "most_jobs": 500, "job_seconds": 60.0}
-    told = cluster_page.values(table(), sharing)
-    assert (told["least_ratio"], told["most_ratio"]) == ("0.5", "2")
-    assert told["within_limit"]
+    fields = cluster_page.values(table(), sharing)
+    assert (fields["least_ratio"], fields["most_ratio"]) == ("0.5", "2")
+    assert fields["within_limit"]
     assert not cluster_page.values(table(), sharing | {"core_hours": 0.01})["within_limit"]
-    assert (told["points"], told["most_memory"], told["made_whole"]) == ("1,000", "305", "250")
-    assert (told["start"], told["loading"]) == ("0.8", "0.2")
+    assert (fields["points"], fields["most_memory"], fields["made_whole"]) == ("1,000", "305", "250")
+    assert (fields["start"], fields["loading"]) == ("0.8", "0.2")
 
 
 def test_cost_of_a_point_is_told_without_and_with_the_start_of_the_job():

@@ -38,7 +38,7 @@ def scene(folder):
 
 
 def test_the_reference_is_that_of_an_independent_integrator(scene):
-    row = scores.packed(scene)
+    row = scores.pack_scene(scene)
     run = peers.run(row, scene["duration"], "DOP853", "modes", 1e-13, 10**6)
     end = [scene["reference"][name][-1] for name in ("x", "vx", "z", "vz")]
     assert np.abs((np.array([run.x, run.vx, run.z, run.vz]) - end) / peers.scales(row)).max() < 1e-10
@@ -101,7 +101,7 @@ def test_numbers_from_a_file_score_as_a_function_does(folder, scene, tmp_path):
     ("change", "message"),
     [
         ({"scene": "long"}, "no scene 'long'; there are short"),
-        ({"time": np.linspace(0.0, 1.0, 12)}, "the times are not those of the scene"),
+        ({"time": np.linspace(0.0, 1.0, 12)}, "the times differ from the times of the scene"),
     ],
 )
 def test_wrong_numbers_are_refused(scene, change, message):

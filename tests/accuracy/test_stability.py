@@ -15,28 +15,30 @@ def test_limits_of_a_hardly_damped_contact():
     """d/k, 2/ω and 2√2/ω."""
     stiffness, damping = 1e5, 1e-6
     omega = math.sqrt(stiffness / MASS)
-    assert stability.limit("euler", stiffness, damping, MASS) == pytest.approx(damping / stiffness, rel=1e-9)
-    assert stability.limit("semi_implicit_euler", stiffness, damping, MASS) * omega == pytest.approx(2.0, rel=1e-6)
-    assert stability.limit("rk4", stiffness, damping, MASS) * omega == pytest.approx(math.sqrt(8.0), rel=1e-3)
+    assert stability.stability_limit("euler", stiffness, damping, MASS) == pytest.approx(damping / stiffness, rel=1e-9)
+    assert stability.stability_limit("semi_implicit_euler", stiffness, damping, MASS) * omega == pytest.approx(
+        2.0, rel=1e-6
+    )
+    assert stability.stability_limit("rk4", stiffness, damping, MASS) * omega == pytest.approx(math.sqrt(8.0), rel=1e-3)
 
 
 def test_an_unknown_method_has_no_limit():
     with pytest.raises(ValueError, match="unheard"):
-        stability.limit("unheard", 1e5, 0.3, MASS)
+        stability.stability_limit("unheard", 1e5, 0.3, MASS)
 
 
 def test_limit_of_an_impact_by_euler_weights_the_stiffness_with_the_speed():
     conveyor, speed = Conveyor(acceleration=0.0), 0.1
     share = (np.arange(200_000) + 0.5) / 200_000
     velocity = np.sqrt(1.0 - share**2.5)
-    stiffness = 1.5 * conveyor.stiffness * np.sqrt(share * stability.deepest(conveyor, speed))
+    stiffness = 1.5 * conveyor.stiffness * np.sqrt(share * stability.hertz_penetration(conveyor, speed))
     wanted = conveyor.damping / ((stiffness * velocity).sum() / velocity.sum())
     assert stability.impact_limit("euler", conveyor, speed) == pytest.approx(wanted, rel=1e-4)
 
 
 def test_deepest_point_and_duration_of_an_undamped_impact():
     conveyor, speed = Conveyor(), 0.3
-    depth = stability.deepest(conveyor, speed)
+    depth = stability.hertz_penetration(conveyor, speed)
     assert 0.4 * conveyor.stiffness * depth**2.5 == pytest.approx(0.5 * conveyor.mass * speed**2, rel=1e-12)
     slow = np.linspace(0.0, 1.0, 100_001)[:-1] ** 2  # the speed ends in a root
     time = 2.0 * depth / speed * np.trapezoid(1.0 / np.sqrt(1.0 - (1.0 - slow) ** 2.5 + 1e-300)[1:], slow[1:])
@@ -45,7 +47,7 @@ def test_deepest_point_and_duration_of_an_undamped_impact():
 
 @pytest.mark.parametrize("method", ["euler", "semi_implicit_euler", "rk4"])
 def test_a_part_rests_within_the_limit_and_not_beyond(method):
-    limit = stability.limit(method, 1e5, 0.3, MASS)
+    limit = stability.stability_limit(method, 1e5, 0.3, MASS)
     assert stability.outcome_at_rest(method, 0.7 * limit, 1e5, 0.3) == stability.RIGHT
     assert stability.outcome_at_rest(method, 1.3 * limit, 1e5, 0.3) in (stability.GROWS, stability.BLOWS_UP)
 
@@ -57,6 +59,6 @@ def test_the_solver_is_right_at_rest_and_in_impacts():
 
 
 def test_an_edge_is_found_to_a_hundredth():
-    found = stability.edge(lambda step: stability.RIGHT if step < 1.7e-5 else stability.GROWS, 2e-5)
+    found = stability.measure_limit(lambda step: stability.RIGHT if step < 1.7e-5 else stability.GROWS, 2e-5)
     assert found == pytest.approx(1.7e-5, rel=0.01)
     assert found < 1.7e-5

@@ -95,7 +95,7 @@ def test_a_claim_names_its_finding_its_tables_and_its_settings():
         "tables": {"euler": "a", "converged": "b"},
         "settings": {"acceleration": 35.0},
     }
-    found = verdicts.find(claim, {"a": table.assign(z0=3e-4), "b": table})
+    found = verdicts.evaluate(claim, {"a": table.assign(z0=3e-4), "b": table})
     assert (*found.euler.values(), *found.converged.values()) == pytest.approx((0.3, 0.15))
 
 
@@ -129,7 +129,7 @@ def test_accepted_intervals_bring_each_verdict(name):
 @pytest.mark.parametrize("name", CLAIMS)
 def test_the_papers_own_numbers_are_accepted(name):
     for quantity in CLAIMS[name]["quantities"].values():
-        assert quantity["paper"] is None or verdicts.holds(quantity["paper"], quantity["accepted"])
+        assert quantity["paper"] is None or verdicts.is_accepted(quantity["paper"], quantity["accepted"])
 
 
 def test_notes_stand_beside_verdicts():
@@ -148,15 +148,15 @@ def test_a_reason_begins_with_the_numbers_that_miss():
 
 
 def test_null_is_no_bound():
-    assert verdicts.holds(1e300, [0.0, None])
-    assert verdicts.holds(-1e300, [None, 0.0])
-    assert not verdicts.holds(-1.0, [0.0, None])
-    assert not any(verdicts.holds(math.nan, interval) for interval in ([0.0, None], [None, 0.0], [None, None]))
+    assert verdicts.is_accepted(1e300, [0.0, None])
+    assert verdicts.is_accepted(-1e300, [None, 0.0])
+    assert not verdicts.is_accepted(-1.0, [0.0, None])
+    assert not any(verdicts.is_accepted(math.nan, interval) for interval in ([0.0, None], [None, 0.0], [None, None]))
 
 
 def test_reason_says_which_number_is_outside():
     claimed = quantities(height=[0.0, 1.0], width=[0.0, 1.0])
-    text = verdicts.outside(Finding({"height": 0.5, "width": 0.5}, {"height": 0.5, "width": 3.25}), claimed)
+    text = verdicts.describe_misses(Finding({"height": 0.5, "width": 0.5}, {"height": 0.5, "width": 3.25}), claimed)
     assert text == "width: 3.25 by the converged solution is not in [0, 1]"
 
 
@@ -182,7 +182,7 @@ def test_onset_of_chaos_by_scatter_and_by_state():
     finding = about_states.onset_of_chaos(**both(table))
     assert (numbers(finding.euler), numbers(finding.converged)) == ((55.0,), (55.0,))
     assert "settle to chaos from 63 m/s² on (63 m/s²" in finding.note
-    assert "in between 100 % of the starts settle to a period (period 1 for 100 %)" in finding.note
+    assert "in between 100 % of them settle to a periodic one (period 1 for 100 %)" in finding.note
     late = sweep(lambda a, z: "chaos" if a >= 50.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
     assert "nan" not in about_states.onset_of_chaos(**both(late)).note
 
@@ -207,22 +207,30 @@ def certificates(*stable):
     )
 
 
-def test_what_is_proved_is_told():
+def test_notes_name_what_is_proved():
     """Two stable orbits at 30 and at 40 m/s², one at 56 m/s²; open ones do not count."""
     proved = pd.concat(
         [certificates(30.0, 30.0, 40.0, 40.0, 56.0), certificates(45.0, 45.0, 70.0).assign(stability="open")]
     )
-    assert "two stable motions are proved at 2 amplitudes from 30 to 40 m/s²" in about_proofs.both_states(proved)
-    assert "a stable periodic motion is proved at 1 amplitudes from 56 to 56 m/s²" in about_proofs.regular(proved, 55.0)
+    assert "two stable motions are proved at 2 amplitudes from 30 to 40 m/s²" in about_proofs.describe_coexistence(
+        proved
+    )
+    periodic = about_proofs.describe_periodic(proved, 55.0)
+    assert "a stable periodic motion is proved at 1 amplitudes from 56 to 56 m/s²" in periodic
     horseshoes = pd.DataFrame({"acceleration": [65.0, 80.0], "proved": [False, True]})
-    assert "is proved at 80 m/s²" in about_proofs.chaotic(horseshoes)
-    assert [about_proofs.both_states(None), about_proofs.regular(None, 0.0), about_proofs.chaotic(None)] == ["", "", ""]
-    assert about_proofs.regular(proved, 60.0) == ""
+    assert "is proved at 80 m/s²" in about_proofs.describe_chaos(horseshoes)
+    assert about_proofs.describe_periodic(proved, 60.0) == ""
+
+
+def test_notes_without_proofs_are_empty():
+    assert about_proofs.describe_coexistence(None) == ""
+    assert about_proofs.describe_periodic(None, 0.0) == ""
+    assert about_proofs.describe_chaos(None) == ""
 
 
 def test_one_orbit_twice_is_not_two_motions():
     once = certificates(30.0)
-    assert about_proofs.both_states(pd.concat([once, once])) == ""
+    assert about_proofs.describe_coexistence(pd.concat([once, once])) == ""
 
 
 def test_statements_name_what_is_proved():
@@ -250,7 +258,7 @@ def test_largest_critical_height_is_that_of_all_amplitudes():
     rising["crossing"] = 1
     finding = about_states.largest_critical_height(**both(rising), heights=heights)
     assert numbers(finding.converged) == pytest.approx((0.3,))  # not that at 28 m/s², nor that at the lowest one
-    assert finding.note.startswith("it is that at 35 m/s²")
+    assert finding.note.startswith("it occurs at 35 m/s²")
 
 
 def test_velocities_of_both_states():
@@ -287,12 +295,12 @@ def test_spread_of_onsets():
     assert numbers(about_states.one_onset(converged=slanted).converged) == (2.0,)
 
 
-def test_early_chaos_of_some_heights_is_told():
+def test_early_chaos_of_some_heights_is_noted():
     early = sweep(lambda a, z: "chaos" if a >= 63.0 or (a == 53.0 and z == 0.0) else "second")
     finding = about_states.one_onset(converged=early)
     assert numbers(finding.converged) == (0.0,)
-    assert "beside regular motion, by the initial height, from 53.00 m/s²" in finding.note
-    assert finding.note.endswith("regular motion is left nowhere")
+    assert "chaos and regular motion coexist, depending on the initial height, at 53.00 m/s²" in finding.note
+    assert finding.note.endswith("regular motion remains nowhere")
     windows = sweep(lambda a, z: "chaos" if a >= 63.0 and a not in (71.0, 72.0) else "second")
     assert about_states.one_onset(converged=windows).note.endswith("in windows only: 71.00 to 72.00 m/s²")
 
@@ -358,8 +366,8 @@ def strobes(z0, values):
 
 def test_a_motion_comes_back_after_its_period():
     period_3 = np.tile([1.0, -0.5, 0.2], 43)[:128]
-    assert about_chaos.least_return(strobes(0.0, period_3)) == (0.0, 3)
-    assert about_chaos.least_return(strobes(0.0, np.tile(np.arange(65.0), 2)[:128]))[0] > about_chaos.BACK
+    assert about_chaos.closest_return(strobes(0.0, period_3)) == (0.0, 3)
+    assert about_chaos.closest_return(strobes(0.0, np.tile(np.arange(65.0), 2)[:128]))[0] > about_chaos.CLOSE
 
 
 def test_share_without_a_period():
@@ -372,8 +380,8 @@ def test_a_motion_that_comes_back_to_a_fifth_of_its_extent_has_no_period():
     """One that comes back to a fiftieth of it has: the distance is that of the strongest of the last cycles."""
     to_and_fro, one = np.tile([1.0, -1.0], 64), np.arange(128) == 100
     coarse, fine = strobes(0.0, to_and_fro - 0.2 * one), strobes(1e-4, to_and_fro - 0.02 * one)
-    assert about_chaos.least_return(coarse) == (pytest.approx(0.2), 2)
-    assert about_chaos.least_return(fine) == (pytest.approx(0.02), 2)
+    assert about_chaos.closest_return(coarse) == (pytest.approx(0.2), 2)
+    assert about_chaos.closest_return(fine) == (pytest.approx(0.02), 2)
     assert numbers(about_chaos.no_period(**both(pd.concat([coarse, fine]))).converged) == (0.5,)
 
 
@@ -427,7 +435,7 @@ def test_phase_estimate():
     assert (numbers(finding.euler), numbers(finding.converged)) == ((50.0,), (59.0,))
     assert "positive at 100 % of the amplitudes by the paper's method" in finding.note
     assert "at 0 % of the amplitudes converged" in finding.note
-    assert "100 % settle to a period" in finding.note
+    assert "100 % of the motions are periodic" in finding.note
     assert "+0.50 to +1.50 1/s by the paper's method and -9.00 to -8.00 1/s converged" in finding.note
 
 
@@ -453,7 +461,7 @@ def test_onset_by_dimension():
     }
     finding = about_chaos.predicted_onset(**tables)
     assert (numbers(finding.euler), numbers(finding.converged)) == ((0.0, 1.0), (3.0, 1.0))
-    assert "1.00 to 2.00 in that and 2.00 to 2.00 in chaos" in finding.note
+    assert "1.00 to 2.00 in the second state and 2.00 to 2.00 in chaos" in finding.note
 
 
 def test_the_onset_by_dimension_is_half_way_between_both_ends():

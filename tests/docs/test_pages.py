@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -14,7 +15,7 @@ from prose import typed
 
 from claims.verdicts import NOT_REPRODUCED, PAPER_METHOD_ONLY, REPRODUCED
 from docs import article, facts, pages, site
-from docs.config_keys import all_written, written
+from docs.config_keys import parse_file
 from pipeline.templates import render
 
 TEMPLATES = ROOT / "workflow/templates"
@@ -115,17 +116,17 @@ def claim(verdict: str, low: float | None, high: float | None, value: float) -> 
     ],
 )
 def test_margins_are_distances_to_the_nearer_end(low, high, value, accepted, margin):
-    told = facts.of_claims(pd.DataFrame([claim(REPRODUCED, low, high, value)]))["C07"]
-    assert (told["accepted"], told["margin"], told["paper_method"]) == ([accepted], [margin], ["–"])
+    found = facts.describe_claims(pd.DataFrame([claim(REPRODUCED, low, high, value)]))["C07"]
+    assert (found["accepted"], found["margin"], found["paper_method"]) == ([accepted], [margin], ["–"])
 
 
 def test_verdicts_are_counted():
     table = pd.DataFrame(
         {"id": ["C01", "C02", "C03", "C04"], "verdict": [REPRODUCED, NOT_REPRODUCED, NOT_REPRODUCED, PAPER_METHOD_ONLY]}
     )
-    told = facts.of_verdicts(table)
-    assert (told["claims"], told["reproduced"], told["by_paper"], told["not_reproduced"]) == ("4", "1", "1", "2")
-    assert (told["by_paper_names"], told["not_reproduced_names"]) == ("C04", "C02 and C03")
+    found = facts.describe_verdicts(table)
+    assert (found["claims"], found["reproduced"], found["by_paper"], found["not_reproduced"]) == ("4", "1", "1", "2")
+    assert (found["by_paper_names"], found["not_reproduced_names"]) == ("C04", "C02 and C03")
 
 
 # -- the config, key by key --------------------------------------------------------------------------------------------
@@ -133,7 +134,7 @@ def test_verdicts_are_counted():
 
 def test_comments_belong_to_their_keys():
     text = '# of the file\n\nfirst:   # beside "first"\n  # above\n  # it\n  second: "a # b"   # c\n  third: {x: 1}\n'
-    found = list(written(text))
+    found = list(parse_file(text))
     assert [tuple(key) for key in found] == [
         (("first",), "", 'beside "first"', ""),
         (("first", "second"), '"a # b"', "c", "above it"),
@@ -141,8 +142,8 @@ def test_comments_belong_to_their_keys():
     ]
 
 
-def test_what_the_paper_leaves_open_is_told():
-    found = pages.of_gaps(all_written(CONFIG))
+def test_values_that_the_paper_leaves_open_are_found():
+    found = pages.find_gaps([key for file in CONFIG for key in parse_file(Path(file).read_text(encoding="utf-8"))])
     assert {"model.gravity", "sweeps.amplitudes.axes.acceleration", "estimates.phase.epsilon"} <= {
         gap["key"] for gap in found
     }
@@ -156,8 +157,8 @@ FIGURE = {"name": "fig02", "label": "Fig. 2", "title": "A part"}
 
 def test_a_caption_has_its_subscripts_in_both_media():
     caption = "The mass m\\ :sub:`p` at\nthe height z\\ :sub:`s`."
-    assert pages.in_markdown(caption, "print") == "The mass m~p~ at the height z~s~."
-    assert pages.in_markdown(caption, "site") == "The mass m{sub}`p` at the height z{sub}`s`."
+    assert pages.to_markdown(caption, "print") == "The mass m~p~ at the height z~s~."
+    assert pages.to_markdown(caption, "site") == "The mass m{sub}`p` at the height z{sub}`s`."
 
 
 def test_the_article_is_equal_bytes():
@@ -227,3 +228,9 @@ def test_formulas_need_no_network(source, tmp_path):
     page = (tmp_path / "html/index.html").read_text(encoding="utf-8")
     assert "<math" in page
     assert not re.search(r"(?:src|href)=\"https?://", page.split("<footer")[0])
+
+
+def test_the_article_shows_every_figure_of_the_paper_once_and_in_order():
+    text = (TEMPLATES / "article.md").read_text(encoding="utf-8")
+    shown = re.findall(r'figure\("(fig\d\d)"\)', text)
+    assert shown == [name for name in FIGURES if re.fullmatch(r"fig\d\d", name)]

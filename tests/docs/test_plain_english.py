@@ -15,6 +15,7 @@ PHRASES = {
     r"\b(is|are|was|were|be) told\b": "say who says it, or 'is determined'",
     r"\b(made|drawn) anew\b": "'made again', 'recomputed'",
     r"\bof those\b": "name them",
+    r"\bof the starts\b": "'of the initial conditions'",
     r"\bthat which\b|\bthat of what\b": "use the noun",
     r"\b(once|long) wanted\b": "'goal'",
     r"\bis no(t)? more than that it\b": "say what it is",
@@ -31,16 +32,18 @@ PHRASES = {
     r"\bnobody (gave|gives|says|looked)\b": "say what is missing",
     r"\bbesides? what\b": "name it",
 }
-# Pages and messages; the article and the captions join when they are rewritten.
+# Pages, captions, messages and config.
 READ = [
     *(ROOT / file for file in ("CHANGELOG.md", "CONTRIBUTING.md", "config/README.md", "scripts/conveyor/README.md")),
-    *sorted((ROOT / "workflow/templates").glob("*.md")),
+    *sorted((ROOT / "config").rglob("*.yaml")),
+    *sorted((ROOT / "workflow/report").glob("*.rst")),
+    *sorted((ROOT / "workflow/templates").glob("*.*")),
     *sorted((ROOT / "workflow/templates/site").glob("*.md")),
     *sorted((ROOT / "workflow/rules").glob("*.smk")),
     *sorted((ROOT / "workflow/config").glob("*.py")),
     *sorted((ROOT / "scripts/report").glob("*.html")),
 ]
-LATER = ("article.md", "operating_chart.md")
+LATER = ("operating_chart.md",)
 
 
 def old_phrases(text: str) -> list[str]:

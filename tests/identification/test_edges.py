@@ -37,7 +37,7 @@ def first_below(*intervals):
     ],
 )
 def test_the_edge_lies_above_all_tongues(intervals, expected):
-    found = edges.edge(np.zeros((1, len(PARAMETERS))), SCAN, FURTHER, 1e-6, first_below(*intervals))
+    found = edges.find_edges(np.zeros((1, len(PARAMETERS))), SCAN, FURTHER, 1e-6, first_below(*intervals))
     # The middle of what encloses it.
     assert found == pytest.approx([expected], abs=0.5e-6, nan_ok=True)
 
@@ -45,7 +45,7 @@ def test_the_edge_lies_above_all_tongues(intervals, expected):
 def test_each_row_may_have_a_scan_of_its_own():
     rows = np.zeros((2, len(PARAMETERS)))
     scan = np.array([[17.0, 10.0], [18.0, 11.0]])
-    found = edges.edge(rows, scan, FURTHER, 1e-6, first_below((0.0, 17.3)))
+    found = edges.find_edges(rows, scan, FURTHER, 1e-6, first_below((0.0, 17.3)))
     assert found == pytest.approx([17.3, np.nan], abs=1e-6, nan_ok=True)
 
 

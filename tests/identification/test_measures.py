@@ -43,7 +43,7 @@ NEAR = {
 @pytest.fixture(scope="module")
 def direct() -> dict[str, float]:
     """All quantities at the printed parameters."""
-    return printed.measured(PRINTED, "allow", printed.CONVERGED, NEAR, 1)
+    return printed.measure(PRINTED, "allow", printed.CONVERGED, NEAR, 1)
 
 
 def test_edges_by_the_paper_method_lie_a_little_lower():
@@ -100,7 +100,7 @@ def test_critical_heights_and_their_fit_agree_with_the_claims(direct):
         assert direct[name] == pytest.approx(1e3 * about_states.critical_at(table, acceleration), abs=2e-4), name
     data = table[table.is_critical].sort_values("acceleration")
     one = printed.edges_at(PRINTED, "allow", printed.CONVERGED, NEAR, 1)
-    curve = measures.curve(np.array(NEAR["heights"]), one[None], PRINTED[3:])
+    curve = measures.edge_curve(np.array(NEAR["heights"]), one[None], PRINTED[3:])
     heights = curve.critical_height(data.acceleration.to_numpy()[None])[0]
     assert heights == pytest.approx(data.z0.to_numpy(), abs=3e-7)
     errors = [
@@ -122,11 +122,11 @@ def test_velocities_agree_with_the_claims(direct):
 
 @pytest.fixture(scope="module")
 def interpolated() -> measures.Edges:
-    return measures.edges_of(pd.DataFrame(edges.make(NEAR)), MODEL)
+    return measures.interpolate_edges(pd.DataFrame(edges.make(NEAR)), MODEL)
 
 
 def test_interpolated_edges_are_those_of_the_contact(interpolated, direct):
-    found = measures.at(interpolated, PRINTED[None], "allow", NEAR, measures.by_events)
+    found = measures.quantities_at(interpolated, PRINTED[None], "allow", NEAR, measures.converged_velocities)
     for name, value in found.items():
         assert value[0] == pytest.approx(direct[name], rel=2e-3), name
 
@@ -138,7 +138,7 @@ def test_the_config_knows_what_is_measured(direct):
 def test_friction_moves_velocities_alone(interpolated):
     values = np.tile(PRINTED, (3, 1))
     values[:, 0] = 0.15, 0.20, 0.25
-    found = measures.at(interpolated, values, "allow", NEAR, measures.by_events)
+    found = measures.quantities_at(interpolated, values, "allow", NEAR, measures.converged_velocities)
     for name, value in found.items():
         if name[:3] in ("C05", "C06"):
             assert (np.diff(value) > 0.05).all(), name
@@ -154,7 +154,7 @@ def test_velocities_scale_with_friction_and_the_slope_of_the_excitation(interpol
     values[1, 0] = values[0, 0] * np.tan(values[0, 3]) / np.tan(angle)
     rows = packed(values, "allow", MODEL)
     rows[:, 0] = 8.0 / np.sin(values[:, 3])
-    velocities = measures.by_events(rows) / values[:, 0]
+    velocities = measures.converged_velocities(rows) / values[:, 0]
     assert velocities[0] == pytest.approx(velocities[1], rel=1e-6)
 
 
@@ -162,7 +162,7 @@ def test_velocities_are_those_of_runs():
     rows = np.repeat(packed(PRINTED[None], "clip", MODEL), 3, axis=0)
     rows[:, 0], rows[:, 11] = 40.0, [0.0, 1e-4, 3e-4]
     runs = ensemble.run(rows, tolerance=measures.TOLERANCE)
-    assert measures.by_events(rows).tolist() == runs["mean_velocity"].tolist()
+    assert measures.converged_velocities(rows).tolist() == runs["mean_velocity"].tolist()
 
 
 def test_each_reading_of_tension_has_its_own_edges():
@@ -172,7 +172,7 @@ def test_each_reading_of_tension_has_its_own_edges():
         names=["loss", "stiffness", "tension", "z0"],
     ).to_frame(index=False)
     table = columns.assign(vertical_acceleration=np.where(columns.tension == "clip", 9.0, 8.0) + 1e4 * columns.z0)
-    found = measures.edges_of(table, MODEL)
+    found = measures.interpolate_edges(table, MODEL)
     rows = packed(PRINTED[None], "allow", MODEL)
     for reading, lowest in (("allow", 8.0), ("frictionless", 8.0), ("clip", 9.0)):
         assert measures.vertical_edges(found, rows, reading)[0] == pytest.approx([lowest, lowest + 1.0])
@@ -191,7 +191,7 @@ def test_the_largest_critical_height_is_led_down_to_the_lower_end():
     heights = np.linspace(0.0, 5e-4, 501)
     falling = 50.0 - 4e4 * heights
     found = measures.Curve(heights, np.stack([np.maximum(falling, edge) for edge in (30.0, 31.0)]))
-    one, other = measures.places(found, MEASURED)["C04.largest_height"]
+    one, other = measures.changes_of_state(found, MEASURED)["C04.largest_height"]
     below, above = critical_height(29.0 + np.array([-1e-4, 1e-4]), Hyperbola(**TRIPLE))
     slope = (above - below) / 2e-4
     assert one == pytest.approx(1e3 * (5e-4 - slope), rel=1e-3)
@@ -203,4 +203,4 @@ def test_a_table_with_a_gap_is_refused(interpolated):
         {"loss": [0.2], "stiffness": [5e5], "tension": ["allow"], "z0": [0.0], "vertical_acceleration": [np.nan]}
     )
     with pytest.raises(ValueError, match=r"no edge was found at the loss 0\.2"):
-        measures.edges_of(table, MODEL)
+        measures.interpolate_edges(table, MODEL)

@@ -36,11 +36,11 @@ def test_two_numbers_of_one_quantity():
     x = np.linspace(45.0, 52.0, 7001)
     worst = np.maximum(np.abs(misfit(x, one)), np.abs(misfit(x, other)))
     assert worst.min() == pytest.approx(factor)
-    told = {
+    numbers = {
         findings.UP_ALONE: {"low": one.low, "high": one.high},
         findings.DOWN_ALONE: {"low": other.low, "high": other.high},
     }
-    assert findings.contradiction(told) == factor
+    assert findings.contradiction(numbers) == factor
 
 
 def test_intervals_end_where_the_lowest_profile_has_risen():
@@ -93,14 +93,14 @@ def test_frictions_that_are_accepted(fall, words):
     """Velocities that grow in proportion to friction."""
     friction = np.linspace(0.0, 0.4, 41)
     grown = {"friction": friction, "first_low": 5.0 * friction, "first_high": 10.0 * friction, "fall": fall * friction}
-    told = findings.friction_alone(pd.DataFrame(grown), NUMBERS)
-    assert told.startswith("the lower end is accepted from 0.200 to 0.240, the upper end from 0.190 to 0.210, ")
-    assert told.endswith(words)
+    words_of_all = findings.describe_frictions(pd.DataFrame(grown), NUMBERS)
+    assert words_of_all.startswith("the lower end is accepted from 0.200 to 0.240, the upper end from 0.190 to 0.210, ")
+    assert words_of_all.endswith(words)
 
 
 def test_few_contacts_are_a_coarse_table():
-    assert findings.coarse({"contacts": {"loss": 4, "stiffness": 4}})
-    assert not findings.coarse({"contacts": {"loss": 9, "stiffness": 9}})
+    assert findings.is_coarse({"contacts": {"loss": 4, "stiffness": 4}})
+    assert not findings.is_coarse({"contacts": {"loss": 9, "stiffness": 9}})
 
 
 def test_the_distance_of_fronts_counts_members_of_both():

@@ -74,14 +74,14 @@ def test_the_values_of_a_profile_ascend_within_what_is_searched(parameter):
     assert low <= grid[0] * (1.0 + 1e-9) and grid[-1] <= high * (1.0 + 1e-9)
     assert np.log(grid[-1] / grid[0]) > 0.8 * np.log(high / low)
     for value in grid:
-        left = profiles.hold(parameter, value, BOUNDS, MODEL).bounds
+        left = profiles.hold_parameter(parameter, value, BOUNDS, MODEL).bounds
         assert (np.ptp(left, axis=0) > 0.0).all()
 
 
 @pytest.mark.parametrize("parameter", PARAMETERS)
 def test_a_held_parameter_is_held(parameter):
     value = float(values_of(CENTRE[None], MODEL)[0, list(PARAMETERS).index(parameter)])
-    space = profiles.hold(parameter, value, BOUNDS, MODEL)
+    space = profiles.hold_parameter(parameter, value, BOUNDS, MODEL)
     corners = np.stack(np.meshgrid(*space.bounds.T), axis=-1).reshape(-1, 3)
     whole = space.whole(corners)
     assert values_of(whole, MODEL)[:, list(PARAMETERS).index(parameter)] == pytest.approx(value)
@@ -99,7 +99,7 @@ def test_the_profile_of_a_linear_problem_is_a_parabola():
 
     grid = np.exp(CENTRE[column] + np.array([-0.3, 0.0, 0.3, 0.6]))
     pool = profiles.Pool(CENTRE[None], misfits(CENTRE[None]))
-    found = profiles.profile(misfits, "friction", grid, CENTRE, pool, BOUNDS, MODEL)
+    found = profiles.find_profile(misfits, "friction", grid, CENTRE, pool, BOUNDS, MODEL)
     assert [total for _, total, _ in found] == pytest.approx((3.0 * np.log(grid / grid[1]) - 1.0) ** 2, abs=1e-6)
     assert {status for *_, status in found} == {"ok"}
 
@@ -120,7 +120,7 @@ def test_a_profile_takes_a_better_valley_back_to_where_it_was_not_seen():
     seen[other] += 0.25 * reach
     seen[column] += 0.6
     pool = profiles.Pool(seen[None], misfits(seen[None]))
-    found = profiles.profile(misfits, "friction", grid, begin, pool, BOUNDS, MODEL)
+    found = profiles.find_profile(misfits, "friction", grid, begin, pool, BOUNDS, MODEL)
     assert [total for _, total, _ in found] == pytest.approx([0.1] * 4, abs=1e-5)
 
 
@@ -135,32 +135,32 @@ def test_a_profile_starts_nowhere_twice(monkeypatch):
     monkeypatch.setattr(profiles, "fit", watched)
     grid = np.exp(CENTRE[column] + np.array([-0.3, 0.0, 0.3, 0.6]))
     pool = profiles.Pool(CENTRE[None] + 0.01, np.zeros((1, 1)))
-    profiles.profile(lambda x: x - CENTRE, "friction", grid, CENTRE, pool, BOUNDS, MODEL)
+    profiles.find_profile(lambda x: x - CENTRE, "friction", grid, CENTRE, pool, BOUNDS, MODEL)
     assert len(set(starts_of)) == len(starts_of) > len(grid)
 
 
 def test_status_tells_a_bound_and_a_search_that_gave_up():
     bounds = np.array([[0.0], [1.0]])
-    assert profiles.status_of(profiles.Fit(np.array([1.0]), 0.0, True), bounds) == "at a bound"
-    assert profiles.status_of(profiles.Fit(np.array([0.5]), 0.0, False), bounds) == "not settled"
+    assert profiles.fit_status(profiles.Fit(np.array([1.0]), 0.0, True), bounds) == "at a bound"
+    assert profiles.fit_status(profiles.Fit(np.array([0.5]), 0.0, False), bounds) == "not settled"
 
 
 def test_ends_of_an_interval():
     x = np.array([-3.0, -2.0, -1.0, 0.0, 1.0, 2.0])
     total = x**2
     free = np.zeros(6, dtype=bool)
-    assert findings.ends(x, total, free, 2.5) == ((-1.5, False), (1.5, False))
-    assert findings.ends(x, total, x > 1.5, 2.5) == ((-1.5, False), (1.5, True))
-    assert findings.ends(x, total, free, 5.0) == ((pytest.approx(-2.2), False), None)
+    assert findings.find_ends(x, total, free, 2.5) == ((-1.5, False), (1.5, False))
+    assert findings.find_ends(x, total, x > 1.5, 2.5) == ((-1.5, False), (1.5, True))
+    assert findings.find_ends(x, total, free, 5.0) == ((pytest.approx(-2.2), False), None)
     with pytest.raises(ValueError, match="above the level"):
-        findings.ends(x, total, free, -1.0)
+        findings.find_ends(x, total, free, -1.0)
 
 
 def test_rises_grow_where_the_best_misses_by_more_than_the_errors():
     optima = pd.DataFrame(
         {"evidence": ["a", "a", "b"], "tension": ["allow", "clip", "allow"], "total": [18.0, 20.0, 3.0], "numbers": 10}
     )
-    found = profiles.with_rises(optima, 0.95)
+    found = profiles.add_rises(optima, 0.95)
     assert found.scale.tolist() == [3.0, 3.0, 1.0]
     assert found.rise.tolist() == pytest.approx([3.0 * 3.8415, 3.0 * 3.8415, 3.8415], rel=1e-4)
     assert found.rise_of_all.iloc[2] == pytest.approx(chi2.ppf(0.95, 4))
@@ -187,7 +187,7 @@ def test_objectives_are_root_mean_squares_of_their_groups():
 def test_the_front_of_two_parabolas():
     """Between the zeros of both: the first objective is y/√2, the second 1 - y, and the third can vanish."""
     drawn = np.random.default_rng(1).uniform(*BOUNDS, (50, 4))
-    first = fronts.compromises(conflict, SIZES, drawn, BOUNDS, SETTINGS)
+    first = fronts.fit_compromises(conflict, SIZES, drawn, BOUNDS, SETTINGS)
     x, found, shares = fronts.search(objectives, first, BOUNDS, SETTINGS, 1)
     sums = found[:, 0] * np.sqrt(2.0) + found[:, 1]
     assert sums.min() > 1.0 - 1e-9

@@ -14,7 +14,7 @@ def test_changes_are_numbered_from_below_at_each_conveyor(monkeypatch):
         first = (height < 1.5e-4) | (stripe & (height > 2.5e-4) & (height < 3.5e-4))
         return np.where(first, "first", "second")
 
-    monkeypatch.setattr(critical_heights, "decide", decide)
+    monkeypatch.setattr(critical_heights, "find_states", decide)
     monkeypatch.setattr(critical_heights, "shared_attractors", lambda *_, **__: None)
     found = critical_heights.make(
         {

@@ -77,7 +77,7 @@ def test_witnesses_agree_where_the_motion_is_clear(tables):
 def test_limits_below_the_first_doubling_are_named():
     section = read_config("orbits")["orbits"]
     settings = {**section, "limits": [20.0, 45.0], "max_period": 1, "model": MODEL}
-    with pytest.raises(ValueError, match=r"followed to 45\.\d+ m/s².*upper one of orbits\.limits"):
+    with pytest.raises(ValueError, match=r"up to 45\.\d+ m/s².*upper value of orbits\.limits"):
         branches.make(settings)
 
 
@@ -94,13 +94,13 @@ def test_orbits_to_begin_with_are_found():
     assert len(tables["cascade"]["number"]) == 0
 
 
-def test_no_orbit_to_begin_with_is_told():
-    """In chaos there is no stable one."""
+def test_a_search_without_a_stable_orbit_says_so():
+    """In chaos there is no stable orbit."""
     section = read_config("orbits")["orbits"]
     settings = {**section, "limits": [79.0, 81.0], "cycles": 300, "model": MODEL}
     del settings["seeds"]
     with pytest.raises(
-        ValueError, match=r"orbits\.seeds: no start between \[79\.0, 81\.0\] m/s² ends in a stable orbit"
+        ValueError, match=r"orbits\.seeds: no initial condition between \[79\.0, 81\.0\] m/s² leads to a stable orbit"
     ):
         branches.make(settings)
 
@@ -121,12 +121,12 @@ def test_orbits_of_a_doubled_branch_begin_no_other_one(monkeypatch):
 
 
 def test_an_exponent_within_its_error_is_no_witness_of_chaos(monkeypatch):
-    """λ1 = 1 ± 1 1/s is not told from zero at two standard errors; 3 ± 1 1/s is."""
+    """λ1 = 1 ± 1 1/s does not differ from zero at two standard errors; 3 ± 1 1/s is."""
     last = pd.DataFrame({"acceleration": [50.0, 60.0], "branch": "up", "period": [0, 0], "state": "chaos"})
-    monkeypatch.setattr(witnesses, "starts_on_attractors", lambda *_: (last, None))
+    monkeypatch.setattr(witnesses, "parameters_on_attractors", lambda *_: (last, None))
     monkeypatch.setattr(witnesses, "zero_one_values", lambda *_, **__: np.array([0.99, 0.99]))
     spectrum = last[["acceleration", "branch"]].assign(lambda_1=[1.0, 3.0], stderr=1.0)
     found = witnesses.make(None, spectrum, {"significant": 2.0})
     assert found["by_exponent"].tolist() == [False, True]
     assert found["agree"].tolist() == [False, True]
-    assert "not told from zero" in found["reason"][0]
+    assert "does not differ significantly from 0" in found["reason"][0]

@@ -17,8 +17,8 @@ def test_the_row_of_a_riding_part():
     state = stroboscopic_map.initial_states(row[None], periodic_orbits.TOLERANCE)[0]
     orbit, _ = periodic_orbits.settled_orbit(row, 30.0, state, (1,), 1000)
     returns = periodic_orbits.ReturnMap(row, 1)
-    about = certified.known(7, returns, returns.scaled(30.0, orbit.state))
-    found, _ = certified.timed(SETTINGS, certified.Work(certified.prove_known, (about,)))
+    about = certified.float_orbit(7, returns, returns.scaled(30.0, orbit.state))
+    found, _ = certified.run_task(SETTINGS, certified.Task(certified.prove_float_orbit, (about,)))
     assert found["contained"]
     assert (found["branch"], found["period"], found["impacts"], found["stability"]) == (7, 1, 0, "stable")
     assert orbit.state[0] > 0.0

@@ -47,7 +47,7 @@ def test_nothing_without_a_label(monkeypatch, stream):
     assert sys.stderr.getvalue() == ""
 
 
-def test_a_log_has_the_last_look_of_a_bar(monkeypatch, tmp_path):
+def test_a_log_has_the_final_state_of_a_bar(monkeypatch, tmp_path):
     monkeypatch.setattr(sys, "stderr", Terminal())
     log = tmp_path / "log"
     with logged(str(log)):

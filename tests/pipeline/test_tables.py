@@ -69,8 +69,8 @@ def test_equal_content_gives_equal_bytes(tmp_path):
 @pytest.mark.parametrize(
     ("columns", "schema", "message"),
     [
-        ({"lambda": [1.0]}, SCHEMA, "acceleration lacking"),
-        ({"lambda": [1.0], "mu": [1.0]}, SCHEMA[1:], "mu lacking or unknown"),
+        ({"lambda": [1.0]}, SCHEMA, "acceleration missing"),
+        ({"lambda": [1.0], "mu": [1.0]}, SCHEMA[1:], "mu missing or unknown"),
         ({"lambda": ["fast"]}, SCHEMA[1:], "column lambda of a table of estimates is not double"),
     ],
 )
@@ -123,7 +123,7 @@ def test_another_kind_or_other_settings_are_refused(path):
     tables.write(path, made())
     with pytest.raises(tables.TableError, match="is not a table of sweeps but of estimates; delete it"):
         tables.read(path, "sweeps")
-    with pytest.raises(tables.TableError, match=r"other settings .*\(duration = 1.0, not 2.0\); delete it"):
+    with pytest.raises(tables.TableError, match=r"settings other .*\(duration = 1.0, not 2.0\); delete it"):
         tables.read(path, "estimates", SETTINGS | {"duration": 2.0})
     with pytest.raises(tables.TableError, match=r"\(model.mass = 0.0007, not 0.001\)"):
         tables.read(path, "estimates", SETTINGS | {"model": {"mass": 1.0e-3}})
@@ -156,7 +156,7 @@ def test_shards_of_another_cut_are_refused(tmp_path):
 def test_a_foreign_shard_is_named(tmp_path):
     tables.write(tmp_path / "0.parquet", made())
     tables.write(tmp_path / "1.parquet", made(settings=SETTINGS | {"duration": 2.0}))
-    with pytest.raises(tables.TableError, match=r"1\.parquet was made from other settings"):
+    with pytest.raises(tables.TableError, match=r"1\.parquet was made from settings other than those requested"):
         shards = [tmp_path / "0.parquet", tmp_path / "1.parquet"]
         tables.gather(tmp_path / "all", shards, "estimates", SETTINGS, 6, nothing)
     assert not (tmp_path / "all").exists()
@@ -174,6 +174,6 @@ def test_a_shard_of_other_rows_is_named(tmp_path):
     paths = [tmp_path / "0.parquet", tmp_path / "1.parquet"]
     tables.gather(tmp_path / "all", paths, "estimates", SETTINGS, 4, wanted)
     paths[1].write_bytes(paths[0].read_bytes())
-    with pytest.raises(tables.TableError, match=r"1\.parquet does not hold rows 2 to 3 of its table; delete it"):
+    with pytest.raises(tables.TableError, match=r"1\.parquet does not contain rows 2 to 3 of its table; delete it"):
         tables.gather(tmp_path / "none", paths, "estimates", SETTINGS, 4, wanted)
     assert not (tmp_path / "none").exists()

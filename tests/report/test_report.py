@@ -43,7 +43,7 @@ PAGES = [
     {"heading": "Section 3", "file": "a.html", "figures": [{"name": "fig03", "number": "Fig. 3", "title": "A"}]},
 ]
 FINDINGS = "- **Two exist**, &\n  low (`figures/fig03.pdf`, [C02](docs/claims.md)).\n- None (`figures/fig99.pdf`).\n"
-TOLD = {"heading": "Made with my.yaml.", "text": "Coarse."}
+NOTICE = {"heading": "Made with my.yaml.", "text": "Coarse."}
 
 
 def of_claims() -> pd.DataFrame:
@@ -55,7 +55,7 @@ def of_claims() -> pd.DataFrame:
 @pytest.fixture(scope="module")
 def pages() -> dict[str, str]:
     files = {name: f"{name}.html" for name in ("claims", "provenance")}
-    return summary.make(of_claims(), json.dumps(ORIGIN), 5e-7, PAGES, files, TOLD, FINDINGS)
+    return summary.make(of_claims(), json.dumps(ORIGIN), 5e-7, PAGES, files, NOTICE, FINDINGS)
 
 
 def cells(page: str, place: str) -> list[str]:
@@ -100,16 +100,16 @@ def test_findings_lead_to_their_figures_and_claims(pages):
     assert start.index("Two exist") < start.index("3 statements of the paper")
 
 
-def test_the_provenance_is_told(pages):
-    for told in ("abc", "<td>no</td>", "0123456789abcdef", "2026-01-01", "Linux", "numpy==1.0", "<td>4 s</td>"):
-        assert told in pages["provenance"]
+def test_the_provenance_is_shown(pages):
+    for text in ("abc", "<td>no</td>", "0123456789abcdef", "2026-01-01", "Linux", "numpy==1.0", "<td>4 s</td>"):
+        assert text in pages["provenance"]
 
 
 def test_pictures_keep_white_and_colours_in_few_bytes(tmp_path):
     pixels = np.full((400, 600, 3), 255, dtype=np.uint8)
     pixels[100:200, 100:300] = 0, 114, 178
     Image.fromarray(pixels).save(tmp_path / "figure.png")
-    uri, width = figure_pages.picture(tmp_path / "figure.png")
+    uri, width = figure_pages.encode_picture(tmp_path / "figure.png")
     assert width == 144  # 1 inch of print, half as large again on the screen
     assert uri.startswith("data:image/webp;base64,")
     found = np.asarray(Image.open(io.BytesIO(base64.b64decode(uri.split(",")[1]))).convert("RGB"), dtype=np.int64)
@@ -122,7 +122,7 @@ def test_white_stays_white_among_many_colours(tmp_path):
     pixels[:, 100:200] |= 248  # as at the rim of a letter
     pixels[:, 200:] = 255
     Image.fromarray(pixels).save(tmp_path / "figure.png")
-    uri, _ = figure_pages.picture(tmp_path / "figure.png")
+    uri, _ = figure_pages.encode_picture(tmp_path / "figure.png")
     with Image.open(io.BytesIO(base64.b64decode(uri.split(",")[1]))) as found:
         assert found.getpixel((150, 100)) == (255, 255, 255)
 
@@ -140,9 +140,9 @@ def test_a_page_that_no_browser_shows_is_refused(tmp_path):
 
 
 def test_a_caption_with_a_mistake_is_an_error():
-    assert figure_pages.html("m\\ :sub:`p`\n") == "<p>m<sub>p</sub></p>\n"
+    assert figure_pages.to_html("m\\ :sub:`p`\n") == "<p>m<sub>p</sub></p>\n"
     with pytest.raises(Exception, match="Unknown interpreted text role"):
-        figure_pages.html("m :no:`p`\n")
+        figure_pages.to_html("m :no:`p`\n")
 
 
 @pytest.fixture(scope="module")
@@ -177,11 +177,11 @@ def seen(browser, element) -> bool:
 
 def test_the_report_opens_with_the_summary(browser):
     until(lambda: browser.find_elements(By.CSS_SELECTOR, ".prose h1"))
-    heading, told = (browser.find_element(By.CSS_SELECTOR, f".prose {name}") for name in ("h1", ".told"))
+    heading, notice = (browser.find_element(By.CSS_SELECTOR, f".prose {name}") for name in ("h1", ".notice"))
     assert heading.text == "Dynamics of a vibratory conveyor"
-    assert told.text.startswith("Made with overlay.yaml: a config of its own.")
+    assert notice.text.startswith("Made with overlay.yaml: a config of its own.")
     assert seen(browser, heading)
-    assert seen(browser, told)
+    assert seen(browser, notice)
     # Sections in the paper's order.
     assert [one.text for one in browser.find_elements(By.CSS_SELECTOR, ".prose p strong")][1:] == [
         "Section 3.1",

@@ -40,7 +40,7 @@ def made(tables):
 
 @pytest.fixture(scope="module")
 def chosen(tables):
-    return selection.selected(grid.packed(MODEL), *tables[:2], 1, 2)
+    return selection.select_bifurcations(grid.packed(MODEL), *tables[:2], 1, 2)
 
 
 def test_every_bifurcation_is_chosen_once(chosen):
@@ -57,9 +57,9 @@ def test_every_bifurcation_is_chosen_once(chosen):
 def test_what_is_not_found_again_keeps_its_row_with_a_reason(tables):
     lost = tables[0].iloc[[1]].assign(acceleration=33.0)
     parameters = grid.packed(MODEL)
-    (one,) = selection.selected(parameters, lost, tables[1].iloc[:0], 1, 0)
+    (one,) = selection.select_bifurcations(parameters, lost, tables[1].iloc[:0], 1, 0)
     assert one.point is None
-    rows = list(derivatives.physical_rows(derivatives.move_bifurcation(parameters, one), 1e-4, 1e-5))
+    rows = list(derivatives.physical_rows(derivatives.differentiate_bifurcation(parameters, one), 1e-4, 1e-5))
     assert {row["status"] for row in rows} == {"not found again"}
     assert all(np.isnan(row["derivative"]) for row in rows)
 
@@ -93,7 +93,7 @@ def test_elasticities_by_groups_and_by_parameters_are_one(made):
 
 def test_weights_are_the_derivatives_of_aitkens_process():
     amplitudes = np.array([54.0, 61.0, 62.4, 62.7])
-    found = derivatives.weights(*amplitudes[1:])
+    found = derivatives.aitken_weights(*amplitudes[1:])
     assert found.sum() == pytest.approx(1.0)
     for place in range(3):
         ends = []

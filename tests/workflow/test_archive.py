@@ -65,14 +65,14 @@ def test_a_figure_that_differs_is_named(copy):
     (copy / "figures.json").write_text(json.dumps(drawn))
     run = redraw(copy)
     assert run.returncode == 1
-    assert "1 of 3 figures differ from those of the archive: figures/fig03.pdf" in run.stderr
+    assert "1 of 3 figures differ from the archive: figures/fig03.pdf" in run.stderr
 
 
 def test_a_large_archive_is_refused(built, tmp_path):
     project = Project(shutil.copytree(built.folder, tmp_path / "copy", symlinks=True), {"archive": {"megabytes": 0.5}})
     run = project.snakemake("archive")
     assert run.returncode == 1
-    assert "MB, more than archive.megabytes = 0.5, most of all" in run.stdout
+    assert "MB, more than archive.megabytes = 0.5; largest files" in run.stdout
     assert not (project.folder / "archive/paper").exists()
 
 

@@ -81,13 +81,13 @@ def test_a_changed_result_is_found_with_the_manifest(builds, tmp_path):
 
 
 def test_provenance_tells_all_and_reruns_nothing(builds):
-    told = json.loads((builds[1].folder / PROVENANCE).read_text())
-    assert told["commit"] == told["clean"] == "unknown"
-    assert len(told["config_sha256"]) == 64
-    assert told["config_sha256"] == json.loads((builds[0].folder / PROVENANCE).read_text())["config_sha256"]
-    assert told["threads"] == 1
-    assert told["seconds"]["figures"] > 0.0
-    names = {one.split("==")[0] for one in told["versions"]}
+    recorded = json.loads((builds[1].folder / PROVENANCE).read_text())
+    assert recorded["commit"] == recorded["clean"] == "unknown"
+    assert len(recorded["config_sha256"]) == 64
+    assert recorded["config_sha256"] == json.loads((builds[0].folder / PROVENANCE).read_text())["config_sha256"]
+    assert recorded["threads"] == 1
+    assert recorded["seconds"]["figures"] > 0.0
+    names = {one.split("==")[0] for one in recorded["versions"]}
     assert {"python", "numpy", "numba", "matplotlib", "python-flint", "pymoo", "snakemake"} <= names
     for project in builds:
         assert project.planned("all") == {}

@@ -6,7 +6,7 @@ import shutil
 import pytest
 
 RUNS, SWEEP = "results/shards/amplitudes/0.parquet", "results/sweeps/amplitudes.parquet"
-OTHER = r"was made from other settings than those that are asked for \(model.damping = 0.2, not 0.3\)"
+OTHER = r"was made from settings other than those requested \(model.damping = 0.2, not 0.3\)"
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +26,7 @@ def truncated(path, other):
 
 
 @pytest.mark.parametrize(
-    ("file", "harm", "told"),
+    ("file", "harm", "problem"),
     [
         (RUNS, foreign, OTHER),
         (SWEEP, foreign, OTHER),
@@ -34,13 +34,15 @@ def truncated(path, other):
     ],
     ids=["a shard of another physics", "a sweep of another physics", "a truncated sweep"],
 )
-def test_a_wrong_table_is_named_and_made_again_once_it_is_deleted(copied, damped, file, harm, told):
+def test_a_wrong_table_is_named_and_made_again_once_it_is_deleted(copied, damped, file, harm, problem):
     path = copied.folder / file
     sound = path.read_bytes()
     harm(path, damped / path.relative_to(copied.folder / "results"))
     run = copied.snakemake("figures/fig03.pdf")
     assert run.returncode != 0, run.stdout
-    assert re.search(f"TableError: {file} {told}.*; delete it, and the next run makes it again", run.stdout), run.stdout
+    assert re.search(f"TableError: {file} {problem}.*; delete it, and the next run makes it again", run.stdout), (
+        run.stdout
+    )
     path.unlink()
     copied.make(file)
     assert path.read_bytes() == sound

@@ -20,7 +20,7 @@ rule benchmark:
     params:
         **stage("accuracy.benchmark", "results/benchmark"),
     message:
-        "The solver against the published method"
+        "The solver compared with the published method"
     script:
         "../../scripts/make.py"
 
@@ -47,7 +47,7 @@ rule accuracy:
         "../../scripts/make.py"
 
 
-# First of all jobs, because each scene keeps one core busy for long.
+# These jobs start first, because each scene keeps one core busy for a long time.
 rule precision:
     output:
         precision=table("precision/{name}"),
@@ -63,7 +63,7 @@ rule precision:
         **stage("accuracy.precision", "precision/{name}"),
         timing={name: config["precision"][name] for name in ("repeats", "seconds")},
     message:
-        "Error against work, {wildcards.name}"
+        "Error and work of all methods, {wildcards.name}"
     script:
         "../../scripts/make.py"
 
@@ -86,7 +86,7 @@ rule precision_estimates:
         model=model_without_acceleration(config),
         fit=PAPER_FIT,
     message:
-        "Error against work of the estimates"
+        "Error and work of the estimates"
     script:
         "../../scripts/make.py"
 
@@ -108,7 +108,7 @@ rule scene_budget:
         entries=budgeted_entries(config),
         drawn=budgeted_tables(config),
     message:
-        "Model and duration that the data of each figure need"
+        "Accuracy that the data of each figure need"
     script:
         "../../scripts/make.py"
 
@@ -127,7 +127,7 @@ rule rigid_part:
         **stage("accuracy.rigid_part", "results/rigid_part"),
         entry=settings_of(config, "sweeps/amplitudes"),
     message:
-        "A rigid part instead of the contact law"
+        "A rigid part instead of the compliant contact"
     script:
         "../../scripts/make.py"
 
@@ -144,7 +144,7 @@ rule theory:
     params:
         **stage("accuracy.theory", "results/theory"),
     message:
-        "The solver against published theory"
+        "The solver compared with published theory"
     script:
         "../../scripts/make.py"
 

@@ -1,4 +1,4 @@
-# What a build holds, and where it comes from: the last files of all.
+# Manifest, provenance and archive of a build, which are made after all other files.
 import hashlib
 import json
 
@@ -17,14 +17,14 @@ BUILT = [
 # Kinds of tables with measured times, which differ from build to build, and the figures that are drawn from them.
 TIMED = {"benchmark", "precision_times", "certificate_times", "budget_times"}
 TIMED_FIGURES = [name for name, entry in config["figures"].items() if TIMED & {*map(kind_of, entry["tables"].values())}]
-# The sources that draw the figures of an archive again and make its results again.
+# Sources in an archive, with which its figures and results can be made again.
 ARCHIVED = [
     *("Snakefile", "README.md", "LICENSE", "CITATION.cff", "CONTRIBUTING.md", "CHANGELOG.md", "pyproject.toml"),
     *("environment.txt", "conveyor.def", "config/**/*", "workflow/**/*", "profiles/**/*", "scripts/**/*", "tests/**/*"),
 ]
 
 
-# Last of all, and alone: it needs no other core, but records how many cores there are.
+# The last job, which runs alone: it needs one core, but records how many there are.
 rule provenance:
     input:
         BUILT,
@@ -80,6 +80,6 @@ rule archive:
         megabytes=config["archive"]["megabytes"],
         code=source_hash("archive"),
     message:
-        "An archive of the figures and what they are made from"
+        "An archive of the figures, their tables and the sources"
     script:
         "../../scripts/archive.py"

@@ -4,7 +4,7 @@ from workflow.config.tables import ON_REQUEST, references, tighter_claims
 # Each claim alone.
 CLAIM = {name: {name: claim} for name, claim in config["claims"].items()}
 TIGHTER_CLAIMS = tighter_claims(config)
-# The tests of the results, which are about the conveyor of the paper, and the tables that they read.
+# Tests of the results, which apply to the paper's conveyor only, and the tables that they read.
 RESULT_TESTS = [] if OWN_MACHINE else sources("tests/results/*.py")
 CHECKED = [result("checked.txt")] if RESULT_TESTS else []
 TESTED_TABLES = [

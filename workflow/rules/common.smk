@@ -1,4 +1,4 @@
-# What rules share: names of files, common params, and the functions that rules call.
+# Names of files, common params and functions that the rules share.
 import os
 import re
 import signal

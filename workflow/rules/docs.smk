@@ -8,7 +8,7 @@ from workflow.config.tables import TABLES, published_scenes
 DOCS, PROJECT = (result("docs/"), result("docs/")) if PREFIX else ("docs/", "")
 SCENES = published_scenes(config)
 SCENE_FILES = [f"{DOCS}benchmark/{scene}.json" for scene in SCENES]
-# What fills the template of each page on one topic.
+# Inputs that fill the template of each page.
 PAGES = {
     "add_your_solver": {"scenes": SCENE_FILES, "example": source("scripts/accuracy/example_solver.py")},
     "certificates": tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),

@@ -70,6 +70,6 @@ rule identification_profiles:
     params:
         **stage("identification.profiles", "identification/profiles"),
     message:
-        "Intervals of confidence for each parameter"
+        "Confidence interval of each parameter"
     script:
         "../../scripts/make.py"

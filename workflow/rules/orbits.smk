@@ -1,4 +1,4 @@
-# Periodic orbits, attractors over the amplitude, their Lyapunov exponents, whether they are chaotic, and what is proved.
+# Periodic orbits, attractors over the amplitude, their Lyapunov exponents, tests for chaos, and proofs.
 
 
 rule estimates:

@@ -41,7 +41,7 @@ rule report_figures:
     params:
         **stage("report.figure_pages"),
         pages=REPORT_PAGES,
-        told=REPORT_NOTICE,
+        notice=REPORT_NOTICE,
     message:
         "The figures with their captions for the report"
     script:
@@ -69,7 +69,7 @@ rule report_summary:
         step=config["solver"]["step"],
         pages=list(REPORT_PAGES.values()),
         files={name: f"{REPORT}/{name}.html" for name in ("claims", "provenance")},
-        told=REPORT_NOTICE,
+        notice=REPORT_NOTICE,
     message:
         "The start page of the report"
     script:

@@ -11,7 +11,7 @@ from conveyor.parameters import PARAMETERS, RANGES, TANGENTIAL
 from figures import style
 
 HERE = Path(__file__).parent
-# Files that go into page.html, each in place of the comment with its name.
+# Files inserted into page.html, each in place of the comment with its name.
 SOLVER = ("polynomials", "conveyor", "flight", "contact", "friction", "trajectory", "attractor", "euler")
 SCRIPTS = ("shared", "controls", "state_maps", "plots", "scene", "page")
 PARTS = ("page.css", *(f"solver/{name}.js" for name in SOLVER), *(f"{name}.js" for name in SCRIPTS))
@@ -20,19 +20,19 @@ LAST = 0.25  # share of the run over which the paper takes mean velocities (Sect
 
 
 def encode(table: pd.DataFrame) -> dict:
-    """A state map as the page reads it, from a sweep over two parameters.
+    """A state map for the page, from a sweep over two parameters.
 
     Returns
     -------
     dict
-        x, y: name, start, stop (SI units) and number of values of both axes, the phase upwards; model: what all points
-        share; states: indices in STATES, the rows of y one after the other, four to a byte from the lowest bits on, in
-        base64
+        x, y: name, start, stop (SI units) and number of values of both axes, the phase on y
+        model: the parameters that all points share
+        states: indices in STATES, row by row along y, in base64; four to a byte, lowest bits first
 
     Raises
     ------
     ValueError
-        if the table is no sweep over two parameters in even steps
+        if the table is not a sweep over two parameters with even steps
     """
     names = list(table.attrs["axes"])
     if len(names) != 2:
@@ -63,7 +63,7 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
     Raises
     ------
     ValueError
-        if a table is no state map, or a part does not fit into page.html
+        if a table is not a state map, or a file cannot be inserted into page.html
     """
     own = settings["companion"]
     data = {
@@ -85,7 +85,7 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
     }
     text = (HERE / "page.html").read_text(encoding="utf-8")
     parts = {name: (HERE / name).read_text(encoding="utf-8").strip() for name in PARTS}
-    # Inside a script "</" could end it; in JSON it may be written so.
+    # "</" could end the script element; "<\/" is the same in JSON.
     parts["data"] = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":")).replace("</", "<\\/")
     for name, part in parts.items():
         mark = f"/* {name} */"

@@ -1,4 +1,4 @@
-"""Basin stability: the velocity of each motion over the amplitude, as thick as the share of starts that end in it."""
+"""Basin stability: velocity of each attractor over the amplitude; line width: share of initial conditions."""
 
 import numpy as np
 import pandas as pd
@@ -8,28 +8,27 @@ from matplotlib.axis import Axis
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from figures import style
 
-THICKEST = 6.0  # points: the width of a line for all starts
-THINNEST = 0.5  # points, so that the rarest motion is seen
+THICKEST = 6.0  # points: line width for all initial conditions
+THINNEST = 0.5  # points, so that the rarest motion is visible
 SHOWN = (0.05, 0.5, 1.0)  # shares in the legend
 
 
 def width(share: np.ndarray | float) -> np.ndarray:
-    """Width of a line in points for a share of the starts."""
+    """Line width in points for a share of the initial conditions."""
     return THINNEST + (THICKEST - THINNEST) * np.asarray(share)
 
 
 def ends_of(amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Where the piece of an axis begins and ends that stands for each of some amplitudes, ascending, shape (m,)."""
+    """Ends of the interval around each of some ascending amplitudes, shape (m,): half-way to its neighbours."""
     between = 0.5 * (amplitudes[1:] + amplitudes[:-1])
     return np.concatenate([amplitudes[:1], between]), np.concatenate([between, amplitudes[-1:]])
 
 
 def throw_axis(axes: Axes, shares: pd.DataFrame) -> Axis:
-    """An axis above for the throw number."""
+    """Add an axis for the throw number above the panel."""
     unit = shares.acceleration.iloc[0] / shares.vertical.iloc[0]
     above = axes.secondary_xaxis("top", functions=(lambda x: x / unit, lambda x: x * unit))
     above.set_xlabel(style.THROW_NUMBER)
@@ -37,7 +36,7 @@ def throw_axis(axes: Axes, shares: pd.DataFrame) -> Axis:
 
 
 def draw_motions(axes: Axes, shares: pd.DataFrame, over: str) -> None:
-    """Draw the velocity of each motion over a column of the table, as thick as its share of the starts."""
+    """Draw the velocity of each motion over a column of the table; line width: its share of the initial conditions."""
     places = np.sort(shares[over].unique())
     begin, end = ends_of(places)
     pieces = [
@@ -45,20 +44,22 @@ def draw_motions(axes: Axes, shares: pd.DataFrame, over: str) -> None:
         for k, velocity in zip(np.searchsorted(places, shares[over]), shares.mean_velocity, strict=True)
     ]
     colours = shares.state.map(style.STATE_COLOURS)
-    # Without smoothed edges, which would leave hairlines between the pieces.
+    # No antialiasing: it would leave hairlines between the pieces.
     axes.add_collection(LineCollection(pieces, linewidths=width(shares.share), colors=colours, antialiaseds=False))
     axes.set_xlim(places[0], places[-1])
 
 
-def share_handles(states: set[str]) -> list[Artist]:
-    """Handles of a legend of states and of shares of the starts."""
-    handles = [Patch(color=colour, label=state) for state, colour in style.STATE_COLOURS.items() if state in states]
-    handles += [Line2D([], [], color="0.3", linewidth=width(share), label=f"{100.0 * share:g} %") for share in SHOWN]
-    return [*handles, Patch(color="none", label="of the starts")]
+def share_handles(shares: pd.DataFrame) -> list[Artist]:
+    """Legend handles of states and of shares of the initial conditions."""
+    handles = style.state_handles(shares)
+    labels = [f"{100.0 * share:g} %" for share in SHOWN]
+    labels[-1] += " of the initial conditions"
+    widths = zip(SHOWN, labels, strict=True)
+    return handles + [Line2D([], [], color="0.3", linewidth=width(share), label=label) for share, label in widths]
 
 
 def plot(*, shares: pd.DataFrame) -> Figure:
-    """Draw the shares of the starts in each motion."""
+    """Draw the velocity and the share of initial conditions of each motion."""
     figure = style.figure(style.PAGE, 92.0)
     axes = figure.subplots()
     draw_motions(axes, shares, "acceleration")
@@ -68,6 +69,6 @@ def plot(*, shares: pd.DataFrame) -> Figure:
     axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel(style.VELOCITY)
     throw_axis(axes, shares)
-    handles = share_handles(set(shares.state))
+    handles = share_handles(shares)
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), columnspacing=1.2)
     return figure

@@ -1,4 +1,4 @@
-"""Bifurcation diagram: attractors swept up and down, branches of periodic orbits, and Lyapunov exponents below."""
+"""Bifurcation diagram: attractors swept up and down and branches of periodic orbits; below, Lyapunov exponents."""
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -36,7 +36,7 @@ def plot(
     orbits, found = (table[table.period <= longest_period] for table in (branches, bifurcations))
     for _, rows in orbits.groupby(["branch", "cycle"]):
         for stable, look in ((True, {"linewidth": 0.7}), (False, {"linewidth": 0.5, "linestyle": (0, (3, 2))})):
-            # A gap in a line where stability changes.
+            # NaN leaves a gap in the line where the stability changes.
             shown = rows.v.where(rows.stable == stable)
             diagram.plot(rows.acceleration, shown, color="black", zorder=2, **look)
     for kind, (marker, label) in MARKERS.items():
@@ -52,22 +52,21 @@ def plot(
             zorder=3,
             label=label,
         )
-    # Where no doublings were found, or too few, nothing is known of where they accumulate.
-    accumulation = cascade.accumulation.dropna().tail(1)
-    for place in accumulation:
+    # Too few period doublings have no accumulation point.
+    for place in cascade.accumulation.dropna().tail(1):
         for axes in (diagram, exponents):
             axes.axvline(place, color="0.5", linewidth=0.6, linestyle=":")
-        style.note(exponents, "doublings accumulate", (place, 0.05), (3, 0), xycoords=("data", "axes fraction"))
+        style.note(exponents, "period doublings accumulate", (place, 0.05), (3, 0), xycoords=("data", "axes fraction"))
     for branch, rows in spectrum.groupby("branch", sort=False):
         exponents.plot(
-            rows.acceleration, rows.lambda_1, color=DIRECTIONS[branch], linewidth=0.6, label=f"swept {branch}"
+            rows.acceleration, rows.lambda_1, color=DIRECTIONS[branch], linewidth=0.6, label=f"amplitude swept {branch}"
         )
     exponents.axhline(0.0, color="black", linewidth=0.6)
     exponents.set_ylim(lowest_exponent, 1.15 * spectrum.lambda_1.max())
     diagram.plot([], [], color="black", linewidth=0.7, label="stable orbit")
     diagram.plot([], [], color="black", linewidth=0.5, linestyle=(0, (3, 2)), label="unstable orbit")
     diagram.set_ylabel("speed of approach $v$ at $\\psi$ = $\\psi_0$ in m/s")
-    exponents.set_ylabel("$\\lambda_1$ in 1/s")
+    exponents.set_ylabel("exponent $\\lambda_1$ in 1/s")
     exponents.set_xlabel(style.AMPLITUDE)
     exponents.set_xlim(strobes.acceleration.min(), strobes.acceleration.max())
     figure.align_ylabels()

@@ -1,4 +1,4 @@
-"""Proved periodic orbits on their branches, widths of their enclosures, and brackets of folds and doublings."""
+"""Proved periodic orbits on their branches, widths of their enclosures, and brackets of folds and period doublings."""
 
 import numpy as np
 import pandas as pd
@@ -11,17 +11,17 @@ PROVED = {
     "unstable": {"color": style.EULER, "marker": "o", "markerfacecolor": "white", "label": "proved unstable"},
     "open": {"color": "black", "marker": "x", "label": "not proved"},
 }
-# Okabe and Ito's colours again, from light to dark.
+# Colours of Okabe and Ito, from light to dark.
 PERIODS = {1: "#56B4E9", 2: "#E69F00", 4: "#009E73", 8: "#CC79A7", 16: "#000000"}
 
 
-def name_of(row) -> str:
-    """ "fold" or "1 → 2", cycles before and after a doubling."""
+def bifurcation_label(row) -> str:
+    """ "fold", or the periods in cycles before and after a period doubling, "1 → 2"."""
     return "fold" if row.kind == "fold" else f"{row.period} → {2 * row.period}"
 
 
 def plot(*, branches: pd.DataFrame, orbits: pd.DataFrame, bifurcations: pd.DataFrame, longest_period: int) -> Figure:
-    """Draw the certificates `orbits` on the branches of up to `longest_period` cycles, and proved bifurcations."""
+    """Draw the certified `orbits` and bifurcations on the branches of up to `longest_period` cycles."""
     figure = style.figure(style.PAGE, 130.0)
     grid = figure.add_gridspec(2, 2, height_ratios=(2.2, 1.0), width_ratios=(2.0, 1.0))
     diagram, widths, brackets = (figure.add_subplot(place) for place in (grid[0, :], grid[1, 0], grid[1, 1]))
@@ -42,19 +42,20 @@ def plot(*, branches: pd.DataFrame, orbits: pd.DataFrame, bifurcations: pd.DataF
     diagram.set_ylabel("speed of approach $v$ at $\\psi$ = $\\psi_0$ in m/s")
     style.legend_above(figure, diagram, ncols=4)
 
-    held = orbits[orbits.contained]
-    for period, rows in held.groupby("period"):
+    for period, rows in orbits[orbits.contained].groupby("period"):
         colour = PERIODS.get(period, "0.5")
         widths.plot(rows.acceleration, rows.half_width, ".", markersize=3.5, color=colour, label=f"{period}")
     widths.set_yscale("log")
     widths.set_xlim(diagram.get_xlim())
     widths.set_xlabel(style.AMPLITUDE)
     widths.set_ylabel("half-width of enclosures\nin $g/\\omega^2$ and $g/\\omega$")
-    widths.legend(title="cycles", title_fontsize=7.0, ncols=5, loc="upper left", columnspacing=0.8, handletextpad=0.1)
+    widths.legend(
+        title="period in cycles", title_fontsize=7.0, ncols=5, loc="upper left", columnspacing=0.8, handletextpad=0.1
+    )
     low, high = widths.get_ylim()
     widths.set_ylim(low, high * (high / low) ** 0.45)
 
-    names = [name_of(row) for row in proved.itertuples()]
+    names = [bifurcation_label(row) for row in proved.itertuples()]
     sizes = (proved.acceleration_high - proved.acceleration_low).to_numpy()
     brackets.plot(sizes, np.arange(len(names)), "o", color="black", markersize=3.0)
     for place, row in enumerate(proved.itertuples()):

@@ -8,7 +8,7 @@ from matplotlib.patches import Arc, Circle, Rectangle
 from figures import style
 from figures.plots.fig01 import arrow
 
-THROW = math.radians(25.0)  # drawn steeper than the paper's 12°, to be seen
+THROW = math.radians(25.0)  # steeper than the 12° of the paper, so that it is visible
 
 
 def plot() -> Figure:

@@ -5,11 +5,11 @@ from matplotlib.figure import Figure
 
 from figures import style
 
-LOWEST = 1e-6  # m/s, of the axis: lines of the riding part fall to the noise of the samples below it
+LOWEST = 1e-6  # m/s, end of the axis: below, lines of the riding part vanish in the noise of the samples
 
 
 def plot_signal(converged: pd.DataFrame, euler: pd.DataFrame, signal: str, symbol: str, highest: float) -> Figure:
-    """One signal of the spectra `converged` and `euler` at two amplitudes up to the frequency `highest` (Hz)."""
+    """Draw the spectra of one signal at two amplitudes up to the frequency `highest` (Hz)."""
     figure = style.figure(style.PAGE, 60.0)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
     looks = {

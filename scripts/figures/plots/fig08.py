@@ -1,4 +1,4 @@
-"""Fig. 8: feeding velocities for several initial heights, paper's method and converged solution side by side."""
+"""Fig. 8: feeding velocities for several initial heights, published method and converged solution side by side."""
 
 import numpy as np
 import pandas as pd
@@ -9,11 +9,12 @@ from matplotlib.patches import Patch
 from conveyor.solver.model import Conveyor, conveyor_motion
 from figures import style
 
-WIDE = 0.05  # share of the largest velocity by which half of the runs of one motion differ where they have not settled
+# Interquartile range of the velocities of one motion, over the largest velocity, above which runs have not settled.
+WIDE = 0.05
 
 
 def plate_velocity(sweep: pd.DataFrame) -> tuple[list[float], list[float]]:
-    """Ends of the straight line of the plate's largest velocity (m/s) over the amplitude (m/s²)."""
+    """End points of the straight line of the plate's largest velocity (m/s) over the amplitude (m/s²)."""
     model = {name: value for name, value in sweep.attrs["model"].items() if name not in ("z0", "vz0")}
     ends = [sweep.acceleration.min(), sweep.acceleration.max()]
     cycle = np.linspace(0.0, 1.0 / model["frequency"], 721)
@@ -22,7 +23,10 @@ def plate_velocity(sweep: pd.DataFrame) -> tuple[list[float], list[float]]:
 
 
 def unsettled(sweep: pd.DataFrame) -> tuple[float, float] | None:
-    """Middle of the amplitudes (m/s²) at which most runs to the second state scatter, and their low velocity (m/s)."""
+    """The median amplitude (m/s²) at which runs in the second state have not settled, and their low velocity (m/s).
+
+    None if all runs have settled.
+    """
     runs = sweep[sweep.state == "second"].groupby("acceleration").mean_velocity
     low, high = runs.quantile(0.25), runs.quantile(0.75)
     wide = low[high - low > WIDE * sweep.mean_velocity.max()]
@@ -60,7 +64,7 @@ def plot(
         style.from_zero(axes)
     present = {state for sweep in sweeps.values() for state in sweep.state}
     handles = {
-        state: Line2D([], [], color=colour, marker="o", linestyle="")
+        style.state_label(state): Line2D([], [], color=colour, marker="o", linestyle="")
         for state, colour in style.STATE_COLOURS.items()
         if state in present
     }

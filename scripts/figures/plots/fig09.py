@@ -15,7 +15,7 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame | None = None, critical
     panels = style.method_panels(figure, sweeps, "initial height $z_0$ in mm", style.VELOCITY)
     for axes, sweep in zip(panels, sweeps.values(), strict=True):
         curves = sweep.groupby("acceleration")
-        # Without the palest end of the map, which would be lost on white.
+        # The palest end of the colour map would be lost on white.
         colours = colormaps["viridis"](np.linspace(0.0, 0.85, len(curves)))
         for colour, (acceleration, rows) in zip(colours, curves, strict=True):
             axes.plot(1e3 * rows.z0, rows.mean_velocity, color=colour, linewidth=0.8, label=f"{acceleration:g} m/s²")

@@ -1,4 +1,4 @@
-"""Fig. 10: critical initial height over the acceleration amplitude, with Eq. 13 fitted to it."""
+"""Fig. 10: critical initial height over the acceleration amplitude, and fits of Eq. 13."""
 
 import numpy as np
 import pandas as pd
@@ -8,8 +8,8 @@ from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
 from figures import style
 
 
-def triple(fits: pd.DataFrame, fit: str) -> Hyperbola:
-    """A, B and C of one of the fits in a table of regressions."""
+def select_fit(fits: pd.DataFrame, fit: str) -> Hyperbola:
+    """A, B and C of one fit in a table of regressions."""
     return Hyperbola(*fits.set_index("fit").loc[fit, ["A", "B", "C"]])
 
 
@@ -25,8 +25,8 @@ def plot(
     axes = figure.subplots()
     edge = converged[converged.is_critical]
     curves = (
-        (fit, "pymoo", style.CONVERGED, "-", "Eq. 13, fitted to converged"),
-        (fit_euler, "pymoo", style.EULER, "-", "Eq. 13, fitted to the paper's method"),
+        (fit, "pymoo", style.CONVERGED, "-", "Eq. 13 fitted to the converged solution"),
+        (fit_euler, "pymoo", style.EULER, "-", "Eq. 13 fitted to the published method"),
         (fit, "paper", "black", ":", "Eq. 13 with the paper's A, B, C"),
     )
     for fits, name, colour, line, label in curves:
@@ -34,7 +34,7 @@ def plot(
             continue
         ends = fits.attrs.get("acceleration", (edge.acceleration.min(), edge.acceleration.max()))
         fitted = np.linspace(*ends, 200)
-        height = 1e3 * critical_height(fitted, triple(fits, name))
+        height = 1e3 * critical_height(fitted, select_fit(fits, name))
         axes.plot(fitted, height, line, color=colour, linewidth=0.8, label=label)
     hollow = {"markerfacecolor": "none", "markeredgewidth": 0.6, "linestyle": ""}
     if euler is not None:
@@ -57,14 +57,14 @@ def plot(
             marker="v",
             markersize=3.0,
             color=style.CONVERGED,
-            label="converged, back to the first state",
+            label="converged solution, return to the first state",
             **hollow,
         )
     axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel("critical initial height $z_0$ in mm")
     axes.set_ylim(bottom=0.0)
     if edge.empty:
-        axes.annotate("no change of state over these heights", (0.5, 0.5), xycoords="axes fraction", ha="center")
+        axes.annotate("no change of state at these heights", (0.5, 0.5), xycoords="axes fraction", ha="center")
     if fit.empty:
         axes.plot([], [], " ", label=f"no fit of Eq. 13 to {edge.acceleration.nunique()} amplitudes")
     axes.legend()

@@ -1,4 +1,4 @@
-"""Fig. 11: feeding velocities for initial heights chosen such that two states exist in a given interval only."""
+"""Fig. 11: feeding velocities for initial heights with which two states coexist in a given interval only."""
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -18,6 +18,6 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, two_states: list[float
             colour = style.STATE_COLOURS[state]
             axes.plot(rows.acceleration, rows.mean_velocity, ".", markersize=2.0, markeredgewidth=0.0, color=colour)
     panels[0].set_ylim(bottom=0.0)
-    wanted = Patch(color="0.93", label="two states wanted")
-    panels[0].legend(handles=[*style.state_handles(euler, converged), wanted], loc="upper left")
+    intended = Patch(color="0.93", label="two states intended (paper)")
+    panels[0].legend(handles=[*style.state_handles(euler, converged), intended], loc="upper left")
     return figure

@@ -1,4 +1,4 @@
-"""Fig. 13: map of the state of motion over the initial height and the phase, for a part that starts at rest."""
+"""Fig. 13: map of the state of motion over the initial height and the phase; initial velocity zero."""
 
 import numpy as np
 import pandas as pd
@@ -9,12 +9,12 @@ from conveyor.solver.model import Conveyor, conveyor_motion
 from figures import style
 
 
-def phase_map(table: pd.DataFrame, name: str, label: str, start: str) -> tuple[Figure, Axes]:
-    """A map over psi0 and another initial condition, by its column and label, with what all parts start with."""
+def draw_phase_map(table: pd.DataFrame, name: str, label: str, fixed: str) -> tuple[Figure, Axes]:
+    """Draw a map over psi0 and the column `name` with its axis label; `fixed` is the common initial condition."""
     figure = style.figure(style.COLUMN, 76.0)
     axes = figure.subplots()
     style.state_map(axes, table, name, "psi0")
-    axes.set_title(f"$\\hat{{a}}$ = {table.attrs['model']['acceleration']:g} m/s², {start}")
+    axes.set_title(f"$\\hat{{a}}$ = {table.attrs['model']['acceleration']:g} m/s², {fixed}")
     axes.set_xlabel(label)
     axes.set_ylabel("initial phase $\\psi_0$ in rad")
     style.phase_axis(axes.yaxis)
@@ -25,12 +25,11 @@ def phase_map(table: pd.DataFrame, name: str, label: str, start: str) -> tuple[F
 
 def plot(*, map: pd.DataFrame) -> Figure:
     """Draw a sweep over psi0 and z0; a line shows the height of the plate."""
-    figure, axes = phase_map(map.assign(z0=1e3 * map.z0), "z0", "initial height $z_0$ in mm", "$\\dot{z}_0$ = 0")
+    figure, axes = draw_phase_map(map.assign(z0=1e3 * map.z0), "z0", "initial height $z_0$ in mm", "$\\dot{z}_0$ = 0")
     model = {name: value for name, value in map.attrs["model"].items() if name != "vz0"}
     phases = np.linspace(map.psi0.min(), map.psi0.max(), 200)
     plate = conveyor_motion(Conveyor(**model), phases / (2.0 * np.pi * model["frequency"]))["z"]
     axes.plot(1e3 * plate[plate >= 0.0], phases[plate >= 0.0], color="white", linewidth=1.0)
     top = plate.argmax()
-    beside = {"xytext": (3, 0), "textcoords": "offset points", "va": "center", "size": 7.0}
-    axes.annotate("plate", (1e3 * plate[top], phases[top]), color="white", **beside)
+    style.note(axes, "plate", (1e3 * plate[top], phases[top]), (3, 0), color="white", va="center")
     return figure

@@ -7,11 +7,11 @@ from matplotlib.figure import Figure
 from figures import style
 
 MARKERS = "os^v"
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
+COLOURS = ("#0072B2", "#D55E00", "#000000", "#CC79A7")
 
 
 def plot(*, impacts: pd.DataFrame) -> Figure:
-    """Draw impacts over acceleration and z0, which lie on the line of Eqs. 17 and 18."""
+    """Draw impacts over acceleration and z0 with the straight line of Eqs. 17 and 18."""
     figure = style.figure(style.COLUMN, 70.0)
     axes = figure.subplots()
     model = impacts.attrs["model"]

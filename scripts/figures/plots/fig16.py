@@ -7,7 +7,7 @@ from figures import style
 
 
 def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, acceleration: float, z0: float) -> Figure:
-    """Draw signals of the run with this `acceleration` (m/s²) and `z0` (m)."""
+    """Draw the signals at one `acceleration` (m/s²) and one `z0` (m)."""
     figure = style.figure(style.PAGE, 100.0)
     (velocity, contact), (height, friction) = figure.subplots(2, 2, sharex=True)
     looks = (

@@ -1,4 +1,4 @@
-"""Fig. 19: the map of Fig. 14 at an amplitude at which chaos exists beside the first and the second state."""
+"""Fig. 19: the map of Fig. 14 at an amplitude at which the first state, the second state and chaos coexist."""
 
 from figures.plots.fig14 import plot
 

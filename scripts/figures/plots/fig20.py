@@ -1,4 +1,4 @@
-"""Fig. 20: Lyapunov exponent of z_p by finite differences in z0, paper's method and converged solution."""
+"""Fig. 20: Lyapunov exponent of z_p by finite differences in z0, published method and converged solution."""
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -13,7 +13,10 @@ def plot(
     euler: pd.DataFrame | None = None,
     first_positive: float | None = None,
 ) -> Figure:
-    """Draw estimates, shade where a critical height of `edge` parts the runs, and mark `first_positive` (m/s²)."""
+    """Draw estimates and mark `first_positive` (m/s²).
+
+    Amplitudes are shaded where a critical height of `edge` lies between the two initial heights of the estimate.
+    """
     estimates = style.drop_missing(euler=euler, converged=converged)
     figure = style.figure(style.COLUMN, 16.0 + 34.0 * len(estimates))
     panels = figure.subplots(len(estimates), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
@@ -25,7 +28,7 @@ def plot(
         if len(between):
             axes.axvspan(between.min(), between.max(), color="0.88", linewidth=0.0, zorder=0)
             style.note(
-                axes, "two basins", (between.max(), 0.08), (3, 0), xycoords=("data", "axes fraction"), va="center"
+                axes, "different basins", (between.max(), 0.08), (3, 0), xycoords=("data", "axes fraction"), va="center"
             )
         if first_positive is not None:
             axes.axvline(first_positive, color="black", linewidth=0.6, linestyle=":")

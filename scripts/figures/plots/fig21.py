@@ -6,11 +6,11 @@ from matplotlib.figure import Figure
 
 from figures import style
 
-LEAST = 1e-12  # m/s: where both parts slip they have the same velocity but for rounding
+LEAST = 1e-12  # m/s: below, differences are rounding errors of parts that both slip
 
 
 def plot(*, converged: pd.DataFrame, euler: pd.DataFrame) -> Figure:
-    """Draw signals at two phases and their distance."""
+    """Draw signals at two phases, and the distance between them."""
     figure = style.figure(style.PAGE, 116.0)
     panels = figure.subplots(3, 2, sharex=True, sharey="row")
     signals = (
@@ -19,24 +19,24 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame) -> Figure:
     )
     for column, (table, colour, title) in zip(panels.T, signals, strict=True):
         position, velocity, difference = column
-        (low, base), (high, perturbed) = table.groupby("psi0")
+        (low, reference), (high, perturbed) = table.groupby("psi0")
         mantissa, exponent = f"{high - low:.0e}".split("e")
         for axes, name, scale in ((position, "x", 1e3), (velocity, "vx", 1.0)):
-            axes.plot(base.time, scale * base[name], color=colour, linewidth=1.4, label="base")
+            axes.plot(reference.time, scale * reference[name], color=colour, linewidth=1.4, label="reference")
             axes.plot(
                 perturbed.time,
                 scale * perturbed[name],
                 color="black",
                 linewidth=0.6,
-                label=f"$\\psi_0$ larger by ${mantissa}\\cdot 10^{{{int(exponent)}}}$ rad",
+                label=f"perturbed: $\\psi_0$ larger by ${mantissa}\\cdot 10^{{{int(exponent)}}}$ rad",
             )
-        distance = np.abs(perturbed.vx.to_numpy() - base.vx.to_numpy())
-        difference.semilogy(base.time, distance, color=colour, linewidth=0.7)
+        distance = np.abs(perturbed.vx.to_numpy() - reference.vx.to_numpy())
+        difference.semilogy(reference.time, distance, color=colour, linewidth=0.7)
         difference.set_ylim(bottom=LEAST)
         position.set_title(title)
         position.legend(loc="upper left")
         difference.set_xlabel("time in s")
-        difference.set_xlim(base.time.min(), base.time.max())
+        difference.set_xlim(reference.time.min(), reference.time.max())
     for axes, label in zip(
         panels[:, 0],
         ("position $x_p$ in mm", "feeding velocity $\\dot{x}_p$ in m/s", "distance $|\\Delta\\dot{x}_p|$ in m/s"),

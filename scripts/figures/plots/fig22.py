@@ -1,4 +1,4 @@
-"""Fig. 22: Lyapunov exponent of the feeding velocity by finite differences, paper's method and converged solution."""
+"""Fig. 22: Lyapunov exponent of the feeding velocity by finite differences, published method and converged solution."""
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -9,7 +9,7 @@ from figures import style
 def plot(
     *, converged: pd.DataFrame, euler: pd.DataFrame | None = None, critical_acceleration: float | None = None
 ) -> Figure:
-    """Draw estimates over the amplitude, and mark `critical_acceleration` (m/s²)."""
+    """Draw estimates of the exponent over the amplitude, and mark `critical_acceleration` (m/s²)."""
     figure = style.figure(style.COLUMN, 62.0)
     axes = figure.subplots()
     axes.axhline(0.0, color="black", linewidth=0.6)

@@ -9,7 +9,7 @@ from figures import style
 def plot(
     *, converged: pd.DataFrame, portraits: list[list[float]], transient: float, euler: pd.DataFrame | None = None
 ) -> Figure:
-    """Draw signals of three `portraits`, pairs of acceleration (m/s²) and z0 (m), in colour after `transient` (s)."""
+    """Draw three `portraits`, given by acceleration (m/s²) and z0 (m); grey until `transient` (s), then coloured."""
     signals = style.drop_missing(euler=euler, converged=converged)
     figure = style.figure(style.PAGE, 8.0 + 52.0 * len(signals))
     panels = figure.subplots(len(signals), 3, sharex="col", sharey="col", squeeze=False)
@@ -21,7 +21,7 @@ def plot(
             axes.plot(1e3 * run.z, run.vz, color="0.75", linewidth=0.4)
             axes.plot(1e3 * settled.z, settled.vz, color=style.STATE_COLOURS[state], linewidth=0.8)
             if axes in panels[0]:
-                axes.set_title(f"{state}, $\\hat{{a}}$ = {acceleration:g} m/s²")
+                axes.set_title(f"{style.state_label(state)}, $\\hat{{a}}$ = {acceleration:g} m/s²")
             if axes in panels[-1]:
                 axes.set_xlabel("height $z_p$ in mm")
             axes.set_ylabel("vertical velocity $\\dot{z}_p$ in m/s")

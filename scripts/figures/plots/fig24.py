@@ -1,15 +1,15 @@
-"""Fig. 24: dimension of phase portraits over the acceleration amplitude, paper's method and converged solution."""
+"""Fig. 24: dimension of phase portraits over the acceleration amplitude, published method and converged solution."""
 
 import pandas as pd
 from matplotlib.figure import Figure
 
 from figures import style
 
-UNKNOWN = {"converged": 0.05, "correlation": 0.02}  # share of the axis where amplitudes without an estimate are marked
+UNKNOWN = {"converged": 0.05, "correlation": 0.02}  # axes fraction of the marks of amplitudes without an estimate
 LOOKS = {
-    "euler": ("o-", style.EULER, "paper's method: boxes, first second"),
-    "converged": ("s", style.CONVERGED, "converged: boxes, settled motion"),
-    "correlation": ("x", style.SECOND_ESTIMATE, "converged: correlation sum"),
+    "euler": ("o-", style.EULER, "published method: box counting, first second"),
+    "converged": ("s", style.CONVERGED, "converged solution: box counting, settled motion"),
+    "correlation": ("x", style.SECOND_ESTIMATE, "converged solution: correlation sum, settled motion"),
 }
 
 
@@ -20,7 +20,7 @@ def plot(
     euler: pd.DataFrame | None = None,
     critical_acceleration: float | None = None,
 ) -> Figure:
-    """Draw dimensions by boxes and by the `correlation` sum, and mark `critical_acceleration` (m/s²)."""
+    """Draw dimensions by box counting and by the `correlation` sum, and mark `critical_acceleration` (m/s²)."""
     figure = style.figure(style.COLUMN, 86.0)
     axes = figure.subplots()
     for dimension in (1.0, 2.0):
@@ -42,20 +42,20 @@ def plot(
             label=label,
         )
         if role in UNKNOWN:
-            nothing = table[table.dimension.isna()].acceleration
+            unknown = table[table.dimension.isna()].acceleration
             axes.plot(
-                nothing,
-                [UNKNOWN[role]] * len(nothing),
+                unknown,
+                [UNKNOWN[role]] * len(unknown),
                 "|",
                 transform=axes.get_xaxis_transform(),
                 color=colour,
                 markersize=3.5,
                 markeredgewidth=0.8,
             )
-    axes.plot([], [], "|", color="black", markersize=3.5, label="no estimate: its interval is too wide")
+    axes.plot([], [], "|", color="black", markersize=3.5, label="no estimate: confidence interval too wide")
     if critical_acceleration is not None:
         style.mark(axes, critical_acceleration, f"{critical_acceleration:g} m/s²")
-    # Every bar is seen from end to end, with room for the marks below.
+    # Room for all error bars, and for the marks below them.
     ends = [table.dimension + sign * table.error for table in tables.values() for sign in (-1.0, 1.0)]
     low, high = pd.concat(ends).min(), pd.concat(ends).max()
     axes.set_ylim(low - 0.12 * (high - low), high + 0.04 * (high - low))

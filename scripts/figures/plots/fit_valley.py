@@ -1,4 +1,4 @@
-"""The valley of nearly equal fits of Eq. 13: error and parameters along it, and the curves of some of its points."""
+"""Valley of nearly equal fits of Eq. 13: error and parameters along it, and the curves of some of its points."""
 
 import numpy as np
 import pandas as pd
@@ -11,9 +11,9 @@ from figures import style
 MARKERS = {
     "pymoo": ("o", style.CONVERGED, "pymoo"),
     "least_squares": ("+", "black", "least squares"),
-    "paper": ("D", style.EULER, "the paper's triple"),
+    "paper": ("D", style.EULER, "$A$, $B$, $C$ of the paper"),
 }
-CURVES = 5
+CURVES = 5  # in panel c
 
 
 def plot(*, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame, paper_error: float) -> Figure:
@@ -26,14 +26,17 @@ def plot(*, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame,
     errors.axhline(1e6 * paper_error**0.5, color="black", linewidth=0.6, linestyle=":")
     style.note(
         errors,
-        "the paper",
+        "paper's fit",
         (1.0, 1e6 * paper_error**0.5),
         (0, -2),
         xycoords=("axes fraction", "data"),
         ha="right",
         va="top",
     )
-    fits = ((fit, style.CONVERGED, "converged data"), (fit_euler, style.EULER, "by the paper's method"))
+    fits = (
+        (fit, style.CONVERGED, "fit to the converged solution"),
+        (fit_euler, style.EULER, "fit to the published method"),
+    )
     for table, colour, label in fits:
         curve = table[table.fit == "valley"]
         errors.plot(curve.B, 1e6 * curve.error**0.5, color=colour, linewidth=0.8, label=label)
@@ -43,8 +46,8 @@ def plot(*, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame,
     errors.set_ylabel("smallest rms deviation in µm")
     errors.legend(loc="upper right")
 
-    triples.plot(1e3 * valley.A, 1e3 * valley.C, color="0.6", linewidth=0.8, label="valley")
-    triples.plot(1e3 * flat.A, 1e3 * flat.C, color="0.6", linewidth=4.0, alpha=0.5, label="no worse than the paper")
+    triples.plot(1e3 * valley.A, 1e3 * valley.C, color="0.6", linewidth=0.8, label="best $A$ and $C$ for each $B$")
+    triples.plot(1e3 * flat.A, 1e3 * flat.C, color="0.6", linewidth=4.0, alpha=0.5, label="error ≤ paper's fit")
     triples.set_xlabel("$A$ in 10$^{-3}$ m²/s²")
     triples.set_ylabel("$C$ in mm")
     for name, (marker, colour, label) in MARKERS.items():
@@ -65,7 +68,13 @@ def plot(*, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame,
         heights.plot(range_of_fit, 1e3 * curve, color=colour, linewidth=0.6, label=f"$B = {row.B:.1f}$ m/s²")
     edge = converged[converged.is_critical]
     heights.plot(
-        edge.acceleration, 1e3 * edge.z0, ".", color="black", markersize=2.0, markeredgewidth=0.0, label="data"
+        edge.acceleration,
+        1e3 * edge.z0,
+        ".",
+        color="black",
+        markersize=2.0,
+        markeredgewidth=0.0,
+        label="converged solution",
     )
     heights.set_xlabel(style.AMPLITUDE)
     heights.set_ylabel("critical initial height $z_0$ in mm")

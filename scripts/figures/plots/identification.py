@@ -1,4 +1,4 @@
-"""Which parameters the paper's numbers imply: friction alone, what fits best at once, profiles of the parameters."""
+"""Parameters that the paper's numbers imply: friction alone, Pareto fronts of the misfits, profiles of parameters."""
 
 import numpy as np
 import pandas as pd
@@ -13,11 +13,11 @@ from identification.search_space import PARAMETERS
 EVIDENCE = {
     "all": ("black", "-", "all numbers"),
     "end_left_out": (style.CONVERGED, "-", "without the upper end of Fig. 8"),
-    "paper_method": (style.EULER, (0, (3, 2)), "the same, as by the paper's method"),
+    "paper_method": (style.EULER, (0, (3, 2)), "the same, shifted by the error of the published method"),
 }
 READINGS = {
     "allow": ("o", style.CONVERGED, "contact pulls"),
-    "frictionless": ("x", "0.4", "pulls without friction"),
+    "frictionless": ("x", "0.4", "pulls, without friction"),
     "clip": ("^", style.EULER, "does not pull"),
 }
 FRICTIONS = {
@@ -31,44 +31,42 @@ UNITS = {
     "stiffness": (1e-5, "stiffness $k_c$ in 10$^5$ N/m$^{1.5}$"),
     "angle": (180.0 / np.pi, "angle of throw $\\varphi$ in °"),
 }
-MOST = 25.0  # total up to which profiles are shown
+MOST = 25.0  # largest total misfit on the axis
 
 
-def friction_alone(axes: Axes, frictions: pd.DataFrame, numbers: pd.DataFrame, given: float) -> None:
-    """Velocities over friction, thick where they are accepted."""
+def draw_friction_alone(axes: Axes, frictions: pd.DataFrame, numbers: pd.DataFrame, printed: float) -> None:
+    """Draw velocities over friction, thick where the claims accept them."""
     by_name = numbers.drop_duplicates("number").set_index("number")
     for column, (colour, line, label) in FRICTIONS.items():
         one = by_name.loc[VELOCITIES[column]]
         axes.plot(frictions.friction, frictions[column], color=colour, linestyle=line, label=label)
         values = frictions[column].where(frictions[column].between(one.low, one.high))
         axes.plot(frictions.friction, values, color=colour, linewidth=4.5, alpha=0.35, solid_capstyle="butt")
-    axes.axvline(given, color="black", linewidth=0.6, linestyle=":")
-    axes.annotate(
-        "printed", (given, 0.02), xycoords=("data", "axes fraction"), xytext=(2, 0), textcoords="offset points"
-    )
+    axes.axvline(printed, color="black", linewidth=0.6, linestyle=":")
+    style.note(axes, "printed", (printed, 0.02), (2, 0), xycoords=("data", "axes fraction"))
     axes.set_xlabel(UNITS["friction"][1])
-    axes.set_ylabel("velocity in cm/s")
+    axes.set_ylabel("mean feeding velocity in cm/s")
     axes.legend(loc="upper left", handlelength=1.6, borderaxespad=0.0, labelspacing=0.25)
     axes.set_ylim(top=1.35 * frictions.first_high.max())
 
 
-def misfit_of(numbers: pd.DataFrame, names: list[str]) -> float:
-    """An objective at the printed parameters, converged."""
+def printed_misfit(numbers: pd.DataFrame, names: list[str]) -> float:
+    """An objective at the printed parameters, by the converged solution."""
     rows = numbers[(numbers["set"] == "printed") & (numbers.method == "converged") & numbers.number.isin(names)]
     return float(root_mean_square(rows.misfit.to_numpy()))
 
 
-def fronts(axes: Axes, table: pd.DataFrame, numbers: pd.DataFrame) -> None:
-    """Misfits of the velocities of all members of the fronts, and of the printed parameters."""
+def draw_fronts(axes: Axes, table: pd.DataFrame, numbers: pd.DataFrame) -> None:
+    """Draw the velocity misfits of all members of the fronts and of the printed parameters."""
     groups = table.attrs["objectives"]
     x, y = "first_velocity", "second_velocity"
     for reading, (marker, colour, label) in READINGS.items():
         rows = table[(table.tension == reading) & (table[[*OBJECTIVES]] <= table.attrs["search"]["worst"]).all(axis=1)]
-        drawn = {"color": colour, "markersize": 2.0, "markeredgewidth": 0.4, "markerfacecolor": "none"}
-        axes.plot(rows[x], rows[y], marker, **drawn, label=label, rasterized=True)
-    given = misfit_of(numbers, groups[x]), misfit_of(numbers, groups[y])
-    axes.plot(*given, "k+", markersize=7.0, label="printed parameters")
-    most = 1.6 * max(given)
+        look = {"color": colour, "markersize": 2.0, "markeredgewidth": 0.4, "markerfacecolor": "none"}
+        axes.plot(rows[x], rows[y], marker, **look, label=label, rasterized=True)
+    printed = printed_misfit(numbers, groups[x]), printed_misfit(numbers, groups[y])
+    axes.plot(*printed, "k+", markersize=7.0, label="printed parameters")
+    most = 1.6 * max(printed)
     axes.set_xlim(0.0, most)
     axes.set_ylim(0.0, most)
     axes.set_xlabel("misfit of the first state's velocity")
@@ -76,8 +74,8 @@ def fronts(axes: Axes, table: pd.DataFrame, numbers: pd.DataFrame) -> None:
     axes.legend(loc="upper right", handlelength=1.0, borderaxespad=0.0, labelspacing=0.25)
 
 
-def valley(axes: Axes, profiles: pd.DataFrame, optima: pd.DataFrame, model: dict) -> None:
-    """Damping over stiffness of what fits within the confidence of all parameters, coloured by the angle."""
+def draw_valley(axes: Axes, profiles: pd.DataFrame, optima: pd.DataFrame, model: dict) -> None:
+    """Draw damping over stiffness of all fits within the joint confidence region, coloured by the angle of throw."""
     rows = profiles.merge(optima[["evidence", "tension", "rise_of_all"]], on=["evidence", "tension"])
     rows = rows[rows.evidence == "end_left_out"]
     rows = rows[rows.total <= rows.total.min() + rows.rise_of_all]
@@ -108,8 +106,8 @@ def valley(axes: Axes, profiles: pd.DataFrame, optima: pd.DataFrame, model: dict
     axes.figure.colorbar(points, ax=axes, label=UNITS["angle"][1], pad=0.02, aspect=25)
 
 
-def one_profile(axes: Axes, profiles: pd.DataFrame, optima: pd.DataFrame, parameter: str, given: float) -> None:
-    """The least total over one parameter for each set of evidence, and the level of its interval."""
+def draw_profile(axes: Axes, profiles: pd.DataFrame, optima: pd.DataFrame, parameter: str, printed: float) -> None:
+    """Draw the least total misfit over one parameter for each set of evidence, and its confidence level."""
     scale, label = UNITS[parameter]
     for evidence, (colour, line, name) in EVIDENCE.items():
         profile = lowest_profile(profiles, evidence, parameter)
@@ -117,7 +115,7 @@ def one_profile(axes: Axes, profiles: pd.DataFrame, optima: pd.DataFrame, parame
         axes.plot(scale * profile[parameter], profile.total, color=colour, linestyle=line, label=name)
         level = rows.total.min() + rows.rise.iloc[0]
         axes.axhline(level, color=colour, linestyle=line, linewidth=0.4)
-    axes.axvline(scale * given, color="black", linewidth=0.6, linestyle=":")
+    axes.axvline(scale * printed, color="black", linewidth=0.6, linestyle=":")
     axes.set_ylim(0.0, MOST)
     axes.set_xlabel(label)
 
@@ -125,17 +123,17 @@ def one_profile(axes: Axes, profiles: pd.DataFrame, optima: pd.DataFrame, parame
 def plot(
     *, printed: pd.DataFrame, front: pd.DataFrame, profiles: pd.DataFrame, optima: pd.DataFrame, frictions: pd.DataFrame
 ) -> Figure:
-    """Draw all results of the stage identification."""
+    """Draw the tables of the stage identification."""
     figure = style.figure(style.PAGE, 122.0)
     upper, lower = figure.subfigures(2, 1, height_ratios=(1.0, 1.0))
     alone, velocities, contacts = upper.subplots(1, 3, width_ratios=(1.0, 0.9, 1.15))
     model = profiles.attrs["model"]
-    friction_alone(alone, frictions, printed, model["friction"])
-    fronts(velocities, front, printed)
-    valley(contacts, profiles, optima, model)
+    draw_friction_alone(alone, frictions, printed, model["friction"])
+    draw_fronts(velocities, front, printed)
+    draw_valley(contacts, profiles, optima, model)
     panels = lower.subplots(1, 4, sharey=True)
     for axes, parameter in zip(panels, PARAMETERS, strict=True):
-        one_profile(axes, profiles, optima, parameter, model[parameter])
+        draw_profile(axes, profiles, optima, parameter, model[parameter])
     panels[0].set_ylabel("least total misfit")
     lower.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     for axes, letter in zip((alone, velocities, contacts, *panels), "abcdefg", strict=True):

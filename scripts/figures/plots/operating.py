@@ -1,4 +1,4 @@
-"""Operating chart: regimes, velocities and the share of starts that gets the best one, over the amplitude."""
+"""Operating chart over the amplitude: regimes, velocities, and the share of initial conditions with the fastest one."""
 
 import numpy as np
 import pandas as pd
@@ -39,7 +39,12 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
     velocities.fill_between(amplitudes, by_amplitude.mean_velocity.min(), best.best, color="0.88", linewidth=0.0)
     velocities.plot(best.acceleration, best.best, color="black", label="fastest motion")
     velocities.plot(
-        means.index, means, color="black", linewidth=0.8, linestyle=(0, (3, 2)), label="mean over all starts"
+        means.index,
+        means,
+        color="black",
+        linewidth=0.8,
+        linestyle=(0, (3, 2)),
+        label="mean over all initial conditions",
     )
     velocities.plot(
         amplitudes, by_amplitude.mean_velocity.min(), color="0.5", linewidth=0.8, linestyle=":", label="slowest motion"
@@ -58,7 +63,7 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
     )
     share.plot(best.acceleration, 100.0 * best.best_share, color="black", drawstyle="steps-mid")
     share.set_ylim(0.0, 104.0)
-    share.set_ylabel("starts that get the\nfastest motion in %")
+    share.set_ylabel("initial conditions with\nthe fastest motion in %")
     share.set_xlabel(style.AMPLITUDE)
     share.set_xlim(amplitudes[0], amplitudes[-1])
     figure.align_ylabels([velocities, share])

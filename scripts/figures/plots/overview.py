@@ -1,4 +1,4 @@
-"""All at a glance: attractors over the amplitude, both exponents below, and a map of starts beside them."""
+"""Overview: attractors and Lyapunov exponents over the amplitude, and a map of the states over initial conditions."""
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -11,9 +11,9 @@ SHADE = "0.93"
 OF_AXES = ("data", "axes fraction")
 
 
-def attractors(axes: Axes, strobes: pd.DataFrame) -> None:
-    """Stroboscopic states in the colour of the motion; chaos behind the others."""
-    for state in ("chaos", "undecided", "second", "first"):
+def draw_attractors(axes: Axes, strobes: pd.DataFrame) -> None:
+    """Draw stroboscopic states in the colour of their state of motion."""
+    for state in ("chaos", "undecided", "second", "first"):  # regular motion over chaos
         rows = strobes[strobes.state == state]
         size = 0.6 if state == "chaos" else 1.2
         axes.plot(
@@ -25,19 +25,23 @@ def attractors(axes: Axes, strobes: pd.DataFrame) -> None:
             color=style.STATE_COLOURS[state],
             rasterized=True,
         )
-    axes.set_ylabel("speed of approach at $\\psi$ = $\\psi_0$ in m/s")
+    axes.set_ylabel("speed of approach\nat $\\psi$ = $\\psi_0$ in m/s")
 
 
-def exponents(axes: Axes, spectrum: pd.DataFrame, estimate: pd.DataFrame) -> None:
-    """The exponents of the motions swept up and down, and the paper's estimate."""
+def draw_exponents(axes: Axes, spectrum: pd.DataFrame, estimate: pd.DataFrame) -> None:
+    """Draw the Lyapunov exponents of the attractors swept up and down, and the published estimate."""
     axes.axhline(0.0, color="black", linewidth=0.6)
     for branch, rows in spectrum.groupby("branch", sort=False):
         label = "converged" if branch == "up" else None
         axes.plot(rows.acceleration, rows.lambda_1, color=style.CONVERGED, linewidth=0.6, label=label)
     axes.plot(
-        estimate.acceleration, estimate["lambda"], color=style.EULER, linewidth=0.9, label="paper's estimate (Fig. 22)"
+        estimate.acceleration,
+        estimate["lambda"],
+        color=style.EULER,
+        linewidth=0.9,
+        label="estimate of Fig. 22",
     )
-    axes.set_ylabel("exponent in 1/s")
+    axes.set_ylabel("Lyapunov\nexponent in 1/s")
     axes.legend(loc="lower left", bbox_to_anchor=(0.06, 0.56))
 
 
@@ -52,27 +56,35 @@ def plot(
     critical_acceleration: float,
     lowest_exponent: float,
 ) -> Figure:
-    """Shade amplitudes from `critical_acceleration` (m/s²) on, and draw exponents above `lowest_exponent` (1/s)."""
+    """Draw exponents above `lowest_exponent` (1/s); shade from `critical_acceleration` (m/s²) to the onset of chaos."""
     figure = style.figure(style.PAGE, 96.0)
     grid = figure.add_gridspec(1, 2, width_ratios=(2.0, 1.0))
     left = grid[0].subgridspec(2, 1, height_ratios=(1.5, 1.0))
     diagram = figure.add_subplot(left[0])
     below = figure.add_subplot(left[1], sharex=diagram)
-    starts = figure.add_subplot(grid[1])
+    states = figure.add_subplot(grid[1])
 
     fold = bifurcations.query("kind == 'fold' and proved").acceleration_low.min()
     accumulation = cascade.accumulation.dropna().iloc[-1]
-    attractors(diagram, strobes)
-    exponents(below, spectrum, estimate)
+    draw_attractors(diagram, strobes)
+    draw_exponents(below, spectrum, estimate)
     for axes in (diagram, below):
         axes.axvspan(critical_acceleration, accumulation, color=SHADE, zorder=-1)
         axes.axvline(fold, color="black", linewidth=0.6, linestyle=":")
         axes.axvline(accumulation, color="black", linewidth=0.6, linestyle=":")
-    style.note(diagram, "two stable motions", (fold, 0.97), (2, 0), xycoords=OF_AXES, va="top")
-    style.note(diagram, "doublings\naccumulate", (accumulation, 0.97), (-2, 0), xycoords=OF_AXES, ha="right", va="top")
+    style.note(diagram, "two attractors coexist", (fold, 0.97), (2, 0), xycoords=OF_AXES, va="top")
+    style.note(
+        diagram,
+        "doublings\naccumulate:\nonset of chaos",
+        (accumulation, 0.97),
+        (-2, 0),
+        xycoords=OF_AXES,
+        ha="right",
+        va="top",
+    )
     style.note(
         below,
-        "called\nchaos",
+        "chaos in\nthe paper",
         (0.5 * (critical_acceleration + accumulation), 0.97),
         xycoords=OF_AXES,
         ha="center",
@@ -83,12 +95,12 @@ def plot(
     below.set_xlim(strobes.acceleration.min(), strobes.acceleration.max())
     below.set_xlabel(style.AMPLITUDE)
 
-    style.state_map(starts, map.assign(z0=MM * map.z0), "z0", "psi0")
-    style.phase_axis(starts.yaxis)
-    starts.set_xlabel("initial height $z_0$ in mm")
-    starts.set_ylabel("initial phase $\\psi_0$ in rad")
-    starts.set_title(f"$\\hat{{a}}$ = {map.attrs['model']['acceleration']:g} m/s²")
-    for axes, letter in ((diagram, "a"), (below, "b"), (starts, "c")):
+    style.state_map(states, map.assign(z0=MM * map.z0), "z0", "psi0")
+    style.phase_axis(states.yaxis)
+    states.set_xlabel("initial height $z_0$ in mm")
+    states.set_ylabel("initial phase $\\psi_0$ in rad")
+    states.set_title(f"$\\hat{{a}}$ = {map.attrs['model']['acceleration']:g} m/s²")
+    for axes, letter in ((diagram, "a"), (below, "b"), (states, "c")):
         axes.set_title(letter, loc="left", weight="bold")
     figure.legend(handles=style.state_handles(strobes, map), loc="outside upper center", ncols=4)
     figure.align_ylabels([diagram, below])

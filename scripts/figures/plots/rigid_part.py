@@ -1,4 +1,4 @@
-"""A rigid bouncing part in place of the contact: velocities over the amplitude, where jumps begin and double."""
+"""A rigid bouncing part in place of the compliant contact: velocities, fold and period doublings over the amplitude."""
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -8,23 +8,25 @@ from figures import style
 
 MODELS = {
     "contact": ("o", style.CONVERGED, "compliant contact"),
-    "rigid part, e(u)": ("s", style.EULER, "rigid part, restitution by the speed of approach"),
-    "rigid part, one e": ("D", "#CC79A7", "rigid part, one coefficient of restitution"),
+    "rigid part, e(u)": ("s", style.EULER, "rigid part, restitution $e(u)$"),
+    "rigid part, one e": ("D", "#CC79A7", "rigid part, constant $e$"),
 }
-ORDINALS = {1: "first doubling", 2: "second", 3: "third"}
+ORDINALS = {1: "first period doubling", 2: "second", 3: "third"}
 
 
 def draw_velocities(axes: Axes, rows: pd.DataFrame) -> None:
-    """Mean velocities in both models, as points: where motions are long-lived, neighbours say nothing of each other."""
+    """Draw mean velocities in both models. Points, not lines: neighbours may lie in different transients."""
     for model, (marker, colour, _) in MODELS.items():
-        of = rows[rows.model == model]
-        axes.plot(of.acceleration, of.mean_velocity, marker, color=colour, markersize=1.8, markeredgewidth=0)
-    axes.set_title(f"start at $z_0$ = {1e3 * rows.z0.iloc[0]:g} mm")
+        selected = rows[rows.model == model]
+        axes.plot(
+            selected.acceleration, selected.mean_velocity, marker, color=colour, markersize=1.8, markeredgewidth=0
+        )
+    axes.set_title(f"initial height $z_0$ = {1e3 * rows.z0.iloc[0]:g} mm")
     axes.set_xlabel(style.AMPLITUDE)
 
 
 def plot(*, rigid: pd.DataFrame) -> Figure:
-    """Draw velocities, folds and doublings of a rigid part and of the contact."""
+    """Draw velocities, folds and period doublings of a rigid part and of the compliant contact."""
     figure = style.figure(style.PAGE, 115.0)
     panels = figure.subplot_mosaic([["low", "high"], ["places", "places"]], height_ratios=[2.0, 1.0])
     velocities = rigid[rigid.kind == "velocity"]

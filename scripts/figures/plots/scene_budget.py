@@ -1,4 +1,4 @@
-"""What the data of each figure need: cost of each variant of each table, and what a reader would see of it."""
+"""Cost and visible effect of cheaper variants of the table behind each figure."""
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -9,21 +9,21 @@ from figures import style
 
 TOLERANCES = {1e-4: "#D55E00", 1e-6: "#E69F00", 1e-8: "#009E73", 1e-10: "#56B4E9", 1e-12: "#0072B2"}
 VARIANTS = {"half the time": ("s", "#CC79A7"), "rigid part": ("^", "black")}
-NONE = 3e-4  # where no value changes, on a logarithmic axis
+NONE = 3e-4  # place of zero on the logarithmic axis
 RING = {"linestyle": "", "marker": "o", "markersize": 8.0, "markerfacecolor": "none", "color": "black"}
 FULL = {"linestyle": "", "marker": "|", "color": "black", "markersize": 9.0}
 
 
-def look(row) -> tuple[str, str]:
-    """Marker and colour of a variant; those of a tolerance are those of the nearest one of TOLERANCES."""
+def marker_and_colour(row) -> tuple[str, str]:
+    """Marker and colour of a variant; a tolerance has the colour of the nearest one in TOLERANCES."""
     if row.variant in VARIANTS:
         return VARIANTS[row.variant]
     nearest = min(TOLERANCES, key=lambda tolerance: abs(tolerance / row.tolerance - row.tolerance / tolerance))
     return "o", TOLERANCES[nearest]
 
 
-def in_words(figure: str) -> str:
-    """The name of a figure as a reader knows it."""
+def figure_label(figure: str) -> str:
+    """The name of a figure for readers, "Fig. 3" or "work precision"."""
     number = figure.removeprefix("fig")
     return f"Fig. {int(number)}" if number.isdigit() else figure.replace("_", " ")
 
@@ -34,7 +34,7 @@ def plot(*, budget: pd.DataFrame, times: pd.DataFrame) -> Figure:
     table.attrs = budget.attrs
     drawn = table[table.table != "none"]
     names = list(dict.fromkeys(drawn.table))
-    figures = drawn.groupby("table").figure.unique().map(lambda drawing: ", ".join(map(in_words, drawing)))
+    figures = drawn.groupby("table").figure.unique().map(lambda drawing: ", ".join(map(figure_label, drawing)))
     rows = drawn.drop_duplicates(["table", "variant", "tolerance"])
     rows = rows.assign(place=rows.table.map(names.index), seen=rows.changed.clip(lower=NONE))
 
@@ -45,7 +45,7 @@ def plot(*, budget: pd.DataFrame, times: pd.DataFrame) -> Figure:
     for row in rows[
         (rows.variant != "full model") & (rows.tolerance.notna() | rows.variant.isin(VARIANTS))
     ].itertuples():
-        marker, colour = look(row)
+        marker, colour = marker_and_colour(row)
         face = "white" if row.visible else colour
         for axes, x in ((cost, 1e3 * row.seconds), (seen, row.seen)):
             axes.plot(
@@ -68,9 +68,9 @@ def plot(*, budget: pd.DataFrame, times: pd.DataFrame) -> Figure:
         axes.set_xscale("log")
         axes.xaxis.set_minor_formatter(NullFormatter())
         axes.grid(axis="y", linewidth=0.3)
-    cost.set_xlabel("processor time of a point in ms")
+    cost.set_xlabel("processor time per point in ms")
     seen.set_xticks([NONE, 1e-3, 1e-2, 1e-1, 1.0], ["none", "0.001", "0.01", "0.1", "1"])
-    seen.set_xlabel("share of drawn values that change visibly")
+    seen.set_xlabel("share of drawn values with a visible change")
     handles = [
         Line2D([], [], linestyle="", marker="o", color=colour, label=f"tolerance {tolerance:.0e}")
         for tolerance, colour in TOLERANCES.items()

@@ -1,4 +1,4 @@
-"""How much bifurcations and critical heights move with each parameter, and charts of them in dimensionless groups."""
+"""Sensitivity of bifurcations and critical heights to each parameter; bifurcation curves in dimensionless groups."""
 
 import numpy as np
 import pandas as pd
@@ -9,8 +9,8 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from figures import style
 
-# Names of the parameters, from above; those that move nothing are left out, as is the exponent, whose change changes
-# the unit of k_c.
+# Labels of the parameters, from top to bottom. Parameters without effect are left out, and so is the exponent, because
+# the unit of k_c depends on it.
 NAMES = {
     "acceleration": "amplitude $\\hat{a}$",
     "angle": "angle $\\varphi$",
@@ -24,35 +24,35 @@ CHAOS, SECOND, FIRST = (style.STATE_COLOURS[state] for state in ("chaos", "secon
 OTHER = "0.7"
 POINTS = {
     "lift-off of a riding part": {"marker": "^", "color": FIRST},
-    "start at rest leaves first state": {"marker": "s", "color": FIRST, "markerfacecolor": "none"},
+    "part from rest leaves first state": {"marker": "s", "color": FIRST, "markerfacecolor": "none"},
     "first fold": {"marker": "o", "color": SECOND},
-    "first doubling": {"marker": "o", "color": CHAOS, "markerfacecolor": "none"},
-    "second doubling": {"marker": "D", "color": CHAOS, "markerfacecolor": "none"},
+    "first period doubling": {"marker": "o", "color": CHAOS, "markerfacecolor": "none"},
+    "second period doubling": {"marker": "D", "color": CHAOS, "markerfacecolor": "none"},
     "accumulation of doublings": {"marker": "*", "color": CHAOS, "markersize": 5.0},
 }
 MEETINGS = {
     "cusp": ("cusp of folds", {"marker": "D", "markersize": 2.8}),
-    "generalised doubling": ("generalised doubling", {"marker": "v", "markersize": 3.2}),
-    "grazing": ("grazing that ends a curve", {"marker": "x", "markersize": 3.0}),
+    "generalised doubling": ("generalised period doubling", {"marker": "v", "markersize": 3.2}),
+    "grazing": ("grazing at the end of a curve", {"marker": "x", "markersize": 3.0}),
 }
 
 
-def chosen(table: pd.DataFrame) -> dict[str, pd.DataFrame]:
-    """The rows of the bifurcations that are named in the figure."""
+def select_points(table: pd.DataFrame) -> dict[str, pd.DataFrame]:
+    """The rows of each bifurcation that the figure names, by its label in POINTS."""
     folds = table[table.kind == "fold"]
     found = {
         "lift-off of a riding part": table[table.rides],
-        "start at rest leaves first state": table[table.kind == "critical_amplitude"],
+        "part from rest leaves first state": table[table.kind == "critical_amplitude"],
         "first fold": folds[folds.acceleration == folds.acceleration.min()],
-        "first doubling": table[table.doubling == 1],
-        "second doubling": table[table.doubling == 2],
+        "first period doubling": table[table.doubling == 1],
+        "second period doubling": table[table.doubling == 2],
         "accumulation of doublings": table[table.kind == "accumulation"],
     }
     return {label: rows[rows.status == "ok"] for label, rows in found.items()}
 
 
-def dots(axes: Axes, groups: dict[str, pd.DataFrame], parameters: list[str], column: str, looks: dict) -> None:
-    """One row of dots for each parameter, the groups below each other within it."""
+def draw_dots(axes: Axes, groups: dict[str, pd.DataFrame], parameters: list[str], column: str, looks: dict) -> None:
+    """Draw one row of dots for each parameter, with the groups below each other within it."""
     for n, (label, rows) in enumerate(groups.items()):
         values = rows.set_index("parameter")[column].reindex(parameters)
         offset = 0.6 * ((n + 0.5) / len(groups) - 0.5)
@@ -65,30 +65,32 @@ def dots(axes: Axes, groups: dict[str, pd.DataFrame], parameters: list[str], col
     axes.tick_params(axis="y", length=0.0)
 
 
-def look_of(curve: pd.DataFrame, first_fold: float) -> tuple[str, dict]:
-    """Label and style of a curve in the charts."""
-    one = curve.iloc[0]
-    if one.kind == "grazing":
+def label_and_look(curve: pd.DataFrame, first_fold: float) -> tuple[str, dict]:
+    """Legend label and line style of a bifurcation curve."""
+    row = curve.iloc[0]
+    if row.kind == "grazing":
         return "lift-off of a riding part", {"color": FIRST}
-    if one.kind == "fold":
-        if one.begin == first_fold:
+    if row.kind == "fold":
+        if row.begin == first_fold:
             return "first fold", {"color": SECOND, "linewidth": 1.4}
         return "other folds", {"color": OTHER, "linewidth": 0.8}
-    if one.doubling:
-        dashes = {1: "-", 2: (0, (4, 1.5)), 3: (0, (1.5, 1.5))}.get(one.doubling, (0, (1, 3)))
-        names = {1: "first doubling", 2: "second doubling", 3: "third doubling"}
-        return names.get(one.doubling, "later doublings"), {"color": CHAOS, "linestyle": dashes}
-    return "other doublings", {"color": OTHER, "linewidth": 0.8, "linestyle": (0, (2, 1.5))}
+    if row.doubling:
+        dashes = {1: "-", 2: (0, (4, 1.5)), 3: (0, (1.5, 1.5))}.get(row.doubling, (0, (1, 3)))
+        names = {1: "first period doubling", 2: "second period doubling", 3: "third period doubling"}
+        return names.get(row.doubling, "later period doublings"), {"color": CHAOS, "linestyle": dashes}
+    return "other period doublings", {"color": OTHER, "linewidth": 0.8, "linestyle": (0, (2, 1.5))}
 
 
-def chart(axes: Axes, curves: pd.DataFrame, meetings: pd.DataFrame, parameter: str, group: str, name: str) -> None:
-    """Γ over a group, with the points of codimension two and the conveyor of the config."""
+def draw_curves(
+    axes: Axes, curves: pd.DataFrame, meetings: pd.DataFrame, parameter: str, group: str, name: str
+) -> None:
+    """Draw bifurcation curves, Γ over a group, with the points of codimension two and the conveyor of the config."""
     continued = curves[curves.parameter == parameter]
     folds = continued[continued.kind == "fold"]
     groups = [rows for _, rows in continued.groupby(["kind", "doubling", "begin"], sort=False)]
-    # What is named lies above the others.
-    for rows in sorted(groups, key=lambda rows: not look_of(rows, folds.begin.min())[0].startswith("other")):
-        label, look = look_of(rows, folds.begin.min())
+    looks = [(*label_and_look(rows, folds.begin.min()), rows) for rows in groups]
+    # Named curves are drawn last, above the other ones.
+    for label, look, rows in sorted(looks, key=lambda item: not item[0].startswith("other")):
         axes.plot(rows[group], rows.amplitude_group, label=label, **look)
     meetings = meetings[meetings.parameter == parameter]
     shown = meetings[
@@ -123,26 +125,26 @@ def chart(axes: Axes, curves: pd.DataFrame, meetings: pd.DataFrame, parameter: s
 
 
 def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.DataFrame) -> Figure:
-    """Draw derivatives, and curves of bifurcations that are continued over two groups."""
+    """Draw derivatives, and bifurcation curves over two dimensionless groups."""
     figure = style.figure(style.PAGE, 140.0)
     (amplitudes, heights), (damping, stiffness) = figure.subplots(2, 2, height_ratios=(1.0, 1.15))
 
-    named = {label: rows for label, rows in chosen(derivatives).items() if len(rows)}
-    dots(amplitudes, named, [name for name in NAMES if name != "acceleration"], "elasticity", POINTS)
-    amplitudes.set_xlabel("change of the amplitude $\\hat{a}$ in % for 1 % more")
+    named = {label: rows for label, rows in select_points(derivatives).items() if len(rows)}
+    draw_dots(amplitudes, named, [name for name in NAMES if name != "acceleration"], "elasticity", POINTS)
+    amplitudes.set_xlabel("change of $\\hat{a}$ in % per % of the parameter")
     amplitudes.legend(loc="lower left", bbox_to_anchor=(-0.19, 1.0), ncols=2, columnspacing=0.6, handletextpad=0.2)
 
     rows = derivatives[(derivatives.kind == "critical_height") & (derivatives.status == "ok")]
     rows = rows.assign(per_percent=1e4 * rows.derivative * rows.value)
-    of_amplitudes = {f"{a:.4g} m/s²": one for a, one in rows.groupby("acceleration")}
-    shades = colormaps["viridis"](np.linspace(0.0, 0.85, max(len(of_amplitudes), 1)))
-    looks = {label: {"marker": "o", "color": shade} for label, shade in zip(of_amplitudes, shades, strict=False)}
-    dots(heights, of_amplitudes, list(NAMES), "per_percent", looks)
-    heights.set_xlabel("change of the critical height in µm for 1 % more")
+    by_amplitude = {f"{acceleration:.4g} m/s²": group for acceleration, group in rows.groupby("acceleration")}
+    shades = colormaps["viridis"](np.linspace(0.0, 0.85, max(len(by_amplitude), 1)))
+    looks = {label: {"marker": "o", "color": shade} for label, shade in zip(by_amplitude, shades, strict=False)}
+    draw_dots(heights, by_amplitude, list(NAMES), "per_percent", looks)
+    heights.set_xlabel("change of height in µm per % of the parameter")
     heights.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, columnspacing=0.7, handletextpad=0.0)
 
-    chart(damping, continued, meetings, "damping", "damping_group", "damping group $D = d_c/(m\\omega)$")
-    chart(
+    draw_curves(damping, continued, meetings, "damping", "damping_group", "damping group $D = d_c/(m\\omega)$")
+    draw_curves(
         stiffness,
         continued,
         meetings,

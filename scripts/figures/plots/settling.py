@@ -1,4 +1,4 @@
-"""How long starts must be followed: share of them that has not settled over the excitation cycles."""
+"""Share of the initial conditions whose motion has not settled, over the excitation cycles."""
 
 import numpy as np
 import pandas as pd
@@ -9,7 +9,7 @@ from figures import style
 
 
 def plot(*, times: pd.DataFrame) -> Figure:
-    """Draw the cycles until starts settle; the attribute `settling` is the limit of the config."""
+    """Draw the share of unsettled initial conditions; the attribute `settling` is the limit of the config."""
     figure = style.figure(style.COLUMN, 84.0)
     axes = figure.subplots()
     most = times.cycles.max()
@@ -19,17 +19,17 @@ def plot(*, times: pd.DataFrame) -> Figure:
     for k, (colour, acceleration) in enumerate(zip(colours, amplitudes, strict=True)):
         rows = times[times.acceleration == acceleration]
         settled = np.sort(rows[rows.period > 0].cycles)
-        # A start that has settled at the last cycle of its search is gone behind it.
+        # A motion that settles in the last cycle of its search leaves the share at that cycle.
         cycles = np.concatenate([[1.0], settled, [most]])
         share = 1.0 - np.concatenate([[0.0], np.arange(1, len(settled) + 1), [len(settled)]]) / len(rows)
         axes.step(
             cycles, share, where="post", color=colour, linestyle=lines[k % len(lines)], label=f"{acceleration:g} m/s²"
         )
-    style.mark(axes, times.attrs["settling"], "as long as a\nstart is followed")
+    style.mark(axes, times.attrs["settling"], "limit of\nthe config")
     axes.set_xscale("log")
     axes.set_xlim(8.0, most)
     axes.set_ylim(-0.02, 1.05)
     axes.set_xlabel("excitation cycles")
-    axes.set_ylabel("share of the starts that has not settled")
+    axes.set_ylabel("share of initial conditions not settled")
     style.legend_above(figure, axes, ncols=3, handlelength=2.6)
     return figure

@@ -1,4 +1,4 @@
-"""One chart of speed and accuracy: error of the trajectory over processor time in the jumping scene."""
+"""Speed and accuracy in one chart: error of the trajectory over processor time in the jumping scene."""
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -7,20 +7,20 @@ from matplotlib.figure import Figure
 from accuracy import speed
 from figures import style
 
-# Method, treatment of events, name, the end of the curve at which the name stands, its offset in points, its alignment.
+# Method, treatment of events, name at the accurate end of the curve, its offset in points, its alignment.
 CURVES = (
-    ("event", speed.OWN, "this solver", "last", (0, -8), "center"),
-    ("euler", "fixed step", "explicit Euler", "last", (5, 0), "left"),
-    ("DOP853", "modes", "SciPy DOP853", "last", (5, 0), "left"),
-    ("CyRK DOP853", "modes", "CyRK\nDOP853", "last", (0, -13), "center"),
-    ("CVODE Adams", "modes", "SUNDIALS\nCVODE", "last", (0, -13), "center"),
-    ("heyoka", "modes", "heyoka", "last", (0, -8), "center"),
+    ("event", speed.OWN, "this solver", (0, -8), "center"),
+    ("euler", "fixed step", "explicit Euler", (5, 0), "left"),
+    ("DOP853", "modes", "SciPy DOP853", (5, 0), "left"),
+    ("CyRK DOP853", "modes", "CyRK\nDOP853", (0, -13), "center"),
+    ("CVODE Adams", "modes", "SUNDIALS\nCVODE", (0, -13), "center"),
+    ("heyoka", "modes", "heyoka", (0, -8), "center"),
 )
 SMALLEST = 1e-15
 
 
-def draw_curve(axes: Axes, rows: pd.DataFrame, method: str, name: str, end: str, offset: tuple, align: str) -> None:
-    """Errors over times of one method, with its name at one end."""
+def draw_curve(axes: Axes, rows: pd.DataFrame, method: str, name: str, offset: tuple, align: str) -> None:
+    """Draw the errors of one method over its times, with its name at the accurate end."""
     colour, _ = style.METHODS[method]
     rows = rows.sort_values(["step", "tolerance"], ascending=False)
     own = method == "event"
@@ -33,22 +33,13 @@ def draw_curve(axes: Axes, rows: pd.DataFrame, method: str, name: str, end: str,
         linewidth=2.0 if own else 1.0,
         zorder=3 if own else 2,
     )
-    at = rows.iloc[0 if end == "first" else -1]
-    weight = "bold" if own else "normal"
-    style.note(
-        axes,
-        name,
-        (at.milliseconds, max(at.trajectory_error, SMALLEST)),
-        offset,
-        color=colour,
-        ha=align,
-        va="center",
-        weight=weight,
-    )
+    last = rows.iloc[-1]
+    place = last.milliseconds, max(last.trajectory_error, SMALLEST)
+    style.note(axes, name, place, offset, color=colour, ha=align, va="center", weight="bold" if own else "normal")
 
 
 def draw_factor(axes: Axes, factor: speed.Factor, text: str, below: bool) -> None:
-    """An arrow at equal error from another run to the solver, with the factor between their times."""
+    """Draw an arrow from another run to the solver at equal error, with the ratio of their times."""
     axes.annotate(
         "",
         (factor.own_milliseconds, factor.error),
@@ -70,10 +61,10 @@ def draw_factor(axes: Axes, factor: speed.Factor, text: str, below: bool) -> Non
 
 
 def plot(*, jumping: pd.DataFrame, jumping_times: pd.DataFrame, paper_step: float, equal_error: float) -> Figure:
-    """Draw the chart with a ring around the paper's step (s), and factors at its error and at `equal_error`."""
+    """Draw the chart, with a ring around `paper_step` (s) and speed ratios at its error and at `equal_error`."""
     figure = style.figure(style.PAGE, 100.0)
     axes = figure.subplots()
-    runs = speed.timed(jumping, jumping_times)
+    runs = speed.successful_runs(jumping, jumping_times)
     for method, treatment, *label in CURVES:
         rows = runs[(runs.method == method) & (runs.treatment == treatment)]
         if len(rows):
@@ -82,16 +73,16 @@ def plot(*, jumping: pd.DataFrame, jumping_times: pd.DataFrame, paper_step: floa
     axes.plot(paper.milliseconds, paper.trajectory_error, "o", markersize=9.0, color=style.EULER, fillstyle="none")
     style.note(
         axes,
-        "the paper's method and step",
+        "published method and time step",
         (paper.milliseconds, paper.trajectory_error),
         (8, 3),
         color=style.EULER,
         va="bottom",
     )
-    versus = ("the paper's method", "the best rival")
     for factor in speed.factors(runs, paper_step, equal_error):
-        of_paper = factor.error == paper.trajectory_error
-        draw_factor(axes, factor, f"faster than\n{versus[0] if of_paper else versus[1]}", of_paper)
+        is_paper = factor.error == paper.trajectory_error
+        other = "the published method" if is_paper else "the best rival"
+        draw_factor(axes, factor, f"faster than\n{other}", is_paper)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_ylim(SMALLEST / 10.0, 10.0)

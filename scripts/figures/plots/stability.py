@@ -1,4 +1,4 @@
-"""At which step the paper's method leaves the right state of motion, and that this solver has no such limit."""
+"""Time steps at which the published method leaves the right state of motion; this solver has no such limit."""
 
 import numpy as np
 import pandas as pd
@@ -11,17 +11,17 @@ from figures import style
 from figures.plots.stability_details import AXES, OUTCOMES
 
 TITLES = {
-    "stiffness": "stiffness of the contact",
-    "damping": "damping of the contact",
-    "impact velocity": "velocity of an impact",
-    "conveyor": "amplitude of the conveyor",
+    "stiffness": "linear contact",
+    "damping": "linear contact",
+    "impact velocity": "single Hertz impact",
+    "conveyor": "vibrating plate",
 }
-LIMITS = ("euler", "semi_implicit_euler", "rk4")  # lines of these methods, as far as the table has them
-OWN_ROW = 2.5  # times the largest step: where the solver's line lies
+LIMITS = ("euler", "semi_implicit_euler", "rk4")  # methods with a line, if the table has them
+OWN_ROW = 2.5  # place of the solver's line, in units of the largest step
 
 
-def last_right(rows: pd.DataFrame) -> pd.Series:
-    """For each value the largest step (s) up to which every step ends in the right state; NaN where none does."""
+def largest_right_step(rows: pd.DataFrame) -> pd.Series:
+    """For each value, the largest step (s) up to which all steps lead to the right state; NaN where none does."""
 
     def limit(steps: pd.DataFrame) -> float:
         steps = steps.sort_values("x")
@@ -32,11 +32,11 @@ def last_right(rows: pd.DataFrame) -> pd.Series:
 
 
 def draw_panel(axes: Axes, rows: pd.DataFrame, panel: str, methods: list[str], paper_step: float) -> None:
-    """Outcomes of the paper's method over one quantity and the step, and limits of all methods."""
+    """Draw the outcomes of the published method over one quantity and the step, and the limits of all methods."""
     euler = rows[rows.method == "euler"]
     style.class_map(axes, euler.pivot(index="x", columns="y", values="outcome"), OUTCOMES)
     for method in methods:
-        limits = last_right(rows[rows.method == method])
+        limits = largest_right_step(rows[rows.method == method])
         wide = method == "euler"
         axes.plot(limits.index, limits, color=style.METHODS[method][0], linewidth=2.0 if wide else 1.0)
     own = rows[rows.method == "event"].sort_values("y")
@@ -52,9 +52,9 @@ def draw_panel(axes: Axes, rows: pd.DataFrame, panel: str, methods: list[str], p
     axes.set_xlabel(AXES[panel])
 
 
-def handles(methods: list[str]) -> list[Patch | Line2D]:
-    """Of the legend: outcomes of the paper's method, limits of all methods, the solver."""
-    names = {"right": "the paper's method: right"}
+def legend_handles(methods: list[str]) -> list[Patch | Line2D]:
+    """Legend handles of the outcomes of the published method, the limits of all methods, and the solver."""
+    names = {"right": "published method: right state"}
     areas = [Patch(color=colour, label=names.get(outcome, outcome)) for outcome, colour in OUTCOMES.items()]
     lines = [
         Line2D([], [], color=style.METHODS[method][0], linewidth=2.0 if method == "euler" else 1.0)
@@ -62,13 +62,13 @@ def handles(methods: list[str]) -> list[Patch | Line2D]:
     ]
     for line, method in zip(lines, methods, strict=True):
         line.set_label(f"limit of {style.METHODS[method][1]}")
-    own = Line2D([], [], color=style.CONVERGED, linewidth=4.0, label="this solver: right, without a limit")
-    step = Line2D([], [], color="black", linewidth=0.8, linestyle=(0, (4, 2)), label="the paper's step")
+    own = Line2D([], [], color=style.CONVERGED, linewidth=4.0, label="this solver: right state, no step limit")
+    step = Line2D([], [], color="black", linewidth=0.8, linestyle=(0, (4, 2)), label="published time step")
     return [*areas, *lines, own, step]
 
 
 def plot(*, stability: pd.DataFrame, acceleration: float) -> Figure:
-    """Draw a panel for each quantity; the paper's step at its amplitude, `acceleration` (m/s²)."""
+    """Draw a panel for each quantity, with a star at the published step and the paper's `acceleration` (m/s²)."""
     figure = style.figure(style.PAGE, 130.0)
     panels = figure.subplots(2, 2, sharey=True)
     methods = [method for method in LIMITS if method in stability.attrs["methods"]]
@@ -79,6 +79,6 @@ def plot(*, stability: pd.DataFrame, acceleration: float) -> Figure:
         acceleration, paper_step, "*", color="white", markeredgecolor="black", markeredgewidth=0.6, markersize=9.0
     )
     for axes in panels[:, 0]:
-        axes.set_ylabel("step in s")
-    figure.legend(handles=handles(methods), loc="outside upper center", ncols=3)
+        axes.set_ylabel("time step in s")
+    figure.legend(handles=legend_handles(methods), loc="outside upper center", ncols=3)
     return figure

@@ -1,4 +1,4 @@
-"""Where methods stop working: maps of the outcome over the step, and other ways to fail."""
+"""Stability limits in detail: maps of the outcome over the time step, and other kinds of failure."""
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -22,7 +22,7 @@ SMALLEST = 1e-18  # of a slip on a logarithmic axis
 
 
 def draw_map(axes: Axes, rows: pd.DataFrame, panel: str) -> None:
-    """Outcome over the step and one other quantity, with the theoretical limit of stability."""
+    """Draw the outcome over the step and one other quantity, with the theoretical stability limit."""
     style.class_map(axes, rows.pivot(index="y", columns="x", values="outcome"), OUTCOMES)
     theory = rows.groupby("y").theory.first()
     axes.plot(theory, theory.index, **LIMIT)
@@ -32,7 +32,7 @@ def draw_map(axes: Axes, rows: pd.DataFrame, panel: str) -> None:
 
 
 def draw_maps(figure: SubFigure, table: pd.DataFrame, acceleration: float) -> None:
-    """A row of maps for each quantity, a column for each method; the paper's step at its amplitude (m/s²)."""
+    """Draw a row of maps for each quantity and a column for each method; star: published step and amplitude (m/s²)."""
     methods = table.attrs["methods"]
     panels = figure.subplots(len(AXES), len(methods), sharex=True, sharey="row", squeeze=False)
     for row, panel in zip(panels, AXES, strict=True):
@@ -43,11 +43,11 @@ def draw_maps(figure: SubFigure, table: pd.DataFrame, acceleration: float) -> No
     for axes, method in zip(panels[0], methods, strict=True):
         axes.set_title(style.METHODS[method][1])
     for axes in panels[-1]:
-        axes.set_xlabel("step in s")
+        axes.set_xlabel("time step in s")
 
 
 def draw_edges(axes: Axes, table: pd.DataFrame) -> None:
-    """Measured limits in units of those in theory."""
+    """Draw measured limits over theoretical ones."""
     for panel, marker in EDGES.items():
         for method in table.attrs["methods"]:
             rows = table[(table.panel == f"edge: {panel}") & (table.method == method)]
@@ -56,8 +56,8 @@ def draw_edges(axes: Axes, table: pd.DataFrame) -> None:
     axes.axhspan(0.8, 1.2, color="0.93")
     axes.set_xscale("log")
     axes.set_ylim(0.7, 1.3)
-    axes.set_xlabel("limit in theory in s")
-    axes.set_ylabel("relative limit, measured")
+    axes.set_xlabel("theoretical step limit in s")
+    axes.set_ylabel("measured over\ntheoretical limit")
     axes.legend(
         handles=[
             Line2D([], [], linestyle="", marker=marker, color="0.4", label=name) for name, marker in EDGES.items()
@@ -70,17 +70,17 @@ def draw_edges(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def draw_chatter(axes: Axes, table: pd.DataFrame) -> None:
-    """Slip of a part that should stick, over the step."""
+    """Draw the slip velocity of a part that should stick, over the step."""
     for method, label in {"euler": "Euler", "event": "this solver"}.items():
         rows = table[(table.panel == "chatter") & (table.method == method)]
         axes.loglog(rows.x, rows.y.clip(lower=SMALLEST), ".-", color=style.METHODS[method][0])
         style.note(axes, label, (rows.x.iloc[0], rows.y.iloc[0]), (0, 5))
-    axes.set_xlabel("step in s")
-    axes.set_ylabel("slip in stick in m/s")
+    axes.set_xlabel("time step in s")
+    axes.set_ylabel("slip velocity\nin stick in m/s")
 
 
 def draw_hard(axes: Axes, table: pd.DataFrame) -> None:
-    """Errors in hard cases; the outcome of Euler beside its point, rivals as smaller points."""
+    """Draw errors in hard cases, with the outcome of Euler as a text; rivals have smaller points."""
     cases = [panel for panel in dict.fromkeys(table.panel) if panel.startswith("hard")]
     for place, case in enumerate(cases):
         rows = table[table.panel == case].set_index("method")
@@ -112,8 +112,8 @@ def plot(*, stability: pd.DataFrame, acceleration: float) -> Figure:
     draw_chatter(chatter, stability)
     draw_hard(hard, stability)
     handles = [Patch(color=colour, label=outcome) for outcome, colour in OUTCOMES.items()]
-    handles.append(Line2D([], [], **LIMIT, label="limit in theory"))
-    handles.append(Line2D([], [], linestyle="", **PAPER, label="the paper"))
+    handles.append(Line2D([], [], **LIMIT, label="theoretical limit"))
+    handles.append(Line2D([], [], linestyle="", **PAPER, label="published time step"))
     above.legend(handles=handles, loc="outside upper center", ncols=6)
     handles = [
         Line2D([], [], linestyle="", marker="o", color=colour, label=name)

@@ -1,4 +1,4 @@
-"""How far the paper's estimates carry: exponents by finite differences, dimensions by box counting."""
+"""Accuracy of the published estimators: Lyapunov exponents by finite differences, dimensions by box counting."""
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -8,20 +8,20 @@ from matplotlib.lines import Line2D
 from figures import style
 
 CASES = {
-    "orbit_phase": "orbit, phase shifted:\nexponent of $\\dot{x}_p$ in 1/s",
-    "orbit_height": "orbit, height shifted:\nexponent of $z_p$ in 1/s",
-    "chaos_phase": "chaos, phase shifted:\nexponent of $\\dot{x}_p$ in 1/s",
+    "orbit_phase": "orbit, perturbed phase:\nexponent of $\\dot{x}_p$ in 1/s",
+    "orbit_height": "orbit, perturbed height:\nexponent of $z_p$ in 1/s",
+    "chaos_phase": "chaos, perturbed phase:\nexponent of $\\dot{x}_p$ in 1/s",
 }
 VARIED = {
     "perturbation": ("epsilon", "perturbation in rad"),
-    "time": ("duration", "time in s"),
-    "step": ("step", "step of Euler in s"),
+    "time": ("duration", "duration in s"),
+    "step": ("step", "time step of Euler in s"),
 }
 METHODS = {"euler": ("Euler", style.EULER), "event": ("this solver", style.CONVERGED)}
 ESTIMATORS = {
-    "boxes, as in the paper": ("boxes as in the paper", style.EULER, "s"),
-    "boxes": ("boxes, averaged and extrapolated", style.CONVERGED, "o"),
-    "correlation sum": ("correlation sum", "#009E73", "^"),
+    "boxes, as in the paper": ("box counting as in the paper", style.EULER, "s"),
+    "boxes": ("box counting, averaged and extrapolated", style.CONVERGED, "o"),
+    "correlation sum": ("correlation sum", style.SECOND_ESTIMATE, "^"),
 }
 NAMES = {"cantor": "Cantor", "sierpinski": "Sierpinski"}
 TRUTH = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 2))}
@@ -29,7 +29,7 @@ BOUND = {"color": "0.6", "linewidth": 0.8, "linestyle": ":"}
 
 
 def draw_exponents(axes: Axes, rows: pd.DataFrame, panel: str) -> None:
-    """Estimates over one quantity, the truth and the largest possible estimate."""
+    """Draw estimates over one quantity, the true value, and the estimate at which the separation saturates."""
     column, label = VARIED[panel]
     for method, (_, colour) in METHODS.items():
         line = rows[rows.estimator == method]
@@ -45,7 +45,7 @@ def draw_exponents(axes: Axes, rows: pd.DataFrame, panel: str) -> None:
 
 
 def draw_dimensions(axes: Axes, rows: pd.DataFrame, column: str, label: str) -> None:
-    """Estimates with their 95 % intervals over one quantity, a line for each case and estimator."""
+    """Draw estimates with their 95 % intervals over one quantity, a line for each case and estimator."""
     for (case, estimator), line in rows.groupby(["case", "estimator"], sort=False):
         _, colour, marker = ESTIMATORS[estimator]
         axes.errorbar(
@@ -75,7 +75,7 @@ def draw_dimensions(axes: Axes, rows: pd.DataFrame, column: str, label: str) -> 
 
 
 def plot(*, estimates: pd.DataFrame) -> Figure:
-    """Draw estimates over perturbation, time and step."""
+    """Draw estimates over perturbation, duration and time step."""
     figure = style.figure(style.PAGE, 200.0)
     above, below = figure.subfigures(2, 1, height_ratios=[2.7, 1.0])
     panels = above.subplots(len(CASES), len(VARIED))
@@ -87,16 +87,16 @@ def plot(*, estimates: pd.DataFrame) -> Figure:
             axes.set_ylabel("exponent in 1/s")
     panels[1, 0].set_xlabel("perturbation in m")
     handles = [Line2D([], [], marker=".", color=colour, label=name) for name, colour in METHODS.values()]
-    handles.append(Line2D([], [], **TRUTH, label="truth"))
-    handles.append(Line2D([], [], **BOUND, label="as far apart as the signal goes"))
+    handles.append(Line2D([], [], **TRUTH, label="true value"))
+    handles.append(Line2D([], [], **BOUND, label="separation as large as the signal"))
     above.legend(handles=handles, loc="outside upper center", ncols=4)
 
     sets, samples, time = below.subplots(1, 3, sharey=True)
-    draw_dimensions(sets, estimates[estimates.panel == "known set"], "samples", "points of a known set")
-    draw_dimensions(samples, estimates[estimates.panel == "samples"], "samples", "points of a settled portrait")
-    draw_dimensions(time, estimates[estimates.panel == "run time"], "duration", "time of a run by Euler in s")
+    draw_dimensions(sets, estimates[estimates.panel == "known set"], "samples", "points of a set of known dimension")
+    draw_dimensions(samples, estimates[estimates.panel == "samples"], "samples", "points of a settled phase portrait")
+    draw_dimensions(time, estimates[estimates.panel == "run time"], "duration", "duration of an Euler run in s")
     sets.set_ylabel("dimension")
     handles = [Line2D([], [], marker=marker, color=colour, label=name) for name, colour, marker in ESTIMATORS.values()]
-    handles.append(Line2D([], [], **TRUTH, label="truth"))
+    handles.append(Line2D([], [], **TRUTH, label="true value"))
     below.legend(handles=handles, loc="outside upper center", ncols=4)
     return figure

@@ -1,4 +1,4 @@
-"""What changes when the contact may not pull: velocity, critical heights, and states of motion over the amplitude."""
+"""Effect of the tensile contact force: velocity, critical heights, and states of motion over the amplitude."""
 
 import numpy as np
 import pandas as pd
@@ -7,9 +7,9 @@ from matplotlib.figure import Figure
 from figures import style
 
 MODES = {
-    "allow": ("pulls and rubs, as written", "black", "-", 1.4),
-    "frictionless": ("pulls, does not rub", "0.7", (0, (4, 2)), 1.0),
-    "clip": ("does not pull", "#D55E00", (0, (1, 1)), 1.4),
+    "allow": ("contact pulls, with friction", "black", "-", 1.4),
+    "frictionless": ("contact pulls, without friction", "0.7", (0, (4, 2)), 1.0),
+    "clip": ("contact does not pull", "#D55E00", (0, (1, 1)), 1.4),
 }
 
 
@@ -45,7 +45,8 @@ def plot(*, sweep: pd.DataFrame, edge: pd.DataFrame) -> Figure:
     style.class_map(axes, states.reset_index(drop=True), style.STATE_COLOURS)
     for line in np.arange(1.5, len(bars) - 1.0, 2.0):
         axes.axhline(line, color="white", linewidth=2.0)
-    axes.set_yticks(np.arange(len(bars)), [f"{MODES[mode][0]}, $z_0$ = {1e3 * z0:g} mm" for mode, z0 in bars])
+    names = {mode: label.removeprefix("contact ") for mode, (label, *_) in MODES.items()}
+    axes.set_yticks(np.arange(len(bars)), [f"{names[mode]}, $z_0$ = {1e3 * z0:g} mm" for mode, z0 in bars])
     axes.invert_yaxis()
     axes.set_xlabel(style.AMPLITUDE)
     handles = [*panels["velocity"].get_legend_handles_labels()[0], *style.state_handles(sweep)]

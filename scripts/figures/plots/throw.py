@@ -1,4 +1,4 @@
-"""The textbook theory of throw conveyors and the converged motions of several conveyors over the throw number."""
+"""Textbook theory of throw conveyors and converged motions of several conveyors over the throw number."""
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -37,6 +37,6 @@ def plot(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> Figure:
         axes.set_ylabel(style.VELOCITY)
     for axes in panels.flat[len(names) :]:
         axes.set_axis_off()
-    handles = [Line2D([], [], **style.TEXTBOOK), *share_handles(set(throws.state))]
-    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), columnspacing=1.0)
+    handles = [Line2D([], [], **style.TEXTBOOK), *share_handles(throws)]
+    figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 8), columnspacing=1.0)
     return figure

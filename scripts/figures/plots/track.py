@@ -1,4 +1,4 @@
-"""The feeding velocity of each state over the inclination of the track and the phase shift of the drive."""
+"""Feeding velocity of each state over the inclination of the track and the phase shift of the drive."""
 
 import numpy as np
 import pandas as pd
@@ -11,7 +11,7 @@ PHASES = {"-π": -np.pi, "-π/2": -0.5 * np.pi, "0": 0.0, "π/2": 0.5 * np.pi, "
 
 
 def plot(*, track: pd.DataFrame) -> Figure:
-    """Draw one panel for each state; a line separates climbing parts from those that slide back."""
+    """Draw one panel for each state; a line separates parts that climb from parts that slide back."""
     states = [state for state, rows in track.groupby("state") if rows.mean_velocity.notna().any()]
     figure = style.figure(style.PAGE, 82.0)
     panels = figure.subplots(1, max(len(states), 1), sharex=True, sharey=True, squeeze=False)[0]
@@ -33,7 +33,7 @@ def plot(*, track: pd.DataFrame) -> Figure:
         steep = np.degrees(track.inclination[(track.status == SLIDES_AWAY) & (track.inclination > 0.0)])
         if len(steep):
             middle = (0.0, 0.5 * (steep.min() + steep.max()))
-            style.note(axes, "parts slide away faster and faster", middle, ha="center", va="center")
+            style.note(axes, "parts slide down and accelerate", middle, ha="center", va="center")
     panels[0].set_ylabel("inclination $\\alpha$ in °")
     if states:
         figure.colorbar(image, ax=list(panels), label=style.VELOCITY)

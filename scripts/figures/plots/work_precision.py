@@ -1,4 +1,4 @@
-"""Error against work: all methods in three scenes, with their failures, and estimates of exponent, dimension, fit."""
+"""Error over work: all methods in three scenes, with their failures, and estimates of exponent, dimension and fit."""
 
 import numpy as np
 import pandas as pd
@@ -11,11 +11,11 @@ from figures import style
 # Marker and line of each treatment.
 TREATMENTS = {
     "exact": ("o", "-", None),
-    "exact, nothing repeated": ("o", "-.", "this solver, every step computed"),
+    "exact, nothing repeated": ("o", "-.", "this solver, no step reused"),
     "fixed step": (".", "-", None),
     "sign": ("x", ":", "sign() friction"),
     "events": ("^", "--", "events, naive restart"),
-    "modes": ("s", "-", "events and modes"),
+    "modes": ("s", "-", "events and contact modes"),
 }
 FAILURES = {
     "gave up": "T",
@@ -27,18 +27,18 @@ FAILURES = {
     "through the plate": "P",
 }
 MEANINGS = (
-    "T: gave up at the limit of evaluations · W: wrong state of motion · P: fell through the plate, reported success\n"
-    "R: finds the same events for ever · S: step too small · E: event lost · N: not finite"
+    "T: evaluation limit reached · W: wrong state of motion · P: fell through the plate, reported success\n"
+    "R: repeats the same event endlessly · S: step too small · E: event missed · N: not finite"
 )
 MISSING = "not installed"
-# Work, error, and their names.
+# Columns of work and error, and their labels.
 PANELS = (
     ("milliseconds", "velocity_error", "processor time in ms", "mean velocity"),
     ("evaluations", "velocity_error", "force evaluations", "mean velocity"),
-    ("milliseconds", "state_error", "processor time in ms", "state at the end"),
-    ("evaluations", "state_error", "force evaluations", "state at the end"),
+    ("milliseconds", "state_error", "processor time in ms", "final state"),
+    ("evaluations", "state_error", "force evaluations", "final state"),
 )
-# Above this error there is a band of failures, with a line for each method and treatment that has some.
+# Failures are drawn in a band above this error, with a line for each method and treatment.
 FAILED = 3.0
 BAND_ENDS = 1e10
 
@@ -49,8 +49,8 @@ QUANTITIES = {
 }
 
 
-def curve(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
-    """The successes of one method."""
+def draw_curve(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
+    """Draw the successful runs of one method."""
     method, treatment = rows.method.iloc[0], rows.treatment.iloc[0]
     colour, _ = style.METHODS[method]
     marker, line, _ = TREATMENTS[treatment]
@@ -71,7 +71,7 @@ def curve(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
 
 
 def draw_failures(axes: Axes, table: pd.DataFrame, x: str) -> None:
-    """The failures of a scene in the band: a line over the work of each kind, with its letter at the right end."""
+    """Draw the failures of a scene in the band: for each kind a line over its work, with its letter at the right."""
     kinds = table[table.outcome.isin(FAILURES)].groupby(["method", "treatment", "outcome"], sort=False)
     lines = np.geomspace(BAND_ENDS, FAILED, kinds.ngroups + 2)[1:-1]
     for line, ((method, _, outcome), failed) in zip(lines, kinds, strict=True):
@@ -81,10 +81,10 @@ def draw_failures(axes: Axes, table: pd.DataFrame, x: str) -> None:
         style.note(axes, FAILURES[outcome], (most, line), (3.0, 0.0), color=colour, va="center", annotation_clip=False)
 
 
-def panel(axes: Axes, table: pd.DataFrame, x: str, y: str, paper_step: float) -> None:
-    """Error `y` over work `x` of all methods in one scene."""
+def draw_panel(axes: Axes, table: pd.DataFrame, x: str, y: str, paper_step: float) -> None:
+    """Draw the error `y` over the work `x` of all methods in one scene."""
     for _, rows in table.groupby(["method", "treatment"], sort=False):
-        curve(axes, rows, x, y)
+        draw_curve(axes, rows, x, y)
     paper = table[(table.method == "euler") & np.isclose(table.step, paper_step)]
     axes.plot(paper[x], paper[y], "o", markersize=7.0, markerfacecolor="none", color=style.EULER)
     draw_failures(axes, table, x)
@@ -97,8 +97,8 @@ def panel(axes: Axes, table: pd.DataFrame, x: str, y: str, paper_step: float) ->
     axes.grid(linewidth=0.3, color="0.9")
 
 
-def handles(scenes: list[pd.DataFrame]) -> list[Line2D]:
-    """Of the legend: methods that ran (a peer may not be installed), and treatments of events."""
+def legend_handles(scenes: list[pd.DataFrame]) -> list[Line2D]:
+    """Legend handles of the methods that ran (a peer may not be installed) and of the treatments of events."""
     everything = pd.concat(scenes)
     ran = set(everything[everything.outcome != MISSING].method)
     known = [
@@ -112,19 +112,19 @@ def handles(scenes: list[pd.DataFrame]) -> list[Line2D]:
         if label
     ]
     paper = Line2D([], [], color=style.EULER, marker="o", linestyle="", markersize=6.0, markerfacecolor="none")
-    paper.set_label("the paper's step")
+    paper.set_label("published time step")
     return [*known, *treated, paper]
 
 
-def gap(scenes: list[pd.DataFrame]) -> str:
-    """A line that names the peers that were not installed; empty if all were."""
+def missing_note(scenes: list[pd.DataFrame]) -> str:
+    """A line that names the peers that are not installed; empty if all are."""
     everything = pd.concat(scenes)
     missing = dict.fromkeys(everything[everything.outcome == MISSING].method)
     return f"\nnot installed, so not shown: {', '.join(missing)}" if missing else ""
 
 
 def draw_estimates(axes: Axes, rows: pd.DataFrame, work: str, error: str) -> None:
-    """Error over work of the estimates of one quantity."""
+    """Draw the error of the estimates of one quantity over their work."""
     colours = (style.EULER, "black", style.CONVERGED)
     for colour, (name, curve) in zip(colours, rows.groupby("estimator", sort=False), strict=False):
         axes.loglog(curve.work, curve.error.clip(lower=1e-16), ".-", color=colour, linewidth=0.8, label=name)
@@ -144,7 +144,7 @@ def plot(
     estimates: pd.DataFrame,
     paper_step: float,
 ) -> Figure:
-    """Draw work and error of three motions, with a circle around the step of the paper, `paper_step` (s)."""
+    """Draw the errors over the work in three scenes, with a ring around the published step, `paper_step` (s)."""
     figure = style.figure(style.PAGE, 215.0)
     upper, lower = figure.subfigures(2, 1, height_ratios=(3.4, 1.0))
     grid = upper.subplots(3, len(PANELS), sharex="col", sharey=True)
@@ -156,14 +156,14 @@ def plot(
     for (name, (work, times)), row in zip(scenes.items(), grid, strict=True):
         table = work.assign(milliseconds=1e3 * times.seconds)
         for axes, (x, y, label, title) in zip(row, PANELS, strict=True):
-            panel(axes, table, x, y, paper_step)
+            draw_panel(axes, table, x, y, paper_step)
             if axes in grid[0]:
                 axes.set_title(title)
             if axes in grid[-1]:
                 axes.set_xlabel(label)
         row[0].set_ylabel(f"{name}\nrelative error")
-    upper.legend(handles=handles([jumping, riding, bouncing]), loc="outside upper center", ncols=4)
-    upper.supxlabel(MEANINGS + gap([jumping, riding, bouncing]), size=7.0)
+    upper.legend(handles=legend_handles([jumping, riding, bouncing]), loc="outside upper center", ncols=4)
+    upper.supxlabel(MEANINGS + missing_note([jumping, riding, bouncing]), size=7.0)
     for axes, (quantity, labels) in zip(lower.subplots(1, len(QUANTITIES)), QUANTITIES.items(), strict=True):
         draw_estimates(axes, estimates[estimates.quantity == quantity], *labels)
     return figure

@@ -1,4 +1,4 @@
-"""Starts on the attractors whose strobes a table holds."""
+"""Initial conditions on the attractors of the table of strobes."""
 
 import numpy as np
 import pandas as pd
@@ -7,8 +7,8 @@ from conveyor.analysis import stroboscopic_map
 from pipeline import grid
 
 
-def starts_on_attractors(strobes: pd.DataFrame, settings: dict) -> tuple[pd.DataFrame, np.ndarray]:
-    """The last recorded state of each amplitude and branch, and parameter vectors that start there, shape (n, 16)."""
+def parameters_on_attractors(strobes: pd.DataFrame, settings: dict) -> tuple[pd.DataFrame, np.ndarray]:
+    """The last recorded state of each amplitude and branch, and parameter vectors with these states, shape (n, 16)."""
     last = strobes[strobes.cycle == strobes.cycle.max()].reset_index(drop=True)
     parameters = np.tile(grid.packed(settings["model"]), (len(last), 1))
     parameters[:, 0] = last.acceleration
