@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+from conveyor.analysis.attractors.convergence import MAX_PERIOD
 from conveyor.analysis.attractors.labels import CHAOS, FIRST, LONG_FLIGHT, SECOND, STATES, UNDECIDED
-from conveyor.analysis.attractors.settling import MAX_PERIOD
 from conveyor.analysis.chaos import lyapunov
 from conveyor.methods import peers
 from conveyor.solver import trajectory

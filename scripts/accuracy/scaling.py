@@ -24,7 +24,7 @@ import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 
-from conveyor.analysis.attractors import settling_lanes
+from conveyor.analysis.attractors import convergence_lanes
 from conveyor.solver.progress import bar
 from pipeline import fields, tables
 from sweeps import shards
@@ -82,7 +82,7 @@ def run_job() -> None:
     else:
         begin, end = task["rows"]
         # With fewer points, the code for several initial conditions side by side would not be loaded.
-        first_points = task | {"rows": (begin, min(begin + settling_lanes.SIDE_BY_SIDE, end))}
+        first_points = task | {"rows": (begin, min(begin + convergence_lanes.SIDE_BY_SIDE, end))}
         times = {"loading": make_shard(**first_points)}
         os.unlink(task["path"])  # as in a real job, the file must not exist
         times["computing"] = make_shard(**task)
@@ -167,7 +167,7 @@ def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> d
     """The columns of the table, with one row per case. Code is compiled before the first measurement."""
     with tempfile.TemporaryDirectory() as folder:
         for one in cases:
-            rows = [0, min(settling_lanes.SIDE_BY_SIDE, one["plan"]["points"])]
+            rows = [0, min(convergence_lanes.SIDE_BY_SIDE, one["plan"]["points"])]
             measure_job(settings=one["settings"], threads=1, rows=rows, path=f"{folder}/one.parquet")
     times, gathering = [[] for _ in cases], {}
     for number, k in bar(list(product(range(ROUNDS), range(len(cases)))), label=progress, unit="sweeps"):

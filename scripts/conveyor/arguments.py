@@ -1,12 +1,24 @@
-"""Checks of the arguments of public functions: each error names the argument and the values that are admissible."""
+"""Checks of arguments: each error names the argument and the admissible values."""
 
 from collections.abc import Collection
 
 import numpy as np
 
-from .parameters import RANGES, UNITS
+from .parameters import PARAMETERS, RANGES, TENSION_MODES, UNITS
 
 MOST_VALUES = 10**8  # of an array, or of arrays that are combined
+MOST_THREADS = 1024
+MOST_CYCLES = 10**6  # that one trajectory is followed for
+MOST_BLOCKS = 10**4
+LONGEST_PERIOD = 10**6  # excitation cycles
+LARGEST_COORDINATE = 1e100
+
+# Intervals of packed parameters. A trajectory may leave the range of initial conditions, and a run that failed leaves
+# no state (NaN) for the run that continues it.
+STATES = ("z0", "vz0")
+PACKED = RANGES | {"tension": (0.0, len(TENSION_MODES) - 1.0)} | dict.fromkeys(STATES, (-1e12, 1e12))
+LOW, HIGH = np.array([PACKED[name] for name in PARAMETERS]).T
+MAY_BE_NAN = np.isin(PARAMETERS, STATES)
 
 
 def check_type(name: str, value: object, kind: type) -> None:
@@ -29,19 +41,17 @@ def check_flag(name: str, value: object) -> bool:
     return bool(value)
 
 
-def check_number(
-    name: str, value: object, low: float, high: float, unit: str = "", *, above: bool = False, below: bool = False
-) -> float:
-    """`value` as a float; it must lie in [low, high], not on `low` where it has to lie `above`, nor on `high` `below`.
+def check_number(name: str, value: object, low: float, high: float, unit: str = "", *, above: bool = False) -> float:
+    """`value` as a float; it must lie in [low, high], or in (low, high] where it has to lie `above` the lower end.
 
     Raises
     ------
     ValueError
         names the argument, its unit and its interval
     """
-    interval = f"{'(' if above else '['}{low:g}, {high:g}{')' if below else ']'} {unit}".rstrip()
+    interval = f"{'(' if above else '['}{low:g}, {high:g}] {unit}".rstrip()
     number = isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
-    if not (number and low <= value <= high) or (above and value == low) or (below and value == high):
+    if not (number and low <= value <= high) or (above and value == low):
         raise ValueError(f"{name} = {value!r} must be a number in {interval}")
     return float(value)
 
@@ -53,14 +63,20 @@ def check_count(name: str, value: object, low: int, high: int) -> int:
     return int(value)
 
 
-def check_array(name: str, values: object, low: float, high: float, unit: str = "", *, least: int = 1) -> np.ndarray:
-    """`values` as a float64 array of `least` values or more, none of them NaN or outside [low, high]."""
+def check_numbers(name: str, values: object) -> np.ndarray:
+    """`values` as an array; they must be real numbers."""
     try:
         array = np.asarray(values)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name} must be an array of numbers: {error}") from None
     if array.size and array.dtype.kind not in "iuf":
         raise ValueError(f"{name} must be an array of numbers, got the type {array.dtype}")
+    return array
+
+
+def check_array(name: str, values: object, low: float, high: float, unit: str = "", *, least: int = 1) -> np.ndarray:
+    """`values` as a float64 array of `least` values or more, none of them NaN or outside [low, high]."""
+    array = check_numbers(name, values)
     if not least <= array.size <= MOST_VALUES:
         raise ValueError(f"{name} must have {least} to {MOST_VALUES:g} values, got the shape {array.shape}")
     outside = ~((array >= low) & (array <= high))
@@ -69,10 +85,37 @@ def check_array(name: str, values: object, low: float, high: float, unit: str = 
     return np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
 
 
-def check_parameters(values: dict[str, object], names: Collection[str]) -> dict[str, np.ndarray]:
-    """`values` of parameters as float64 arrays of one shape, that to which they broadcast.
+def check_packed(rows: object) -> np.ndarray:
+    """Packed `parameters` as a float64 array of the shape (n, 16), each parameter within its range.
 
-    names : those that are admissible; the ranges are parameters.RANGES, that of `z` is the one of z0, of `vz` vz0's
+    z0 may be NaN, for a part that starts on the plate; z0 and vz0 may be NaN for a run that continues a failed one.
+    """
+    array = check_numbers("parameters", rows)
+    if array.ndim != 2 or array.shape[1] != len(PARAMETERS):
+        raise ValueError(f"parameters must have the shape (n, {len(PARAMETERS)}), got the shape {array.shape}")
+    outside = ~((array >= LOW) & (array <= HIGH)) & ~(MAY_BE_NAN & np.isnan(array))
+    if outside.any():
+        row, column = np.argwhere(outside)[0]
+        name = PARAMETERS[column]
+        interval = f"[{LOW[column]:g}, {HIGH[column]:g}] {UNITS[name]}".rstrip()
+        raise ValueError(f"parameters[{row}]: {name} = {array[row, column]!s} is outside {interval}")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def check_tolerance(tolerance: object) -> float:
+    """`tolerance`, a relative error per Taylor step."""
+    return check_number("tolerance", tolerance, 1e-14, 1e-2)
+
+
+def check_threads(threads: object) -> int:
+    """`threads`, a number of threads."""
+    return check_count("threads", threads, 1, MOST_THREADS)
+
+
+def check_parameters(values: dict[str, object], names: Collection[str]) -> dict[str, np.ndarray]:
+    """`values` of parameters as float64 arrays, broadcast to one shape.
+
+    names : the admissible ones; the ranges are parameters.RANGES, with those of z0 and vz0 for `z` and `vz`
     """
     for name in values:
         if name not in names:

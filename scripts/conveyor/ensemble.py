@@ -1,9 +1,9 @@
-"""Many trajectories: one row per point, in the order of the points, whatever fails and however the work is shared."""
+"""Many trajectories: one row per point, in the order of the points, whatever fails and however work is shared."""
 
 import numpy as np
 
-from .arguments import check_array, check_choice, check_count
-from .methods import euler_lanes, fixed_step
+from .arguments import check_array, check_choice, check_count, check_packed, check_threads
+from .methods import fixed_step
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, LONGEST, check_run
 from .solver import trajectory, vertical_lanes
 from .solver.horizontal import VX, VZ, X, Z
@@ -11,7 +11,7 @@ from .solver.parallel import for_each_chunk
 
 STATUS = trajectory.STATUS
 NEEDS = ("feeding", "vertical")
-# Columns of the array that the kernels fill.
+# Rows of the array of results that all methods fill.
 MEAN_VELOCITY, Z_END, VZ_END, X_END, VX_END, MAX_GAP, IMPACTS, CONTACT_FRACTION = range(8)
 IMPACT_SPEED, PEAK_FORCE, CODE = range(8, 11)
 COLUMNS = (
@@ -42,37 +42,11 @@ def follow_by_events(parameters, durations, tolerance, feeding, out):
 
 def follow_by_steps(parameters, duration, step, method, out):
     """Fill `out`, shape (11, n), for `parameters`, shape (n, 16), with a fixed-step method."""
-    count = fixed_step.step_count(duration, step)
-    first = min(round((1.0 - LAST) * count), count - 1)
-    n = parameters.shape[0]
-    samples = np.full((n, 1, 6), np.nan)
-    results = np.empty((n, euler_lanes.RESULTS))
-    fixed_step.integrate_all(parameters, step, count, method, np.array([first]), samples, np.empty((n, 0, 2)), results)
-    for i in range(n):
-        x, vx, z, vz, _, impacts, contact_time, max_gap, _, status, impact_speed, peak_force = results[i]
-        out[MEAN_VELOCITY, i] = (x - samples[i, 0, 0]) / ((count - first) * step)
-        out[X_END, i], out[VX_END, i], out[Z_END, i], out[VZ_END, i] = x, vx, z, vz
-        out[MAX_GAP, i] = max_gap
-        out[IMPACTS, i] = impacts
-        out[CONTACT_FRACTION, i] = contact_time / (count * step)
-        is_known = status == fixed_step.OK
-        out[IMPACT_SPEED, i], out[PEAK_FORCE, i] = (impact_speed, peak_force) if is_known else (np.nan, np.nan)
-        out[CODE, i] = trajectory.OK if is_known else trajectory.NOT_FINITE
-
-
-def samples_by_events(parameters, times, tolerance, column, feeding, out):
-    """Fill `out`, shape (n, len(times)), with one column of the samples of n event-driven runs."""
-    moments = np.tile(times, (len(parameters), 1))
-    out[:] = trajectory.integrate(parameters, moments, tolerance=tolerance, feeding=feeding)[0][:, :, column]
-
-
-def samples_by_steps(parameters, indices, step, method, column, out):
-    """Fill `out`, shape (n, len(indices)), with one column of the samples of n fixed-step runs."""
-    n = parameters.shape[0]
-    samples = np.full((n, indices.size, 6), np.nan)
-    results = np.empty((n, euler_lanes.RESULTS))
-    fixed_step.integrate_all(parameters, step, indices[-1], method, indices, samples, np.empty((n, 0, 2)), results)
-    out[:] = samples[:, :, column]
+    for i, run in enumerate(fixed_step.run_all(parameters, duration, step, method, LAST)):
+        out[[MEAN_VELOCITY, X_END, VX_END, Z_END, VZ_END], i] = run.mean_velocity, run.x, run.vx, run.z, run.vz
+        out[[MAX_GAP, IMPACTS, CONTACT_FRACTION], i] = run.max_gap, run.impacts, run.contact_fraction
+        out[[IMPACT_SPEED, PEAK_FORCE], i] = run.impact_speed, run.peak_force
+        out[CODE, i] = STATUS.index(run.status)
 
 
 def run(
@@ -87,14 +61,15 @@ def run(
     chunk: int = 1024,
     progress: str | None = None,
 ) -> dict[str, np.ndarray]:
-    """Follow every point for `duration` (s); the event-driven method takes one for each point, too, shape (n,).
+    """Follow every point for `duration` (s), for the event-driven method also one for each point, shape (n,).
 
     Parameters
     ----------
     parameters : float64, shape (n, 16), rows as from model.pack
     duration, method, tolerance, step : as in simulation.simulate
-    needs : "feeding", or "vertical" where nothing horizontal is wanted (event-driven method: its columns are NaN)
-    threads, chunk : how the work is shared; the result does not depend on them
+    needs : "feeding"; or "vertical" for the vertical motion alone, with NaN in the columns of the horizontal motion
+        (event-driven method)
+    threads, chunk : number of threads, and points that a thread takes at a time; the result does not depend on them
     progress : name of a progress bar on stderr, or None
 
     Returns
@@ -102,16 +77,21 @@ def run(
     dict of arrays of shape (n,): mean_velocity (m/s, over the last quarter), z_end, vz_end, x_end, vx_end (m, m/s),
     max_gap (m), impacts (int64), contact_fraction (1), impact_speed (m/s) and peak_force (N), the largest speed of
     approach at an impact and the largest contact force over the last quarter (0 if there is none), and status (str;
-    "ok", or why the point has no result: its numbers are then NaN where they are not known)
+    "ok", or why the run ended early: numbers that are then not known are NaN)
+
+    Raises
+    ------
+    ValueError
+        names the argument that cannot be used
     """
     check_choice("needs", needs, NEEDS)
-    check_count("threads", threads, 1, 1024)
+    check_threads(threads)
     check_count("chunk", chunk, 1, 10**9)
     durations = check_array("duration", duration, np.finfo(np.float64).tiny, LONGEST, "s", least=0)
     check_run(durations.max() if durations.size else LONGEST, method, tolerance, step)
     if method != "event" and durations.ndim > 0:
         raise ValueError("duration: only the event-driven method takes one for each point")
-    parameters = np.ascontiguousarray(parameters, dtype=np.float64)
+    parameters = check_packed(parameters)
     if durations.ndim > 0 and durations.shape != (len(parameters),):
         raise ValueError(f"duration has the shape {durations.shape}, but there are {len(parameters)} points")
     out = np.empty((CODE + 1, len(parameters)))
@@ -123,7 +103,7 @@ def run(
             rows = slice(begin, end)
             follow_by_events(parameters[rows], durations[rows], tolerance, feeding, out[:, rows])
         else:
-            follow_by_steps(parameters[begin:end], duration, step, fixed_step.METHODS.index(method), out[:, begin:end])
+            follow_by_steps(parameters[begin:end], duration, step, method, out[:, begin:end])
         return np.count_nonzero(out[CODE, begin:end] != trajectory.OK)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=chunk, progress=progress)

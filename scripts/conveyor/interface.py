@@ -1,8 +1,8 @@
 """The public functions of the library besides `simulate`: they take a Conveyor and plain arrays, and check both.
 
-Keyword arrays take the place of single parameters, by the names of the fields of Conveyor and Start; they broadcast
-against each other, and results have their shape. Each function only checks, packs the parameters, and calls the module
-where the method is described.
+Arrays given by keyword replace single parameters of the Conveyor and the Start with the same names. They broadcast
+against each other, and results have their shape. Each function checks its arguments, packs the parameters, and calls
+the module that describes the method.
 """
 
 from dataclasses import fields
@@ -22,21 +22,28 @@ from .analysis.chaos import lyapunov
 from .analysis.chaos.lyapunov import Spectrum
 from .analysis.fractals import box_counting, correlation_sum
 from .analysis.fractals.scaling_region import Dimension
-from .arguments import check_array, check_count, check_number, check_parameters, check_type
+from .arguments import (
+    LARGEST_COORDINATE,
+    MOST_CYCLES,
+    check_array,
+    check_count,
+    check_number,
+    check_parameters,
+    check_threads,
+    check_tolerance,
+    check_type,
+)
 from .parameters import RANGES
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, check_run
 from .solver.model import Conveyor, Start, pack, set_columns
 
 AXES = (*(field.name for field in fields(Conveyor) if field.name in RANGES), "z", "vz")
-MOST_CYCLES = 10**6
-MOST_THREADS = 256
 LARGEST_PERIOD = 1024
-LARGEST_COORDINATE = 1e100
 AT_REST = Start()
 
 
 class Runs(NamedTuple):
-    """The ends of trajectories; every field has the shape of the arrays that `sweep` was given."""
+    """The ends of trajectories; every field has the shape of the arrays given to `sweep`."""
 
     mean_velocity: np.ndarray  # m/s, feeding velocity over the last quarter of the run (Sect. 3.1)
     z_end: np.ndarray  # m
@@ -61,7 +68,7 @@ class Basin(NamedTuple):
 
 
 def pack_all(conveyor: Conveyor, start: Start, values: dict[str, ArrayLike]) -> tuple[np.ndarray, tuple[int, ...]]:
-    """Packed parameters, shape (n, 16), one row for each point of the `values`, and the shape of these."""
+    """Packed parameters, shape (n, 16), one row for each point of the `values`, and the shape of the points."""
     check_type("conveyor", conveyor, Conveyor)
     check_type("start", start, Start)
     arrays = check_parameters(values, AXES)
@@ -75,16 +82,8 @@ def pack_all(conveyor: Conveyor, start: Start, values: dict[str, ArrayLike]) -> 
 
 
 def reshape(record: NamedTuple, shape: tuple[int, ...]) -> NamedTuple:
-    """The record with all of its fields, of the shape (n,), in the shape of the points."""
+    """The record with its fields, of the shape (n,), in the shape of the points."""
     return type(record)(*(column.reshape(shape) for column in record))
-
-
-def check_threads(threads: int) -> int:
-    return check_count("threads", threads, 1, MOST_THREADS)
-
-
-def check_tolerance(tolerance: float) -> float:
-    return check_number("tolerance", tolerance, 1e-14, 1e-2)
 
 
 def sweep(
@@ -142,13 +141,13 @@ def classify(
 
     Parameters
     ----------
-    conveyor, start : where `values` say nothing
-    cycles : excitation cycles after which a trajectory that has not settled is followed no further, up to 1e6
+    conveyor, start : the parameters that are not among the `values`
+    cycles : excitation cycles after which the search for a period ends, up to 1e6
     tolerance, threads, values : as in `sweep`
 
     Returns
     -------
-    Labels, whose fields have the shape of the `values`; see attractors.labels for how they are decided
+    Labels, whose fields have the shape of the `values`; attractors.labels describes how a label is found
 
     Examples
     --------
@@ -173,7 +172,7 @@ def basin(
 ) -> Basin:
     """The basins of attraction on a grid of initial conditions.
 
-    The attractors of the conveyor are found first: a trajectory is followed until it must end in one of them.
+    The attractors of the conveyor are found first. Each trajectory is followed until it must end in one of them.
 
     Parameters
     ----------
@@ -197,8 +196,8 @@ def basin(
     cycles = check_count("cycles", cycles, 1, MOST_CYCLES)
     tolerance, threads = check_tolerance(tolerance), check_threads(threads)
     rows, shape = pack_all(conveyor, AT_REST, {"z": heights[:, None], "vz": speeds})
-    known = search.find_attractors(rows[:1], cycles=cycles, tolerance=tolerance, threads=threads)
-    found = labels.classify(rows, cycles=cycles, known=known, tolerance=tolerance, threads=threads)
+    attractors = search.find_attractors(rows[:1], cycles=cycles, tolerance=tolerance, threads=threads)
+    found = labels.classify(rows, cycles=cycles, attractors=attractors, tolerance=tolerance, threads=threads)
     return Basin(heights, speeds, found.state.reshape(shape), found.period.reshape(shape))
 
 
@@ -217,9 +216,9 @@ def lyapunov_spectrum(
 
     Parameters
     ----------
-    conveyor, start : where `values` say nothing
-    transient : excitation cycles that are followed first and not counted, up to 1e6
-    cycles, blocks : `blocks` (2 to 1000) of `cycles` (1 to 1e5) are counted, which give the standard error
+    conveyor, start : the parameters that are not among the `values`
+    transient : excitation cycles at first that do not count, up to 1e6
+    cycles, blocks : `blocks` (2 to 1000) of `cycles` (1 to 1e5) count; the standard error is that of the blocks' means
     tolerance, threads, values : as in `sweep`
 
     Returns
@@ -252,9 +251,9 @@ def periodic_orbit(
     Parameters
     ----------
     conveyor, start : the beginning of the trajectory
-    period : excitation cycles of the orbit, 1 to 1024; an orbit of a part of them is one of `period`, too
-    transient : excitation cycles of the trajectory, up to 1e6; with 0 the iteration begins at `start`, which unstable
-        orbits need
+    period : excitation cycles of the orbit, 1 to 1024; an orbit whose period divides it counts, too
+    transient : excitation cycles of the trajectory, up to 1e6; 0 to begin the iteration at `start`, as unstable orbits
+        need it
 
     Returns
     -------
@@ -272,7 +271,7 @@ def periodic_orbit(
     state = stroboscopic_map.initial_states(rows, periodic_orbits.TOLERANCE)[0]
     strobes, features = np.empty((transient, 2)), np.empty((transient, stroboscopic_map.FEATURES))
     stroboscopic_map.follow(rows[0], periodic_orbits.TOLERANCE, state, transient, strobes, features)
-    return periodic_orbits.find_orbit(rows[0], conveyor.acceleration, state, period)
+    return periodic_orbits.orbit_near(rows[0], conveyor.acceleration, state, period)
 
 
 def continue_orbit(conveyor: Conveyor, orbit: Orbit, *, low: float, high: float) -> Branch:
@@ -280,9 +279,9 @@ def continue_orbit(conveyor: Conveyor, orbit: Orbit, *, low: float, high: float)
 
     Parameters
     ----------
-    conveyor : all parameters but the amplitude, which is the orbit's
+    conveyor : its amplitude does not matter, because the orbit has its own
     orbit : from `periodic_orbit`
-    low, high : amplitudes in m/s² at which the branch ends, on either side of the orbit's
+    low, high : amplitudes in m/s² at which the branch ends, on either side of the orbit's amplitude
 
     Examples
     --------
@@ -319,7 +318,7 @@ def box_dimension(points: ArrayLike) -> Dimension:
 def correlation_dimension(points: ArrayLike, theiler: int = 0) -> Dimension:
     """The correlation dimension of consecutive `points`, shape (n, 2), see fractals.correlation_sum.
 
-    theiler : pairs at most this number of samples apart are left out, 0 to n - 1
+    theiler : pairs of points at most this number of samples apart do not count, 0 to n - 1
 
     Examples
     --------

@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping
 
 TENSION_MODES = ("allow", "frictionless", "clip")
-# Compiled kernels receive a conveyor and an initial condition as a vector of parameters in this order.
+# Compiled functions receive a conveyor and an initial condition as one vector of parameters, in this order.
 DESCRIPTIONS = {
     "acceleration": "amplitude of the excitation, â",
     "angle": "angle of throw φ",
@@ -75,5 +75,5 @@ def normal_gravity(model: Mapping[str, float]) -> float:
     return model["gravity"] * math.cos(model.get("inclination", 0.0))
 
 
-# Methods with a fixed step. The position of a name is its code in compiled kernels.
+# Methods with a fixed step. The position of a name is its code in compiled functions.
 FIXED_STEP_METHODS = ("euler", "semi_implicit_euler", "rk4")

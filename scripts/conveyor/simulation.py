@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .arguments import check_array, check_choice, check_flag, check_number, check_type
+from .arguments import check_array, check_choice, check_flag, check_number, check_tolerance, check_type
 from .methods import fixed_step
 from .solver import trajectory
 from .solver.horizontal import EVENTS, SAMPLES
@@ -23,11 +23,11 @@ EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U14")])
 
 @dataclass(frozen=True)
 class Run:
-    """What `simulate` found. Only the end and the start of the last quarter are kept; `sample` follows the part again.
+    """The result of `simulate`. It holds the end of the run; `sample` and `events` follow the part again.
 
     Attributes
     ----------
-    conveyor, start, duration, method, tolerance, step, reuse : as they were given
+    conveyor, start, duration, method, tolerance, step, reuse : the arguments of `simulate`
     status : "ok", or why the run ended early
     z_end, vz_end, x_end, vx_end : state at the end, m and m/s
     impacts : number of impacts
@@ -35,7 +35,7 @@ class Run:
     contact_fraction : share of the duration with a contact force
     impact_speed : largest speed of approach at an impact over the last quarter, m/s; 0 if there is none
     peak_force : largest contact force over the last quarter, N; 0 if there is none
-    work : force evaluations (fixed step) or Taylor steps that were computed (event)
+    work : force evaluations (fixed step) or computed Taylor steps (event)
     repeats : Taylor steps of a settled motion that were used again (event)
     """
 
@@ -75,7 +75,7 @@ class Run:
         Returns
         -------
         dict of float64 arrays of the shape of `times`: x, z (m), vx, vz (m/s), contact_force, friction_force (N);
-        NaN behind the point where a run ended early
+        NaN after the point where a run ended early
         """
         times = check_array("times", times, 0.0, self.duration, "s", least=0)
         if self.method != "event":
@@ -108,7 +108,7 @@ def check_run(duration: float, method: str, tolerance: float, step: float) -> No
     """ValueError that names the argument of `simulate` that cannot be used."""
     check_number("duration", duration, 0.0, LONGEST, "s", above=True)
     check_choice("method", method, METHODS)
-    check_number("tolerance", tolerance, 1e-14, 1e-2)
+    check_tolerance(tolerance)
     check_number("step", step, 0.0, LONGEST, "s", above=True)
     if method != "event" and duration / step > MOST_STEPS:
         raise ValueError(f"step = {step!r} s makes more than {MOST_STEPS:g} steps of the duration of {duration!r} s")
@@ -133,7 +133,7 @@ def simulate(
     method : "event" for the exact event loop, or one of fixed_step: "euler" (the paper's), "semi_implicit_euler", "rk4"
     tolerance : relative error per Taylor step, 1e-14 to 1e-2; used by "event"
     step : step size in s, of which the duration is a whole number; used by the fixed-step methods
-    reuse : whether Taylor steps of a settled motion are used again (see memory); used by "event"
+    reuse : whether Taylor steps of a settled motion are used again (see repeated_steps); used by "event"
 
     Returns
     -------

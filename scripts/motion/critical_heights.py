@@ -30,7 +30,7 @@ def find_states(parameters: np.ndarray, settings: dict, known: AttractorTable, t
         run = {name: settings[name] for name in ("duration", "method", "step")}
         runs = ensemble.run(parameters, needs="vertical", chunk=8, threads=threads, **run)
         parameters = continued(parameters, runs["z_end"], runs["vz_end"], settings["duration"])
-    return classify(parameters, known=known, **options).state
+    return classify(parameters, attractors=known, **options).state
 
 
 def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:

@@ -132,7 +132,7 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
             f"the jumping orbit at {begin:g} m/s² (the last of orbits.seeds) does not double its period up to "
             f"{end:g} m/s²; raise the upper value of orbits.limits beyond its first period doubling"
         )
-    if (double := continuation.doubled(parameters, first)) is None:
+    if (double := continuation.find_doubled_orbit(parameters, first)) is None:
         raise ValueError(f"no orbit of twice the period was found at the doubling at {first.orbit.acceleration:g} m/s²")
     span = (first.orbit.acceleration - 1.0, first.orbit.acceleration + 20.0)
     following = continuation.follow_branch(parameters, double, span)

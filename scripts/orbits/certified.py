@@ -189,7 +189,7 @@ def doubled_lines(
             orbit = periodic_orbits.find_orbit(
                 parameters, row.acceleration, np.array([row.delta, row.v]), int(row.period)
             )
-            new = continuation.doubled(parameters, Bifurcation("period_doubling", orbit, -1.0))
+            new = continuation.find_doubled_orbit(parameters, Bifurcation("period_doubling", orbit, -1.0))
             branch = continuation.follow_branch(parameters, new, limits).orbits
             found.append(Line(period, np.array([[*orbit.state, orbit.acceleration] for orbit in branch])))
     return found

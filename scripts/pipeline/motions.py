@@ -72,7 +72,7 @@ def motions_of_starts(
         label = progress and (f"{progress} ({number} of {len(batches)})" if len(batches) > 1 else progress)
         known = shared_attractors(parameters[rows], starts, settings, threads=threads, progress=label)
         exponents = settings.get("exponents", True)
-        parts.append(classify(parameters[rows], known=known, exponents=exponents, **options, progress=label))
+        parts.append(classify(parameters[rows], attractors=known, exponents=exponents, **options, progress=label))
     order = np.argsort(np.concatenate(batches))
     return Labels(*(np.concatenate(column)[order] for column in zip(*parts, strict=True)))
 

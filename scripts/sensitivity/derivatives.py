@@ -90,7 +90,7 @@ def differentiate_bifurcation(parameters: np.ndarray, bifurcation: Selected) -> 
     """A bifurcation with the derivatives of its amplitude."""
     point = bifurcation.point
     label = {name: getattr(bifurcation, name) for name in ("kind", "period", "doubling", "rides")}
-    moves = None if point is None else bifurcation_points.moves(point)
+    moves = None if point is None else bifurcation_points.differentiate_unknowns(point)
     if moves is None:
         return CriticalPoint(
             **label,

@@ -10,7 +10,9 @@ import pytest
 
 import conveyor
 from conveyor import Conveyor, Start, ensemble, interface, simulation
-from conveyor.parameters import RANGES
+from conveyor.analysis.bifurcations import periodic_orbits
+from conveyor.analysis.chaos import lyapunov
+from conveyor.parameters import PARAMETERS, RANGES
 from conveyor.solver.model import pack
 
 ODD = (
@@ -152,8 +154,57 @@ def test_a_basin_has_the_labels_of_its_initial_conditions():
     assert set(found.state.flat) == {"first", "second"}
 
 
-@pytest.mark.parametrize("argument", ["duration", "method", "tolerance", "step", "needs", "threads", "chunk"])
-def test_odd_arguments_of_ensembles_are_named(argument):
-    rows = np.array([pack(Conveyor(), Start())])
-    for odd in ODD:
-        call(ensemble.run, "run", {"parameters": rows, "duration": 0.01}, {argument: odd})
+ROWS = np.array([pack(Conveyor(), Start(3e-4)), pack(Conveyor(acceleration=80.0), Start())])
+# Functions below the public interface that check their arguments themselves.
+INNER = {
+    ensemble.run: {"parameters": ROWS, "duration": 0.01, "method": "event", "tolerance": 1e-8, "step": 1e-5}
+    | {"needs": "vertical", "threads": 1, "chunk": 10},
+    lyapunov.spectrum: {"parameters": ROWS, "states": np.zeros((2, 2)), "transient": 5, "cycles": 5, "blocks": 2}
+    | {"tolerance": 1e-8, "threads": 1},
+    periodic_orbits.find_orbit: {"parameters": ROWS[0], "acceleration": 40.0, "state": ORBIT.state, "period": 1},
+}
+
+
+def changed_rows(parameter, value):
+    """Packed parameters with a value of one parameter in the last row."""
+    rows = ROWS.copy()
+    rows[-1, PARAMETERS.index(parameter)] = value
+    return rows
+
+
+@pytest.mark.parametrize("function", INNER, ids=lambda function: function.__name__)
+def test_odd_arguments_of_inner_functions_are_named(function):
+    arguments = INNER[function]
+    function(**arguments)  # to compile takes longer than any call may
+    for argument in arguments:
+        for odd in ODD:
+            call(function, function.__name__, arguments, {argument: odd})
+
+
+@pytest.mark.parametrize("function", INNER, ids=lambda function: function.__name__)
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 1e308, -1e308, -1.0])
+def test_packed_parameters_are_checked(function, value):
+    """Each parameter of a row has its range; -1 lies within those of some."""
+    for parameter in PARAMETERS:
+        rows = changed_rows(parameter, value)
+        rows = rows[-1] if function is periodic_orbits.find_orbit else rows
+        if value == -1.0 and (RANGES.get(parameter, (0.0,))[0] <= value):
+            continue
+        if np.isnan(value) and parameter in ("z0", "vz0"):
+            continue  # a part that starts on the plate, and one whose last run failed
+        with pytest.raises(ValueError, match=rf"parameters\[\d\]: {parameter} = .* is outside \["):
+            function(**INNER[function] | {"parameters": rows})
+
+
+def test_a_run_that_continues_a_failed_one_fails():
+    found = ensemble.run(changed_rows("vz0", np.nan), duration=0.01)
+    assert found["status"].tolist() == ["ok", "impact not found"]
+
+
+def test_shapes_of_packed_parameters_and_states_are_checked():
+    with pytest.raises(ValueError, match=r"parameters must have the shape \(n, 16\), got the shape \(2, 15\)"):
+        ensemble.run(ROWS[:, 1:])
+    with pytest.raises(ValueError, match=r"states must have the shape \(2, 2\)"):
+        lyapunov.spectrum(ROWS, np.zeros((1, 2)))
+    with pytest.raises(ValueError, match=r"state must be δ \(m\) and v \(m/s\)"):
+        periodic_orbits.find_orbit(ROWS[0], 40.0, np.zeros(3), 1)

@@ -1,4 +1,4 @@
-"""The dimensionless groups of the vertical motion: what makes the vertical motion of two conveyors the same.
+"""The dimensionless groups of the vertical motion: conveyors with equal groups have the same vertical motion.
 
 With the length g/ω² and the time 1/ω, the penetration x = δ ω²/g and its rate obey
 
@@ -6,9 +6,9 @@ With the length g/ω² and the time 1/ω, the penetration x = δ ω²/g and its 
 
     Γ = a_z/g,   D = d_c/(m ω),   K = (k_c/m) g^(p-1)/ω^(2p),
 
-and p and the reading of tension, where g is the gravity normal to the track, g cos α. Nothing else enters: the angle
-of throw acts through a_z = â sin φ only, and neither friction nor the motion along the track act at all. An initial
-condition adds ψ0, z0 ω²/g and ż0 ω/g.
+and p and the treatment of tension, where g is the gravity normal to the track, g cos α. Nothing else matters: the angle
+of throw acts only through a_z = â sin φ, and friction and the motion along the track do not act on the vertical motion.
+An initial condition adds ψ0, z0 ω²/g and ż0 ω/g.
 """
 
 import math
@@ -33,7 +33,7 @@ class Groups(NamedTuple):
     damping: float  # D = d_c/(m ω)
     stiffness: float  # K = (k_c/m) g^(p-1)/ω^(2p)
     exponent: float  # p
-    tension: int  # code of the reading of tension, see model.TENSION_MODES
+    tension: int  # code of the treatment of tension, see model.TENSION_MODES
 
 
 def normal_gravity(parameters: np.ndarray) -> float:
@@ -84,7 +84,7 @@ def start_of(parameters: np.ndarray) -> tuple[float, float, float]:
 def slopes(parameters: np.ndarray) -> dict[str, np.ndarray]:
     """Derivatives of all groups, in the order of NAMES, by each parameter that is a number: shape (7,).
 
-    That by the exponent is at constant k_c in N/m^p, whose unit changes with p.
+    The derivative by the exponent is at constant k_c in N/m^p, whose unit changes with p.
     """
     groups = groups_of(parameters)
     height, velocity_ratio, _ = start_of(parameters)
@@ -130,7 +130,7 @@ def slopes(parameters: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def derivatives_of(moved: str, parameters: np.ndarray, by: np.ndarray) -> dict[str, float]:
-    """Derivatives of a parameter that an equation between the groups determines, by each of the others.
+    """Derivatives of a parameter that an equation between the groups determines, by each of the other parameters.
 
     Parameters
     ----------

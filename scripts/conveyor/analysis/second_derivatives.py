@@ -1,14 +1,13 @@
 """The stroboscopic map to second order: what its linearisation does when the state or a parameter changes.
 
-Perturbations are those of (δ, Y) (see stroboscopic_map) by five quantities, in this order:
+Perturbations belong to (δ, Y) (see stroboscopic_map) and to six quantities, in this order:
 
     δ and Y at the beginning of the cycle, a_z (m/s²), d_c/m (1/s), k_c/m (of its unit), p.
 
 The first derivatives solve the linearised equations of motion with the forces that a change of a parameter adds. The
-second ones, by a state and any of the six, solve those equations again, driven by products of the first ones. They
-jump where δ passes zero with the rate v: the equations of (δ, Y) have a kink in their damping there, whose second
-derivative is a Dirac function, and so is the one of the spring where p = 1. `clip` adds the kink where the force
-begins to pull or ceases to.
+second derivatives, by a state and one of the six quantities, solve the same equations, driven by products of first
+derivatives. They jump where δ passes zero with the rate v. The damping has a kink there, whose second derivative is a
+Dirac function; for p = 1 the spring has one, too. `clip` has another kink where the force begins or ceases to pull.
 """
 
 import math
@@ -17,25 +16,25 @@ import numpy as np
 
 from ..solver import contact, polynomial
 from ..solver.contact import FIRST, FORCE_SIGN, SEPARATION
-from ..solver.jit import borrowed, inlined, kernel, spliced
+from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from ..solver.model import TENSION_CLIP
 from ..solver.polynomial import ORDER, SIZE
-from ..solver.trajectory import IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, patience
-from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, motion_at, next_piece, shortened
+from ..solver.trajectory import IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, longest_eventless
+from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, cut_step, motion_at, next_piece
 from .stroboscopic_map import tangent_length
 
 # What is perturbed; the first two are the state.
 DELTA, Y, AMPLITUDE, DAMPING, STIFFNESS, EXPONENT = range(6)
 QUANTITIES = 6
-# Products of perturbations ring at twice the frequency of each: their steps are half as long.
+# Products of perturbations ring at twice the frequency of each perturbation, so that steps are half as long.
 PART = 0.5
-# The derivative of w^(2p+1) by p has the factor log w, singular at w = 0: a step covers this part of the distance to
-# it, and below this part of the √penetration at rest, where it weighs nothing, it is left out.
+# The derivative of w^(2p+1) by p has the factor log w, which is singular at w = 0. A step covers this part of the
+# distance to w = 0. Below this part of the √penetration at rest the derivative is negligible and left out.
 PART_OF_RADIUS = 0.2
 LOG_EDGE = 1e-5
 
 
-@kernel
+@compiled
 def power_series(c, series, exponent, out):
     """Fill `out`, shape (SIZE,), with the Taylor coefficients of w^exponent of a contact step, 0 if w begins at 0."""
     w = FIRST + contact.W
@@ -44,11 +43,11 @@ def power_series(c, series, exponent, out):
         series[contact.SCRATCH, 0] = series[w, 0] ** exponent
         for n in range(1, ORDER):
             series[contact.SCRATCH, n] = contact.power_term(series, w, contact.SCRATCH, exponent, n)
-    for n in range(SIZE):  # to copy a slice takes seconds to compile: it would check the shapes, and word the error
+    for n in range(SIZE):  # a slice would take seconds to compile, with the error message for wrong shapes
         out[n] = series[contact.SCRATCH, n]
 
 
-@kernel
+@compiled
 def log_series(c, series, out):
     """Fill `out`, shape (SIZE,), with the Taylor coefficients of 2 log w of a contact step, 0 where w is left out."""
     w = series[FIRST + contact.W]
@@ -64,13 +63,13 @@ def log_series(c, series, out):
             out[n] *= 2.0
 
 
-@inlined
+@compiled_inline
 def branch_edge(c):
     """The √penetration (√m) from which on steps keep away from the branch point at w = 0."""
     return c.edge_w if c.edge_w > 0.0 else LOG_EDGE * c.scale_w
 
 
-@inlined
+@compiled_inline
 def product(a, b, n):
     """Coefficient n of the product of two series."""
     total = 0.0
@@ -79,16 +78,16 @@ def product(a, b, n):
     return total
 
 
-@kernel
+@compiled
 def expand(c, series, first, second, free, count):
     """Taylor coefficients in s of the perturbations along a contact step, from their values at s = 0.
 
     first : shape (6, 2, SIZE), of δ and Y by each quantity
     second : shape (2, 6, 2, SIZE), of δ and Y by a state and a quantity
     free : whether the contact force is left out
-    count : how many of the quantities are wanted, from the first one on
+    count : number of quantities that are wanted, from the first one on
     """
-    series, first, second = borrowed(series), borrowed(first), borrowed(second)
+    series, first, second = no_refcount(series), no_refcount(first), no_refcount(second)
     w, square = series[FIRST + contact.W], series[FIRST + contact.SQUARE]
     spring, cosine_w = series[FIRST + contact.SPRING], series[FIRST + contact.COSINE_W]
     damping = 0.0 if free else c.damping
@@ -125,7 +124,7 @@ def expand(c, series, first, second, free, count):
                 push -= stiffness * product(spring, log, n)
             for i in range(2):
                 if i > j:
-                    continue  # it is the one by the same two states in the other order
+                    continue  # derivatives by two states do not depend on their order
                 of_both = second[i, j]
                 products[i, j, n] = product(first[i, 0], delta, n)
                 drift_of_both = product(w, of_both[1], n) - damping * product(w, of_both[0], n)
@@ -145,11 +144,11 @@ def expand(c, series, first, second, free, count):
             y[n + 1] = push / (n + 1)
 
 
-@kernel
+@compiled
 def cross_surface(c, first, second, speed, w):
-    """Jump of second derivatives where δ passes zero at a speed (m/s): that of the kinks of damping and spring.
+    """Jump of second derivatives where δ passes zero at a speed (m/s), due to the kinks of damping and spring.
 
-    The spring's is its share up to the √penetration `w` where it is switched on: all of it for p = 1, none for p = 3/2.
+    The spring contributes up to the √penetration `w` where it is switched on: all for p = 1, nothing for p = 3/2.
     """
     stiffness = c.stiffness * c.exponent * w ** (2.0 * c.exponent - 2.0)
     for i in range(2):
@@ -159,11 +158,11 @@ def cross_surface(c, first, second, speed, w):
             second[i, j, 1, 0] -= stiffness * both
 
 
-@kernel
+@compiled
 def switch(c, first, second, delta, pulled):
-    """Take v = Y - (d_c/m) δ in place of Y where `clip` begins to switch the damping off (`pulled`), and back."""
+    """Change from Y to v = Y - (d_c/m) δ where `clip` switches the damping off (`pulled`), and back."""
     sign = -1.0 if pulled else 1.0
-    # The second derivatives by d_c/m contain a first one by the state: before it changes.
+    # The second derivatives by d_c/m contain a first derivative by the state, and so must change before it.
     for i in range(2):
         for j in range(QUANTITIES):
             second[i, j, 1, 0] += sign * c.damping * second[i, j, 0, 0]
@@ -173,7 +172,7 @@ def switch(c, first, second, delta, pulled):
     first[DAMPING, 1, 0] += sign * delta
 
 
-@kernel
+@compiled
 def cross_force(c, first, second, w, v, acceleration):
     """Jump of second derivatives where `clip` cuts the force, in (δ, v); `acceleration` is that of δ there (m/s²)."""
     delta = w * w
@@ -190,7 +189,7 @@ def cross_force(c, first, second, w, v, acceleration):
             second[i, j, 1, 0] -= change[i] * change[j] / rate
 
 
-@kernel
+@compiled
 def fly(c, first, second, motion, piece):
     """Advance the perturbations along a piece without a contact force."""
     tau = piece.duration
@@ -203,14 +202,14 @@ def fly(c, first, second, motion, piece):
     first[AMPLITUDE, 1, 0] += (piece.sine - motion.sine) / c.omega
 
 
-@spliced
+@compiled_into_callers
 def press(c, series, first, second, motion, piece, count):
-    """Advance the perturbations along a contact step; return the piece up to where they could go."""
+    """Advance the perturbations along a contact step, and return the step, cut where they are no longer accurate."""
     expand(c, series, first, second, motion.pulled and c.tension == TENSION_CLIP, count)
     longest = PART * tangent_length(c, first[: Y + 1])
     edge = branch_edge(c)
     if c.edge_w == 0.0 and count <= EXPONENT:
-        pass  # nothing has a branch point
+        pass  # there is no branch point
     elif motion.w > edge:
         longest = min(longest, PART_OF_RADIUS * motion.w / abs(0.5 * motion.v))
     else:
@@ -219,7 +218,7 @@ def press(c, series, first, second, motion, piece, count):
             longest *= 0.5
     if longest < piece.length:
         duration = polynomial.value(series, FIRST + contact.T, longest)
-        piece = shortened(series, FIRST, longest, duration, contact.NOTHING)
+        piece = cut_step(series, FIRST, longest, duration, contact.NOTHING)
     for j in range(count):
         for of in range(2):
             first[j, of, 0] = polynomial.value(first[j], of, piece.length)
@@ -228,7 +227,7 @@ def press(c, series, first, second, motion, piece, count):
     return piece
 
 
-@kernel
+@compiled
 def cycle(parameters, tolerance, state, first, second, count):
     """Advance `state` by one excitation cycle, and fill the first coefficients of `first` and `second`.
 
@@ -237,7 +236,7 @@ def cycle(parameters, tolerance, state, first, second, count):
     parameters, tolerance, state : see `cycles`
     first : float64, shape (6, 2, SIZE), filled with the derivatives of δ and Y by each quantity
     second : float64, shape (2, 6, 2, SIZE), filled with those by a state and a quantity
-    count : how many of the quantities are wanted; the one by p, the last, takes several times as long as the others
+    count : number of quantities that are wanted; p, the last one, takes several times as long as the others
 
     Returns
     -------
@@ -252,8 +251,8 @@ def cycle(parameters, tolerance, state, first, second, count):
     clip = c.tension == TENSION_CLIP
     if motion.pulled and clip:
         switch(c, first, second, state[0], True)
-    most = patience(c)
-    lone = impacts = 0
+    most = longest_eventless(c)
+    eventless = impacts = 0
     for _ in range(MAX_PIECES):
         piece = next_piece(c, series, FIRST, motion, c.period - motion.t)
         if piece.kind == CONTACT:
@@ -276,8 +275,8 @@ def cycle(parameters, tolerance, state, first, second, count):
             cross_force(c, first, second, piece.w, piece.v, c.gravity + c.a_z * piece.cosine)
             if motion.pulled:
                 switch(c, first, second, delta, False)
-        lone = lone + 1 if piece.end == contact.NOTHING else 0
-        if lone > 2 * most:
+        eventless = eventless + 1 if piece.end == contact.NOTHING else 0
+        if eventless > 2 * most:
             return TOO_STIFF, impacts
         motion = following
         if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)):
@@ -299,7 +298,7 @@ def cycles(parameters, tolerance, state, first, second, states, impacts):
     parameters : float64, shape (16,); tolerance per step
     state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced
     first : float64, shape (n, 2, k), k = 5 or 6, filled with ∂(δ, Y) at the end of each cycle by the first k
-        quantities at its begin; those by p take several times as long as all others
+        quantities at its beginning; the derivatives by p take several times as long as all others
     second : float64, shape (n, 2, 2, k), filled with the derivatives of first[..., :2] by the same quantities
     states : float64, shape (n, 2), filled with δ and v after each cycle
     impacts : int64, shape (n,), filled with the number of impacts in each cycle
@@ -308,7 +307,7 @@ def cycles(parameters, tolerance, state, first, second, states, impacts):
     -------
     status code of trajectory.STATUS
     """
-    # Not a kernel: it would compile all of `cycle` once more.
+    # Not compiled, because numba would compile all of `cycle` once more.
     of_one = np.empty((QUANTITIES, 2, SIZE))
     of_two = np.empty((2, QUANTITIES, 2, SIZE))
     for n in range(first.shape[0]):

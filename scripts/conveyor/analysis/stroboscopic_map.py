@@ -3,13 +3,13 @@
 A state is the pair (δ, v) at the phase ψ0: penetration δ = z_s - z_p (m, negative in flight) and its rate v (m/s). The
 pair determines the motion, since contact is δ > 0 and the sign of the contact force follows from δ and v.
 
-Perturbations are those of (δ, Y) with Y = v + (d_c/m) max(δ, 0), for which the equations of motion
+Perturbations belong to (δ, Y) with Y = v + (d_c/m) max(δ, 0), for which the equations of motion
 
     δ̇ = Y - (d_c/m) max(δ, 0),   Ẏ = g + a_z cos θ - (k_c/m) max(δ, 0)^p
 
 are continuous across impact and separation, so that the linearised flow needs no jump there. Its determinant over a
-cycle is exp(-(d_c/m) T_contact), with T_contact the time with a contact force. `clip` switches the damping off while
-the force would pull; the force is continuous there, and v takes the place of Y.
+cycle is exp(-(d_c/m) T_contact), where T_contact is the time with a contact force. While the force would pull, `clip`
+switches the damping off; the force is continuous there, and v takes the place of Y.
 """
 
 import math
@@ -18,20 +18,20 @@ import numpy as np
 
 from ..solver import contact, polynomial
 from ..solver.contact import FIRST
-from ..solver.jit import borrowed, inlined, kernel, spliced
+from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
 from ..solver.polynomial import ORDER, SIZE
-from ..solver.trajectory import BEGIN_OF_CYCLE, IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, patience
-from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, begin, motion_at, next_piece, shortened
+from ..solver.trajectory import BEGIN_OF_CYCLE, IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, longest_eventless
+from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, begin, cut_step, motion_at, next_piece
 
-# The features of a cycle.
+# Features of a cycle.
 IMPACTS, CONTACT_TIME, LONGEST_FLIGHT, AIRBORNE = range(4)
 FEATURES = 4
 # Rows of a perturbation's expansion.
 ETA, ZETA, RATE = range(3)
 
 
-@kernel
+@compiled
 def initial_state(parameters, tolerance, state):
     """Fill `state`, shape (2,), with δ (m) and v (m/s) of the initial condition in a packed parameter vector."""
     c = contact.constants(parameters, tolerance)
@@ -40,7 +40,7 @@ def initial_state(parameters, tolerance, state):
     state[1] = -rate
 
 
-@kernel
+@compiled
 def expand_tangents(c, series, expansions, free):
     """Fill the Taylor coefficients of two perturbations along a contact step from η and ζ at s = 0.
 
@@ -50,7 +50,7 @@ def expand_tangents(c, series, expansions, free):
     ----------
     c, series : contact.Constants, and the workspace with the step's series
     expansions : float64, shape (2, 3, SIZE), for each perturbation the rows ETA, ZETA, and RATE, ζ - (d_c/m) η
-    free : leaves the contact force out
+    free : whether the contact force is left out
     """
     w, stiff = series[FIRST + contact.W], series[contact.SCRATCH]
     damping = 0.0 if free else c.damping
@@ -72,7 +72,7 @@ def expand_tangents(c, series, expansions, free):
     for n in range(ORDER):
         rate_1, rate_2 = zeta_1 - damping * eta_1, zeta_2 - damping * eta_2
         expansions[0, RATE, n], expansions[1, RATE, n] = rate_1, rate_2
-        # The newest coefficients are still in registers. The sums of both perturbations do not wait for each other.
+        # The newest coefficients are still in registers, and the processor computes both perturbations at a time.
         drift_1, drift_2 = w_0 * rate_1, w_0 * rate_2
         pull_1, pull_2 = stiff_0 * eta_1, stiff_0 * eta_2
         for k in range(1, n + 1):
@@ -86,11 +86,11 @@ def expand_tangents(c, series, expansions, free):
         expansions[0, ZETA, n + 1], expansions[1, ZETA, n + 1] = zeta_1, zeta_2
 
 
-@kernel
+@compiled
 def tangent_length(c, expansions):
-    """Length in s at which the last two terms of all perturbations' expansions, rows η and ζ, are below the tolerance.
+    """Length in s up to which the last two terms of η and ζ of all perturbations are below the tolerance.
 
-    A perturbation rings at the frequency of the contact, also where the motion itself is slow or at rest.
+    A perturbation rings at the frequency of the contact, even if the motion itself is slow or at rest.
     """
     length = 1e300
     for order in (ORDER - 1, ORDER):
@@ -104,14 +104,14 @@ def tangent_length(c, expansions):
     return length
 
 
-@inlined
+@compiled_inline
 def advance_tangent(c, series, tangent, expansions, motion, piece):
-    """Advance perturbations of (δ, Y), rows of `tangent`, along a piece; return the piece up to where they could go.
+    """Advance perturbations of (δ, Y), rows of `tangent`, along a piece, and return the piece.
 
-    A step in which a perturbation changes faster than the motion is cut there.
+    A contact step is cut where the expansion of a perturbation is no longer accurate.
     """
     if piece.kind != CONTACT:
-        # Flights, and the moments of rest at the surface, in which the plate does not push.
+        # In flights and moments of rest at the surface the plate does not push.
         for i in range(tangent.shape[0]):
             tangent[i, 0] += tangent[i, 1] * piece.duration
         return piece
@@ -123,7 +123,7 @@ def advance_tangent(c, series, tangent, expansions, motion, piece):
     longest = tangent_length(c, expansions)
     if longest < piece.length:
         duration = polynomial.value(series, FIRST + contact.T, longest)
-        piece = shortened(series, FIRST, longest, duration, contact.NOTHING)
+        piece = cut_step(series, FIRST, longest, duration, contact.NOTHING)
     for i in range(tangent.shape[0]):
         tangent[i, 0] = polynomial.value(expansions[i], ETA, piece.length)
         tangent[i, 1] = polynomial.value(expansions[i], ZETA, piece.length)
@@ -132,50 +132,55 @@ def advance_tangent(c, series, tangent, expansions, motion, piece):
     return piece
 
 
-@inlined
+@compiled_inline
 def switch_damping(c, tangent, pulled):
-    """Take v in place of Y in perturbations where `clip` begins to switch the damping off, and back."""
+    """Change perturbations from Y to v where `clip` switches the damping off (`pulled`), and back."""
     if c.tension == TENSION_CLIP:
         sign = -1.0 if pulled else 1.0
         for i in range(tangent.shape[0]):
             tangent[i, 1] += sign * c.damping * tangent[i, 0]
 
 
-@inlined
+@compiled_inline
 def delta_and_v(motion):
     """The state, δ (m) and v (m/s), of a Motion."""
     if motion.touching:
         return motion.w * motion.w, motion.v
-    # A flight that goes on has been proved to be above the plate, up to rounding.
+    # Up to rounding a part in flight is above the plate.
     return -max(motion.q, 0.0), -motion.rate
 
 
-@kernel
+@compiled
 def advance(c, series, state, phase, duration, tangent, features):
-    """Advance `state` from a phase of the excitation by a time of at most one cycle, exactly.
+    """Advance `state` from a phase of the excitation by a time of at most one cycle.
 
     Parameters
     ----------
     c, series : contact.Constants and a contact.workspace to work in
     state : float64, shape (2,), δ (m) and v (m/s) at `phase` (rad); replaced
     duration : s
-    tangent : float64, shape (2, 2), two perturbations of (δ, Y), replaced; shape (0, 2) where none are wanted
-    features : float64, shape (4,), replaced but for AIRBORNE, the time (s) since the last separation, which goes on:
-        number of impacts, time with contact force (s), longest flight that ended (s)
+    tangent : float64, shape (2, 2), two perturbations of (δ, Y), replaced; shape (0, 2) for none
+    features : float64, shape (4,), replaced: number of impacts, time with contact force (s), longest flight that ended
+        (s); AIRBORNE, the time (s) since the last separation, goes on from its last value
 
     Returns
     -------
     status code of trajectory.STATUS
     """
-    series, state, tangent, features = borrowed(series), borrowed(state), borrowed(tangent), borrowed(features)
-    # Numbers of both perturbations lie side by side: one instruction works on both.
+    series, state, tangent, features = (
+        no_refcount(series),
+        no_refcount(state),
+        no_refcount(tangent),
+        no_refcount(features),
+    )
+    # Numbers of both perturbations lie side by side, so that one instruction works on both.
     expansions = np.zeros((SIZE, 3, tangent.shape[0])).T
     features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = 0.0
     motion = motion_at(c, -state[0], -state[1], 0.0, phase)
     if motion.pulled:
         switch_damping(c, tangent, True)
-    most = patience(c)
-    lone = 0
+    most = longest_eventless(c)
+    eventless = 0
     for _ in range(MAX_PIECES):
         piece = next_piece(c, series, FIRST, motion, duration - motion.t)
         piece = advance_tangent(c, series, tangent, expansions, motion, piece)
@@ -189,8 +194,8 @@ def advance(c, series, state, phase, duration, tangent, features):
                 features[AIRBORNE] = 0.0
         elif piece.kind == CONTACT and not (motion.pulled and c.tension == TENSION_CLIP):
             features[CONTACT_TIME] += piece.duration
-        lone = lone + 1 if piece.end == contact.NOTHING else 0
-        if lone > most:
+        eventless = eventless + 1 if piece.end == contact.NOTHING else 0
+        if eventless > most:
             return TOO_STIFF
         motion = arrive(c, motion, piece, phase)
         if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)):
@@ -203,15 +208,15 @@ def advance(c, series, state, phase, duration, tangent, features):
     return TOO_STIFF
 
 
-@spliced
+@compiled_into_callers
 def cycle(c, series, state, tangent, features):
     """Advance `state`, at the phase ψ0, by one excitation cycle: see `advance`."""
     return advance(c, series, state, c.psi0, c.period, tangent, features)
 
 
-@kernel
+@compiled
 def to_begin_of_cycle(parameters, tolerance, states):
-    """Fill `states`, shape (n, 2), with the states that `parameters` lead to when the plate is next at its top."""
+    """Fill `states`, shape (n, 2), with the states when the plate is next at its top; NaN for a failure."""
     series = contact.workspace()
     no_tangent = np.empty((0, 2))
     features = np.zeros(FEATURES)
@@ -223,12 +228,11 @@ def to_begin_of_cycle(parameters, tolerance, states):
             states[i, :] = np.nan
 
 
-@kernel
+@compiled
 def follow(parameters, tolerance, state, cycles, strobes, features):
     """Advance `state` by a number of cycles.
 
-    A motion that has come back to a state bit for bit repeats itself from then on, and is copied. Settled motions
-    mostly do.
+    A motion that returns to a state bit for bit repeats itself from then on, and is copied. Most settled motions do.
 
     strobes : float64, shape (cycles, 2), filled with δ and v after each cycle
     features : float64, shape (cycles, 4), filled with the features of each cycle
@@ -240,14 +244,14 @@ def follow(parameters, tolerance, state, cycles, strobes, features):
     found = np.zeros(FEATURES)
     strobes[:] = np.nan
     features[:] = np.nan
-    mark = 0  # 0, 1, 3, 7, …: one of them lies in the repeated part and as long before n as it lasts (Brent 1980)
+    mark = 0  # 0, 1, 3, 7, …: at last one is in the repeated part, a whole period before n (Brent 1980)
     for n in range(cycles):
         status = cycle(c, series, state, no_tangent, found)
         if status != OK:
             return status
         strobes[n, :] = state
         features[n, :] = found
-        if mark < n and same(strobes, features, n, mark):
+        if mark < n and repeats_bit_for_bit(strobes, features, n, mark):
             for later in range(n + 1, cycles):
                 before = later - n + mark
                 for k in range(2):
@@ -261,9 +265,9 @@ def follow(parameters, tolerance, state, cycles, strobes, features):
     return OK
 
 
-@inlined
-def same(strobes, features, n, mark):
-    """Whether what follows two cycles is the same, bit for bit: the motion, and the time since the last separation."""
+@compiled_inline
+def repeats_bit_for_bit(strobes, features, n, mark):
+    """Whether the cycles after two cycles are equal: the states and the times since the last separation are."""
     return (
         strobes[n, 0] == strobes[mark, 0]
         and strobes[n, 1] == strobes[mark, 1]
@@ -271,9 +275,9 @@ def same(strobes, features, n, mark):
     )
 
 
-@kernel
-def repeated(strobes):
-    """After how many cycles the motion of `follow` comes back to its last state, bit for bit; 0 for never so far."""
+@compiled
+def find_repetition(strobes):
+    """The number of cycles after which the motion of `follow` was back at its last state, bit for bit; 0 for never."""
     last = strobes.shape[0] - 1
     for cycles in range(1, last + 1):
         if strobes[last, 0] == strobes[last - cycles, 0] and strobes[last, 1] == strobes[last - cycles, 1]:
@@ -281,7 +285,7 @@ def repeated(strobes):
     return 0
 
 
-@kernel
+@compiled
 def monodromy(parameters, tolerance, state, matrices, features):
     """Advance `state` by n cycles and fill `matrices`, shape (n, 2, 2), with ∂(δ, Y)_end/∂(δ, Y)_start of each cycle.
 

@@ -1,14 +1,14 @@
 """Probable enclosures of the Taylor coefficients of a contact step, in compiled double-double arithmetic.
 
-They are not proved here: `taylor` proves them by one evaluation in balls. Without them it would need one evaluation for
-each order, and proofs would take twice as long. A number is a midpoint, the unevaluated sum of two floats with some 30
-digits (Dekker 1971), and a radius.
+Nothing is proved here: `taylor` proves the enclosures by one evaluation in balls. Without them it would need one
+evaluation for each order, and proofs would take twice as long. A number is a midpoint and a radius; the midpoint is the
+unevaluated sum of two floats, with some 30 digits (Dekker 1971).
 """
 
 import numpy as np
 from flint import arb
 
-from ..solver.jit import inlined, kernel
+from ..solver.jit import compiled, compiled_inline
 
 # Components of a step; the columns of perturbations follow, two components each.
 W, Y, COSINE, SINE, PHASE, MOTION = range(6)
@@ -26,7 +26,7 @@ def parts_of(ball: arb) -> tuple[float, float, float]:
     return high, float(midpoint - high), float(ball.rad())
 
 
-@inlined
+@compiled_inline
 def two_sum(a, b):
     """a + b, and the error of this sum (Knuth)."""
     total = a + b
@@ -34,7 +34,7 @@ def two_sum(a, b):
     return total, (a - (total - part)) + (b - part)
 
 
-@inlined
+@compiled_inline
 def two_product(a, b):
     """a b, and the error of this product (Dekker)."""
     product = a * b
@@ -44,33 +44,33 @@ def two_product(a, b):
     return product, ((high_a * high_b - product) + high_a * low_b + low_a * high_b) + low_a * low_b
 
 
-@inlined
+@compiled_inline
 def add(a, b):
     high, low = two_sum(a[HIGH], b[HIGH])
     return high, low + a[LOW] + b[LOW], a[RADIUS] + b[RADIUS]
 
 
-@inlined
+@compiled_inline
 def multiply(a, b, rounding):
     high, low = two_product(a[HIGH], b[HIGH])
     radius = abs(a[HIGH]) * b[RADIUS] + a[RADIUS] * (abs(b[HIGH]) + b[RADIUS])
     return high, low + a[HIGH] * b[LOW] + a[LOW] * b[HIGH], radius + rounding * abs(high)
 
 
-@inlined
+@compiled_inline
 def coefficient(series, n):
     return series[HIGH, n], series[LOW, n], series[RADIUS, n]
 
 
-@inlined
+@compiled_inline
 def set_coefficient(series, n, value, rounding):
     series[HIGH, n], series[LOW, n] = two_sum(value[HIGH], value[LOW])
     series[RADIUS, n] = WIDER * (value[RADIUS] + rounding * abs(value[HIGH]))
 
 
-@inlined
+@compiled_inline
 def integrate(series, n, rate, rounding):
-    """Set the coefficient of order n + 1 from that of order n of the rate."""
+    """Set the coefficient of order n + 1 from the coefficient of order n of the rate."""
     count = n + 1.0
     high = rate[HIGH] / count
     back, lost = two_product(high, count)
@@ -78,7 +78,7 @@ def integrate(series, n, rate, rounding):
     set_coefficient(series, n + 1, (high, low, rate[RADIUS] / count), rounding)
 
 
-@inlined
+@compiled_inline
 def convolve(a, b, n, rounding):
     """The coefficient of order n of the product of two series."""
     high = low = radius = size = 0.0
@@ -92,7 +92,7 @@ def convolve(a, b, n, rounding):
     return high, low, radius + rounding * size
 
 
-@kernel
+@compiled
 def enclose_series(series, twice_exponent, gamma, damping, stiffness, softening, bits):
     """Fill in the coefficients from order 1 on, for the rates that `taylor.rates` states.
 

@@ -30,7 +30,7 @@ class Impact(NamedTuple):
 
 
 class Arrival(NamedTuple):
-    """The state at the end of a motion, and what happened before."""
+    """The state at the end of a motion, and its impacts and contacts."""
 
     delta: arb
     y: arb

@@ -157,7 +157,7 @@ def check_near(orbit: ProvedOrbit, strobes: np.ndarray, closeness: float) -> flo
     Raises
     ------
     Refused
-        if it is larger than `closeness`: what was proved is another orbit than the one that was meant
+        if it is larger than `closeness`: the proof is for another orbit
     """
     enclosed = np.array([[float(value) for value in orbit.strobe(cycle)] for cycle in range(orbit.shooting.period)])
     distance = float(np.abs(enclosed - strobes).max())

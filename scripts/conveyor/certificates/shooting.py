@@ -44,7 +44,7 @@ def follow_to_next_node(system: System, node: int, delta: arb, y: arb, columns: 
 
 
 def residual(states: arb_mat, arrivals: list[Arrival]) -> arb_mat:
-    """By what each motion misses the next node, shape (2 count, 1); states: (δ, Y) of all nodes below each other."""
+    """How far each motion misses the next node, shape (2 count, 1); states: (δ, Y) of all nodes below each other."""
     reached = arb_mat([[value] for arrival in arrivals for value in (arrival.delta, arrival.y)])
     wanted = states.entries()
     return reached - arb_mat([[value] for value in wanted[2:] + wanted[:2]])

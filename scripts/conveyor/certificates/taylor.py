@@ -1,11 +1,11 @@
-"""One Taylor step of the contact: polynomials in s, and a proved bound on what they leave out.
+"""One Taylor step of the contact: polynomials in s, and a proved bound on their remainders.
 
 The equations are polynomial in (w, Y, cos φ, sin φ), and so are those of perturbations (η, ζ) of (δ, Y) at fixed time,
 
     η' = w (ζ - β η),   ζ' = -p κ w^(2p-1) η,   and for the derivative by γ, ζ' = … + w cos φ.
 
 `rates` writes them once; it is evaluated in three arithmetics, each with one purpose: on truncated series it proves the
-coefficients that `double_double` finds, on bounds of terms it gives what the coefficients leave over, and on norms the
+coefficients that `double_double` finds; on bounds of terms it gives the terms above the order; on norms it gives the
 bound of the remainder.
 
 The remainder. Let ‖f‖ = Σ |f_n| hⁿ, so that ‖f g‖ ≤ ‖f‖ ‖g‖ and |f(s)| ≤ ‖f‖ for |s| ≤ h. Let x̄ be the exact solution's
@@ -28,9 +28,9 @@ from .balls import Refused
 from .double_double import COSINE, MOTION, PHASE, enclose_series, parts_of
 from .law import System
 
-# How often a bound that does not hold is doubled, and a step that has none is halved.
+# How often a bound that does not hold is doubled, and a step without a bound is halved.
 DOUBLINGS, HALVINGS = 4, 20
-# What makes up for the rounding of a sum of three floats.
+# Factor that makes up for the rounding of a sum of three floats.
 SLACK = 1.0 + 1e-15
 
 
@@ -61,10 +61,10 @@ def rates(system: System, x: Sequence, columns: int) -> list:
 
 
 def bound_system(system: System) -> System:
-    """Bounds on the numbers of a system, exact, with signs such that in `rates` nothing is subtracted.
+    """Exact bounds on the numbers of a system, with signs such that `rates` subtracts nothing.
 
-    The rates of bounds on ‖f‖ are then bounds on ‖rates(f)‖ (that of cos φ with a minus), and so is what they grow by
-    with bounds on ‖f + e‖ on what f + e adds: Σ |(f + e)^k - f^k| ≤ (‖f‖ + ‖e‖)^k - ‖f‖^k for every product.
+    The rates of bounds on ‖f‖ then bound ‖rates(f)‖ (for cos φ with a minus), and their growth from ‖f‖ to ‖f‖ + ‖e‖
+    bounds ‖rates(f + e) - rates(f)‖, because Σ |(f + e)^k - f^k| ≤ (‖f‖ + ‖e‖)^k - ‖f‖^k for every product.
     """
     law, gamma, accuracy = system
     bounded = law._replace(beta=-law.beta.abs_upper(), kappa=-law.kappa.abs_upper())
@@ -72,7 +72,7 @@ def bound_system(system: System) -> System:
 
 
 class Step(NamedTuple):
-    """A step of length h: polynomials, and bounds on what they leave out on [-h, h]."""
+    """A step of length h: polynomials, and bounds on their remainders on [-h, h]."""
 
     length: arb
     parts: list[arb_poly]
@@ -147,7 +147,7 @@ def choose_length(sizes: np.ndarray, tolerance: float) -> arb:
 def bound_remainders(
     bounds: System, sizes: np.ndarray, rate_bounds: Sequence[arb_poly], length: arb
 ) -> list[arb] | None:
-    """Bounds on what series up to an order leave out on [-length, length], or None if none is found.
+    """Bounds on the remainders of series on [-length, length], or None if none are found.
 
     Parameters
     ----------

@@ -4,7 +4,7 @@ A register of 512 bits holds eight numbers, and one instruction works on all of 
 more than one if they take the same instructions. So nothing here branches on a trajectory's state, both outcomes are
 computed and one is selected, and sine and cosine are computed here as well: a library takes one phase at a time.
 
-Every operation is rounded as IEEE 754 defines it; none is merged with another or moved, and fused products are asked
+Every operation is rounded as IEEE 754 defines it; none is merged with another or moved, and fma multiply-adds are asked
 for by name. What a trajectory gives depends neither on its neighbours nor on the lane nor on the number of lanes, and a
 single run is the same code in one lane. For the exponents 1 and 1.5 no library function is called, so that the digits
 are those of every machine; any other exponent takes the power of the C library, lane after lane.
@@ -19,8 +19,8 @@ from numba.core import cgutils, types
 from numba.extending import intrinsic
 
 from ..solver import model
-from ..solver.jit import kernel
-from ..solver.vectors import BIT, FLOAT, INTEGER, Memory, Vector, anywhere, call, fused, lanes_of_processor, where
+from ..solver.jit import compiled, compiled_into_callers
+from ..solver.vectors import BIT, FLOAT, INTEGER, Memory, Vector, anywhere, call, fma, lanes_of_processor, where
 from .force_law import spring_and_damper
 
 CHECK = 256  # steps between checks that the state is finite
@@ -29,9 +29,9 @@ OK, NOT_FINITE = range(len(STATUSES))
 EVENT_KINDS = ("impact", "separation")
 IMPACT, SEPARATION = range(len(EVENT_KINDS))
 
-# What is known of one trajectory: a row of the results, and the first rows of the kernel's memory, which has a column
-# for each lane. There CONTACT_TIME counts steps, EVALUATIONS is the number of the present step, and PEAK_FORCE is per
-# mass. IMPACT_SPEED and PEAK_FORCE count since the last sample.
+# The columns of a trajectory's results, and the first rows of the memory, which has a column for each lane. In the
+# memory CONTACT_TIME is a number of steps, EVALUATIONS the number of the present step, and PEAK_FORCE is per mass.
+# IMPACT_SPEED and PEAK_FORCE count since the last sample.
 X, VX, Z, VZ, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, EVALUATIONS, STATUS, IMPACT_SPEED, PEAK_FORCE = range(12)
 RESULTS = 12
 # Forces per mass (m/s²) and gap (m) at the present step; 1 if the gap was last seen closed, else 0; the slip velocity
@@ -47,7 +47,7 @@ ROWS = 35
 
 TWO_OVER_PI = 0.6366197723675814
 HALF_PI = (1.5707963267948966, 6.123233995736766e-17, -1.4973849048591833e-33)  # their sum is π/2 to 161 bits
-# A number of this size has no digits behind the point: to add it rounds, and its last bits are the whole number.
+# Numbers of this size have no binary places. To add it rounds to a whole number, which is in the last bits of the sum.
 ROUNDER = 1.5 * 2.0**52
 # Coefficients of r³, r⁵, ..., r¹³ and r⁴, r⁶, ..., r¹⁴ on |r| ≤ π/4, the last one first: k_sin.c and k_cos.c of fdlibm
 # (Sun Microsystems 1993).
@@ -72,7 +72,7 @@ COSINE = (
 def polynomial(coefficients: tuple[float, ...], x: Vector) -> Vector:
     value = x.like(coefficients[0])
     for coefficient in coefficients[1:]:
-        value = fused(value, x, coefficient)
+        value = fma(value, x, coefficient)
     return value
 
 
@@ -84,14 +84,14 @@ def sine_and_cosine(phase: Vector) -> tuple[Vector, Vector]:
     Beyond 2⁵¹ quarter turns, where neighbouring numbers are half a radian apart, the values mean nothing.
     """
     builder = phase.builder
-    rounded = fused(phase, TWO_OVER_PI, ROUNDER)
+    rounded = fma(phase, TWO_OVER_PI, ROUNDER)
     turns = rounded - ROUNDER
     r = phase
     for part in HALF_PI:
-        r = fused(turns, -part, r)
+        r = fma(turns, -part, r)
     square = r * r
-    sine = fused(r * square, polynomial(SINE, square), r)
-    cosine = fused(square, fused(square, polynomial(COSINE, square), -0.5), 1.0)
+    sine = fma(r * square, polynomial(SINE, square), r)
+    cosine = fma(square, fma(square, polynomial(COSINE, square), -0.5), 1.0)
     bits = rounded.cast(builder.bitcast, INTEGER)
     odd = bits.cast(builder.trunc, BIT)
 
@@ -99,12 +99,12 @@ def sine_and_cosine(phase: Vector) -> tuple[Vector, Vector]:
         flipped = value.cast(builder.bitcast, INTEGER) ^ (sign & -(2**63))
         return flipped.cast(builder.bitcast, FLOAT)
 
-    # The sine is negative in the quarters 2 and 3, the cosine in 1 and 2.
+    # The sine is negative in the quarters 2 and 3, the cosine in the quarters 1 and 2.
     return signed(where(odd, cosine, sine), bits << 62), signed(where(odd, sine, cosine), (bits << 62) ^ (bits << 63))
 
 
 def spring_length(depth: Vector, exponent: Vector, flying: Vector) -> Vector:
-    """δ^p in m^p from δ (m); anything in the lanes that fly. The power is slow and called only where it is needed."""
+    """δ^p in m^p from δ (m), and anything in lanes that fly. The slow power function is called only where needed."""
     builder = depth.builder
     hertz, hooke = exponent == 1.5, exponent == 1.0
     length = cgutils.alloca_once_value(builder, (depth * where(hertz, call("sqrt", depth), 1.0)).value)
@@ -123,7 +123,7 @@ def spring_length(depth: Vector, exponent: Vector, flying: Vector) -> Vector:
 def forces(typing_context, lanes, general, memory):
     """Evaluate GAP, PUSH and RUB at the present step (Eqs. 7, 11 and 12); True if a gap has opened or closed.
 
-    general : whether a phase shift or a larger static friction counts; then a part whose slip has vanished may stick
+    general : whether there are phase shifts or larger static frictions; a part whose slip has vanished may then stick
     """
 
     def code(context, builder, signature, arguments):
@@ -182,7 +182,7 @@ def sincos(typing_context, phase):
     return types.UniTuple(types.float64, 2)(types.float64), code
 
 
-@kernel
+@compiled
 def prepare(parameters, step, lane):
     """Set a lane's memory, shape (ROWS,), zero before, to the start of a packed parameter vector."""
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
@@ -219,79 +219,97 @@ def prepare(parameters, step, lane):
     lane[IN_CONTACT] = lane[MAX_GAP] <= 0.0
 
 
+@compiled_into_callers
+def record_samples(parameters, first, memory, running, samples, number):
+    """Write the sample with a `number` of the trajectories that are `running`, and let the peaks count from here on.
+
+    first : row of the trajectory in the first lane
+    """
+    for lane in range(memory.shape[1]):
+        if running[lane]:
+            mass, row = parameters[first + lane, model.MASS], samples[first + lane, number]
+            for column in range(4):
+                row[column] = memory[column, lane]
+            row[4] = mass * memory[PUSH, lane]
+            row[5] = mass * memory[RUB, lane] + 0.0  # no negative zero
+        memory[IMPACT_SPEED, lane] = memory[PEAK_FORCE, lane] = 0.0
+
+
+@compiled_into_callers
+def record_results(parameters, first, memory, running, results, step, is_end):
+    """Write the results of trajectories that end here: all of them, or those whose state is not finite.
+
+    Returns the number of trajectories that are still `running`, shape (lanes,), which is changed.
+    """
+    left = 0
+    for lane in range(memory.shape[1]):
+        total = 0.0
+        for column in range(4):
+            total += memory[column, lane]
+        finite = math.isfinite(total)
+        if running[lane] and (is_end or not finite):
+            running[lane] = False
+            row = results[first + lane]
+            for column in range(RESULTS):
+                row[column] = memory[column, lane]
+            row[CONTACT_TIME] *= step
+            row[PEAK_FORCE] *= parameters[first + lane, model.MASS]
+            row[STATUS] = OK if finite else NOT_FINITE
+        left += running[lane]
+    return left
+
+
+@compiled_into_callers
+def record_events(first, memory, running, events, time):
+    """Count the gaps that have opened or closed, and write the time (s) and kind of the first events."""
+    for lane in range(memory.shape[1]):
+        touching = memory[GAP, lane] <= 0.0
+        if touching != memory[IN_CONTACT, lane]:
+            n_events = int(memory[EVENTS, lane])
+            if running[lane] and n_events < events.shape[1]:
+                events[first + lane, n_events, 0] = time
+                events[first + lane, n_events, 1] = IMPACT if touching else SEPARATION
+            memory[EVENTS, lane] += 1.0
+            memory[IMPACTS, lane] += touching
+            if touching:
+                sine, _ = sincos(memory[OMEGA, lane] * time + memory[PSI0, lane])
+                speed = memory[PLATE_VZ, lane] * sine - memory[VZ, lane]
+                memory[IMPACT_SPEED, lane] = max(memory[IMPACT_SPEED, lane], speed)
+            memory[IN_CONTACT, lane] = touching
+
+
 @functools.cache
 def in_lanes(lanes: int, general: int = 1):
-    """`integrate` with a given number of lanes, a power of two. Every one gives the same bits.
+    """`integrate` with a given number of lanes, a power of two. Each number gives the same bits.
 
-    general : 0 for the paper's friction on a level track alone, which takes less time
+    general : 0 for the paper's friction on a level track only, which takes less time
     """
 
-    @kernel
+    @compiled
     def integrate(parameters, step, n_steps, sample_indices, samples, events, results):
         memory = np.empty((ROWS, lanes))
         running = np.empty(lanes, np.bool_)
         for first in range(0, len(parameters), lanes):
-            # A lane to spare rests in the air for ever, without gravity.
+            # A lane without a trajectory hangs in the air, without gravity.
             memory[:] = 0.0
             memory[Z] = 1.0
-            left = min(lanes, len(parameters) - first)
             for lane in range(lanes):
-                running[lane] = lane < left
+                running[lane] = first + lane < len(parameters)
                 if running[lane]:
                     prepare(parameters[first + lane], step, memory[:, lane])
-            i = 0
-            stop = 0
-            n_sampled = 0
+            i = stop = n_sampled = 0
             while True:
                 while not (forces(lanes, general, memory) or i == stop):
                     euler_step(lanes, general, memory)
                     i += 1
-
                 while n_sampled < len(sample_indices) and sample_indices[n_sampled] <= i:
-                    for lane in range(lanes):
-                        if running[lane]:
-                            mass = parameters[first + lane, model.MASS]
-                            row = samples[first + lane, n_sampled]
-                            for column in range(4):
-                                row[column] = memory[column, lane]
-                            row[4] = mass * memory[PUSH, lane]
-                            row[5] = mass * memory[RUB, lane] + 0.0  # no negative zero
-                        memory[IMPACT_SPEED, lane] = memory[PEAK_FORCE, lane] = 0.0
+                    record_samples(parameters, first, memory, running, samples, n_sampled)
                     n_sampled += 1
-
                 if i % CHECK == 0 or i == n_steps:
-                    for lane in range(lanes):
-                        total = 0.0
-                        for column in range(4):
-                            total += memory[column, lane]
-                        finite = math.isfinite(total)
-                        if running[lane] and (i == n_steps or not finite):
-                            running[lane] = False
-                            left -= 1
-                            row = results[first + lane]
-                            for column in range(RESULTS):
-                                row[column] = memory[column, lane]
-                            row[CONTACT_TIME] *= step
-                            row[PEAK_FORCE] *= parameters[first + lane, model.MASS]
-                            row[STATUS] = OK if finite else NOT_FINITE
+                    left = record_results(parameters, first, memory, running, results, step, i == n_steps)
                     if left == 0:
                         break
-
-                for lane in range(lanes):
-                    touching = memory[GAP, lane] <= 0.0
-                    if touching != memory[IN_CONTACT, lane]:
-                        n_events = int(memory[EVENTS, lane])
-                        if running[lane] and n_events < events.shape[1]:
-                            events[first + lane, n_events, 0] = i * step
-                            events[first + lane, n_events, 1] = IMPACT if touching else SEPARATION
-                        memory[EVENTS, lane] += 1.0
-                        memory[IMPACTS, lane] += touching
-                        if touching:
-                            sine, _ = sincos(memory[OMEGA, lane] * (i * step) + memory[PSI0, lane])
-                            speed = memory[PLATE_VZ, lane] * sine - memory[VZ, lane]
-                            memory[IMPACT_SPEED, lane] = max(memory[IMPACT_SPEED, lane], speed)
-                        memory[IN_CONTACT, lane] = touching
-
+                record_events(first, memory, running, events, i * step)
                 stop = min(n_steps, i - i % CHECK + CHECK)
                 if n_sampled < len(sample_indices):
                     stop = min(stop, sample_indices[n_sampled])
@@ -300,7 +318,7 @@ def in_lanes(lanes: int, general: int = 1):
 
 
 def is_general(parameters: np.ndarray) -> bool:
-    """Whether any conveyor differs from the paper's along the track."""
+    """Whether any conveyor has an inclination, a phase shift or a static friction larger than its friction."""
     tilted = (parameters[:, [model.INCLINATION, model.PHASE_SHIFT]] != 0.0).any()
     return bool(tilted or (parameters[:, model.STATIC_FRICTION] > parameters[:, model.FRICTION]).any())
 

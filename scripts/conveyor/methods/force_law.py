@@ -3,7 +3,7 @@
 import math
 
 from ..solver import model
-from ..solver.jit import kernel
+from ..solver.jit import compiled
 
 
 def spring_and_damper(stiffness, spring, damping, gap_velocity):
@@ -11,10 +11,10 @@ def spring_and_damper(stiffness, spring, damping, gap_velocity):
     return stiffness * spring - damping * gap_velocity
 
 
-spring_and_damper_of_numbers = kernel(spring_and_damper)
+spring_and_damper_of_numbers = compiled(spring_and_damper)
 
 
-@kernel
+@compiled
 def contact_acceleration(gap, gap_velocity, stiffness, damping, exponent, tension):
     """F_c/m in m/s² from q (m), q̇ (m/s), k_c/m and d_c/m (Eq. 7; zero in flight)."""
     if gap > 0.0:
@@ -32,7 +32,7 @@ def contact_acceleration(gap, gap_velocity, stiffness, damping, exponent, tensio
     return force
 
 
-@kernel
+@compiled
 def friction_acceleration(force, slip, friction, tension):
     """F_r/m in m/s² from F_c/m (m/s²) and the slip ẋ_s - ẋ_p (m/s) (Eqs. 11 and 12)."""
     if tension == model.TENSION_FRICTIONLESS and force < 0.0:

@@ -1,12 +1,42 @@
-"""Motion in one mode (flight, slip forward, slip backward, stick): what an integrator is asked for, and returns."""
+"""Motion in one mode (flight, slip forward, slip backward, stick): what an integrator gets, and what it returns."""
 
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 
+class Mode(NamedTuple):
+    """The equations of motion in one mode, and the events that end it."""
+
+    counted_rates: (
+        Callable  # (derivatives, t, state, parameters, mode): fills the derivatives, counts in parameters[-1]
+    )
+    parameters: np.ndarray  # from `model.pack`, shape (16,)
+    number: int  # the last argument of `counted_rates`
+    ends: Sequence[tuple[Callable, float]]  # event functions (t, state, parameters), and the directions of their zeros
+
+    def counting_parameters(self) -> np.ndarray:
+        """The parameters with a counter behind them, which is zero, shape (17,)."""
+        return np.append(self.parameters, 0.0)
+
+    def terminal_events(self) -> list[Callable]:
+        """The events as functions (t, state, …) that end a solve, with the attributes that scipy and CyRK read."""
+        return [terminal_event(function, self.parameters, direction) for function, direction in self.ends]
+
+
+def terminal_event(function: Callable, parameters: np.ndarray, direction: float) -> Callable:
+    """An event that ends a solve where a `function` of (t, state, parameters) passes zero in a direction."""
+
+    def event(t, state, *_):
+        return function(t, state, parameters)
+
+    event.terminal, event.direction = True, int(direction)
+    return event
+
+
 class Task(NamedTuple):
-    """What is asked of an integrator."""
+    """One leg of a run."""
 
     t: float  # s, at the beginning
     end: float  # s
@@ -18,10 +48,10 @@ class Task(NamedTuple):
 
 
 class Leg(NamedTuple):
-    """What an integrator returns; it failed, or reached the limit, where it ends before both the end and an event."""
+    """The result of a leg, which ends at an event or at the end of the task, unless the integrator fails before."""
 
-    t: float  # s, at its end
-    state: np.ndarray  # x, ẋ, z, ż at its end, shape (4,)
-    ended: Any  # the event at its end, in the terms of the integrator; None where there is none
-    samples: np.ndarray  # states at those of the wanted times that are not after its end, shape (k, 4)
+    t: float  # s, where it stopped
+    state: np.ndarray  # x, ẋ, z, ż there, shape (4,)
+    ended: Any  # the event that ended it, a place among the mode's `ends` or a name; None where there is none
+    samples: np.ndarray  # states at the wanted times up to `t`, shape (k, 4)
     evaluations: int  # of the right-hand side

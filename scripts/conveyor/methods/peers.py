@@ -1,15 +1,15 @@
-"""Other integrators on the same model, as one would write it down for them: peers to compare the solver with.
+"""Other integrators on the same model, used as their users would: peers to compare the solver with.
 
-They are those of scipy's `solve_ivp`, and CyRK, CVODE of SUNDIALS and heyoka where those are installed.
+The integrators are those of scipy's `solve_ivp`, and CyRK, CVODE of SUNDIALS and heyoka if they are installed.
 
-`treatment` says how the jumps of the right-hand side are handled:
+`treatment` is the way in which the jumps of the right-hand side are handled:
 
-- "sign": not at all. The force is switched by the sign of the gap, friction by that of the slip velocity.
-- "events": flight, slip forward, slip backward and stick each have a smooth right-hand side, and an event of
-  `solve_ivp` ends each. The next mode begins at the state that the event has found.
-- "modes": the same, and the next mode begins beside the zero of that event, on its own side.
+- "sign": not at all. The sign of the gap switches the force, and the sign of the slip velocity switches friction.
+- "events": flight, slip forward, slip backward and stick each have a smooth right-hand side, and events of the
+  integrator end each mode. The next mode begins at the state that the event has found.
+- "modes": the same, but the next mode begins beside the zero of the event, on its own side.
 
-The right-hand sides are compiled, so that the comparison is one of methods, not of Python against machine code.
+The right-hand sides are compiled, so that methods are compared, not Python with machine code.
 """
 
 import math
@@ -20,10 +20,10 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from ..solver import model
-from ..solver.jit import kernel
+from ..solver.jit import compiled
 from . import cyrk_peer, heyoka_peer, sundials_peer
 from .force_law import contact_acceleration, friction_acceleration
-from .leg import Leg, Task
+from .leg import Leg, Mode, Task
 from .rivals import RIVALS, installed_version
 
 HEYOKA = "heyoka"
@@ -34,17 +34,17 @@ STATUSES = ("ok", "gave up", "stuck at an event", "step too small", "event lost"
 OK, GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST, NOT_FINITE, NOT_INSTALLED = STATUSES
 
 SIGN, FLIGHT, FORWARD, BACKWARD, STICK = range(5)
-# Where "modes" puts the variable of an event that is handled, in units of the plate's motion: a few roundings beside
-# zero. At zero, or on the wrong side, it is found as the same event again, or never again: the part falls through.
+# Where "modes" puts the variable of an event, in units of the plate's motion: a few rounding errors beside zero. At
+# zero or on the wrong side the integrator finds the same event again, or never again, and the part falls through.
 BESIDE = 1e-15
-# heyoka finds the plate in other roundings: nearer to it, a contact begins outside of it, where its force is no number.
+# heyoka rounds differently. Nearer to the plate a contact would begin outside of it, where its force is NaN.
 BESIDE_OF_HEYOKA = 1e-13
-# m and m/s: on a plate at rest absolute tolerances refer to that, because CVODE takes none of zero.
+# m and m/s, the scale of absolute tolerances on a plate at rest, because CVODE takes no tolerance of zero.
 SMALLEST_SCALE = 1e-6
 
 
 class Summary(NamedTuple):
-    """What one run comes to; NaN where it did not reach the end."""
+    """The result of a run; NaN if it did not reach the end."""
 
     x: float  # m
     vx: float  # m/s
@@ -57,7 +57,7 @@ class Summary(NamedTuple):
     events: np.ndarray  # s, the times of impacts and separations, as far as the treatment finds them
 
 
-@kernel
+@compiled
 def plate_motion(parameters, t):
     """z_s (m), ż_s, ẋ_s (m/s) and ẍ_s (m/s²) at the time t (s) (Eqs. 3, 4, 10)."""
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
@@ -70,14 +70,14 @@ def plate_motion(parameters, t):
     return -a_z / omega**2 * cosine, a_z / omega * sine, a_x / omega * sine_x, a_x * cosine_x
 
 
-@kernel
+@compiled
 def gravity_of(parameters):
     """The components of gravity normal to the track and down along it, m/s²."""
     gravity, inclination = parameters[model.GRAVITY], parameters[model.INCLINATION]
     return gravity * math.cos(inclination), gravity * math.sin(inclination)
 
 
-@kernel
+@compiled
 def normal_force(parameters, t, state):
     """Gap (m) and F_c/m (m/s²) as if in contact, of the state (x, ẋ, z, ż)."""
     z, vz, _, _ = plate_motion(parameters, t)
@@ -94,7 +94,7 @@ def normal_force(parameters, t, state):
     return gap, push
 
 
-@kernel
+@compiled
 def rates(t, state, parameters, mode):
     """Derivative of the state (x, ẋ, z, ż), shape (4,)."""
     gap, push = normal_force(parameters, t, state)
@@ -115,34 +115,34 @@ def rates(t, state, parameters, mode):
     return np.array([state[1], forward, state[3], push - normal])
 
 
-@kernel
+@compiled
 def counted_rates(derivatives, t, state, parameters, mode):
     """Fill in `rates`; the last of the parameters, after those of the model, counts the calls."""
     parameters[-1] += 1.0
     derivatives[:] = rates(t, state, parameters, mode)
 
 
-@kernel
+@compiled
 def gap_of(t, state, parameters):
     """The gap (m)."""
     return state[2] - plate_motion(parameters, t)[0]
 
 
-@kernel
+@compiled
 def slip_of(t, state, parameters):
     """The slip velocity ẋ_s - ẋ_p (m/s)."""
     return plate_motion(parameters, t)[2] - state[1]
 
 
-@kernel
+@compiled
 def pull_of(parameters, t):
-    """What a part that sticks needs from friction, m/s²."""
+    """The friction per mass that a part needs to stick, m/s²."""
     return plate_motion(parameters, t)[3] + gravity_of(parameters)[1]
 
 
-@kernel
+@compiled
 def grip_of(t, state, parameters):
-    """What friction can hold beyond what a part that sticks needs, m/s²."""
+    """The friction per mass that is available beyond what a part needs to stick, m/s²."""
     _, push = normal_force(parameters, t, state)
     return parameters[model.STATIC_FRICTION] * push - abs(pull_of(parameters, t))
 
@@ -197,7 +197,7 @@ class GaveUp(Exception):
 
 
 class Stuck(Exception):
-    """The same mode and state at the same time again: the run would find these events for ever."""
+    """The same mode and state at the same time again: the run would not end."""
 
 
 class EventLost(Exception):
@@ -205,7 +205,7 @@ class EventLost(Exception):
 
 
 class Trajectory:
-    """What a run has found so far; `times` (s, ascending) are those at which states are wanted."""
+    """The state of a run; `times` (s, ascending) are the times at which states are wanted."""
 
     def __init__(self, parameters: np.ndarray, integrator: str, limit: int, times: np.ndarray):
         self.parameters = parameters
@@ -226,25 +226,19 @@ class Trajectory:
         return rates(t, state, self.parameters, self.mode)
 
 
-def watch(parameters: np.ndarray, function: Callable, direction: float) -> Callable:
-    """An event of solve_ivp that ends the integration."""
-
-    def event(t, state):
-        return function(t, state, parameters)
-
-    event.terminal, event.direction = True, direction
-    return event
+def mode_of(trajectory: Trajectory) -> Mode:
+    """The present mode of a trajectory."""
+    return Mode(counted_rates, trajectory.parameters, trajectory.mode, ENDS[trajectory.mode])
 
 
 def leg_of_scipy(trajectory: Trajectory, task: Task) -> Leg:
     """Follow the part in one mode, `ended` by a place in ENDS."""
-    ends = ENDS[trajectory.mode]
-    watched = [watch(trajectory.parameters, function, direction) for function, direction in ends]
+    watched = mode_of(trajectory).terminal_events()
     options = {"method": trajectory.integrator, "rtol": task.rtol, "atol": task.atol}
     options |= {"dense_output": len(task.times) > 0}
     before = trajectory.evaluations
     try:
-        # Radau's numerical Jacobian of a part that never moves sideways overflows; what comes of it is judged below.
+        # Radau's numerical Jacobian of a part that never moves sideways overflows; the result is checked below.
         with np.errstate(over="ignore", invalid="ignore"):
             found = solve_ivp(trajectory.rates, (task.t, task.end), task.state, events=watched, **options)
     except ValueError as error:
@@ -260,23 +254,21 @@ def leg_of_scipy(trajectory: Trajectory, task: Task) -> Leg:
 
 def leg_of(trajectory: Trajectory, task: Task) -> Leg:
     """Follow the part in one mode by the trajectory's integrator, `ended` by an event function."""
-    mode, parameters = trajectory.mode, trajectory.parameters
+    number, parameters = trajectory.mode, trajectory.parameters
     _, module, method, _ = RIVALS[trajectory.integrator]
     if module == "heyoka":
-        leg = heyoka_peer.follow(parameters, HEYOKA_MODES[mode], task)
+        leg = heyoka_peer.follow(parameters, HEYOKA_MODES[number], task)
         return leg._replace(ended=HEYOKA_EVENTS.get(leg.ended))
     if module == "scipy":
         leg = leg_of_scipy(trajectory, task)
     elif module == "CyRK":
-        leg = cyrk_peer.follow(method, counted_rates, parameters, mode, ENDS[mode], task)
+        leg = cyrk_peer.follow(method, mode_of(trajectory), task)
     else:
-        if mode not in trajectory.solvers:
-            task = task._replace(limit=trajectory.limit)
-            trajectory.solvers[mode] = sundials_peer.solver_of(
-                method, counted_rates, parameters, mode, ENDS[mode], task
-            )
-        leg = sundials_peer.follow(trajectory.solvers[mode], task)
-    return leg._replace(ended=None if leg.ended is None else ENDS[mode][leg.ended][0])
+        if number not in trajectory.solvers:
+            whole = task._replace(limit=trajectory.limit)
+            trajectory.solvers[number] = sundials_peer.solver_of(method, mode_of(trajectory), whole)
+        leg = sundials_peer.follow(trajectory.solvers[number], task)
+    return leg._replace(ended=None if leg.ended is None else ENDS[number][leg.ended][0])
 
 
 def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, treatment: str, rtol: float):
@@ -315,7 +307,7 @@ def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray,
 
 
 def scales(parameters: np.ndarray) -> np.ndarray:
-    """Sizes of x, ẋ, z, ż (m, m/s) that absolute tolerances refer to: those of the plate's motion, shape (4,)."""
+    """The scales of x, ẋ, z, ż (m, m/s) for absolute tolerances: amplitudes of the plate's motion, shape (4,)."""
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
     a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
     a_x = parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE])

@@ -1,20 +1,21 @@
-"""The next simpler physics: a rigid part that bounces off the plate with a coefficient of restitution.
+"""A simpler model: a rigid part that bounces off the plate with a coefficient of restitution.
 
-An impact takes no time. It reverses the speed of approach u to e u and changes the horizontal velocity by at most
-μ (1 + e) u, towards that of the plate. When bounces have shrunk to nothing the part rests on the plate, pressed on with
-N/m = g cos α + a_z cos θ, and slips or sticks on it until the plate falls away faster than g cos α. Everything between
-impacts is a closed form. The coefficient is a number, or a function of u as a table, for example that of the compliant
-contact (`restitution_coefficients`).
+An impact takes no time. The part leaves with e times its speed of approach u, and friction changes its horizontal
+velocity towards the plate's velocity, by at most μ (1 + e) u. When the bounces have shrunk to nothing, the part rests
+on the plate with the normal force N/m = g cos α + a_z cos θ, and slips or sticks until the plate falls away faster
+than g cos α. Between impacts everything has a closed form. The coefficient is a number, or a table over u, for example
+the one of the compliant contact (`restitution_coefficients`).
 """
 
 import math
+from collections import namedtuple
 from typing import NamedTuple
 
 import numpy as np
 
 from ..solver import contact, model
 from ..solver.flight import Flight, gap, highest_gap, next_impact
-from ..solver.jit import kernel
+from ..solver.jit import compiled, compiled_inline, compiled_into_callers
 
 STATUSES = ("ok", "too many events", "impact not found")
 OK, TOO_MANY_EVENTS, IMPACT_NOT_FOUND = range(len(STATUSES))
@@ -22,13 +23,13 @@ SAMPLE_COLUMNS = ("x", "vx", "z", "vz")
 IMPACT_DTYPE = np.dtype([("time", np.float64), ("speed", np.float64)])
 
 TURN = 2.0 * math.pi
-COLLAPSE = 1e-6  # rad: a bounce shorter than this is the last one
+COLLAPSE = 1e-6  # rad; a bounce shorter than this is the last one
 MAX_EVENTS = 100_000  # within one excitation cycle
-IMPACTS_OF_CYCLE = 100  # on the average, for which there is room at first: one jump ends in some dozens
+IMPACTS_OF_CYCLE = 100  # on average, for which there is room at first; one jump ends in some dozens of bounces
 CONTACT_TOLERANCE = 1e-14  # of the contact steps that follow an impact
 MAX_CONTACT_STEPS = 10_000  # of one impact; an undamped one takes about ten
-OVERDAMPED = 40.0  # d_c/m times the duration of an undamped impact: over six times critical for a linear contact
-CREEPING = 20.0  # durations of an undamped impact: a contact that takes longer goes back without ever separating
+OVERDAMPED = 40.0  # d_c/m times the duration of an undamped impact; over six times critical for a linear contact
+CREEPING = 20.0  # durations of an undamped impact; a contact that takes longer creeps back without a separation
 
 
 class Plate(NamedTuple):
@@ -44,11 +45,22 @@ class Plate(NamedTuple):
     static_friction: float
 
 
+# How a part moves.
+FLYING, ARRIVING, RESTING = range(3)
+# The motion at a time: x (m), ẋ (m/s); z (m) and ż (m/s) of a part that flies; sign of the slip, 0 for stick; gap (m)
+# and its rate (m/s) after a bounce; speed of approach (m/s) of a part that arrives; time (s) in which the plate, which
+# has just left the part, cannot catch it.
+Motion = namedtuple("Motion", "kind x vx z vz sigma q rate speed skip")
+# A time: the beginning of an excitation cycle (s), and the time in the cycle (s). The phase of long runs so keeps its
+# precision.
+Clock = namedtuple("Clock", "base t")
+
+
 def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
     """Speed of separation over `speed` of approach (m/s) in the compliant contact, without gravity and excitation.
 
-    The solver's contact steps follow the impact. The coefficient is 0 where damping lets the contact creep back without
-    ever separating.
+    The solver's contact steps follow the impact. The coefficient is 0 if the contact is so damped that it creeps back
+    without a separation.
 
     Raises
     ------
@@ -74,7 +86,22 @@ def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
     raise ArithmeticError(f"an impact at {speed:g} m/s does not end within {MAX_CONTACT_STEPS} contact steps")
 
 
-@kernel
+@compiled
+def plate_of(parameters):
+    """The Plate of a packed parameter vector."""
+    return Plate(
+        TURN * parameters[model.FREQUENCY],
+        parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE]),
+        parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]),
+        parameters[model.PHASE_SHIFT],
+        parameters[model.GRAVITY] * math.cos(parameters[model.INCLINATION]),
+        parameters[model.GRAVITY] * math.sin(parameters[model.INCLINATION]),
+        parameters[model.FRICTION],
+        parameters[model.STATIC_FRICTION],
+    )
+
+
+@compiled
 def restitution_at(speed, speeds, coefficients):
     """Linear interpolation in a table over ascending `speeds` (m/s), constant beyond its ends."""
     k = np.searchsorted(speeds, speed)
@@ -86,7 +113,7 @@ def restitution_at(speed, speeds, coefficients):
     return coefficients[k - 1] + share * (coefficients[k] - coefficients[k - 1])
 
 
-@kernel
+@compiled
 def rest_end(plate, theta):
     """Advance of the phase (rad) from `theta` until the plate falls away from a resting part, a_z cos θ < -g cos α."""
     if plate.a_z <= plate.gravity:
@@ -100,17 +127,17 @@ def rest_end(plate, theta):
     return TURN + edge - angle
 
 
-@kernel
+@compiled
 def safe_flight(theta, omega):
-    """Time (s) in which a part that the plate leaves behind at `theta` cannot be caught.
+    """Time (s) in which the plate cannot catch a part that it has left at `theta`.
 
     With q ≥ 0, q̇ ≥ 0 and q̈ ≥ 0 at θ the gap is at least a_z ω sin θ τ³/6 - a_z ω² τ⁴/24, positive for ωτ < 4 sin θ.
-    Half of that is used: a search from q = 0 would have to make its way out of rounding first.
+    Half of that time is skipped, because a search that begins at q = 0 begins with rounding errors.
     """
     return max(2.0 * math.sin(theta), 0.0) / omega
 
 
-@kernel
+@compiled
 def one_wave(plate, normal):
     """The amplitude R (m/s²) and the phase δ (rad) of ẍ_s + normal cos θ = R cos(θ + δ)."""
     cosine, sine = plate.a_x * math.cos(plate.shift) + normal, plate.a_x * math.sin(plate.shift)
@@ -119,7 +146,7 @@ def one_wave(plate, normal):
     return math.hypot(cosine, sine), math.atan2(sine, cosine)
 
 
-@kernel
+@compiled
 def advance_to(angle, entry, centre):
     """Advance (rad) from an angle in [0, 2π) to the `entry` of an interval, whose first half ends at its `centre`."""
     if entry <= angle < centre:
@@ -127,17 +154,17 @@ def advance_to(angle, entry, centre):
     return (entry if angle < entry else TURN + entry) - angle
 
 
-@kernel
+@compiled
 def stick_end(plate, theta):
     """Advance of the phase (rad) from `theta` until a sticking part begins to slip, |ẍ_s + g sin α| > μ_s N/m."""
     grip, lift = plate.static_friction * plate.gravity, plate.static_friction * plate.a_z
-    # -(ẍ_s + g sin α) outgrows μ_s N/m where R cos(θ + δ) falls below -needed.
+    # -(ẍ_s + g sin α) exceeds μ_s N/m where R cos(θ + δ) falls below -needed.
     amplitude, shift = one_wave(plate, lift)
     needed = grip + plate.downhill
     backward = 0.0 if needed < -amplitude else math.inf
     if abs(needed) < amplitude:
         backward = advance_to((theta + shift) % TURN, math.acos(-needed / amplitude), math.pi)
-    # ẍ_s + g sin α outgrows μ_s N/m where R cos(θ + δ) rises above `needed`.
+    # ẍ_s + g sin α exceeds μ_s N/m where R cos(θ + δ) rises above `needed`.
     amplitude, shift = one_wave(plate, -lift)
     needed = grip - plate.downhill
     forward = 0.0 if needed < -abs(amplitude) else math.inf
@@ -146,7 +173,7 @@ def stick_end(plate, theta):
     return min(backward, forward)
 
 
-@kernel
+@compiled
 def slip_after(plate, theta, slip, sigma, advance):
     """Slip velocity ẋ_s - ẋ_p (m/s) of a resting part after an advance of the phase (rad)."""
     swing = (plate.a_x * math.cos(plate.shift) - sigma * plate.friction * plate.a_z) / plate.omega
@@ -155,11 +182,12 @@ def slip_after(plate, theta, slip, sigma, advance):
     return slip + swing * (math.sin(theta + advance) - math.sin(theta)) - fall * advance + turned
 
 
-@kernel
+@compiled
 def slip_end(plate, theta, slip, sigma, limit):
     """Advance of the phase (rad), up to `limit`, at which the slip velocity of a resting part is back at zero.
 
-    The slip velocity is monotonic between known angles, so that no zero is missed; infinity if there is none.
+    The advance is infinite if there is no zero. The slip velocity is monotonic between known angles, so that no zero is
+    missed.
     """
     swing, shift = one_wave(plate, -sigma * plate.friction * plate.a_z)
     fall = sigma * plate.friction * plate.gravity - plate.downhill
@@ -184,20 +212,20 @@ def slip_end(plate, theta, slip, sigma, limit):
     return math.inf
 
 
-@kernel
+@compiled
 def plate_speed(plate, theta):
     """ẋ_s (m/s) at the phase `theta` (rad)."""
     return plate.a_x / plate.omega * math.sin(theta + plate.shift)
 
 
-@kernel
-def slid(plate, x, vx, tau):
+@compiled
+def slide(plate, x, vx, tau):
     """x (m) and ẋ (m/s) after the time `tau` (s) in which gravity alone acts along the track."""
     fall = plate.downhill * tau
     return x + vx * tau - 0.5 * fall * tau, vx - fall
 
 
-@kernel
+@compiled
 def rest_motion(plate, theta, x, vx, sigma, tau):
     """x (m) and ẋ (m/s) of a resting part after the time `tau` (s); `sigma` is the sign of the slip, 0 for stick."""
     phase = theta + plate.omega * tau
@@ -209,11 +237,11 @@ def rest_motion(plate, theta, x, vx, sigma, tau):
     fall = 0.5 * plate.gravity * tau * tau
     lift = plate.a_z * (cosine - math.sin(theta) / plate.omega * tau)
     rub = sigma * plate.friction
-    x, vx = slid(plate, x, vx, tau)
+    x, vx = slide(plate, x, vx, tau)
     return x + rub * (fall + lift), vx + rub * (plate.gravity * tau + plate.a_z * sine)
 
 
-@kernel
+@compiled
 def slip_direction(plate, theta, slip):
     """Sign of the slip of a resting part, 0 for stick (Filippov's condition)."""
     if slip != 0.0:
@@ -224,7 +252,108 @@ def slip_direction(plate, theta, slip):
     return math.copysign(1.0, pull)
 
 
-@kernel
+@compiled_inline
+def plate_height(plate, theta):
+    """z_s (m) at the phase `theta` (rad)."""
+    return -plate.a_z / plate.omega**2 * math.cos(theta)
+
+
+@compiled_inline
+def plate_rise(plate, theta):
+    """ż_s (m/s) at the phase `theta` (rad)."""
+    return plate.a_z / plate.omega * math.sin(theta)
+
+
+@compiled_into_callers
+def first_motion(plate, z0, vz0, theta):
+    """The Motion at an initial condition (m, m/s, rad)."""
+    z = plate_height(plate, theta)
+    q = max(z0 - z, 0.0) if z0 == z0 else 0.0  # z0 is NaN for a part that starts on the plate
+    rate = vz0 - plate_rise(plate, theta)
+    kind = ARRIVING if q == 0.0 and rate <= 0.0 else FLYING
+    return Motion(kind, 0.0, 0.0, z + q, vz0, 0.0, q, rate, -rate, 0.0)
+
+
+@compiled_into_callers
+def bounce(plate, motion, theta, coefficient):
+    """The Motion just after an impact."""
+    rate = coefficient * motion.speed
+    vx = motion.vx
+    bound = plate.friction * (1.0 + coefficient) * motion.speed
+    slip = plate_speed(plate, theta) - vx
+    if abs(slip) <= bound:
+        vx += slip
+        slip = 0.0
+    else:
+        vx += math.copysign(bound, slip)
+    pressure = plate.gravity + plate.a_z * math.cos(theta)
+    kind = RESTING if pressure > 0.0 and 2.0 * plate.omega * rate <= COLLAPSE * pressure else FLYING
+    skip = 0.0 if pressure > 0.0 else safe_flight(theta, plate.omega)
+    sigma = slip_direction(plate, theta, slip)
+    z, vz = plate_height(plate, theta), plate_rise(plate, theta) + rate
+    return Motion(kind, motion.x, vx, z, vz, sigma, 0.0, rate, motion.speed, skip)
+
+
+@compiled_into_callers
+def rest_duration(plate, motion, theta, left):
+    """How long (s) a part rests and slips one way or sticks, and whether the plate leaves it then.
+
+    left : s, after which nothing is wanted any more
+    """
+    leave = rest_end(plate, theta) / plate.omega
+    if motion.sigma == 0.0:
+        change = stick_end(plate, theta) / plate.omega
+    else:
+        slip = plate_speed(plate, theta) - motion.vx
+        change = slip_end(plate, theta, slip, motion.sigma, plate.omega * min(leave, left)) / plate.omega
+    return min(leave, change), leave <= change
+
+
+@compiled_into_callers
+def end_rest(plate, motion, theta, tau, leaves):
+    """The Motion after a rest of `tau` (s), which the plate ends if it `leaves` the part."""
+    _, _, _, z, vz, sigma, q, rate, speed, skip = motion
+    kind = RESTING
+    x, vx = rest_motion(plate, theta, motion.x, motion.vx, sigma, tau)
+    theta += plate.omega * tau
+    if leaves:
+        kind, skip = FLYING, safe_flight(theta, plate.omega)
+        z, vz = plate_height(plate, theta), plate_rise(plate, theta)
+    elif sigma == 0.0:
+        sigma = math.copysign(1.0, plate.a_x * math.cos(theta + plate.shift) + plate.downhill)
+    else:
+        vx = plate_speed(plate, theta)
+        sigma = slip_direction(plate, theta, 0.0)
+    return Motion(kind, x, vx, z, vz, sigma, q, rate, speed, skip)
+
+
+@compiled_into_callers
+def sample_rest(plate, motion, theta, clock, tau, record):
+    """Sample a part that rests for `tau` (s); the number of samples with them."""
+    times, samples, sampled = record
+    while sampled < len(times) and clock.base + clock.t + tau >= times[sampled]:
+        ahead = times[sampled] - clock.base - clock.t
+        phase = theta + plate.omega * ahead
+        x, vx = rest_motion(plate, theta, motion.x, motion.vx, motion.sigma, ahead)
+        samples[sampled] = (x, vx, plate_height(plate, phase), plate_rise(plate, phase))
+        sampled += 1
+    return sampled
+
+
+@compiled_into_callers
+def sample_flight(plate, motion, clock, tau, record):
+    """Sample a part that flies for `tau` (s); the number of samples with them."""
+    times, samples, sampled = record
+    while sampled < len(times) and clock.base + clock.t + tau >= times[sampled]:
+        ahead = times[sampled] - clock.base - clock.t
+        x, vx = slide(plate, motion.x, motion.vx, ahead)
+        z = motion.z + (motion.vz - 0.5 * plate.gravity * ahead) * ahead
+        samples[sampled] = (x, vx, z, motion.vz - plate.gravity * ahead)
+        sampled += 1
+    return sampled
+
+
+@compiled
 def follow(parameters, speeds, coefficients, times, samples, impacts):
     """Follow one part until the last of `times`.
 
@@ -238,142 +367,66 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
 
     Returns
     -------
-    tuple
-        number of impacts; time at rest on the plate (s); largest gap (m); status
+    number of impacts, largest gap (m), status
     """
-    omega = TURN * parameters[model.FREQUENCY]
-    plate = Plate(
-        omega,
-        parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE]),
-        parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]),
-        parameters[model.PHASE_SHIFT],
-        parameters[model.GRAVITY] * math.cos(parameters[model.INCLINATION]),
-        parameters[model.GRAVITY] * math.sin(parameters[model.INCLINATION]),
-        parameters[model.FRICTION],
-        parameters[model.STATIC_FRICTION],
-    )
-    gravity, a_z = plate.gravity, plate.a_z
-    period = 1.0 / parameters[model.FREQUENCY]
-    end = times[-1]
-
-    # Time is the start of an excitation cycle plus the time in it, so that long runs keep the precision of the phase.
+    plate = plate_of(parameters)
+    omega, gravity, a_z = plate.omega, plate.gravity, plate.a_z
+    period, psi0, end = 1.0 / parameters[model.FREQUENCY], parameters[model.PSI0], times[-1]
+    motion = first_motion(plate, parameters[model.Z0], parameters[model.VZ0], psi0)
+    max_gap = motion.q
     cycle, t = 0, 0.0
-    theta = parameters[model.PSI0]
-    z = -a_z / omega**2 * math.cos(theta)
-    q = max(parameters[model.Z0] - z, 0.0) if parameters[model.Z0] == parameters[model.Z0] else 0.0
-    z += q
-    vz = parameters[model.VZ0]
-    rate = vz - a_z / omega * math.sin(theta)
-    x, vx, sigma = 0.0, 0.0, 0.0
-    arriving = q == 0.0 and rate <= 0.0
-    speed = -rate
-    resting = False
-    skip = 0.0
-    n_sampled = n_impacts = n_events = 0
-    max_gap = q
-
-    while n_sampled < len(times):
+    sampled = n_impacts = n_events = 0
+    while sampled < len(times):
         while t >= period:
             t -= period
             cycle += 1
             n_events = 0
-        base = cycle * period
-        theta = parameters[model.PSI0] + omega * t
+        clock = Clock(cycle * period, t)
+        theta, left = psi0 + omega * t, end - clock.base - t
         n_events += 1
         if n_events > MAX_EVENTS:
-            samples[n_sampled:] = math.nan
+            samples[sampled:] = math.nan
             return n_impacts, max_gap, TOO_MANY_EVENTS
-        if arriving:
-            if speed > 0.0:
+        if motion.kind == ARRIVING:
+            if motion.speed > 0.0:
                 if n_impacts < len(impacts):
-                    impacts[n_impacts, 0] = base + t
-                    impacts[n_impacts, 1] = speed
+                    impacts[n_impacts, 0], impacts[n_impacts, 1] = clock.base + t, motion.speed
                 n_impacts += 1
-            coefficient = restitution_at(speed, speeds, coefficients)
-            q, rate = 0.0, coefficient * speed
-            z = -a_z / omega**2 * math.cos(theta)
-            vz = a_z / omega * math.sin(theta) + rate
-            bound = plate.friction * (1.0 + coefficient) * speed
-            slip = plate_speed(plate, theta) - vx
-            if abs(slip) <= bound:
-                vx += slip
-                slip = 0.0
-            else:
-                vx += math.copysign(bound, slip)
-            pressure = gravity + a_z * math.cos(theta)
-            resting = pressure > 0.0 and 2.0 * omega * rate <= COLLAPSE * pressure
-            sigma = slip_direction(plate, theta, slip)
-            skip = 0.0 if pressure > 0.0 else safe_flight(theta, omega)
-            arriving = False
-        elif resting:
-            slip = plate_speed(plate, theta) - vx if sigma != 0.0 else 0.0
-            leave = rest_end(plate, theta) / omega
-            limit = min(leave, end - base - t)
-            if sigma == 0.0:
-                change = stick_end(plate, theta) / omega
-            else:
-                change = slip_end(plate, theta, slip, sigma, omega * limit) / omega
-            tau = min(leave, change)
-            while n_sampled < len(times) and base + t + tau >= times[n_sampled]:
-                ahead = times[n_sampled] - base - t
-                phase = theta + omega * ahead
-                x_then, vx_then = rest_motion(plate, theta, x, vx, sigma, ahead)
-                z_then, vz_then = -a_z / omega**2 * math.cos(phase), a_z / omega * math.sin(phase)
-                samples[n_sampled] = (x_then, vx_then, z_then, vz_then)
-                n_sampled += 1
-            if n_sampled == len(times):
-                break
-            x, vx = rest_motion(plate, theta, x, vx, sigma, tau)
+            motion = bounce(plate, motion, theta, restitution_at(motion.speed, speeds, coefficients))
+        elif motion.kind == RESTING:
+            tau, leaves = rest_duration(plate, motion, theta, left)
+            sampled = sample_rest(plate, motion, theta, clock, tau, (times, samples, sampled))
+            motion = end_rest(plate, motion, theta, tau, leaves)
             t += tau
-            theta += omega * tau
-            if leave <= change:
-                resting = False
-                skip = safe_flight(theta, omega)
-                z, vz = -a_z / omega**2 * math.cos(theta), a_z / omega * math.sin(theta)
-            elif sigma == 0.0:
-                sigma = math.copysign(1.0, plate.a_x * math.cos(theta + plate.shift) + plate.downhill)
-            else:
-                vx = plate_speed(plate, theta)
-                sigma = slip_direction(plate, theta, 0.0)
         else:
+            _, x, vx, z, vz, sigma, q, rate, _, skip = motion
             flight = Flight(z, vz, theta, gravity, a_z, omega)
             if skip > 0.0:
                 q, rate = gap(flight, skip)
                 if q <= 0.0:
                     # The plate is back before it has really left.
                     x, vx = rest_motion(plate, theta, x, vx, sigma, skip)
+                    motion = Motion(RESTING, x, vx, z, vz, sigma, q, rate, motion.speed, skip)
                     t += skip
-                    resting = True
                     continue
-            z_then, vz_then = z + (vz - 0.5 * gravity * skip) * skip, vz - gravity * skip
-            ahead = Flight(z_then, vz_then, theta + omega * skip, gravity, a_z, omega)
-            tau, speed = next_impact(ahead, q, rate, end - base - t - skip)
+            ahead = Flight(
+                z + (vz - 0.5 * gravity * skip) * skip, vz - gravity * skip, theta + omega * skip, gravity, a_z, omega
+            )
+            tau, speed = next_impact(ahead, q, rate, left - skip)
             tau += skip
             if not tau <= math.inf:
-                samples[n_sampled:] = math.nan
+                samples[sampled:] = math.nan
                 return n_impacts, max_gap, IMPACT_NOT_FOUND
-            flown = min(tau, end - base - t)
-            max_gap = max(max_gap, highest_gap(flight, flown))
-            while n_sampled < len(times) and base + t + tau >= times[n_sampled]:
-                ahead = times[n_sampled] - base - t
-                x_then, vx_then = slid(plate, x, vx, ahead)
-                samples[n_sampled] = (
-                    x_then,
-                    vx_then,
-                    z + (vz - 0.5 * gravity * ahead) * ahead,
-                    vz - gravity * ahead,
-                )
-                n_sampled += 1
-            if n_sampled == len(times):
-                break
-            x, vx = slid(plate, x, vx, tau)
+            max_gap = max(max_gap, highest_gap(flight, min(tau, left)))
+            sampled = sample_flight(plate, motion, clock, tau, (times, samples, sampled))
+            x, vx = slide(plate, x, vx, tau)
+            motion = Motion(ARRIVING, x, vx, z, vz, sigma, q, rate, speed, skip)
             t += tau
-            arriving = True
     return n_impacts, max_gap, OK
 
 
 class Summary(NamedTuple):
-    """What one run comes to: the last state and totals over the run."""
+    """The result of a run: its last state, and totals over the run."""
 
     x: float  # m
     vx: float  # m/s
@@ -388,8 +441,8 @@ class Summary(NamedTuple):
 def restitution_coefficients(parameters: np.ndarray, speeds: np.ndarray) -> np.ndarray:
     """Coefficients of restitution of the compliant contact, shape of `speeds` (speeds of approach, m/s, positive).
 
-    They belong to the contact alone, without gravity and excitation, to about 1e-6. ValueError for a speed that is not
-    positive.
+    They belong to the contact alone, without gravity and excitation, and are accurate to about 1e-6. A speed that is
+    not positive raises ValueError.
     """
     speeds = np.asarray(speeds, dtype=np.float64)
     if not (np.isfinite(speeds) & (speeds > 0.0)).all():
@@ -399,7 +452,7 @@ def restitution_coefficients(parameters: np.ndarray, speeds: np.ndarray) -> np.n
 
 
 def _follow(parameters, restitution, times, n_impacts=0):
-    """Call `follow` with new arrays: its result, the samples (NaN behind an early end) and the impacts."""
+    """Call `follow` with new arrays. Returns its result, the samples (NaN after an early end) and the impacts."""
     if np.isscalar(restitution):
         speeds, coefficients = np.zeros(1), np.array([restitution], dtype=np.float64)
     else:
@@ -412,11 +465,6 @@ def _follow(parameters, restitution, times, n_impacts=0):
     impacts = np.empty((n_impacts, 2))
     result = follow(parameters, speeds, coefficients, times, samples, impacts)
     return result, samples, impacts
-
-
-def _check_duration(duration: float) -> None:
-    if not 0.0 < duration < math.inf:
-        raise ValueError(f"duration = {duration!r} s is not positive and finite")
 
 
 def run(parameters: np.ndarray, duration: float, restitution, last: float = 0.25) -> Summary:
@@ -434,7 +482,8 @@ def run(parameters: np.ndarray, duration: float, restitution, last: float = 0.25
     ValueError
         names the argument that cannot be used
     """
-    _check_duration(duration)
+    if not 0.0 < duration < math.inf:
+        raise ValueError(f"duration = {duration!r} s is not positive and finite")
     if not 0.0 < last <= 1.0:
         raise ValueError(f"last = {last!r} is outside (0, 1]")
     times = np.array([(1.0 - last) * duration, duration])
@@ -449,16 +498,10 @@ def sample(parameters: np.ndarray, times: np.ndarray, restitution) -> dict[str, 
     return samples_and_impacts(parameters, times, restitution)[0]
 
 
-def impacts(parameters: np.ndarray, duration: float, restitution) -> np.ndarray:
-    """Impacts in order of time, an array of IMPACT_DTYPE: time (s) and speed of approach (m/s); else as `run`."""
-    _check_duration(duration)
-    return samples_and_impacts(parameters, np.array([duration]), restitution)[1]
-
-
 def samples_and_impacts(
     parameters: np.ndarray, times: np.ndarray, restitution
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """What `sample` and `impacts` give of one run, up to the last of `times`."""
+    """As `sample`, and the impacts up to the last of `times`: time (s) and speed of approach (m/s), of IMPACT_DTYPE."""
     times = np.asarray(times, dtype=np.float64)
     if not (np.isfinite(times) & (times >= 0.0)).all():
         raise ValueError("times must be finite and not negative")

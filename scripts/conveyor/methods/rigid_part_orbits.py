@@ -18,7 +18,7 @@ STEP = 1e-4  # relative, of the numerical derivative of e(u) u
 
 
 class RigidOrbit(NamedTuple):
-    """The orbit with one impact in a cycle, and between which amplitudes it is stable."""
+    """The orbit with one impact in a cycle, and the amplitudes between which it is stable."""
 
     speed: float  # m/s, of approach
     restitution: float
@@ -31,7 +31,7 @@ def rigid_orbit(conveyor: Conveyor, restitution: Callable[[float], float]) -> Ri
 
     Parameters
     ----------
-    conveyor : its frequency, gravity, inclination and angle count
+    conveyor : its frequency, gravity, inclination and angle matter
     restitution : coefficient of restitution in [0, 1] as a function of the speed of approach (m/s)
     """
     gravity = conveyor.gravity * math.cos(conveyor.inclination)

@@ -1,4 +1,4 @@
-"""The integrators that the solver is compared with: their packages, and what each of them is given."""
+"""The integrators that the solver is compared with: their packages, methods and options."""
 
 from importlib import metadata
 from typing import NamedTuple

@@ -1,49 +1,41 @@
 """CVODE of SUNDIALS with its root finding on the same model: a peer that need not be installed.
 
-Used as the documentation of scikit-sundae recommends: Adams' methods for a problem that is not stiff, BDF for one
-that is; event functions with directions, at whose zeros the integrator stops; one solver for each mode, which begins
-anew at each event. The right-hand side is compiled by numba; its callback is a function of Python.
+It is used as the documentation of scikit-sundae recommends: Adams' methods for problems that are not stiff and BDF for
+stiff ones; event functions with directions, at whose zeros the integrator stops; one solver for each mode, which
+restarts at each event. The right-hand side is compiled by numba; its callback is a Python function.
 """
 
-from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
-from .leg import Leg, Task
+from .leg import Leg, Mode, Task
 
 ROOT_FOUND = 2  # CV_ROOT_RETURN
 
 
-def solver_of(
-    method: str,
-    counted_rates: Callable,
-    parameters: np.ndarray,
-    mode: int,
-    ends: Sequence[tuple[Callable, float]],
-    task: Task,
-) -> Any:
-    """A solver of one mode by the `method` Adams or BDF; other arguments as of `cyrk_peer.follow`."""
+def solver_of(method: str, mode: Mode, task: Task) -> Any:
+    """A solver of one mode by the `method` Adams or BDF, with the tolerances and the limit of a task."""
     from sksundae.cvode import CVODE
 
-    counted = np.append(parameters, 0.0)
-    functions = [function for function, _ in ends]
+    parameters = mode.counting_parameters()
 
     def right_side(t, state, derivatives):
-        counted_rates(derivatives, t, state, counted, mode)
+        mode.counted_rates(derivatives, t, state, parameters, mode.number)
 
     def events(t, state, values):
-        for place, function in enumerate(functions):
-            values[place] = function(t, state, counted)
+        for place, event in enumerate(events.functions):
+            values[place] = event(t, state)
 
-    events.terminal = [True] * len(ends)
-    events.direction = [int(direction) for _, direction in ends]
-    watched = {"eventsfn": events, "num_events": len(ends)} if ends else {}
+    events.functions = mode.terminal_events()
+    events.terminal = [event.terminal for event in events.functions]
+    events.direction = [event.direction for event in events.functions]
+    watched = {"eventsfn": events, "num_events": len(mode.ends)} if mode.ends else {}
     return CVODE(right_side, method=method, rtol=task.rtol, atol=task.atol, max_num_steps=task.limit, **watched)
 
 
 def follow(solver: Any, task: Task) -> Leg:
-    """Follow one leg, `ended` by a place among the events of its solver."""
+    """Follow one leg; `ended` is a place among the events of the solver's mode."""
     solver.init_step(task.t, task.state)
     states = []
     for wanted in np.union1d(task.times, task.end):

@@ -5,13 +5,13 @@ contact become polynomial,
 
     w' = v/2,   t' = w,   v' = w (g + a_z cos θ - (d_c/m) v) - (k_c/m) w^(2p+1),   θ' = ω w,
 
-where v = δ̇ is the speed of approach and ' = d/ds. Impact and separation are plain zeros of w with the slope v/2: the
-half power of the contact law, which costs every integrator in t its order there, is gone, and for p = 1 and 3/2
-nothing singular is left on the real axis. Every step is one Taylor polynomial, so events and samples inside a step are
-roots and values of polynomials that are already known.
+where v = δ̇ is the speed of approach and ' = d/ds. Impact and separation are simple zeros of w with the slope v/2. The
+half power of the contact law, which costs every integrator in t its order there, does not appear, and for p = 1 and 3/2
+no singularity is left on the real axis. Each step is one Taylor polynomial, so that events and samples within a step
+are roots and values of known polynomials.
 
-For any other exponent w^(2p+1) is smooth only where w > 0. Below the penetration where the spring weighs less than
-`tolerance` times the part it is switched off, and above it the series comes from the recurrence of a power.
+For any other exponent w^(2p+1) is smooth only where w > 0. The spring is therefore switched off below the penetration
+at which its force is `tolerance` times the weight; above it the series follows from the recurrence of a power.
 """
 
 import math
@@ -20,32 +20,31 @@ from collections import namedtuple
 import numpy as np
 
 from . import model, polynomial, unrolled
-from .jit import inlined, kernel, spliced
+from .jit import compiled, compiled_inline, compiled_into_callers
 from .polynomial import ORDER, SHIFTED, SIZE
+from .unrolled import COSINE, COSINE_W, ROWS, SINE, SPRING, SQUARE, T, V, W
 
-# What ends a contact step before its full length.
+# Events that end a contact step before its full length.
 NOTHING, SEPARATION, FORCE_SIGN = range(3)
-# A separation is searched for behind this part of a step that begins with an impact, where w = 0 as well.
+# A step that begins with an impact has w = 0 there. The search for its separation begins after this part of the step.
 LEAVE_IMPACT = 1e-6
 
-# Constants of one conveyor in the form in which the equations need them; all per unit mass, SI units. Gravity has the
-# component `gravity`, g cos α, normal to the track, and `downhill`, g sin α, against the feeding direction.
+# The constants of one conveyor in the equations of motion, SI units, forces per mass. Gravity has the component
+# `gravity`, g cos α, normal to the track, and `downhill`, g sin α, against the feeding direction. A part at rest has
+# the √penetration scale_w (√m); scale_v (m/s) is the speed of a fall by this penetration.
 Constants = namedtuple(
     "Constants",
     "omega period psi0 a_x a_z gravity downhill cos_shift sin_shift stiffness damping exponent friction "
     "static_friction mass tension tolerance scale_w scale_v edge_w rest_speed rest_force",
 )
 
-# A workspace is an array of rows of Taylor coefficients, shape (FIRST + steps ROWS, SIZE). The first row is left to the
-# search for roots, SCRATCH is free, and each step has ROWS rows from some row `at` on: `at` + W, and so forth. SQUARE
-# is w², SPRING w^(2p+1), COSINE_W the cosine times w.
+# A workspace is an array of rows of Taylor coefficients, shape (FIRST + steps ROWS, SIZE). The first row belongs to the
+# search for roots and SCRATCH is free. Each step has ROWS rows, see unrolled: `at` + W, `at` + T, and so forth.
 SCRATCH = SHIFTED + 1
 FIRST = SCRATCH + 1
-W, T, V, SINE, COSINE, SQUARE, SPRING, COSINE_W = range(8)
-ROWS = 8
 
 
-@kernel
+@compiled
 def constants(parameters, tolerance):
     """The Constants of a packed parameter vector (see model.PARAMETERS) at a relative tolerance per step."""
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
@@ -78,20 +77,20 @@ def constants(parameters, tolerance):
         math.sqrt(static_penetration),
         math.sqrt(2.0 * gravity * static_penetration),
         edge_w,
-        # Slower impacts and separations cannot be told from rest at this tolerance.
+        # rest_speed: at this tolerance slower impacts and separations are rest.
         10.0 * tolerance * math.sqrt(2.0 * gravity * static_penetration),
-        # Nor can weaker contact forces be told from none; per mass.
+        # rest_force: weaker contact forces, per mass, are none.
         10.0 * tolerance * gravity,
     )
 
 
-@kernel
+@compiled
 def workspace():
-    """Room for the series of one step."""
+    """A workspace for the series of one step."""
     return np.zeros((FIRST + ROWS, SIZE))
 
 
-@inlined
+@compiled_inline
 def force(c, w, v):
     """Contact force per mass, m/s², at w = √penetration and the speed of approach v (Eq. 9)."""
     if c.exponent == 1.5:
@@ -99,27 +98,27 @@ def force(c, w, v):
     return c.stiffness * max(w, 0.0) ** (2.0 * c.exponent) + c.damping * v
 
 
-@inlined
+@compiled_inline
 def impulse_of_tension(c, fastest, lapse):
     """Bound on the impulse per mass (m/s) of a force that pulls during a time `lapse` (s).
 
-    fastest : m/s; the speed of separation stays below it plus what gravity and the plate add
+    fastest : m/s, a bound on the speed of separation without what gravity and the plate add during the time
     """
     return c.damping * (fastest + 2.0 * (c.gravity + c.a_z) * lapse) * lapse
 
 
-@inlined
+@compiled_inline
 def is_hertz(c):
-    """Whether the generated code holds for this contact."""
+    """Whether the generated code of the module unrolled holds for this contact."""
     return c.exponent == 1.5
 
 
-expand_hertz = kernel(unrolled.expand_hertz)
+expand_hertz = compiled(unrolled.expand_hertz)
 
 
-@spliced
+@compiled_into_callers
 def expand(c, series, at, w0, v0, sine0, cosine0, free):
-    """Fill the rows W to COSINE_W of a step from their values at s = 0; `free` leaves the contact force out."""
+    """Fill the rows of a step from their values at s = 0; `free` leaves the contact force out."""
     stiffness = 0.0 if free else c.stiffness
     damping = 0.0 if free else c.damping
     gravity, a_z, omega = c.gravity, c.a_z, c.omega
@@ -136,7 +135,7 @@ def expand(c, series, at, w0, v0, sine0, cosine0, free):
     series[sine, 0] = sine0
     series[cosine, 0] = cosine0
     series[square, 0] = w0 * w0
-    # Without the recurrence for the power (w near zero) the spring does not act: see the head of this file.
+    # Near w = 0 the spring is switched off, see above.
     general = not hooke and w0 > c.edge_w
     series[spring, :] = 0.0
     if general:
@@ -164,18 +163,18 @@ def expand(c, series, at, w0, v0, sine0, cosine0, free):
             series[spring, n + 1] = power_term(series, w, spring, exponent, n + 1)
 
 
-@kernel
+@compiled
 def power_term(series, w, power, exponent, n):
-    """Coefficient n ≥ 1 of w^exponent (row `power`) from those below it, for w_0 > 0."""
+    """Coefficient n ≥ 1 of w^exponent (row `power`) from the lower coefficients, for w_0 > 0."""
     total = 0.0
     for k in range(1, n + 1):
         total += (k * exponent - (n - k)) * series[w, k] * series[power, n - k]
     return total / (n * series[w, 0])
 
 
-@inlined
+@compiled_inline
 def expand_force(c, series, at, scale, plate, slack):
-    """Fill the row SCRATCH with the series of w (scale F_c/m + plate cos(θ + ε) + slack), of the sign of the bracket.
+    """Fill the row SCRATCH with the series of w (scale F_c/m + plate cos(θ + ε) + slack), which has the bracket's sign.
 
     The product of sin θ and w follows from (cos θ)' = -ω w sin θ.
     """
@@ -189,12 +188,12 @@ def expand_force(c, series, at, scale, plate, slack):
     series[SCRATCH, ORDER] = 0.0
 
 
-@inlined
+@compiled_inline
 def step_length(c, series, at, w0, v0):
-    """Length in s at which the last two terms of the series are below the tolerance.
+    """Length in s up to which the last two terms of the series are below the tolerance.
 
-    Those of v and of the excitation's phase count; w = ∫ v/2 ds follows v. The scale of v is the speed of an impact
-    with the present energy, and never less than that of the part at rest.
+    The series of v and of the excitation's phase count; w = ∫ v/2 ds follows v. The scale of v is the speed of an
+    impact with the present energy, but at least scale_v.
     """
     w2 = w0 * w0
     potential = w2 * w2 * w0 if c.exponent == 1.5 else w0 ** (2.0 * c.exponent + 2.0)
@@ -209,23 +208,23 @@ def step_length(c, series, at, w0, v0):
     if last * length > before:
         length = min(length, (allowed / last) ** (1.0 / ORDER))
     if c.edge_w > 0.0 and series[at + SPRING, 0] > 0.0:
-        # Behind the radius of convergence of w^(2p+1) v may still be right, but not the sign of the force.
+        # Beyond the radius of convergence of w^(2p+1), v may still be right, but the sign of the force is not.
         of_spring = c.stiffness * abs(series[at + SPRING, ORDER - 1])
         allowed = c.tolerance * (c.stiffness * series[at + SPRING, 0] + w0 * (c.damping * abs(v0) + c.gravity))
         length = min(length, (allowed / of_spring) ** (1.0 / (ORDER - 1)))
     return length
 
 
-@spliced
+@compiled_into_callers
 def begin_step(c, series, at, w0, v0, sine0, cosine0, pulled):
     """Expand the motion from w0 ≥ 0, v0: the length in s up to which its series is good, see `step`."""
     expand(c, series, at, w0, v0, sine0, cosine0, pulled and c.tension == model.TENSION_CLIP)
     return step_length(c, series, at, w0, v0)
 
 
-@spliced
+@compiled_into_callers
 def end_step(c, series, at, w0, v0, pulled, length):
-    """Where a step ends whose series is good up to `length`; what it returns is told by `step`."""
+    """The end of a step whose series holds up to `length`; returns the same as `step`."""
     event = NOTHING
     w, v = polynomial.value(series, at + W, length), polynomial.value(series, at + V, length)
     shortened = False
@@ -262,20 +261,20 @@ def end_step(c, series, at, w0, v0, pulled, length):
     return length, w, v, polynomial.value(series, at + T, length), event
 
 
-@spliced
+@compiled_into_callers
 def step(c, series, at, w0, v0, sine0, cosine0, pulled):
-    """Expand the motion from w0 ≥ 0, v0 and find where its step ends.
+    """Expand the motion from w0 ≥ 0, v0 and find the end of the step.
 
     Parameters
     ----------
     c, series, at : Constants, a workspace, and the first row of this step in it
     w0, v0 : √penetration (√m) and speed of approach (m/s)
     sine0, cosine0 : of the excitation's phase
-    pulled : True while the contact force is negative; looked at for `frictionless` and `clip` only
+    pulled : whether the contact force is negative; matters for `frictionless` and `clip` only
 
     Returns
     -------
-    length, w, v, lapse, event : length of the step in s; w, v at its end and the time it takes (s); what ends it:
+    length, w, v, lapse, event : length of the step in s; w, v at its end; its duration (s); the event that ends it,
         NOTHING, SEPARATION or FORCE_SIGN (the contact force passes zero)
     """
     length = begin_step(c, series, at, w0, v0, sine0, cosine0, pulled)

@@ -1,9 +1,9 @@
 """Contact steps of several parts side by side, one in each lane of the processor's vector registers.
 
-Most contact steps end where their series does: with no event, within the time that is left. Such steps are taken here,
-with the operations of contact.py in the order of that code, so that a lane gives its very bits. Where an event may be
-in the step, the lane is left to the scalar code with its series. Hertz contacts (exponent 1.5) of parts whose contact
-force may pull only.
+This module repeats contact.py for whole registers, because that halves the time of maps (`convergence_lanes` and
+`vertical_lanes` use it). It takes the steps in which no event can be, which are most of them, with the operations of
+contact.py in the same order, so that each lane gives the same bits. In all other cases the lane keeps its motion and
+its series, and contact.py finds the event. Lanes follow Hertz contacts (exponent 1.5) whose force may pull.
 """
 
 from types import FunctionType
@@ -14,30 +14,31 @@ from numba.core import cgutils, types
 from numba.extending import intrinsic
 
 from . import contact, model, unrolled
-from .jit import inlined, kernel, spliced
+from .jit import compiled, compiled_inline, compiled_into_callers
 from .polynomial import ORDER, SIZE
-from .vectors import FLOAT, INTEGER, Memory, Vector, anywhere, call, fused, where
+from .vectors import FLOAT, INTEGER, Memory, Vector, anywhere, call, fma, where
 
-# The rows of the memory, which has a column for each lane. First of all what `expand` starts from, in this order: √
-# penetration (√m), speed of approach (m/s), sine and cosine of the phase; the constants of contact.Constants.
+# The rows of the memory, which has a column for each lane. The first nine are the arguments of `expand`, in its order:
+# √penetration (√m), speed of approach (m/s), sine and cosine of the phase, and contact.Constants.
 W, V, SINE, COSINE, GRAVITY, A_Z, OMEGA, STIFFNESS, DAMPING = range(9)
-# Further constants; the time and when it is over (s); the steps that were taken and how many may be; the length in s up
-# to which the series is good, and the time (s) that a step of this length takes.
+# Further constants; the time and the end of the motion (s); the number of steps taken and the largest allowed; the
+# length in s up to which the series holds, and the time (s) that a step of this length takes.
 TOLERANCE, SCALE_V, TIME, END, STEPS, MOST, LENGTH, LAPSE = range(9, 17)
 # Row SERIES + SIZE k + n holds coefficient n of row k of a workspace's step.
 SERIES = 17
 KEPT = (contact.W, contact.T, contact.V, contact.SINE, contact.COSINE)
 ROWS = SERIES + SIZE * len(KEPT)
 
-LINE = 64  # bytes, of a register and of the processor's cache: a vector that is not aligned to it costs two accesses
+LINE = 64  # bytes, of a register and of a cache line: a vector that crosses a line costs two accesses
 HUGE = 1e300
+NONE = -1  # the row of a lane without a trajectory
 
 # The straight-line code of the expansion, for Vectors.
-expand = FunctionType(unrolled.expand_hertz.__code__, {"fused": fused})
+expand = FunctionType(unrolled.expand_hertz.__code__, {"fma": fma})
 
 
 def power(x: Vector, exponent: float, wanted: Vector) -> Vector:
-    """x^exponent by the C library, lane after lane, where it is `wanted`; HUGE elsewhere."""
+    """x^exponent by the C library, lane by lane, where it is `wanted`; HUGE elsewhere."""
     builder = x.builder
     found = cgutils.alloca_once_value(builder, x.like(HUGE).value)
     function = cgutils.get_or_insert_function(builder.module, ir.FunctionType(FLOAT, [FLOAT, FLOAT]), "llvm.pow.f64")
@@ -69,7 +70,7 @@ def step_length(at: Memory, series: dict[tuple[int, int], Vector]) -> Vector:
 
 
 def value(series: dict[tuple[int, int], Vector], row: int, s: Vector) -> Vector:
-    """Σ c_n sⁿ, see polynomial.value; what that begins with, zeros, is left out."""
+    """Σ c_n sⁿ as in polynomial.value, without the coefficients beyond ORDER, which are zero."""
     s2 = s * s
     s4 = s2 * s2
     sums = []
@@ -77,17 +78,17 @@ def value(series: dict[tuple[int, int], Vector], row: int, s: Vector) -> Vector:
         last, *others = (series[row, k] for k in reversed(range(n, ORDER + 1, 4)))
         total = s.like(last)
         for coefficient in others:
-            total = fused(total, s4, coefficient)
+            total = fma(total, s4, coefficient)
         sums.append(total)
     return (sums[0] + s * sums[1]) + s2 * (sums[2] + s * sums[3])
 
 
 @intrinsic(prefer_literal=True)
 def step(typing_context, lanes, memory):
-    """Expand the motion of each lane into its SERIES, LENGTH, and take the step where no event can be in it.
+    """Expand the motion of each lane into its SERIES and LENGTH, and take the step if no event can be in it.
 
-    lanes, memory : their number, and float64, shape (ROWS, lanes)
-    Returns an integer with a bit for each lane: 1 where the motion stays, for contact.end_step to find where it ends.
+    lanes, memory : the number of lanes, and float64, shape (ROWS, lanes)
+    Returns an integer with a bit for each lane: 1 if the lane keeps its motion, so that contact.end_step must end it.
     """
 
     def code(context, builder, signature, arguments):
@@ -105,7 +106,7 @@ def step(typing_context, lanes, memory):
             value(series, row, length) for row in (contact.W, contact.V, contact.T, contact.SINE, contact.COSINE)
         )
         at[LAPSE] = lapse
-        # What is no number is not smaller than any.
+        # Comparisons with NaN are false.
         proper = (new_w < HUGE) & (abs(new_v) < HUGE) & (lapse <= at[END] - at[TIME]) & (at[STEPS] < at[MOST])
         taken = proper & (new_w > 0.0) & ~((v < 0.0) & (new_v > 0.0))
         at[W], at[V] = where(taken, new_w, w), where(taken, new_v, v)
@@ -117,32 +118,47 @@ def step(typing_context, lanes, memory):
     return types.int64(lanes, memory), code
 
 
-@kernel
-def room(lanes):
-    """Room for the motions in lanes, all zero."""
+@compiled
+def new_memory(lanes):
+    """The memory of a number of lanes, aligned to LINE, all zero."""
     numbers = np.zeros(ROWS * lanes + LINE // 8)
     first = (-numbers.ctypes.data % LINE) // 8
     return numbers[first : first + ROWS * lanes].reshape(ROWS, lanes)
 
 
-@kernel
-def possible(c):
-    """Whether steps of a conveyor with these contact.Constants can be taken here."""
+@compiled
+def can_follow(c):
+    """Whether lanes can take the contact steps of a conveyor with these contact.Constants."""
     return contact.is_hertz(c) and c.tension == model.TENSION_ALLOW
 
 
-@spliced
-def first_from(row, parameters, tolerance, left):
-    """The first row, from number `row` on, that lanes can follow, or the number of rows; those before are `left`."""
-    while row < len(parameters) and not possible(contact.constants(parameters[row], tolerance)):
-        left[row] = True
-        row += 1
-    return row
+@compiled_into_callers
+def refill(lane, trajectories, waiting, running, parameters, tolerance, left):
+    """Give a lane the next trajectory that lanes can follow, or NONE.
+
+    Parameters
+    ----------
+    trajectories : int64, shape (lanes,), the row of `parameters` that each lane follows; changed
+    waiting, running : the first row that no lane has had yet; a bit for each lane with a trajectory
+    left : bool, shape (n,), set for rows that lanes cannot follow
+
+    Returns
+    -------
+    waiting, running : from now on
+    """
+    while waiting < len(parameters) and not can_follow(contact.constants(parameters[waiting], tolerance)):
+        left[waiting] = True
+        waiting += 1
+    if waiting == len(parameters):
+        trajectories[lane] = NONE
+        return waiting, running & ~(1 << lane)
+    trajectories[lane] = waiting
+    return waiting + 1, running | (1 << lane)
 
 
-@inlined
-def enter(memory, lane, c, most):
-    """Write the Constants of a lane into the memory, and how many steps it may take before it is asked for."""
+@compiled_inline
+def set_constants(memory, lane, c, most):
+    """Write the Constants of a lane, and the number of steps that it may take, into the memory."""
     memory[GRAVITY, lane] = c.gravity
     memory[A_Z, lane] = c.a_z
     memory[OMEGA, lane] = c.omega
@@ -153,15 +169,15 @@ def enter(memory, lane, c, most):
     memory[MOST, lane] = most
 
 
-@inlined
-def return_to_lane(motion, lane, memory):
-    """Let a vertical.Motion in contact go on with the others."""
+@compiled_inline
+def set_motion(motion, lane, memory):
+    """Write a vertical.Motion in contact into the memory."""
     memory[TIME, lane], memory[W, lane], memory[V, lane] = motion.t, motion.w, motion.v
     memory[SINE, lane], memory[COSINE, lane] = motion.sine, motion.cosine
 
 
-@inlined
-def fetch(memory, lane, series, at):
+@compiled_inline
+def copy_series(memory, lane, series, at):
     """Copy the series of a lane's step into a contact.workspace, from row `at` on."""
     for row in range(len(KEPT)):
         for n in range(ORDER + 1):

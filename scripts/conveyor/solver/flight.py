@@ -1,29 +1,29 @@
-"""Flight: the part follows a parabola, and no impact is ever jumped over.
+"""Flight: the part follows a parabola, and the search for the next impact passes none.
 
-Above the plate's highest point nothing can be hit, so that a flight is followed there in one closed form. Below it the
-part's acceleration relative to the plate, q̈ = -g - a_z cos θ, lies between -(g + a_z) and a_z - g: the parabola of
-the lower bound reaches the plate before the part does, and a step to its root is safe.
+Above the plate's highest point there is nothing to hit, and one closed form covers that part of a flight. Below it the
+part's acceleration relative to the plate, q̈ = -g - a_z cos θ, lies between -(g + a_z) and a_z - g. The parabola with
+the lower bound reaches the plate before the part does, so that a step to its root is safe.
 """
 
 import math
 from collections import namedtuple
 
-from .jit import inlined, kernel
+from .jit import compiled, compiled_inline
 
-# A part stays below the plate's highest point for sqrt(a_z / g) / π cycles at most, a thousand within the ranges of
-# model.RANGES, and takes some ten steps in each: a search of this many steps is lost.
+# A part stays below the plate's highest point for sqrt(a_z / g) / π cycles at most, which is a thousand within
+# model.RANGES, with about ten steps in each. A search of more steps has failed.
 MAX_STEPS = 1_000_000
 EPSILON = 2.220446049250313e-16
 TURN = 2.0 * math.pi
-# A gap below zero by more than this many roundings is no rounding.
+# A gap below zero by more than this many rounding errors is an error of the search.
 LOST = 1e6
 
-# A flight by its take-off: height z (m), vertical velocity vz (m/s), phase theta (rad); and gravity, a_z (m/s²), omega
+# The take-off of a flight: height z (m), vertical velocity vz (m/s), phase theta (rad). Gravity and a_z (m/s²), omega
 # (rad/s).
 Flight = namedtuple("Flight", "z vz theta gravity a_z omega")
 
 
-@inlined
+@compiled_inline
 def gap(flight, tau):
     """Gap (m) and its rate (m/s) after the time `tau` (s) of a flight."""
     z, vz, theta, gravity, a_z, omega = flight
@@ -33,26 +33,26 @@ def gap(flight, tau):
     return q, rate
 
 
-@inlined
+@compiled_inline
 def time_of_fall(velocity, height, gravity):
-    """Time (s) in which a part with an upward velocity (m/s) falls by a height ≥ 0 (m), without cancellation."""
+    """Time (s) in which a part with an upward velocity (m/s) falls by a height ≥ 0 (m). No digits cancel."""
     root = math.sqrt(velocity * velocity + 2.0 * gravity * height)
     return (velocity + root) / gravity if velocity > 0.0 else 2.0 * height / (root - velocity)
 
 
-@inlined
+@compiled_inline
 def next_impact(flight, q, rate, limit):
-    """Duration (s) of a Flight from a gap q ≥ 0 (m) with its rate (m/s), and approach speed at its end.
+    """Duration (s) of a Flight up to the next impact, and the speed of approach there (m/s).
 
     Parameters
     ----------
-    flight : its take-off
-    q, rate : gap (m) and its rate (m/s) there; q = 0 exactly after a separation
+    flight : a Flight
+    q, rate : gap ≥ 0 (m) and its rate (m/s) at take-off; q = 0 exactly after a separation
     limit : s, time at which the search ends
 
     Returns
     -------
-    tau, speed : s, m/s (≥ 0); tau is infinite if there is no impact before `limit`, NaN if the search got lost
+    tau, speed : s, m/s (≥ 0); tau is infinite if there is no impact before `limit`, NaN if the search has failed
     """
     z, vz, theta, gravity, a_z, omega = flight
     bound = gravity + a_z
@@ -60,12 +60,12 @@ def next_impact(flight, q, rate, limit):
     rounding = 4.0 * EPSILON * (abs(z) + top)
     tau = 0.0
     if q <= rounding:
-        # From the plate the parabola has no room; the bound |d³q/dt³| ≤ a_z ω and the actual q̈ do.
+        # On the plate the parabola allows no step. The bound |d³q/dt³| ≤ a_z ω with the actual q̈ does.
         tau = 2.0 * max(rate, 0.0) / bound
         jerk = a_z * omega
         half = -0.5 * (gravity + a_z * math.cos(theta))
         root = math.sqrt(half * half + 2.0 / 3.0 * jerk * max(rate, 0.0))
-        # Either form of the root of a quadratic where it does not cancel.
+        # The form of the root of a quadratic that does not cancel.
         if half < 0.0:
             tau = max(tau, 2.0 * max(rate, 0.0) / (root - half))
         elif jerk > 0.0:
@@ -77,7 +77,7 @@ def next_impact(flight, q, rate, limit):
     for _ in range(MAX_STEPS):
         velocity = vz - gravity * tau
         height = z + 0.5 * (vz + velocity) * tau
-        # What the longest way so far, up or down, has lost of its digits.
+        # The rounding error of the longest distance so far, up or down.
         rounding = 4.0 * EPSILON * (abs(z) + abs(vz * tau) + 0.5 * gravity * tau * tau + top)
         if q <= rounding and rate <= 0.0:
             return tau, -rate
@@ -97,19 +97,19 @@ def next_impact(flight, q, rate, limit):
     return math.nan, 0.0
 
 
-@kernel
+@compiled
 def highest_gap(flight, duration):
     """Largest gap (m) of a Flight that takes `duration` (s).
 
-    Within an excitation cycle of the top of the parabola the plate is at its lowest point once, and a gap further away
-    is smaller than the one there. The gap's rate falls monotonically where g + a_z cos θ > 0, around each such point:
-    there a largest gap, if there is one, is bracketed.
+    It lies within an excitation cycle of the top of the parabola, because the plate passes its lowest point there.
+    Around each lowest point, where g + a_z cos θ > 0, the rate of the gap falls monotonically. A change of its sign
+    there brackets a largest gap.
     """
     _, vz, theta, gravity, a_z, omega = flight
     top = min(max(vz / gravity, 0.0), duration)
     begin, end = max(top - TURN / omega, 0.0), min(top + TURN / omega, duration)
     highest = max(gap(flight, begin)[0], gap(flight, end)[0])
-    falling = math.pi if a_z <= gravity else math.acos(-gravity / a_z)  # half-width of such a stretch, rad
+    falling = math.pi if a_z <= gravity else math.acos(-gravity / a_z)  # half-width of a bracket, rad
     lowest = math.ceil((theta + omega * begin - falling) / TURN)
     while TURN * lowest - falling < theta + omega * end:
         low = max((TURN * lowest - falling - theta) / omega, begin)
@@ -122,9 +122,9 @@ def highest_gap(flight, duration):
     return highest
 
 
-@inlined
+@compiled_inline
 def summit(flight, low, high):
-    """Largest gap between two times of a flight, its rate positive at the first one, by safeguarded Newton steps."""
+    """Largest gap (m) between two times of a flight by safeguarded Newton steps; the rate is positive at the first."""
     tau = 0.5 * (low + high)
     for _ in range(60):
         q, rate = gap(flight, tau)

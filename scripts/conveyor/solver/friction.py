@@ -1,4 +1,4 @@
-"""Coulomb friction: slip and stick while the part touches the plate, without integrating anything.
+"""Coulomb friction: slip and stick while the part touches the plate, without any integration.
 
 In contact F_c/m = z̈_p + g cos α. While the slip velocity u = ẋ_s - ẋ_p keeps its sign σ, Eq. 12 therefore integrates
 to
@@ -16,25 +16,25 @@ import math
 
 from . import polynomial
 from .contact import COSINE, SCRATCH, SINE, T, V, expand_force, impulse_of_tension
-from .jit import inlined, spliced
+from .jit import compiled_inline, compiled_into_callers
 from .polynomial import ORDER
 
 
-@inlined
+@compiled_inline
 def along(c, sine, cosine):
     """Sine and cosine of the plate's phase along the track, θ + ε, from those of θ."""
     return sine * c.cos_shift + cosine * c.sin_shift, cosine * c.cos_shift - sine * c.sin_shift
 
 
-@inlined
+@compiled_inline
 def pull(c, sine, cosine):
     """ẍ_s + g sin α (m/s²) at the phase θ with a sine and cosine."""
     acceleration = c.a_x * along(c, sine, cosine)[1]
-    # A negative zero keeps its sign, which tells the direction of a slip that nothing else decides.
+    # On a level track the sign of a negative zero must survive: it decides the direction of a slip that begins.
     return acceleration + c.downhill if c.downhill != 0.0 else acceleration
 
 
-@inlined
+@compiled_inline
 def keeps_slipping(c, segment, piece, slip, plate, gain, fastest):
     """Whether bounds alone show that the slip velocity does not vanish until a contact step ends.
 
@@ -45,8 +45,8 @@ def keeps_slipping(c, segment, piece, slip, plate, gain, fastest):
     gain : ∫ F_c/m dt, m/s
     fastest : m/s, as in contact.impulse_of_tension
 
-    Friction lowers the slip by μ times the impulse of the force, and raises it again where the force pulls. The plate
-    changes its velocity one way while cos(θ + ε) keeps its sign, and gravity changes the part's one way.
+    Friction lowers the slip by μ times the impulse of the force, and raises it where the force pulls. The velocity of
+    the plate is monotonic while cos(θ + ε) keeps its sign, and gravity changes that of the part monotonically.
     """
     lapse = piece.duration - segment.t
     tension = impulse_of_tension(c, fastest, lapse)
@@ -61,9 +61,9 @@ def keeps_slipping(c, segment, piece, slip, plate, gain, fastest):
     return max(forward, backward) > 0.0
 
 
-@spliced
+@compiled_into_callers
 def slip_end(c, step, segment, slip, leave):
-    """Where, in the rest of a contact step, the slip velocity of a segment reaches zero; infinity if it does not.
+    """The s in the rest of a contact step at which the slip velocity of a segment reaches zero; infinity for none.
 
     `slip` is the slip velocity at the segment's beginning (m/s), `leave` as in polynomial.first_root.
     """
@@ -73,7 +73,7 @@ def slip_end(c, step, segment, slip, leave):
     fall = mu * c.gravity - segment.sigma * c.downhill
     for n in range(ORDER + 1):
         series[SCRATCH, n] = plate * series[at + SINE, n] + mu * series[at + V, n] - fall * series[at + T, n]
-    if turned != 0.0:  # not on the paper's conveyor, which a longer loop would delay
+    if turned != 0.0:  # a loop of its own, because the paper's conveyor does not need it
         for n in range(ORDER + 1):
             series[SCRATCH, n] += turned * series[at + COSINE, n]
     series[SCRATCH, 0] = 0.0
@@ -81,12 +81,12 @@ def slip_end(c, step, segment, slip, leave):
     return polynomial.first_root(series, SCRATCH, segment.s, step.piece.length, leave)
 
 
-@spliced
+@compiled_into_callers
 def stick_end(c, step, segment):
-    """Where, in the rest of a contact step, |ẍ_s + g sin α| outgrows μ_s F_c/m, and whether it stays so until the end.
+    """The s in the rest of a contact step at which |ẍ_s + g sin α| exceeds μ_s F_c/m; whether it does so to the end.
 
-    On a level track |ẍ_s| = a_x |cos(θ + ε)| has one branch where the cosine has the same sign at both ends. The answer
-    is infinity where the part sticks on. While |ẍ_s + g sin α| > μ_s F_c/m the slip that begins cannot end.
+    The s is infinite if the part sticks to the end of the step. While |ẍ_s + g sin α| > μ_s F_c/m the slip that begins
+    cannot end. On a level track the margin in a direction stays positive if cos(θ + ε) has its sign at both ends.
     """
     series, at, length = step.series, step.at, step.piece.length
     end, lasting = math.inf, False
@@ -104,13 +104,13 @@ def stick_end(c, step, segment):
     return end, lasting
 
 
-@inlined
+@compiled_inline
 def direction_at_rest(c, pull, force, mu):
     """Sign of the slip that follows when the slip velocity is zero, or 0 for stick (Filippov's condition).
 
     pull : ẍ_s + g sin α, m/s²; force : F_c/m, m/s²; mu : coefficient of static friction that acts
     """
-    # The little that the force may lack keeps a part that barely touches from sticking and slipping without end.
+    # The tolerance rest_force keeps a part that barely touches from alternating between stick and slip without end.
     if mu > 0.0 and abs(pull) <= mu * (force + c.rest_force):
         return 0.0
     return math.copysign(1.0, pull)

@@ -1,13 +1,13 @@
-"""The horizontal motion along one contact step: segments of slip one way or of stick, and the samples in them.
+"""The horizontal motion along one contact step: segments of slip in one direction or of stick, and samples in them.
 
-Nothing is integrated: see friction for the closed forms. A segment is known by its beginning, a Segment.
+The module friction has the closed forms; nothing is integrated. A Segment holds the beginning of a segment.
 """
 
 import math
 from collections import namedtuple
 
 from . import contact, friction
-from .jit import inlined, spliced
+from .jit import compiled_inline, compiled_into_callers
 from .model import TENSION_CLIP
 from .polynomial import LEAVE, value
 from .vertical import invert_time
@@ -20,16 +20,16 @@ SAMPLES = ("x", "vx", "z", "vz", "contact_force", "friction_force")
 IMPACT, SEPARATED, SLIP_REVERSAL, STICK, SLIP, TENSION_BEGINS, TENSION_ENDS = range(7)
 EVENTS = ("impact", "separation", "slip reversal", "stick", "slip", "tension begins", "tension ends")
 
-# Segments in one contact step after which a run is given up.
+# Segments in one contact step after which a run ends with "too many events".
 MAX_SEGMENTS = 10_000
 
 # The horizontal motion at a time: position x (m), velocity vx (m/s) and sign sigma of the slip, 0 for stick.
 Horizontal = namedtuple("Horizontal", "x vx sigma")
-# A contact step: the workspace with its series and their first row in it, the vertical.Motion at its beginning, the
-# vertical.Piece that it is, and the time (s) of its beginning.
+# A contact step: the workspace, the first row of its series in it, the vertical.Motion at its beginning, its
+# vertical.Piece, and the time (s) at which it begins.
 Step = namedtuple("Step", "series at motion piece begin")
-# What is recorded of one trajectory, arrays to be filled: `samples`, shape (k, 6), at the `times` (s), shape (k,); time
-# (s) and kind of the first m events, shape (m,).
+# Arrays to fill for one trajectory: `samples`, shape (k, 6), at the `times` (s), shape (k,); times (s) and kinds of the
+# first m events, shape (m,).
 Record = namedtuple("Record", "times samples event_times event_kinds")
 
 # The beginning of a segment: sign of the slip (0 for stick) and the friction coefficient that acts; x (m), ẋ (m/s); its
@@ -37,18 +37,18 @@ Record = namedtuple("Record", "times samples event_times event_kinds")
 Segment = namedtuple("Segment", "sigma mu x vx s t sine cosine z vz w v")
 
 
-@inlined
-def note(record, events, time, kind):
-    """Record an event (s, one of EVENTS) while there is room; the number of events with it."""
+@compiled_inline
+def record_event(record, events, time, kind):
+    """Record the time (s) and kind of an event if there is room. Returns the number of events so far."""
     if events < record.event_times.size:
         record.event_times[events] = time
         record.event_kinds[events] = kind
     return events + 1
 
 
-@inlined
+@compiled_inline
 def slip_direction(c, sine, cosine, vx, force, mu):
-    """Sign of the slip of a part with the velocity ẋ = vx at a phase, 0 for stick.
+    """Sign of the slip of a part with the velocity ẋ = vx at a phase, or 0 for stick.
 
     force : F_c/m, m/s²; mu : coefficient of static friction
     """
@@ -58,16 +58,16 @@ def slip_direction(c, sine, cosine, vx, force, mu):
     return math.copysign(1.0, slip)
 
 
-@inlined
-def slid(c, x, vx, tau):
-    """x (m) and ẋ (m/s) after the time tau (s) in which gravity alone acts along the track."""
+@compiled_inline
+def slide(c, x, vx, tau):
+    """x (m) and ẋ (m/s) after a time tau (s) in which only gravity acts along the track."""
     fall = c.downhill * tau
     return x + vx * tau - 0.5 * fall * tau, vx - fall
 
 
-@inlined
-def moved(c, segment, tau, sine, cosine, z, vz):
-    """x (m) and ẋ (m/s) of the part after the time tau (s) of a segment, at which the vertical motion is z, vz."""
+@compiled_inline
+def state_in_segment(c, segment, tau, sine, cosine, z, vz):
+    """x (m) and ẋ (m/s) a time tau (s) after the beginning of a segment, where the vertical motion is z, vz."""
     speed = c.a_x / c.omega
     if segment.sigma == 0.0:
         sine_x, cosine_x = friction.along(c, sine, cosine)
@@ -75,15 +75,17 @@ def moved(c, segment, tau, sine, cosine, z, vz):
         return segment.x - speed / c.omega * (cosine_x - begin), speed * sine_x
     rub = segment.sigma * segment.mu
     path = z - segment.z - segment.vz * tau + 0.5 * c.gravity * tau * tau
-    x, vx = slid(c, segment.x, segment.vx, tau)
+    x, vx = slide(c, segment.x, segment.vx, tau)
     return x + rub * path, vx + rub * (vz - segment.vz + c.gravity * tau)
 
 
-@spliced
+@compiled_into_callers
 def segment_end(c, step, segment, released, fastest, leave):
-    """Where in s a segment ends (infinity: not in this step), and whether slip that follows lasts to its end.
+    """The s at which a segment ends, infinite if it lasts beyond the step, and whether the slip after it lasts so.
 
-    A slip that begins at rest is left behind by the part `leave` of the step.
+    released : whether the slip of this segment is known to last beyond the step
+    fastest : m/s, as in contact.impulse_of_tension
+    leave : as in polynomial.first_root, for a slip that begins at rest
     """
     if released:
         return math.inf, True
@@ -102,9 +104,9 @@ def segment_end(c, step, segment, released, fastest, leave):
     return friction.slip_end(c, step, segment, slip, leave), False
 
 
-@spliced
+@compiled_into_callers
 def sample_contact(c, step, segment, tau, sample):
-    """Fill a `sample`, shape (6,), at the time tau (s) since a contact step began, within a segment."""
+    """Fill a `sample`, shape (6,), at a time tau (s) after the beginning of a contact step, within a segment."""
     series, at, motion = step.series, step.at, step.motion
     speed_z = c.a_z / c.omega
     s = invert_time(series, at, step.piece.length, tau)
@@ -114,13 +116,13 @@ def sample_contact(c, step, segment, tau, sample):
     z, vz = -speed_z / c.omega * cosine - w * w, speed_z * sine - v
     force = 0.0 if motion.pulled and c.tension == TENSION_CLIP else contact.force(c, w, v)
     rub = friction.pull(c, sine, cosine) if segment.sigma == 0.0 else segment.sigma * segment.mu * force
-    sample[X], sample[VX] = moved(c, segment, tau - segment.t, sine, cosine, z, vz)
+    sample[X], sample[VX] = state_in_segment(c, segment, tau - segment.t, sine, cosine, z, vz)
     sample[Z], sample[VZ] = z, vz
     sample[CONTACT_FORCE] = c.mass * force
     sample[FRICTION_FORCE] = c.mass * rub
 
 
-@inlined
+@compiled_inline
 def first_segment(c, motion, horizontal):
     """The Segment that begins with a contact step."""
     speed_z = c.a_z / c.omega
@@ -130,19 +132,19 @@ def first_segment(c, motion, horizontal):
     return Segment(sigma, mu, x, vx, 0.0, 0.0, motion.sine, motion.cosine, z, vz, motion.w, motion.v)
 
 
-@spliced
-def feed(c, step, horizontal, feeding, record, sampled, events):
+@compiled_into_callers
+def follow_horizontal(c, step, horizontal, feeding, record, sampled, events):
     """Follow the horizontal motion along a contact Step, and sample it.
 
     Parameters
     ----------
     horizontal : the Horizontal motion at its beginning
-    feeding : whether the horizontal motion is wanted at all
-    record, sampled, events : the Record, and numbers of samples and events in it so far
+    feeding : whether the horizontal motion is wanted
+    record, sampled, events : the Record, and the numbers of samples and events in it so far
 
     Returns
     -------
-    horizontal, sampled, events, segments : at the end of the step; MAX_SEGMENTS segments if it was given up
+    horizontal, sampled, events, segments : at the end of the step; after MAX_SEGMENTS segments the run must end
     """
     series, at, motion, piece, begin = step
     speed_x, speed_z = c.a_x / c.omega, c.a_z / c.omega
@@ -168,7 +170,7 @@ def feed(c, step, horizontal, feeding, record, sampled, events):
         if sampled == record.times.size or not feeding:
             break
         z, vz = -speed_z / c.omega * cosine - w * w, speed_z * sine - v
-        x, vx = moved(c, segment, t - segment.t, sine, cosine, z, vz)
+        x, vx = state_in_segment(c, segment, t - segment.t, sine, cosine, z, vz)
         if not changed or segments == MAX_SEGMENTS:
             break
         if sigma == 0.0:
@@ -179,11 +181,11 @@ def feed(c, step, horizontal, feeding, record, sampled, events):
             sigma = friction.direction_at_rest(c, friction.pull(c, sine, cosine), contact.force(c, w, v), mu)
             kind = STICK if sigma == 0.0 else SLIP_REVERSAL
         if sigma == segment.sigma:
-            # No reversal: the slip cannot be told from zero here, and leaves it further on.
+            # No reversal, because the slip is zero to rounding here. The next search starts further on.
             leave *= 2.0
         else:
             leave = LEAVE
-            events = note(record, events, begin + t, kind)
+            events = record_event(record, events, begin + t, kind)
         # The part has the velocity of the plate here, exactly.
         vx = speed_x * friction.along(c, sine, cosine)[0]
         segment = Segment(sigma, segment.mu, x, vx, s, t, sine, cosine, z, vz, w, v)

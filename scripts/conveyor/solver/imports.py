@@ -1,8 +1,9 @@
-"""Which of our own modules a module imports, found in its source without running it.
+"""The modules of this project that a module imports, found in its source without running it.
 
-Two caches need this. Snakemake sees a changed script but not a changed module behind it. Numba looks at the age of one
-file, although machine code holds functions of other files. Python's modulefinder takes 3 s for all scripts
-at every start, this module 0.5 s; modulefinder also counts each package on the way to a module as imported.
+Two caches need them. Snakemake notices a changed script, but not a changed module that the script imports. Numba
+notices a change in the file of a function, but not in the files of other functions in its machine code. Python's
+modulefinder would take 3 s for all scripts at every start, this module takes 0.5 s; modulefinder also counts each
+package on the way to a module as imported.
 """
 
 import ast
@@ -37,7 +38,7 @@ def module_file(module: str, root: Path) -> Path | None:
 
 @cache
 def direct_imports(file: Path, root: Path, own: str = "") -> tuple[frozenset[Path], frozenset[str]]:
-    """Our own files that a file imports, and the top-level names of all other packages.
+    """The files of this project that a file imports, and the top-level names of all other packages.
 
     A package's __init__ counts only if a name is taken from it: `from conveyor.solver import model` does not depend on
     what conveyor/__init__.py offers.
@@ -45,7 +46,7 @@ def direct_imports(file: Path, root: Path, own: str = "") -> tuple[frozenset[Pat
     Parameters
     ----------
     root : the folder in which absolute imports begin
-    own : the package whose modules are our own, or nothing if all modules below `root` are
+    own : the package that counts as this project; by default all modules below `root` do
     """
     files, packages = set(), set()
     for module, name in imported_names(file, root):
@@ -61,7 +62,7 @@ def direct_imports(file: Path, root: Path, own: str = "") -> tuple[frozenset[Pat
 
 
 def all_imports(start: Iterable[Path], root: Path, own: str = "") -> tuple[list[Path], list[str]]:
-    """Our own files behind some files at any depth, these included, and other packages; both sorted."""
+    """The files that some files import at any depth, with these files, and the other packages; both sorted."""
     files, packages, waiting = set(), set(), list(start)
     while waiting:
         file = waiting.pop()

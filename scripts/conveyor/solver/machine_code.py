@@ -1,8 +1,9 @@
-"""Where the machine code of kernels is kept: in folders named by the content of all that a kernel's module imports.
+"""The folders in which numba keeps machine code: one for each content of a module and of all that it imports.
 
-Numba decides by one file's age whether cached machine code is current, and so misses a change in a function that was
-inlined from another file. Here a change anywhere among a module's own imports starts a new folder for its kernels, and
-leaves those of other modules alone; equal sources share one between clones, and a checkout may be read-only.
+Numba alone recognises a change only in the file of a function, although the machine code also holds functions of other
+files. Here a change in any module that a module imports gives its machine code a new folder, so that no stale code
+runs. Clones with equal sources share a folder, and the library itself may be read-only. Numba writes each file under a
+name of its own and then renames it, so that several jobs may compile at once.
 """
 
 import ast
@@ -17,7 +18,7 @@ from pathlib import Path
 
 import llvmlite
 import numba
-from numba.core.caching import _CacheLocator
+from numba.core.caching import UserWideCacheLocator
 
 from .imports import all_imports, parse
 
@@ -26,13 +27,13 @@ LIBRARY = Path(__file__).resolve().parents[1]
 
 @cache
 def syntax(module: Path) -> bytes:
-    """The name of a module and its syntax tree, which comments and the places of lines do not change."""
+    """The name of a module and its syntax tree, which does not depend on comments and line numbers."""
     return f"{module.relative_to(LIBRARY)}\0{ast.dump(parse(module))}\0".encode()
 
 
 @cache
 def content(module: Path) -> str:
-    """First 16 hexadecimal digits of the SHA-256 of a module, all that it imports at any depth, and the compilers."""
+    """16 hexadecimal digits: the SHA-256 of a module, of all that it imports at any depth, and of the compilers."""
     files, _ = all_imports([module], LIBRARY.parent, LIBRARY.name)
     digest = hashlib.sha256(f"{platform.python_version()} {numba.__version__} {llvmlite.__version__}".encode())
     for file in files:
@@ -41,10 +42,10 @@ def content(module: Path) -> str:
 
 
 def roots() -> Iterator[Path]:
-    """Folders that may hold machine code, the best first: numba's own, the user's cache, one in the temporary folder.
+    """Folders that may hold machine code, the best first: NUMBA_CACHE_DIR, the user's cache, the temporary folder.
 
-    What lies there is executed. The temporary folder belongs to everyone, so that one's folder counts only if nobody
-    else owns it or may write to it; else there is a fresh one, for this process only.
+    Machine code in them is executed. Everyone may write to the temporary folder. A folder in it therefore counts only
+    if it belongs to this user and nobody else may write to it. The last resort is a new folder for this process alone.
     """
     if "NUMBA_CACHE_DIR" in os.environ:
         yield Path(os.environ["NUMBA_CACHE_DIR"])
@@ -59,7 +60,7 @@ def roots() -> Iterator[Path]:
 
 @cache
 def root() -> Path:
-    """The first of the `roots` that can be written."""
+    """The first of the `roots` that this process can write to."""
     for folder in roots():
         try:
             folder.mkdir(parents=True, exist_ok=True)
@@ -70,27 +71,27 @@ def root() -> Path:
     raise OSError("no writable folder for compiled code: set XDG_CACHE_HOME to one")
 
 
-class ByContent(_CacheLocator):
-    """Numba's interface to all this: the folder of one kernel."""
+class ByContent(UserWideCacheLocator):
+    """One of numba's cache locators (see "Notes on Caching" in its documentation) for the modules of this library."""
 
-    def __init__(self, module: Path):
-        self.module = module
-
-    def get_cache_path(self) -> str:
-        return str(root() / content(self.module))
-
-    def get_source_stamp(self) -> str:
-        return content(self.module)
-
-    def get_disambiguator(self) -> str:
-        return ""  # kernels of a module have names of their own
+    def __init__(self, function, file: str):
+        self.content = content(Path(file).resolve())
 
     @classmethod
-    def from_function(cls, py_func, py_file):
-        module = Path(py_file).resolve()
-        return cls(module) if module.is_relative_to(LIBRARY) else None
+    def from_function(cls, function, file: str):
+        """The locator of a function; None for functions of other packages, which numba's other locators place."""
+        return cls(function, file) if Path(file).resolve().is_relative_to(LIBRARY) else None
+
+    def get_cache_path(self) -> str:
+        return str(root() / self.content)
+
+    def get_source_stamp(self) -> str:
+        return self.content
+
+    def get_disambiguator(self) -> str:
+        return ""  # no two compiled functions of a module have one name
 
 
-# Kernels of others keep numba's own places.
+# The documented setting NUMBA_CACHE_LOCATOR_CLASSES: ours first, then numba's own in their order.
 OTHERS = "UserProvidedCacheLocator,InTreeCacheLocator,UserWideCacheLocator,IPythonCacheLocator,ZipCacheLocator"
 numba.config.CACHE_LOCATOR_CLASSES = f"{__name__}.{ByContent.__name__},{OTHERS}"

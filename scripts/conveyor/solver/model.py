@@ -63,7 +63,7 @@ def check_static_friction(friction: float, static_friction: float) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Conveyor:
-    """A vibrating plate, the part on it and their contact. SI units; the defaults are those of the paper's Sect. 3.
+    """A vibrating plate, the part on it and their contact, in SI units. The defaults are the values of Sect. 3.
 
     Attributes
     ----------
@@ -161,7 +161,7 @@ def set_columns(rows: np.ndarray, values: dict[str, np.ndarray | float]) -> None
 
 
 def unpack(parameters: np.ndarray) -> tuple[Conveyor, Start]:
-    """The inverse of `pack`; static_friction is the number that acts."""
+    """The inverse of `pack`, with a number for static_friction in every case."""
     *numbers, tension, z0, vz0 = (float(value) for value in parameters)
     return Conveyor(*numbers, TENSION_MODES[int(tension)]), Start("conveyor" if math.isnan(z0) else z0, vz0)
 

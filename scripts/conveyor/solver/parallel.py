@@ -1,4 +1,4 @@
-"""Many independent points in threads: compiled kernels release the GIL, each point writes only its own rows."""
+"""Independent points in threads: compiled functions release the GIL, and each point writes only its own rows."""
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor, wait
@@ -7,7 +7,7 @@ from threading import Lock
 
 from .progress import bar
 
-# Towards the end ranges get shorter: this share of what is left for each thread, but not below this one of a chunk.
+# Towards the end ranges get shorter: this share of a thread's part of the rest, but at least this share of a chunk.
 OF_THE_REST, OF_A_CHUNK = 0.5, 0.03
 
 
@@ -18,7 +18,7 @@ def ranges_of(count: int, threads: int, chunk: int) -> Iterator[tuple[int, int]]
     while begin < count:
         left = count - begin
         length = min(max(int(OF_THE_REST * left / threads), least), chunk) if threads > 1 else chunk
-        # What would be left alone belongs to the last one: a few points may cost as much as many.
+        # A short rest belongs to the last range, because a few points may take as long as many.
         end = begin + (left if left - length < least and left <= chunk else min(length, left))
         yield begin, end
         begin = end
@@ -26,9 +26,9 @@ def ranges_of(count: int, threads: int, chunk: int) -> Iterator[tuple[int, int]]
 
 @cache
 def other_threads(count: int) -> ThreadPoolExecutor:
-    """Threads that wait for work as long as the process lasts: one that begins may share a processor for milliseconds.
+    """Threads that wait for work as long as the process lasts, because a new thread takes milliseconds to get a core.
 
-    What none of them comes to, as they are busy or left behind by a fork, the one that asks does itself.
+    If they are busy, or were lost in a fork, the calling thread does all the work.
     """
     return ThreadPoolExecutor(count)
 
@@ -43,13 +43,13 @@ def for_each_chunk(
 ) -> None:
     """Call `work(begin, end)` for consecutive ranges that cover range(count), on `threads` threads.
 
-    Ranges have the length `chunk`; those of several threads get shorter towards the end, so that none waits long for
-    another. `work` must write only what belongs to its range, so that the result depends neither on `threads` nor on
-    `chunk`; it may return how many of its points have failed. An exception in it ends the loop and is raised here.
-    `progress` names what is shown on stderr: rate, time left and failed points; None shows nothing.
+    Ranges have the length `chunk`; with several threads they get shorter towards the end, so that no thread waits long
+    for another one. `work` must write only to its range; then the result depends neither on `threads` nor on `chunk`.
+    It may return the number of its points that have failed. An exception in `work` ends the loop and is raised here.
+    `progress` is the label of a progress bar on stderr with rate, time left and failed points; None shows no bar.
     """
     ranges = list(ranges_of(count, threads, chunk))
-    # Every thread takes the next range by itself: to be given each by one of them would cost as much as a few points.
+    # Each thread takes its next range itself; a thread that hands out ranges would cost as much as a few points.
     waiting = iter(ranges)
     at_a_time, failed = Lock(), 0
 
@@ -71,7 +71,7 @@ def for_each_chunk(
 
         asked = [other_threads(threads - 1).submit(take) for _ in range(min(threads, len(ranges)) - 1)]
         try:
-            # The present thread works, too: who asks for its processor time gets it all where it is the only one.
+            # The calling thread works, too, so that its processor time is all of the time if it is the only thread.
             take()
         finally:
             begun = [one for one in asked if not one.cancel()]

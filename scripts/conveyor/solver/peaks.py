@@ -1,22 +1,22 @@
-"""The largest contact force, which tells with the speed of the impacts how gently a part is handled.
+"""The largest contact force: with the speed of the impacts it says how gently the conveyor handles the part.
 
-At the ends of a contact step the force and its rate are closed forms. Where the rate changes its sign from positive to
-negative in between, the largest force lies at a root of the rate along the step's series.
+Force and rate have closed forms at the ends of a contact step. If the rate changes from positive to negative in
+between, the largest force is at a root of the rate along the step's series.
 """
 
 from . import contact
-from .jit import inlined, kernel
+from .jit import compiled, compiled_inline
 from .polynomial import value
 from .vertical import invert_time
 
-# Relative accuracy of the place of the largest force: that of the force is its square.
+# Relative accuracy of the place of the largest force; the error of the force is about its square.
 CLOSE = 1e-5
 MAX_ITERATIONS = 60
-# Halvings of a step behind an impact, in search of a place where the force rises.
+# Halvings of a step after an impact, in search of a place where the force rises.
 MAX_HALVINGS = 30
 
 
-@inlined
+@compiled_inline
 def force_rate(c, w, v, cosine):
     """Rate of the contact force per mass (m/s³) at w, v and a phase with the given cosine."""
     stiffening = c.stiffness * c.exponent * v
@@ -27,23 +27,23 @@ def force_rate(c, w, v, cosine):
     return stiffening + c.damping * (c.gravity + c.a_z * cosine - contact.force(c, w, v))
 
 
-@inlined
+@compiled_inline
 def force_and_rate(c, series, at, s):
     """F_c/m (m/s²) and its rate (m/s³) at the place `s` of a contact step."""
     w, v = value(series, at + contact.W, s), value(series, at + contact.V, s)
     return contact.force(c, w, v), force_rate(c, w, v, value(series, at + contact.COSINE, s))
 
 
-@inlined
+@compiled_inline
 def is_monotonic(c, motion, piece):
     """Whether the force of a whole contact step, from `motion` to the end of its `piece`, is largest at an end."""
     if force_rate(c, piece.w, piece.v, piece.cosine) >= 0.0:
         return True
-    # Behind an impact the force of the damper may fall before that of the spring rises.
+    # After an impact the damper's force may fall before the spring's force rises.
     return force_rate(c, motion.w, motion.v, motion.cosine) <= 0.0 and motion.w != 0.0
 
 
-@kernel
+@compiled
 def largest_force(c, series, at, low, high):
     """Largest F_c/m (m/s²) between the places `low` and `high` of a contact step."""
     force_low, rate_low = force_and_rate(c, series, at, low)
@@ -62,7 +62,7 @@ def largest_force(c, series, at, low, high):
             low, rate_low = middle, rate
         else:
             high, rate_high = middle, rate
-    # False position, of which the end that stays counts half (the Illinois algorithm).
+    # False position with the Illinois modification: the value at an end that stays is halved.
     side, last = 0, low
     for _ in range(MAX_ITERATIONS):
         s = low + (high - low) * rate_low / (rate_low - rate_high)
@@ -82,13 +82,13 @@ def largest_force(c, series, at, low, high):
     return largest
 
 
-@inlined
+@compiled_inline
 def largest_force_at_ends(c, motion, piece):
     """The larger F_c/m (m/s²) at the ends of a whole contact step."""
     return max(contact.force(c, motion.w, motion.v), contact.force(c, piece.w, piece.v))
 
 
-@kernel
+@compiled
 def largest_force_between(c, series, at, piece, first, last):
     """Largest F_c/m (m/s²) of a contact step between the times `first` and `last` (s) since it began."""
     low = 0.0 if first <= 0.0 else invert_time(series, at, piece.length, first)

@@ -1,61 +1,61 @@
-"""Taylor polynomials of one order, the rows of an array: values, and the first root that no sign test could hide."""
+"""Taylor polynomials in the rows of an array: values, and the first root, proved to be the first one."""
 
 import math
 
-from .jit import fused, inlined, kernel
+from .jit import compiled, compiled_inline, fma
 
-# Order of every series, and the length of its coefficient arrays, whose tail stays zero.
+# Order of every series, and the length of its row, whose tail is zero.
 ORDER = 16
 SIZE = 20
 
-# A root that a search starts on is left behind by at least this part of the step, so that it is not found twice.
+# A search that starts on a root moves on by at least this part of the step, so that it does not find the root again.
 LEAVE = 1e-6
-# Corrections of this relative size end an iteration that converges quadratically: the next one would be its square.
+# A correction of this relative size ends an iteration that converges quadratically, because the next one is its square.
 CLOSE = 1e-9
-# Values below this part of the sum of all terms have no sign that one could trust.
+# Values below this part of the sum of all terms have no reliable sign.
 NOISE = 1e-15
 MAX_ITERATIONS = 200
-# Steps of a search before its piece is cut, and pieces before it is given up.
+# Steps of a search before its piece is cut, and pieces before the search gives up.
 MAX_STEPS = 60
 MAX_PIECES = 1000
 
-# What a search ends with.
+# Answers of a search.
 FOUND, ABSENT, OPEN = range(3)
-# The first row of every array is free for the functions of this module.
+# The functions of this module overwrite the first row of every array.
 SHIFTED = 0
 
 
-@inlined
+@compiled_inline
 def value(series, row, s):
-    """Σ c_n sⁿ, in four interleaved sums that do not wait for each other."""
+    """Σ c_n sⁿ, in four interleaved sums that the processor computes at the same time."""
     s2 = s * s
     s4 = s2 * s2
     sum0 = sum1 = sum2 = sum3 = 0.0
     for n in range(SIZE - 4, -1, -4):
-        sum0 = fused(sum0, s4, series[row, n])
-        sum1 = fused(sum1, s4, series[row, n + 1])
-        sum2 = fused(sum2, s4, series[row, n + 2])
-        sum3 = fused(sum3, s4, series[row, n + 3])
+        sum0 = fma(sum0, s4, series[row, n])
+        sum1 = fma(sum1, s4, series[row, n + 1])
+        sum2 = fma(sum2, s4, series[row, n + 2])
+        sum3 = fma(sum3, s4, series[row, n + 3])
     return (sum0 + s * sum1) + s2 * (sum2 + s * sum3)
 
 
-@inlined
+@compiled_inline
 def derivatives(series, row, s):
-    """Σ c_n sⁿ and its first and second derivatives, each in two sums that do not wait for each other."""
+    """Σ c_n sⁿ and its first and second derivatives, each in two sums that the processor computes at the same time."""
     value0 = value1 = slope0 = slope1 = bend0 = bend1 = 0.0
     s2 = s * s
     for n in range(ORDER, -1, -2):
         c0, c1, c2, c3 = series[row, n], series[row, n + 1], series[row, n + 2], series[row, n + 3]
-        value0 = fused(value0, s2, c0)
-        value1 = fused(value1, s2, c1)
-        slope0 = fused(slope0, s2, (n + 1) * c1)
-        slope1 = fused(slope1, s2, (n + 2) * c2)
-        bend0 = fused(bend0, s2, (n + 1) * (n + 2) * c2)
-        bend1 = fused(bend1, s2, (n + 2) * (n + 3) * c3)
+        value0 = fma(value0, s2, c0)
+        value1 = fma(value1, s2, c1)
+        slope0 = fma(slope0, s2, (n + 1) * c1)
+        slope1 = fma(slope1, s2, (n + 2) * c2)
+        bend0 = fma(bend0, s2, (n + 1) * (n + 2) * c2)
+        bend1 = fma(bend1, s2, (n + 2) * (n + 3) * c3)
     return value0 + s * value1, slope0 + s * slope1, bend0 + s * bend1
 
 
-@inlined
+@compiled_inline
 def root_of_crossing(series, row, low, high):
     """The root of a polynomial that changes its sign once between `low` and `high`, by safeguarded Newton steps."""
     close = CLOSE * max(abs(low), abs(high))
@@ -72,14 +72,14 @@ def root_of_crossing(series, row, low, high):
         if abs(following - s) <= close:
             if abs(following) >= close:
                 return min(max(following, low), high)
-            close = CLOSE * abs(following)  # so near to zero a root is told by its own size
+            close = CLOSE * abs(following)  # near zero the error must be relative to the root
         s = following if low < following < high else 0.5 * (low + high)
     return s
 
 
-@kernel
+@compiled
 def shift(series, row, s):
-    """Expand the polynomial of a row about `s` instead, into the row SHIFTED."""
+    """Write the expansion of a row about `s` into the row SHIFTED."""
     for n in range(SIZE):
         series[SHIFTED, n] = series[row, n]
     for k in range(ORDER):
@@ -87,18 +87,19 @@ def shift(series, row, s):
             series[SHIFTED, n] += s * series[SHIFTED, n + 1]
 
 
-@kernel
+@compiled
 def search(series, row, start, end, shortest, noise):
-    """Look for the first root in (start, end]: whether there is one, where the search stands, and `shortest`.
+    """Search for the first root in (start, end].
 
-    The second derivative at s and bounds on the second and third make a parabola that lies below the polynomial from s
-    to `end`. Steps to the roots of such parabolas cannot jump over a root, whatever the signs at the ends are, and
-    converge quadratically to a simple root. While `shortest` > 0 the search leaves a root on which it began: steps
-    have at least this length, and values below `noise` no sign.
+    The second derivative at s and bounds on the second and third derivatives give a parabola below the polynomial from
+    s to `end`. A step to the root of this parabola cannot pass a root of the polynomial, and such steps converge
+    quadratically to a simple root. While `shortest` > 0 the search leaves a root on which it began: steps have at least
+    this length, and values below `noise` have no sign.
 
     Returns
     -------
-    answer, s, shortest : FOUND with the root, ABSENT with `end`, or OPEN where the parabolas are too narrow to get on
+    answer, s, shortest : FOUND with the root; ABSENT with `end`; or OPEN, with the place up to which there is no root,
+        if the parabolas are too narrow to go on. `shortest` is what the rest of the search must begin with.
     """
     second = third = 0.0
     power = 1.0
@@ -117,7 +118,7 @@ def search(series, row, start, end, shortest, noise):
         if gradient >= 0.0 and gradient + min(lowest, 0.0) * left >= 0.0:
             return ABSENT, end, 0.0
         if gradient + max(highest, 0.0) * left < 0.0:
-            # Falling from here on: the sign at the end decides.
+            # The polynomial falls from here on, so that the sign at the end decides.
             low = s + shortest
             if low >= end or value(series, row, end) > (-noise if shortest > 0.0 else 0.0):
                 return ABSENT, end, 0.0
@@ -143,11 +144,11 @@ def search(series, row, start, end, shortest, noise):
     return OPEN, s, shortest
 
 
-@kernel
+@compiled
 def first_root(series, row, start, end, leave):
     """First root of a polynomial in (start, end] that is positive just behind `start`; infinity if there is none.
 
-    A root at `start` itself is left behind by the part `leave` of `end` at least.
+    A search that starts on a root moves on by at least the part `leave` of `end`.
     """
     reach = 0.0
     power = end
@@ -164,7 +165,7 @@ def first_root(series, row, start, end, leave):
             return s
         if answer == ABSENT and s >= end:
             return math.inf
-        # Bounds on a shorter piece, from the expansion about its start, are tighter.
+        # Bounds on a shorter piece, from the expansion about its beginning, are tighter.
         piece *= 2.0 if answer == ABSENT else 0.25
         piece = min(piece, end - s)
         shift(series, row, s)

@@ -6,13 +6,13 @@ from typing import TextIO
 
 from tqdm import tqdm
 
-SECONDS = 1.0  # between two looks of a bar
+SECONDS = 1.0  # between two updates of a bar
 SECONDS_OF_LINES = 60.0  # between two lines
 LINE = "{desc}: {n_fmt} of {total_fmt}{unit}, {rate_fmt}, {elapsed} gone, {remaining} left{postfix}"
 
 
 class Lines(tqdm):
-    """Lines in place of a bar: one each SECONDS_OF_LINES, and a last one."""
+    """Lines in place of a bar: one every SECONDS_OF_LINES, and a last one."""
 
     @staticmethod
     def status_printer(file: TextIO):
@@ -34,12 +34,12 @@ class Lines(tqdm):
     def close(self) -> None:
         if not self.disable:
             self.display()
-            self.delay = math.inf  # that of tqdm would add an empty line
+            self.delay = math.inf  # otherwise tqdm adds an empty line
         super().close()
 
 
 def bar(items=None, *, total: int | None = None, label: str | None, unit: str = "points") -> tqdm:
-    """Progress over `items`, or over `total` units that `update` counts; without a label none is shown."""
+    """Progress over `items`, or over `total` units that `update` counts; nothing is shown without a label."""
     options = {"desc": label, "unit": f" {unit}", "disable": label is None, "file": sys.stderr}
     if sys.stderr.isatty():
         return tqdm(items, total=total, mininterval=SECONDS, dynamic_ncols=True, **options)

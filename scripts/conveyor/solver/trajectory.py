@@ -9,7 +9,7 @@ from collections import namedtuple
 
 import numpy as np
 
-from . import contact, memory, peaks
+from . import contact, peaks, repeated_steps
 from .contact import FORCE_SIGN, NOTHING, SEPARATION
 from .flight import highest_gap
 from .horizontal import (
@@ -28,47 +28,47 @@ from .horizontal import (
     Step,
     X,
     Z,
-    feed,
-    note,
-    slid,
+    follow_horizontal,
+    record_event,
+    slide,
     slip_direction,
 )
-from .jit import borrowed, inlined, kernel, spliced
+from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import TENSION_CLIP, VZ0, Z0
-from .vertical import CONTACT, FLIGHT, LIMIT, LOST, arrive, begin, in_cycle, motion_at, next_piece, take_off
+from .vertical import CONTACT, FLIGHT, LIMIT, LOST, arrive, begin, flight_from, in_cycle, motion_at, next_piece
 
-# Phase at which a cycle is taken to begin, rad: the plate's top, where a part that leaves the plate is in the air.
+# Phase at which a cycle begins, rad: the plate is at its top, where a part that leaves the plate is in the air.
 BEGIN_OF_CYCLE = -math.pi
 
 # Status of a run.
 OK, TOO_MANY_EVENTS, TOO_STIFF, IMPACT_LOST, NOT_FINITE = range(5)
 STATUS = ("ok", "too many events", "contact too stiff", "impact not found", "not finite")
 
-# Pieces within one excitation cycle after which a contact is too stiff to be followed.
+# Pieces in one excitation cycle after which a run ends with "contact too stiff".
 MAX_PIECES = 100_000
-# A contact whose own rates would need this many times as many steps in a cycle is given up after so many steps in a row
-# without an event: it would last a fiftieth of the cycle at most.
+# A contact whose own rates need this many times MAX_PIECES steps in a cycle ends a run sooner, after fewer steps in a
+# row without an event: MAX_PIECES steps would cover a fiftieth of the cycle at most.
 HOPELESS = 50.0
-PATIENCE = 10_000
+LONGEST_EVENTLESS_IF_HOPELESS = 10_000
 
 
-@kernel
-def patience(c):
-    """Contact steps in a row without an event after which a contact is too stiff to be followed.
+@compiled
+def longest_eventless(c):
+    """Contact steps in a row without an event after which a run ends with "contact too stiff".
 
-    Its own rates, d_c/m and the frequency at the static penetration, tell how many steps it would need in a cycle.
+    The contact's own rates are d_c/m and the frequency at the static penetration.
     """
     rate = max(c.damping, c.scale_v / (c.scale_w * c.scale_w))
-    return PATIENCE if rate * c.period > HOPELESS * MAX_PIECES else MAX_PIECES
+    return LONGEST_EVENTLESS_IF_HOPELESS if rate * c.period > HOPELESS * MAX_PIECES else MAX_PIECES
 
 
 # Columns of the results of runs: the status code, numbers of events and of impacts, the time with contact force (s),
-# the largest gap (m), numbers of contact steps that were computed and repeated; the largest speed of approach at an
-# impact (m/s) and the largest contact force (N) between the last two times of a run, 0 where there is none.
+# the largest gap (m), numbers of computed and of repeated contact steps; the largest speed of approach at an impact
+# (m/s) and the largest contact force (N) between the last two times of a run, 0 where there is none.
 CODE, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, STEPS, REPEATS, IMPACT_SPEED, PEAK_FORCE = range(9)
 RESULTS = 9
 
-# The arguments of `integrate` that are the same for all runs.
+# The arguments of `integrate` that all runs share.
 Options = namedtuple("Options", "tolerance feeding reuse")
 
 
@@ -90,80 +90,85 @@ def integrate(
     times : float64, shape (n, k), s, ascending, ≥ 0; a run ends at its last one
     tolerance : relative error per step of the contact
     feeding : whether the horizontal motion is wanted; without it its columns are NaN
-    reuse : whether steps of a settled motion are repeated instead of computed (see memory)
+    reuse : whether steps of a settled motion are repeated instead of computed (see repeated_steps)
     event_times, event_kinds : float64 (s) and int8, shape (n, m), filled with the first m events of each
 
     Returns
     -------
     samples, results : float64, shape (n, k, 6), the columns horizontal.SAMPLES (m, m/s, N); shape (n, 9), see above
     """
-    times = np.ascontiguousarray(times)  # `follow` would be compiled, for seconds, for every other layout
+    times = np.ascontiguousarray(times)  # numba would compile `follow`, for seconds, for each other layout
     n, k = times.shape
     samples, results = np.empty((n, k, len(SAMPLES))), np.empty((n, RESULTS))
     if event_times is None or event_kinds is None:
         event_times, event_kinds = np.empty((n, 0)), np.empty((n, 0), np.int8)
-    # Plain tuples: numba takes several microseconds of each call to see the type of a named one.
+    # Plain tuples, because numba takes several microseconds per call to find the type of a named tuple.
     records = (times, samples, event_times, event_kinds)
-    follow(parameters, (tolerance, feeding, reuse), records, results, memory.room())
+    follow(parameters, (tolerance, feeding, reuse), records, results, repeated_steps.new_arrays())
     return samples, results
 
 
-@kernel
+@compiled
 def follow(parameters, options, records, results, room):
-    """`integrate` with its arrays in order.
+    """The compiled part of `integrate`.
 
     Parameters
     ----------
     options, records : the fields of Options, and those of a Record with one more axis in front, that of the runs
     results : filled, see `integrate`
-    room : memory.room
+    room : repeated_steps.new_arrays
 
-    All that follows runs is this one kernel, which nothing compiled calls: it would be compiled into each caller.
+    Only Python calls this function, because numba would compile the whole solver again into each compiled caller.
     """
     tolerance, feeding, reuse = options
     times, samples, event_times, event_kinds = records
     series, steps = room
-    kept = memory.Memory(borrowed(series), borrowed(steps))
+    kept = repeated_steps.KeptSteps(no_refcount(series), no_refcount(steps))
     for i in range(parameters.shape[0]):
-        record = Record(borrowed(times[i]), borrowed(samples[i]), borrowed(event_times[i]), borrowed(event_kinds[i]))
-        follow_part(parameters[i], Options(tolerance, feeding, reuse), record, borrowed(results[i]), kept)
+        record = Record(
+            no_refcount(times[i]), no_refcount(samples[i]), no_refcount(event_times[i]), no_refcount(event_kinds[i])
+        )
+        follow_part(parameters[i], Options(tolerance, feeding, reuse), record, no_refcount(results[i]), kept)
 
 
-@spliced
+@compiled_into_callers
 def sample_flight(c, motion, horizontal, tau, sample):
-    """Fill a `sample`, shape (6,), at the time tau (s) of a flight."""
-    sample[X], sample[VX] = slid(c, horizontal.x, horizontal.vx, tau)
+    """Fill a `sample`, shape (6,), at a time tau (s) after the beginning of a flight."""
+    sample[X], sample[VX] = slide(c, horizontal.x, horizontal.vx, tau)
     sample[Z], sample[VZ] = motion.z + (motion.vz - 0.5 * c.gravity * tau) * tau, motion.vz - c.gravity * tau
     sample[CONTACT_FORCE] = sample[FRICTION_FORCE] = 0.0
 
 
-@inlined
-def note_end(record, events, time, piece, pulled, motion):
-    """Record what ends a contact step, `pulled` before it and `motion` behind it; the number of events with it."""
+@compiled_inline
+def record_end(record, events, time, piece, pulled, motion):
+    """Record the event that ends a contact step, if any. Returns the number of events so far.
+
+    pulled, motion : whether the force pulled before the end, and the Motion after it
+    """
     if piece.end == SEPARATION and not motion.touching:
-        return note(record, events, time, SEPARATED)
+        return record_event(record, events, time, SEPARATED)
     if piece.end == FORCE_SIGN:
-        return note(record, events, time, TENSION_ENDS if pulled else TENSION_BEGINS)
+        return record_event(record, events, time, TENSION_ENDS if pulled else TENSION_BEGINS)
     return events
 
 
-@spliced
+@compiled_into_callers
 def peak_of_step(c, kept, place, at, motion, piece, first, last):
-    """Largest F_c/m (m/s²) of the contact step in a place, between the times `first` and `last` (s) since it began."""
+    """Largest F_c/m (m/s²) of the contact step in a place, from `first` to `last` (s) after its beginning."""
     if first > 0.0 or last < piece.duration:
         return peaks.largest_force_between(c, kept.series, at, piece, first, last)
-    found = kept.steps[place, memory.PEAK]
+    found = kept.steps[place, repeated_steps.PEAK]
     if math.isnan(found):
         found = peaks.largest_force_at_ends(c, motion, piece)
         if not peaks.is_monotonic(c, motion, piece):
             found = peaks.largest_force(c, kept.series, at, 0.0, piece.length)
-        kept.steps[place, memory.PEAK] = found
+        kept.steps[place, repeated_steps.PEAK] = found
     return found
 
 
-@inlined
+@compiled_inline
 def next_cycle(c, motion, piece):
-    """The same Motion in the cycle in which a Piece ends, and the number of cycles that begin until then."""
+    """The same Motion with its time in the cycle in which a Piece ends, and the number of cycles that have begun."""
     if motion.t < c.period and piece.end != LIMIT:
         return motion, 0
     cycles = 1 if piece.end == LIMIT else int(motion.t / c.period)
@@ -171,52 +176,65 @@ def next_cycle(c, motion, piece):
     return in_cycle(c, motion, t, BEGIN_OF_CYCLE), cycles
 
 
-@spliced
+@compiled_into_callers
+def find_piece(c, kept, place, at, motion, limit, reuse):
+    """The Piece that begins with `motion`, and whether it is a kept one.
+
+    place, at : of the contact step that may begin here, and the first row of its series
+    limit : s, duration of the longest flight that is wanted
+    reuse : whether steps may be repeated
+    """
+    if reuse and motion.touching and repeated_steps.repeats(c, kept, place, motion):
+        return repeated_steps.recall(kept, place), True
+    piece = next_piece(c, kept.series, at, motion, c.period - motion.t if motion.touching else limit)
+    if piece.kind == CONTACT:
+        repeated_steps.keep(kept, place, motion, piece)
+    return piece, False
+
+
+@compiled_into_callers
+def touch_down(c, motion, horizontal):
+    """The Horizontal motion of a part that has just come into contact."""
+    force = contact.force(c, motion.w, motion.v)
+    sigma = slip_direction(c, motion.sine, motion.cosine, horizontal.vx, force, c.static_friction)
+    return Horizontal(horizontal.x, horizontal.vx, sigma)
+
+
+@compiled_into_callers
 def follow_part(parameters, options, record, result, kept):
     """Follow the part of a row of `parameters`, shape (16,); fill its Record and `result`, shape (9,)."""
-    memory.clear(kept)
+    repeated_steps.clear(kept)
     c = contact.constants(parameters, options.tolerance)
-    most = patience(c)
+    most = longest_eventless(c)
     times, samples = record.times, record.samples
-    end = times[-1]
-    since = times[-2] if times.size > 1 else 0.0
+    end, since = times[-1], times[-2] if times.size > 1 else 0.0
     offset = ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega
-    cycle = 0
-    base = -offset
+    cycle, base = 0, -offset
     q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)
     motion = motion_at(c, q, rate, offset, c.psi0)
     horizontal = Horizontal(0.0, 0.0, 0.0)
     if motion.touching:
-        force = contact.force(c, motion.w, motion.v)
-        horizontal = Horizontal(0.0, 0.0, slip_direction(c, motion.sine, motion.cosine, 0.0, force, c.static_friction))
-    sampled = events = impacts = steps = repeats = pieces = lone = place = 0
+        horizontal = touch_down(c, motion, horizontal)
+    sampled = events = impacts = steps = repeats = pieces = eventless = place = 0
     contact_time = impact_speed = peak_force = 0.0
     max_gap = max(q, 0.0)
     status = OK
 
     while sampled < times.size:
         pieces += 1
-        if pieces > MAX_PIECES or lone > most:
+        if pieces > MAX_PIECES or eventless > most:
             status = TOO_STIFF
             break
-        at = memory.first_row(kept, place)
+        at = repeated_steps.first_row(kept, place)
         begins = base + motion.t
-        if options.reuse and motion.touching and memory.repeats(c, kept, place, motion):
-            piece = memory.recall(kept, place)
-            repeats += 1
-        else:
-            limit = c.period - motion.t if motion.touching else end - begins
-            piece = next_piece(c, kept.series, at, motion, limit)
-            if piece.kind == CONTACT:
-                memory.keep(kept, place, motion, piece)
-                steps += 1
-        lone = lone + 1 if piece.end == NOTHING else 0
+        piece, is_kept = find_piece(c, kept, place, at, motion, end - begins, options.reuse)
+        eventless = eventless + 1 if piece.end == NOTHING else 0
         ends = begins + piece.duration
         if piece.kind == FLIGHT:
             if piece.end == LOST:
                 status = IMPACT_LOST
                 break
-            max_gap = max(max_gap, highest_gap(take_off(c, motion), piece.duration))
+            max_gap = max(max_gap, highest_gap(flight_from(c, motion), piece.duration))
             while sampled < times.size and (ends >= times[sampled] or piece.end == LIMIT):
                 sample_flight(c, motion, horizontal, times[sampled] - begins, samples[sampled])
                 sampled += 1
@@ -225,44 +243,43 @@ def follow_part(parameters, options, record, result, kept):
             impacts += 1
             if ends >= since:
                 impact_speed = max(impact_speed, piece.v)
-            events = note(record, events, ends, IMPACT)
+            events = record_event(record, events, ends, IMPACT)
         elif piece.kind == CONTACT:
-            here = place
-            place = min(place + 1, memory.PLACES - 1)
+            repeats, steps = repeats + is_kept, steps + (not is_kept)
             if not (motion.pulled and c.tension == TENSION_CLIP):
-                # A repeated step has the duration of the one it repeats; what counts is where the cycle ends.
+                # A repeated step has the duration of the kept one; the contact time counts up to the end of the cycle.
                 lasts = c.period - motion.t if piece.end == LIMIT else piece.duration
                 contact_time += min(lasts, end - begins)
                 if ends > since:
-                    force = peak_of_step(c, kept, here, at, motion, piece, since - begins, end - begins)
+                    force = peak_of_step(c, kept, place, at, motion, piece, since - begins, end - begins)
                     peak_force = max(peak_force, force)
+            place = min(place + 1, repeated_steps.PLACES - 1)
             step = Step(kept.series, at, motion, piece, begins)
-            horizontal, sampled, events, segments = feed(c, step, horizontal, options.feeding, record, sampled, events)
+            horizontal, sampled, events, segments = follow_horizontal(
+                c, step, horizontal, options.feeding, record, sampled, events
+            )
             if sampled == times.size:
                 break
             if segments == MAX_SEGMENTS:
                 status = TOO_MANY_EVENTS
                 break
         if piece.kind != CONTACT:
-            x, vx = slid(c, horizontal.x, horizontal.vx, piece.duration)
+            x, vx = slide(c, horizontal.x, horizontal.vx, piece.duration)
             horizontal = Horizontal(x, vx, horizontal.sigma)
         pulled = motion.pulled
         motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
         if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
             status = NOT_FINITE
             break
-        events = note_end(record, events, ends, piece, pulled, motion)
-        # Every cycle begins with a step of its own, so that its steps are comparable with the last one's.
+        events = record_end(record, events, ends, piece, pulled, motion)
+        # Each cycle begins with a step of its own, so that its steps can be compared with those of the last cycle.
         motion, cycles = next_cycle(c, motion, piece)
         if cycles > 0:
             cycle += cycles
             base = cycle * c.period - offset
             pieces = place = 0
         if piece.kind == FLIGHT and options.feeding:
-            x, vx, _ = horizontal
-            force = contact.force(c, motion.w, motion.v)
-            sigma = slip_direction(c, motion.sine, motion.cosine, vx, force, c.static_friction)
-            horizontal = Horizontal(x, vx, sigma)
+            horizontal = touch_down(c, motion, horizontal)
     if not options.feeding:
         samples[:, X] = samples[:, VX] = samples[:, FRICTION_FORCE] = np.nan
     samples[sampled:] = np.nan

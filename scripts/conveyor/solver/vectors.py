@@ -1,8 +1,8 @@
-"""One number of each of several trajectories in a vector register: what intrinsics that follow them are written with.
+"""Arithmetic on vector registers that hold one number of each of several trajectories, to write intrinsics with.
 
-A register of 512 bits holds eight numbers, and one instruction works on all of them. Each operation is rounded as IEEE
-754 defines it, none is merged with another or moved: a lane gives the bits that scalar code with the same operations
-gives, whatever its neighbours and the number of lanes are.
+A register of 512 bits holds eight numbers, and one instruction works on all of them. IEEE 754 defines the rounding of
+each operation, and no operation is moved or merged with another. A lane therefore gives the same bits as scalar code
+with the same operations, whatever its neighbours and the number of lanes are.
 """
 
 from llvmlite import ir
@@ -13,7 +13,7 @@ BIT, INTEGER, FLOAT = ir.IntType(1), ir.IntType(64), ir.DoubleType()
 
 
 class Vector:
-    """The numbers in one register while a kernel is being written: operators append an LLVM instruction to it.
+    """The numbers in one register of a function that is being compiled: operators append an LLVM instruction to it.
 
     A plain number stands for itself in every lane. Comparisons give a Vector of bits.
     """
@@ -107,7 +107,7 @@ def call(name: str, first: Vector, *others: Vector | float) -> Vector:
     return Vector(builder, builder.call(function, values))
 
 
-def fused(a: Vector, b: Vector | float, c: Vector | float) -> Vector:
+def fma(a: Vector, b: Vector | float, c: Vector | float) -> Vector:
     """The product and sum a b + c, rounded once."""
     return call("fma", a, b, c)
 
@@ -135,7 +135,7 @@ class Memory:
 
 
 def lanes_of_processor() -> int:
-    """How many float64 the widest vector register of this machine holds; 1 if it is not known."""
+    """The number of float64 in the widest vector register of this machine; 1 if it is unknown."""
     present = get_host_cpu_features()
     widths = {"avx512f": 8, "avx": 4, "sse2": 2, "neon": 2}
     return max((lanes for name, lanes in widths.items() if present.get(name)), default=1)

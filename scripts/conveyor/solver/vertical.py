@@ -1,8 +1,8 @@
 """The vertical motion, piece by piece: a flight, a moment of rest at the plate's surface, or one step of the contact.
 
-`next_piece` finds the piece that begins now and `arrive` the motion at its end. What a consumer adds (slip, stick and
-samples in `trajectory`, perturbations in `stroboscopic_map`) happens in between. Time counts from the beginning of an
-excitation cycle, at which the excitation has the phase `origin` of the consumer.
+`next_piece` finds the piece that begins now, and `arrive` finds the motion at its end. Between the two calls
+`trajectory` adds slip, stick and samples, and `stroboscopic_map` adds perturbations. Time counts from the beginning of
+an excitation cycle, at which the excitation has the phase `origin`.
 """
 
 import math
@@ -11,32 +11,32 @@ from collections import namedtuple
 from . import contact, polynomial
 from .contact import FORCE_SIGN, NOTHING, SEPARATION
 from .flight import Flight, gap, next_impact
-from .jit import inlined, kernel, spliced
+from .jit import compiled, compiled_inline, compiled_into_callers
 from .model import TENSION_ALLOW
 
-# What a piece is.
+# Kinds of pieces.
 FLIGHT, GRAZE, CONTACT = range(3)
-# What ends it besides contact.NOTHING, SEPARATION and FORCE_SIGN; a flight may also end with LOST, the impact unknown.
+# Ends of a piece besides contact.NOTHING, SEPARATION and FORCE_SIGN; LOST is a flight whose impact was not found.
 IMPACT, LIMIT, LOST = range(3, 6)
 
 # The motion at a time t (s) of its cycle, at the phase theta (rad) with the given sine and cosine. On the plate: the
 # square root w of the penetration (√m), the speed of approach v (m/s), and whether the contact force is negative
 # (looked at for `frictionless` and `clip` only). In the air: height z, velocity vz, gap q and its rate (m, m/s).
 Motion = namedtuple("Motion", "t theta sine cosine touching w v pulled z vz q rate")
-# A piece: what it is, its duration (s), its length in s if it is a step, what ends it, and w, v, sine, cosine then.
+# A piece: its kind, its duration (s), the length in s of a contact step, its end, and w, v, sine and cosine there.
 Piece = namedtuple("Piece", "kind duration length end w v sine cosine")
 
 
-@kernel
+@compiled
 def begin(c, z0, vz0, theta):
-    """Gap (m) and its rate (m/s) at the start; exactly 0 for a start on the conveyor (z0 is NaN, Eq. 15)."""
+    """Gap (m) and its rate (m/s) of an initial condition; the gap is exactly 0 on the plate (z0 is NaN, Eq. 15)."""
     q = 0.0 if math.isnan(z0) else z0 + c.a_z / (c.omega * c.omega) * math.cos(theta)
     return q, vz0 - c.a_z / c.omega * math.sin(theta)
 
 
-@kernel
+@compiled
 def in_contact(c, q, rate, theta):
-    """Whether a part with this gap and rate of the gap is in contact, or comes into it at once."""
+    """Whether a part with this gap and rate is in contact, or comes into contact at once."""
     if q != 0.0:
         return q < 0.0
     if rate != 0.0:
@@ -44,7 +44,7 @@ def in_contact(c, q, rate, theta):
     return c.gravity + c.a_z * math.cos(theta) > 0.0
 
 
-@kernel
+@compiled
 def motion_at(c, q, rate, t, theta):
     """The Motion with a gap q (m) and its rate (m/s) at the time t (s) of a cycle and the phase theta (rad)."""
     sine, cosine = math.sin(theta), math.cos(theta)
@@ -55,11 +55,11 @@ def motion_at(c, q, rate, t, theta):
     return Motion(t, theta, sine, cosine, touching, w, v, pulled, z, vz, q, rate)
 
 
-@kernel
+@compiled
 def press_on(c, cosine):
     """√penetration, speed of approach and elapsed time just after a part at relative rest begins to sink in.
 
-    At w = v = 0 the equations in s stand still. The motion leaves that point as δ = a τ²/2 with a = g + a_z cos θ.
+    The equations in s have a fixed point at w = v = 0. The motion leaves it as δ = a τ²/2 with a = g + a_z cos θ.
     """
     acceleration = c.gravity + c.a_z * cosine
     w = 1e-9 * c.scale_w
@@ -67,12 +67,12 @@ def press_on(c, cosine):
     return w, v, v / acceleration
 
 
-@kernel
+@compiled
 def invert_time(series, at, length, tau):
-    """The s in [0, length] of a contact step at which the time since its start is `tau` (s)."""
+    """The s in [0, length] that a contact step reaches at the time `tau` (s) after its beginning."""
     low, high = 0.0, length
     total = polynomial.value(series, at + contact.T, length)
-    if tau >= total:  # also a step that is too short to take time
+    if tau >= total:  # also for a step too short to take time
         return length
     s = length * max(tau / total, 0.0)
     for _ in range(100):
@@ -90,9 +90,9 @@ def invert_time(series, at, length, tau):
     return s
 
 
-@inlined
-def shortened(series, at, length, duration, end):
-    """The piece that is the part of a contact step up to `length` in s, after `duration` (s)."""
+@compiled_inline
+def cut_step(series, at, length, duration, end):
+    """The Piece of a contact step that is cut at `length` in s, after `duration` (s)."""
     return Piece(
         CONTACT,
         duration,
@@ -105,16 +105,16 @@ def shortened(series, at, length, duration, end):
     )
 
 
-@inlined
-def take_off(c, motion):
+@compiled_inline
+def flight_from(c, motion):
     """The Flight that begins with a Motion."""
     return Flight(motion.z, motion.vz, motion.theta, c.gravity, c.a_z, c.omega)
 
 
-@spliced
+@compiled_into_callers
 def fly(c, motion, limit):
     """The Piece that is a flight from `motion`, of at most `limit` (s)."""
-    tau, speed = next_impact(take_off(c, motion), motion.q, motion.rate, limit)
+    tau, speed = next_impact(flight_from(c, motion), motion.q, motion.rate, limit)
     end = IMPACT
     if not tau < math.inf:
         end, tau = (LIMIT, limit) if tau == math.inf else (LOST, tau)
@@ -122,33 +122,33 @@ def fly(c, motion, limit):
     return Piece(FLIGHT, tau, 0.0, end, 0.0, speed, math.sin(phase), math.cos(phase))
 
 
-@inlined
-def grazing(c, motion):
+@compiled_inline
+def is_grazing(c, motion):
     """Whether a part in contact only touches, with no speed: it is either pressed on or left behind by the plate."""
     return motion.w == 0.0 and motion.v <= c.rest_speed and (motion.v <= 0.0 or c.gravity + c.a_z * motion.cosine > 0.0)
 
 
-@spliced
+@compiled_into_callers
 def graze(c, motion):
-    """The Piece of a part that is `grazing`."""
+    """The Piece of a part for which `is_grazing` holds."""
     if c.gravity + c.a_z * motion.cosine > 0.0:
         w, v, lapse = press_on(c, motion.cosine)
         return Piece(GRAZE, lapse, 0.0, NOTHING, w, v, motion.sine, motion.cosine)
     return Piece(GRAZE, 0.0, 0.0, SEPARATION, 0.0, 0.0, motion.sine, motion.cosine)
 
 
-@spliced
+@compiled_into_callers
 def press(c, series, at, motion, length, limit):
     """The Piece that is a contact step from `motion`, of at most `limit` (s); its series is good up to `length`."""
     length, w, v, lapse, end = contact.end_step(c, series, at, motion.w, motion.v, motion.pulled, length)
     if lapse > limit:
-        return shortened(series, at, invert_time(series, at, length, limit), limit, LIMIT)
+        return cut_step(series, at, invert_time(series, at, length, limit), limit, LIMIT)
     sine = polynomial.value(series, at + contact.SINE, length)
     cosine = polynomial.value(series, at + contact.COSINE, length)
     return Piece(CONTACT, lapse, length, end, w, v, sine, cosine)
 
 
-@spliced
+@compiled_into_callers
 def next_piece(c, series, at, motion, limit):
     """The Piece that begins with a Motion and takes at most `limit` (s).
 
@@ -156,13 +156,13 @@ def next_piece(c, series, at, motion, limit):
     """
     if not motion.touching:
         return fly(c, motion, limit)
-    if grazing(c, motion):
+    if is_grazing(c, motion):
         return graze(c, motion)
     length = contact.begin_step(c, series, at, motion.w, motion.v, motion.sine, motion.cosine, motion.pulled)
     return press(c, series, at, motion, length, limit)
 
 
-@inlined
+@compiled_inline
 def arrive(c, motion, piece, origin):
     """The Motion at the end of a Piece that began with `motion`; `origin` is the phase (rad) at the time 0."""
     t = motion.t + piece.duration
@@ -171,12 +171,12 @@ def arrive(c, motion, piece, origin):
     if piece.kind == FLIGHT:
         if piece.end == IMPACT:
             return Motion(t, theta, sine, cosine, True, 0.0, v, False, 0.0, 0.0, 0.0, 0.0)
-        q, rate = gap(take_off(c, motion), piece.duration)
+        q, rate = gap(flight_from(c, motion), piece.duration)
         z = q - c.a_z / (c.omega * c.omega) * cosine
         return Motion(t, theta, sine, cosine, False, 0.0, 0.0, False, z, rate + c.a_z / c.omega * sine, q, rate)
     touching = True
     if piece.end == SEPARATION:
-        # A separation too slow to be told from rest, while the plate presses on, is none.
+        # A separation slower than rest_speed does not count while the plate presses on.
         touching = piece.kind == CONTACT and v >= -c.rest_speed and c.gravity + c.a_z * cosine > 0.0
         v = 0.0 if touching else v
     pulled = motion.pulled != (piece.end == FORCE_SIGN)
@@ -184,7 +184,7 @@ def arrive(c, motion, piece, origin):
     return Motion(t, theta, sine, cosine, touching, piece.w, v, pulled, z, c.a_z / c.omega * sine - v, 0.0, -v)
 
 
-@inlined
+@compiled_inline
 def in_cycle(c, motion, t, origin):
     """The same Motion at the time t (s) of another cycle, which begins at the phase `origin` (rad)."""
     theta = origin + c.omega * t

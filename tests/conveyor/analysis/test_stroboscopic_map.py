@@ -99,9 +99,9 @@ def test_what_repeats_itself_is_copied_bit_for_bit(acceleration, z0, period):
         np.testing.assert_array_equal(strobes[n], state)
         np.testing.assert_array_equal(features[n], found)
     np.testing.assert_array_equal(end, state)
-    repeated = stroboscopic_map.repeated(strobes)
+    repeated = stroboscopic_map.find_repetition(strobes)
     assert repeated % period == 0 < repeated if period else repeated == 0
-    assert stroboscopic_map.repeated(strobes[:1]) == 0
+    assert stroboscopic_map.find_repetition(strobes[:1]) == 0
 
 
 def test_time_in_the_air_goes_on_over_cycles():

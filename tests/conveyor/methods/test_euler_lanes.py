@@ -20,7 +20,7 @@ from conveyor.methods.euler_lanes import (
     X,
     Z,
 )
-from conveyor.solver.jit import kernel
+from conveyor.solver.jit import compiled
 from conveyor.solver.model import GRAVITY, TENSION_MODES, VZ0, Z0, pack
 
 STEP = 1e-3 / 64
@@ -71,7 +71,7 @@ def random_parameters(n, seed):
     return np.array(rows)
 
 
-@kernel
+@compiled
 def fill(phases, values):
     for i in range(len(phases)):
         values[i] = euler_lanes.sincos(phases[i])

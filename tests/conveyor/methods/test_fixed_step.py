@@ -200,8 +200,8 @@ def test_sampling_does_not_disturb_the_run():
     n_steps, step = 20_000, 2e-6
     indices = np.sort(np.append(np.arange(0, n_steps + 1, 100), [1, 1, 255, 256, 257]))
     for method in fixed_step.METHODS:
-        (watched,), (samples,), (events,) = fixed_step._integrate(parameters[None], step, n_steps, method, indices, 4)
-        (alone,), _, (same_events,) = fixed_step._integrate(parameters[None], step, n_steps, method, [], 4)
+        (watched,), (samples,), (events,) = fixed_step.follow(parameters[None], step, n_steps, method, indices, 4)
+        (alone,), _, (same_events,) = fixed_step.follow(parameters[None], step, n_steps, method, [], 4)
         # Peaks count since the last sample.
         assert watched[:-2] == alone[:-2]
         assert events[1, 0] > 0.0
@@ -239,9 +239,8 @@ def test_many_are_followed_as_one_is(method):
             assert rows[f"{name}_end"].tolist() == [getattr(run, name) for run in runs]
 
     indices = np.array([0, 17, 5000])
-    signals = np.empty((11, 3))
-    ensemble.samples_by_steps(parameters, indices, step, fixed_step.METHODS.index(method), 1, signals)
-    for row, signal in zip(parameters, signals, strict=True):
+    _, samples, _ = fixed_step.follow(parameters, step, 5000, method, indices)
+    for row, signal in zip(parameters, samples[:, :, 1], strict=True):
         assert signal.tolist() == fixed_step.sample(row, indices * step, step, method)["vx"].tolist()
 
 
@@ -382,3 +381,21 @@ def test_a_run_ends_where_it_is_said_to_end():
 def test_an_unknown_method_never_runs_as_another(call):
     with pytest.raises(ValueError, match="method"):
         call()
+
+
+@pytest.mark.parametrize("method", fixed_step.METHODS)
+def test_a_part_that_slips_at_the_start_does_not_stick_at_once(method):
+    """It rests while the plate moves, and gets the plate's velocity only after its slip has vanished."""
+    conveyor = Conveyor(psi0=0.5, friction=0.1, static_friction=10.0)
+    first = fixed_step.sample(pack(conveyor, Start(z="conveyor")), np.array([0.0]), 1e-6, method)
+    assert first["contact_force"][0] > 0.0
+    assert first["vx"][0] == 0.0
+
+
+@pytest.mark.parametrize("method", fixed_step.METHODS)
+def test_peaks_are_those_of_the_last_part_of_a_run(method):
+    """A part that falls onto the plate hits it hard at first only."""
+    parameters = pack(Conveyor(acceleration=5.0), Start(1e-3))
+    late, whole = (fixed_step.run(parameters, 0.5, 2e-6, method, last) for last in (0.25, 1.0))
+    assert whole.impact_speed > 0.1 > 10.0 * late.impact_speed
+    assert whole.peak_force > 10.0 * late.peak_force > 0.0

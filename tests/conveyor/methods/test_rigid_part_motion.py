@@ -20,6 +20,11 @@ def vertical(acceleration, **others):
     return Conveyor(acceleration=acceleration, angle=0.5 * math.pi, **others)
 
 
+def impacts_of(parameters, duration, restitution):
+    """Times (s) and speeds (m/s) of all impacts of a run."""
+    return rigid_part_motion.samples_and_impacts(parameters, np.array([duration]), restitution)[1]
+
+
 @pytest.mark.parametrize("e", [0.3, 0.5, 0.9])
 def test_bouncing_on_a_plate_at_rest(e):
     """Speeds and times of flight are geometric series; their sum is finite, and rest follows."""
@@ -27,7 +32,7 @@ def test_bouncing_on_a_plate_at_rest(e):
     parameters = pack(Conveyor(acceleration=0.0), Start(z=height))
     speed = math.sqrt(2.0 * G * height)
     collapse = speed / G * (1.0 + e) / (1.0 - e)
-    impacts = rigid_part_motion.impacts(parameters, 1.5 * collapse, e)
+    impacts = impacts_of(parameters, 1.5 * collapse, e)
     k = np.arange(len(impacts))
     assert len(impacts) > 10
     np.testing.assert_allclose(impacts["speed"], speed * e**k, rtol=1e-5)
@@ -41,7 +46,7 @@ def test_elastic_bounces_keep_their_height():
     height = 2e-3
     parameters = pack(Conveyor(acceleration=0.0), Start(z=height))
     fall = math.sqrt(2.0 * height / G)
-    impacts = rigid_part_motion.impacts(parameters, 10.0, 1.0)
+    impacts = impacts_of(parameters, 10.0, 1.0)
     np.testing.assert_allclose(impacts["time"], fall * (2.0 * np.arange(len(impacts)) + 1.0), rtol=1e-9)
     summits = rigid_part_motion.sample(parameters, 2.0 * fall * np.arange(20.0), 1.0)
     np.testing.assert_allclose(summits["z"], height, rtol=1e-9)
@@ -52,7 +57,7 @@ def test_restitution_as_a_table():
     """Between the speeds of the table the coefficient is linear, beyond them constant."""
     parameters = pack(Conveyor(acceleration=0.0), Start(z=0.05))
     speeds, coefficients = np.array([0.15, 0.4, 0.8]), np.array([0.2, 0.5, 0.6])
-    impacts = rigid_part_motion.impacts(parameters, 1.0, (speeds, coefficients))
+    impacts = impacts_of(parameters, 1.0, (speeds, coefficients))
     found = impacts["speed"][1:6] / impacts["speed"][:5]
     assert impacts["speed"][0] > 0.8 > impacts["speed"][1] > 0.4 > impacts["speed"][2] > 0.15 > impacts["speed"][3]
     np.testing.assert_allclose(found, np.interp(impacts["speed"][:5], speeds, coefficients), rtol=1e-6)
@@ -69,7 +74,7 @@ def test_period_one_orbit(e):
     theta = math.pi - math.asin(plate_speed * OMEGA / a_z)
     for offset in (0.0, 1e-2):
         parameters = pack(vertical(a_z, psi0=theta + offset), Start(z="conveyor", vz=0.5 * G * PERIOD))
-        impacts = rigid_part_motion.impacts(parameters, 4.0, e)
+        impacts = impacts_of(parameters, 4.0, e)
         assert impacts["speed"][-1] == pytest.approx(0.5 * G * PERIOD + plate_speed, rel=1e-8)
         np.testing.assert_allclose(np.diff(impacts["time"])[-20:], PERIOD, rtol=1e-8)
         phase = (OMEGA * impacts["time"][-1] + theta + offset) % (2.0 * math.pi)
@@ -80,7 +85,7 @@ def test_no_period_one_orbit_below_its_condition():
     e = 0.5
     least = math.pi * G * (1.0 - e) / (1.0 + e)
     assert least > 1.02 * G
-    impacts = rigid_part_motion.impacts(pack(vertical(1.01 * G), Start(z=1e-3)), 2.0, e)
+    impacts = impacts_of(pack(vertical(1.01 * G), Start(z=1e-3)), 2.0, e)
     gaps = np.diff(impacts["time"][impacts["time"] > 1.0])
     assert len(gaps) > 10
     assert (np.abs(gaps - PERIOD) > 1e-4 * PERIOD).all()
@@ -91,7 +96,7 @@ def test_collapse_on_a_gentle_plate(e):
     """Below a_z = g the bounces die out and the part moves with the plate from then on."""
     conveyor = Conveyor(acceleration=30.0)
     parameters = pack(conveyor, Start(z=3e-4))
-    assert rigid_part_motion.impacts(parameters, 2.0, e)["time"][-1] < 0.5
+    assert impacts_of(parameters, 2.0, e)["time"][-1] < 0.5
     times = np.linspace(0.5, 2.0, 301)
     samples, plate = rigid_part_motion.sample(parameters, times, e), conveyor_motion(conveyor, times)
     np.testing.assert_allclose(samples["z"], plate["z"], rtol=0.0, atol=1e-15)
@@ -110,7 +115,7 @@ def test_plastic_part_leaves_the_plate_when_it_falls_faster_than_g():
 
     tau = brentq(gap, 1e-3, PERIOD, xtol=1e-15)
     parameters = pack(vertical(a_z), Start(z="conveyor"))
-    impacts = rigid_part_motion.impacts(parameters, 50.5 * PERIOD, 0.0)
+    impacts = impacts_of(parameters, 50.5 * PERIOD, 0.0)
     expected = leave / OMEGA + tau + PERIOD * np.arange(50)
     np.testing.assert_allclose(impacts["time"], expected, rtol=0.0, atol=1e-9)
     run = rigid_part_motion.run(parameters, 50.0 * PERIOD, 0.0)
@@ -126,7 +131,7 @@ def test_plastic_part_leaves_the_plate_when_it_falls_faster_than_g():
 def test_samples_and_impacts_of_one_run_are_those_of_two(room, monkeypatch):
     parameters = pack(Conveyor(acceleration=50.0), Start(z=1e-3))
     times = np.array([0.7, 0.2, 0.7])
-    samples, impacts = rigid_part_motion.sample(parameters, times, 0.5), rigid_part_motion.impacts(parameters, 0.7, 0.5)
+    samples, impacts = rigid_part_motion.sample(parameters, times, 0.5), impacts_of(parameters, 0.7, 0.5)
     assert len(impacts) > 70
     monkeypatch.setattr(rigid_part_motion, "IMPACTS_OF_CYCLE", room)
     found, hits = rigid_part_motion.samples_and_impacts(parameters, times, 0.5)
@@ -257,7 +262,6 @@ def test_too_many_events():
         (lambda p: rigid_part_motion.run(p, 1.0, math.nan), "restitution"),
         (lambda p: rigid_part_motion.run(p, 1.0, ([0.2, 0.1], [0.5, 0.6])), "ascending"),
         (lambda p: rigid_part_motion.run(p, 1.0, ([0.2, 0.1, 0.3], [0.5, 0.6])), "equal length"),
-        (lambda p: rigid_part_motion.impacts(p, math.inf, 0.5), "duration"),
         (lambda p: rigid_part_motion.sample(p, np.array([-1.0]), 0.5), "times"),
         (lambda p: rigid_part_motion.restitution_coefficients(p, np.array([0.0])), "speeds"),
     ],

@@ -30,7 +30,7 @@ def take_one(c, series, w, v, sine, cosine):
 
 @numba.njit(error_model="numpy")
 def fill(memory, lane, c, most):
-    contact_lanes.enter(memory, lane, c, most)
+    contact_lanes.set_constants(memory, lane, c, most)
 
 
 def random_contacts(count, seed):
@@ -66,7 +66,7 @@ def test_steps_have_the_bits_of_single_ones(lanes):
     series = contact.workspace()
     taken = 0
     for first in range(0, 400, lanes):
-        memory = contact_lanes.room(lanes)
+        memory = contact_lanes.new_memory(lanes)
         assert memory.shape == (ROWS, lanes)
         rows = range(first, first + lanes)
         for lane, k in enumerate(rows):
@@ -94,7 +94,7 @@ def test_steps_have_the_bits_of_single_ones(lanes):
 def test_a_step_stays_where_no_time_or_no_step_is_left_or_what_is_not_a_number():
     constants, *_ = random_contacts(1, seed=0)
     c = constants[0]
-    memory = contact_lanes.room(4)
+    memory = contact_lanes.new_memory(4)
     for lane in range(4):
         fill(memory, lane, c, 10)
         memory[[W, V, SINE, COSINE, TIME, END], lane] = c.scale_w, 0.0, 0.0, 1.0, 0.0, 1.0
@@ -111,4 +111,4 @@ def test_what_can_be_followed_in_lanes():
         (Conveyor(tension="clip"), False),
         (Conveyor(tension="frictionless"), False),
     ):
-        assert contact_lanes.possible(contact.constants(model.pack(conveyor, Start()), 1e-8)) == expected
+        assert contact_lanes.can_follow(contact.constants(model.pack(conveyor, Start()), 1e-8)) == expected

@@ -1,7 +1,7 @@
-"""The attractors of conveyors that are known already, in tables that kernels read.
+"""The known attractors of conveyors, in tables that compiled functions read.
 
-Initial conditions of one conveyor share them, so that no trajectory is followed further than needed. They are found by
-trapping_regions and chaotic_sets.
+All initial conditions on one conveyor share them, so that no trajectory is followed further than necessary. The modules
+trapping_regions and chaotic_sets find them.
 """
 
 from typing import NamedTuple
@@ -35,10 +35,10 @@ def distinct_conveyors(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def find_places(conveyors: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """Where each of the `wanted` conveyors, shape (n, 16), finds what is known of it: int64, shape (n, 2).
+    """The rows of a table that belong to each of the `wanted` conveyors, shape (n, 16): int64, shape (n, 2).
 
-    conveyors : float64, shape (m, 16), of what is known, equal ones side by side
-    Returns the first place, and the one behind the last; 0, 0 where nothing is known.
+    conveyors : float64, shape (m, 16), the conveyor of each row of the table, equal ones side by side
+    Returns the first row, and the one behind the last; 0, 0 for a conveyor that the table does not have.
     """
     found = {}
     for k, row in enumerate(conveyors):
@@ -67,15 +67,15 @@ class ChaoticSets(NamedTuple):
 
 
 class AttractorTable(NamedTuple):
-    """The attractors that are known of some conveyors."""
+    """The known attractors of some conveyors."""
 
     orbits: AttractingOrbits
     chaotic: ChaoticSets
 
-    def of(self, parameters: np.ndarray) -> np.ndarray:
-        """Where rows, shape (n, 16), find those of their conveyors: int64, shape (n, 4).
+    def rows_of(self, parameters: np.ndarray) -> np.ndarray:
+        """Where the table holds the attractors of packed parameters, shape (n, 16): int64, shape (n, 4).
 
-        First orbit and the one behind the last one, first chaotic set and the one behind the last one.
+        Each row has the first orbit of its conveyor, the one behind the last orbit, and the same of chaotic sets.
         """
         conveyors, index = distinct_conveyors(parameters)
         return np.hstack([find_places(table.conveyors, conveyors) for table in self])[index]

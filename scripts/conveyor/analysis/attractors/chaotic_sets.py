@@ -1,7 +1,6 @@
-"""Where the chaotic attractors of a conveyor lie: boxes of the stroboscopic plane that their motions visit.
+"""The chaotic attractors of a conveyor, as the boxes of the stroboscopic plane that long trajectories visit.
 
-Long trajectories visit them. Another trajectory that stays within them and their neighbours for many cycles in a
-row has come to the same attractor.
+A trajectory that stays in these boxes and their neighbours for many cycles in a row has reached the same attractor.
 """
 
 import numpy as np
@@ -10,17 +9,16 @@ from numpy.lib.stride_tricks import sliding_window_view
 from ..chaos import lyapunov
 from . import sampling
 from .attractor_table import BOXES, NO_ATTRACTORS, ChaoticSets, chaotic_set_table, concatenate
-from .sampling import Trajectories
-from .settling import OPEN, SETTLED
+from .convergence import NOT_CONVERGED, PERIODIC, Trajectories
 
-LATE = 0.1  # of the time: a trajectory that settles later shows that chaos is a long transient here
+LATE = 0.1  # share of the cycles; chaos is only a transient if a trajectory becomes periodic later
 MOST = 4  # chaotic sets of one conveyor
 
 
 def cover_by_boxes(strobes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Lower corner, shape (2,), size of a box, shape (2,), and which boxes are visited or next to one, for a motion."""
+    """Lower corner and size of a box, shape (2,), and the boxes that a motion visits, with their neighbours."""
     low, high = strobes.min(axis=0), strobes.max(axis=0)
-    size = (high - low) / (BOXES - 3)  # an empty one on either side
+    size = (high - low) / (BOXES - 3)  # leaves an empty box on either side
     low = low - size
     places = ((strobes - low) / size).astype(np.int64)
     visited = np.zeros((BOXES, BOXES), dtype=np.bool_)
@@ -31,34 +29,35 @@ def cover_by_boxes(strobes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndar
 def find_chaotic_sets(
     conveyors: np.ndarray, sampled: list[Trajectories], cycles: int, tolerance: float
 ) -> list[ChaoticSets]:
-    """The chaotic sets of conveyors, shape (n, 16): of motions that do not settle within twice `cycles`.
+    """The chaotic sets of conveyors, shape (n, 16), from motions that do not converge within twice `cycles`.
 
-    A conveyor on which a trajectory settles late has none: then chaos is a transient, and every trajectory has to be
-    followed to its own end. Trajectories of one conveyor follow each other, those of several run side by side.
+    A conveyor on which a trajectory becomes periodic late has no chaotic sets: chaos is a transient there, and every
+    trajectory must be followed to its own end. Trajectories of one conveyor run one after the other, and trajectories
+    of several conveyors side by side.
     """
-    candidates = [list(trajectories.states[trajectories.outcomes == OPEN]) for trajectories in sampled]
+    candidates = [list(trajectories.states[trajectories.outcomes == NOT_CONVERGED]) for trajectories in sampled]
     nothing = [chaotic_set_table(row, []) for row in conveyors]
     found = list(nothing)
 
     def search(rows: list[int], states: np.ndarray, length: int, strobes: np.ndarray | None = None) -> Trajectories:
-        known = concatenate([NO_ATTRACTORS, *(NO_ATTRACTORS._replace(chaotic=found[k]) for k in rows)])
-        return sampling.follow(conveyors[rows], states, length, tolerance, known, strobes)
+        attractors = concatenate([NO_ATTRACTORS, *(NO_ATTRACTORS._replace(chaotic=found[k]) for k in rows)])
+        return sampling.follow(conveyors[rows], states, length, tolerance, attractors, strobes)
 
     while any(candidates):
         rows = np.array([k for k, states in enumerate(candidates) if states])
         states = np.array([candidates[k].pop(0) for k in rows])
-        # What is told in few cycles comes first: motions that stay in a set that is known, or do not stretch.
-        goes_on = search(rows, states, sampling.SETTLING).outcomes == OPEN
+        # A few cycles are enough to leave out motions that stay in a known set, or that do not stretch.
+        goes_on = search(rows, states, sampling.SHORT_SEARCH).outcomes == NOT_CONVERGED
         rows, states = rows[goes_on], states[goes_on]
-        early = lyapunov.spectrum_from(conveyors[rows], states, sampling.SETTLING, tolerance=tolerance)
+        early = lyapunov.spectrum_from(conveyors[rows], states, sampling.SHORT_SEARCH, tolerance=tolerance)
         goes_on = early.lambda_1 > 0.0
         rows, states, followed = rows[goes_on], states[goes_on], 0
         for record in (False, True):
             strobes = np.empty((len(rows), cycles, 2)) if record else None
             motions = search(rows, states, cycles, strobes)
-            for k in rows[(motions.outcomes == SETTLED) & (followed + motions.followed > LATE * cycles)]:
+            for k in rows[(motions.outcomes == PERIODIC) & (followed + motions.followed > LATE * cycles)]:
                 found[k], candidates[k] = nothing[k], []
-            goes_on = motions.outcomes == OPEN
+            goes_on = motions.outcomes == NOT_CONVERGED
             rows, states, followed = rows[goes_on], motions.states[goes_on], cycles
         stretches = lyapunov.signs(conveyors[rows], states, tolerance=tolerance) > 0
         for k, visited in zip(rows[stretches], strobes[goes_on][stretches], strict=True):

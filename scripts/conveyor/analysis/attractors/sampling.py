@@ -1,10 +1,9 @@
 """Sampled initial conditions of a conveyor, and the attractors that they lead to.
 
-The samples depend on the conveyor alone, so that the attractors that are found do not depend on who asks.
+The samples depend only on the conveyor. The attractors that are found therefore do not depend on the caller.
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
@@ -12,28 +11,20 @@ from ...solver import contact
 from ...solver.model import PSI0
 from ...solver.trajectory import BEGIN_OF_CYCLE
 from .. import stroboscopic_map
-from . import settling_lanes
+from . import convergence_lanes
 from .attractor_table import NO_ATTRACTORS, AttractorTable
+from .convergence import Trajectories, new_trajectories
 
 SAMPLES = 32
-SETTLING = 400  # cycles within which a trajectory that does not end in chaos has mostly settled
-
-
-class Trajectories(NamedTuple):
-    """How trajectories of conveyors ended; every field is of length n."""
-
-    states: np.ndarray  # float64, shape (n, 2), δ (m), v (m/s) at trajectory.BEGIN_OF_CYCLE, at the end of the search
-    outcomes: np.ndarray  # int64, what ended it: settling.SETTLED, …
-    periods: np.ndarray  # int64, excitation cycles
-    flights: np.ndarray  # float64, s, longest flight
-    followed: np.ndarray  # int64, excitation cycles
+SHORT_SEARCH = 400  # cycles in which most trajectories become periodic that do not end in chaos
 
 
 def initial_conditions(parameters: np.ndarray) -> np.ndarray:
     """Initial conditions of one conveyor, shape (16,): (δ, v) in the air at the plate's top, shape (SAMPLES, 2).
 
-    A part that leaves the plate has at most its speed and half of g T or so to jump over a cycle or two: their sum
-    bounds the velocities, and what a part reaches with it the heights. The points are those of an R2 sequence.
+    To jump over one or two cycles a part leaves the plate with about the plate's speed plus half of g T at most. This
+    sum bounds the velocities, and the height that a part reaches with it bounds the heights. The points are an R2
+    sequence.
     """
     c = contact.constants(parameters, 1e-8)
     fastest = math.pi * (c.gravity + c.a_z) / c.omega
@@ -48,10 +39,10 @@ def follow(
     states: np.ndarray,
     cycles: int,
     tolerance: float,
-    known: AttractorTable = NO_ATTRACTORS,
+    attractors: AttractorTable = NO_ATTRACTORS,
     strobes: np.ndarray | None = None,
 ) -> Trajectories:
-    """Follow a trajectory on each of n conveyors, shape (n, 16), until it settles, for at most `cycles`.
+    """Follow a trajectory on each of n conveyors, shape (n, 16), to its attractor, for at most `cycles`.
 
     states : float64, shape (n, 2), δ (m), v (m/s) at trajectory.BEGIN_OF_CYCLE
     strobes : float64, shape (n, cycles, 2), filled with the states after each cycle
@@ -60,9 +51,10 @@ def follow(
     at_top = np.array(parameters)
     at_top[:, PSI0] = BEGIN_OF_CYCLE
     rows = stroboscopic_map.pack_states(at_top, states, tolerance)
-    found = Trajectories(np.empty((n, 2)), *(np.empty(n, kind) for kind in (np.int64, np.int64, np.float64, np.int64)))
+    found = new_trajectories(n)
     strobes = np.empty((n, 0, 2)) if strobes is None else strobes
-    settling_lanes.settle_points(rows, tolerance, cycles, known, known.of(rows), tuple(found), strobes)
+    table_rows = attractors.rows_of(rows)
+    convergence_lanes.follow_all_to_attractors(rows, tolerance, cycles, attractors, table_rows, found, strobes)
     return found
 
 

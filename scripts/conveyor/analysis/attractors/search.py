@@ -1,4 +1,4 @@
-"""Find the attractors of conveyors from where sampled initial conditions lead."""
+"""Find the attractors of conveyors by following trajectories from sampled initial conditions."""
 
 import numpy as np
 
@@ -21,12 +21,12 @@ def find_attractors(
     threads: int = 1,
     progress: str | None = None,
 ) -> AttractorTable:
-    """The attractors of the conveyors in `parameters`, shape (n, 16), whatever their initial conditions are.
+    """The attractors of the conveyors in `parameters`, shape (n, 16); the initial conditions there do not matter.
 
     Parameters
     ----------
-    cycles : excitation cycles after which a motion that has not settled is followed no further, as in labels.classify
-    orbits : whether trapping regions of periodic orbits are wanted: each takes some thousand cycles
+    cycles : excitation cycles after which a search for a period ends, as in labels.classify
+    orbits : whether trapping regions of periodic orbits are wanted; each takes some thousand cycles
     tolerance, threads, progress : as in labels.classify
     """
     conveyors, _ = distinct_conveyors(parameters)
@@ -34,7 +34,7 @@ def find_attractors(
 
     def work(begin, end):
         some = conveyors[begin:end]
-        sampled = sampling.sample_conveyors(some, min(sampling.SETTLING, cycles), tolerance)
+        sampled = sampling.sample_conveyors(some, min(sampling.SHORT_SEARCH, cycles), tolerance)
         chaotic = find_chaotic_sets(some, sampled, cycles, tolerance)
         for k, (row, of_row, sets) in enumerate(zip(some, sampled, chaotic, strict=True), start=begin):
             found[k] = AttractorTable(

@@ -1,9 +1,10 @@
-"""Attracting periodic orbits of a conveyor, and trapping regions: all motions from there end in the orbit.
+"""Attracting periodic orbits of a conveyor, each with a trapping region from which all motions end in the orbit.
 
-The stroboscopic map is a homeomorphism of the plane. A closed curve whose image lies inside another one takes what it
-surrounds inside as well, so that only its points need to be looked at. The first curve is an ellipse so small that the
-motion is linear there; each following one is twice as large and has to come into the last one. Around a point of an
-orbit ellipses are those of a norm in which its linearisation contracts in each period, not only in the long run.
+The stroboscopic map is a homeomorphism of the plane. If the image of a closed curve lies inside another curve, so does
+the image of all that it surrounds, and only points of the curve need checking. The curves are ellipses around a point
+of the orbit. The first ellipse is so small that the motion is linear there. Each following ellipse is twice as large,
+and its image must come inside the ellipse before. The ellipses belong to a norm in which the linearisation contracts in
+each period, not only in the long run.
 """
 
 import math
@@ -12,31 +13,30 @@ from functools import reduce
 import numpy as np
 
 from ...solver import contact
-from ...solver.jit import kernel
+from ...solver.jit import compiled
 from ...solver.model import PSI0
 from ...solver.trajectory import BEGIN_OF_CYCLE, OK
 from .. import stroboscopic_map
 from .attractor_table import AttractingOrbits, orbit_table
-from .sampling import Trajectories
-from .settling import SETTLED, measure
+from .convergence import PERIODIC, Trajectories, distance_components
 
 POINTS = 32  # of a curve
-PERIODS = 32  # within which a curve has to come into the one before
+PERIODS = 32  # in which a curve must come inside the one before
 # Lengths of the longer half-axes of the ellipses, in g/ω² and g/ω.
 SMALLEST, LARGEST = 1e-3, 64.0
-# Spectral radii of a linearisation: a smaller one counts as this one, and with a larger one no curve halves in time.
+# Spectral radii of a linearisation: a smaller one counts as FASTEST; with a larger one no curve halves in PERIODS.
 FASTEST, SLOWEST = 1e-4, 0.98
-LONGEST = 8  # excitation cycles: around longer orbits nothing is looked for
+LONGEST = 8  # excitation cycles, longest period of an orbit with a trapping region
 
 
-@kernel
+@compiled
 def comes_inside(parameters, tolerance, centre, factor, period, radius):
-    """Whether the ellipse of a `radius` about a point of an orbit comes into that of half the radius, all at once.
+    """Whether an ellipse about a point of an orbit comes inside the ellipse of half its `radius`, all at one time.
 
     centre, factor : see AttractingOrbits
     period : excitation cycles, of the orbit
 
-    Neighbouring points have to be closer to each other then than any is to the ellipse that they have come into.
+    Then the distance of neighbouring points must be smaller than the distance of each point from that ellipse.
     """
     c, series = contact.constants(parameters, tolerance), contact.workspace()
     no_tangent, features = np.empty((0, 2)), np.zeros(stroboscopic_map.FEATURES)
@@ -54,13 +54,13 @@ def comes_inside(parameters, tolerance, centre, factor, period, radius):
                 status = stroboscopic_map.advance(c, series, states[i], BEGIN_OF_CYCLE, c.period, no_tangent, features)
                 if status != OK:
                     return False
-            images[i, 0], images[i, 1] = measure(c, centre, factor, states[i])
+            images[i, 0], images[i, 1] = distance_components(c, centre, factor, states[i])
             size = max(size, math.hypot(images[i, 0], images[i, 1]))
         for i in range(POINTS):
             gap = max(gap, math.hypot(images[i, 0] - images[i - 1, 0], images[i, 1] - images[i - 1, 1]))
         if size + gap <= 0.5 * radius:
             return True
-        # A curve that has left itself and does not come back is mostly out of the basin: it is not waited for.
+        # A curve that has left itself and does not come back is most likely outside the basin.
         if size > radius and size >= before:
             return False
         before = size
@@ -75,16 +75,16 @@ def contracting_norm(matrix: np.ndarray) -> np.ndarray | None:
     radius = np.abs(np.linalg.eigvals(matrix)).max()
     if not radius <= SLOWEST:
         return None
-    # As scipy.linalg solves it, to the last digit; to load that takes every job some tenths of a second.
+    # The same digits as from scipy.linalg, which would take each job some tenths of a second to import.
     map_of = (matrix / math.sqrt(max(radius, FASTEST))).T
     square = np.linalg.solve(np.eye(4) - np.kron(map_of, map_of), np.eye(2).ravel()).reshape(2, 2)
     return np.linalg.cholesky(square / np.linalg.eigvalsh(square)[0], upper=True)
 
 
-def neighbourhood(
+def find_trapping_region(
     parameters: np.ndarray, tolerance: float, state: np.ndarray, period: int
 ) -> tuple[np.ndarray, np.ndarray] | None:
-    """Centre, shape (2,), and factor, shape (3,), of the largest neighbourhood of a point of an orbit; None for none.
+    """Centre, shape (2,), and factor, shape (3,), of the largest trapping region of a point of an orbit; None for none.
 
     state : δ (m), v (m/s), shape (2,), at trajectory.BEGIN_OF_CYCLE
     """
@@ -108,13 +108,13 @@ def neighbourhood(
 
 
 def find_attracting_orbits(parameters: np.ndarray, trajectories: Trajectories, tolerance: float) -> AttractingOrbits:
-    """The attracting orbits of a conveyor, shape (16,), that trajectories have come to, each with a trapping region."""
+    """The attracting orbits that trajectories on a conveyor, shape (16,), have reached, each with a trapping region."""
     c = contact.constants(parameters, tolerance)
     unit = np.array([c.gravity / c.omega**2, c.gravity / c.omega])
     at_top = parameters.copy()
     at_top[PSI0] = BEGIN_OF_CYCLE
     seen, found = np.empty((0, 2)), []
-    for k in np.flatnonzero((trajectories.outcomes == SETTLED) & (trajectories.periods <= LONGEST)):
+    for k in np.flatnonzero((trajectories.outcomes == PERIODIC) & (trajectories.periods <= LONGEST)):
         state, period = trajectories.states[k], int(trajectories.periods[k])
         if (np.abs((seen - state) / unit).max(axis=1) < SMALLEST).any():
             continue
@@ -122,7 +122,7 @@ def find_attracting_orbits(parameters: np.ndarray, trajectories: Trajectories, t
         if stroboscopic_map.follow(at_top, tolerance, state.copy(), period, strobes, features) != OK:
             continue
         seen = np.concatenate([seen, strobes])
-        around = neighbourhood(parameters, tolerance, state, period)
+        around = find_trapping_region(parameters, tolerance, state, period)
         if around is not None:
             found.append((*around, period, float(trajectories.flights[k])))
     return orbit_table(parameters, found)

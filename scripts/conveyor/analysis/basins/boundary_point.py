@@ -20,7 +20,7 @@ from ..bifurcations.bifurcation_points import FARTHEST, ITERATIONS, derivatives
 from ..bifurcations.newton import newton, solve
 from ..dimensionless_groups import AMPLITUDE, DAMPING, EXPONENT, HEIGHT, NAMES, PHASE, STIFFNESS, VELOCITY, Groups
 
-# Images followed before a saddle is looked for, and the longest period of one, in cycles.
+# Images among which a saddle is looked for, and its longest period, in cycles.
 SEARCHED, LONGEST = 60, 4
 # Newton's last correction; how near the last image must come to the saddle, and how many images there are at most.
 CONVERGED = 1e-11
@@ -45,22 +45,20 @@ class BoundaryPoint(NamedTuple):
     saddle: np.ndarray  # (x, y) at the phase ψ0
     multipliers: tuple[float, float]  # of the saddle, the unstable one first
     images: np.ndarray  # of the initial condition, shape (N + 1, 2)
-    moves: (
-        np.ndarray
-    )  # derivatives of what was unknown by all groups in the order of groups.NAMES, shape (7,); its own 0
+    moves: np.ndarray  # derivatives of the unknown by all groups, dimensionless_groups.NAMES, shape (7,); its own is 0
 
 
-# What an edge moves with beside height and amplitude, in this order.
+# The groups besides height and amplitude that move a boundary, in this order.
 OTHERS = (DAMPING, STIFFNESS, EXPONENT, VELOCITY, PHASE)
 
 
-def launched(launch: InitialCondition, groups: Groups) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def scaled_state(launch: InitialCondition, groups: Groups) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The scaled state (x, y) of an initial condition at its phase, and its derivatives.
 
     Returns
     -------
-    state, shape (2,); derivatives by (height, Γ), shape (2, 2), and by OTHERS, shape (2, 5): that by ψ0 is the one
-    of the state at the *unchanged* phase which the motion with a changed one passes through
+    state, shape (2,); derivatives by (height, Γ), shape (2, 2), and by OTHERS, shape (2, 5). The derivative by ψ0 is
+    that of the state in which a motion with a changed ψ0 passes the unchanged phase.
     """
     sine, cosine = math.sin(launch.psi0), math.cos(launch.psi0)
     x = -launch.height - groups.amplitude * cosine
@@ -86,7 +84,7 @@ def launched(launch: InitialCondition, groups: Groups) -> tuple[np.ndarray, np.n
 
 def find_saddle(launch: InitialCondition, groups: Groups) -> tuple[int, np.ndarray, int] | None:
     """The saddle that a trajectory comes nearest to: its period, (x, y), and after how many of its periods; or None."""
-    state, _, _ = launched(launch, groups)
+    state, _, _ = scaled_state(launch, groups)
     found = derivatives(groups, state, SEARCHED, launch.psi0)
     if found is None:
         return None
@@ -94,7 +92,7 @@ def find_saddle(launch: InitialCondition, groups: Groups) -> tuple[int, np.ndarr
     nearest = []
     for period in range(1, LONGEST + 1):
         moved = np.linalg.norm(strobes[period:] - strobes[:-period], axis=1)
-        # The first of the closest returns: behind it lie those of the attractor.
+        # The first close returns belong to the saddle, the later ones to the attractor.
         turns = np.flatnonzero((moved[1:-1] < moved[:-2]) & (moved[1:-1] <= moved[2:])) + 1
         nearest += [(period, int(turn)) for turn in turns[:3]]
     for period, turn in nearest:
@@ -118,7 +116,7 @@ def find_fixed_point(groups: Groups, state: np.ndarray, period: int, psi0: float
 
 
 def find_boundary_point(launch: InitialCondition, groups: Groups, unknown: int) -> BoundaryPoint | str:
-    """The point of a basin's boundary next to an initial condition that is nearly on it, or why there is none.
+    """The point of a basin's boundary next to an initial condition that is nearly on it, or the reason for none.
 
     unknown : dimensionless_groups.HEIGHT or AMPLITUDE, which is changed until the motion begins on the boundary
     """
@@ -126,7 +124,7 @@ def find_boundary_point(launch: InitialCondition, groups: Groups, unknown: int) 
     if near is None:
         return "the start comes near no saddle"
     period, saddle, turn = near
-    state, _, _ = launched(launch, groups)
+    state, _, _ = scaled_state(launch, groups)
     images = [state]
     for _ in range(turn):
         images.append(derivatives(groups, images[-1], period, launch.psi0).image)
@@ -152,7 +150,7 @@ def _linearised(launch, groups, period, saddle, images, *, exponent=False):
     left = vectors[:, unstable].real
     # How the saddle moves with Γ, D, K (and p).
     along = np.linalg.solve(np.eye(2) - at_saddle.first[:, :2], at_saddle.first[:, 2:])
-    state, by_unknown, by_quantities = launched(launch, groups)
+    state, by_unknown, by_quantities = scaled_state(launch, groups)
     count = len(images)
     residual = np.zeros(2 * count + 1)
     jacobian, others = np.zeros((2 * count + 1, 2 * count + 2)), np.zeros((2 * count + 1, len(OTHERS)))

@@ -1,7 +1,7 @@
 """Boundaries of basins over the initial height: at which z0 does the label change?
 
-A scan of z0 shows the changes between neighbours; bisection encloses each of them. More than one change is possible:
-seen along z0 the basins of the states are stripes, which become narrow where a state has just appeared.
+A scan of z0 shows the changes between neighbours, and bisection encloses each change. There may be several changes:
+along z0 the basins of the states are stripes, which are narrow where a state has just appeared.
 """
 
 from collections.abc import Callable
@@ -31,10 +31,10 @@ def find_crossings(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 16), rows as from model.pack; their z0 is not used
-    heights : z0 of the scan, m, ascending, shape (h,); stripes narrower than their distance may be missed
-    decide : state of motion, str, shape (m,), for parameters of shape (m, 16)
-    resolution : width, m, to which a change is enclosed
+    parameters : float64, shape (n, 16), rows as from model.pack; their z0 does not matter
+    heights : z0 of the scan, m, ascending, shape (h,); the scan may miss stripes narrower than their distance
+    decide : gives the state of motion, str, shape (m,), for parameters of shape (m, 16)
+    resolution : width of the interval that encloses a change, m
     """
     heights = np.asarray(heights, dtype=np.float64)
     if heights.ndim != 1 or len(heights) < 2 or not (np.diff(heights) > 0.0).all():

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...solver import contact
 from ...solver.flight import Flight, next_impact
-from ...solver.jit import kernel
+from ...solver.jit import compiled
 from ...solver.model import PSI0, VZ0, Z0
 from ...solver.vertical import begin, in_contact
 
@@ -25,7 +25,7 @@ class FirstImpact(NamedTuple):
     phase: np.ndarray
 
 
-@kernel
+@compiled
 def fill_first_impacts(parameters, out):
     """Fill the rows of `out`, shape (n, 3), for `parameters`, shape (n, 16)."""
     out[:] = np.nan
@@ -38,7 +38,7 @@ def fill_first_impacts(parameters, out):
         t1 = 0.0
         if not in_contact(c, q, rate, theta):
             z = q - height * math.cos(theta)
-            # By then the part would be below the lowest point of the plate.
+            # After this time the part would be below the lowest point of the plate.
             longest = 1.1 * (vz + math.sqrt(vz * vz + 2.0 * c.gravity * (z + height))) / c.gravity
             t1, _ = next_impact(Flight(z, vz, theta, c.gravity, c.a_z, c.omega), q, rate, longest)
         out[i, TIME], out[i, VELOCITY], out[i, PHASE] = t1, vz - c.gravity * t1, theta + c.omega * t1
@@ -52,7 +52,7 @@ def first_impacts(parameters: np.ndarray) -> FirstImpact:
 
 
 def on_conveyor(parameters: np.ndarray, impacts: FirstImpact) -> np.ndarray:
-    """The same motions, shape (n, 16), begun on the conveyor with phase and velocity of their first impacts."""
+    """The same motions, shape (n, 16), that begin on the conveyor with phase and velocity of their first impacts."""
     mapped = np.array(parameters, dtype=np.float64)
     mapped[:, PSI0] = impacts.phase % (2.0 * math.pi)
     mapped[:, Z0] = math.nan

@@ -135,7 +135,7 @@ class History(Callback):
 def check_data(
     acceleration: np.ndarray, height: np.ndarray, bounds: tuple[float, float]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The data as float64 arrays; ValueError that names what is wrong with them or with the bounds of B."""
+    """The data as float64 arrays; ValueError if the data or the bounds of B cannot be used."""
     acceleration, height = np.asarray(acceleration, dtype=np.float64), np.asarray(height, dtype=np.float64)
     if acceleration.ndim != 1 or acceleration.shape != height.shape or len(np.unique(acceleration)) < 3:
         raise ValueError("acceleration and height must have one shape (n,) with at least three different accelerations")

@@ -26,7 +26,7 @@ from .bifurcation_points import GRAZING, SIGNS, Point, derivatives, find_bifurca
 from .newton import follow_curve, newton, solve
 
 CONVERGED, ITERATIONS = 1e-10, 12
-FARTHEST = 1.0  # what a correction may move a point
+FARTHEST = 1.0  # distance over which a correction may move a point
 RESOLUTION = 1e-8  # of a point of codimension two along its curve
 FIRST_STEP, SMALLEST_STEP = 1e-2, 1e-6
 STRAIGHT = 0.9  # cosine of the largest turn within one step
@@ -57,7 +57,7 @@ class CodimensionTwoPoint(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """A curve of one bifurcation in the order of its arclength, what lies on it, and why it ends."""
+    """A curve of one bifurcation in the order of its arclength, its points of codimension two, and why it ends."""
 
     points: list[Point]
     parts: np.ndarray  # λ of each point
@@ -97,7 +97,7 @@ class Following:
             + found[1][:, 4] * self.path.stiffness * groups.stiffness
         )
         jacobian = np.column_stack([found[1][:, :2], found[1][:, 2] * groups.amplitude, by_path])
-        # The multipliers' function grows with them, the others do not.
+        # Only the function of the multipliers grows with them.
         scale = np.append(np.ones(2), max(1.0, np.linalg.norm(jacobian[2])))
         return found[0] / scale, jacobian / scale[:, None]
 
@@ -137,8 +137,8 @@ def eigenvectors(matrix: np.ndarray, sign: float) -> tuple[np.ndarray, np.ndarra
 def normal_form(point: Point, along: np.ndarray) -> tuple[float, np.ndarray]:
     """The coefficient whose zero is a cusp or a generalised doubling (Kuznetsov 2004, Sect. 5.4).
 
-    Of a fold l·D²Pⁿ(r, r)/2; of a doubling the cubic one, positive where the doubled orbit is stable if the single one
-    is, so that the cascade goes on (supercritical). That of a fold has the sign of r, which is the one of `along`.
+    For a fold it is l·D²Pⁿ(r, r)/2, with the sign of r along `along`. For a doubling it is the cubic coefficient, which
+    is positive in the supercritical case: the doubled orbit is then stable if the single orbit was.
 
     Returns
     -------
@@ -255,7 +255,7 @@ def _side(following, begin, direction, limits, longest_step, most):
 
 
 def _meetings(following, unknowns, forms, rights, impacts, ends) -> Iterable[CodimensionTwoPoint]:
-    """Points of codimension two on a curve, and grazings at which it ends."""
+    """Points of codimension two on a curve, and grazings at its ends."""
     if ends[0] == STEP:
         yield from _grazings(following, *unknowns[1::-1], "the curve ends here")
     for n in range(len(unknowns) - 1):
@@ -286,15 +286,15 @@ def _degenerate(following, begin, end, test):
         else:
             end, last = middle, value
     if status == "ok" and max(abs(first), abs(last)) > SMALL * largest:
-        status = "changes sign by a jump"  # one that a grazing makes
+        status = "changes sign by a jump"  # at a grazing
     return CodimensionTwoPoint(kind, following.point(end), float(end[3]), status)
 
 
 def _grazings(following, begin, end, status):
     """The orbit between two unknowns, or a little beyond the second one, that touches the plate with no speed, if any.
 
-    Close to it the functions of the bifurcation have no second derivatives: it is the zero of functions of its own,
-    of the phase ψ of the touch, log Γ and λ.
+    The functions of the bifurcation have no second derivatives close to it. The grazing therefore is a zero of other
+    functions, of the phase ψ of the touch, log Γ and λ.
     """
 
     def functions(guess):

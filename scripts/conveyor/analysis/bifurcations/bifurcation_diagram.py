@@ -1,14 +1,14 @@
-"""The motion that a slow change of the conveyor leads to: each amplitude begins where the last one ended."""
+"""The motion under a slow change of the conveyor: each conveyor begins where the one before ended."""
 
 import numpy as np
 
 from ...solver import trajectory
-from ...solver.jit import kernel
+from ...solver.jit import compiled
 from ...solver.trajectory import OK
 from .. import stroboscopic_map
 
 
-@kernel
+@compiled
 def follow_change(parameters, tolerance, state, transient, strobes, codes):
     """See `follow_attractor`: fill `strobes`, shape (n, m, 2), and status `codes`, shape (n,); advance `state`."""
     cycles = transient + strobes.shape[1]
@@ -30,7 +30,7 @@ def follow_attractor(
     ----------
     parameters : float64, shape (n, 16), rows as from model.pack, in order; only the first initial condition counts
     transient : excitation cycles after each step that are not recorded
-    strobes : excitation cycles that are
+    strobes : excitation cycles that are recorded
     tolerance : of the contact steps
 
     Returns

@@ -1,11 +1,11 @@
-"""Folds, period doublings and grazings in the dimensionless groups, and how they move: implicit functions.
+"""Folds, period doublings and grazings in the dimensionless groups, and their derivatives, as implicit functions.
 
 A fold or a doubling of an orbit of n cycles is a zero of three functions of the state X = (x, y) and Γ,
 
     Pⁿ(X) - X = 0,   1 ∓ tr M + det M = 0   (a multiplier ±1),
 
-a grazing one of two functions of Γ and the phase ψ at which the orbit touches the surface of the plate, Pⁿ(0) = 0. The
-derivatives of these functions by X, Γ, D, K and p are those of second_derivatives, without differences.
+A grazing is a zero of two functions of Γ and the phase ψ at which the orbit touches the surface of the plate,
+Pⁿ(0) = 0. The derivatives of these functions by X, Γ, D, K and p come from second_derivatives, without differences.
 """
 
 import math
@@ -21,8 +21,8 @@ from ..dimensionless_groups import Groups, groups_of, packed, units
 from .newton import newton, solve
 
 TOLERANCE = 1e-14
-# Newton's iteration: its last correction; below what, and how often, corrections that shrink no more are round-off (at
-# a grazing they are of either size, by what the solver makes of a touch); and its longest.
+# Newton's iteration: its last correction; the size and number of corrections that no longer shrink and therefore are
+# round-off (at a grazing their size alternates, because the solver sees the touch or not); the number of corrections.
 CONVERGED, STAGNANT, OFTEN = 1e-12, 1e-7, 4
 ITERATIONS = 30
 FARTHEST = 10.0
@@ -66,7 +66,7 @@ def derivatives(
     if second_derivatives.cycles(packed(groups, psi0), TOLERANCE, begin, first, second, states, impacts) != OK:
         return None
     states[:, 1] += groups.damping * np.maximum(states[:, 0], 0.0)
-    # What (x, y, Γ, D, K, p) at the begin does to itself later on, and to the second derivatives: the chain rule.
+    # The chain rule for the derivatives of (x, y, Γ, D, K, p) by their values at the beginning.
     whole, bent = np.eye(count), np.zeros((2, 2, count))
     for of_one, of_two in zip(first, second, strict=True):
         bent = np.einsum("ca,aij->cij", of_one[:, :2], bent) + np.einsum("cab,ai,bj->cij", of_two, whole[:2, :2], whole)
@@ -97,9 +97,9 @@ def velocity_for_y(groups: Groups, state: np.ndarray) -> np.ndarray:
 def system(
     kind: str, period: int, unknown: np.ndarray, groups: Groups, *, exponent: bool = False
 ) -> tuple[np.ndarray, np.ndarray] | None:
-    """The functions whose zero a bifurcation is, shape (k,), and their derivatives by its k unknowns, D, K (and p)."""
+    """The functions whose zero is a bifurcation, shape (k,), and their derivatives by its k unknowns, D, K (and p)."""
     if kind == GRAZING:
-        return touching(period, unknown, groups, exponent=exponent)
+        return touch_system(period, unknown, groups, exponent=exponent)
     here = groups._replace(amplitude=float(unknown[2]))
     found = derivatives(here, unknown[:2], period, exponent=exponent)
     if found is None:
@@ -117,16 +117,16 @@ def system(
     return np.append(found.image - unknown[:2], test), jacobian
 
 
-def touching(
+def touch_system(
     period: int, unknown: np.ndarray, groups: Groups, *, exponent: bool = False
 ) -> tuple[np.ndarray, np.ndarray] | None:
-    """Where the part is n cycles after it touched the plate at rest, and the derivatives by ψ, Γ, D, K (and p)."""
+    """The state n cycles after a part touches the plate at relative rest, and its derivatives by ψ, Γ, D, K (and p)."""
     psi, amplitude = (float(value) for value in unknown)
     here = groups._replace(amplitude=amplitude)
     found = derivatives(here, np.zeros(2), period, psi, exponent=exponent)
     if found is None:
         return None
-    # A later section sees the end later, and begins with an earlier part of the same motion.
+    # A change of ψ shifts the end of the motion, and its beginning.
     press = 1.0 + amplitude * math.cos(psi)
     x, y = found.image
     end = np.array([y - groups.damping * max(x, 0.0), press - groups.stiffness * max(x, 0.0) ** groups.exponent])
@@ -146,7 +146,7 @@ def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups
     return None if here is None else Point(kind, period, here, groups._replace(amplitude=float(here[-1])))
 
 
-def moves(point: Point) -> np.ndarray | None:
+def differentiate_unknowns(point: Point) -> np.ndarray | None:
     """Derivatives of the unknowns of a bifurcation by D, K and p, shape (k, 3), by the implicit function theorem.
 
     The last row is that of Γ. None where the system is singular (a codimension-two point) or cannot be evaluated.

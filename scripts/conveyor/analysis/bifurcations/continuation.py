@@ -1,8 +1,8 @@
 """Branches of periodic orbits in the amplitude â, and the bifurcations on them.
 
-Branches are followed by pseudo-arclength (Keller 1977), so that they pass folds. Where a multiplier passes +1 a branch
-folds, where one passes -1 its period doubles, and where a contact begins or ceases to exist an impact grazes. The
-product of the multipliers is positive and at most 1, so that no other bifurcation of a single orbit is generic.
+Pseudo-arclength (Keller 1977) follows a branch past its folds. A branch folds where a multiplier passes +1. Its period
+doubles where a multiplier passes -1. An impact grazes where a contact begins or ceases to exist. The product of the
+multipliers is positive and at most 1, so that no other bifurcation of a single orbit is generic.
 """
 
 from collections.abc import Callable, Iterable
@@ -15,7 +15,8 @@ from .newton import follow_curve
 from .periodic_orbits import Orbit, ReturnMap
 
 SAME = 1e-5  # orbits this close are one, in scaled unknowns
-# Following a branch: arclength of a step in scaled unknowns, about that in â (m/s²), its first part and its smallest.
+DOUBLED = 0.02  # distance from a period doubling to the orbit of twice the period, in scaled unknowns
+# Arclength of the largest, the first and the smallest step along a branch, in scaled unknowns (about m/s² in â).
 LARGEST_STEP, FIRST_STEP, SMALLEST_STEP = 0.1, 1e-3, 1e-7
 STRAIGHT = 0.95  # cosine of the largest turn of a branch within one step
 MAX_ORBITS = 5000
@@ -30,7 +31,7 @@ class Bifurcation(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """A branch of periodic orbits in the order of its arclength, what was found on it, and why it ends."""
+    """A branch of periodic orbits in the order of its arclength, its bifurcations, and the reasons of its ends."""
 
     orbits: list[Orbit]
     bifurcations: list[Bifurcation]
@@ -74,7 +75,7 @@ def follow_branch(parameters: np.ndarray, orbit: Orbit, limits: tuple[float, flo
 
 
 def _follow(parameters, orbit, limits, direction):
-    """Orbits and bifurcations in the order in which they are met, the reason of the end and the orbit's parent."""
+    """Orbits and bifurcations in the order in which they are met, the reason of the end, and the orbit's parent."""
     returns = ReturnMap(parameters, orbit.period)
     here = returns.scaled(orbit.acceleration, orbit.state)
     beginning = returns.strobes(here)
@@ -124,7 +125,7 @@ def bifurcations_between(parameters: np.ndarray, before: Orbit, after: Orbit) ->
 
 
 def _zero(at: Callable[[float], Orbit | None], test: Callable[[Orbit], float]) -> float | None:
-    """Where a test function of the orbits along a step, parts 0 … 1, is zero; None if an orbit is not found there."""
+    """The part (0 … 1) of a step at which a test function of its orbits is zero; None if an orbit is not found."""
 
     def value(part):
         orbit = at(part)
@@ -138,15 +139,15 @@ def _zero(at: Callable[[float], Orbit | None], test: Callable[[Orbit], float]) -
         return None
 
 
-def doubled(parameters: np.ndarray, bifurcation: Bifurcation, distance: float = 0.02) -> Orbit | None:
-    """An orbit of twice the period near a period doubling, `distance` (scaled) from it along the eigenvector of -1."""
+def find_doubled_orbit(parameters: np.ndarray, bifurcation: Bifurcation) -> Orbit | None:
+    """An orbit of twice the period at the distance DOUBLED from a period doubling, along the eigenvector of -1."""
     orbit = bifurcation.orbit
     single, double = ReturnMap(parameters, orbit.period), ReturnMap(parameters, 2 * orbit.period)
     unknown = single.scaled(orbit.acceleration, orbit.state)
     values, vectors = np.linalg.eig(single.residual(unknown)[1] + np.eye(2))
     along = np.append(vectors[:, np.argmin(np.abs(values + 1.0))].real, 0.0)
     along /= np.linalg.norm(along)
-    found = double.correct(unknown + distance * along, along)
+    found = double.correct(unknown + DOUBLED * along, along)
     return None if found is None else double.describe(found)
 
 
@@ -171,7 +172,7 @@ def on_branch(parameters: np.ndarray, branch: Branch, orbit: Orbit) -> bool:
 def explore(
     parameters: np.ndarray, seeds: Iterable[Orbit], limits: tuple[float, float], max_period: int
 ) -> list[Branch]:
-    """All branches that hang together with the seeds through period doublings, each once.
+    """All branches that are connected with the seeds through period doublings, each once.
 
     Parameters
     ----------
@@ -192,5 +193,5 @@ def explore(
             waiting.append(branch.parent)
         if 2 * orbit.period <= max_period:
             doublings = [b for b in branch.bifurcations if b.kind == "period_doubling"]
-            waiting += [new for b in doublings if (new := doubled(parameters, b)) is not None]
+            waiting += [new for b in doublings if (new := find_doubled_orbit(parameters, b)) is not None]
     return branches

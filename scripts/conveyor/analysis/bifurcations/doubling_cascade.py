@@ -3,7 +3,7 @@
 import numpy as np
 
 from .continuation import Bifurcation, doubling_test
-from .periodic_orbits import find_orbit, settled_orbit
+from .periodic_orbits import orbit_near, settled_orbit
 
 FEIGENBAUM = 4.669201609102990
 RESOLVED = 1e-6  # of 1 + μ at a doubling of the cascade: six digits of its distance to the next one
@@ -13,9 +13,9 @@ SECANT_STEPS = 12  # after which a doubling of the cascade is not resolved
 def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurcation) -> list[Bifurcation]:
     """The period doublings that follow two successive ones, as far as double precision resolves them.
 
-    Each doubling lies by Feigenbaum's ratio closer to the last one than that to its predecessor. Halfway there the
-    doubled orbit is about superstable: a trajectory comes to it at once, and Newton's iteration follows it in â to
-    where its multiplier is -1.
+    The distance between doublings shrinks by Feigenbaum's ratio each time. Halfway to the next doubling the doubled
+    orbit is about superstable, so that a trajectory reaches it at once. Newton's iteration follows it in â from there
+    to the multiplier -1.
     """
     cascade = [first, second]
     while True:
@@ -25,7 +25,7 @@ def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurca
         before, _ = settled_orbit(parameters, last.acceleration + 0.5 * gap, last.state, (period,), 30 * period)
         if before is None:
             return cascade
-        here = find_orbit(parameters, last.acceleration + 0.6 * gap, before.state, period)
+        here = orbit_near(parameters, last.acceleration + 0.6 * gap, before.state, period)
         for _ in range(SECANT_STEPS):
             if here is None or abs(doubling_test(here)) <= RESOLVED:
                 break
@@ -33,7 +33,7 @@ def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurca
             part = doubling_test(here) / (doubling_test(before) - doubling_test(here))
             acceleration = here.acceleration + part * (here.acceleration - before.acceleration)
             state = here.state + part * (here.state - before.state)
-            before, here = here, find_orbit(parameters, acceleration, state, period)
+            before, here = here, orbit_near(parameters, acceleration, state, period)
             if abs(acceleration - last.acceleration - gap) > 0.5 * abs(gap) or acceleration == before.acceleration:
                 return cascade
         if here is None or abs(doubling_test(here)) > RESOLVED:
@@ -48,7 +48,7 @@ def ratios(amplitudes: np.ndarray) -> np.ndarray:
 
 
 def accumulation(amplitudes: np.ndarray) -> tuple[float, float]:
-    """Limit of successive doublings by Aitken's process, and its error: how far the last doubling moved it."""
+    """Limit of successive doublings by Aitken's process, and its error: the change due to the last doubling."""
     before, gap = amplitudes[:-2], np.diff(amplitudes)
     limits = before - gap[:-1] ** 2 / (gap[1:] - gap[:-1])
     return float(limits[-1]), float(abs(limits[-1] - limits[-2]))

@@ -1,4 +1,4 @@
-"""Newton's iteration, and the curve of zeros that it follows by pseudo-arclength (Keller 1977)."""
+"""Newton's iteration, and curves of zeros, followed by pseudo-arclength (Keller 1977)."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-# A step that turns or lengthens more may have jumped to another curve.
+# A step that lengthens more may have jumped to another curve.
 LONGER = 1.2
 GROWTH = 1.3  # of the step after a success
 
@@ -37,8 +37,8 @@ def newton(
     step_at : Newton's step from a point, shape (k,); None, or NaN in it, where there is none
     converged : largest component of the last step
     iterations : after which the search gives up
-    largest, farthest : component of a step, and distance from the guess, from which on the search gives up
-    stagnant, often : steps below `stagnant` that shrink no more are round-off; `often` of them end the search
+    largest, farthest : the component of a step, and the distance from the guess, at which the search gives up
+    stagnant, often : steps below `stagnant` that no longer shrink are round-off; `often` such steps end the search
     """
     here, size, stalls = np.array(guess, dtype=np.float64), math.inf, 0
     for _ in range(iterations):
@@ -76,7 +76,7 @@ def follow_curve(
     largest: float,
     straight: float,
 ) -> Iterator[Step]:
-    """Steps along a curve from a point of it, until none is possible any more.
+    """Steps along a curve from one of its points, until no step is possible.
 
     Parameters
     ----------

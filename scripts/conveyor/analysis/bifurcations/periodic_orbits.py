@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...arguments import LARGEST_COORDINATE, LONGEST_PERIOD, check_array, check_count, check_number, check_packed
+from ...parameters import RANGES
 from ...solver import contact
 from ...solver.model import ACCELERATION, DAMPING, MASS
 from ...solver.trajectory import OK
@@ -19,7 +21,7 @@ from .newton import newton, solve
 TOLERANCE = 1e-13
 AMPLITUDE_STEP = 1e-6  # m/s², of the central difference ∂P/∂â
 CONVERGED = 1e-10  # of Newton's last correction, in scaled unknowns
-STAGNANT = 1e-6  # corrections below this that converge no further are round-off
+STAGNANT = 1e-6  # corrections below this that no longer shrink are round-off
 
 
 class Orbit(NamedTuple):
@@ -151,8 +153,24 @@ class ReturnMap:
 def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, period: int) -> Orbit | None:
     """The orbit of `period` cycles that Newton's iteration finds from `state` (δ in m, v in m/s), or None.
 
-    An orbit whose period is a part of `period` is one of `period` cycles, too.
+    An orbit whose period divides `period` is an orbit of `period` cycles, too.
+
+    Raises
+    ------
+    ValueError
+        names the argument that cannot be used
     """
+    (parameters,) = check_packed([parameters])
+    check_number("acceleration", acceleration, *RANGES["acceleration"], "m/s²")
+    check_count("period", period, 1, LONGEST_PERIOD)
+    state = check_array("state", state, -LARGEST_COORDINATE, LARGEST_COORDINATE)
+    if state.shape != (2,):
+        raise ValueError(f"state must be δ (m) and v (m/s), got the shape {state.shape}")
+    return orbit_near(parameters, acceleration, state, period)
+
+
+def orbit_near(parameters: np.ndarray, acceleration: float, state: np.ndarray, period: int) -> Orbit | None:
+    """`find_orbit` without checks: None, too, for arguments that are not finite."""
     found = ReturnMap(parameters, period)
     unknown = found.newton(found.scaled(acceleration, state))
     return None if unknown is None else found.describe(unknown)
@@ -168,8 +186,8 @@ def settled_orbit(
     parameters : float64, shape (16,); its amplitude is ignored
     acceleration : amplitude, m/s²
     state : δ (m) and v (m/s)
-    periods : that are tried, in this order; the orbit is None if it has none of them
-    cycles : excitation cycles after which the motion has come near its orbit; Newton's iteration does the rest
+    periods : the periods to try, in this order; the orbit is None if no period fits
+    cycles : excitation cycles that bring the trajectory near its orbit; Newton's iteration does the rest
     """
     row = parameters.copy()
     row[ACCELERATION] = acceleration
@@ -180,7 +198,7 @@ def settled_orbit(
     unit = ReturnMap(parameters, 1).unit[:2]
     for period in periods:
         if np.abs((strobes[-1] - strobes[-1 - period]) / unit).max() < 1e-2:
-            orbit = find_orbit(parameters, acceleration, end, period)
+            orbit = orbit_near(parameters, acceleration, end, period)
             if orbit is not None and orbit.stable and np.abs((orbit.state - end) / unit).max() < 0.1:
                 return orbit, end
     return None, end

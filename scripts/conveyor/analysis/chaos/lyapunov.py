@@ -9,20 +9,29 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ... import ensemble
+from ...arguments import (
+    LARGEST_COORDINATE,
+    MOST_BLOCKS,
+    MOST_CYCLES,
+    check_count,
+    check_numbers,
+    check_packed,
+    check_threads,
+    check_tolerance,
+)
 from ...methods import fixed_step
 from ...simulation import DEFAULT_STEP, DEFAULT_TOLERANCE
 from ...solver import contact, trajectory
 from ...solver.horizontal import SAMPLES
-from ...solver.jit import kernel
+from ...solver.jit import compiled
 from ...solver.model import FREQUENCY
 from ...solver.parallel import for_each_chunk
 from .. import stroboscopic_map
 from . import stretching
 
 # Cycles within which a motion near its attractor repeats itself bit for bit, if it ever does.
-SETTLING = 400
-# Excitation cycles after which the sign is decided: chaos mostly shows after the first, weak chaos after the second.
+REPEATS_WITHIN = 400
+# Excitation cycles after which the sign is decided. Weak chaos shows only after the second number.
 LOOKS = (400, 2000)
 BLOCKS = 20
 SIGNIFICANT = 3.0  # standard errors by which an exponent with a sign differs from zero
@@ -38,9 +47,9 @@ class Spectrum(NamedTuple):
     status: np.ndarray  # "ok", or why there is no result
 
 
-@kernel
+@compiled
 def stretches_of_points(parameters, states, tolerance, begin_of_cycle, transient, stretches, contact_times, codes):
-    """Follow trajectories from `states`, shape (n, 2), and fill rows of arrays with what happens in their cycles.
+    """Follow trajectories from `states`, shape (n, 2), and fill arrays with the stretching in each cycle.
 
     begin_of_cycle : whether the states are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
     stretches : float64, shape (n, cycles, 2), see stretching; NaN from a failure on
@@ -84,18 +93,27 @@ def spectrum(
     Parameters
     ----------
     parameters : float64, shape (n, 16), rows as from model.pack
-    states : float64, shape (n, 2), stroboscopic states to begin with (default: the initial conditions in `parameters`)
+    states : float64, shape (n, 2), stroboscopic states to begin with (default: the initial conditions in `parameters`);
+        NaN for a motion that failed
     begin_of_cycle : whether `states` are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
     transient : excitation cycles that are followed and not counted
     cycles, blocks : `blocks` ≥ 2 blocks of `cycles` excitation cycles are counted
     tolerance, threads, progress : as in ensemble.run
     """
-    if blocks < 2 or cycles < 1 or transient < 0:
-        raise ValueError("blocks must be at least 2, cycles at least 1, transient not negative")
-    parameters = np.ascontiguousarray(parameters, dtype=np.float64)
-    states = (
-        stroboscopic_map.initial_states(parameters, tolerance) if states is None else np.array(states, dtype=np.float64)
-    )
+    parameters = check_packed(parameters)
+    check_tolerance(tolerance)
+    check_threads(threads)
+    check_count("transient", transient, 0, MOST_CYCLES)
+    check_count("cycles", cycles, 1, MOST_CYCLES)
+    check_count("blocks", blocks, 2, MOST_BLOCKS)
+    if states is None:
+        states = stroboscopic_map.initial_states(parameters, tolerance)
+    else:
+        states = check_numbers("states", states).astype(np.float64)
+        if states.shape != (len(parameters), 2):
+            raise ValueError(f"states must have the shape ({len(parameters)}, 2), got {states.shape}")
+        if (np.abs(states) > LARGEST_COORDINATE).any():  # NaN is the state of a motion that failed
+            raise ValueError(f"states must lie in [{-LARGEST_COORDINATE:g}, {LARGEST_COORDINATE:g}]")
     stretches = np.empty((len(parameters), blocks * cycles, 2))
     contact_times = np.full((len(parameters), blocks * cycles), np.nan)
     codes = np.zeros(len(parameters), dtype=np.int64)
@@ -144,26 +162,31 @@ def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threa
     for cycles in LOOKS:
         rows = np.flatnonzero(found < 1)
         of_them = spectrum_from(parameters[rows], states[rows], cycles, tolerance=tolerance, threads=threads)
-        # A failed motion has NaN here and keeps the sign 0. What is regular after few cycles is followed for more.
+        # A failed motion has NaN here and keeps the sign 0. A sign that is not positive is checked after more.
         different = np.abs(of_them.lambda_1) > SIGNIFICANT * of_them.stderr
         found[rows] = np.where(different, np.sign(of_them.lambda_1), 0.0)
     return found
 
 
-@kernel
+@compiled
 def multipliers_of_points(parameters, states, tolerance, logarithms, contact_times, periods):
-    """Where motions from `states`, shape (n, 2), at ψ0 repeat themselves bit for bit; rows of the others say nothing.
+    """The periods of motions from `states`, shape (n, 2), at ψ0 that repeat themselves bit for bit.
 
-    logarithms : float64, shape (n, 2), filled with those of the moduli of the Floquet multipliers, the larger one first
-    contact_times : float64, shape (n,), filled: s, in one period
-    periods : int64, shape (n,), filled with cycles after which a motion repeats itself, or 0
+    logarithms : float64, shape (n, 2), filled with the logarithms of the moduli of the Floquet multipliers, the larger
+        one first
+    contact_times : float64, shape (n,), filled with the time with contact force in a period (s)
+    periods : int64, shape (n,), filled with the excitation cycles after which a motion repeats itself, or with 0; the
+        other arrays say nothing about such a motion
     """
-    strobes, features = np.empty((SETTLING, 2)), np.empty((SETTLING, stroboscopic_map.FEATURES))
+    strobes, features = np.empty((REPEATS_WITHIN, 2)), np.empty((REPEATS_WITHIN, stroboscopic_map.FEATURES))
     for i in range(parameters.shape[0]):
         periods[i] = 0
-        if stroboscopic_map.follow(parameters[i], tolerance, states[i], SETTLING, strobes, features) != trajectory.OK:
+        if (
+            stroboscopic_map.follow(parameters[i], tolerance, states[i], REPEATS_WITHIN, strobes, features)
+            != trajectory.OK
+        ):
             continue
-        period = stroboscopic_map.repeated(strobes)
+        period = stroboscopic_map.find_repetition(strobes)
         matrices = np.empty((period, 2, 2))
         if (
             stroboscopic_map.monodromy(parameters[i], tolerance, states[i], matrices, features[:period])
@@ -187,8 +210,8 @@ def spectrum_on_attractors(
 ) -> Spectrum:
     """Both vertical Lyapunov exponents of motions that begin on their attractors, or close to them.
 
-    A motion that repeats itself within SETTLING cycles, bit for bit, has the exponents of its Floquet multipliers,
-    with a standard error of 0. Any other motion is followed: see `spectrum`, with the same arguments.
+    A motion that repeats itself bit for bit within REPEATS_WITHIN cycles has the exponents of its Floquet multipliers,
+    with a standard error of 0. Any other motion is followed by `spectrum`, with the same arguments.
     """
     states = stroboscopic_map.initial_states(parameters, tolerance)
     logarithms, contact_times = np.empty((len(parameters), 2)), np.empty(len(parameters))
@@ -227,10 +250,10 @@ def renormalised_pair(
     cycles: int = 2000,
     tolerance: float = 1e-12,
 ) -> float:
-    """Largest exponent (1/s) of one trajectory from a neighbour that is set back to `distance` after every cycle.
+    """Largest exponent (1/s) of one trajectory, from a neighbour that is set back to a distance after each cycle.
 
-    An independent witness for `spectrum` that uses no variational equation. `distance` is relative to the scales of the
-    part at rest, `state` is a stroboscopic state of shape (2,).
+    It is independent of `spectrum`, because it uses no variational equation. `distance` is relative to the scales of
+    the part at rest; `state` is a stroboscopic state, shape (2,).
     """
     c = contact.constants(parameters, tolerance)
     scale = np.array([c.scale_w**2, c.scale_v])
@@ -290,14 +313,15 @@ def finite_difference_estimate(
     signals = np.empty((len(both), len(times)))
 
     def work(begin, end):
-        rows = slice(begin, end)
+        rows = both[begin:end]
         if method == "event":
-            ensemble.samples_by_events(both[rows], times, tolerance, column, feeding, signals[rows])
+            moments = np.tile(times, (len(rows), 1))
+            samples, _ = trajectory.integrate(rows, moments, tolerance=tolerance, feeding=feeding)
         else:
-            code = fixed_step.METHODS.index(method)
-            ensemble.samples_by_steps(both[rows], indices, step, code, column, signals[rows])
+            _, samples, _ = fixed_step.follow(rows, step, indices[-1], method, indices)
+        signals[begin:end] = samples[:, :, column]
 
-    # Fixed steps fill the lanes of a register.
+    # Chunks of fixed-step runs fill the lanes of a register.
     for_each_chunk(work, len(both), threads=threads, chunk=2 if method == "event" else 8, progress=progress)
     here, there = signals[0::2], signals[1::2]
     resolution = np.finfo(np.float64).eps * np.maximum(np.abs(here), np.abs(there)).max(axis=1, keepdims=True)

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
-from ...solver.jit import kernel
+from ...solver.jit import compiled
 
 
-@kernel
+@compiled
 def orthonormalise(tangent, stretches):
     """Make the rows of `tangent`, shape (d, d), orthonormal, from the first one on (Gram-Schmidt).
 
@@ -30,7 +30,7 @@ def orthonormalise(tangent, stretches):
             tangent[i, k] /= length
 
 
-@kernel
+@compiled
 def log_multipliers(matrices):
     """Logarithms of the moduli of both eigenvalues of a product, the larger first; NaN where rounding hides them.
 

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...solver.jit import kernel
+from ...solver.jit import compiled
 
 FREQUENCIES = 100  # random c; the median over them ignores the few that resonate with the series
 LARGEST_LAG = 0.1  # share of the series over which the mean square displacement is taken
@@ -58,7 +58,7 @@ def zero_one(series: np.ndarray, seed: int, resolution: float = 0.0) -> ZeroOne:
     return ZeroOne(float(median), float(0.5 * (upper - lower)), growth)
 
 
-@kernel
+@compiled
 def mean_square_displacement(series, c, lags):
     """Mean over j < n - lags of |z(j + k) - z(j)|² for k = 1 … lags and each c, float64, shape (len(c), lags).
 

@@ -1,7 +1,7 @@
 """Box counting (Minkowski-Bouligand, Sect. 4.2): the boxes of shifted grids that hold a point, for many scales.
 
-Four boxes make one of twice the size: a grid of the next coarser scale is filled from the boxes that hold a point, of
-which there are fewer and fewer, and not from the points.
+Four boxes make one box of twice the size. The grid of the next coarser scale is therefore filled from the boxes that
+hold a point, whose number shrinks, and not from the points.
 """
 
 from collections.abc import Iterable
@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...solver.jit import inlined, kernel
+from ...solver.jit import compiled, compiled_inline
 from .scaling_region import (
     FINEST_SCALE,
     SAMPLES_PER_BOX,
@@ -21,11 +21,11 @@ from .scaling_region import (
 )
 
 NEIGHBOURS = 64  # boxes along a Z-curve that lie side by side in a hash table
-FRESH = 1 << 30  # numbers of boxes after which a hash table is cleared, as they have 32 bits
-# A set of points has parts, each in the one before: all, half, a quarter. A point of h halvings is in the first h + 1.
+FRESH = 1 << 30  # number of boxes after which a hash table is cleared, because their numbers have 32 bits
+# Nested parts of a set of points: all, half, a quarter. A point of h halvings belongs to the first h + 1 parts.
 PARTS = 3
-# Positions of each grid over which box counts are averaged, in boxes: a Fibonacci lattice. As 13 is odd, doubling only
-# changes their order: grids within each other have the same positions at each scale.
+# Positions of each grid over which box counts are averaged, in boxes: a Fibonacci lattice. Because 13 is odd, doubling
+# only changes the order of the positions: nested grids have the same positions at each scale.
 SHIFTS = np.modf(np.arange(13)[:, None] * np.array([1.0, 8.0]) / 13.0)[0]
 
 
@@ -35,20 +35,20 @@ class Samples(NamedTuple):
     points: np.ndarray  # float64, shape (n, 2), in the unit square
     halvings: np.ndarray  # int64, shape (n,), see PARTS
     scales: np.ndarray  # float64, shape (k,), sizes of boxes, descending, each half of the one `step` before it
-    step: int  # one of k relates none to another
+    step: int  # k if no scale is half of another one
 
 
 class Workspace(NamedTuple):
-    """Arrays that chains of grids use again; see `merge`."""
+    """Arrays that all chains of grids share; see `merge`."""
 
     owners: np.ndarray  # int32
     boxes: np.ndarray  # int64, shape (n,)
     deepest: np.ndarray  # int8, shape (n,)
 
 
-@inlined
+@compiled_inline
 def spread(number):
-    """The lower 32 bits of an integer with a gap behind each."""
+    """The lower 32 bits of an integer, with a zero bit between neighbours."""
     number = (number | (number << 16)) & 0x0000FFFF0000FFFF
     number = (number | (number << 8)) & 0x00FF00FF00FF00FF
     number = (number | (number << 4)) & 0x0F0F0F0F0F0F0F0F
@@ -56,7 +56,7 @@ def spread(number):
     return (number | (number << 1)) & 0x5555555555555555
 
 
-@kernel
+@compiled
 def boxes_of(points, size, across_shift, along_shift, boxes):
     """Fill `boxes`, int64, with the numbers of the boxes of a shifted grid that the points lie in, along a Z-curve.
 
@@ -71,17 +71,17 @@ def boxes_of(points, size, across_shift, along_shift, boxes):
 def along_boxes(points: np.ndarray, size: float) -> np.ndarray:
     """The order of points of the unit square, shape (n, 2), along a Z-curve (Morton): those of a box follow each other.
 
-    `size` is that of the smallest boxes. Counts do not depend on the order. Their time does: what is looked up again
-    and again stays in the cache.
+    `size` is that of the smallest boxes. The order does not change the counts, but it saves time, because boxes that
+    are looked up one after the other stay in the processor's cache.
     """
     boxes = np.empty(len(points), np.int64)
     boxes_of(points, size, 0.0, 0.0, boxes)
     return np.argsort(boxes, kind="stable")
 
 
-@kernel
+@compiled
 def merge(boxes, deepest, n, owners, first):
-    """Keep each of the first n boxes once, with the most halvings of all that lies in it; return how many they are.
+    """Keep each of the first n boxes once, with the most halvings of its points; return the number of kept boxes.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def merge(boxes, deepest, n, owners, first):
     owners : int32, a hash table of a length 2^k ≥ 2 n: the number of a box that is kept, counted from `first`; a place
         is free whose number is smaller
     """
-    # A part of the table that is as long as needed stays in a cache, and so do boxes that follow each other.
+    # Only a part of the table that is long enough is used, so that it stays in the processor's cache.
     length = NEIGHBOURS
     while length < 2 * n:
         length *= 2
@@ -113,7 +113,7 @@ def merge(boxes, deepest, n, owners, first):
     return kept
 
 
-@kernel
+@compiled
 def count_chain(samples, finest, shift, first, workspace, totals):
     """Add the numbers of boxes that hold a point of each part to `totals`, shape (PARTS, k), for a chain of grids.
 
@@ -127,7 +127,7 @@ def count_chain(samples, finest, shift, first, workspace, totals):
     """
     owners, boxes, deepest = workspace.owners, workspace.boxes, workspace.deepest
     n = len(samples.points)
-    # Slices would bring in the text functions of their errors, which take long to compile.
+    # Loops, because slices compile slowly: their error messages need text functions.
     if first > FRESH:
         for i in range(len(owners)):
             owners[i] = -1
@@ -147,7 +147,7 @@ def count_chain(samples, finest, shift, first, workspace, totals):
     return first
 
 
-@kernel
+@compiled
 def box_counts(samples, shifts, samples_per_box):
     """Mean numbers of occupied boxes over shifted grids for all points and their parts, shape (PARTS, k).
 
@@ -159,7 +159,7 @@ def box_counts(samples, shifts, samples_per_box):
     while length < 2 * n:
         length *= 2
     workspace = Workspace(np.empty(length, np.int32), np.empty(n, np.int64), np.empty(n, np.int8))
-    # One chain tells which scales may be resolved: none behind the one that is an octave finer than its last that is.
+    # The first chain shows which scales may be resolved: up to an octave beyond its last resolved scale.
     totals = np.zeros((PARTS, len(scales)), np.int64)
     finest = len(scales) - 1
     first = count_chain(samples, finest, shifts[0], FRESH + 1, workspace, totals)

@@ -5,15 +5,15 @@ Grassberger and Procaccia, Physica D 9 (1983) 189, with the window of Theiler, P
 
 import numpy as np
 
-from ...solver.jit import float_bits, kernel
+from ...solver.jit import compiled, float_bits
 from .scaling_region import SAMPLES_PER_BOX, SCALES, Dimension, normalise, scaling_region
 
 STRETCH = 256  # distances that are found at a time
-FRACTION = 48  # bits of a float that are left out: sixteen steps in each doubling remain
-TABLES = 4  # of counts, in turn: to add to a number that was just changed takes time
+FRACTION = 48  # bits of a float that are left out; sixteen steps in each doubling remain
+TABLES = 4  # of counts, used in turn, because to change the same number twice in a row takes longer
 
 
-@kernel
+@compiled
 def pair_counts(points, references, theiler, squares):
     """Numbers of pairs by squared distance, and of all pairs; shell k lies between squares[k] and squares[k + 1].
 
@@ -23,13 +23,13 @@ def pair_counts(points, references, theiler, squares):
     references : each (an index) is paired with all points that are more than `theiler` samples away
     squares : descending, shape (k,), no two of them within 6 % of each other
     """
-    # Slices would bring in the text functions of their errors, which take long to compile.
+    # Loops, because slices compile slowly: their error messages need text functions.
     shells = len(squares)
     limits = np.empty(shells + 1)
     for shell in range(shells):
         limits[shell] = squares[shell]
     limits[shells] = -1.0
-    # The first bits of a squared distance tell its shell but for one limit, with which it is compared.
+    # The first bits of a squared distance give its shell, up to one limit, with which the distance is compared.
     lowest = float_bits(squares[-1]) >> FRACTION
     shells_of = np.empty((float_bits(squares[0]) >> FRACTION) - lowest + 1, np.int64)
     shell = shells
@@ -49,7 +49,7 @@ def pair_counts(points, references, theiler, squares):
         for begin, end in ((0, i - theiler), (i + theiler + 1, len(x))):
             for at in range(begin, end, STRETCH):
                 count = min(STRETCH, end - at)
-                # By itself, as the processor then finds several at a time.
+                # A loop of its own, so that the processor computes several distances at a time.
                 for j in range(count):
                     apart[j] = (x[at + j] - x_i) ** 2 + (y[at + j] - y_i) ** 2
                 found = 0

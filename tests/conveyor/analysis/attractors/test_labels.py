@@ -5,7 +5,7 @@ import pytest
 
 from conveyor import Conveyor, Start, ensemble
 from conveyor.analysis import stroboscopic_map
-from conveyor.analysis.attractors import attractor_table, chaotic_sets, labels, sampling, search, settling
+from conveyor.analysis.attractors import attractor_table, chaotic_sets, convergence, labels, sampling, search
 from conveyor.analysis.bifurcations import bifurcation_diagram
 from conveyor.solver import contact
 from conveyor.solver.model import PSI0, Z0, pack
@@ -114,8 +114,8 @@ def test_a_label_is_its_starts_own(hard):
     backwards = labels.classify(hard[::-1])
     alone = [labels.classify(row[None]) for row in hard]
     shared_by = search.find_attractors(hard, cycles=labels.CYCLES)
-    shared = labels.classify(hard, known=shared_by)
-    one_by_one = [labels.classify(row[None], known=shared_by) for row in hard[::3]]
+    shared = labels.classify(hard, attractors=shared_by)
+    one_by_one = [labels.classify(row[None], attractors=shared_by) for row in hard[::3]]
     for name in ("state", "period", "longest_flight"):
         wanted = getattr(together, name)
         np.testing.assert_array_equal(getattr(backwards, name)[::-1], wanted)
@@ -166,10 +166,10 @@ def test_a_start_that_settles_in_the_second_half_settles_late(monkeypatch, settl
         if count == cycles:
             halves.append(count)
             if len(halves) == 2 and settles_after:
-                found.outcomes[0], found.followed[0] = settling.SETTLED, settles_after
+                found.outcomes[0], found.followed[0] = convergence.PERIODIC, settles_after
         return found
 
-    probed = sampling.sample_conveyors(row, sampling.SETTLING, 1e-8)
+    probed = sampling.sample_conveyors(row, sampling.SHORT_SEARCH, 1e-8)
     monkeypatch.setattr(sampling, "follow", interrupted)
     (found,) = chaotic_sets.find_chaotic_sets(row, probed, cycles, 1e-8)
     assert (len(found.low) == 0 and len(halves) == 2) if settles_after else len(found.low) > 0
@@ -206,12 +206,12 @@ def test_longest_flight_is_that_of_the_end_of_the_search():
     stroboscopic_map.follow(parameters, 1e-8, state.copy(), count, strobes, features)
     flights = features[:, [stroboscopic_map.LONGEST_FLIGHT, stroboscopic_map.AIRBORNE]].max(axis=1)
     nowhere = np.zeros(4, dtype=np.int64)
-    outcome, _, longest, _ = settling.settle(
+    outcome, _, longest, _ = convergence.follow_to_attractor(
         c, series, state, count, attractor_table.NO_ATTRACTORS, nowhere, np.empty((0, 2))
     )
-    assert outcome == settling.OPEN
-    assert flights[: settling.MAX_PERIOD].max() > 2.0 * flights[-settling.MAX_PERIOD :].max()
-    assert longest == pytest.approx(flights[-settling.MAX_PERIOD :].max(), rel=1e-6)
+    assert outcome == convergence.NOT_CONVERGED
+    assert flights[: convergence.MAX_PERIOD].max() > 2.0 * flights[-convergence.MAX_PERIOD :].max()
+    assert longest == pytest.approx(flights[-convergence.MAX_PERIOD :].max(), rel=1e-6)
 
 
 def test_motions_of_one_state_are_told_apart():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start
-from conveyor.analysis.attractors import attractor_table, sampling, settling, trapping_regions
+from conveyor.analysis.attractors import attractor_table, convergence, sampling, trapping_regions
 from conveyor.analysis.attractors.search import find_attractors
 from conveyor.solver import contact
 from conveyor.solver.model import PARAMETERS, PSI0, pack
@@ -40,7 +40,7 @@ def share_that_ends_there(row, orbits, k, scale):
     """Of starts in the neighbourhood of orbit k, enlarged, that are followed in full."""
     starts = inside(row, orbits.centres[k], orbits.factors[k] / scale, 60)
     motions = sampling.follow(np.tile(row, (60, 1)), starts, 1000, TOLERANCE)
-    same = (motions.outcomes == settling.SETTLED) & (motions.periods == orbits.periods[k])
+    same = (motions.outcomes == convergence.PERIODIC) & (motions.periods == orbits.periods[k])
     return np.mean(same & (np.abs(motions.flights - orbits.flights[k]) < 1e-8))
 
 
@@ -61,7 +61,7 @@ def test_a_curve_far_out_does_not_come_inside():
     row = conveyor_of(40.0)
     (motions,) = sampling.sample_conveyors(row[None], 400, TOLERANCE)
     k = int(np.argmax(motions.flights))
-    centre, factor = trapping_regions.neighbourhood(row, TOLERANCE, motions.states[k], 1)
+    centre, factor = trapping_regions.find_trapping_region(row, TOLERANCE, motions.states[k], 1)
     assert trapping_regions.comes_inside(row, TOLERANCE, centre, factor, 1, 1.0)
     assert not trapping_regions.comes_inside(row, TOLERANCE, centre, factor, 1, 8.0)
 
@@ -70,7 +70,7 @@ def test_an_orbit_that_does_not_attract_has_no_neighbourhood():
     """A part on an undamped spring swings for ever."""
     row = conveyor_of(0.0, damping=0.0, exponent=1.0, stiffness=3e3)
     state = np.array([1.5 * 0.7e-3 * 9.81 / 3e3, 0.0])
-    assert trapping_regions.neighbourhood(row, TOLERANCE, state, 1) is None
+    assert trapping_regions.find_trapping_region(row, TOLERANCE, state, 1) is None
 
 
 def test_norm_contracts_in_each_step():
@@ -101,7 +101,7 @@ def test_places_of_conveyors_in_any_order():
     table = attractor_table.orbit_table(of_each[2], [(np.zeros(2), np.ones(3), 1, 0.0)] * 2)
     places = attractor_table.find_places(np.concatenate([of_each[:1], table.conveyors]), sorted_rows)
     assert places.tolist() == [[0, 0], [1, 3], [0, 1]]
-    places = attractor_table.AttractorTable(table, attractor_table.NO_ATTRACTORS.chaotic).of(rows)
+    places = attractor_table.AttractorTable(table, attractor_table.NO_ATTRACTORS.chaotic).rows_of(rows)
     assert [tuple(places[k]) for k in range(40)] == [{0: (0, 0), 1: (0, 0), 2: (0, 2)}[k] + (0, 0) for k in index]
     assert attractor_table.distinct_conveyors(rows[:0])[0].shape == (0, 16)
 

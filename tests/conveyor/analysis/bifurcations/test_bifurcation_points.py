@@ -8,7 +8,7 @@ import pytest
 from conveyor import Conveyor, Start
 from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.bifurcations import bifurcation_points, continuation, periodic_orbits
-from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, find_bifurcation, moves
+from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, differentiate_unknowns, find_bifurcation
 from conveyor.analysis.dimensionless_groups import (
     Groups,
     amplitude_of,
@@ -40,7 +40,7 @@ def test_lift_off_of_a_linear_contact(damping, stiffness):
     groups = Groups(exact, damping, stiffness, 1.0, 0)
     point = find_bifurcation(GRAZING, 1, (phase + 1e-3, 1.001 * exact), groups)
     assert point.groups.amplitude == pytest.approx(exact, rel=1e-8)
-    by_damping, by_stiffness, _ = moves(point)[-1]
+    by_damping, by_stiffness, _ = differentiate_unknowns(point)[-1]
     assert by_damping == pytest.approx(damping / (abs(response) * stiffness), rel=1e-6, abs=1e-8)
     by_response = (stiffness - 1.0) / abs(response) / stiffness
     assert by_stiffness == pytest.approx(by_response - exact / stiffness, rel=1e-6, abs=1e-9)
@@ -72,7 +72,7 @@ def test_a_stiff_linear_contact_is_the_rigid_bouncing_ball(kind, ratio):
     state = (push - math.pi * flown + 0.5 * flown**2 - amplitude, flown - math.pi)
     point = find_bifurcation(kind, 1, (*state, amplitude), groups)
     assert point.groups.amplitude == pytest.approx(amplitude, rel=3e-4)
-    by = moves(point)[-1] * np.array(point.groups[1:4]) / point.groups.amplitude
+    by = differentiate_unknowns(point)[-1] * np.array(point.groups[1:4]) / point.groups.amplitude
     assert by[0] == pytest.approx(elasticity, rel=2e-3)
     assert by[1] == pytest.approx(-0.5 * elasticity, rel=2e-3)
 
@@ -80,7 +80,7 @@ def test_a_stiff_linear_contact_is_the_rigid_bouncing_ball(kind, ratio):
 @pytest.mark.parametrize("kind", GUESSES)
 def test_a_bifurcation_solved_again_moves_as_its_derivatives_say(kind):
     point = of_paper(kind)
-    exact = moves(point)
+    exact = differentiate_unknowns(point)
     for place in range(3):
         step = 1e-4 * point.groups[1 + place]
         ends = []
@@ -97,7 +97,7 @@ def test_elasticities_obey_dimensional_analysis(kind):
     point = of_paper(kind)
     row = PAPER.copy()
     row[0] = amplitude_of(PAPER, point.groups.amplitude)
-    by = np.concatenate([[0.0], moves(point)[-1], np.zeros(3)])
+    by = np.concatenate([[0.0], differentiate_unknowns(point)[-1], np.zeros(3)])
     value = dict(zip(PARAMETERS, row, strict=True))
     found = {name: slope * value[name] / row[0] for name, slope in derivatives_of("acceleration", row, by).items()}
     p = value["exponent"]

@@ -133,7 +133,7 @@ def test_period_doubles_where_iteration_says(branch):
 
 def test_doubled_orbit_is_one_of_twice_the_period(branch):
     doubling = next(b for b in branch.bifurcations if b.kind == "period_doubling")
-    double = continuation.doubled(PARAMETERS, doubling)
+    double = continuation.find_doubled_orbit(PARAMETERS, doubling)
     assert double.period == 2
     returns = periodic_orbits.ReturnMap(PARAMETERS, 2)
     first, second = returns.strobes(returns.scaled(double.acceleration, double.state))

@@ -118,5 +118,5 @@ def test_the_papers_estimate_of_a_flight(method):
 
 
 def test_settings_are_checked():
-    with pytest.raises(ValueError, match="blocks must be at least 2"):
+    with pytest.raises(ValueError, match="blocks = 1 must be a whole number from 2"):
         lyapunov.spectrum(points((40.0, 0.0)), blocks=1)

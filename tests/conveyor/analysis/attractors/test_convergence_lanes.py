@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start
-from conveyor.analysis.attractors import labels, search, settling, settling_lanes
+from conveyor.analysis.attractors import convergence, convergence_lanes, labels, search
 from conveyor.analysis.attractors.attractor_table import NO_ATTRACTORS
 from conveyor.solver.model import PSI0, STIFFNESS, TENSION_MODES, Z0, pack
 
@@ -16,24 +16,28 @@ TOLERANCE = 1e-7
 
 
 def room(n):
-    """Points, outcomes, periods, flights and followed of n starts."""
+    """Trajectories to be filled."""
     kinds = (np.int64, np.int64, np.float64, np.int64)
-    return np.full((n, 2), np.nan), *(np.zeros(n, kind) for kind in kinds)
+    return convergence.Trajectories(np.full((n, 2), np.nan), *(np.zeros(n, kind) for kind in kinds))
 
 
 def no_strobes(parameters):
     return np.empty((len(parameters), 0, 2))
 
 
-def one_by_one(parameters, cycles, known=NO_ATTRACTORS):
+def one_by_one(parameters, cycles, attractors=NO_ATTRACTORS):
     found, strobes = room(len(parameters)), no_strobes(parameters)
-    settling.settle_points(parameters, TOLERANCE, cycles, known, known.of(parameters), found, strobes)
+    convergence.follow_all_to_attractors(
+        parameters, TOLERANCE, cycles, attractors, attractors.rows_of(parameters), found, strobes
+    )
     return found
 
 
-def together(parameters, cycles, known=NO_ATTRACTORS, lanes=settling_lanes.LANES):
+def together(parameters, cycles, attractors=NO_ATTRACTORS, lanes=convergence_lanes.LANES):
     found, left, strobes = room(len(parameters)), np.ones(len(parameters), dtype=np.bool_), no_strobes(parameters)
-    settling_lanes.in_lanes(parameters, TOLERANCE, cycles, known, known.of(parameters), found, strobes, left, lanes)
+    convergence_lanes.follow_in_lanes(
+        parameters, TOLERANCE, cycles, attractors, attractors.rows_of(parameters), found, strobes, left, lanes
+    )
     return found, left
 
 
@@ -77,17 +81,17 @@ def test_bits_do_not_depend_on_lanes(lanes):
     found, left = together(parameters, 150, lanes=lanes)
     assert left.tolist() == [k % 4 == 3 for k in range(60)]
     assert_same(found, wanted, ~left)
-    assert {settling.SETTLED, settling.OPEN} <= set(found[1])
+    assert {convergence.PERIODIC, convergence.NOT_CONVERGED} <= set(found[1])
 
 
 @pytest.mark.parametrize("acceleration", [40.0, 50.5, 53.0, 80.0])
 def test_bits_of_maps_with_known_attractors(acceleration):
     parameters = map_of(acceleration)
-    known = search.find_attractors(parameters, cycles=4000, tolerance=TOLERANCE)
-    assert len(known.orbits.periods) + len(known.chaotic.low) > 0
-    found, left = together(parameters, 4000, known)
+    attractors = search.find_attractors(parameters, cycles=4000, tolerance=TOLERANCE)
+    assert len(attractors.orbits.periods) + len(attractors.chaotic.low) > 0
+    found, left = together(parameters, 4000, attractors)
     assert not left.any()
-    assert_same(found, one_by_one(parameters, 4000, known))
+    assert_same(found, one_by_one(parameters, 4000, attractors))
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 9])
@@ -102,12 +106,12 @@ def test_lanes_may_be_more_than_starts_and_starts_in_any_order(count):
 @pytest.mark.parametrize("side_by_side", [4, 1000])
 def test_strobes_are_the_states_after_the_first_cycles(monkeypatch, side_by_side):
     """At 56 m/s² some starts settle soon; what follows then stays as it was."""
-    monkeypatch.setattr(settling_lanes, "SIDE_BY_SIDE", side_by_side)
+    monkeypatch.setattr(convergence_lanes, "SIDE_BY_SIDE", side_by_side)
     parameters = map_of(56.0, 10)
     parameters[3] = random_starts(8, seed=3)[7]  # not for lanes
     found, strobes = room(10), np.full((10, 70, 2), np.nan)
-    places = NO_ATTRACTORS.of(parameters)
-    settling_lanes.settle_points(parameters, TOLERANCE, 90, NO_ATTRACTORS, places, found, strobes)
+    places = NO_ATTRACTORS.rows_of(parameters)
+    convergence_lanes.follow_all_to_attractors(parameters, TOLERANCE, 90, NO_ATTRACTORS, places, found, strobes)
     followed = found[4]
     assert followed.min() < 70 < followed.max()
     for k in range(10):
@@ -158,7 +162,7 @@ def test_a_contact_too_stiff_to_be_followed_ends(monkeypatch):
     parameters[3] = pack(Conveyor(damping=1e6, stiffness=1e15), Start())
     found, left = together(parameters, 50)
     wanted = one_by_one(parameters, 50)
-    assert wanted[1][3] == settling.FAILED
+    assert wanted[1][3] == convergence.FAILED
     assert left.tolist() == [k == 3 for k in range(8)]
     assert_same(found, wanted, ~left)
 
@@ -166,7 +170,7 @@ def test_a_contact_too_stiff_to_be_followed_ends(monkeypatch):
 @pytest.mark.parametrize("threads", [1, 2])
 def test_labels_do_not_depend_on_threads_or_chunks(threads, monkeypatch):
     parameters = np.concatenate([random_starts(70, seed=2), map_of(80.0, 30)])
-    monkeypatch.setattr(settling_lanes, "SIDE_BY_SIDE", 1000)
+    monkeypatch.setattr(convergence_lanes, "SIDE_BY_SIDE", 1000)
     wanted = labels.classify(parameters, cycles=300, tolerance=TOLERANCE)
     monkeypatch.undo()
     for length in (16, 64, 2048):

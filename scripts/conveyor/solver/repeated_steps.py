@@ -1,9 +1,8 @@
-"""Contact steps of the last excitation cycle, kept to be used again once the vertical motion repeats itself.
+"""Contact steps of the last excitation cycle, kept and used again once the vertical motion repeats itself.
 
-A settled vertical motion goes through the same steps in every cycle, while the slip velocity may still change: friction
-does not act on the vertical motion. A step that begins where one of the last cycle began, to within a tenth of the
-error that a step may make, is that step. Orbits that contract are followed to their limit in this way; others never
-come as close.
+A settled vertical motion takes the same steps in every cycle, even while the slip velocity still changes, because
+friction does not act on it. A step that begins where a step of the last cycle began, to within a tenth of the error
+allowed for a step, is taken to be that step. Only trajectories near an attracting orbit come so close.
 """
 
 from collections import namedtuple
@@ -11,50 +10,50 @@ from collections import namedtuple
 import numpy as np
 
 from .contact import FIRST, ROWS
-from .jit import inlined
+from .jit import compiled_inline
 from .polynomial import SIZE
 from .vertical import CONTACT, Piece
 
-# Steps kept; more in a cycle share the last place.
+# Steps kept; further steps of a cycle share the last place.
 PLACES = 40
-# How close two beginnings of one step are, in units of the tolerance.
+# The largest difference between two beginnings of one step, in units of the tolerance.
 CLOSE = 0.1
 
-# Columns of a kept step: its beginning, then what was found.
+# Columns of a kept step: its beginning, then its end.
 BEGIN_T, BEGIN_W, BEGIN_V, BEGIN_SINE, BEGIN_COSINE, PULLED = range(6)
 DURATION, LENGTH, END, END_W, END_V, END_SINE, END_COSINE = range(6, 13)
-PEAK = 13  # largest contact force per mass (m/s²); NaN until somebody asks for it
+PEAK = 13  # largest contact force per mass (m/s²); NaN until it is computed
 COLUMNS = 14
 
 
-# What is kept: the series of PLACES steps, a workspace (see contact), and the columns above, shape (PLACES, COLUMNS).
-Memory = namedtuple("Memory", "series steps")
+# Kept steps: their series, a workspace (see contact) of PLACES steps, and the columns above, shape (PLACES, COLUMNS).
+KeptSteps = namedtuple("KeptSteps", "series steps")
 
 
-def room() -> tuple[np.ndarray, np.ndarray]:
-    """Room for the two fields of a Memory."""
+def new_arrays() -> tuple[np.ndarray, np.ndarray]:
+    """New arrays for the two fields of KeptSteps."""
     return np.empty((FIRST + PLACES * ROWS, SIZE)), np.empty((PLACES, COLUMNS))
 
 
-@inlined
+@compiled_inline
 def forget(kept):
     """Forget all steps."""
     for place in range(PLACES):
         kept.steps[place, BEGIN_T] = np.inf
 
 
-@inlined
+@compiled_inline
 def clear(kept):
-    """Forget all steps, and clear the rows that they share."""
+    """Forget all steps, and zero the rows that all steps share."""
     for row in range(FIRST):
         for n in range(SIZE):
             kept.series[row, n] = 0.0
     forget(kept)
 
 
-@inlined
+@compiled_inline
 def first_row(kept, place):
-    """The first row of a step's series. Most places are never used, so a place is cleared when it first is."""
+    """The first row of a step's series. A place is zeroed when it is first used, because most places never are."""
     row = FIRST + place * ROWS
     if kept.steps[place, BEGIN_T] == np.inf:
         for k in range(row, row + ROWS):
@@ -63,9 +62,9 @@ def first_row(kept, place):
     return row
 
 
-@inlined
+@compiled_inline
 def repeats(c, kept, place, motion):
-    """Whether the contact step that begins with a Motion begins where the kept one began."""
+    """Whether the contact step that begins with a Motion begins where the kept step began."""
     step = kept.steps[place]
     close = CLOSE * c.tolerance
     return (
@@ -76,7 +75,7 @@ def repeats(c, kept, place, motion):
     )
 
 
-@inlined
+@compiled_inline
 def keep(kept, place, motion, piece):
     """Keep the contact step `piece` that begins with `motion`."""
     step = kept.steps[place]
@@ -87,16 +86,16 @@ def keep(kept, place, motion, piece):
     step[PEAK] = np.nan
 
 
-@inlined
+@compiled_inline
 def beginning(kept, place):
     """w, v, sine and cosine from which the series of a kept step is expanded."""
     step = kept.steps[place]
     return step[BEGIN_W], step[BEGIN_V], step[BEGIN_SINE], step[BEGIN_COSINE]
 
 
-@inlined
+@compiled_inline
 def recall(kept, place):
-    """The Piece that is kept."""
+    """The Piece of a kept step."""
     step = kept.steps[place]
     end = int(step[END])
     return Piece(CONTACT, step[DURATION], step[LENGTH], end, step[END_W], step[END_V], step[END_SINE], step[END_COSINE])

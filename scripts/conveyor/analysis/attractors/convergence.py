@@ -1,0 +1,221 @@
+"""Follow a trajectory until it repeats itself, or until it reaches a known periodic orbit or chaotic set."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ...solver import contact
+from ...solver.jit import compiled, compiled_inline, compiled_into_callers
+from ...solver.trajectory import BEGIN_OF_CYCLE, OK
+from .. import stroboscopic_map
+
+MAX_PERIOD = 64
+# A state repeats itself if it comes back to this distance, in units of the part at rest, for a whole period.
+CLOSE = 1e-6
+# Just behind a period doubling a trajectory almost repeats itself after half its period. It counts as the half period
+# if the distance is below this one.
+SAME = 1e-4
+# Cycles in a row within chaotic sets after which a trajectory is taken to stay there.
+STAY = 64
+
+# Outcomes of a search; GOES_ON is none of them.
+PERIODIC, IN_CHAOTIC_SET, NOT_CONVERGED, FAILED, GOES_ON = range(5)
+
+# The history of a search: δ (m) and v (m/s) at the ends of the last PAST cycles, and the longest flights in them (s).
+PAST = 2 * MAX_PERIOD
+DELTA, V, FLIGHTS = range(3)
+# Its counters: cycles followed, the last period found, cycles for which it has held, cycles in a row in chaotic sets.
+FOLLOWED, CANDIDATE, REPEATS, STAYED = range(4)
+
+
+class Trajectories(NamedTuple):
+    """How n trajectories ended; every field has the length n."""
+
+    states: np.ndarray  # float64, shape (n, 2), the last δ (m) and v (m/s), at trajectory.BEGIN_OF_CYCLE
+    outcomes: np.ndarray  # int64, PERIODIC, IN_CHAOTIC_SET, NOT_CONVERGED or FAILED
+    periods: np.ndarray  # int64, excitation cycles; 0 for none
+    flights: np.ndarray  # float64, s, longest flight
+    followed: np.ndarray  # int64, excitation cycles
+
+
+def new_trajectories(n: int) -> Trajectories:
+    """Room for n trajectories, to be filled."""
+    return Trajectories(np.empty((n, 2)), *(np.empty(n, kind) for kind in (np.int64, np.int64, np.float64, np.int64)))
+
+
+@compiled_inline
+def distance_components(c, centre, factor, state):
+    """Both components of R (x - centre), see attractor_table.AttractingOrbits."""
+    along = state[0] - centre[0]
+    across = state[1] + c.damping * max(state[0], 0.0) - centre[1]
+    return factor[0] * along + factor[1] * across, factor[2] * across
+
+
+@compiled
+def find_reached_orbit(c, state, orbits, first, behind):
+    """The orbit, from number `first` to that before `behind`, in whose trapping region a state lies, or -1."""
+    for k in range(first, behind):
+        along, across = distance_components(c, orbits.centres[k], orbits.factors[k], state)
+        if along * along + across * across <= 1.0:
+            return k
+    return -1
+
+
+@compiled
+def is_in_chaotic_set(state, chaotic, first, behind):
+    """Whether a state lies in a box of one of the chaotic sets from number `first` to that before `behind`."""
+    for k in range(first, behind):
+        i = (state[0] - chaotic.low[k, 0]) / chaotic.size[k, 0]
+        j = (state[1] - chaotic.low[k, 1]) / chaotic.size[k, 1]
+        rows, columns = chaotic.cells[k].shape
+        if 0.0 <= i < rows and 0.0 <= j < columns and chaotic.cells[k, int(i), int(j)]:
+            return True
+    return False
+
+
+@compiled
+def new_searches(count):
+    """Histories and counters of a number of searches: float64, shape (count, 3, PAST), and int64, shape (count, 4)."""
+    return np.empty((count, 3, PAST)), np.empty((count, 4), np.int64)
+
+
+@compiled_inline
+def reset_search(past, counts):
+    """Clear the history and the counters of a search."""
+    for k in range(PAST):
+        past[DELTA, k] = past[V, k] = math.inf
+        past[FLIGHTS, k] = 0.0
+    for k in range(4):
+        counts[k] = 0
+
+
+@compiled_inline
+def distance_from_past(state, past, lag, n, scale_0, scale_1):
+    """Distance of `state`, number n, from the state `lag` cycles before, in units of the part at rest."""
+    then = (n - lag) % PAST
+    return max(abs(state[0] - past[DELTA, then]) / scale_0, abs(state[1] - past[V, then]) / scale_1)
+
+
+@compiled_inline
+def find_period(state, past, n, scale_0, scale_1):
+    """The least number of cycles, up to MAX_PERIOD, after which a trajectory is back at `state`, number n, or 0."""
+    near = 0
+    # Most states have no near one in the past. This loop has no branches and no divisions, and shows so quickly.
+    reach_0, reach_1 = 2.0 * CLOSE * scale_0, 2.0 * CLOSE * scale_1
+    for k in range(PAST):
+        near += (abs(state[0] - past[DELTA, k]) <= reach_0) & (abs(state[1] - past[V, k]) <= reach_1)
+    if near > 0:
+        for period in range(1, min(n, MAX_PERIOD) + 1):
+            if distance_from_past(state, past, period, n, scale_0, scale_1) <= CLOSE:
+                return period
+    return 0
+
+
+@compiled_inline
+def longest_flight(past, n, cycles):
+    """The longest flight (s) in the last of n `cycles`."""
+    longest = 0.0
+    for k in range(1, cycles + 1):
+        longest = max(longest, past[FLIGHTS, (n - k) % PAST])
+    return longest
+
+
+@compiled
+def check_convergence(c, state, flight, max_cycles, attractors, rows, past, counts):
+    """Whether a search is over after one more cycle.
+
+    Parameters
+    ----------
+    c, max_cycles, attractors, rows : as in `follow_to_attractor`
+    state : δ (m) and v (m/s) at the end of the cycle
+    flight : longest flight (s) that ended in the cycle or goes on
+    past, counts : history and counters of the search
+
+    Returns
+    -------
+    outcome, period, longest_flight : as in `follow_to_attractor`, or GOES_ON
+    """
+    n = counts[FOLLOWED]
+    counts[FOLLOWED] += 1
+    orbit = find_reached_orbit(c, state, attractors.orbits, rows[0], rows[1])
+    if orbit >= 0:
+        return PERIODIC, attractors.orbits.periods[orbit], attractors.orbits.flights[orbit]
+    scale_0, scale_1 = c.scale_w * c.scale_w, c.scale_v
+    found = find_period(state, past, n, scale_0, scale_1)
+    past[DELTA, n % PAST], past[V, n % PAST], past[FLIGHTS, n % PAST] = state[0], state[1], flight
+    counts[REPEATS] = counts[REPEATS] + 1 if found > 0 and found == counts[CANDIDATE] else 0
+    counts[CANDIDATE] = found
+    if found > 0 and counts[REPEATS] >= found:
+        for period in range(1, found + 1):
+            if found % period == 0 and distance_from_past(state, past, period, n, scale_0, scale_1) <= SAME:
+                found = period
+                break
+        return PERIODIC, found, longest_flight(past, n + 1, found)
+    counts[STAYED] = counts[STAYED] + 1 if is_in_chaotic_set(state, attractors.chaotic, rows[2], rows[3]) else 0
+    if counts[STAYED] >= STAY:
+        return IN_CHAOTIC_SET, 0, math.nan
+    if n + 1 >= max_cycles:
+        return NOT_CONVERGED, 0, longest_flight(past, n + 1, min(MAX_PERIOD, n + 1))
+    return GOES_ON, 0, math.nan
+
+
+@compiled_into_callers
+def follow_to_attractor(c, series, state, max_cycles, attractors, rows, strobes):
+    """Follow a trajectory until it is periodic or has reached a known attractor.
+
+    Parameters
+    ----------
+    c, series : contact.Constants and a contact.workspace to work in
+    state : float64, shape (2,), δ (m) and v (m/s) at the phase BEGIN_OF_CYCLE; replaced by the last state
+    max_cycles : excitation cycles after which the search ends
+    attractors, rows : an AttractorTable, and the row of `AttractorTable.rows_of` for this conveyor
+    strobes : float64, shape (m, 2), filled with the states after each of the first m cycles
+
+    Returns
+    -------
+    outcome : PERIODIC, IN_CHAOTIC_SET, NOT_CONVERGED or FAILED
+    period : excitation cycles, 0 for none
+    longest_flight : s, in one period, or in the last MAX_PERIOD cycles
+    cycles : excitation cycles followed
+    """
+    no_tangent = np.empty((0, 2))
+    features = np.zeros(stroboscopic_map.FEATURES)
+    histories, counters = new_searches(1)
+    past, counts = histories[0], counters[0]
+    reset_search(past, counts)
+    for n in range(max_cycles):
+        if stroboscopic_map.advance(c, series, state, BEGIN_OF_CYCLE, c.period, no_tangent, features) != OK:
+            return FAILED, 0, math.nan, n
+        if n < strobes.shape[0]:
+            strobes[n, 0], strobes[n, 1] = state[0], state[1]
+        flight = max(features[stroboscopic_map.LONGEST_FLIGHT], features[stroboscopic_map.AIRBORNE])
+        outcome, period, longest = check_convergence(c, state, flight, max_cycles, attractors, rows, past, counts)
+        if outcome != GOES_ON:
+            return outcome, period, longest, n + 1
+    return NOT_CONVERGED, 0, 0.0, 0
+
+
+@compiled
+def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows, found, strobes):
+    """`follow_to_attractor` for trajectories from their initial conditions on.
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 16)
+    tolerance : of the contact steps
+    max_cycles : excitation cycles after which a search ends
+    attractors, rows : an AttractorTable, and its `rows_of` the parameters, shape (n, 4)
+    found : Trajectories, filled
+    strobes : float64, shape (n, m, 2), filled with the states after each of the first m cycles
+    """
+    states, outcomes, periods, flights, followed = found
+    series = contact.workspace()
+    stroboscopic_map.to_begin_of_cycle(parameters, tolerance, states)
+    for i in range(parameters.shape[0]):
+        outcomes[i], periods[i], flights[i], followed[i] = FAILED, 0, math.nan, 0
+        c = contact.constants(parameters[i], tolerance)
+        if math.isfinite(states[i, 0]) and math.isfinite(states[i, 1]):
+            outcomes[i], periods[i], flights[i], followed[i] = follow_to_attractor(
+                c, series, states[i], max_cycles, attractors, rows[i], strobes[i]
+            )
