@@ -5,7 +5,7 @@ between, the largest force is at a root of the rate along the step's series.
 """
 
 from . import contact
-from .jit import compiled, compiled_inline
+from .jit import compiled, compiled_inline, compiled_into_callers
 from .polynomial import value
 from .vertical import invert_time
 
@@ -43,7 +43,7 @@ def is_monotonic(c, motion, piece):
     return force_rate(c, motion.w, motion.v, motion.cosine) <= 0.0 and motion.w != 0.0
 
 
-@compiled
+@compiled_into_callers
 def largest_force(c, series, at, low, high):
     """Largest F_c/m (m/s²) between the places `low` and `high` of a contact step."""
     force_low, rate_low = force_and_rate(c, series, at, low)

@@ -5,7 +5,6 @@ same precision.
 """
 
 import math
-from collections import namedtuple
 
 import numpy as np
 
@@ -33,7 +32,7 @@ from .horizontal import (
     slide,
     slip_direction,
 )
-from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
+from .jit import compiled, compiled_into_callers, no_refcount
 from .model import TENSION_CLIP, VZ0, Z0
 from .vertical import CONTACT, FLIGHT, LIMIT, LOST, arrive, begin, flight_from, in_cycle, motion_at, next_piece
 
@@ -67,9 +66,6 @@ def longest_eventless(c):
 # (m/s) and the largest contact force (N) between the last two times of a run, 0 where there is none.
 CODE, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, STEPS, REPEATS, IMPACT_SPEED, PEAK_FORCE = range(9)
 RESULTS = 9
-
-# The arguments of `integrate` that all runs share.
-Options = namedtuple("Options", "tolerance feeding reuse")
 
 
 def integrate(
@@ -108,29 +104,6 @@ def integrate(
     return samples, results
 
 
-@compiled
-def follow(parameters, options, records, results, room):
-    """The compiled part of `integrate`.
-
-    Parameters
-    ----------
-    options, records : the fields of Options, and those of a Record with one more axis in front, that of the runs
-    results : filled, see `integrate`
-    room : repeated_steps.new_arrays
-
-    Only Python calls this function, because numba would compile the whole solver again into each compiled caller.
-    """
-    tolerance, feeding, reuse = options
-    times, samples, event_times, event_kinds = records
-    series, steps = room
-    kept = repeated_steps.KeptSteps(no_refcount(series), no_refcount(steps))
-    for i in range(parameters.shape[0]):
-        record = Record(
-            no_refcount(times[i]), no_refcount(samples[i]), no_refcount(event_times[i]), no_refcount(event_kinds[i])
-        )
-        follow_part(parameters[i], Options(tolerance, feeding, reuse), record, no_refcount(results[i]), kept)
-
-
 @compiled_into_callers
 def sample_flight(c, motion, horizontal, tau, sample):
     """Fill a `sample`, shape (6,), at a time tau (s) after the beginning of a flight."""
@@ -139,7 +112,7 @@ def sample_flight(c, motion, horizontal, tau, sample):
     sample[CONTACT_FORCE] = sample[FRICTION_FORCE] = 0.0
 
 
-@compiled_inline
+@compiled_into_callers
 def record_end(record, events, time, piece, pulled, motion):
     """Record the event that ends a contact step, if any. Returns the number of events so far.
 
@@ -159,14 +132,15 @@ def peak_of_step(c, kept, place, at, motion, piece, first, last):
         return peaks.largest_force_between(c, kept.series, at, piece, first, last)
     found = kept.steps[place, repeated_steps.PEAK]
     if math.isnan(found):
-        found = peaks.largest_force_at_ends(c, motion, piece)
-        if not peaks.is_monotonic(c, motion, piece):
-            found = peaks.largest_force(c, kept.series, at, 0.0, piece.length)
+        if peaks.is_monotonic(c, motion, piece):
+            found = peaks.largest_force_at_ends(c, motion, piece)
+        else:
+            found = peaks.largest_force_between(c, kept.series, at, piece, first, last)
         kept.steps[place, repeated_steps.PEAK] = found
     return found
 
 
-@compiled_inline
+@compiled_into_callers
 def next_cycle(c, motion, piece):
     """The same Motion with its time in the cycle in which a Piece ends, and the number of cycles that have begun."""
     if motion.t < c.period and piece.end != LIMIT:
@@ -200,91 +174,110 @@ def touch_down(c, motion, horizontal):
     return Horizontal(horizontal.x, horizontal.vx, sigma)
 
 
-@compiled_into_callers
-def follow_part(parameters, options, record, result, kept):
-    """Follow the part of a row of `parameters`, shape (16,); fill its Record and `result`, shape (9,)."""
-    repeated_steps.clear(kept)
-    c = contact.constants(parameters, options.tolerance)
-    most = longest_eventless(c)
-    times, samples = record.times, record.samples
-    end, since = times[-1], times[-2] if times.size > 1 else 0.0
-    offset = ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega
-    cycle, base = 0, -offset
-    q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)
-    motion = motion_at(c, q, rate, offset, c.psi0)
-    horizontal = Horizontal(0.0, 0.0, 0.0)
-    if motion.touching:
-        horizontal = touch_down(c, motion, horizontal)
-    sampled = events = impacts = steps = repeats = pieces = eventless = place = 0
-    contact_time = impact_speed = peak_force = 0.0
-    max_gap = max(q, 0.0)
-    status = OK
+@compiled
+def follow(parameters, options, records, results, room):
+    """The compiled part of `integrate`.
 
-    while sampled < times.size:
-        pieces += 1
-        if pieces > MAX_PIECES or eventless > most:
-            status = TOO_STIFF
-            break
-        at = repeated_steps.first_row(kept, place)
-        begins = base + motion.t
-        piece, is_kept = find_piece(c, kept, place, at, motion, end - begins, options.reuse)
-        eventless = eventless + 1 if piece.end == NOTHING else 0
-        ends = begins + piece.duration
-        if piece.kind == FLIGHT:
-            if piece.end == LOST:
-                status = IMPACT_LOST
-                break
-            max_gap = max(max_gap, highest_gap(flight_from(c, motion), piece.duration))
-            while sampled < times.size and (ends >= times[sampled] or piece.end == LIMIT):
-                sample_flight(c, motion, horizontal, times[sampled] - begins, samples[sampled])
-                sampled += 1
-            if sampled == times.size:
-                break
-            impacts += 1
-            if ends >= since:
-                impact_speed = max(impact_speed, piece.v)
-            events = record_event(record, events, ends, IMPACT)
-        elif piece.kind == CONTACT:
-            repeats, steps = repeats + is_kept, steps + (not is_kept)
-            if not (motion.pulled and c.tension == TENSION_CLIP):
-                # A repeated step has the duration of the kept one; the contact time counts up to the end of the cycle.
-                lasts = c.period - motion.t if piece.end == LIMIT else piece.duration
-                contact_time += min(lasts, end - begins)
-                if ends > since:
-                    force = peak_of_step(c, kept, place, at, motion, piece, since - begins, end - begins)
-                    peak_force = max(peak_force, force)
-            place = min(place + 1, repeated_steps.PLACES - 1)
-            step = Step(kept.series, at, motion, piece, begins)
-            horizontal, sampled, events, segments = follow_horizontal(
-                c, step, horizontal, options.feeding, record, sampled, events
-            )
-            if sampled == times.size:
-                break
-            if segments == MAX_SEGMENTS:
-                status = TOO_MANY_EVENTS
-                break
-        if piece.kind != CONTACT:
-            x, vx = slide(c, horizontal.x, horizontal.vx, piece.duration)
-            horizontal = Horizontal(x, vx, horizontal.sigma)
-        pulled = motion.pulled
-        motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
-        if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
-            status = NOT_FINITE
-            break
-        events = record_end(record, events, ends, piece, pulled, motion)
-        # Each cycle begins with a step of its own, so that its steps can be compared with those of the last cycle.
-        motion, cycles = next_cycle(c, motion, piece)
-        if cycles > 0:
-            cycle += cycles
-            base = cycle * c.period - offset
-            pieces = place = 0
-        if piece.kind == FLIGHT and options.feeding:
+    Parameters
+    ----------
+    options : tolerance, feeding and reuse, see `integrate`
+    records : the fields of a Record with one more axis in front, that of the runs
+    results : filled, see `integrate`
+    room : repeated_steps.new_arrays
+
+    Only Python calls this function, because numba would compile the whole solver again into each compiled caller. The
+    loop over the runs is here for the same reason: as a function of its own, it would take 3 s more to compile.
+    """
+    tolerance, feeding, reuse = options
+    times, samples, event_times, event_kinds = records
+    series, kept_steps = room
+    kept = repeated_steps.KeptSteps(no_refcount(series), no_refcount(kept_steps))
+    for i in range(parameters.shape[0]):
+        record = Record(
+            no_refcount(times[i]), no_refcount(samples[i]), no_refcount(event_times[i]), no_refcount(event_kinds[i])
+        )
+        row, result = parameters[i], no_refcount(results[i])
+        repeated_steps.clear(kept)
+        c = contact.constants(row, tolerance)
+        most = longest_eventless(c)
+        end, since = record.times[-1], record.times[-2] if record.times.size > 1 else 0.0
+        offset = ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega
+        cycle, base = 0, -offset
+        q, rate = begin(c, row[Z0], row[VZ0], c.psi0)
+        motion = motion_at(c, q, rate, offset, c.psi0)
+        horizontal = Horizontal(0.0, 0.0, 0.0)
+        if motion.touching:
             horizontal = touch_down(c, motion, horizontal)
-    if not options.feeding:
-        samples[:, X] = samples[:, VX] = samples[:, FRICTION_FORCE] = np.nan
-    samples[sampled:] = np.nan
-    result[CODE], result[EVENTS], result[IMPACTS] = status, events, impacts
-    result[CONTACT_TIME], result[MAX_GAP] = contact_time, max_gap
-    result[STEPS], result[REPEATS] = steps, repeats
-    is_known = status == OK
-    result[IMPACT_SPEED], result[PEAK_FORCE] = (impact_speed, c.mass * peak_force) if is_known else (np.nan, np.nan)
+        sampled = events = impacts = steps = repeats = pieces = eventless = place = 0
+        contact_time = impact_speed = peak_force = 0.0
+        max_gap = max(q, 0.0)
+        status = OK
+
+        while sampled < record.times.size:
+            pieces += 1
+            if pieces > MAX_PIECES or eventless > most:
+                status = TOO_STIFF
+                break
+            at = repeated_steps.first_row(kept, place)
+            begins = base + motion.t
+            piece, is_kept = find_piece(c, kept, place, at, motion, end - begins, reuse)
+            eventless = eventless + 1 if piece.end == NOTHING else 0
+            ends = begins + piece.duration
+            if piece.kind == FLIGHT:
+                if piece.end == LOST:
+                    status = IMPACT_LOST
+                    break
+                max_gap = max(max_gap, highest_gap(flight_from(c, motion), piece.duration))
+                while sampled < record.times.size and (ends >= record.times[sampled] or piece.end == LIMIT):
+                    sample_flight(c, motion, horizontal, record.times[sampled] - begins, record.samples[sampled])
+                    sampled += 1
+                if sampled == record.times.size:
+                    break
+                impacts += 1
+                if ends >= since:
+                    impact_speed = max(impact_speed, piece.v)
+                events = record_event(record, events, ends, IMPACT)
+            elif piece.kind == CONTACT:
+                repeats, steps = repeats + is_kept, steps + (not is_kept)
+                if not (motion.pulled and c.tension == TENSION_CLIP):
+                    # A repeated step has the duration of the kept one, but counts up to the end of the cycle.
+                    lasts = c.period - motion.t if piece.end == LIMIT else piece.duration
+                    contact_time += min(lasts, end - begins)
+                    if ends > since:
+                        force = peak_of_step(c, kept, place, at, motion, piece, since - begins, end - begins)
+                        peak_force = max(peak_force, force)
+                place = min(place + 1, repeated_steps.PLACES - 1)
+                step = Step(kept.series, at, motion, piece, begins)
+                horizontal, sampled, events, segments = follow_horizontal(
+                    c, step, horizontal, feeding, record, sampled, events
+                )
+                if sampled == record.times.size:
+                    break
+                if segments == MAX_SEGMENTS:
+                    status = TOO_MANY_EVENTS
+                    break
+            if piece.kind != CONTACT:
+                x, vx = slide(c, horizontal.x, horizontal.vx, piece.duration)
+                horizontal = Horizontal(x, vx, horizontal.sigma)
+            pulled = motion.pulled
+            motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
+            if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
+                status = NOT_FINITE
+                break
+            events = record_end(record, events, ends, piece, pulled, motion)
+            # Each cycle begins with a step of its own, so that its steps can be compared with those of the last cycle.
+            motion, cycles = next_cycle(c, motion, piece)
+            if cycles > 0:
+                cycle += cycles
+                base = cycle * c.period - offset
+                pieces = place = 0
+            if piece.kind == FLIGHT and feeding:
+                horizontal = touch_down(c, motion, horizontal)
+        if not feeding:
+            record.samples[:, X] = record.samples[:, VX] = record.samples[:, FRICTION_FORCE] = np.nan
+        record.samples[sampled:] = np.nan
+        result[CODE], result[EVENTS], result[IMPACTS] = status, events, impacts
+        result[CONTACT_TIME], result[MAX_GAP] = contact_time, max_gap
+        result[STEPS], result[REPEATS] = steps, repeats
+        is_known = status == OK
+        result[IMPACT_SPEED], result[PEAK_FORCE] = (impact_speed, c.mass * peak_force) if is_known else (np.nan, np.nan)

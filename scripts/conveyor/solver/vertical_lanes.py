@@ -114,11 +114,10 @@ def peak_of_step(c, kept, motion, piece, again, run, steps, lane):
             kept.steps[place, repeated_steps.PEAK] = found
             return found
     find_series(c, kept, again, run, steps, lane)
+    found = peaks.largest_force_between(c, kept.series, FIRST, piece, first, last)
     if is_whole:
-        found = peaks.largest_force(c, kept.series, FIRST, 0.0, piece.length)
         kept.steps[place, repeated_steps.PEAK] = found
-        return found
-    return peaks.largest_force_between(c, kept.series, FIRST, piece, first, last)
+    return found
 
 
 @compiled_into_callers
@@ -132,7 +131,7 @@ def finish_contact(c, kept, motion, piece, again, run, steps, lane, sample):
 
 @compiled_into_callers
 def count(c, kept, motion, piece, again, run, steps, lane, sample):
-    """Count a Piece as trajectory.follow_part does. Returns GOES_ON, OVER or FAILED."""
+    """Count a Piece as trajectory.follow does. Returns GOES_ON, OVER or FAILED."""
     begins = run[BASE] + motion.t
     ends, end = begins + piece.duration, run[DURATION]
     run[PIECES] += 1.0
