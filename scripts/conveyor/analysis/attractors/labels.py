@@ -78,7 +78,7 @@ def classify(
     parameters : float64, shape (n, 16), rows as from model.pack; after a run, those of `continued`
     cycles : excitation cycles after which the search for a period ends
     attractors : known attractors of the conveyors, see search.find_attractors; by default none
-    exponents : whether Lyapunov exponents decide about trajectories that have not converged; otherwise they are undecided
+    exponents : whether Lyapunov exponents label trajectories that have not converged; otherwise they stay undecided
     tolerance : of the contact steps
     threads, progress : as in ensemble.run
     """
