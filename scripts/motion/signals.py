@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from conveyor.analysis.attractors.labels import Labels
-from conveyor.simulation import Run, simulate
-from conveyor.solver.model import conveyor_motion, unpack
-from pipeline import fields, grid
-from pipeline.motions import motions_after
+from conveyor.simulation import Run
+from conveyor.solver.model import conveyor_motion
+from motion.runs import simulate_entry
+from pipeline import fields
 
 TABLES = {
     "signals": (
@@ -24,15 +23,6 @@ TABLES = {
         fields.number("plate_vz", "m/s", "vertical velocity of the plate (Eq. 3)"),
     ),
 }
-
-
-def simulate_entry(settings: dict, threads: int = 1) -> tuple[dict[str, np.ndarray], list[Run], Labels]:
-    """Axes, runs and states of motion of all points of an entry of the config."""
-    options = {name: settings[name] for name in ("duration", "method", "tolerance", "step") if name in settings}
-    axes, parameters = grid.product(settings["axes"], settings["model"])
-    runs = [simulate(*unpack(row), **options) for row in parameters]
-    ends = np.array([(run.z_end, run.vz_end) for run in runs]).T
-    return axes, runs, motions_after(parameters, *ends, settings, threads=threads)
 
 
 def sample(run: Run, times: np.ndarray) -> dict[str, np.ndarray]:

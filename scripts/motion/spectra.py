@@ -4,7 +4,7 @@ import numpy as np
 
 from conveyor.analysis.amplitude_spectrum import Spectrum, harmonics, windowed
 from conveyor.simulation import Run
-from motion.signals import simulate_entry
+from motion.runs import simulate_entry
 from pipeline import fields
 
 TABLES = {

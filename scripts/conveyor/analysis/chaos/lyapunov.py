@@ -172,6 +172,8 @@ def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threa
 def multipliers_of_points(parameters, states, tolerance, logarithms, contact_times, periods):
     """The periods of motions from `states`, shape (n, 2), at ψ0 that repeat themselves bit for bit.
 
+    Parameters
+    ----------
     logarithms : float64, shape (n, 2), filled with the logarithms of the moduli of the Floquet multipliers, the larger
         one first
     contact_times : float64, shape (n,), filled with the time with contact force in a period (s)
