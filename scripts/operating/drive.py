@@ -8,6 +8,7 @@ velocity counts that is the least within the margin, and the largest impact spee
 """
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pandas as pd
@@ -153,7 +154,7 @@ def is_within(outcome: pd.DataFrame, settings: dict) -> np.ndarray:
     return (constraints(outcome, settings) <= 0.0).all(axis=1)
 
 
-def search_outcomes(designs: np.ndarray, settings: dict, *, threads: int = 1) -> tuple[np.ndarray, np.ndarray]:
+def search_outcomes(designs: np.ndarray, settings: dict) -> tuple[np.ndarray, np.ndarray]:
     """Objectives, shape (k, 3), all to be minimised, and constraints, shape (k, 5), of designs of the search.
 
     Designs with too large a displacement are not followed, and designs that break a constraint with the first initial
@@ -165,7 +166,7 @@ def search_outcomes(designs: np.ndarray, settings: dict, *, threads: int = 1) ->
         if not within.any():
             break
         few = {**settings, "starts": starts}
-        found = evaluate(designs[within], few, SEARCH_ERRORS, measure=brief_velocities, threads=threads)
+        found = evaluate(designs[within], few, SEARCH_ERRORS, measure=brief_velocities)
         outcome.loc[within, found.columns] = found.to_numpy()
         within = is_within(outcome, settings)
     objectives = np.column_stack([-outcome.velocity, outcome.impact_speed, designs[:, 0]])
@@ -207,7 +208,7 @@ def hypervolume(objectives: np.ndarray, reference: np.ndarray) -> float:
     return float(HV(ref_point=reference)(objectives)) if len(objectives) else 0.0
 
 
-def search(settings: dict, seed: int, *, threads: int = 1) -> Front:
+def search(settings: dict, seed: int) -> Front:
     """The Pareto front of one seed; objectives are to be minimised: -velocity, impact speed, acceleration."""
     bounds = bounds_of_points(settings["bounds"])
 
@@ -217,7 +218,7 @@ def search(settings: dict, seed: int, *, threads: int = 1) -> Front:
 
         def _evaluate(self, x, out):
             designs = designs_of(x, settings["bounds"])
-            out["F"], out["G"] = search_outcomes(designs, settings, threads=threads)
+            out["F"], out["G"] = search_outcomes(designs, settings)
 
     front = Front(settings)
     # Many random designs find the narrow ranges with one velocity; the best ones go on.
@@ -270,7 +271,10 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, dict]:
     """The columns of the tables of the front and of the generations."""
     # What has not settled is refused, whether it is chaos or not.
     few = {**settings, **settings["search"], "followed": 1, "exponents": False}
-    fronts = {seed: search(few, seed, threads=threads) for seed in settings["seeds"]}
+    # One thread for each seed: the designs of one generation are too few for several threads.
+    with ThreadPoolExecutor(threads) as pool:
+        searches = {seed: pool.submit(search, few, seed) for seed in settings["seeds"]}
+    fronts = {seed: one.result() for seed, one in searches.items()}
     designs, objectives = best_of_designs(
         np.vstack([front.designs for front in fronts.values()]),
         np.vstack([front.objectives for front in fronts.values()]),
