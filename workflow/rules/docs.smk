@@ -299,7 +299,7 @@ rule picture:
     benchmark:
         benchmark_file("docs/{figure}")
     wildcard_constraints:
-        figure="overview|work_precision|speed_accuracy",
+        figure="overview|speed_accuracy",
     params:
         **stage("docs.pictures"),
     message:
