@@ -72,6 +72,7 @@ PARAMETERS = {
     "ytick.major.width": 0.6,
     "legend.fontsize": 7.0,
     "legend.frameon": False,
+    "legend.columnspacing": 1.2,
     "lines.linewidth": 1.0,
     "lines.markersize": 3.0,
     "figure.constrained_layout.use": True,

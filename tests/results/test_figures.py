@@ -42,6 +42,7 @@ UNITS = {
     "°",
     "%",
     "% for 1 % more",
+    "% per % of the parameter",
     "µm for 1 % more",
 }
 # Counts and ratios.
@@ -59,6 +60,7 @@ NO_UNIT = (
     "misfit",
     "group",
     "throw number",
+    "theoretical limit",
 )
 
 
