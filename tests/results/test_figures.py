@@ -41,9 +41,8 @@ UNITS = {
     "cm/s",
     "°",
     "%",
-    "% for 1 % more",
     "% per % of the parameter",
-    "µm for 1 % more",
+    "µm per % of the parameter",
 }
 # Counts and ratios.
 NO_UNIT = (

@@ -13,7 +13,7 @@ CURVES = (
     ("euler", "fixed step", "explicit Euler", (5, 0), "left"),
     ("DOP853", "modes", "SciPy DOP853", (5, 0), "left"),
     ("CyRK DOP853", "modes", "CyRK\nDOP853", (0, -13), "center"),
-    ("CVODE Adams", "modes", "SUNDIALS\nCVODE", (0, -13), "center"),
+    ("CVODE Adams", "modes", "SUNDIALS\nCVODE", (-6, -4), "right"),
     ("heyoka", "modes", "heyoka", (0, -8), "center"),
 )
 SMALLEST = 1e-15
