@@ -115,9 +115,11 @@ def plot(*, stability: pd.DataFrame, acceleration: float) -> Figure:
     handles.append(Line2D([], [], **LIMIT, label="theoretical limit"))
     handles.append(Line2D([], [], linestyle="", **PAPER, label="published time step"))
     above.legend(handles=handles, loc="outside upper center", ncols=6)
+    in_hard_cases = stability.method[stability.panel.str.startswith("hard")]
+    methods = dict.fromkeys((*stability.attrs["methods"], "event", *in_hard_cases))
     handles = [
         Line2D([], [], linestyle="", marker="o", color=colour, label=name)
-        for colour, name in (style.METHODS[method] for method in (*stability.attrs["methods"], "event"))
+        for colour, name in (style.METHODS[method] for method in methods)
     ]
     below.legend(handles=handles, loc="outside upper center", ncols=4)
     return figure
