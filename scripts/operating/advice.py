@@ -66,7 +66,7 @@ def recommended(shares: pd.DataFrame, margin: float) -> dict[str, float]:
 
 
 def is_motion(found: Labels, motion: pd.Series) -> np.ndarray:
-    """Whether labels, of n starts, are those of a row of the table of shares: bool, shape (n,)."""
+    """Whether labels of n initial conditions equal the labels of a row of the table of shares: bool, shape (n,)."""
     flight = np.nan_to_num(found.longest_flight, nan=-1.0)
     apart = np.abs(flight - np.nan_to_num(motion.longest_flight, nan=-1.0))
     return (found.state == motion.state) & (found.period == motion.period) & (apart <= APART)

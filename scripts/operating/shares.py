@@ -121,8 +121,8 @@ def velocities(
     """Mean feeding velocity (m/s) of starts once they have settled, shape (n,); the largest speed of approach (m/s) and
     contact force (N) over the same cycles, whole periods of the motion, shape (n, 2); and why they are not known.
 
-    Each is followed until it has settled, and twice as long, until both mean velocities agree; those of chaos, which
-    never do, are taken over the longer run.
+    Each trajectory is followed until it has settled, and then twice as long, until both mean velocities agree. They
+    never agree in chaos, where the mean is taken over the longer run.
 
     Parameters
     ----------

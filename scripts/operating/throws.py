@@ -1,6 +1,6 @@
 """The motions of several conveyors over the throw number, to compare them with the textbook theory.
 
-The conveyors are that of the config and those of the examples. Initial heights fill the same box in units of g cos α/ω²
+The conveyors come from the config and from the examples. Initial heights fill the same box in units of g cos α/ω²
 (initial velocities: g cos α/ω).
 """
 
@@ -23,7 +23,7 @@ TABLES = {
 
 
 def settings_of_conveyor(settings: dict, model: dict) -> dict:
-    """The settings of `shares` for a conveyor whose parameters differ from those of the config by `model`."""
+    """The settings of `shares` for a conveyor whose parameters differ from the config by `model`."""
     base = settings["model"]
     own = base | model
     gravity = normal_gravity(own) / normal_gravity(base)
@@ -37,7 +37,7 @@ def settings_of_conveyor(settings: dict, model: dict) -> dict:
 
 
 def make(examples: list[str], settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
-    """The shares at each throw number, for the conveyor of the config and for those of the `examples` (YAML texts)."""
+    """The shares at each throw number, for the conveyors of the config and of the `examples` (YAML texts)."""
     conveyors = {"paper": {}} | {one["prefix"]: one["model"] for one in map(yaml.safe_load, examples)}
     throws = np.linspace(*(settings["throw_number"][key] for key in ("start", "stop", "num")))
     tables = []

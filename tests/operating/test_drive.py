@@ -222,6 +222,26 @@ def growing(*volumes: float) -> pd.DataFrame:
     return pd.DataFrame({"seed": 1, "generation": np.arange(1, len(volumes) + 1), "hypervolume": volumes})
 
 
+def test_seeds_search_on_their_own_whatever_the_number_of_threads(monkeypatch):
+    def search(settings, seed):
+        front = drive.Front(settings)
+        front.designs, front.objectives = (
+            np.array([[30.0 + seed, 50.0, 0.3, 0.0]]),
+            np.array([[-0.1, 0.1, 30.0 + seed]]),
+        )
+        front.volumes = [float(seed)]
+        return front
+
+    monkeypatch.setattr(drive, "search", search)
+    monkeypatch.setattr(drive, "check", lambda front, settings, threads: front)
+    for threads in (1, 2):
+        found = drive.make({**SETTINGS, "seeds": [5, 3]}, threads=threads)
+        generations = pd.DataFrame(found["drive_generations"])
+        assert list(generations.seed) == [5, 3]
+        assert generations.hypervolume[0] / generations.hypervolume[1] == pytest.approx(5.0 / 3.0)
+        assert found["drive_front"]["acceleration"] == [33.0]
+
+
 def test_growth_is_that_of_the_last_quarter_of_the_worst_seed():
     one, other = growing(0.1, 0.5, 0.8, 0.8, 0.8, 0.9, 0.9, 0.9), growing(0.1, 0.5, 0.5, 0.8, 0.8, 0.8, 0.8, 1.0)
     assert drive_page.last_growth(one) == pytest.approx(0.0)
