@@ -59,7 +59,7 @@ NO_UNIT = (
     "misfit",
     "group",
     "throw number",
-    "theoretical limit",
+    "measured / theory",
 )
 
 

@@ -57,7 +57,7 @@ def draw_edges(axes: Axes, table: pd.DataFrame) -> None:
     axes.set_xscale("log")
     axes.set_ylim(0.7, 1.3)
     axes.set_xlabel("theoretical step limit in s")
-    axes.set_ylabel("measured over\ntheoretical limit")
+    axes.set_ylabel("measured / theory")
     axes.legend(
         handles=[
             Line2D([], [], linestyle="", marker=marker, color="0.4", label=name) for name, marker in EDGES.items()
