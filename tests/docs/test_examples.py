@@ -17,3 +17,9 @@ def test_sessions_give_what_the_page_says(page):
     # One session: what a block defines is there in the next one.
     test = doctest.DocTestParser().get_doctest("\n".join(sessions), {}, page, None, None)
     assert doctest.DocTestRunner().run(test).failed == 0
+
+
+def test_the_machine_of_the_tutorial_is_the_one_whose_chart_it_shows():
+    page = (ROOT / "workflow/templates/site/tutorial.md").read_text(encoding="utf-8")
+    (overlay,) = re.findall(r"^```yaml\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    assert overlay == (ROOT / "workflow/templates/site/feeder.yaml").read_text(encoding="utf-8")

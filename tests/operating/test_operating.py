@@ -319,7 +319,7 @@ def test_the_page_begins_with_the_advice(refined):
     assert page.startswith("# Operating chart\n\n## What to do\n")
     assert "- **Amplitude 31 m/s²**, throw number Γ = 0.66\n" in page
     assert "- At most 30 parts of 20 mm per minute, one behind the other\n" in page
-    assert "each of 100 initial conditions reaches this velocity; fewer than 3 % of the box do not" in page
+    assert "all 100 initial conditions reach this velocity; at 95 % confidence, fewer than 3 % of all possible ones do not" in page
     assert "A sudden velocity change of 0.05 m/s normal to the track can end the motion" in page
     assert "- Impact speed 0.1 m/s, peak force 0.5 N (50 times the weight of the part)\n" in page
     assert "  - friction of 0.17 (now 0.15): +20 %, one velocity\n" in page
@@ -424,7 +424,7 @@ def test_regimes_and_their_words(refined):
     assert "This share is largest (34.0 ± 4.7 %) at 40 m/s², with 0.06 m/s." in page
     assert "Chaos begins at 50.2 m/s². All initial conditions end in chaos at 56.1 to 60.0 m/s²." in page
     assert "from heights of 0 to 0.5 mm above" in page
-    assert "fewer than 3 % of the box\ndo, at 95 % confidence" in page
+    assert "at 95 % confidence, fewer than 3 % of all possible ones lead\nto another motion" in page
     assert "is not known." not in page
 
 
@@ -454,7 +454,7 @@ def test_nothing_is_said_that_is_not_there(refined):
         pd.DataFrame(regimes.make(alone)),
         *(table.iloc[:0] for table in advised()),
     )
-    assert "At no amplitude, with a margin of 1 %, does every part get the same velocity." in page
+    assert "At no amplitude does every part get the same velocity even if the amplitude is 1 % off." in page
     assert "At no amplitude do all initial conditions reach one velocity" in page
     assert "No initial condition ends in chaos" in page
     assert "At 20.0 m/s², the state or the velocity of a motion is not known." in page
