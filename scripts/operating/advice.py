@@ -1,9 +1,9 @@
 """What to do: amplitudes at which to run a conveyor, what is certain there, and which parameters make it faster.
 
-Two aims are considered. `certain`: every start of the box ends in one velocity, and the velocity is the largest of its
-kind. `fast`: there is no chaos, and the velocity of the fastest motion times the share of starts that reach it is the
-largest. Both must hold at all amplitudes looked at within a relative margin, because no drive holds its amplitude
-exactly.
+There are two aims. `certain`: all initial conditions reach one velocity, and no other amplitude of this kind gives a
+larger one. `fast`: there is no chaos, and no other amplitude has a larger product of the velocity of the fastest motion
+and the share of initial conditions that reach it. Both must hold at all computed amplitudes within a relative margin,
+because no drive holds its amplitude exactly.
 """
 
 import numpy as np
@@ -25,7 +25,7 @@ TABLES = {
         fields.number("throw_number", "1", "throw number Γ"),
         *fields.STATE,
         fields.number("mean_velocity", "m/s", "mean feeding velocity of the fastest motion"),
-        fields.number("share", "1", "of all starts of the box that get this velocity"),
+        fields.number("share", "1", "of all initial conditions that reach this velocity"),
         fields.number("stderr", "1", "standard error of the share"),
         fields.number(
             "knock", "m/s", "smallest sudden change of ż that ends the motion; null if none of those tried does"
@@ -39,7 +39,7 @@ TABLES = {
         AIM,
         fields.text("parameter", "that is changed"),
         fields.number("value", "SI", "that it gets"),
-        fields.text("regime", "what the starts of the box end in then, as in the table of regimes"),
+        fields.text("regime", "regime after the change, as in the table of regimes"),
         fields.number("mean_velocity", "m/s", "mean over all starts; null where it is not known"),
         fields.number("gain", "1", "its change, relative to the mean over all starts without a change"),
     ),

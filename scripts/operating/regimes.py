@@ -63,8 +63,8 @@ def regimes_of(table: pd.DataFrame, share: float) -> tuple[np.ndarray, np.ndarra
 
 
 def best_of(shares: pd.DataFrame, share: float) -> pd.DataFrame:
-    """By amplitude: `best`, the velocity of the fastest motion, `best_share`, that of all starts that get it, and the
-    `stderr` of the latter; NaN where no velocity is known.
+    """By amplitude: `best`, the velocity of the fastest motion, `best_share`, the share of initial conditions that
+    reach it, and `stderr`, the standard error of this share; NaN where no velocity is known.
     """
     rows = []
     for acceleration, motions in shares.groupby("acceleration"):

@@ -28,7 +28,7 @@ TABLES = {
         *fields.STATE,
         fields.number("longest_flight", "1", "of the motion, in excitation cycles; null for none"),
         fields.count("starts", "starts that end in the motion"),
-        fields.number("share", "1", "of all starts of the box"),
+        fields.number("share", "1", "of all initial conditions"),
         fields.number("stderr", "1", "standard error of the share"),
         fields.number("mean_velocity", "m/s", "mean feeding velocity of the motion; null where it is not known"),
         fields.number("velocity_stderr", "m/s", "its standard error, from several starts that end in the motion"),
@@ -45,7 +45,7 @@ APART = 0.01
 # A mean velocity is known if a run twice as long has the same one, to this share of the plate's largest.
 SETTLED = 1e-3
 DOUBLINGS = 6  # of the run, after which its velocity is not known
-MOST_CYCLES = 4000  # of a brief run that is longer than asked for
+MOST_CYCLES = 4000  # of a brief run that needs more than `cycles`
 FORGOTTEN = 200  # excitation cycles that the horizontal motion gets at least to forget its start
 
 
@@ -158,9 +158,9 @@ def velocities(
 def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> np.ndarray:
     """Durations (s) of runs whose last quarter has the mean velocity of settled normal motions, shape (n,).
 
-    The last quarter holds whole periods. In the three quarters before, friction must be able to change the velocity of
-    the part by that of the plate: on average, g (μ cos α - |sin α|) is left of it to do so. On tracks that are nearly
-    too steep this takes more cycles than asked for.
+    The last quarter contains whole periods. In the three quarters before it, friction must be able to accelerate the
+    part to the velocity of the plate. The mean acceleration that remains for this is g (μ cos α - |sin α|), so tracks
+    that are nearly too steep need more than `cycles`.
 
     parameters, period : packed, shape (n, 16), and the period in excitation cycles, 0 for none, shape (n,)
     cycles : least excitation cycles of a run
@@ -211,7 +211,7 @@ def motions_of_conveyors(
     conveyor, first, count = np.array(rows).T
     chosen = np.concatenate(followed)
     period, cycles = found.period[chosen], found.cycles[chosen]
-    # What has no period is no more settled later on.
+    # A motion without a period is not more settled in later cycles.
     settled = np.where(period > 0, cycles, np.minimum(cycles, settings["cycles"]))
     each, each_peaks, each_status = measure(parameters[chosen], period, settled, settings, threads=threads)
     each_status[found.state[chosen] == "undecided"] = "state not decided"

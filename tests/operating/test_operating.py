@@ -319,7 +319,10 @@ def test_the_page_begins_with_the_advice(refined):
     assert page.startswith("# Operating chart\n\n## What to do\n")
     assert "- **Amplitude 31 m/s²**, throw number Γ = 0.66\n" in page
     assert "- At most 30 parts of 20 mm per minute, one behind the other\n" in page
-    assert "all 100 initial conditions reach this velocity; at 95 % confidence, fewer than 3 % of all possible ones do not" in page
+    assert (
+        "all 100 initial conditions reach this velocity; at 95 % confidence, fewer than 3 % of all possible ones do not"
+        in page
+    )
     assert "A sudden velocity change of 0.05 m/s normal to the track can end the motion" in page
     assert "- Impact speed 0.1 m/s, peak force 0.5 N (50 times the weight of the part)\n" in page
     assert "  - friction of 0.17 (now 0.15): +20 %, one velocity\n" in page

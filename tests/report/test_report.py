@@ -179,7 +179,7 @@ def test_the_report_opens_with_the_summary(browser):
     until(lambda: browser.find_elements(By.CSS_SELECTOR, ".prose h1"))
     heading, notice = (browser.find_element(By.CSS_SELECTOR, f".prose {name}") for name in ("h1", ".notice"))
     assert heading.text == "Dynamics of a vibratory conveyor"
-    assert notice.text.startswith("Made with overlay.yaml: a config of its own.")
+    assert notice.text.startswith("Made with overlay.yaml: a config other than the paper's.")
     assert seen(browser, heading)
     assert seen(browser, notice)
     # Sections in the paper's order.

@@ -99,6 +99,6 @@ def test_the_page_of_keys_has_all_sections_with_values_and_units():
     assert by_name["model.mass"] == ("number in [1e-12, 1e+06]", "kg", "mass of the part, m_p")
     assert by_name["solver.duration"][:2] == ("number in (0, 1e+06]", "s")
     assert by_name["sweeps.NAME.needs"][0] == "feeding, vertical"
-    assert by_name["critical.NAME.scan"][:2] == ("list, each number in [-1, 10], or {start, stop, num}", "m")
+    assert by_name["critical.NAME.scan"][:2] == ("list; each item: number in [-1, 10], or {start, stop, num}", "m")
     assert by_name["orbits.seeds.[].z0"][:2] == ("number in [-1, 10], or conveyor", "m")
     assert by_name["companion.presets.NAME"][0] == "keys of `model`"
