@@ -140,11 +140,11 @@ def test_notes_stand_beside_verdicts():
 
 
 def test_a_reason_begins_with_the_numbers_that_miss():
-    finding = Finding({"critical_amplitude": 50.0}, {"critical_amplitude": 60.0}, "because of 1")
+    finding = Finding({"critical_amplitude": 50.0}, {"critical_amplitude": 60.0}, "Because of 1")
     table = verdicts.columns({"C01": CLAIMS["C01"]}, {"C01": finding})
     assert table["verdict"] == [verdicts.PAPER_METHOD_ONLY]
     number = "critical amplitude in m/s²: 60 by the converged solution is not in [49, 51]"
-    assert table["reason"] == [f"{number}; because of 1"]
+    assert table["reason"] == [f"{number}. Because of 1"]
 
 
 def test_null_is_no_bound():
@@ -158,6 +158,8 @@ def test_reason_says_which_number_is_outside():
     claimed = quantities(height=[0.0, 1.0], width=[0.0, 1.0])
     text = verdicts.describe_misses(Finding({"height": 0.5, "width": 0.5}, {"height": 0.5, "width": 3.25}), claimed)
     assert text == "width: 3.25 by the converged solution is not in [0, 1]"
+    text = verdicts.describe_misses(Finding({"height": 2.0, "width": 0.5}, {"height": 3.0, "width": 0.5}), claimed)
+    assert text == "height: 2 by the paper's method and 3 by the converged solution are not in [0, 1]"
 
 
 def test_critical_acceleration_looks_at_the_start_at_rest():
@@ -181,8 +183,11 @@ def test_onset_of_chaos_by_scatter_and_by_state():
     table = sweep(lambda a, z: "chaos" if a >= 63.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
     finding = about_states.onset_of_chaos(**both(table))
     assert (numbers(finding.euler), numbers(finding.converged)) == ((55.0,), (55.0,))
-    assert "settle to chaos from 63 m/s² on (63 m/s²" in finding.note
-    assert "in between 100 % of them settle to a periodic one (period 1 for 100 %)" in finding.note
+    assert "settle to chaos only from 63 m/s² on (63 m/s²" in finding.note
+    assert (
+        "Between these amplitudes, 100 % of the motions settle to a periodic motion (period 1 for 100 %)"
+        in finding.note
+    )
     late = sweep(lambda a, z: "chaos" if a >= 50.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
     assert "nan" not in about_states.onset_of_chaos(**both(late)).note
 
@@ -212,11 +217,11 @@ def test_notes_name_what_is_proved():
     proved = pd.concat(
         [certificates(30.0, 30.0, 40.0, 40.0, 56.0), certificates(45.0, 45.0, 70.0).assign(stability="open")]
     )
-    assert "two stable motions are proved at 2 amplitudes from 30 to 40 m/s²" in about_proofs.describe_coexistence(
+    assert "Two stable motions are proved at 2 amplitudes from 30 to 40 m/s²" in about_proofs.describe_coexistence(
         proved
     )
     periodic = about_proofs.describe_periodic(proved, 55.0)
-    assert "a stable periodic motion is proved at 1 amplitudes from 56 to 56 m/s²" in periodic
+    assert "A stable periodic motion is proved at 1 amplitudes from 56 to 56 m/s²" in periodic
     horseshoes = pd.DataFrame({"acceleration": [65.0, 80.0], "proved": [False, True]})
     assert "is proved at 80 m/s²" in about_proofs.describe_chaos(horseshoes)
     assert about_proofs.describe_periodic(proved, 60.0) == ""
@@ -258,7 +263,7 @@ def test_largest_critical_height_is_that_of_all_amplitudes():
     rising["crossing"] = 1
     finding = about_states.largest_critical_height(**both(rising), heights=heights)
     assert numbers(finding.converged) == pytest.approx((0.3,))  # not that at 28 m/s², nor that at the lowest one
-    assert finding.note.startswith("it occurs at 35 m/s²")
+    assert finding.note.startswith("The largest height occurs at 35 m/s²")
 
 
 def test_velocities_of_both_states():
@@ -284,8 +289,8 @@ def test_fit_is_that_of_the_regression():
     )
     finding = about_states.fit(**both(table))
     assert numbers(finding.converged) == (0.004, -20.0, -1e-4, 1e-11)
-    assert "every B from -21 to -21" not in finding.note  # 3e-11 is more than the paper's triple has
-    assert "every B from -18 to -18" in finding.note
+    assert "Every B from -21 to -21" not in finding.note  # 3e-11 is more than the paper's triple has
+    assert "Every B from -18 to -18" in finding.note
 
 
 def test_spread_of_onsets():
@@ -299,7 +304,7 @@ def test_early_chaos_of_some_heights_is_noted():
     early = sweep(lambda a, z: "chaos" if a >= 63.0 or (a == 53.0 and z == 0.0) else "second")
     finding = about_states.one_onset(converged=early)
     assert numbers(finding.converged) == (0.0,)
-    assert "chaos and regular motion coexist, depending on the initial height, at 53.00 m/s²" in finding.note
+    assert "Chaos and regular motion coexist, depending on the initial height, at 53.00 m/s²" in finding.note
     assert finding.note.endswith("regular motion remains nowhere")
     windows = sweep(lambda a, z: "chaos" if a >= 63.0 and a not in (71.0, 72.0) else "second")
     assert about_states.one_onset(converged=windows).note.endswith("in windows only: 71.00 to 72.00 m/s²")
@@ -335,7 +340,7 @@ def test_overlap_of_maps():
     }
     finding = about_states.overlap(**maps)
     assert numbers(finding.converged) == (0.5, 0.25, 0.5, 0.25)
-    assert finding.note.startswith("0 points")  # the chaos of the higher amplitude is not counted
+    assert " 0 points" in finding.note  # the chaos of the higher amplitude is not counted
 
 
 def test_only_the_first_state_is_shared():
@@ -434,9 +439,9 @@ def test_phase_estimate():
     finding = about_chaos.phase_estimate(**estimates(50.0, 59.0))
     assert (numbers(finding.euler), numbers(finding.converged)) == ((50.0,), (59.0,))
     assert "positive at 100 % of the amplitudes by the paper's method" in finding.note
-    assert "at 0 % of the amplitudes converged" in finding.note
+    assert "at 0 % of the amplitudes by the converged solution" in finding.note
     assert "100 % of the motions are periodic" in finding.note
-    assert "+0.50 to +1.50 1/s by the paper's method and -9.00 to -8.00 1/s converged" in finding.note
+    assert "+0.50 to +1.50 1/s by the paper's method and -9.00 to -8.00 1/s by the converged solution" in finding.note
 
 
 def test_portraits_in_the_order_of_the_states():
@@ -475,10 +480,10 @@ def test_the_page_explains_verdicts_and_has_dashes_for_missing_numbers():
     template = (Path(__file__).parents[2] / "workflow/templates/claims.md").read_text(encoding="utf-8")
     claim = {"where": "3.1", "statement": "", "quantities": quantities(onset=[1.0, 2.0])}
     claim["quantities"]["onset"]["because"] = "why"
-    found = Finding({}, {"onset": 9.0}, "a note")
+    found = Finding({}, {"onset": 9.0}, "A note")
     table = pd.DataFrame(verdicts.columns({"C1": claim}, {"C1": found}))
     page = verdicts.report(template, table)
     assert "| – | 9 | [1, 2] (why) | **not reproduced** |" in page
-    assert "## Reasons\n\n- **C1** onset: 9 by the converged solution is not in [1, 2]; a note.\n" in page
+    assert "## Reasons\n\n- **C1** onset: 9 by the converged solution is not in [1, 2]. A note.\n" in page
     assert page.endswith("## Notes\n\n")
     assert "an overlay without a prefix" in verdicts.report(template, table.iloc[:0])
