@@ -79,8 +79,9 @@ def onset_of_chaos(
     scatter = by_method(scatter_onset, euler, converged)
     chaos = by_method(chaos_onset, euler, converged)
     note = (
-        f"From the onset on, velocities scatter, but most motions settle to chaos only from {format_amplitude(chaos['converged'])} "
-        f"on ({format_amplitude(chaos['euler'])} when continued from the paper's method)"
+        "From the onset on, velocities scatter, but most motions settle to chaos only from "
+        f"{format_amplitude(chaos['converged'])} on ({format_amplitude(chaos['euler'])} when continued from the paper's "
+        "method)"
     )
     between = converged[
         (converged.acceleration >= scatter["converged"]) & (converged.acceleration < chaos["converged"])
