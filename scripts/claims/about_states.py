@@ -80,8 +80,8 @@ def onset_of_chaos(
     chaos = by_method(chaos_onset, euler, converged)
     note = (
         "From the onset on, velocities scatter, but most motions settle to chaos only from "
-        f"{format_amplitude(chaos['converged'])} on ({format_amplitude(chaos['euler'])} when continued from the paper's "
-        "method)"
+        f"{format_amplitude(chaos['converged'])} on ({format_amplitude(chaos['euler'])} when continued from the "
+        "paper's method)"
     )
     between = converged[
         (converged.acceleration >= scatter["converged"]) & (converged.acceleration < chaos["converged"])
