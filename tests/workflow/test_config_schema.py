@@ -1,4 +1,4 @@
-"""config/schema.json: current, complete, and true of all config files."""
+"""config/schema.json: current, complete, and valid for all config files."""
 
 import json
 import re
@@ -78,14 +78,14 @@ def test_every_key_has_a_description():
     assert lacking == []
 
 
-def test_units_stand_in_the_schema():
+def test_the_schema_has_units():
     assert unit_of(schema_at(["model", "mass"])) == "kg"
     assert unit_of(schema_at(["sweeps", "mine", "axes", "z0", "start"])) == "m"
     assert unit_of(schema_at(["figures", "fig23", "settings", "portraits", 0, 1])) == "m"
     assert schema_at(["model", "weight"]) == {}
 
 
-def test_every_key_of_the_default_config_is_one_of_the_schema():
+def test_the_schema_has_every_key_of_the_default_config():
     for key in (key for file in FILES for key in parse_file(file.read_text(encoding="utf-8"))):
         assert schema_at(list(key.path)), key.path
 
