@@ -28,7 +28,7 @@ TABLES = {
         fields.number("share", "1", "of all initial conditions that reach this velocity"),
         fields.number("stderr", "1", "standard error of the share"),
         fields.number(
-            "knock", "m/s", "smallest sudden change of ż that ends the motion; null if none of those tried does"
+            "knock", "m/s", "smallest sudden change of ż that ends the motion; null if no change that was tried does"
         ),
         fields.number("largest_kick", "m/s", "largest change of ż that was tried"),
         fields.number("impact_speed", "m/s", "largest speed of approach across the track in a period"),
@@ -73,7 +73,7 @@ def is_motion(found: Labels, motion: pd.Series) -> np.ndarray:
 
 
 def settled(motion: pd.Series, settings: dict, phases: int, *, threads: int = 1) -> np.ndarray:
-    """Packed parameters that go on from a settled motion, at phases spread over a cycle, shape (phases, 16)."""
+    """Packed parameters that continue a settled motion, at phases spread over a cycle, shape (phases, 16)."""
     rows = parameters_of(np.array([motion.acceleration]), starts_of_box(settings), settings["model"])
     found = motions_of_starts(rows, settings, starts=len(rows), threads=threads)
     members = np.flatnonzero(is_motion(found, motion))
@@ -110,7 +110,7 @@ def with_parameter(model: dict, parameter: str, value: float) -> dict:
 
 
 def changes_at(acceleration: float, settings: dict, changes: dict[str, float], *, threads: int = 1) -> list[dict]:
-    """What the starts end in if one parameter at a time is increased or decreased."""
+    """The motions that initial conditions reach if one parameter at a time is increased or decreased."""
     before = mean_over_starts(motions_at(np.array([acceleration]), settings, threads=threads))
     rows = []
     for parameter, change in changes.items():

@@ -1,4 +1,4 @@
-"""What the shares of motions mean for who runs a conveyor: where one velocity is certain, where several exist."""
+"""Regimes of a conveyor from the shares of its motions: one velocity, several velocities, or chaos."""
 
 import numpy as np
 import pandas as pd
@@ -38,7 +38,7 @@ TABLES = {
 
 
 def same(velocity: np.ndarray, other: float, share: float) -> np.ndarray:
-    """Which velocities are one with another: they differ by at most a share of the larger one."""
+    """Whether velocities count as one: they differ by at most a share of the larger one."""
     return np.abs(velocity - other) <= share * np.maximum(np.abs(velocity), abs(other))
 
 
@@ -71,7 +71,7 @@ def best_of(shares: pd.DataFrame, share: float) -> pd.DataFrame:
         best = motions.mean_velocity.max()
         get_it = float(motions.share[same(motions.mean_velocity.to_numpy(), best, share)].sum())
         get_it = np.nan if np.isnan(best) else get_it
-        # The sum of shares may miss one by a rounding.
+        # The sum of the shares may differ from one by rounding.
         error = np.sqrt(max(get_it * (1.0 - get_it), 0.0) / motions.starts.sum())
         rows.append((acceleration, best, get_it, error))
     return pd.DataFrame(rows, columns=["acceleration", "best", "best_share", "stderr"])

@@ -1,7 +1,7 @@
-"""Basin stability: the motions in which the starts of a box end, with their shares and velocities, over the amplitude.
+"""Basin stability: the motions that initial conditions of a box reach, with shares and velocities, over the amplitude.
 
-The starts are drawn independently, so that a share has the standard error of a binomial one. Steps of the amplitude are
-halved where the answer changes.
+The initial conditions are drawn independently, so that a share has a binomial standard error. Steps of the amplitude
+are halved where the regime changes.
 """
 
 import math
@@ -40,23 +40,23 @@ TABLES = {
     ),
 }
 
-# Motions of one state and period are two if their longest flights are farther apart, in excitation cycles.
+# Motions of one state and period differ if their longest flights differ by more, in excitation cycles.
 APART = 0.01
-# A mean velocity is known if a run twice as long has the same one, to this share of the plate's largest.
+# A mean velocity is known if a run twice as long agrees, within this share of the largest velocity of the plate.
 SETTLED = 1e-3
 DOUBLINGS = 6  # of the run, after which its velocity is not known
 MOST_CYCLES = 4000  # of a brief run that needs more than `cycles`
-FORGOTTEN = 200  # excitation cycles that the horizontal motion gets at least to forget its start
+FORGOTTEN = 200  # least number of excitation cycles in which the horizontal motion can settle
 
 
 def starts_of_box(settings: dict) -> np.ndarray:
-    """Height above the plate (m), vertical velocity (m/s) and phase (rad) of the starts, shape (n, 3)."""
+    """Height above the plate (m), vertical velocity (m/s) and phase (rad) of the initial conditions, shape (n, 3)."""
     low, high = np.array([settings[name] for name in ("height", "vz0", "psi0")], dtype=np.float64).T
     return low + (high - low) * np.random.default_rng(settings["seed"]).random((settings["starts"], 3))
 
 
 def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:
-    """Packed parameters of all starts, shape (n, 3), at each of m amplitudes, shape (m n, 16)."""
+    """Packed parameters of all initial conditions, shape (n, 3), at each of m amplitudes, shape (m n, 16)."""
     _, conveyors = grid.product({"acceleration": list(amplitudes)}, model)
     rows = np.repeat(conveyors, len(starts), axis=0)
     height, velocity, phase = np.tile(starts, (len(amplitudes), 1)).T
@@ -67,7 +67,7 @@ def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np
 
 
 def groups(found: Labels) -> np.ndarray:
-    """The number of each start's motion, int64, shape (n,): state and period are one, longest flights neighbours."""
+    """The number of the motion of each initial condition, int64, shape (n,): by state, period and longest flight."""
     flights = np.nan_to_num(found.longest_flight, nan=-1.0)
     order = np.lexsort((flights, found.period, found.state))
     same = (
@@ -81,7 +81,7 @@ def groups(found: Labels) -> np.ndarray:
 
 
 def continue_normal(rows: np.ndarray, cycles: np.ndarray, settings: dict, *, threads: int = 1) -> np.ndarray:
-    """Packed parameters, shape (n, 16), that go on where the motion normal to the track is after some cycles.
+    """Packed parameters, shape (n, 16), that continue the motion normal to the track after some cycles.
 
     rows : packed parameters of trajectories, shape (n, 16)
     cycles : excitation cycles that each of them is followed for, shape (n,)
@@ -97,7 +97,7 @@ def last_quarters(
     """Mean feeding velocities (m/s) over the last quarters of runs, shape (n, k); of the longest run the largest speed
     of approach (m/s) and contact force (N) over its last quarter, shape (n, 2), and the status.
 
-    durations : s, shape (n, k); the last quarter of each begins behind the end of the one before
+    durations : s, shape (n, k); the last quarter of each begins after the end of the previous one
     """
     times = np.stack([(1.0 - LAST) * durations, durations], axis=-1).reshape(len(durations), 2 * durations.shape[1])
     means, codes = np.empty_like(durations), np.empty(len(durations), dtype=np.int64)
@@ -118,7 +118,7 @@ def last_quarters(
 def velocities(
     parameters: np.ndarray, period: np.ndarray, settled: np.ndarray, settings: dict, *, threads: int = 1
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Mean feeding velocity (m/s) of starts once they have settled, shape (n,); the largest speed of approach (m/s) and
+    """Mean feeding velocity (m/s) of settled motions, shape (n,); the largest speed of approach (m/s) and
     contact force (N) over the same cycles, whole periods of the motion, shape (n, 2); and why they are not known.
 
     Each trajectory is followed until it has settled, and then twice as long, until both mean velocities agree. They
@@ -134,11 +134,11 @@ def velocities(
     found, status = np.full(n, np.nan), np.full(n, "mean velocity not settled", dtype=object)
     peaks = np.full((n, 2), np.nan)
     plate = parameters[:, ACCELERATION] * np.cos(parameters[:, ANGLE]) / (2.0 * math.pi * parameters[:, FREQUENCY])
-    # A mean over whole periods; the last quarter of a run is what a mean is taken over.
+    # The mean is over the last quarter of a run, which must be whole periods.
     step = np.maximum(period, 1)
     quarter = np.maximum(np.maximum(settings["cycles"], np.ceil((settled + FORGOTTEN) / 3.0)), step)
     open_ = np.arange(n)
-    # All need the second run, which begins with the first one.
+    # All need the second run, which contains the first one.
     for doublings in ([0, 1], *([doubling] for doubling in range(2, DOUBLINGS))):
         cycles = 4.0 * step[open_, None] * np.ceil(2.0 ** np.array(doublings) * (quarter / step)[open_, None])
         durations = cycles / parameters[open_, None, FREQUENCY]
@@ -168,7 +168,7 @@ def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> 
     alpha, friction = parameters[:, INCLINATION], parameters[:, FRICTION]
     left = parameters[:, GRAVITY] * (friction * np.cos(alpha) - np.abs(np.sin(alpha)))
     along = parameters[:, ACCELERATION] * np.cos(parameters[:, ANGLE])
-    # Friction that cannot hold a sliding part does not slow it down however long the run is.
+    # If friction cannot hold a sliding part, no run is long enough.
     needed = np.where(left > 0.0, along / (2.0 * math.pi * 0.75 * np.maximum(left, 1e-300)), 0.0)
     step = 4.0 * np.maximum(period, 1)
     return step * np.ceil(np.maximum(cycles, np.minimum(needed, MOST_CYCLES)) / step) / parameters[:, FREQUENCY]
@@ -193,7 +193,7 @@ def motions_of_conveyors(
     threads: int = 1,
     progress: str | None = None,
 ) -> pd.DataFrame:
-    """The motions that `starts` initial conditions of each of k conveyors end in, a row for each motion.
+    """The motions that `starts` initial conditions of each of k conveyors reach, a row for each motion.
 
     parameters : packed, shape (k starts, 16)
     measure : `velocities` or `brief_velocities`

@@ -156,7 +156,7 @@ def test_stick_obeys_filippov():
 
 @pytest.mark.parametrize("tolerance", [1e-5, 1e-7, 1e-9])
 def test_stick_ends_with_its_friction(tolerance):
-    """It may outlast |ẍ_s| = μ F_c/m by a force that cannot be told from none: ten tolerances of the part's weight."""
+    """It ends at |ẍ_s| = μ F_c/m, up to a force that rounding cannot resolve: ten tolerances of the part's weight."""
     conveyor = Conveyor(acceleration=8.0, friction=0.6)
     run = simulate(conveyor, Start("conveyor"), duration=0.2, tolerance=tolerance)
     slip = run.events[run.events["kind"] == "slip"]["time"]

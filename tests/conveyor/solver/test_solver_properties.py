@@ -230,8 +230,8 @@ def test_four_thousand_random_points():
             assert np.isfinite(columns[name][ok]).all()
 
 
-# Among a million points these fourteen once ended as "too many events": at the end of a contact the slip velocity could
-# not be told from zero, and a reversal that was none was found ten thousand times.
+# Of a million points, these fourteen ended as "too many events" in an earlier version: at the end of a contact, the
+# slip velocity was zero up to rounding, and a false reversal was found ten thousand times.
 HARDLY_MOVED = [2168, 25795, 79256, 150482, 183686, 242537, 389317]
 HARDLY_MOVED += [412813, 654028, 659772, 693679, 851221, 862144, 966681]
 

@@ -66,7 +66,7 @@ def test_part_that_cannot_be_followed_is_undecided():
 
 
 def test_an_exponent_of_zero_is_no_state():
-    """A part that rides undamped on a spring swings for ever, with two exponents of zero: neither settled nor chaos."""
+    """A part that rides on an undamped spring oscillates without end, with exponents of zero: unsettled, not chaos."""
     conveyor = Conveyor(acceleration=0.0, damping=0.0, exponent=1.0, stiffness=3e3)
     depth = conveyor.mass * conveyor.gravity / conveyor.stiffness  # at rest
     found = labels.classify(np.array([pack(conveyor, Start(z=-share * depth)) for share in (0.5, 0.9)]), cycles=400)
@@ -141,7 +141,7 @@ def test_long_transients_are_not_chaos():
 
 def test_a_conveyor_may_have_two_chaotic_attractors():
     rows = random_starts(53.0, 1)
-    for tolerance in (1e-6, 1e-8):  # the exponent of one of them is small, and needs time to be told from zero
+    for tolerance in (1e-6, 1e-8):  # one exponent is small, and differs from zero only after a long time
         found = search.find_attractors(rows, cycles=labels.CYCLES, tolerance=tolerance)
         assert len(found.chaotic.low) == 2
     assert len(search.find_attractors(random_starts(40.0, 1), cycles=labels.CYCLES).chaotic.low) == 0

@@ -67,7 +67,7 @@ def test_a_curve_far_out_does_not_come_inside():
 
 
 def test_an_orbit_that_does_not_attract_has_no_neighbourhood():
-    """A part on an undamped spring swings for ever."""
+    """A part on an undamped spring oscillates without end."""
     row = conveyor_of(0.0, damping=0.0, exponent=1.0, stiffness=3e3)
     state = np.array([1.5 * 0.7e-3 * 9.81 / 3e3, 0.0])
     assert trapping_regions.find_trapping_region(row, TOLERANCE, state, 1) is None
