@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor import ensemble
+from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.attractors.labels import Labels, continued
 from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
@@ -80,6 +81,11 @@ def groups(found: Labels) -> np.ndarray:
     return number
 
 
+def select(found: Labels, places: slice | np.ndarray) -> Labels:
+    """The labels at some places."""
+    return Labels(*(column[places] for column in found))
+
+
 def continue_normal(rows: np.ndarray, cycles: np.ndarray, settings: dict, *, threads: int = 1) -> np.ndarray:
     """Packed parameters, shape (n, 16), that go on where the motion normal to the track is after some cycles.
 
@@ -116,10 +122,10 @@ def last_quarters(
 
 
 def velocities(
-    parameters: np.ndarray, period: np.ndarray, settled: np.ndarray, settings: dict, *, threads: int = 1
+    parameters: np.ndarray, found: Labels, settings: dict, *, threads: int = 1
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Mean feeding velocity (m/s) of starts once they have settled, shape (n,); the largest speed of approach (m/s) and
-    contact force (N) over the same cycles, whole periods of the motion, shape (n, 2); and why they are not known.
+    """Mean feeding velocity (m/s) of settled trajectories, shape (n,); the largest speed of approach (m/s) and contact
+    force (N) over the same cycles, whole periods of the motion, shape (n, 2); and why they are not known.
 
     Each trajectory is followed until it has settled, and then twice as long, until both mean velocities agree. They
     never agree in chaos, where the mean is taken over the longer run.
@@ -127,11 +133,12 @@ def velocities(
     Parameters
     ----------
     parameters : float64, shape (n, 16)
-    period : of the motion in excitation cycles, 0 for none
-    settled : excitation cycles after which the vertical motion has settled
+    found : labels of these trajectories
     """
-    n = len(parameters)
-    found, status = np.full(n, np.nan), np.full(n, "mean velocity not settled", dtype=object)
+    n, period = len(parameters), found.period
+    # What has no period is no more settled later on.
+    settled = np.where(period > 0, found.cycles, np.minimum(found.cycles, settings["cycles"]))
+    velocity, status = np.full(n, np.nan), np.full(n, "mean velocity not settled", dtype=object)
     peaks = np.full((n, 2), np.nan)
     plate = parameters[:, ACCELERATION] * np.cos(parameters[:, ANGLE]) / (2.0 * math.pi * parameters[:, FREQUENCY])
     # A mean over whole periods; the last quarter of a run is what a mean is taken over.
@@ -146,13 +153,13 @@ def velocities(
         failed = why != "ok"
         status[open_[failed]] = why[failed]
         for mean in means.T:
-            close = np.abs(mean - found[open_]) <= SETTLED * plate[open_]
-            found[open_] = mean
+            close = np.abs(mean - velocity[open_]) <= SETTLED * plate[open_]
+            velocity[open_] = mean
         known = ~failed & (close | (period[open_] == 0))
         status[open_[known]] = "ok"
         open_ = open_[~failed & ~known]
-    found[status != "ok"] = peaks[status != "ok"] = np.nan
-    return found, peaks, status
+    velocity[status != "ok"] = peaks[status != "ok"] = np.nan
+    return velocity, peaks, status
 
 
 def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> np.ndarray:
@@ -175,11 +182,13 @@ def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> 
 
 
 def brief_velocities(
-    parameters: np.ndarray, period: np.ndarray, settled: np.ndarray, settings: dict, *, threads: int = 1
+    parameters: np.ndarray, found: Labels, settings: dict, *, threads: int = 1
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """What `velocities` returns, from one run that begins with the settled normal motion; see `brief_durations`."""
-    rows = continue_normal(parameters, settled, settings, threads=threads)
-    durations = brief_durations(rows, period, settings["cycles"])
+    """What `velocities` returns, from one run that begins where the search for labels ended; see `brief_durations`."""
+    rows = parameters.copy()
+    rows[:, PSI0] = trajectory.BEGIN_OF_CYCLE
+    rows = stroboscopic_map.pack_states(rows, found.ends, settings["tolerance"])
+    durations = brief_durations(rows, found.period, settings["cycles"])
     run = ensemble.run(rows, duration=durations, tolerance=settings["tolerance"], threads=threads)
     return run["mean_velocity"], np.column_stack([run["impact_speed"], run["peak_force"]]), run["status"]
 
@@ -203,26 +212,23 @@ def motions_of_conveyors(
     rows, followed = [], []
     for k in range(len(parameters) // starts):
         own = slice(k * starts, (k + 1) * starts)
-        number = groups(Labels(*(column[own] for column in found)))
+        number = groups(select(found, own))
         for motion in range(number.max() + 1):
             members = own.start + np.flatnonzero(number == motion)
             rows.append((k, members[0], len(members)))
-            followed.append(members[np.argsort(found.cycles[members], kind="stable")][: settings["followed"]])
+            most = settings["followed"] if found.state[members[0]] != "undecided" else 0
+            followed.append(members[np.argsort(found.cycles[members], kind="stable")][:most])
     conveyor, first, count = np.array(rows).T
     chosen = np.concatenate(followed)
-    period, cycles = found.period[chosen], found.cycles[chosen]
-    # What has no period is no more settled later on.
-    settled = np.where(period > 0, cycles, np.minimum(cycles, settings["cycles"]))
-    each, each_peaks, each_status = measure(parameters[chosen], period, settled, settings, threads=threads)
-    each_status[found.state[chosen] == "undecided"] = "state not decided"
+    each, each_peaks, each_status = measure(parameters[chosen], select(found, chosen), settings, threads=threads)
     velocity, error = np.full(len(rows), np.nan), np.full(len(rows), np.nan)
     peaks, status = np.full((len(rows), 2), np.nan), np.full(len(rows), "ok", dtype=object)
     end = 0
     for row, size in enumerate(map(len, followed)):
         own, end = slice(end, end + size), end + size
         failed = each_status[own] != "ok"
-        if failed.any():
-            status[row] = each_status[own][failed][0]
+        if size == 0 or failed.any():
+            status[row] = each_status[own][failed][0] if size else "state not decided"
             continue
         velocity[row], peaks[row] = each[own].mean(), each_peaks[own].max(axis=0)
         error[row] = each[own].std(ddof=1) / math.sqrt(size) if size > 1 else np.nan
