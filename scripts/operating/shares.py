@@ -1,7 +1,7 @@
-"""Basin stability: the motions in which the starts of a box end, with their shares and velocities, over the amplitude.
+"""Basin stability: the motions that random initial conditions lead to, with shares and velocities, over the amplitude.
 
-The starts are drawn independently, so that a share has the standard error of a binomial one. Steps of the amplitude are
-halved where the answer changes.
+The initial conditions are drawn independently from a box, so that the standard error of a share is binomial. Where the
+regime changes, steps of the amplitude are halved.
 """
 
 import math
@@ -28,11 +28,11 @@ TABLES = {
         fields.count("motion", "number of the motion at this amplitude, the fastest one first"),
         *fields.STATE,
         fields.number("longest_flight", "1", "of the motion, in excitation cycles; null for none"),
-        fields.count("starts", "starts that end in the motion"),
-        fields.number("share", "1", "of all starts of the box"),
+        fields.count("starts", "initial conditions that lead to the motion"),
+        fields.number("share", "1", "of all initial conditions"),
         fields.number("stderr", "1", "standard error of the share"),
         fields.number("mean_velocity", "m/s", "mean feeding velocity of the motion; null where it is not known"),
-        fields.number("velocity_stderr", "m/s", "its standard error, from several starts that end in the motion"),
+        fields.number("velocity_stderr", "m/s", "its standard error, from several of these trajectories"),
         fields.number(
             "impact_speed", "m/s", "largest speed of approach at an impact; 0 without impacts, null if unknown"
         ),
@@ -41,23 +41,23 @@ TABLES = {
     ),
 }
 
-# Motions of one state and period are two if their longest flights are farther apart, in excitation cycles.
+# Two motions of one state and period are different if their longest flights differ by more, in excitation cycles.
 APART = 0.01
-# A mean velocity is known if a run twice as long has the same one, to this share of the plate's largest.
+# A mean velocity is known if a run twice as long gives the same, up to this share of the plate's largest velocity.
 SETTLED = 1e-3
-DOUBLINGS = 6  # of the run, after which its velocity is not known
+DOUBLINGS = 6  # of the run, after which its velocity counts as not known
 MOST_CYCLES = 4000  # of a brief run that is longer than asked for
-FORGOTTEN = 200  # excitation cycles that the horizontal motion gets at least to forget its start
+FORGOTTEN = 200  # excitation cycles, at least, for the transient of the feeding motion
 
 
 def starts_of_box(settings: dict) -> np.ndarray:
-    """Height above the plate (m), vertical velocity (m/s) and phase (rad) of the starts, shape (n, 3)."""
+    """Initial heights above the plate (m), velocities normal to it (m/s) and phases (rad), shape (n, 3)."""
     low, high = np.array([settings[name] for name in ("height", "vz0", "psi0")], dtype=np.float64).T
     return low + (high - low) * np.random.default_rng(settings["seed"]).random((settings["starts"], 3))
 
 
 def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:
-    """Packed parameters of all starts, shape (n, 3), at each of m amplitudes, shape (m n, 16)."""
+    """Packed parameters, shape (m n, 16), of n initial conditions, shape (n, 3), at each of m amplitudes."""
     _, conveyors = grid.product({"acceleration": list(amplitudes)}, model)
     rows = np.repeat(conveyors, len(starts), axis=0)
     height, velocity, phase = np.tile(starts, (len(amplitudes), 1)).T
@@ -68,7 +68,10 @@ def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np
 
 
 def groups(found: Labels) -> np.ndarray:
-    """The number of each start's motion, int64, shape (n,): state and period are one, longest flights neighbours."""
+    """The number of the motion that each label belongs to, int64, shape (n,).
+
+    Labels of one motion have one state and one period, and their longest flights are neighbours.
+    """
     flights = np.nan_to_num(found.longest_flight, nan=-1.0)
     order = np.lexsort((flights, found.period, found.state))
     same = (
@@ -87,10 +90,10 @@ def select(found: Labels, places: slice | np.ndarray) -> Labels:
 
 
 def continue_normal(rows: np.ndarray, cycles: np.ndarray, settings: dict, *, threads: int = 1) -> np.ndarray:
-    """Packed parameters, shape (n, 16), that go on where the motion normal to the track is after some cycles.
+    """Packed parameters, shape (n, 16), that continue the motion normal to the track after some excitation cycles.
 
     rows : packed parameters of trajectories, shape (n, 16)
-    cycles : excitation cycles that each of them is followed for, shape (n,)
+    cycles : of each trajectory, shape (n,)
     """
     durations = cycles / rows[:, FREQUENCY]
     ends = ensemble.run(rows, duration=durations, tolerance=settings["tolerance"], needs="vertical", threads=threads)
@@ -100,10 +103,10 @@ def continue_normal(rows: np.ndarray, cycles: np.ndarray, settings: dict, *, thr
 def last_quarters(
     parameters: np.ndarray, durations: np.ndarray, tolerance: float, threads: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Mean feeding velocities (m/s) over the last quarters of runs, shape (n, k); of the longest run the largest speed
-    of approach (m/s) and contact force (N) over its last quarter, shape (n, 2), and the status.
+    """Mean feeding velocities (m/s) over the last quarters of runs, shape (n, k), and, for the last quarter of the
+    longest run, the largest speed of approach (m/s) and contact force (N), shape (n, 2), and the status.
 
-    durations : s, shape (n, k); the last quarter of each begins behind the end of the one before
+    durations : s, shape (n, k); the last quarter of each run begins after the end of the run before
     """
     times = np.stack([(1.0 - LAST) * durations, durations], axis=-1).reshape(len(durations), 2 * durations.shape[1])
     means, codes = np.empty_like(durations), np.empty(len(durations), dtype=np.int64)
