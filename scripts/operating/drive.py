@@ -1,10 +1,10 @@
 """Drive design: amplitude, frequency, angle and phase shift at which parts are fast, gently handled and cheap to drive.
 
 NSGA-II (pymoo) searches the Pareto front of three objectives: the velocity that nearly all initial conditions reach,
-the impact speed and the acceleration of the drive. A design must give one velocity (to a wanted share of the initial
-conditions), no chaos, at least the least useful velocity, at most the largest impact speed, and a displacement of the
-drive within its limit. All of this must hold although the drive keeps its amplitude to a relative margin only: the
-velocity counts that is the least within the margin, and the largest impact speed.
+the impact speed and the acceleration of the drive. A design must give one velocity to the required share of the initial
+conditions, no chaos, at least the least useful velocity, at most the largest impact speed, and a displacement of the
+drive within its limit. Because a drive keeps its amplitude only within a relative margin, all of this must hold in the
+whole margin: the smallest velocity and the largest impact speed in it count.
 """
 
 from collections.abc import Callable
@@ -26,7 +26,7 @@ from pipeline import fields
 from pipeline.fields import AXES
 
 SEARCHED = ("acceleration", "frequency", "angle", "phase_shift")
-# Errors of the amplitude, in parts of the margin, at which a design of the search is followed, and one that is checked.
+# Errors of the amplitude, as parts of the margin, at which the search follows a design, and at which it is checked.
 SEARCH_ERRORS, CHECK_ERRORS = np.array([-1.0, 1.0]), np.array([-1.0, 0.0, 1.0])
 FIRST_STARTS = 1  # initial conditions that show most designs with chaos, which cost most
 TABLES = {
@@ -87,8 +87,8 @@ def rows_of_designs(designs: np.ndarray, starts: np.ndarray, model: dict) -> np.
 def outcome_of_conveyor(
     velocity: np.ndarray, share: np.ndarray, impact: np.ndarray, is_chaos: np.ndarray, same_velocity: float
 ) -> dict[str, float]:
-    """What the initial conditions of one conveyor reach: `velocity`, that of most of them, with its share, its impact
-    speed and the share of chaos; mean and extremes over all of them. NaN where a velocity is not known.
+    """What the initial conditions of one conveyor reach: the `velocity` that most of them reach, with its share, its
+    impact speed and the share of chaos; mean and extremes over all of them. NaN where a velocity is not known.
 
     velocity, share, impact, is_chaos : of each motion, shape (m,)
     """

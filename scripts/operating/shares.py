@@ -139,7 +139,7 @@ def velocities(
     found : labels of these trajectories
     """
     n, period = len(parameters), found.period
-    # What has no period is no more settled later on.
+    # A motion without a period is not more settled in later cycles.
     settled = np.where(period > 0, found.cycles, np.minimum(found.cycles, settings["cycles"]))
     velocity, status = np.full(n, np.nan), np.full(n, "mean velocity not settled", dtype=object)
     peaks = np.full((n, 2), np.nan)
@@ -168,9 +168,9 @@ def velocities(
 def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> np.ndarray:
     """Durations (s) of runs whose last quarter has the mean velocity of settled normal motions, shape (n,).
 
-    The last quarter holds whole periods. In the three quarters before, friction must be able to change the velocity of
-    the part by that of the plate: on average, g (μ cos α - |sin α|) is left of it to do so. On tracks that are nearly
-    too steep this takes more cycles than asked for.
+    The last quarter contains whole periods. In the three quarters before it, friction must be able to accelerate the
+    part to the velocity of the plate. The mean acceleration that remains for this is g (μ cos α - |sin α|), so tracks
+    that are nearly too steep need more than `cycles`.
 
     parameters, period : packed, shape (n, 16), and the period in excitation cycles, 0 for none, shape (n,)
     cycles : least excitation cycles of a run
