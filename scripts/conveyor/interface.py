@@ -120,10 +120,10 @@ def sweep(
     >>> bool(runs.mean_velocity[1, 1] > runs.mean_velocity[1, 0])  # at 40 m/s² a part that jumps is faster
     True
     """
-    check_run(duration, method, tolerance, step)
+    duration, tolerance, step = check_run(duration, method, tolerance, step)
     threads = check_threads(threads)
     rows, shape = pack_all(conveyor, start, values)
-    options = {"duration": float(duration), "method": method, "tolerance": tolerance, "step": step}
+    options = {"duration": duration, "method": method, "tolerance": tolerance, "step": step}
     columns = ensemble.run(rows, **options, threads=threads)
     return reshape(Runs(**columns), shape)
 
@@ -294,6 +294,9 @@ def continue_orbit(conveyor: Conveyor, orbit: Orbit, *, low: float, high: float)
     check_type("orbit", orbit, Orbit)
     acceleration = check_number("orbit.acceleration", orbit.acceleration, *RANGES["acceleration"], "m/s²")
     check_count("orbit.period", orbit.period, 1, LARGEST_PERIOD)
+    check_count("orbit.impacts", orbit.impacts, 0, LARGEST_PERIOD * MOST_CYCLES)
+    if np.shape(orbit.multipliers) != (2,) or np.asarray(orbit.multipliers).dtype.kind not in "iufc":
+        raise ValueError(f"orbit.multipliers must be two numbers, got {orbit.multipliers!r}")
     state = check_array("orbit.state", orbit.state, -LARGEST_COORDINATE, LARGEST_COORDINATE)
     if state.shape != (2,):
         raise ValueError(f"orbit.state must be δ (m) and v (m/s), got the shape {state.shape}")

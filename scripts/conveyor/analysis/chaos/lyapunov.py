@@ -101,7 +101,7 @@ def spectrum(
     tolerance, threads, progress : as in ensemble.run
     """
     parameters = check_packed(parameters)
-    check_tolerance(tolerance)
+    tolerance = check_tolerance(tolerance)
     check_threads(threads)
     check_count("transient", transient, 0, MOST_CYCLES)
     check_count("cycles", cycles, 1, MOST_CYCLES)
