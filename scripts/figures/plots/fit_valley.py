@@ -44,7 +44,8 @@ def plot(*, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame,
     errors.set_yticks([4.0, 6.0, 10.0, 20.0], ["4", "6", "10", "20"])
     errors.minorticks_off()
     errors.set_ylabel("smallest rms deviation in µm")
-    errors.legend(loc="upper right")
+    errors.set_ylim(top=2.0 * errors.get_ylim()[1])  # room for the legend above the curves
+    errors.legend(loc="upper right", handlelength=1.2)
 
     triples.plot(1e3 * valley.A, 1e3 * valley.C, color="0.6", linewidth=0.8, label="best $A$ and $C$ for each $B$")
     triples.plot(1e3 * flat.A, 1e3 * flat.C, color="0.6", linewidth=4.0, alpha=0.5, label="error ≤ paper's fit")
@@ -55,6 +56,8 @@ def plot(*, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame,
         style_of = {"marker": marker, "color": colour, "linestyle": "", "markersize": 4.0, "markerfacecolor": "none"}
         errors.plot(row.B, 1e6 * row.error**0.5, **style_of)
         triples.plot(1e3 * row.A, 1e3 * row.C, **style_of, label=label)
+    # Room for the legend below the curve.
+    triples.set_ylim(bottom=1e3 * (valley.C.min() - 0.6 * np.ptp(valley.C)))
     triples.legend(loc="lower left")
     errors.set_xlabel("$B$ in m/s²")
 
