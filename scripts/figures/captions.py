@@ -212,6 +212,7 @@ def speed_accuracy(
         "missing": ", ".join(missing),
         "digits": str(reference.attrs["digits"]),
         "reference_difference": format_power(reference.difference.abs().max()),
+        "agreeing": str(int(-np.log10(reference.difference.abs().max()))),
     }
 
 
@@ -223,15 +224,17 @@ def stability_maps(*, stability: pd.DataFrame) -> dict[str, str]:
 
 
 def failed_rivals(*, stability: pd.DataFrame) -> dict[str, str]:
-    """Numbers of the stability maps, and the hard cases in which other integrators fail."""
+    """Numbers of the stability maps, the hard cases in which other integrators fail, and missing integrators."""
     rivals = stability.attrs["rivals"]["integrators"]
     rows = stability[stability.panel.str.startswith("hard") & stability.method.isin(rivals)]
+    failed = rows[~rows.outcome.isin(["right", "not installed"])]
     failures = [
-        f"{panel.removeprefix('hard: ')}: {', '.join(failed.method)} ({outcome})"
-        for (panel, outcome), failed in rows[rows.outcome != "right"].groupby(["panel", "outcome"], sort=False)
+        f"{panel.removeprefix('hard: ')}: {', '.join(methods.method)} ({outcome})"
+        for (panel, outcome), methods in failed.groupby(["panel", "outcome"], sort=False)
     ]
     return stability_maps(stability=stability) | {
         "failures": "; ".join(failures) or "none",
+        "missing": ", ".join(rows[rows.outcome == "not installed"].method.unique()),
         "tolerance": format_power(stability.attrs["rivals"]["tolerance"]),
         "max_evaluations": f"{stability.attrs['rivals']['max_evaluations']:,}",
     }
