@@ -1,4 +1,4 @@
-"""Closed forms of isolated impacts and of a bouncing rigid ball."""
+"""Theory of isolated impacts and of a bouncing rigid ball: closed forms, and a reduced equation where there is none."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Comparison of the solver with published theory and the closed forms of `accuracy.closed_forms`.
+"""Comparison of the solver with published theory (`accuracy.closed_forms`).
 
 Isolated impacts are computed without gravity on a plate at rest. A rigid ball is the limit of a stiff linear contact
 whose damping keeps the coefficient of restitution constant.
