@@ -19,7 +19,7 @@ import numpy as np
 
 from ..parameters import FIXED_STEP_METHODS as METHODS
 from ..solver import contact, friction, model
-from ..solver.jit import compiled, compiled_inline
+from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from . import euler_lanes
 from .euler_lanes import (
     CHECK,
@@ -88,11 +88,14 @@ def semi_implicit_euler_step(c, state, rub, push, step):
 
 
 @compiled_inline
-def rk4_step(c, state, rub1, push1, step, phase):
-    """(x, vx, z, vz) one classical Runge-Kutta step later, from the state at a phase (rad), its F_r/m and F_c/m."""
+def rk4_step(c, state, rub1, push1, step, half_way, end):
+    """(x, vx, z, vz) one classical Runge-Kutta step later, from the state, its F_r/m and F_c/m.
+
+    half_way, end : sine and cosine of the plate's phase in the middle of the step and at its end
+    """
     x, vx1, z, vz1 = state
-    half, turn = 0.5 * step, c.omega * step
-    sine, cosine = math.sin(phase + 0.5 * turn), math.cos(phase + 0.5 * turn)
+    half = 0.5 * step
+    sine, cosine = half_way
     vx2 = vx1 + half * (rub1 - c.downhill)
     vz2 = vz1 + half * (push1 - c.gravity)
     rub2, push2, _ = accelerations(c, vx2, z + half * vz1, vz2, sine, cosine)
@@ -101,7 +104,7 @@ def rk4_step(c, state, rub1, push1, step, phase):
     rub3, push3, _ = accelerations(c, vx3, z + half * vz2, vz3, sine, cosine)
     vx4 = vx1 + step * (rub3 - c.downhill)
     vz4 = vz1 + step * (push3 - c.gravity)
-    sine, cosine = math.sin(phase + turn), math.cos(phase + turn)
+    sine, cosine = end
     rub4, push4, _ = accelerations(c, vx4, z + step * vz3, vz4, sine, cosine)
     return (
         x + step / 6.0 * (vx1 + 2.0 * (vx2 + vx3) + vx4),
@@ -111,57 +114,91 @@ def rk4_step(c, state, rub1, push1, step, phase):
     )
 
 
+@compiled_into_callers
+def begin_run(c, k, z0, vz0, in_contact, last_slip, results):
+    """Set the state of trajectory number k to its initial condition (m, m/s)."""
+    plate = -c.a_z / c.omega**2 * math.cos(c.psi0)
+    results[k, Z], results[k, VZ] = plate if math.isnan(z0) else z0, vz0
+    results[k, MAX_GAP] = results[k, Z] - plate
+    in_contact[k] = results[k, MAX_GAP] <= 0.0
+    last_slip[k] = slip_of(c, 0.0, math.sin(c.psi0), math.cos(c.psi0))
+
+
+@compiled_into_callers
+def count_step(c, k, time, sine, vz, gap, push, in_contact, events, results):
+    """Count a step of trajectory number k that begins at a time (s): its gap, its force, an impact or a separation."""
+    results[k, MAX_GAP] = max(results[k, MAX_GAP], gap)
+    results[k, PEAK_FORCE] = max(results[k, PEAK_FORCE], push)
+    results[k, CONTACT_TIME] += push != 0.0
+    touching = gap <= 0.0
+    if touching == in_contact[k]:
+        return
+    in_contact[k] = touching
+    n_events = int(results[k, EVENTS])
+    if n_events < events.shape[1]:
+        events[k, n_events, 0] = time
+        events[k, n_events, 1] = IMPACT if touching else SEPARATION
+    results[k, EVENTS] += 1
+    results[k, IMPACTS] += touching
+    if touching:
+        results[k, IMPACT_SPEED] = max(results[k, IMPACT_SPEED], c.a_z / c.omega * sine - vz)
+
+
 @compiled
 def integrate(parameters, step, n_steps, method, sample_indices, samples, events, results):
-    """Follow one trajectory: semi-implicit Euler or RK4; else as in `euler_lanes.integrate`, without the first axis.
+    """Follow n trajectories over plates that share their phase, step by step; the rest as in `integrate_all`.
 
+    parameters : float64, shape (n, 16), of one frequency and ψ0, so that all need the same sines and cosines
     method : the code of one of METHODS, not EULER
     """
     if not EULER < method <= LAST_CODE:
         raise ValueError("method must be the code of SEMI_IMPLICIT_EULER or RK4")
-    c = contact.constants(parameters, 0.0)
-    plate = -c.a_z / c.omega**2 * math.cos(c.psi0)
-    z0 = parameters[model.Z0]
-    x, vx, z, vz = 0.0, 0.0, plate if math.isnan(z0) else z0, parameters[model.VZ0]
-    max_gap = z - plate
-    in_contact, last_slip = max_gap <= 0.0, slip_of(c, vx, math.sin(c.psi0), math.cos(c.psi0))
-    impact_speed = peak_force = 0.0
-    n_sampled = n_events = n_impacts = contact_steps = i = 0
-    while i % CHECK != 0 or math.isfinite(x + vx + z + vz):
-        phase = c.omega * (i * step) + c.psi0
+    n, n_sampled = len(parameters), 0
+    constants = [contact.constants(parameters[0], 0.0)] * n
+    running, contacts, last_slip = np.ones(n, np.bool_), np.empty(n, np.bool_), np.empty(n)
+    results[:] = 0.0
+    in_contact, events, results = no_refcount(contacts), no_refcount(events), no_refcount(results)
+    for k in range(n):
+        c = constants[k] = contact.constants(parameters[k], 0.0)
+        begin_run(c, k, parameters[k, model.Z0], parameters[k, model.VZ0], in_contact, last_slip, results)
+    omega, psi0 = constants[0].omega, constants[0].psi0
+    turn = omega * step
+    half_way = end = (0.0, 0.0)
+    for i in range(n_steps + 1):
+        phase = omega * (i * step) + psi0
         sine, cosine = math.sin(phase), math.cos(phase)
-        rub, push, gap = accelerations(c, vx, z, vz, sine, cosine)
-        if c.static_friction > c.friction:
-            vx, rub, last_slip = stick(c, vx, rub, push, gap, sine, cosine, last_slip)
+        if method == RK4:
+            half_way = math.sin(phase + 0.5 * turn), math.cos(phase + 0.5 * turn)
+            end = math.sin(phase + turn), math.cos(phase + turn)
+        first = n_sampled
         while n_sampled < len(sample_indices) and sample_indices[n_sampled] == i:
-            # Adding zero removes the sign of a negative zero.
-            samples[n_sampled] = (x, vx, z, vz, c.mass * push, c.mass * rub + 0.0)
             n_sampled += 1
-            impact_speed = peak_force = 0.0
-        if i == n_steps:
-            break
-        max_gap, peak_force = max(max_gap, gap), max(peak_force, push)
-        contact_steps += push != 0.0
-        touching = gap <= 0.0
-        if touching != in_contact:
-            in_contact = touching
-            n_impacts += touching
-            if touching:
-                impact_speed = max(impact_speed, c.a_z / c.omega * sine - vz)
-            if n_events < len(events):
-                events[n_events, 0] = i * step
-                events[n_events, 1] = IMPACT if touching else SEPARATION
-            n_events += 1
-        if method == SEMI_IMPLICIT_EULER:
-            x, vx, z, vz = semi_implicit_euler_step(c, (x, vx, z, vz), rub, push, step)
-        else:
-            x, vx, z, vz = rk4_step(c, (x, vx, z, vz), rub, push, step, phase)
-        i += 1
-    results[X], results[VX], results[Z], results[VZ] = x, vx, z, vz
-    results[EVENTS], results[IMPACTS], results[MAX_GAP] = n_events, n_impacts, max_gap
-    results[CONTACT_TIME], results[euler_lanes.EVALUATIONS] = contact_steps * step, i * EVALUATIONS[method]
-    results[IMPACT_SPEED], results[PEAK_FORCE] = impact_speed, c.mass * peak_force
-    results[STATUS] = OK if math.isfinite(x + vx + z + vz) else NOT_FINITE
+        for k in range(n):
+            x, vx, z, vz = results[k, X], results[k, VX], results[k, Z], results[k, VZ]
+            if i % CHECK == 0:
+                running[k] = math.isfinite(x + vx + z + vz)
+            if not running[k]:
+                continue
+            c = constants[k]
+            rub, push, gap = accelerations(c, vx, z, vz, sine, cosine)
+            if c.static_friction > c.friction:
+                vx, rub, last_slip[k] = stick(c, vx, rub, push, gap, sine, cosine, last_slip[k])
+            for number in range(first, n_sampled):
+                samples[k, number] = (x, vx, z, vz, c.mass * push, c.mass * rub + 0.0)  # no negative zero
+                results[k, IMPACT_SPEED] = results[k, PEAK_FORCE] = 0.0
+            if i < n_steps:
+                count_step(c, k, i * step, sine, vz, gap, push, in_contact, events, results)
+                if method == SEMI_IMPLICIT_EULER:
+                    x, vx, z, vz = semi_implicit_euler_step(c, (x, vx, z, vz), rub, push, step)
+                else:
+                    x, vx, z, vz = rk4_step(c, (x, vx, z, vz), rub, push, step, half_way, end)
+                results[k, euler_lanes.EVALUATIONS] += EVALUATIONS[method]
+            results[k, X], results[k, VX], results[k, Z], results[k, VZ] = x, vx, z, vz
+    for k in range(n):
+        finite = math.isfinite(results[k, X] + results[k, VX] + results[k, Z] + results[k, VZ])
+        results[k, STATUS] = OK if finite else NOT_FINITE
+        results[k, CONTACT_TIME] *= step
+        results[k, PEAK_FORCE] *= constants[k].mass
 
 
 def integrate_all(parameters, step, n_steps, method, sample_indices, samples, events, results):
@@ -169,8 +206,11 @@ def integrate_all(parameters, step, n_steps, method, sample_indices, samples, ev
     if method == EULER:
         euler_lanes.integrate(parameters, step, n_steps, sample_indices, samples, events, results)
         return
-    for row, sampled, seen, result in zip(parameters, samples, events, results, strict=True):
-        integrate(row, step, n_steps, method, sample_indices, sampled, seen, result)
+    phase = parameters[:, [model.FREQUENCY, model.PSI0]]
+    ends = [*np.flatnonzero((phase[1:] != phase[:-1]).any(axis=1)) + 1, len(parameters)]
+    for begin, end in zip([0, *ends], ends, strict=False):
+        rows = slice(begin, end)
+        integrate(parameters[rows], step, n_steps, method, sample_indices, samples[rows], events[rows], results[rows])
 
 
 class Summary(NamedTuple):
