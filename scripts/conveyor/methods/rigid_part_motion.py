@@ -63,7 +63,8 @@ def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
     series = contact.workspace()
     w, v, time, pulled = 0.0, speed, 0.0, False
     for _ in range(MAX_CONTACT_STEPS):
-        _, w, v, lapse, end = contact.step(alone, series, contact.FIRST, w, v, 0.0, 1.0, pulled)
+        length = contact.begin_step(alone, series, contact.FIRST, w, v, 0.0, 1.0, pulled)
+        _, w, v, lapse, end = contact.end_step(alone, series, contact.FIRST, w, v, pulled, length)
         if end == contact.SEPARATION:
             return -v / speed
         if end == contact.FORCE_SIGN:
