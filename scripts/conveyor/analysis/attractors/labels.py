@@ -8,6 +8,8 @@ of a longer period if the exponent is negative by as much, and `undecided` other
 A label depends only on the conveyor and the initial condition. Trajectories on one conveyor may share its known
 attractors (see `search`). A trajectory that has reached the trapping region of a periodic orbit, or stays in a chaotic
 set, need not be followed further.
+
+`interface.classify` checks its arguments; `classify` here does not, because a run that failed may hand it any state.
 """
 
 import math
