@@ -190,7 +190,7 @@ def brief_velocities(
     """What `velocities` returns, from one run that begins where the search for labels ended; see `brief_durations`."""
     rows = parameters.copy()
     rows[:, PSI0] = trajectory.BEGIN_OF_CYCLE
-    rows = stroboscopic_map.pack_states(rows, found.ends, settings["tolerance"])
+    rows = stroboscopic_map.pack_states(rows, np.column_stack([found.delta, found.v]), settings["tolerance"])
     durations = brief_durations(rows, found.period, settings["cycles"])
     run = ensemble.run(rows, duration=durations, tolerance=settings["tolerance"], threads=threads)
     return run["mean_velocity"], np.column_stack([run["impact_speed"], run["peak_force"]]), run["status"]

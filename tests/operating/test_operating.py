@@ -52,7 +52,8 @@ def test_motions_differ_by_state_period_and_flight():
         period=np.array([1, 1, 2, 0, 1, 1, 0]),
         longest_flight=np.array([0.92, 0.0, 0.92, np.nan, 1.9, 0.9201, np.nan]),
         cycles=np.zeros(7, dtype=np.int64),
-        ends=np.zeros((7, 2)),
+        delta=np.zeros(7),
+        v=np.zeros(7),
     )
     number = shares.groups(found)
     assert number[0] == number[5]
@@ -90,7 +91,7 @@ def test_velocities_are_means_over_whole_cycles(table):
 
 def velocity(conveyor: Conveyor, start: Start, period: int, **settings) -> tuple[float, str]:
     """The mean velocity of one initial condition that has settled vertically after twenty cycles, and its status."""
-    labels = Labels(np.array(["second"]), np.array([period]), np.zeros(1), np.array([20]), np.zeros((1, 2)))
+    labels = Labels(np.array(["second"]), np.array([period]), np.zeros(1), np.array([20]), np.zeros(1), np.zeros(1))
     (found,), _, (status,) = shares.velocities(pack(conveyor, start)[None], labels, {**BOX, **settings})
     return found, status
 
@@ -184,7 +185,7 @@ def test_a_run_that_fails_says_why_there_is_no_velocity():
 def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, wanted):
     def motions_found(parameters, *_, **__):
         n = len(parameters)
-        return Labels(np.full(n, states), np.ones(n, np.int64), np.zeros(n), np.arange(n), np.zeros((n, 2)))
+        return Labels(np.full(n, states), np.ones(n, np.int64), np.zeros(n), np.arange(n), np.zeros(n), np.zeros(n))
 
     monkeypatch.setattr(shares, "motions_of_starts", motions_found)
     velocities = np.array([1.0, 3.0]), np.array([[0.1, 2.0], [0.2, 1.0]]), np.array(statuses, dtype=object)

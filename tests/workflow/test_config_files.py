@@ -55,7 +55,7 @@ def test_a_fault_names_file_line_and_key(tmp_path, text, message):
 
 def test_a_directory_is_not_a_config(tmp_path):
     assert read(tmp_path) == (
-        [f"{tmp_path}: Is a directory; name a config file (targets stand before --configfile)"],
+        [f"{tmp_path}: Is a directory; name a config file (put targets before --configfile)"],
         None,
     )
 

@@ -36,13 +36,14 @@ TOGETHER = 2048
 
 
 class Labels(NamedTuple):
-    """The labels of n trajectories; every field has the shape (n,), `ends` the shape (n, 2)."""
+    """The labels of n trajectories; every field has the shape (n,)."""
 
     state: np.ndarray  # str, one of STATES
     period: np.ndarray  # int64, excitation cycles; 0 for none of up to convergence.MAX_PERIOD
     longest_flight: np.ndarray  # excitation cycles; NaN for chaos and undecided trajectories
     cycles: np.ndarray  # int64, excitation cycles that the trajectory was followed for
-    ends: np.ndarray  # the last δ (m) and v (m/s), at trajectory.BEGIN_OF_CYCLE
+    delta: np.ndarray  # m, the last penetration δ at trajectory.BEGIN_OF_CYCLE
+    v: np.ndarray  # m/s, its rate there
 
 
 def continued(
@@ -109,4 +110,4 @@ def classify(
         longer = still[signs < 0]
         codes[longer] = regular[longer]
     flights[(codes == CHAOS) | (codes == UNDECIDED)] = math.nan
-    return Labels(np.array(STATES, dtype=object)[codes], found.periods, flights, found.followed, found.states)
+    return Labels(np.array(STATES, dtype=object)[codes], found.periods, flights, found.followed, *found.states.T)
