@@ -184,7 +184,10 @@ def simulate(conveyor: Conveyor, start: Start, times: np.ndarray, digits: int) -
     """
     is_paper_model = conveyor.inclination == conveyor.phase_shift == 0.0
     if not is_paper_model or conveyor.static_friction not in (None, conveyor.friction):
-        raise ValueError("the reference of many digits knows neither inclination, phase_shift nor static_friction")
+        raise ValueError(
+            "the multiprecision reference solves the paper's model only; remove inclination, phase_shift and "
+            "static_friction from its scene"
+        )
     motion, samples, contact = Motion(conveyor, start, digits), [], False
     end = arb(float(times[-1]))
     while motion.t < end:

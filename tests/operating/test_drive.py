@@ -223,8 +223,8 @@ def growing(*volumes: float) -> pd.DataFrame:
 
 
 def test_seeds_search_on_their_own_whatever_the_number_of_threads(monkeypatch):
-    def search(settings, seed):
-        front = drive.Front(settings)
+    def search(settings, seed, count):
+        front = drive.Front(settings, count)
         front.designs, front.objectives = (
             np.array([[30.0 + seed, 50.0, 0.3, 0.0]]),
             np.array([[-0.1, 0.1, 30.0 + seed]]),

@@ -52,6 +52,8 @@ def test_motions_differ_by_state_period_and_flight():
         period=np.array([1, 1, 2, 0, 1, 1, 0]),
         longest_flight=np.array([0.92, 0.0, 0.92, np.nan, 1.9, 0.9201, np.nan]),
         cycles=np.zeros(7, dtype=np.int64),
+        delta=np.zeros(7),
+        v=np.zeros(7),
     )
     number = shares.groups(found)
     assert number[0] == number[5]
@@ -89,9 +91,8 @@ def test_velocities_are_means_over_whole_cycles(table):
 
 def velocity(conveyor: Conveyor, start: Start, period: int, **settings) -> tuple[float, str]:
     """The mean velocity of one initial condition that has settled vertically after twenty cycles, and its status."""
-    (found,), _, (status,) = shares.velocities(
-        pack(conveyor, start)[None], np.array([period]), np.array([20]), {**BOX, **settings}
-    )
+    labels = Labels(np.array(["second"]), np.array([period]), np.zeros(1), np.array([20]), np.zeros(1), np.zeros(1))
+    (found,), _, (status,) = shares.velocities(pack(conveyor, start)[None], labels, {**BOX, **settings})
     return found, status
 
 
@@ -149,9 +150,10 @@ def test_samples_of_both_first_runs_ascend(monkeypatch):
 def test_brief_runs_take_means_over_whole_periods():
     """A motion with a period of four cycles, whose velocity differs from cycle to cycle."""
     rows = pack(Conveyor(acceleration=61.8), Start(3e-4))[None]
-    options = {**BOX, "cycles": 250}
-    found, peaks, status = shares.brief_velocities(rows, np.array([4]), np.array([2000]), options)
-    long, long_peaks, _ = shares.velocities(rows, np.array([4]), np.array([2000]), options)
+    options, labels = {**BOX, "cycles": 250}, classify(rows)
+    assert labels.period.tolist() == [4]
+    found, peaks, status = shares.brief_velocities(rows, labels, options)
+    long, long_peaks, _ = shares.velocities(rows, labels, options)
     assert status.tolist() == ["ok"]
     assert found == pytest.approx(long, rel=1e-3)
     assert peaks == pytest.approx(long_peaks, rel=1e-5)
@@ -183,7 +185,7 @@ def test_a_run_that_fails_says_why_there_is_no_velocity():
 def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, wanted):
     def motions_found(parameters, *_, **__):
         n = len(parameters)
-        return Labels(np.full(n, states), np.ones(n, np.int64), np.zeros(n), np.arange(n))
+        return Labels(np.full(n, states), np.ones(n, np.int64), np.zeros(n), np.arange(n), np.zeros(n), np.zeros(n))
 
     monkeypatch.setattr(shares, "motions_of_starts", motions_found)
     velocities = np.array([1.0, 3.0]), np.array([[0.1, 2.0], [0.2, 1.0]]), np.array(statuses, dtype=object)

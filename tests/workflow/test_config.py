@@ -220,10 +220,11 @@ WRONG = [
         {"dimensions": {"portrait_euler": {"method": "event", "step": 1.0e-6}}},
         "dimensions.portrait_euler.step is not used by the method event",
     ),
+    ({"sweeps": {"mine": {**MINE, "step": 1.0e-6}}}, "sweeps.mine.step is not used by the method event"),
     # folders of the default results
     *(
         ({"prefix": name}, f"prefix = '{name}' is a folder of")
-        for name in ("sweeps", "logs", "claims", "shards", "docs")
+        for name in ("sweeps", "logs", "claims", "shards", "docs", "Logs")
     ),
     # tables and settings that the default config does not have there
     ({"figures": {"fig03": {"settings": {"acceleration": 40.0}}}}, "figures.fig03.settings.acceleration is an unknown"),
@@ -243,6 +244,7 @@ WRONG = [
         {"sweeps": {"mine": {"axes": {"friction": [0.1, 0.3]}, "model": {"static_friction": 0.2}}}},
         "sweeps.mine has static_friction = 0.2 below friction = 0.3",
     ),
+    ({"drive": {"recommended": 9, "checked": 8}}, "drive.recommended = 9 is above drive.checked = 8; check more"),
     ({"drive": {"velocity": 0}}, "drive.velocity = 0 should be more than 0 (m/s)"),
     ({"drive": {"velocity": 200.0}}, "drive.velocity = 200.0 should be at most 100 (m/s)"),
     ({"drive": {"velocity": "2 cm/s"}}, "drive.velocity = '2 cm/s' should be a valid number (m/s)"),
@@ -274,6 +276,12 @@ def test_an_error_names_key_and_remedy(overlay, message):
     lines = problems(merged(CONFIG, overlay))
     assert any(message in line for line in lines), lines
     assert all(line.isprintable() for line in lines)
+
+
+def test_a_fault_of_the_model_is_reported_once_for_all_entries_that_inherit_it():
+    lines = problems(merged(CONFIG, {"model": {"static_friction": 0.1}}))
+    assert lines[0].startswith("model has static_friction")
+    assert not any(line.startswith("sweeps") for line in lines)
 
 
 def test_configs_are_valid():

@@ -1,5 +1,6 @@
 """Faults of config files that are found before Snakemake merges them, and how they are reported."""
 
+import os
 import resource
 
 import pytest
@@ -31,8 +32,15 @@ FAULTS = [
         "a0: &a0 [1, 1]\n" + "".join(f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]\n" for i in range(1, 40)),
         ":13: has more than 12,000 values",
     ),
-    ("model: {mass: " + "1" * 5000 + "}", ": is not YAML: Exceeds the limit"),
-    ("model: {mass: 2001-13-45}", ": is not YAML: month must be"),
+    ("model: {mass: " + "1" * 5000 + "}", ":1: model.mass = 1111"),
+    ("model: {mass: 2001-13-45}", ":1: model.mass = 2001-13-45 cannot be read as timestamp; write a number"),
+    ("model: {mass: !!int heavy}", ":1: model.mass = heavy cannot be read as int"),
+    ("model: {mass: !!int ''}", ":1: model.mass =  cannot be read as int"),
+    ("model: {mass: !!bool maybe}", ":1: model.mass = maybe cannot be read as bool"),
+    ("model: {mass: !!timestamp now}", ":1: model.mass = now cannot be read as timestamp"),
+    ("model: {mass: !gram 3}", ":1: model.mass = 3 cannot be read as !gram"),
+    ("model: {!!bool maybe: 3}", ":1: model.maybe = maybe cannot be read as bool"),
+    ("prefix: " + "a" * 2_000_000, ":1: has more than 1,000,000 characters"),
 ]
 
 
@@ -50,6 +58,18 @@ def test_a_directory_is_not_a_config(tmp_path):
         [f"{tmp_path}: Is a directory; name a config file (put targets before --configfile)"],
         None,
     )
+
+
+def test_a_pipe_is_refused_because_snakemake_cannot_read_it_again(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    faults, _ = read(tmp_path / "pipe")
+    assert faults == [f"{tmp_path}/pipe: is no regular file; save the config in one, and name that file"]
+
+
+def test_merge_keys_are_read(tmp_path):
+    file = tmp_path / "mine.yaml"
+    file.write_text("a: &a {b: 1}\nc: {<<: *a, d: 2}\n")
+    assert read(file) == ([], {"a": {"b": 1}, "c": {"b": 1, "d": 2}})
 
 
 def test_only_octal_numbers_are_reported(tmp_path):
@@ -211,7 +231,8 @@ COMMANDS = [
     (["--config=novalue"], f"--config 'novalue' {BOTH}"),
     (["-C", "novalue"], f"--config 'novalue' {BOTH}"),
     (["-Cnovalue"], f"--config 'novalue' {BOTH}"),
-    (["--config", "model={mass: 3}"], "model.mass = '3' is text to YAML"),
+    (["--config", "model={mass: 3}"], f"--config 'model={{mass: 3}}' {BOTH}"),
+    (["--config", "prefix=[x]"], f"--config 'prefix=[x]' {BOTH}"),
 ]
 
 
