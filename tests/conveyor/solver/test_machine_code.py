@@ -1,4 +1,4 @@
-"""Where compiled code is kept: by the content of what a module imports, and nowhere that others can write."""
+"""The cache of compiled code: its folder depends on the content of imported modules, and only the user can write it."""
 
 import os
 import stat
@@ -13,7 +13,7 @@ CACHED = (imports.direct_imports, machine_code.syntax, machine_code.content)
 
 @pytest.fixture
 def library(tmp_path, monkeypatch):
-    """A small library in place of this one; a function writes a file of it and gives the content of a module."""
+    """A small library; a function writes one of its files and returns the content of a module."""
     files = {
         "solver/model.py": "G = 9.81\n",
         "solver/contact.py": "from .model import G\n",
@@ -37,7 +37,7 @@ def library(tmp_path, monkeypatch):
         cached.cache_clear()
 
 
-def test_only_what_is_imported_counts(library):
+def test_only_imported_modules_count(library):
     before = {name: library(name) for name in ("analysis/orbits", "analysis/states", "solver/contact")}
     assert len(set(before.values())) == 3
     changed = "from .model import G\nW = 0\n"
@@ -52,8 +52,8 @@ def test_comments_do_not_count(library):
     assert library("analysis/orbits", solver__contact="# as it was\n\nfrom .model import G  # m/s²\n") == before
 
 
-def test_the_folder_of_all_belongs_to_one_only(tmp_path, monkeypatch):
-    """What others can write there would be run."""
+def test_the_folder_belongs_to_one_user(tmp_path, monkeypatch):
+    """Otherwise code from other users could run."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
     own = tmp_path / f"conveyor-{os.getuid()}"
@@ -68,7 +68,7 @@ def test_the_folder_of_all_belongs_to_one_only(tmp_path, monkeypatch):
     assert own not in list(machine_code.roots())
 
 
-def test_a_folder_that_cannot_be_written_is_passed_over(tmp_path, monkeypatch):
+def test_a_folder_that_cannot_be_written_is_skipped(tmp_path, monkeypatch):
     blocked = tmp_path / "file"
     blocked.write_text("no folder")
     monkeypatch.setattr(machine_code, "roots", lambda: iter([blocked / "below", tmp_path / "good"]))
