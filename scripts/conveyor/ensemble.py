@@ -85,10 +85,10 @@ def run(
         names the argument that cannot be used
     """
     check_choice("needs", needs, NEEDS)
-    check_threads(threads)
+    threads = check_threads(threads)
     check_count("chunk", chunk, 1, 10**9)
     durations = check_array("duration", duration, np.finfo(np.float64).tiny, LONGEST, "s", least=0)
-    check_run(durations.max() if durations.size else LONGEST, method, tolerance, step)
+    _, tolerance, step = check_run(durations.max() if durations.size else LONGEST, method, tolerance, step)
     if method != "event" and durations.ndim > 0:
         raise ValueError("duration: only the event-driven method takes one for each point")
     parameters = check_packed(parameters)
@@ -103,7 +103,7 @@ def run(
             rows = slice(begin, end)
             follow_by_events(parameters[rows], durations[rows], tolerance, feeding, out[:, rows])
         else:
-            follow_by_steps(parameters[begin:end], duration, step, method, out[:, begin:end])
+            follow_by_steps(parameters[begin:end], durations[begin], step, method, out[:, begin:end])
         return np.count_nonzero(out[CODE, begin:end] != trajectory.OK)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=chunk, progress=progress)

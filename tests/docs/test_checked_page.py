@@ -1,4 +1,4 @@
-"""The page of checks: what does not agree with theory or with brute force is shown, and not counted as agreeing."""
+"""The page of checks: differences from theory or brute force are shown and do not count as agreement."""
 
 import pandas as pd
 from project import ROOT
