@@ -72,6 +72,7 @@ def test_a_toy_solver_is_scored_and_drawn(folder, tmp_path, capsys):
     assert toy.impact_error.tolist() == pytest.approx([1e-6, np.inf])
     own, euler = (table[table.solver == name] for name in ("this solver", "explicit Euler"))
     assert own.error.min() < 1e-9 < euler.error.min()
+    assert own.impact_error.min() < 1e-12 < own.impact_error.max() < 1e-4
     assert chart.stat().st_size > 10_000
     assert "toy" in capsys.readouterr().out
 

@@ -8,7 +8,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from figures.plots import fig08, fig15
+from accuracy import precision
+from conveyor.methods import peers
+from figures.plots import fig08, fig15, work_precision
 
 
 def sweep(low: float, high: float) -> pd.DataFrame:
@@ -40,6 +42,29 @@ def test_the_line_of_fig_15_follows_gravity_normal_to_the_track(inclination):
     line = fig15.plot(impacts=falls).axes[0].lines[0]
     fall = 0.2 / (9.81 * np.cos(inclination))  # s, until a part that starts at rest has this velocity
     assert line.get_ydata() == pytest.approx([0.3 + 2.0 * np.pi * 50.0 * fall, 0.3])
+
+
+def test_failures_are_listed_in_order_and_missing_peers_are_named():
+    """A method that is right in each run is not listed; a peer that is not installed has not failed."""
+    runs = pd.DataFrame(
+        [
+            ("event", "exact", "ok"),
+            ("euler", "fixed step", "wrong state"),
+            ("DOP853", "events", "through the plate"),
+            ("DOP853", "modes", "ok"),
+            ("heyoka", "modes", "not installed"),
+            ("euler", "fixed step", "ok"),
+        ],
+        columns=["method", "treatment", "outcome"],
+    )
+    assert work_precision.failing_methods(runs) == [("euler", "fixed step"), ("DOP853", "events")]
+    assert work_precision.missing_note([runs]).endswith(": heyoka")
+    assert work_precision.missing_note([runs[runs.outcome == "ok"]]) == ""
+
+
+def test_every_outcome_has_a_marker():
+    outcomes = {*peers.STATUSES, precision.WRONG, precision.THROUGH} - {peers.NOT_INSTALLED}
+    assert set(work_precision.OUTCOMES) == outcomes
 
 
 def test_a_picture_does_not_wait_for_the_compiler():

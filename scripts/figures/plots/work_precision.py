@@ -14,7 +14,7 @@ TREATMENTS = {
     "exact, nothing repeated": ("o", "-.", "this solver, no step reused"),
     "fixed step": (".", "-", None),
     "sign": ("x", ":", "sign: no events, friction by sign()"),
-    "events": ("^", "--", "events, naive restart"),
+    "events": ("^", "--", "events: naive restart"),
     "modes": ("s", "-", "modes: events and contact modes"),
 }
 # Marker of each outcome in the list of failures, and its meaning.
