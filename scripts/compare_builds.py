@@ -16,7 +16,6 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-
 EQUAL, WITHIN, DIFFERENT, TIMES = "equal", "within tolerance", "DIFFERENT", "measured times"
 
 
