@@ -3,8 +3,8 @@
 import pytest
 from project import ROOT, STAGES
 
-from scripts.conveyor.solver.imports import direct_imports
 from scripts.pipeline import source_hash
+from scripts.pipeline.imports import direct_imports
 
 # Rooms of the library, from the ground up; `conveyor` itself has what leads to solver and methods: simulate, ensembles.
 # The module `parameters` imports nothing and stands below them.

@@ -3,8 +3,7 @@
 import pytest
 from project import ROOT
 
-from scripts.conveyor.solver import imports
-from scripts.pipeline import source_hash
+from scripts.pipeline import imports, source_hash
 
 # Stages that call the functions of others: the budget makes what figures draw once more, in other ways.
 CALLS = {
