@@ -19,8 +19,6 @@ from .taylor import Step, make_step
 
 # Flights and steps after which a motion is given up.
 MAX_PIECES = 2000
-# Lengths of a step that are tried, each four fifths of the length before.
-SHORTER_STEPS = 12
 # Bisections in the search for the end of a motion.
 BISECTIONS = 40
 
@@ -125,27 +123,17 @@ def _find_end(system: System, step: Step, here: _Contact, end: arb) -> tuple[arb
     def ahead(s: arb) -> arb:
         return end - step.value(PHASE, s)
 
-    length, refusal = step.length, None
-    for _ in range(SHORTER_STEPS):
-        # A shorter step may end where the signs of w and of the remaining phase can be proved.
-        try:
-            bracket = bracket_first_root(w, slope, length, here.w.is_zero(), "the penetration of a contact")
-            separation = None if bracket is None else sharpen(w, slope, *bracket)
-            reach = length if separation is None else separation.lower()
-            # dφ/ds = w > 0 up to here: the phase is reached at most once.
-            arrival = None if ahead(reach) > 0 else _find_arrival(w, ahead, reach)
-        except Refused as refused:
-            refusal = refused
-            length = (length * arb(0.8)).mid()
-            continue
-        if arrival is not None:
-            return arrival, "end"
-        if separation is None:
-            return length, "step"
-        if not ahead(separation) > 0:
-            raise Refused("a separation lies at the section")
-        return separation, "separation"
-    raise refusal
+    bracket = bracket_first_root(w, slope, step.length, here.w.is_zero(), "the penetration of a contact")
+    separation = None if bracket is None else sharpen(w, slope, *bracket)
+    reach = step.length if separation is None else separation.lower()
+    # dφ/ds = w > 0 up to here: the phase is reached at most once.
+    if not ahead(reach) > 0:
+        return _find_arrival(w, ahead, reach), "end"
+    if separation is None:
+        return step.length, "step"
+    if not ahead(separation) > 0:
+        raise Refused("a separation lies at the section")
+    return separation, "separation"
 
 
 def _find_arrival(w, ahead, reach: arb) -> arb:

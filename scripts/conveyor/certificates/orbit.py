@@ -57,9 +57,9 @@ class ProvedOrbit(NamedTuple):
         """Proved from Jury's conditions: "stable" if both multipliers are inside the unit circle, "unstable" if one is
         outside, else "open".
 
-        Let p(μ) = μ² - trace μ + det be the characteristic polynomial. Both multipliers are inside if and only if det < 1
-        and p(±1) > 0. If p(1) < 0 or p(-1) < 0, a real multiplier lies beyond +1 or -1. det < 1 holds for every orbit
-        with contact.
+        Let p(μ) = μ² - trace μ + det be the characteristic polynomial. Both multipliers are inside if and only if
+        det < 1 and p(±1) > 0. If p(1) < 0 or p(-1) < 0, a real multiplier lies beyond +1 or -1. det < 1 holds for every
+        orbit with contact.
         """
         if self.fold_test > 0 and self.doubling_test > 0 and self.determinant < 1:
             return "stable"

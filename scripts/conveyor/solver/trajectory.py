@@ -34,7 +34,19 @@ from .horizontal import (
 )
 from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import TENSION_CLIP, VZ0, Z0
-from .vertical import CONTACT, FLIGHT, LIMIT, LOST, arrive, begin, flight_from, in_cycle, motion_at, next_piece
+from .vertical import (
+    CONTACT,
+    FLIGHT,
+    LIMIT,
+    LOST,
+    arrive,
+    begin,
+    flight_from,
+    in_cycle,
+    is_finite,
+    motion_at,
+    next_piece,
+)
 
 # Phase at which a cycle begins, rad: the plate is at its top, where a part that leaves the plate is in the air.
 BEGIN_OF_CYCLE = -math.pi
@@ -274,7 +286,7 @@ def follow(parameters, options, records, results, room):
                 horizontal = Horizontal(x, vx, horizontal.sigma)
             pulled = motion.pulled
             motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
-            if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
+            if not is_finite(motion):
                 status = NOT_FINITE
                 break
             events = record_end(record, events, ends, piece, pulled, motion)
