@@ -43,7 +43,6 @@ from .vertical import (
     begin,
     flight_from,
     in_cycle,
-    is_finite,
     motion_at,
     next_piece,
 )
@@ -286,7 +285,7 @@ def follow(parameters, options, records, results, room):
                 horizontal = Horizontal(x, vx, horizontal.sigma)
             pulled = motion.pulled
             motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
-            if not is_finite(motion):
+            if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
                 status = NOT_FINITE
                 break
             events = record_end(record, events, ends, piece, pulled, motion)

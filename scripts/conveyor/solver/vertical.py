@@ -186,8 +186,8 @@ def arrive(c, motion, piece, origin):
 
 @compiled_inline
 def is_finite(motion):
-    """Whether all numbers of a Motion that a failure may spoil are finite."""
-    return math.isfinite(motion.t) and math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)
+    """Whether the state of a Motion is finite."""
+    return math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)
 
 
 @compiled_inline

@@ -45,7 +45,6 @@ from .vertical import (
     flight_from,
     fly,
     graze,
-    is_finite,
     is_grazing,
     motion_at,
     press,
@@ -163,7 +162,7 @@ def advance(c, kept, motion, piece, again, run, steps, lane, sample):
     answer = count(c, kept, motion, piece, again, run, steps, lane, sample)
     if answer == GOES_ON:
         motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
-        if not is_finite(motion):
+        if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
             answer = FAILED
     if answer == GOES_ON:
         motion, cycles = next_cycle(c, motion, piece)
