@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from conveyor.solver.imports import direct_imports
+from pipeline.imports import direct_imports
 
 LIBRARY = Path(__file__).resolve().parents[2] / "scripts/conveyor"
 README = (LIBRARY / "README.md").read_text()

@@ -64,10 +64,10 @@ def no_refcount(typing_context, array):
     """
 
     def code(context, builder, signature, arguments):
-        make = context.make_array(signature.return_type)
-        view = make(context, builder, value=arguments[0])
-        view.meminfo = view.meminfo.type(None)
-        view.parent = view.parent.type(None)
-        return view._getvalue()
+        (view,), model = arguments, context.data_model_manager[signature.return_type]
+        for owner in ("meminfo", "parent"):
+            place = model.get_field_position(owner)
+            view = builder.insert_value(view, view.type.elements[place](None), place)
+        return view
 
     return array(array), code
