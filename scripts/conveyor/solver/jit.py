@@ -74,10 +74,11 @@ def no_refcount(typing_context, array):
     """
 
     def code(context, builder, signature, arguments):
-        make = context.make_array(signature.return_type)
-        view = make(context, builder, value=arguments[0])
-        view.meminfo = view.meminfo.type(None)
-        view.parent = view.parent.type(None)
-        return view._getvalue()
+        (view,) = arguments
+        fields = context.data_model_manager[signature.return_type]
+        for name in ("meminfo", "parent"):
+            place = fields.get_field_position(name)
+            view = builder.insert_value(view, view.type.elements[place](None), place)
+        return view
 
     return array(array), code
