@@ -85,7 +85,7 @@ def run(
         names the argument that cannot be used
     """
     check_choice("needs", needs, NEEDS)
-    check_threads(threads)
+    threads = check_threads(threads)
     check_count("chunk", chunk, 1, 10**9)
     durations = check_array("duration", duration, np.finfo(np.float64).tiny, LONGEST, "s", least=0)
     _, tolerance, step = check_run(durations.max() if durations.size else LONGEST, method, tolerance, step)

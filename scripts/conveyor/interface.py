@@ -1,8 +1,8 @@
 """The public functions of the library besides `simulate`: they take a Conveyor and plain arrays, and check both.
 
 Arrays given by keyword replace single parameters of the Conveyor and the Start with the same names. They broadcast
-against each other, and results have their shape. Each function checks its arguments, packs the parameters, and calls
-the module that describes the method.
+against each other, and results have their shape. Each function packs the parameters and calls the module that describes
+the method. It checks the arguments that this module does not check itself.
 """
 
 from dataclasses import fields
@@ -34,7 +34,7 @@ from .arguments import (
     check_type,
 )
 from .parameters import RANGES
-from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, check_run
+from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE
 from .solver.model import Conveyor, Start, pack, set_columns
 
 AXES = (*(field.name for field in fields(Conveyor) if field.name in RANGES), "z", "vz")
@@ -120,12 +120,9 @@ def sweep(
     >>> bool(runs.mean_velocity[1, 1] > runs.mean_velocity[1, 0])  # at 40 m/s² a part that jumps is faster
     True
     """
-    duration, tolerance, step = check_run(duration, method, tolerance, step)
-    threads = check_threads(threads)
     rows, shape = pack_all(conveyor, start, values)
-    options = {"duration": duration, "method": method, "tolerance": tolerance, "step": step}
-    columns = ensemble.run(rows, **options, threads=threads)
-    return reshape(Runs(**columns), shape)
+    options = {"duration": duration, "method": method, "tolerance": tolerance, "step": step, "threads": threads}
+    return reshape(Runs(**ensemble.run(rows, **options)), shape)
 
 
 def classify(
@@ -218,7 +215,7 @@ def lyapunov_spectrum(
     ----------
     conveyor, start : the parameters that are not among the `values`
     transient : excitation cycles at first that do not count, up to 1e6
-    cycles, blocks : `blocks` (2 to 1000) of `cycles` (1 to 1e5) count; the standard error is that of the blocks' means
+    cycles, blocks : `blocks` (2 to 1e4) of `cycles` (1 to 1e6) count; the standard error is that of the blocks' means
     tolerance, threads, values : as in `sweep`
 
     Returns
@@ -233,13 +230,8 @@ def lyapunov_spectrum(
     >>> bool(np.allclose(found.lambda_1 + found.lambda_2, -0.3 / 0.7e-3 * found.contact_fraction))
     True
     """
-    counts = {
-        "transient": check_count("transient", transient, 0, MOST_CYCLES),
-        "cycles": check_count("cycles", cycles, 1, 10**5),
-        "blocks": check_count("blocks", blocks, 2, 1000),
-    }
-    tolerance, threads = check_tolerance(tolerance), check_threads(threads)
     rows, shape = pack_all(conveyor, start, values)
+    counts = {"transient": transient, "cycles": cycles, "blocks": blocks}
     return reshape(lyapunov.spectrum(rows, **counts, tolerance=tolerance, threads=threads), shape)
 
 

@@ -202,6 +202,11 @@ def test_a_run_that_continues_a_failed_one_fails():
     assert found["status"].tolist() == ["ok", "impact not found"]
 
 
+def test_exponents_over_more_cycles_than_memory_holds_are_refused():
+    with pytest.raises(ValueError, match=r"blocks = 10000 of cycles = 1000000 for 2 trajectories"):
+        lyapunov.spectrum(ROWS, cycles=10**6, blocks=10**4)
+
+
 def test_shapes_of_packed_parameters_and_states_are_checked():
     with pytest.raises(ValueError, match=r"parameters must have the shape \(n, 16\), got the shape \(2, 15\)"):
         ensemble.run(ROWS[:, 1:])

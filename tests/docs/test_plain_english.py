@@ -1,6 +1,6 @@
-"""Texts that people read avoid the phrases of an old dialect, in which nobody does anything and nouns are left out.
+"""Texts avoid some phrases that hide who acts, or leave out a noun.
 
-A line that needs such a phrase, because it quotes or names something, has the mark ALLOWED in a comment beside it.
+A line that needs such a phrase, because it quotes or names something, has the mark ALLOWED in a comment.
 """
 
 import re
@@ -10,7 +10,7 @@ import pytest
 from project import ROOT
 
 ALLOWED = "plain-english: ok"
-# Each with a plain way to say it.
+# Each with a plain alternative.
 PHRASES = {
     r"\b(is|are|was|were|be) told\b": "say who says it, or 'is determined'",
     r"\b(made|drawn) anew\b": "'made again', 'recomputed'",
@@ -46,7 +46,7 @@ READ = [
 
 
 def old_phrases(text: str) -> list[str]:
-    """The phrases to avoid that a text has, without marked lines; a phrase may go over the end of a line."""
+    """The phrases to avoid in a text, except in marked lines; a phrase may continue on the next line."""
     kept = " ".join(line.strip(" #") for line in text.splitlines() if ALLOWED not in line)
     return [found[0] for pattern in PHRASES for found in re.finditer(pattern, kept, re.IGNORECASE)]
 

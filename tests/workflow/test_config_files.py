@@ -1,4 +1,4 @@
-"""What the files of the config say before Snakemake merges them, and how it is refused."""
+"""Faults of config files that are found before Snakemake merges them, and how they are reported."""
 
 import os
 import resource
@@ -53,9 +53,9 @@ def test_a_fault_names_file_line_and_key(tmp_path, text, message):
     assert faults[0].startswith(f"{file}{message}"), faults
 
 
-def test_a_directory_is_no_config(tmp_path):
+def test_a_directory_is_not_a_config(tmp_path):
     assert read(tmp_path) == (
-        [f"{tmp_path}: Is a directory; name a config file (targets stand before --configfile)"],
+        [f"{tmp_path}: Is a directory; name a config file (put targets before --configfile)"],
         None,
     )
 
@@ -72,7 +72,7 @@ def test_merge_keys_are_read(tmp_path):
     assert read(file) == ([], {"a": {"b": 1}, "c": {"b": 1, "d": 2}})
 
 
-def test_only_octal_numbers_are_told(tmp_path):
+def test_only_octal_numbers_are_reported(tmp_path):
     file = tmp_path / "mine.yaml"
     file.write_text("a: {b: 010}\nd: '050'\ne: 0\nf: 0.5\n")
     assert read(file)[0] == [f"{file}:1: a.b = 010 is read as 8, an octal number; write it without the 0"]
@@ -85,12 +85,12 @@ def test_json_is_a_config(tmp_path):
 
 
 @pytest.mark.parametrize("file", [*CONFIG_FILES, "reduced"])
-def test_files_of_the_project_are_right(file):
+def test_files_of_the_project_are_valid(file):
     assert read(ROOT / f"config/{file}.yaml") == ([], read_config(file))
 
 
 def test_keys_are_in_the_order_of_the_first_file(tmp_path):
-    """Snakemake begins with the overlay and fills in the config of the Snakefile, then the overlay once more."""
+    """Snakemake begins with the overlay, adds the config of the Snakefile, and merges the overlay again."""
     overlay = {"sweeps": {"heights": {"axes": {"z0": {"num": 41}}}}, "figures": {"fig22": {"title": "x"}}}
     file = tmp_path / "mine.yaml"
     file.write_text(yaml.safe_dump(overlay))
@@ -112,7 +112,7 @@ def test_a_config_is_loaded_from_any_folder(tmp_path, monkeypatch):
 
 
 def test_a_config_without_files_is_the_overlay_of_a_module(tmp_path):
-    """Another workflow gives its config directly: it has the effect of a file with the same content."""
+    """Another workflow passes its config directly, which has the effect of a file with the same content."""
     overlay = {"prefix": "mine", "model": {"frequency": 100, "mass": 1.0e-3}, "sweeps": {"one": {"axes": {"z0": [0]}}}}
     file = tmp_path / "mine.yaml"
     file.write_text(yaml.safe_dump(overlay))
@@ -132,7 +132,7 @@ def test_an_error_has_six_lines_and_jobs_are_not_checked_again():
 
 
 def test_the_config_of_the_paper_is_in_canonical_form():
-    """So that no table changes: what a rule is given has its keys in this order and its numbers in these types."""
+    """Otherwise tables would change, because rules pass keys in this order and numbers of these types."""
     config = plain(read_config())
     found = canonical(config)
     assert found == config
@@ -149,7 +149,7 @@ def written(value) -> str:
 
 
 def plain(value):
-    """A value of its own at each place where YAML has an anchor."""
+    """A copy of the value at each place where YAML has an anchor."""
     if isinstance(value, dict):
         return {key: plain(item) for key, item in value.items()}
     return [plain(item) for item in value] if isinstance(value, list) else value
@@ -157,12 +157,12 @@ def plain(value):
 
 @pytest.fixture(scope="module")
 def project(tmp_path_factory) -> Project:
-    """A copy of the project in which nothing is made."""
+    """A copy of the project without results."""
     return Project(copy_project(tmp_path_factory.mktemp("refused")))
 
 
 def seconds_of_children() -> float:
-    """Processor time that child processes have taken: a busy machine does not add to it."""
+    """Processor time of child processes (s), which does not depend on the load of the machine."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 
@@ -243,7 +243,7 @@ def test_values_of_the_command_line_are_checked_before_snakemake_reads_them(proj
     assert_refused(run, message)
 
 
-def test_right_values_of_the_command_line_are_accepted():
+def test_valid_values_of_the_command_line_are_accepted():
     check_command_line(["snakemake", "--config", "prefix=mine", "-n", "all", "-C", "a_b=1=2", "--cores", "2"])
 
 

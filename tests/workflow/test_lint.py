@@ -1,4 +1,4 @@
-"""Snakemake's linter has no complaints, and the workflow names nothing private of Snakemake."""
+"""Snakemake's linter has no complaints, and the workflow uses only the public interface of Snakemake."""
 
 import re
 import subprocess

@@ -266,7 +266,7 @@ def figures(config: dict, defaults: dict) -> Iterator[str]:
 
 
 def default_claim(name: str, claim: dict, defaults: dict) -> dict:
-    """The claim of the default config with the same finding, first that of the same name; {} if there is none."""
+    """The claim of the default config with the same finding, if possible with the same name; {} if there is none."""
     claims = ({name: {}} | defaults["claims"]).values()
     return next((one for one in claims if one.get("finding") == claim["finding"]), {})
 
@@ -338,11 +338,11 @@ def precision(config: dict, defaults: dict) -> Iterator[str]:
         whole = max(1, round(interval / step))
         if abs(interval / step - whole) > 1e-9 * whole:
             yield (
-                f"precision.sample_interval = {interval!r} s is no multiple of precision.steps[{place}] = {step!r} s; "
-                f"take {whole * step!r} s"
+                f"precision.sample_interval = {interval!r} s is not a multiple of precision.steps[{place}] = {step!r} s"
+                f"; take {whole * step!r} s"
             )
     if scene not in precision["scenes"]:
-        yield f"precision.reference.scene = {scene!r} is no scene; take one of {', '.join(precision['scenes'])}"
+        yield f"precision.reference.scene = {scene!r} is not a scene; take one of {', '.join(precision['scenes'])}"
 
 
 CHECKS = (

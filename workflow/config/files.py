@@ -53,7 +53,7 @@ def size_fault(text: str) -> str | None:
 
 
 def misread(node: yaml.Node, path: tuple[str | int, ...] = (), above: tuple[yaml.Node, ...] = ()) -> Iterator[str]:
-    """ "LINE: fault" for all that YAML reads below a node otherwise than a reader expects; `above` are its parents."""
+    """ "LINE: fault" for each value below a node that YAML reads differently than expected; `above` are its parents."""
     key, line = format_key(path), node.start_mark.line + 1
     if node in above:
         yield f"{line}: {key} contains itself through an anchor; write the values out"
@@ -102,7 +102,7 @@ def read(file: str | Path) -> tuple[list[str], Any]:
             return list(dict.fromkeys(f"{file}:{fault}" for fault in faults)), None
         content = yaml.load(text, Loader=yaml.CSafeLoader)
     except OSError as error:
-        return [f"{file}: {error.strerror}; name a config file (targets stand before --configfile)"], None
+        return [f"{file}: {error.strerror}; name a config file (put targets before --configfile)"], None
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
         return [f"{file}:{line}: is not UTF-8 text ({error.reason}); save it as UTF-8"], None

@@ -18,10 +18,18 @@ import numpy as np
 
 from ..solver import contact, polynomial
 from ..solver.contact import FIRST
-from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_refcount
+from ..solver.jit import compiled, compiled_inline, no_refcount
 from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
 from ..solver.polynomial import ORDER, SIZE
-from ..solver.trajectory import BEGIN_OF_CYCLE, IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, longest_eventless
+from ..solver.trajectory import (
+    IMPACT_LOST,
+    MAX_PIECES,
+    NOT_FINITE,
+    OK,
+    TOO_STIFF,
+    longest_eventless,
+    time_to_next_cycle,
+)
 from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, begin, cut_step, motion_at, next_piece
 
 # Features of a cycle.
@@ -208,12 +216,6 @@ def advance(c, series, state, phase, duration, tangent, features):
     return TOO_STIFF
 
 
-@compiled_into_callers
-def cycle(c, series, state, tangent, features):
-    """Advance `state`, at the phase ψ0, by one excitation cycle: see `advance`."""
-    return advance(c, series, state, c.psi0, c.period, tangent, features)
-
-
 @compiled
 def to_begin_of_cycle(parameters, tolerance, states):
     """Fill `states`, shape (n, 2), with the states when the plate is next at its top; NaN for a failure."""
@@ -223,8 +225,7 @@ def to_begin_of_cycle(parameters, tolerance, states):
     for i in range(parameters.shape[0]):
         c = contact.constants(parameters[i], tolerance)
         initial_state(parameters[i], tolerance, states[i])
-        remaining = ((BEGIN_OF_CYCLE - c.psi0) % (2.0 * math.pi)) / c.omega
-        if advance(c, series, states[i], c.psi0, remaining, no_tangent, features) != OK:
+        if advance(c, series, states[i], c.psi0, time_to_next_cycle(c), no_tangent, features) != OK:
             states[i, :] = np.nan
 
 
@@ -246,7 +247,7 @@ def follow(parameters, tolerance, state, cycles, strobes, features):
     features[:] = np.nan
     mark = 0  # 0, 1, 3, 7, …: at last one is in the repeated part, a whole period before n (Brent 1980)
     for n in range(cycles):
-        status = cycle(c, series, state, no_tangent, found)
+        status = advance(c, series, state, c.psi0, c.period, no_tangent, found)
         if status != OK:
             return status
         strobes[n, :] = state
@@ -297,7 +298,7 @@ def monodromy(parameters, tolerance, state, matrices, features):
     found = np.zeros(FEATURES)
     for n in range(matrices.shape[0]):
         tangent = np.eye(2)
-        status = cycle(c, series, state, tangent, found)
+        status = advance(c, series, state, c.psi0, c.period, tangent, found)
         features[n, :] = found
         matrices[n, :, :] = tangent.T
         if status != OK:

@@ -14,7 +14,7 @@ FEWEST = 6
 
 
 def follow(method: str, mode: Mode, task: Task) -> Leg:
-    """Follow one leg by a `method` of CyRK; `ended` is a place among the mode's events."""
+    """Follow one leg by a `method` of CyRK."""
     from CyRK import pysolve_ivp
 
     parameters = mode.counting_parameters()

@@ -15,12 +15,12 @@ import math
 
 import numpy as np
 from llvmlite import ir
-from numba.core import cgutils, types
+from numba.core import types
 from numba.extending import intrinsic
 
 from ..solver import model
 from ..solver.jit import compiled, compiled_into_callers
-from ..solver.vectors import BIT, FLOAT, INTEGER, Memory, Vector, anywhere, call, fma, lanes_of_processor, where
+from ..solver.vectors import BIT, FLOAT, INTEGER, Memory, Vector, anywhere, call, fma, lanes_of_processor, power, where
 from .force_law import spring_and_damper
 
 CHECK = 256  # steps between checks that the state is finite
@@ -105,18 +105,8 @@ def sine_and_cosine(phase: Vector) -> tuple[Vector, Vector]:
 
 def spring_length(depth: Vector, exponent: Vector, flying: Vector) -> Vector:
     """δ^p in m^p from δ (m), and anything in lanes that fly. The slow power function is called only where needed."""
-    builder = depth.builder
     hertz, hooke = exponent == 1.5, exponent == 1.0
-    length = cgutils.alloca_once_value(builder, (depth * where(hertz, call("sqrt", depth), 1.0)).value)
-    general = ~(flying | hertz | hooke)
-    power = cgutils.get_or_insert_function(builder.module, ir.FunctionType(FLOAT, [FLOAT, FLOAT]), "pow")
-    with builder.if_then(anywhere(general), likely=False):
-        for lane in map(ir.IntType(32), range(depth.lanes)):
-            base, p, wanted = (builder.extract_element(one.value, lane) for one in (depth, exponent, general))
-            with builder.if_then(wanted):
-                found = builder.call(power, [base, p])
-                builder.store(builder.insert_element(builder.load(length), found, lane), length)
-    return Vector(builder, builder.load(length))
+    return power(depth, exponent, ~(flying | hertz | hooke), depth * where(hertz, call("sqrt", depth), 1.0))
 
 
 @intrinsic(prefer_literal=True)

@@ -13,14 +13,13 @@ methods, which serve for comparison only.
 """
 
 import math
-from collections import namedtuple
 from typing import NamedTuple
 
 import numpy as np
 
 from ..parameters import FIXED_STEP_METHODS as METHODS
-from ..solver import model
-from ..solver.jit import compiled, compiled_inline
+from ..solver import contact, friction, model
+from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from . import euler_lanes
 from .euler_lanes import (
     CHECK,
@@ -55,59 +54,17 @@ EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U10")])
 WHOLE = 1e-9  # relative distance from a whole number of steps that counts as rounding of duration and step
 
 
-# The constants of one conveyor: amplitudes of z_s, ż_s, ẋ_s and ẍ_s; cosine and sine of the phase shift; k_c/m, d_c/m
-# and the exponent; both coefficients of friction; gravity normal to the track and down along it (m/s²); the code of
-# tension; mass (kg).
-Constants = namedtuple(
-    "Constants",
-    "plate_z plate_vz plate_vx plate_ax cos_shift sin_shift stiffness damping exponent friction static_friction "
-    "gravity downhill tension mass",
-)
-# Consecutive steps: the code of the method, Δt (s), number of the first step, number of steps of the run, and `phases`.
-Stretch = namedtuple("Stretch", "method step begin n_steps phases")
-# What is recorded of one trajectory: the steps to sample, the number of samples before the stretch, and arrays to fill.
-Record = namedtuple("Record", "indices sampled samples events")
-# What a trajectory remembers from stretch to stretch besides its results.
-IN_CONTACT, LAST_SLIP = range(2)
-
-
-@compiled
-def constants(parameters):
-    """The Constants of a packed parameter vector."""
-    omega = 2.0 * math.pi * parameters[model.FREQUENCY]
-    a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
-    a_x = parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE])
-    shift, mass = parameters[model.PHASE_SHIFT], parameters[model.MASS]
-    return Constants(
-        a_z / omega**2,
-        a_z / omega,
-        a_x / omega,
-        a_x,
-        math.cos(shift),
-        math.sin(shift),
-        parameters[model.STIFFNESS] / mass,
-        parameters[model.DAMPING] / mass,
-        parameters[model.EXPONENT],
-        parameters[model.FRICTION],
-        parameters[model.STATIC_FRICTION],
-        parameters[model.GRAVITY] * math.cos(parameters[model.INCLINATION]),
-        parameters[model.GRAVITY] * math.sin(parameters[model.INCLINATION]),
-        parameters[model.TENSION],
-        mass,
-    )
-
-
 @compiled_inline
 def slip_of(c, vx, sine, cosine):
     """The slip velocity ẋ_s - ẋ_p (m/s) at the phase with the given sine and cosine."""
-    return c.plate_vx * (sine * c.cos_shift + cosine * c.sin_shift) - vx
+    return c.a_x / c.omega * friction.along(c, sine, cosine)[0] - vx
 
 
 @compiled_inline
 def accelerations(c, vx, z, vz, sine, cosine):
     """F_r/m, F_c/m (m/s²) and the gap (m) of a state at the phase with the given sine and cosine."""
-    gap = z + c.plate_z * cosine
-    normal = contact_acceleration(gap, vz - c.plate_vz * sine, c.stiffness, c.damping, c.exponent, c.tension)
+    gap = z + c.a_z / c.omega**2 * cosine
+    normal = contact_acceleration(gap, vz - c.a_z / c.omega * sine, c.stiffness, c.damping, c.exponent, c.tension)
     return friction_acceleration(normal, slip_of(c, vx, sine, cosine), c.friction, c.tension), normal, gap
 
 
@@ -115,7 +72,7 @@ def accelerations(c, vx, z, vz, sine, cosine):
 def stick(c, vx, rub, push, gap, sine, cosine, last_slip):
     """ẋ, F_r/m and the slip velocity where static friction exceeds friction: a part whose slip vanishes may stick."""
     slip = slip_of(c, vx, sine, cosine)
-    pull = c.plate_ax * (cosine * c.cos_shift - sine * c.sin_shift) + c.downhill
+    pull = friction.pull(c, sine, cosine)
     if gap <= 0.0 and last_slip * slip <= 0.0 and abs(pull) <= c.static_friction * push:
         return vx + slip, pull, 0.0
     return vx, rub, slip
@@ -134,7 +91,7 @@ def semi_implicit_euler_step(c, state, rub, push, step):
 def rk4_step(c, state, rub1, push1, step, half_way, end):
     """(x, vx, z, vz) one classical Runge-Kutta step later, from the state, its F_r/m and F_c/m.
 
-    `half_way` and `end` hold the sine and cosine of the plate's phase in the middle of the step and at its end.
+    half_way, end : sine and cosine of the plate's phase in the middle of the step and at its end
     """
     x, vx1, z, vz1 = state
     half = 0.5 * step
@@ -157,119 +114,91 @@ def rk4_step(c, state, rub1, push1, step, half_way, end):
     )
 
 
-@compiled
-def fill_phases(phases, first, step, omega, psi0, method):
-    """Sine and cosine of the plate's phase at steps from number `first` on, of RK4 also half-way and at their ends.
-
-    phases : float64, shape (steps, 6)
-    """
-    turn = omega * step
-    for k in range(len(phases)):
-        phase = omega * ((first + k) * step) + psi0
-        phases[k, 0], phases[k, 1] = math.sin(phase), math.cos(phase)
-        if method == RK4:
-            phases[k, 2], phases[k, 3] = math.sin(phase + 0.5 * turn), math.cos(phase + 0.5 * turn)
-            phases[k, 4], phases[k, 5] = math.sin(phase + turn), math.cos(phase + turn)
+@compiled_into_callers
+def begin_run(c, k, z0, vz0, in_contact, last_slip, results):
+    """Set the state of trajectory number k to its initial condition (m, m/s)."""
+    plate = -c.a_z / c.omega**2 * math.cos(c.psi0)
+    results[k, Z], results[k, VZ] = plate if math.isnan(z0) else z0, vz0
+    results[k, MAX_GAP] = results[k, Z] - plate
+    in_contact[k] = results[k, MAX_GAP] <= 0.0
+    last_slip[k] = slip_of(c, 0.0, math.sin(c.psi0), math.cos(c.psi0))
 
 
-@compiled
-def begin_run(c, z0, vz0, psi0, found, memory):
-    """Set the results and the memory of a trajectory to its initial condition (m, m/s, rad)."""
-    found[Z] = -c.plate_z * math.cos(psi0) if math.isnan(z0) else z0
-    found[VZ] = vz0
-    found[MAX_GAP] = found[Z] + c.plate_z * math.cos(psi0)
-    memory[IN_CONTACT] = found[MAX_GAP] <= 0.0
-    memory[LAST_SLIP] = slip_of(c, found[VX], math.sin(psi0), math.cos(psi0))
-
-
-@compiled
-def follow_stretch(c, stretch, record, found, memory):
-    """Follow one trajectory over a Stretch; whether its run is over.
-
-    found, memory : its results, see euler_lanes.integrate, and what it remembers, shape (2,); both are replaced
-    """
-    method, step, begin, n_steps, phases = stretch
-    x, vx, z, vz, max_gap = found[X], found[VX], found[Z], found[VZ], found[MAX_GAP]
-    impact_speed, peak_force, n_events = found[IMPACT_SPEED], found[PEAK_FORCE], int(found[EVENTS])
-    in_contact, last_slip = memory[IN_CONTACT] != 0.0, memory[LAST_SLIP]
-    sampled, n_impacts, contact_steps = record.sampled, 0, 0
-    i = begin
-    finite = math.isfinite(x + vx + z + vz)
-    while finite and i < begin + len(phases):
-        k = i - begin
-        sine, cosine = phases[k, 0], phases[k, 1]
-        rub, push, gap = accelerations(c, vx, z, vz, sine, cosine)
-        if c.static_friction > c.friction:
-            vx, rub, last_slip = stick(c, vx, rub, push, gap, sine, cosine, last_slip)
-        while sampled < len(record.indices) and record.indices[sampled] == i:
-            # Adding zero removes the sign of a negative zero.
-            record.samples[sampled] = (x, vx, z, vz, c.mass * push, c.mass * rub + 0.0)
-            sampled += 1
-            impact_speed = peak_force = 0.0
-        if i == n_steps:
-            break
-        max_gap, peak_force = max(max_gap, gap), max(peak_force, push)
-        contact_steps += push != 0.0
-        touching = gap <= 0.0
-        if touching != in_contact:
-            in_contact = touching
-            n_impacts += touching
-            if touching:
-                impact_speed = max(impact_speed, c.plate_vz * sine - vz)
-            if n_events < len(record.events):
-                record.events[n_events, 0] = i * step
-                record.events[n_events, 1] = IMPACT if touching else SEPARATION
-            n_events += 1
-        if method == SEMI_IMPLICIT_EULER:
-            x, vx, z, vz = semi_implicit_euler_step(c, (x, vx, z, vz), rub, push, step)
-        else:
-            half_way, end = (phases[k, 2], phases[k, 3]), (phases[k, 4], phases[k, 5])
-            x, vx, z, vz = rk4_step(c, (x, vx, z, vz), rub, push, step, half_way, end)
-        i += 1
-    found[X], found[VX], found[Z], found[VZ], found[MAX_GAP] = x, vx, z, vz, max_gap
-    found[IMPACT_SPEED], found[PEAK_FORCE], found[EVENTS] = impact_speed, peak_force, n_events
-    found[IMPACTS] += n_impacts
-    found[CONTACT_TIME] += contact_steps
-    memory[IN_CONTACT], memory[LAST_SLIP] = in_contact, last_slip
-    if not (i == n_steps or not finite):
-        return False
-    found[CONTACT_TIME] *= step
-    found[PEAK_FORCE] *= c.mass
-    found[euler_lanes.EVALUATIONS] = i * EVALUATIONS[method]
-    found[STATUS] = OK if math.isfinite(x + vx + z + vz) else NOT_FINITE
-    return True
+@compiled_into_callers
+def count_step(c, k, time, sine, vz, gap, push, in_contact, events, results):
+    """Count a step of trajectory number k that begins at a time (s): its gap, its force, an impact or a separation."""
+    results[k, MAX_GAP] = max(results[k, MAX_GAP], gap)
+    results[k, PEAK_FORCE] = max(results[k, PEAK_FORCE], push)
+    results[k, CONTACT_TIME] += push != 0.0
+    touching = gap <= 0.0
+    if touching == in_contact[k]:
+        return
+    in_contact[k] = touching
+    n_events = int(results[k, EVENTS])
+    if n_events < events.shape[1]:
+        events[k, n_events, 0] = time
+        events[k, n_events, 1] = IMPACT if touching else SEPARATION
+    results[k, EVENTS] += 1
+    results[k, IMPACTS] += touching
+    if touching:
+        results[k, IMPACT_SPEED] = max(results[k, IMPACT_SPEED], c.a_z / c.omega * sine - vz)
 
 
 @compiled
 def integrate(parameters, step, n_steps, method, sample_indices, samples, events, results):
-    """Follow n trajectories over plates that share their phase; the rest as in `integrate_all`.
+    """Follow n trajectories over plates that share their phase, step by step; the rest as in `integrate_all`.
 
-    parameters : float64, shape (n, 16), of one frequency and ψ0
+    parameters : float64, shape (n, 16), of one frequency and ψ0, so that all need the same sines and cosines
     method : the code of one of METHODS, not EULER
     """
     if not EULER < method <= LAST_CODE:
         raise ValueError("method must be the code of SEMI_IMPLICIT_EULER or RK4")
-    omega = 2.0 * math.pi * parameters[0, model.FREQUENCY]
-    psi0 = parameters[0, model.PSI0]
-    phases = np.empty((CHECK, 6))
-    running = np.ones(len(parameters), np.bool_)
-    memories = np.empty((len(parameters), 2))
+    n, n_sampled = len(parameters), 0
+    constants = [contact.constants(parameters[0], 0.0)] * n
+    running, contacts, last_slip = np.ones(n, np.bool_), np.empty(n, np.bool_), np.empty(n)
     results[:] = 0.0
-    sampled = 0
-    for begin in range(0, n_steps + 1, CHECK):
-        behind = min(begin + CHECK, n_steps + 1)
-        stretch = Stretch(method, step, begin, n_steps, phases[: behind - begin])
-        fill_phases(stretch.phases, begin, step, omega, psi0, method)
-        for row in range(len(parameters)):
-            if not running[row]:
+    in_contact, events, results = no_refcount(contacts), no_refcount(events), no_refcount(results)
+    for k in range(n):
+        c = constants[k] = contact.constants(parameters[k], 0.0)
+        begin_run(c, k, parameters[k, model.Z0], parameters[k, model.VZ0], in_contact, last_slip, results)
+    omega, psi0 = constants[0].omega, constants[0].psi0
+    turn = omega * step
+    half_way = end = (0.0, 0.0)
+    for i in range(n_steps + 1):
+        phase = omega * (i * step) + psi0
+        sine, cosine = math.sin(phase), math.cos(phase)
+        if method == RK4:
+            half_way = math.sin(phase + 0.5 * turn), math.cos(phase + 0.5 * turn)
+            end = math.sin(phase + turn), math.cos(phase + turn)
+        first = n_sampled
+        while n_sampled < len(sample_indices) and sample_indices[n_sampled] == i:
+            n_sampled += 1
+        for k in range(n):
+            x, vx, z, vz = results[k, X], results[k, VX], results[k, Z], results[k, VZ]
+            if i % CHECK == 0:
+                running[k] = math.isfinite(x + vx + z + vz)
+            if not running[k]:
                 continue
-            c = constants(parameters[row])
-            if begin == 0:
-                begin_run(c, parameters[row, model.Z0], parameters[row, model.VZ0], psi0, results[row], memories[row])
-            record = Record(sample_indices, sampled, samples[row], events[row])
-            running[row] = not follow_stretch(c, stretch, record, results[row], memories[row])
-        while sampled < len(sample_indices) and sample_indices[sampled] < behind:
-            sampled += 1
+            c = constants[k]
+            rub, push, gap = accelerations(c, vx, z, vz, sine, cosine)
+            if c.static_friction > c.friction:
+                vx, rub, last_slip[k] = stick(c, vx, rub, push, gap, sine, cosine, last_slip[k])
+            for number in range(first, n_sampled):
+                samples[k, number] = (x, vx, z, vz, c.mass * push, c.mass * rub + 0.0)  # no negative zero
+                results[k, IMPACT_SPEED] = results[k, PEAK_FORCE] = 0.0
+            if i < n_steps:
+                count_step(c, k, i * step, sine, vz, gap, push, in_contact, events, results)
+                if method == SEMI_IMPLICIT_EULER:
+                    x, vx, z, vz = semi_implicit_euler_step(c, (x, vx, z, vz), rub, push, step)
+                else:
+                    x, vx, z, vz = rk4_step(c, (x, vx, z, vz), rub, push, step, half_way, end)
+                results[k, euler_lanes.EVALUATIONS] += EVALUATIONS[method]
+            results[k, X], results[k, VX], results[k, Z], results[k, VZ] = x, vx, z, vz
+    for k in range(n):
+        finite = math.isfinite(results[k, X] + results[k, VX] + results[k, Z] + results[k, VZ])
+        results[k, STATUS] = OK if finite else NOT_FINITE
+        results[k, CONTACT_TIME] *= step
+        results[k, PEAK_FORCE] *= constants[k].mass
 
 
 def integrate_all(parameters, step, n_steps, method, sample_indices, samples, events, results):

@@ -11,12 +11,7 @@ import numpy as np
 
 from ..solver.model import EXPONENT, PARAMETERS, TENSION, TENSION_ALLOW
 from .force_law import spring_and_damper
-from .leg import Leg, Task
-
-# Names of the systems, and of the event functions that end them.
-FLIGHT, FORWARD, BACKWARD, STICK = "flight", "forward", "backward", "stick"
-GAP, SLIP, GRIP = "gap", "slip", "grip"
-ENDS = {FLIGHT: (GAP,), FORWARD: (GAP, SLIP), BACKWARD: (GAP, SLIP), STICK: (GAP, GRIP, GRIP)}
+from .leg import BACKWARD, FLIGHT, FORWARD, STICK, Leg, Mode, Task
 
 
 def quantities(state: tuple) -> tuple[dict[str, Any], Any, Any, Any, Any]:
@@ -41,8 +36,11 @@ def quantities(state: tuple) -> tuple[dict[str, Any], Any, Any, Any, Any]:
 
 
 @lru_cache(maxsize=64)
-def systems(exponent: float, tolerance: float) -> dict[str, Any]:
-    """Compiled integrators by mode; their parameters are set when they are used."""
+def systems(exponent: float, tolerance: float) -> dict[int, Any]:
+    """Compiled integrators by mode; their parameters are set when they are used.
+
+    Their events are those of the mode in its order; a part that sticks has two last ones, one for each direction.
+    """
     import heyoka as hy
 
     state = hy.make_vars("x", "vx", "z", "vz")
@@ -70,14 +68,12 @@ def systems(exponent: float, tolerance: float) -> dict[str, Any]:
     }
 
 
-def follow(parameters: np.ndarray, mode: str, task: Task) -> Leg:
-    """Follow one leg, `ended` by GAP, SLIP or GRIP.
-
-    A step of order n counts n evaluations: it finds n derivatives of the force.
-    """
+def follow(mode: Mode, task: Task) -> Leg:
+    """Follow one leg. A step of order n counts n evaluations: it finds n derivatives of the force."""
+    parameters = mode.parameters
     if parameters[TENSION] != TENSION_ALLOW:
         raise ValueError("heyoka follows the contact with tension = allow only")
-    integrator = systems(float(parameters[EXPONENT]), task.rtol)[mode]
+    integrator = systems(float(parameters[EXPONENT]), task.rtol)[mode.number]
     integrator.pars[:] = parameters[: len(integrator.pars)]
     integrator.time = task.t
     integrator.state[:] = task.state
@@ -89,7 +85,7 @@ def follow(parameters: np.ndarray, mode: str, task: Task) -> Leg:
     state, evaluations = integrator.state.copy(), steps * integrator.order
     # Outcomes from -1 downwards are the numbers of terminal events.
     event = -1 - int(outcome)
-    ended = ENDS[mode][event] if event < len(ENDS[mode]) else None
+    ended = min(event, len(mode.ends) - 1) if event < len(integrator.t_events) else None
     if not np.isfinite(state).all():
         return Leg(task.t, state, None, np.empty((0, 4)), evaluations)
     passed = task.times[task.times <= integrator.time]

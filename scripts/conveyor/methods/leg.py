@@ -1,19 +1,28 @@
 """Motion in one mode (flight, slip forward, slip backward, stick): what an integrator gets, and what it returns."""
 
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+
+# The modes; SIGN is the motion without modes, in which signs switch the forces.
+SIGN, FLIGHT, FORWARD, BACKWARD, STICK = range(5)
+
+
+class GaveUp(Exception):
+    """More evaluations than allowed."""
+
+
+class EventLost(Exception):
+    """The search for an event finds no change of sign; the argument is the number of evaluations of the leg."""
 
 
 class Mode(NamedTuple):
     """The equations of motion in one mode, and the events that end it."""
 
-    counted_rates: (
-        Callable  # (derivatives, t, state, parameters, mode): fills the derivatives, counts in parameters[-1]
-    )
+    counted_rates: Callable  # (derivatives, t, state, parameters, mode): fills derivatives, counts in parameters[-1]
     parameters: np.ndarray  # from `model.pack`, shape (16,)
-    number: int  # the last argument of `counted_rates`
+    number: int  # of the mode, the last argument of `counted_rates`
     ends: Sequence[tuple[Callable, float]]  # event functions (t, state, parameters), and the directions of their zeros
 
     def counting_parameters(self) -> np.ndarray:
@@ -52,6 +61,6 @@ class Leg(NamedTuple):
 
     t: float  # s, where it stopped
     state: np.ndarray  # x, ẋ, z, ż there, shape (4,)
-    ended: Any  # the event that ended it, a place among the mode's `ends` or a name; None where there is none
+    ended: int | None  # the event that ended it, a place among the mode's `ends`; None where there is none
     samples: np.ndarray  # states at the wanted times up to `t`, shape (k, 4)
     evaluations: int  # of the right-hand side

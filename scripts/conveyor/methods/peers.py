@@ -17,13 +17,12 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from ..solver import model
 from ..solver.jit import compiled
-from . import cyrk_peer, heyoka_peer, sundials_peer
+from . import cyrk_peer, heyoka_peer, scipy_peer, sundials_peer
 from .force_law import contact_acceleration, friction_acceleration
-from .leg import Leg, Mode, Task
+from .leg import BACKWARD, FLIGHT, FORWARD, SIGN, STICK, EventLost, GaveUp, Leg, Mode, Task
 from .rivals import RIVALS, installed_version
 
 HEYOKA = "heyoka"
@@ -33,7 +32,6 @@ NO_TIMES = np.empty(0)
 STATUSES = ("ok", "gave up", "stuck at an event", "step too small", "event lost", "not finite", "not installed")
 OK, GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST, NOT_FINITE, NOT_INSTALLED = STATUSES
 
-SIGN, FLIGHT, FORWARD, BACKWARD, STICK = range(5)
 # Where "modes" puts the variable of an event, in units of the plate's motion: a few rounding errors beside zero. At
 # zero or on the wrong side the integrator finds the same event again, or never again, and the part falls through.
 BESIDE = 1e-15
@@ -182,26 +180,8 @@ def put_beside(
         state[1] = vx + beside_vx
 
 
-# The same modes and events under heyoka's names.
-HEYOKA_MODES = {
-    FLIGHT: heyoka_peer.FLIGHT,
-    FORWARD: heyoka_peer.FORWARD,
-    BACKWARD: heyoka_peer.BACKWARD,
-    STICK: heyoka_peer.STICK,
-}
-HEYOKA_EVENTS = {heyoka_peer.GAP: gap_of, heyoka_peer.SLIP: slip_of, heyoka_peer.GRIP: grip_of}
-
-
-class GaveUp(Exception):
-    """More evaluations than allowed."""
-
-
 class Stuck(Exception):
     """The same mode and state at the same time again: the run would not end."""
-
-
-class EventLost(Exception):
-    """The search for an event finds no change of sign: LSODA's interpolant does not meet its own steps."""
 
 
 class Trajectory:
@@ -218,57 +198,21 @@ class Trajectory:
         self.events: list[float] = []
         self.solvers: dict[int, Any] = {}  # of SUNDIALS, by mode
 
-    def rates(self, t: float, state: np.ndarray) -> np.ndarray:
-        """The right-hand side of the mode for scipy, which counts its evaluations and stops at the limit."""
-        self.evaluations += 1
-        if self.evaluations > self.limit:
-            raise GaveUp
-        return rates(t, state, self.parameters, self.mode)
-
-
-def mode_of(trajectory: Trajectory) -> Mode:
-    """The present mode of a trajectory."""
-    return Mode(counted_rates, trajectory.parameters, trajectory.mode, ENDS[trajectory.mode])
-
-
-def leg_of_scipy(trajectory: Trajectory, task: Task) -> Leg:
-    """Follow the part in one mode, `ended` by a place in ENDS."""
-    watched = mode_of(trajectory).terminal_events()
-    options = {"method": trajectory.integrator, "rtol": task.rtol, "atol": task.atol}
-    options |= {"dense_output": len(task.times) > 0}
-    before = trajectory.evaluations
-    try:
-        # Radau's numerical Jacobian of a part that never moves sideways overflows; the result is checked below.
-        with np.errstate(over="ignore", invalid="ignore"):
-            found = solve_ivp(trajectory.rates, (task.t, task.end), task.state, events=watched, **options)
-    except ValueError as error:
-        raise EventLost from error
-    ended = None
-    if found.status == 1:
-        ended = next(place for place, times in enumerate(found.t_events) if len(times))
-    passed = task.times[task.times <= found.t[-1]]
-    samples = found.sol(passed).T if len(passed) else np.empty((0, 4))
-    evaluations, trajectory.evaluations = trajectory.evaluations - before, before
-    return Leg(float(found.t[-1]), found.y[:, -1].copy(), ended, samples, evaluations)
-
 
 def leg_of(trajectory: Trajectory, task: Task) -> Leg:
-    """Follow the part in one mode by the trajectory's integrator, `ended` by an event function."""
-    number, parameters = trajectory.mode, trajectory.parameters
+    """Follow the part in its present mode by the trajectory's integrator."""
+    number = trajectory.mode
+    mode = Mode(counted_rates, trajectory.parameters, number, ENDS[number])
     _, module, method, _ = RIVALS[trajectory.integrator]
-    if module == "heyoka":
-        leg = heyoka_peer.follow(parameters, HEYOKA_MODES[number], task)
-        return leg._replace(ended=HEYOKA_EVENTS.get(leg.ended))
     if module == "scipy":
-        leg = leg_of_scipy(trajectory, task)
-    elif module == "CyRK":
-        leg = cyrk_peer.follow(method, mode_of(trajectory), task)
-    else:
-        if number not in trajectory.solvers:
-            whole = task._replace(limit=trajectory.limit)
-            trajectory.solvers[number] = sundials_peer.solver_of(method, mode_of(trajectory), whole)
-        leg = sundials_peer.follow(trajectory.solvers[number], task)
-    return leg._replace(ended=None if leg.ended is None else ENDS[number][leg.ended][0])
+        return scipy_peer.follow(method, mode, task)
+    if module == "CyRK":
+        return cyrk_peer.follow(method, mode, task)
+    if module == "heyoka":
+        return heyoka_peer.follow(mode, task)
+    if number not in trajectory.solvers:
+        trajectory.solvers[number] = sundials_peer.solver_of(method, mode, task._replace(limit=trajectory.limit))
+    return sundials_peer.follow(trajectory.solvers[number], task)
 
 
 def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, treatment: str, rtol: float):
@@ -292,8 +236,9 @@ def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray,
             return None
         if leg.t > t:
             met.clear()
-        t, state, ended = leg.t, leg.state, leg.ended
-        if ended is not None:
+        t, state = leg.t, leg.state
+        if leg.ended is not None:
+            ended, _ = ENDS[trajectory.mode][leg.ended]
             if ended is gap_of:
                 trajectory.events.append(t)
             trajectory.mode = next_mode(parameters, t, state, ended, trajectory.mode)
@@ -349,12 +294,11 @@ def run(
         raise ValueError(f"heyoka handles events by modes, not by {treatment}")
     trajectory = Trajectory(parameters, integrator, max_evaluations, np.asarray(times, dtype=np.float64))
 
-    def lost(status: str) -> Summary:
-        evaluations = min(trajectory.evaluations, max_evaluations)
+    def lost(status: str, evaluations: int) -> Summary:
         return Summary(*(math.nan,) * 5, evaluations, status, np.full((len(times), 4), math.nan), np.empty(0))
 
     if installed_version(integrator) is None:
-        return lost(NOT_INSTALLED)
+        return lost(NOT_INSTALLED, 0)
     z0 = parameters[model.Z0]
     state = np.array([0.0, 0.0, plate_motion(parameters, 0.0)[0] if math.isnan(z0) else z0, parameters[model.VZ0]])
     middle = (1.0 - last) * duration
@@ -362,15 +306,15 @@ def run(
         before = advance(trajectory, 0.0, middle, state, treatment, tolerance)
         after = None if before is None else advance(trajectory, middle, duration, before, treatment, tolerance)
     except GaveUp:
-        return lost(GAVE_UP)
+        return lost(GAVE_UP, max_evaluations)
     except Stuck:
-        return lost(STUCK)
-    except EventLost:
-        return lost(EVENT_LOST)
+        return lost(STUCK, trajectory.evaluations)
+    except EventLost as error:
+        return lost(EVENT_LOST, trajectory.evaluations + error.args[0])
     if after is None:
-        return lost(STEP_TOO_SMALL)
+        return lost(STEP_TOO_SMALL, trajectory.evaluations)
     if not np.isfinite(after).all():
-        return lost(NOT_FINITE)
+        return lost(NOT_FINITE, trajectory.evaluations)
     x, vx, z, vz = map(float, after)
     mean_velocity = (x - float(before[0])) / (last * duration)
     found = np.array(trajectory.samples).reshape(-1, 4), np.array(trajectory.events)

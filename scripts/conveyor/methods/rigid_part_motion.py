@@ -13,8 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..solver import contact, model
+from ..solver import contact, friction, model
 from ..solver.flight import Flight, gap, highest_gap, next_impact
+from ..solver.horizontal import slide
 from ..solver.jit import compiled, compiled_inline, compiled_into_callers
 
 STATUSES = ("ok", "too many events", "impact not found")
@@ -30,19 +31,6 @@ CONTACT_TOLERANCE = 1e-14  # of the contact steps that follow an impact
 MAX_CONTACT_STEPS = 10_000  # of one impact; an undamped one takes about ten
 OVERDAMPED = 40.0  # d_c/m times the duration of an undamped impact; over six times critical for a linear contact
 CREEPING = 20.0  # durations of an undamped impact; a contact that takes longer creeps back without a separation
-
-
-class Plate(NamedTuple):
-    """Excitation and friction."""
-
-    omega: float  # rad/s
-    a_x: float  # m/s²
-    a_z: float  # m/s²
-    shift: float  # rad, of the motion along the track
-    gravity: float  # m/s², normal to the track
-    downhill: float  # m/s², gravity against the feeding direction
-    friction: float
-    static_friction: float
 
 
 # How a part moves.
@@ -75,7 +63,8 @@ def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
     series = contact.workspace()
     w, v, time, pulled = 0.0, speed, 0.0, False
     for _ in range(MAX_CONTACT_STEPS):
-        _, w, v, lapse, end = contact.step(alone, series, contact.FIRST, w, v, 0.0, 1.0, pulled)
+        length = contact.begin_step(alone, series, contact.FIRST, w, v, 0.0, 1.0, pulled)
+        _, w, v, lapse, end = contact.end_step(alone, series, contact.FIRST, w, v, pulled, length)
         if end == contact.SEPARATION:
             return -v / speed
         if end == contact.FORCE_SIGN:
@@ -84,21 +73,6 @@ def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
         if time > CREEPING * duration:
             return 0.0
     raise ArithmeticError(f"an impact at {speed:g} m/s does not end within {MAX_CONTACT_STEPS} contact steps")
-
-
-@compiled
-def plate_of(parameters):
-    """The Plate of a packed parameter vector."""
-    return Plate(
-        TURN * parameters[model.FREQUENCY],
-        parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE]),
-        parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]),
-        parameters[model.PHASE_SHIFT],
-        parameters[model.GRAVITY] * math.cos(parameters[model.INCLINATION]),
-        parameters[model.GRAVITY] * math.sin(parameters[model.INCLINATION]),
-        parameters[model.FRICTION],
-        parameters[model.STATIC_FRICTION],
-    )
 
 
 @compiled
@@ -114,11 +88,11 @@ def restitution_at(speed, speeds, coefficients):
 
 
 @compiled
-def rest_end(plate, theta):
+def rest_end(c, theta):
     """Advance of the phase (rad) from `theta` until the plate falls away from a resting part, a_z cos θ < -g cos α."""
-    if plate.a_z <= plate.gravity:
+    if c.a_z <= c.gravity:
         return math.inf
-    edge = math.acos(-plate.gravity / plate.a_z)
+    edge = math.acos(-c.gravity / c.a_z)
     angle = theta % TURN
     if angle <= edge:
         return edge - angle
@@ -138,9 +112,9 @@ def safe_flight(theta, omega):
 
 
 @compiled
-def one_wave(plate, normal):
+def one_wave(c, normal):
     """The amplitude R (m/s²) and the phase δ (rad) of ẍ_s + normal cos θ = R cos(θ + δ)."""
-    cosine, sine = plate.a_x * math.cos(plate.shift) + normal, plate.a_x * math.sin(plate.shift)
+    cosine, sine = c.a_x * c.cos_shift + normal, c.a_x * c.sin_shift
     if sine == 0.0:
         return cosine, 0.0
     return math.hypot(cosine, sine), math.atan2(sine, cosine)
@@ -155,18 +129,18 @@ def advance_to(angle, entry, centre):
 
 
 @compiled
-def stick_end(plate, theta):
+def stick_end(c, theta):
     """Advance of the phase (rad) from `theta` until a sticking part begins to slip, |ẍ_s + g sin α| > μ_s N/m."""
-    grip, lift = plate.static_friction * plate.gravity, plate.static_friction * plate.a_z
+    grip, lift = c.static_friction * c.gravity, c.static_friction * c.a_z
     # -(ẍ_s + g sin α) exceeds μ_s N/m where R cos(θ + δ) falls below -needed.
-    amplitude, shift = one_wave(plate, lift)
-    needed = grip + plate.downhill
+    amplitude, shift = one_wave(c, lift)
+    needed = grip + c.downhill
     backward = 0.0 if needed < -amplitude else math.inf
     if abs(needed) < amplitude:
         backward = advance_to((theta + shift) % TURN, math.acos(-needed / amplitude), math.pi)
     # ẍ_s + g sin α exceeds μ_s N/m where R cos(θ + δ) rises above `needed`.
-    amplitude, shift = one_wave(plate, -lift)
-    needed = grip - plate.downhill
+    amplitude, shift = one_wave(c, -lift)
+    needed = grip - c.downhill
     forward = 0.0 if needed < -abs(amplitude) else math.inf
     if abs(needed) < amplitude:
         forward = advance_to((theta + shift) % TURN, TURN - math.acos(needed / amplitude), TURN)
@@ -174,23 +148,23 @@ def stick_end(plate, theta):
 
 
 @compiled
-def slip_after(plate, theta, slip, sigma, advance):
+def slip_after(c, theta, slip, sigma, advance):
     """Slip velocity ẋ_s - ẋ_p (m/s) of a resting part after an advance of the phase (rad)."""
-    swing = (plate.a_x * math.cos(plate.shift) - sigma * plate.friction * plate.a_z) / plate.omega
-    turned = plate.a_x * math.sin(plate.shift) / plate.omega * (math.cos(theta + advance) - math.cos(theta))
-    fall = (sigma * plate.friction * plate.gravity - plate.downhill) / plate.omega
+    swing = (c.a_x * c.cos_shift - sigma * c.friction * c.a_z) / c.omega
+    turned = c.a_x * c.sin_shift / c.omega * (math.cos(theta + advance) - math.cos(theta))
+    fall = (sigma * c.friction * c.gravity - c.downhill) / c.omega
     return slip + swing * (math.sin(theta + advance) - math.sin(theta)) - fall * advance + turned
 
 
 @compiled
-def slip_end(plate, theta, slip, sigma, limit):
+def slip_end(c, theta, slip, sigma, limit):
     """Advance of the phase (rad), up to `limit`, at which the slip velocity of a resting part is back at zero.
 
     The advance is infinite if there is no zero. The slip velocity is monotonic between known angles, so that no zero is
     missed.
     """
-    swing, shift = one_wave(plate, -sigma * plate.friction * plate.a_z)
-    fall = sigma * plate.friction * plate.gravity - plate.downhill
+    swing, shift = one_wave(c, -sigma * c.friction * c.a_z)
+    fall = sigma * c.friction * c.gravity - c.downhill
     edge = math.acos(fall / swing) if abs(fall) < abs(swing) else 0.5 * math.pi
     low = 0.0
     while low < limit:
@@ -200,10 +174,10 @@ def slip_end(plate, theta, slip, sigma, limit):
         to_first += TURN if to_first < 1e-9 else 0.0
         to_second += TURN if to_second < 1e-9 else 0.0
         high = low + min(to_first, to_second)
-        if sigma * slip_after(plate, theta, slip, sigma, high) <= 0.0:
+        if sigma * slip_after(c, theta, slip, sigma, high) <= 0.0:
             while high - low > 1e-15 * (1.0 + high):
                 middle = 0.5 * (low + high)
-                if sigma * slip_after(plate, theta, slip, sigma, middle) > 0.0:
+                if sigma * slip_after(c, theta, slip, sigma, middle) > 0.0:
                     low = middle
                 else:
                     high = middle
@@ -213,142 +187,137 @@ def slip_end(plate, theta, slip, sigma, limit):
 
 
 @compiled
-def plate_speed(plate, theta):
+def plate_speed(c, theta):
     """ẋ_s (m/s) at the phase `theta` (rad)."""
-    return plate.a_x / plate.omega * math.sin(theta + plate.shift)
+    return c.a_x / c.omega * friction.along(c, math.sin(theta), math.cos(theta))[0]
 
 
 @compiled
-def slide(plate, x, vx, tau):
-    """x (m) and ẋ (m/s) after the time `tau` (s) in which gravity alone acts along the track."""
-    fall = plate.downhill * tau
-    return x + vx * tau - 0.5 * fall * tau, vx - fall
-
-
-@compiled
-def rest_motion(plate, theta, x, vx, sigma, tau):
+def rest_motion(c, theta, x, vx, sigma, tau):
     """x (m) and ẋ (m/s) of a resting part after the time `tau` (s); `sigma` is the sign of the slip, 0 for stick."""
-    phase = theta + plate.omega * tau
-    sine = (math.sin(phase) - math.sin(theta)) / plate.omega
-    cosine = (math.cos(theta) - math.cos(phase)) / plate.omega**2
+    phase = theta + c.omega * tau
+    sine = (math.sin(phase) - math.sin(theta)) / c.omega
+    cosine = (math.cos(theta) - math.cos(phase)) / c.omega**2
     if sigma == 0.0:
-        path = (math.cos(theta + plate.shift) - math.cos(phase + plate.shift)) / plate.omega**2
-        return x + plate.a_x * path, plate_speed(plate, phase)
-    fall = 0.5 * plate.gravity * tau * tau
-    lift = plate.a_z * (cosine - math.sin(theta) / plate.omega * tau)
-    rub = sigma * plate.friction
-    x, vx = slide(plate, x, vx, tau)
-    return x + rub * (fall + lift), vx + rub * (plate.gravity * tau + plate.a_z * sine)
+        _, begin = friction.along(c, math.sin(theta), math.cos(theta))
+        speed, end = friction.along(c, math.sin(phase), math.cos(phase))
+        return x + c.a_x * ((begin - end) / c.omega**2), c.a_x / c.omega * speed
+    fall = 0.5 * c.gravity * tau * tau
+    lift = c.a_z * (cosine - math.sin(theta) / c.omega * tau)
+    rub = sigma * c.friction
+    x, vx = slide(c, x, vx, tau)
+    return x + rub * (fall + lift), vx + rub * (c.gravity * tau + c.a_z * sine)
 
 
 @compiled
-def slip_direction(plate, theta, slip):
+def slip_direction(c, theta, slip):
     """Sign of the slip of a resting part, 0 for stick (Filippov's condition)."""
     if slip != 0.0:
         return math.copysign(1.0, slip)
-    pull = plate.a_x * math.cos(theta + plate.shift) + plate.downhill
-    if abs(pull) <= plate.static_friction * (plate.gravity + plate.a_z * math.cos(theta)):
+    sine, cosine = math.sin(theta), math.cos(theta)
+    pull = friction.pull(c, sine, cosine)
+    if abs(pull) <= c.static_friction * (c.gravity + c.a_z * cosine):
         return 0.0
     return math.copysign(1.0, pull)
 
 
 @compiled_inline
-def plate_height(plate, theta):
+def plate_height(c, theta):
     """z_s (m) at the phase `theta` (rad)."""
-    return -plate.a_z / plate.omega**2 * math.cos(theta)
+    return -c.a_z / c.omega**2 * math.cos(theta)
 
 
 @compiled_inline
-def plate_rise(plate, theta):
+def plate_rise(c, theta):
     """ż_s (m/s) at the phase `theta` (rad)."""
-    return plate.a_z / plate.omega * math.sin(theta)
+    return c.a_z / c.omega * math.sin(theta)
 
 
 @compiled_into_callers
-def first_motion(plate, z0, vz0, theta):
+def first_motion(c, z0, vz0, theta):
     """The Motion at an initial condition (m, m/s, rad)."""
-    z = plate_height(plate, theta)
+    z = plate_height(c, theta)
     q = max(z0 - z, 0.0) if z0 == z0 else 0.0  # z0 is NaN for a part that starts on the plate
-    rate = vz0 - plate_rise(plate, theta)
+    rate = vz0 - plate_rise(c, theta)
     kind = ARRIVING if q == 0.0 and rate <= 0.0 else FLYING
     return Motion(kind, 0.0, 0.0, z + q, vz0, 0.0, q, rate, -rate, 0.0)
 
 
 @compiled_into_callers
-def bounce(plate, motion, theta, coefficient):
+def bounce(c, motion, theta, coefficient):
     """The Motion just after an impact."""
     rate = coefficient * motion.speed
     vx = motion.vx
-    bound = plate.friction * (1.0 + coefficient) * motion.speed
-    slip = plate_speed(plate, theta) - vx
+    bound = c.friction * (1.0 + coefficient) * motion.speed
+    slip = plate_speed(c, theta) - vx
     if abs(slip) <= bound:
         vx += slip
         slip = 0.0
     else:
         vx += math.copysign(bound, slip)
-    pressure = plate.gravity + plate.a_z * math.cos(theta)
-    kind = RESTING if pressure > 0.0 and 2.0 * plate.omega * rate <= COLLAPSE * pressure else FLYING
-    skip = 0.0 if pressure > 0.0 else safe_flight(theta, plate.omega)
-    sigma = slip_direction(plate, theta, slip)
-    z, vz = plate_height(plate, theta), plate_rise(plate, theta) + rate
+    pressure = c.gravity + c.a_z * math.cos(theta)
+    kind = RESTING if pressure > 0.0 and 2.0 * c.omega * rate <= COLLAPSE * pressure else FLYING
+    skip = 0.0 if pressure > 0.0 else safe_flight(theta, c.omega)
+    sigma = slip_direction(c, theta, slip)
+    z, vz = plate_height(c, theta), plate_rise(c, theta) + rate
     return Motion(kind, motion.x, vx, z, vz, sigma, 0.0, rate, motion.speed, skip)
 
 
 @compiled_into_callers
-def rest_duration(plate, motion, theta, left):
+def rest_duration(c, motion, theta, left):
     """How long (s) a part rests and slips one way or sticks, and whether the plate leaves it then.
 
     left : s, after which nothing is wanted any more
     """
-    leave = rest_end(plate, theta) / plate.omega
+    leave = rest_end(c, theta) / c.omega
     if motion.sigma == 0.0:
-        change = stick_end(plate, theta) / plate.omega
+        change = stick_end(c, theta) / c.omega
     else:
-        slip = plate_speed(plate, theta) - motion.vx
-        change = slip_end(plate, theta, slip, motion.sigma, plate.omega * min(leave, left)) / plate.omega
+        slip = plate_speed(c, theta) - motion.vx
+        change = slip_end(c, theta, slip, motion.sigma, c.omega * min(leave, left)) / c.omega
     return min(leave, change), leave <= change
 
 
 @compiled_into_callers
-def end_rest(plate, motion, theta, tau, leaves):
+def end_rest(c, motion, theta, tau, leaves):
     """The Motion after a rest of `tau` (s), which the plate ends if it `leaves` the part."""
     _, _, _, z, vz, sigma, q, rate, speed, skip = motion
     kind = RESTING
-    x, vx = rest_motion(plate, theta, motion.x, motion.vx, sigma, tau)
-    theta += plate.omega * tau
+    x, vx = rest_motion(c, theta, motion.x, motion.vx, sigma, tau)
+    theta += c.omega * tau
     if leaves:
-        kind, skip = FLYING, safe_flight(theta, plate.omega)
-        z, vz = plate_height(plate, theta), plate_rise(plate, theta)
+        kind, skip = FLYING, safe_flight(theta, c.omega)
+        z, vz = plate_height(c, theta), plate_rise(c, theta)
     elif sigma == 0.0:
-        sigma = math.copysign(1.0, plate.a_x * math.cos(theta + plate.shift) + plate.downhill)
+        sigma = math.copysign(1.0, friction.pull(c, math.sin(theta), math.cos(theta)))
     else:
-        vx = plate_speed(plate, theta)
-        sigma = slip_direction(plate, theta, 0.0)
+        vx = plate_speed(c, theta)
+        sigma = slip_direction(c, theta, 0.0)
     return Motion(kind, x, vx, z, vz, sigma, q, rate, speed, skip)
 
 
 @compiled_into_callers
-def sample_rest(plate, motion, theta, clock, tau, record):
+def sample_rest(c, motion, theta, clock, tau, record):
     """Sample a part that rests for `tau` (s); the number of samples with them."""
     times, samples, sampled = record
     while sampled < len(times) and clock.base + clock.t + tau >= times[sampled]:
         ahead = times[sampled] - clock.base - clock.t
-        phase = theta + plate.omega * ahead
-        x, vx = rest_motion(plate, theta, motion.x, motion.vx, motion.sigma, ahead)
-        samples[sampled] = (x, vx, plate_height(plate, phase), plate_rise(plate, phase))
+        phase = theta + c.omega * ahead
+        x, vx = rest_motion(c, theta, motion.x, motion.vx, motion.sigma, ahead)
+        samples[sampled] = (x, vx, plate_height(c, phase), plate_rise(c, phase))
         sampled += 1
     return sampled
 
 
 @compiled_into_callers
-def sample_flight(plate, motion, clock, tau, record):
+def sample_flight(c, motion, clock, tau, record):
     """Sample a part that flies for `tau` (s); the number of samples with them."""
     times, samples, sampled = record
     while sampled < len(times) and clock.base + clock.t + tau >= times[sampled]:
         ahead = times[sampled] - clock.base - clock.t
-        x, vx = slide(plate, motion.x, motion.vx, ahead)
-        z = motion.z + (motion.vz - 0.5 * plate.gravity * ahead) * ahead
-        samples[sampled] = (x, vx, z, motion.vz - plate.gravity * ahead)
+        x, vx = slide(c, motion.x, motion.vx, ahead)
+        z = motion.z + (motion.vz - 0.5 * c.gravity * ahead) * ahead
+        samples[sampled] = (x, vx, z, motion.vz - c.gravity * ahead)
         sampled += 1
     return sampled
 
@@ -369,10 +338,10 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
     -------
     number of impacts, largest gap (m), status
     """
-    plate = plate_of(parameters)
-    omega, gravity, a_z = plate.omega, plate.gravity, plate.a_z
+    c = contact.constants(parameters, 0.0)
+    omega, gravity, a_z = c.omega, c.gravity, c.a_z
     period, psi0, end = 1.0 / parameters[model.FREQUENCY], parameters[model.PSI0], times[-1]
-    motion = first_motion(plate, parameters[model.Z0], parameters[model.VZ0], psi0)
+    motion = first_motion(c, parameters[model.Z0], parameters[model.VZ0], psi0)
     max_gap = motion.q
     cycle, t = 0, 0.0
     sampled = n_impacts = n_events = 0
@@ -392,11 +361,11 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
                 if n_impacts < len(impacts):
                     impacts[n_impacts, 0], impacts[n_impacts, 1] = clock.base + t, motion.speed
                 n_impacts += 1
-            motion = bounce(plate, motion, theta, restitution_at(motion.speed, speeds, coefficients))
+            motion = bounce(c, motion, theta, restitution_at(motion.speed, speeds, coefficients))
         elif motion.kind == RESTING:
-            tau, leaves = rest_duration(plate, motion, theta, left)
-            sampled = sample_rest(plate, motion, theta, clock, tau, (times, samples, sampled))
-            motion = end_rest(plate, motion, theta, tau, leaves)
+            tau, leaves = rest_duration(c, motion, theta, left)
+            sampled = sample_rest(c, motion, theta, clock, tau, (times, samples, sampled))
+            motion = end_rest(c, motion, theta, tau, leaves)
             t += tau
         else:
             _, x, vx, z, vz, sigma, q, rate, _, skip = motion
@@ -405,7 +374,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
                 q, rate = gap(flight, skip)
                 if q <= 0.0:
                     # The plate is back before it has really left.
-                    x, vx = rest_motion(plate, theta, x, vx, sigma, skip)
+                    x, vx = rest_motion(c, theta, x, vx, sigma, skip)
                     motion = Motion(RESTING, x, vx, z, vz, sigma, q, rate, motion.speed, skip)
                     t += skip
                     continue
@@ -418,8 +387,8 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
                 samples[sampled:] = math.nan
                 return n_impacts, max_gap, IMPACT_NOT_FOUND
             max_gap = max(max_gap, highest_gap(flight, min(tau, left)))
-            sampled = sample_flight(plate, motion, clock, tau, (times, samples, sampled))
-            x, vx = slide(plate, x, vx, tau)
+            sampled = sample_flight(c, motion, clock, tau, (times, samples, sampled))
+            x, vx = slide(c, x, vx, tau)
             motion = Motion(ARRIVING, x, vx, z, vz, sigma, q, rate, speed, skip)
             t += tau
     return n_impacts, max_gap, OK

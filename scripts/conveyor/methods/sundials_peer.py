@@ -35,7 +35,7 @@ def solver_of(method: str, mode: Mode, task: Task) -> Any:
 
 
 def follow(solver: Any, task: Task) -> Leg:
-    """Follow one leg; `ended` is a place among the events of the solver's mode."""
+    """Follow one leg by the solver of its mode."""
     solver.init_step(task.t, task.state)
     states = []
     for wanted in np.union1d(task.times, task.end):

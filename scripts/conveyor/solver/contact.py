@@ -217,14 +217,26 @@ def step_length(c, series, at, w0, v0):
 
 @compiled_into_callers
 def begin_step(c, series, at, w0, v0, sine0, cosine0, pulled):
-    """Expand the motion from w0 ≥ 0, v0: the length in s up to which its series is good, see `step`."""
+    """Expand the motion from w0 ≥ 0, v0: the length in s up to which its series is good.
+
+    c, series, at : Constants, a workspace, and the first row of this step in it
+    w0, v0 : √penetration (√m) and speed of approach (m/s)
+    sine0, cosine0 : of the excitation's phase
+    pulled : whether the contact force is negative; matters for `frictionless` and `clip` only
+    """
     expand(c, series, at, w0, v0, sine0, cosine0, pulled and c.tension == model.TENSION_CLIP)
     return step_length(c, series, at, w0, v0)
 
 
 @compiled_into_callers
 def end_step(c, series, at, w0, v0, pulled, length):
-    """The end of a step whose series holds up to `length`; returns the same as `step`."""
+    """Find the end of a step whose series is good up to `length`; the other arguments are those of `begin_step`.
+
+    Returns
+    -------
+    length, w, v, lapse, event : length of the step in s; w, v at its end; its duration (s); the event that ends it,
+        NOTHING, SEPARATION or FORCE_SIGN (the contact force passes zero)
+    """
     event = NOTHING
     w, v = polynomial.value(series, at + W, length), polynomial.value(series, at + V, length)
     shortened = False
@@ -259,23 +271,3 @@ def end_step(c, series, at, w0, v0, pulled, length):
     if event == SEPARATION:
         w = 0.0
     return length, w, v, polynomial.value(series, at + T, length), event
-
-
-@compiled_into_callers
-def step(c, series, at, w0, v0, sine0, cosine0, pulled):
-    """Expand the motion from w0 ≥ 0, v0 and find the end of the step.
-
-    Parameters
-    ----------
-    c, series, at : Constants, a workspace, and the first row of this step in it
-    w0, v0 : √penetration (√m) and speed of approach (m/s)
-    sine0, cosine0 : of the excitation's phase
-    pulled : whether the contact force is negative; matters for `frictionless` and `clip` only
-
-    Returns
-    -------
-    length, w, v, lapse, event : length of the step in s; w, v at its end; its duration (s); the event that ends it,
-        NOTHING, SEPARATION or FORCE_SIGN (the contact force passes zero)
-    """
-    length = begin_step(c, series, at, w0, v0, sine0, cosine0, pulled)
-    return end_step(c, series, at, w0, v0, pulled, length)

@@ -1,4 +1,4 @@
-"""The decorators of compiled functions, and three operations that Python has no word for.
+"""The decorators of compiled functions, and two operations that Python has no word for.
 
 `compiled` is for a function that is called from Python, or rarely. Numba compiles it by itself; a caller jumps to it.
 `compiled_inline` is for a small function that runs several times in each step. Numba compiles it by itself, and LLVM
@@ -53,16 +53,6 @@ def fma(typing_context, a, b, c):
         return builder.fma(*arguments)
 
     return types.float64(types.float64, types.float64, types.float64), code
-
-
-@intrinsic
-def float_bits(typing_context, value):
-    """The 64 bits of a float as an int64; of two floats that are not negative, the larger one has the larger bits."""
-
-    def code(context, builder, signature, arguments):
-        return builder.bitcast(arguments[0], context.get_value_type(types.int64))
-
-    return types.int64(types.float64), code
 
 
 @intrinsic

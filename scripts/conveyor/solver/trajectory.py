@@ -32,12 +32,25 @@ from .horizontal import (
     slide,
     slip_direction,
 )
-from .jit import compiled, compiled_into_callers, no_refcount
+from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import TENSION_CLIP, VZ0, Z0
 from .vertical import CONTACT, FLIGHT, LIMIT, LOST, arrive, begin, flight_from, in_cycle, motion_at, next_piece
 
 # Phase at which a cycle begins, rad: the plate is at its top, where a part that leaves the plate is in the air.
 BEGIN_OF_CYCLE = -math.pi
+
+
+@compiled_inline
+def time_into_cycle(c):
+    """The time (s) in its cycle of the initial phase ψ0."""
+    return ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega
+
+
+@compiled_inline
+def time_to_next_cycle(c):
+    """The time (s) from the initial phase ψ0 to the next beginning of a cycle; 0 if a cycle begins there."""
+    return ((BEGIN_OF_CYCLE - c.psi0) % (2.0 * math.pi)) / c.omega
+
 
 # Status of a run.
 OK, TOO_MANY_EVENTS, TOO_STIFF, IMPACT_LOST, NOT_FINITE = range(5)
@@ -201,7 +214,7 @@ def follow(parameters, options, records, results, room):
         c = contact.constants(row, tolerance)
         most = longest_eventless(c)
         end, since = record.times[-1], record.times[-2] if record.times.size > 1 else 0.0
-        offset = ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega
+        offset = time_into_cycle(c)
         cycle, base = 0, -offset
         q, rate = begin(c, row[Z0], row[VZ0], c.psi0)
         motion = motion_at(c, q, rate, offset, c.psi0)

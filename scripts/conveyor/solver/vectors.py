@@ -112,6 +112,20 @@ def fma(a: Vector, b: Vector | float, c: Vector | float) -> Vector:
     return call("fma", a, b, c)
 
 
+def power(x: Vector, exponent: Vector | float, wanted: Vector, otherwise: Vector | float) -> Vector:
+    """x^exponent by the C library, one lane after the other, where it is `wanted`; else `otherwise`."""
+    builder, exponent = x.builder, x.like(exponent)
+    found = cgutils.alloca_once_value(builder, x.like(otherwise).value)
+    function = cgutils.get_or_insert_function(builder.module, ir.FunctionType(FLOAT, [FLOAT, FLOAT]), "llvm.pow.f64")
+    with builder.if_then(anywhere(wanted)):
+        for lane in map(ir.IntType(32), range(x.lanes)):
+            with builder.if_then(builder.extract_element(wanted.value, lane)):
+                operands = [builder.extract_element(one.value, lane) for one in (x, exponent)]
+                one = builder.call(function, operands)
+                builder.store(builder.insert_element(builder.load(found), one, lane), found)
+    return Vector(builder, builder.load(found))
+
+
 class Memory:
     """The rows of an array of shape (rows, lanes), each a Vector.
 

@@ -6,7 +6,6 @@ event in a step, a flight, a repeated step, the end of a cycle. A trajectory giv
 trajectory.integrate, whatever its lane and its neighbours are.
 """
 
-import functools
 import math
 
 import numpy as np
@@ -16,6 +15,7 @@ from .contact import FIRST, NOTHING
 from .contact_lanes import (
     COSINE,
     END,
+    LANES,
     LAPSE,
     LENGTH,
     NONE,
@@ -33,7 +33,7 @@ from .flight import highest_gap
 from .horizontal import SAMPLES, Horizontal, Step, first_segment, sample_contact
 from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import VZ0, Z0
-from .trajectory import BEGIN_OF_CYCLE, MAX_PIECES, longest_eventless, next_cycle, sample_flight
+from .trajectory import BEGIN_OF_CYCLE, MAX_PIECES, longest_eventless, next_cycle, sample_flight, time_into_cycle
 from .vertical import (
     CONTACT,
     FLIGHT,
@@ -50,8 +50,6 @@ from .vertical import (
     press,
 )
 
-# Eight lanes wait longer for lanes with an event. Measured, they gain nothing.
-LANES = 4
 # The state of a lane's run: when it ends (s); the time at which its present cycle begins (s), and the number of the
 # cycle; pieces in the cycle, contact steps among them; time with contact force (s), largest gap (m), impacts; the time
 # (s) from which speeds of impacts (m/s) and contact forces per mass (m/s²) count, and the largest of both.
@@ -71,7 +69,7 @@ GOES_ON, OVER, FAILED = range(3)
 @compiled_inline
 def begin_cycle(c, run, steps, lane):
     """Begin a cycle of a lane: its steps must end with the cycle, or just before the run ends."""
-    run[BASE] = run[CYCLE] * c.period - ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega
+    run[BASE] = run[CYCLE] * c.period - time_into_cycle(c)
     run[PIECES] = run[PLACE] = 0.0
     steps[END, lane] = min(c.period, run[DURATION] - run[BASE] - MARGIN * c.period)
 
@@ -86,7 +84,7 @@ def begin_run(c, parameters, times, run, steps, lane, kept):
     run[CYCLE] = run[CONTACT_TIME] = run[IMPACTS] = run[IMPACT_SPEED] = run[PEAK_FORCE] = 0.0
     run[MAX_GAP] = max(q, 0.0)
     begin_cycle(c, run, steps, lane)
-    return motion_at(c, q, rate, ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega, c.psi0)
+    return motion_at(c, q, rate, time_into_cycle(c), c.psi0)
 
 
 @compiled_into_callers
@@ -197,68 +195,63 @@ def write_result(c, run, result):
     result[trajectory.PEAK_FORCE] = c.mass * run[PEAK_FORCE]
 
 
-@functools.cache
-def side_by_side(lanes: int):
-    """The compiled function for a number of lanes.
+@compiled
+def follow(parameters, tolerance, times, samples, results, left, work):
+    """The compiled part of `integrate`.
 
-    The number is all that it takes from its surroundings; numba could not cache it with a compiled function there.
+    left : bool, shape (n,), filled: runs that lanes cannot follow, or not to the end
+    work : the memory of contact_lanes, the state of each lane's run, shape (LANES, COUNTS), the row that each lane
+        follows, a contact.workspace, and the kept steps of each lane
     """
-
-    @compiled
-    def follow(parameters, tolerance, times, samples, results, left, work):
-        parameters, times, samples = no_refcount(parameters), no_refcount(times), no_refcount(samples)
-        results, left = no_refcount(results), no_refcount(left)
-        steps, runs, rows = no_refcount(work[0]), no_refcount(work[1]), no_refcount(work[2])
-        series, kept_steps = no_refcount(work[3]), no_refcount(work[4])
-        constants = [contact.constants(parameters[0], tolerance)] * lanes
-        motions = [motion_at(constants[0], 0.0, 0.0, 0.0, 0.0)] * lanes
-        waiting = running = 0
-        stopped = 0  # a bit for each lane
-        while True:
-            for lane in range(lanes):
-                i, c, motion, run = rows[lane], constants[lane], motions[lane], runs[lane]
-                kept = repeated_steps.KeptSteps(series, kept_steps[lane])
-                again = False
-                piece = NO_PIECE
+    parameters, times, samples = no_refcount(parameters), no_refcount(times), no_refcount(samples)
+    results, left = no_refcount(results), no_refcount(left)
+    steps, runs, rows = no_refcount(work[0]), no_refcount(work[1]), no_refcount(work[2])
+    series, kept_steps = no_refcount(work[3]), no_refcount(work[4])
+    constants = [contact.constants(parameters[0], tolerance)] * LANES
+    motions = [motion_at(constants[0], 0.0, 0.0, 0.0, 0.0)] * LANES
+    waiting = running = 0
+    stopped = 0  # a bit for each lane
+    while True:
+        for lane in range(LANES):
+            i, c, motion, run = rows[lane], constants[lane], motions[lane], runs[lane]
+            kept = repeated_steps.KeptSteps(series, kept_steps[lane])
+            again = False
+            piece = NO_PIECE
+            if i != NONE:
+                piece = step_of_lane(c, kept, motion, run, steps, lane, (stopped >> lane) & 1)
+            while True:
+                answer = OVER
                 if i != NONE:
-                    piece = step_of_lane(c, kept, motion, run, steps, lane, (stopped >> lane) & 1)
-                while True:
-                    answer = OVER
-                    if i != NONE:
-                        answer, motion = advance(c, kept, motion, piece, again, run, steps, lane, samples[i])
-                        if answer == FAILED:
-                            left[i] = True
-                        elif answer == OVER:
-                            write_result(c, run, results[i])
-                    if answer != GOES_ON:
-                        waiting, running = refill(lane, rows, waiting, running, parameters, tolerance, left)
-                        i = rows[lane]
-                        if i == NONE:
-                            break
-                        c = constants[lane] = contact.constants(parameters[i], tolerance)
-                        motion = begin_run(c, parameters[i], times[i], run, steps, lane, kept)
-                    place = int(run[PLACE])
-                    again = motion.touching and repeated_steps.repeats(c, kept, place, motion)
-                    if again:
-                        piece = repeated_steps.recall(kept, place)
-                    elif not motion.touching:
-                        piece = fly(c, motion, run[DURATION] - (run[BASE] + motion.t))
-                    elif is_grazing(c, motion):
-                        piece = graze(c, motion)
-                    else:
-                        set_motion(motion, lane, steps)
-                        motions[lane] = motion
+                    answer, motion = advance(c, kept, motion, piece, again, run, steps, lane, samples[i])
+                    if answer == FAILED:
+                        left[i] = True
+                    elif answer == OVER:
+                        write_result(c, run, results[i])
+                if answer != GOES_ON:
+                    waiting, running = refill(lane, rows, waiting, running, parameters, tolerance, left)
+                    i = rows[lane]
+                    if i == NONE:
                         break
-            if running == 0:
-                return
-            stopped = step(lanes, steps) & running
+                    c = constants[lane] = contact.constants(parameters[i], tolerance)
+                    motion = begin_run(c, parameters[i], times[i], run, steps, lane, kept)
+                place = int(run[PLACE])
+                again = motion.touching and repeated_steps.repeats(c, kept, place, motion)
+                if again:
+                    piece = repeated_steps.recall(kept, place)
+                elif not motion.touching:
+                    piece = fly(c, motion, run[DURATION] - (run[BASE] + motion.t))
+                elif is_grazing(c, motion):
+                    piece = graze(c, motion)
+                else:
+                    set_motion(motion, lane, steps)
+                    motions[lane] = motion
+                    break
+        if running == 0:
+            return
+        stopped = step(LANES, steps) & running
 
-    return follow
 
-
-def integrate(
-    parameters: np.ndarray, times: np.ndarray, *, tolerance: float, lanes: int = LANES
-) -> tuple[np.ndarray, np.ndarray]:
+def integrate(parameters: np.ndarray, times: np.ndarray, *, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
     """Follow parts without their horizontal motion, and sample them at the end.
 
     Parameters and results are those of trajectory.integrate, with three differences: `times` has the shape (n, 2),
@@ -266,11 +259,11 @@ def integrate(
     """
     n = len(parameters)
     samples, results = np.empty((n, len(SAMPLES))), np.full((n, trajectory.RESULTS), np.nan)
-    left = np.full(n, n < lanes)
-    if n >= lanes:
-        steps = np.empty((lanes, repeated_steps.PLACES, repeated_steps.COLUMNS))
-        work = (new_memory(lanes), np.empty((lanes, COUNTS)), np.full(lanes, NONE), contact.workspace(), steps)
-        side_by_side(lanes)(parameters, tolerance, times, samples, results, left, work)
+    left = np.full(n, n < LANES)
+    if n >= LANES:
+        steps = np.empty((LANES, repeated_steps.PLACES, repeated_steps.COLUMNS))
+        work = (new_memory(LANES), np.empty((LANES, COUNTS)), np.full(LANES, NONE), contact.workspace(), steps)
+        follow(parameters, tolerance, times, samples, results, left, work)
     if left.any():
         found, results[left] = trajectory.integrate(parameters[left], times[left], tolerance=tolerance, feeding=False)
         samples[left] = found[:, 1]

@@ -95,7 +95,7 @@ def test_what_repeats_itself_is_copied_bit_for_bit(acceleration, z0, period):
     assert stroboscopic_map.follow(parameters, tolerance, end, cycles, strobes, features) == trajectory.OK
     c, series = contact.constants(parameters, tolerance), contact.workspace()
     for n in range(cycles):
-        stroboscopic_map.cycle(c, series, state, np.empty((0, 2)), found)
+        stroboscopic_map.advance(c, series, state, c.psi0, c.period, np.empty((0, 2)), found)
         np.testing.assert_array_equal(strobes[n], state)
         np.testing.assert_array_equal(features[n], found)
     np.testing.assert_array_equal(end, state)

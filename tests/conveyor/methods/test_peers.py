@@ -20,10 +20,10 @@ def scene(name):
 def test_a_run_that_finds_the_same_event_for_ever_says_so(monkeypatch):
     """Whether SciPy finds an event again depends on last digits, so an integrator that always does takes its place."""
 
-    def same_event(trajectory, task):
+    def same_event(method, mode, task):
         return Leg(max(task.t, 0.1), task.state.copy(), 0, np.empty((0, 4)), 1)
 
-    monkeypatch.setattr(peers, "leg_of_scipy", same_event)
+    monkeypatch.setattr(peers.scipy_peer, "follow", same_event)
     run = peers.run(scene("riding"), 1.0, "DOP853", "events", 1e-8, 200_000)
     assert run.status == peers.STUCK
     assert np.isnan(run.mean_velocity)

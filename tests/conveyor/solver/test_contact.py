@@ -34,7 +34,8 @@ def test_a_step_errs_by_its_tolerance(exponent, tolerance):
         series, w, v, sine, cosine = contact.workspace(), 0.0, speed, 0.0, 1.0
         steps, event = 0, contact.NOTHING
         while event != contact.SEPARATION:
-            _, w, v, lapse, event = contact.step(c, series, contact.FIRST, w, v, sine, cosine, False)
+            length = contact.begin_step(c, series, contact.FIRST, w, v, sine, cosine, False)
+            _, w, v, lapse, event = contact.end_step(c, series, contact.FIRST, w, v, False, length)
             phase = math.atan2(sine, cosine) + c.omega * lapse
             sine, cosine = math.sin(phase), math.cos(phase)
             steps += 1
@@ -56,7 +57,8 @@ def test_a_part_that_the_plate_leaves_behind_separates_once(tolerance):
             w, v0 = math.sqrt(depth), -share * speed
             series, v, event = contact.workspace(), v0, contact.NOTHING
             for _ in range(20):
-                _, w, v, _, event = contact.step(c, series, contact.FIRST, w, v, 0.0, -1.0, False)
+                length = contact.begin_step(c, series, contact.FIRST, w, v, 0.0, -1.0, False)
+                _, w, v, _, event = contact.end_step(c, series, contact.FIRST, w, v, False, length)
                 if event != contact.NOTHING:
                     break
             assert (event, w) == (contact.SEPARATION, 0.0)

@@ -25,7 +25,8 @@ def in_lanes(lanes):
 
 @numba.njit(error_model="numpy")
 def take_one(c, series, w, v, sine, cosine):
-    return contact.step(c, series, contact.FIRST, w, v, sine, cosine, False)
+    length = contact.begin_step(c, series, contact.FIRST, w, v, sine, cosine, False)
+    return contact.end_step(c, series, contact.FIRST, w, v, False, length)
 
 
 @numba.njit(error_model="numpy")

@@ -2,11 +2,10 @@
 
 This twin of the scalar code exists because it labels maps 2.3 times faster. Lanes in contact take their steps together
 (see contact_lanes). A lane leaves them for scalar code at each event, at the end of a cycle, and when its trajectory
-ends and the next one takes its place. A trajectory gives the same bits as in scalar code, whatever its lane, its
-neighbours and the number of lanes are.
+ends and the next one takes its place. A trajectory gives the same bits as in scalar code, whatever its lane and its
+neighbours are.
 """
 
-import functools
 import math
 from collections import namedtuple
 
@@ -17,6 +16,7 @@ from ...solver.contact import FIRST
 from ...solver.contact_lanes import (
     COSINE,
     END,
+    LANES,
     LENGTH,
     MOST,
     NONE,
@@ -34,7 +34,7 @@ from ...solver.contact_lanes import (
 )
 from ...solver.jit import compiled, compiled_into_callers, no_refcount
 from ...solver.model import VZ0, Z0
-from ...solver.trajectory import BEGIN_OF_CYCLE, longest_eventless
+from ...solver.trajectory import BEGIN_OF_CYCLE, longest_eventless, time_to_next_cycle
 from ...solver.vertical import (
     FLIGHT,
     GRAZE,
@@ -55,10 +55,6 @@ from ..stroboscopic_map import delta_and_v
 from . import convergence
 from .attractor_table import AttractingOrbits, AttractorTable, ChaoticSets
 from .convergence import FOLLOWED, GOES_ON, Trajectories, check_convergence, new_searches, reset_search
-
-# Eight lanes take the contact steps in less time, but wait longer for lanes with an event. Measured, they gain nothing,
-# and the last trajectories, which have most lanes for themselves, take twice the time.
-LANES = 4
 
 # Fewer trajectories are followed one after the other.
 SIDE_BY_SIDE = LANES
@@ -101,7 +97,7 @@ def begin_trajectory(c, parameters, lane, steps, cycle, past, counts):
     reset_search(past, counts)
     counts[FOLLOWED] = BEFORE_FIRST_CYCLE
     # The first whole cycle begins within one cycle.
-    steps[END, lane] = ((BEGIN_OF_CYCLE - c.psi0) % (2.0 * math.pi)) / c.omega
+    steps[END, lane] = time_to_next_cycle(c)
     steps[STEPS, lane] = cycle[LONGEST, lane] = cycle[AIRBORNE, lane] = 0.0
     cycle[ORIGIN, lane] = c.psi0
     q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)
@@ -164,102 +160,91 @@ def begin_cycle(c, state, lane, steps, cycle):
     return motion_at(c, -state[0], -state[1], 0.0, BEGIN_OF_CYCLE)
 
 
-@functools.cache
-def side_by_side(lanes: int):
-    """The compiled function for a number of lanes.
+@compiled
+def follow(parameters, tolerance, search, found, left, work):
+    """The compiled part of `follow_in_lanes`.
 
-    The number is all that it takes from its surroundings; numba could not cache it with a compiled function there.
+    search : a Search
+    work : the memory of contact_lanes, the state of each lane's cycle, shape (3, LANES), the trajectory of each lane,
+        room for a state, a contact.workspace, and convergence.new_searches
     """
-
-    @compiled
-    def follow(parameters, tolerance, search, found, left, work):
-        parameters, left = no_refcount(parameters), no_refcount(left)
-        attractors = table_without_refcounts(search.attractors)
-        search = Search(search.max_cycles, attractors, no_refcount(search.rows), no_refcount(search.strobes))
-        found = Trajectories(
-            no_refcount(found.states),
-            no_refcount(found.outcomes),
-            no_refcount(found.periods),
-            no_refcount(found.flights),
-            no_refcount(found.followed),
-        )
-        steps, cycle, trajectories, state = (
-            no_refcount(work[0]),
-            no_refcount(work[1]),
-            no_refcount(work[2]),
-            no_refcount(work[3]),
-        )
-        series, histories, counters = no_refcount(work[4]), no_refcount(work[5]), no_refcount(work[6])
-        constants = [contact.constants(parameters[0], tolerance)] * lanes
-        waiting = running = 0
-        stopped = (1 << lanes) - 1  # a bit for each lane
-        while True:
-            for lane in range(lanes):
-                if not (stopped >> lane) & 1:
-                    continue
-                i, c, past, counts = trajectories[lane], constants[lane], histories[lane], counters[lane]
-                motion = stopped_motion(lane, steps)
-                piece = Piece(GRAZE, 0.0, 0.0, LIMIT, 0.0, 0.0, 0.0, 0.0)
-                if i != NONE:
-                    copy_series(steps, lane, series, FIRST)
-                    piece = press(c, series, FIRST, motion, steps[LENGTH, lane], steps[END, lane] - motion.t)
-                while True:
-                    over = i == NONE
-                    if not over:
-                        count_piece(piece, lane, steps, cycle)
-                        motion = arrive(c, motion, piece, cycle[ORIGIN, lane])
-                        if may_fail(motion, piece, lane, steps):
-                            left[i] = over = True
-                        elif piece.end == LIMIT:
-                            state[0], state[1] = delta_and_v(motion)
-                            over = end_cycle(c, i, lane, state, cycle, search, past, counts, found)
-                            motion = begin_cycle(c, state, lane, steps, cycle)
-                    if over:
-                        waiting, running = refill(lane, trajectories, waiting, running, parameters, tolerance, left)
-                        i = trajectories[lane]
-                        if i == NONE:
-                            break
-                        c = constants[lane] = contact.constants(parameters[i], tolerance)
-                        motion = begin_trajectory(c, parameters[i], lane, steps, cycle, past, counts)
-                    if motion.touching and not is_grazing(c, motion):
-                        set_motion(motion, lane, steps)
+    parameters, left = no_refcount(parameters), no_refcount(left)
+    attractors = table_without_refcounts(search.attractors)
+    search = Search(search.max_cycles, attractors, no_refcount(search.rows), no_refcount(search.strobes))
+    found = Trajectories(
+        no_refcount(found.states),
+        no_refcount(found.outcomes),
+        no_refcount(found.periods),
+        no_refcount(found.flights),
+        no_refcount(found.followed),
+    )
+    steps, cycle, trajectories, state = (
+        no_refcount(work[0]),
+        no_refcount(work[1]),
+        no_refcount(work[2]),
+        no_refcount(work[3]),
+    )
+    series, histories, counters = no_refcount(work[4]), no_refcount(work[5]), no_refcount(work[6])
+    constants = [contact.constants(parameters[0], tolerance)] * LANES
+    waiting = running = 0
+    stopped = (1 << LANES) - 1  # a bit for each lane
+    while True:
+        for lane in range(LANES):
+            if not (stopped >> lane) & 1:
+                continue
+            i, c, past, counts = trajectories[lane], constants[lane], histories[lane], counters[lane]
+            motion = stopped_motion(lane, steps)
+            piece = Piece(GRAZE, 0.0, 0.0, LIMIT, 0.0, 0.0, 0.0, 0.0)
+            if i != NONE:
+                copy_series(steps, lane, series, FIRST)
+                piece = press(c, series, FIRST, motion, steps[LENGTH, lane], steps[END, lane] - motion.t)
+            while True:
+                over = i == NONE
+                if not over:
+                    count_piece(piece, lane, steps, cycle)
+                    motion = arrive(c, motion, piece, cycle[ORIGIN, lane])
+                    if may_fail(motion, piece, lane, steps):
+                        left[i] = over = True
+                    elif piece.end == LIMIT:
+                        state[0], state[1] = delta_and_v(motion)
+                        over = end_cycle(c, i, lane, state, cycle, search, past, counts, found)
+                        motion = begin_cycle(c, state, lane, steps, cycle)
+                if over:
+                    waiting, running = refill(lane, trajectories, waiting, running, parameters, tolerance, left)
+                    i = trajectories[lane]
+                    if i == NONE:
                         break
-                    piece = graze(c, motion) if motion.touching else fly(c, motion, steps[END, lane] - motion.t)
-            if running == 0:
-                return
-            stopped = 0
-            while stopped == 0:
-                stopped = step(lanes, steps) & running
+                    c = constants[lane] = contact.constants(parameters[i], tolerance)
+                    motion = begin_trajectory(c, parameters[i], lane, steps, cycle, past, counts)
+                if motion.touching and not is_grazing(c, motion):
+                    set_motion(motion, lane, steps)
+                    break
+                piece = graze(c, motion) if motion.touching else fly(c, motion, steps[END, lane] - motion.t)
+        if running == 0:
+            return
+        stopped = 0
+        while stopped == 0:
+            stopped = step(LANES, steps) & running
 
-    return follow
 
-
-def follow_in_lanes(parameters, tolerance, max_cycles, attractors, rows, found, strobes, left, lanes):
-    """`follow_all_to_attractors` with a given number of lanes, a power of two. Each number gives the same bits.
+def follow_in_lanes(parameters, tolerance, max_cycles, attractors, rows, found, strobes, left):
+    """`follow_all_to_attractors` in lanes, however few trajectories there are.
 
     left : bool, shape (n,), filled: trajectories that lanes cannot follow, or not to the end; the other arrays say
         nothing about them
     """
     left[:] = max_cycles < 1
     if len(parameters) > 0 and max_cycles > 0:
-        trajectories, state = np.full(lanes, NONE), np.empty(2)
-        work = (
-            new_memory(lanes),
-            np.zeros((3, lanes)),
-            trajectories,
-            state,
-            contact.workspace(),
-            *new_searches(lanes),
-        )
-        search = Search(max_cycles, attractors, rows, strobes)
-        side_by_side(lanes)(parameters, tolerance, search, found, left, work)
+        trajectories, state = np.full(LANES, NONE), np.empty(2)
+        work = (new_memory(LANES), np.zeros((3, LANES)), trajectories, state, contact.workspace(), *new_searches(LANES))
+        follow(parameters, tolerance, Search(max_cycles, attractors, rows, strobes), found, left, work)
 
 
 def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows, found, strobes):
     """`convergence.follow_all_to_attractors`, in lanes if there are enough trajectories to fill them."""
     left = np.ones(len(parameters), dtype=np.bool_)
     if len(parameters) >= SIDE_BY_SIDE:
-        follow_in_lanes(parameters, tolerance, max_cycles, attractors, rows, found, strobes, left, LANES)
+        follow_in_lanes(parameters, tolerance, max_cycles, attractors, rows, found, strobes, left)
     if left.any():
         alone, their_strobes = Trajectories(*(column[left] for column in found)), strobes[left]
         convergence.follow_all_to_attractors(

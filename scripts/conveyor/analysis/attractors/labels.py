@@ -8,6 +8,8 @@ of a longer period if the exponent is negative by as much, and `undecided` other
 A label depends only on the conveyor and the initial condition. Trajectories on one conveyor may share its known
 attractors (see `search`). A trajectory that has reached the trapping region of a periodic orbit, or stays in a chaotic
 set, need not be followed further.
+
+`interface.classify` checks its arguments; `classify` here does not, because a run that failed may hand it any state.
 """
 
 import math
@@ -40,6 +42,8 @@ class Labels(NamedTuple):
     period: np.ndarray  # int64, excitation cycles; 0 for none of up to convergence.MAX_PERIOD
     longest_flight: np.ndarray  # excitation cycles; NaN for chaos and undecided trajectories
     cycles: np.ndarray  # int64, excitation cycles that the trajectory was followed for
+    delta: np.ndarray  # m, the last penetration δ at trajectory.BEGIN_OF_CYCLE
+    v: np.ndarray  # m/s, its rate there
 
 
 def continued(
@@ -106,4 +110,4 @@ def classify(
         longer = still[signs < 0]
         codes[longer] = regular[longer]
     flights[(codes == CHAOS) | (codes == UNDECIDED)] = math.nan
-    return Labels(np.array(STATES, dtype=object)[codes], found.periods, flights, found.followed)
+    return Labels(np.array(STATES, dtype=object)[codes], found.periods, flights, found.followed, *found.states.T)

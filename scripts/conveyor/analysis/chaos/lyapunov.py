@@ -13,6 +13,7 @@ from ...arguments import (
     LARGEST_COORDINATE,
     MOST_BLOCKS,
     MOST_CYCLES,
+    MOST_VALUES,
     check_count,
     check_numbers,
     check_packed,
@@ -102,10 +103,13 @@ def spectrum(
     """
     parameters = check_packed(parameters)
     tolerance = check_tolerance(tolerance)
-    check_threads(threads)
+    threads = check_threads(threads)
     check_count("transient", transient, 0, MOST_CYCLES)
     check_count("cycles", cycles, 1, MOST_CYCLES)
     check_count("blocks", blocks, 2, MOST_BLOCKS)
+    if len(parameters) * blocks * cycles > MOST_VALUES:
+        counted = f"blocks = {blocks} of cycles = {cycles} for {len(parameters)} trajectories"
+        raise ValueError(f"{counted} are more than {MOST_VALUES:g} cycles; take fewer of them")
     if states is None:
         states = stroboscopic_map.initial_states(parameters, tolerance)
     else:

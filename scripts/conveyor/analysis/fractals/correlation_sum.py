@@ -5,7 +5,7 @@ Grassberger and Procaccia, Physica D 9 (1983) 189, with the window of Theiler, P
 
 import numpy as np
 
-from ...solver.jit import compiled, float_bits
+from ...solver.jit import compiled
 from .scaling_region import SAMPLES_PER_BOX, SCALES, Dimension, normalise, scaling_region
 
 STRETCH = 256  # distances that are found at a time
@@ -29,12 +29,14 @@ def pair_counts(points, references, theiler, squares):
     for shell in range(shells):
         limits[shell] = squares[shell]
     limits[shells] = -1.0
-    # The first bits of a squared distance give its shell, up to one limit, with which the distance is compared.
-    lowest = float_bits(squares[-1]) >> FRACTION
-    shells_of = np.empty((float_bits(squares[0]) >> FRACTION) - lowest + 1, np.int64)
+    # The first bits of a squared distance give its shell, up to one limit, with which the distance is compared. Of two
+    # floats that are not negative, the larger one has the larger bits.
+    bits_of_limits = squares.view(np.int64)
+    lowest = bits_of_limits[-1] >> FRACTION
+    shells_of = np.empty((bits_of_limits[0] >> FRACTION) - lowest + 1, np.int64)
     shell = shells
     for step in range(len(shells_of)):
-        while shell > 0 and (float_bits(squares[shell - 1]) >> FRACTION) - lowest <= step:
+        while shell > 0 and (bits_of_limits[shell - 1] >> FRACTION) - lowest <= step:
             shell -= 1
         shells_of[step] = shell
     x, y = np.empty(len(points)), np.empty(len(points))
@@ -42,6 +44,7 @@ def pair_counts(points, references, theiler, squares):
         x[j], y[j] = points[j, 0], points[j, 1]
     counts = np.zeros((TABLES, shells + 1), np.int64)
     apart, near = np.empty(STRETCH), np.empty(STRETCH)
+    bits = near.view(np.int64)
     largest = squares[0]
     pairs = 0
     for i in references:
@@ -58,7 +61,7 @@ def pair_counts(points, references, theiler, squares):
                     near[found] = square
                     found += square < largest
                 for j in range(found):
-                    shell = shells_of[max((float_bits(near[j]) >> FRACTION) - lowest, 0)]
+                    shell = shells_of[max((bits[j] >> FRACTION) - lowest, 0)]
                     counts[j % TABLES, shell + (near[j] < limits[shell])] += 1
             pairs += max(end - begin, 0)
     totals = np.zeros(shells, np.int64)

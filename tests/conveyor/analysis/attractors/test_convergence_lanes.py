@@ -33,10 +33,10 @@ def one_by_one(parameters, cycles, attractors=NO_ATTRACTORS):
     return found
 
 
-def together(parameters, cycles, attractors=NO_ATTRACTORS, lanes=convergence_lanes.LANES):
+def together(parameters, cycles, attractors=NO_ATTRACTORS):
     found, left, strobes = room(len(parameters)), np.ones(len(parameters), dtype=np.bool_), no_strobes(parameters)
     convergence_lanes.follow_in_lanes(
-        parameters, TOLERANCE, cycles, attractors, attractors.rows_of(parameters), found, strobes, left, lanes
+        parameters, TOLERANCE, cycles, attractors, attractors.rows_of(parameters), found, strobes, left
     )
     return found, left
 
@@ -74,11 +74,10 @@ def map_of(acceleration, count=40):
     return rows
 
 
-@pytest.mark.parametrize("lanes", [1, 2, 4, 8])
-def test_bits_do_not_depend_on_lanes(lanes):
+def test_bits_of_random_starts():
     parameters = random_starts(60, seed=1)
     wanted = one_by_one(parameters, 150)
-    found, left = together(parameters, 150, lanes=lanes)
+    found, left = together(parameters, 150)
     assert left.tolist() == [k % 4 == 3 for k in range(60)]
     assert_same(found, wanted, ~left)
     assert {convergence.PERIODIC, convergence.NOT_CONVERGED} <= set(found[1])

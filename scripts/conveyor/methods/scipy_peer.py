@@ -1,0 +1,40 @@
+"""The integrators of scipy's `solve_ivp` on the same model, with terminal, directional events."""
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from .leg import EventLost, GaveUp, Leg, Mode, Task
+
+
+def follow(method: str, mode: Mode, task: Task) -> Leg:
+    """Follow one leg by a `method` of solve_ivp.
+
+    Raises
+    ------
+    GaveUp
+        at the limit of evaluations
+    EventLost
+        if the interpolant of LSODA does not meet its own steps
+    """
+    parameters = mode.counting_parameters()
+    derivatives = np.empty(4)
+
+    def right_side(t, state):
+        if parameters[-1] >= task.limit:
+            raise GaveUp
+        mode.counted_rates(derivatives, t, state, parameters, mode.number)
+        return derivatives.copy()
+
+    options = {"method": method, "rtol": task.rtol, "atol": task.atol, "dense_output": len(task.times) > 0}
+    try:
+        # Radau's numerical Jacobian of a part that never moves sideways overflows; peers.run checks the result.
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = solve_ivp(right_side, (task.t, task.end), task.state, events=mode.terminal_events(), **options)
+    except ValueError as error:
+        raise EventLost(int(parameters[-1])) from error
+    ended = None
+    if found.status == 1:
+        ended = next(place for place, times in enumerate(found.t_events) if len(times))
+    passed = task.times[task.times <= found.t[-1]]
+    samples = found.sol(passed).T if len(passed) else np.empty((0, 4))
+    return Leg(float(found.t[-1]), found.y[:, -1].copy(), ended, samples, int(parameters[-1]))
