@@ -84,7 +84,6 @@ def models(config: dict) -> Iterator[tuple[str, list, list]]:
             changes[f"{section}.{name}"] = entry.get("model", {}) | axes
     changes |= {f"benchmark.cases.{name}.model": case["model"] for name, case in config["benchmark"]["cases"].items()}
     changes |= {f"companion.presets.{name}": preset for name, preset in config["companion"]["presets"].items()}
-    changes |= {f"identification.told.{name}": told for name, told in config["identification"]["told"].items()}
     for key, changed in changes.items():
         model = base | changed
         if "static_friction" in model and not changed.keys().isdisjoint(("friction", "static_friction")):
