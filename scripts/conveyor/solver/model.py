@@ -79,9 +79,10 @@ class Conveyor:
     gravity : gravitational acceleration g, m/s²
     inclination : angle α by which the track rises in the feeding direction, rad
     phase_shift : phase ε by which the plate's motion along the track leads its motion normal to it, rad
-    static_friction : coefficient μ_s up to which the part sticks, at least `friction`; None: equal to it
-    tension : what happens while damping outweighs stiffness (F_c < 0): "allow" keeps Eqs. 7 and 11 as written,
-        "frictionless" lets the contact pull but not rub, "clip" sets F_c = max(F_c, 0)
+    static_friction : coefficient μ_s up to which the part sticks, at least `friction`; None if equal to it
+    tension : treatment of a contact force that pulls, F_c < 0, because damping outweighs stiffness
+        "allow" keeps Eqs. 7 and 11 as written, "frictionless" lets the contact pull without friction, and "clip" sets
+        F_c = max(F_c, 0).
 
     Raises
     ------
