@@ -11,42 +11,44 @@ from .solver.parallel import for_each_chunk
 
 STATUS = trajectory.STATUS
 NEEDS = ("feeding", "vertical")
-# Rows of the array of results that all methods fill.
-MEAN_VELOCITY, Z_END, VZ_END, X_END, VX_END, MAX_GAP, IMPACTS, CONTACT_FRACTION = range(8)
-IMPACT_SPEED, PEAK_FORCE, CODE = range(8, 11)
+HORIZONTAL = ("mean_velocity", "x_end", "vx_end")
 COLUMNS = (
     *("mean_velocity", "z_end", "vz_end", "x_end", "vx_end", "max_gap", "impacts", "contact_fraction"),
     *("impact_speed", "peak_force"),
 )
 
 
-def follow_by_events(parameters, durations, tolerance, feeding, out):
-    """Fill `out`, shape (11, n), for `parameters`, shape (n, 16), and `durations` (s), by events."""
+def follow_by_events(parameters, durations, tolerance, feeding):
+    """The columns of `run`, each of shape (n,), for `parameters`, shape (n, 16), and `durations` (s), by events."""
     times = np.column_stack([(1.0 - LAST) * durations, durations])
     if feeding:
         samples, results = trajectory.integrate(parameters, times, tolerance=tolerance)
         before, after = samples[:, 0], samples[:, 1]
-        out[MEAN_VELOCITY] = (after[:, X] - before[:, X]) / (LAST * durations)
-        out[X_END], out[VX_END] = after[:, X], after[:, VX]
+        horizontal = (after[:, X] - before[:, X]) / (LAST * durations), after[:, X], after[:, VX]
     else:
         after, results = vertical_lanes.integrate(parameters, times, tolerance=tolerance)
-        out[[MEAN_VELOCITY, X_END, VX_END]] = np.nan
-    out[Z_END], out[VZ_END] = after[:, Z], after[:, VZ]
-    out[MAX_GAP] = results[:, trajectory.MAX_GAP]
-    out[IMPACTS] = results[:, trajectory.IMPACTS]
-    out[CONTACT_FRACTION] = results[:, trajectory.CONTACT_TIME] / durations
-    out[IMPACT_SPEED] = results[:, trajectory.IMPACT_SPEED]
-    out[PEAK_FORCE] = results[:, trajectory.PEAK_FORCE]
-    out[CODE] = results[:, trajectory.CODE]
+        horizontal = np.full((3, len(parameters)), np.nan)
+    return {
+        **dict(zip(HORIZONTAL, horizontal, strict=True)),
+        "z_end": after[:, Z],
+        "vz_end": after[:, VZ],
+        "max_gap": results[:, trajectory.MAX_GAP],
+        "impacts": results[:, trajectory.IMPACTS],
+        "contact_fraction": results[:, trajectory.CONTACT_TIME] / durations,
+        "impact_speed": results[:, trajectory.IMPACT_SPEED],
+        "peak_force": results[:, trajectory.PEAK_FORCE],
+        "status": results[:, trajectory.CODE],
+    }
 
 
-def follow_by_steps(parameters, duration, step, method, out):
-    """Fill `out`, shape (11, n), for `parameters`, shape (n, 16), with a fixed-step method."""
-    for i, run in enumerate(fixed_step.run_all(parameters, duration, step, method, LAST)):
-        out[[MEAN_VELOCITY, X_END, VX_END, Z_END, VZ_END], i] = run.mean_velocity, run.x, run.vx, run.z, run.vz
-        out[[MAX_GAP, IMPACTS, CONTACT_FRACTION], i] = run.max_gap, run.impacts, run.contact_fraction
-        out[[IMPACT_SPEED, PEAK_FORCE], i] = run.impact_speed, run.peak_force
-        out[CODE, i] = STATUS.index(run.status)
+def follow_by_steps(parameters, duration, step, method, feeding):
+    """The columns of `run`, each of shape (n,), for `parameters`, shape (n, 16), with a fixed-step method."""
+    runs = fixed_step.run_all(parameters, duration, step, method, LAST)
+    fields = {"z_end": "z", "vz_end": "vz", "x_end": "x", "vx_end": "vx"}
+    columns = {name: np.array([getattr(run, fields.get(name, name)) for run in runs]) for name in COLUMNS}
+    if not feeding:
+        columns |= dict.fromkeys(HORIZONTAL, np.nan)
+    return columns | {"status": np.array([STATUS.index(run.status) for run in runs])}
 
 
 def run(
@@ -94,23 +96,21 @@ def run(
     parameters = check_packed(parameters)
     if durations.ndim > 0 and durations.shape != (len(parameters),):
         raise ValueError(f"duration has the shape {durations.shape}, but there are {len(parameters)} points")
-    out = np.empty((CODE + 1, len(parameters)))
     feeding = needs == "feeding"
     durations = np.broadcast_to(durations, len(parameters)).copy()
+    columns = {name: np.empty(len(parameters)) for name in (*COLUMNS, "status")}
 
     def work(begin, end):
+        rows = slice(begin, end)
         if method == "event":
-            rows = slice(begin, end)
-            follow_by_events(parameters[rows], durations[rows], tolerance, feeding, out[:, rows])
+            found = follow_by_events(parameters[rows], durations[rows], tolerance, feeding)
         else:
-            follow_by_steps(parameters[begin:end], durations[begin], step, method, out[:, begin:end])
-        return np.count_nonzero(out[CODE, begin:end] != trajectory.OK)
+            found = follow_by_steps(parameters[rows], durations[begin], step, method, feeding)
+        for name, values in found.items():
+            columns[name][rows] = values
+        return np.count_nonzero(columns["status"][rows] != trajectory.OK)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=chunk, progress=progress)
-    columns = dict(zip(COLUMNS, out, strict=False))
-    if not feeding:
-        for name in ("mean_velocity", "x_end", "vx_end"):
-            columns[name] = np.full(len(parameters), np.nan)
     columns["impacts"] = columns["impacts"].astype(np.int64)
-    columns["status"] = np.array(STATUS, dtype=object)[out[CODE].astype(np.int64)]
+    columns["status"] = np.array(STATUS, dtype=object)[columns["status"].astype(np.int64)]
     return columns

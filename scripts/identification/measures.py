@@ -107,9 +107,7 @@ def edge_curve(heights: np.ndarray, edges: np.ndarray, angle: np.ndarray) -> Cur
 def converged_velocities(rows: np.ndarray) -> np.ndarray:
     """Mean feeding velocities (m/s), shape (n,), of parameter vectors, shape (n, 16), by the converged solution."""
     # The overhead of ensemble.run would add a seventh to a search that needs four trajectories at a time.
-    found = np.empty((ensemble.CODE + 1, len(rows)))
-    ensemble.follow_by_events(rows, np.full(len(rows), DURATION), TOLERANCE, True, found)
-    return found[ensemble.MEAN_VELOCITY]
+    return ensemble.follow_by_events(rows, np.full(len(rows), DURATION), TOLERANCE, True)["mean_velocity"]
 
 
 def parameters_of_both_states(parameters: np.ndarray, found: Curve, measured: dict) -> np.ndarray:

@@ -28,7 +28,7 @@ from pipeline.fields import AXES
 SEARCHED = ("acceleration", "frequency", "angle", "phase_shift")
 # Errors of the amplitude, as parts of the margin, at which the search follows a design, and at which it is checked.
 SEARCH_ERRORS, CHECK_ERRORS = np.array([-1.0, 1.0]), np.array([-1.0, 0.0, 1.0])
-FIRST_STARTS = 1  # initial conditions that show most designs with chaos, which cost most
+FIRST_STARTS = 1  # initial conditions that reveal most designs with chaos, which cost most
 TABLES = {
     "drive_front": (
         *(fields.number(name, AXES[name].metadata[b"unit"].decode(), "of the design") for name in SEARCHED),
@@ -92,7 +92,7 @@ def outcome_of_conveyor(
 
     velocity, share, impact, is_chaos : of each motion, shape (m,)
     """
-    # Of the initial conditions that get the velocity of each motion; unknown velocities equal nothing.
+    # Shares of the initial conditions that reach the velocity of each motion; an unknown velocity equals no other.
     shares = same(velocity[:, None], velocity, same_velocity) @ share
     most = shares.argmax()
     return {
@@ -146,7 +146,7 @@ def constraints(outcome: pd.DataFrame, settings: dict) -> np.ndarray:
         outcome.impact_speed / settings["impact_speed"] - 1.0,
         outcome.displacement / settings["displacement"] - 1.0,
     ]
-    # What is not known counts as violated.
+    # A constraint on an unknown value counts as violated.
     return np.nan_to_num(np.column_stack(violations), nan=1.0)
 
 
@@ -159,7 +159,7 @@ def search_outcomes(designs: np.ndarray, settings: dict) -> tuple[np.ndarray, np
     """Objectives, shape (k, 3), all to be minimised, and constraints, shape (k, 5), of designs of the search.
 
     Designs with too large a displacement are not followed, and designs that break a constraint with the first initial
-    conditions are not followed from the other ones.
+    conditions are not followed from the remaining ones.
     """
     outcome = pd.DataFrame({"displacement": displacement(designs)}).reindex(columns=[*OVERALL, "displacement"])
     within = outcome.displacement.to_numpy() <= settings["displacement"]
@@ -175,12 +175,12 @@ def search_outcomes(designs: np.ndarray, settings: dict) -> tuple[np.ndarray, np
 
 
 def reference_point(settings: dict) -> np.ndarray:
-    """Objectives from which a design is worth nothing."""
+    """The objectives of a worthless design: the reference point of the hypervolume."""
     return np.array([-settings["velocity"], settings["impact_speed"], settings["bounds"]["acceleration"][1]])
 
 
 class Front(Callback):
-    """Keeps the designs within the constraints that none betters, and the hypervolume after each generation."""
+    """Keeps the non-dominated designs within the constraints, and the hypervolume after each generation."""
 
     def __init__(self, settings: dict, count: Callable[[], object]):
         super().__init__()
@@ -198,7 +198,7 @@ class Front(Callback):
 
 
 def best_of_designs(designs: np.ndarray, objectives: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Designs that no other design betters, each once, sorted by their objectives."""
+    """The non-dominated designs, each once, sorted by their objectives."""
     if len(designs) == 0:
         return designs, objectives
     objectives, places = np.unique(objectives, axis=0, return_index=True)
@@ -235,9 +235,9 @@ def search(settings: dict, seed: int, count: Callable[[], object]) -> Front:
 
 
 def spread(objectives: np.ndarray, count: int) -> np.ndarray:
-    """Places of at most `count` of some designs that differ as much as they can, the best in the first objective first.
+    """Indices of at most `count` designs that differ as much as possible, first the best in the first objective.
 
-    Each further one is the farthest from all before, in units of the range of each objective, shape (k, 3).
+    Each further design is the farthest from all previous ones, in units of the range of each objective, shape (k, 3).
     """
     if len(objectives) == 0:
         return np.empty(0, dtype=np.int64)
@@ -257,7 +257,7 @@ CHECKED = {
 
 
 def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFrame:
-    """A front with full operating runs of some designs, and the recommended ones among those that they confirm."""
+    """A front with full operating runs of some designs, and the recommended ones of the designs that they confirm."""
     front = front.assign(checked=False, confirmed=False, recommended=False, **dict.fromkeys(CHECKED.values(), np.nan))
     objectives = np.column_stack([-front.velocity, front.impact_speed, front.acceleration])
     chosen = spread(objectives, settings["checked"])
@@ -275,7 +275,7 @@ def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFr
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, dict]:
     """The columns of the tables of the front and of the generations."""
-    # What has not settled is refused, whether it is chaos or not.
+    # Designs with unsettled motions are refused, chaotic or not.
     few = {**settings, **settings["search"], "followed": 1, "exponents": False}
     # One thread for each seed: the designs of one generation are too few for several threads.
     total = len(settings["seeds"]) * settings["generations"]

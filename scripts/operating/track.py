@@ -42,7 +42,7 @@ def settled_motions(
     for number in range(len(inclinations)):
         own = np.arange(number * len(starts), (number + 1) * len(starts))
         for place, state in enumerate(STATES):
-            # The most frequent period, of which the trajectory that settles first.
+            # The trajectory with the most frequent period that settles first.
             members = own[(found.state[own] == state) & (found.period[own] > 0)]
             if len(members):
                 period = np.bincount(found.period[members]).argmax()

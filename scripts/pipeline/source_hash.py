@@ -12,7 +12,7 @@ from functools import cache
 from importlib import metadata
 from pathlib import Path
 
-from scripts.conveyor.solver.imports import all_imports
+from scripts.pipeline.imports import all_imports
 
 SCRIPTS = Path(__file__).resolve().parents[1]
 # Distributions whose version matters although no source imports them.

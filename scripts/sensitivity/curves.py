@@ -109,7 +109,7 @@ def curve_rows(
     last = len(curve.points) - 1
     points = []
     for n, (point, part, form, impacts) in enumerate(
-        zip(curve.points, curve.parts, curve.normal_forms, curve.impacts, strict=True)
+        zip(curve.points, curve.log_ratios, curve.normal_forms, curve.impacts, strict=True)
     ):
         end = curve.ends[0] if n == 0 else curve.ends[1] if n == last else None
         columns = {"point": n, "impacts": impacts, "normal_form": form, "status": ENDS.get(end, "ok")}
@@ -117,7 +117,7 @@ def curve_rows(
     meetings = [
         {
             **name,
-            **place_columns(parameters, meeting.point, parameter, meeting.part),
+            **place_columns(parameters, meeting.point, parameter, meeting.log_ratio),
             "meeting": meeting.kind,
             "status": meeting.status,
         }

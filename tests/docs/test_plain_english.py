@@ -32,9 +32,19 @@ PHRASES = {
     r"\bnobody (gave|gives|says|looked)\b": "say what is missing",
     r"\bbesides? what\b": "name it",
 }
-# Pages, captions, messages and config.
+# Pages, captions, messages, config, and the docstrings and comments of all scripts and tests but this one.
 READ = [
-    *(ROOT / file for file in ("CHANGELOG.md", "CONTRIBUTING.md", "config/README.md", "scripts/conveyor/README.md")),
+    *(
+        ROOT / file
+        for file in (
+            "README.md",
+            ".ci/run",
+            "CHANGELOG.md",
+            "CONTRIBUTING.md",
+            "config/README.md",
+            "scripts/conveyor/README.md",
+        )
+    ),
     *sorted((ROOT / "config").rglob("*.yaml")),
     *sorted((ROOT / "workflow/report").glob("*.rst")),
     *sorted((ROOT / "workflow/templates").glob("*.*")),
@@ -42,6 +52,8 @@ READ = [
     *sorted((ROOT / "workflow/rules").glob("*.smk")),
     *sorted((ROOT / "workflow/config").glob("*.py")),
     *sorted((ROOT / "scripts/report").glob("*.html")),
+    *sorted((ROOT / "scripts").rglob("*.py")),
+    *sorted(file for file in (ROOT / "tests").rglob("*.py") if file != Path(__file__)),
 ]
 
 

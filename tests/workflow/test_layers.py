@@ -3,8 +3,8 @@
 import pytest
 from project import ROOT, STAGES
 
-from scripts.conveyor.solver.imports import direct_imports
 from scripts.pipeline import source_hash
+from scripts.pipeline.imports import direct_imports
 
 # Packages of the library, lowest first; `conveyor` itself has the functions on top of solver and methods.
 # The module `parameters` imports nothing and is below all of them.

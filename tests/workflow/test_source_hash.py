@@ -3,8 +3,7 @@
 import pytest
 from project import ROOT
 
-from scripts.conveyor.solver import imports
-from scripts.pipeline import source_hash
+from scripts.pipeline import imports, source_hash
 
 # Stages that call functions of other stages; the budget makes the tables of figures again with other settings.
 CALLS = {

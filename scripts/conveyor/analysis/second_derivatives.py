@@ -20,8 +20,8 @@ from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_re
 from ..solver.model import TENSION_CLIP
 from ..solver.polynomial import ORDER, SIZE
 from ..solver.trajectory import IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, longest_eventless
-from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, cut_step, motion_at, next_piece
-from .stroboscopic_map import tangent_length
+from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, cut_step, is_finite, motion_at, next_piece
+from .stroboscopic_map import delta_and_v, tangent_length
 
 # What is perturbed; the first two are the state.
 DELTA, Y, AMPLITUDE, DAMPING, STIFFNESS, EXPONENT = range(6)
@@ -36,13 +36,8 @@ LOG_EDGE = 1e-5
 
 @compiled
 def power_series(c, series, exponent, out):
-    """Fill `out`, shape (SIZE,), with the Taylor coefficients of w^exponent of a contact step, 0 if w begins at 0."""
-    w = FIRST + contact.W
-    series[contact.SCRATCH, :] = 0.0
-    if series[w, 0] > c.edge_w:
-        series[contact.SCRATCH, 0] = series[w, 0] ** exponent
-        for n in range(1, ORDER):
-            series[contact.SCRATCH, n] = contact.power_term(series, w, contact.SCRATCH, exponent, n)
+    """Fill `out`, shape (SIZE,), with the Taylor coefficients of w^exponent, see contact.expand_power."""
+    contact.expand_power(c, series, FIRST, exponent)
     for n in range(SIZE):  # a slice would take seconds to compile, with the error message for wrong shapes
         out[n] = series[contact.SCRATCH, n]
 
@@ -279,11 +274,10 @@ def cycle(parameters, tolerance, state, first, second, count):
         if eventless > 2 * most:
             return TOO_STIFF, impacts
         motion = following
-        if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)):
+        if not is_finite(motion):
             return NOT_FINITE, impacts
         if piece.end == LIMIT:
-            state[0] = motion.w * motion.w if motion.touching else -max(motion.q, 0.0)
-            state[1] = motion.v if motion.touching else -motion.rate
+            state[0], state[1] = delta_and_v(motion)
             if motion.pulled and clip:
                 switch(c, first, second, state[0], False)
             return OK, impacts

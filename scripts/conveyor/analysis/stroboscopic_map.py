@@ -30,7 +30,19 @@ from ..solver.trajectory import (
     longest_eventless,
     time_to_next_cycle,
 )
-from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, begin, cut_step, motion_at, next_piece
+from ..solver.vertical import (
+    CONTACT,
+    FLIGHT,
+    IMPACT,
+    LIMIT,
+    LOST,
+    arrive,
+    begin,
+    cut_step,
+    is_finite,
+    motion_at,
+    next_piece,
+)
 
 # Features of a cycle.
 IMPACTS, CONTACT_TIME, LONGEST_FLIGHT, AIRBORNE = range(4)
@@ -68,12 +80,7 @@ def expand_tangents(c, series, expansions, free):
     elif c.exponent == 1.0:
         stiff = w
     else:
-        power = 2.0 * c.exponent - 1.0
-        stiff[:] = 0.0
-        if w[0] > c.edge_w:
-            stiff[0] = w[0] ** power
-            for n in range(1, ORDER):
-                stiff[n] = contact.power_term(series, FIRST + contact.W, contact.SCRATCH, power, n)
+        contact.expand_power(c, series, FIRST, 2.0 * c.exponent - 1.0)
     w_0, stiff_0 = w[0], stiff[0]
     eta_1, eta_2 = expansions[0, ETA, 0], expansions[1, ETA, 0]
     zeta_1, zeta_2 = expansions[0, ZETA, 0], expansions[1, ZETA, 0]
@@ -206,7 +213,7 @@ def advance(c, series, state, phase, duration, tangent, features):
         if eventless > most:
             return TOO_STIFF
         motion = arrive(c, motion, piece, phase)
-        if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)):
+        if not is_finite(motion):
             return NOT_FINITE
         if piece.end == LIMIT:
             if motion.pulled:

@@ -1,4 +1,4 @@
-"""Balls: exact decimals, outward rounding, and the refusal of a proof."""
+"""Balls: conversions from and to floats, and the exception for a statement that cannot be proved."""
 
 import math
 from collections.abc import Iterator
@@ -14,7 +14,7 @@ class Refused(ArithmeticError):
 
 @contextmanager
 def precision(bits: int, order: int) -> Iterator[None]:
-    """Arithmetic of `bits` bits and series up to `order` within this context."""
+    """A context with a working precision of `bits` bits and power series up to `order`."""
     cap = ctx.cap
     ctx.cap = order + 1
     try:
@@ -25,7 +25,7 @@ def precision(bits: int, order: int) -> Iterator[None]:
 
 
 def exactly(value: float) -> arb:
-    """The decimal that is written for a float (its shortest one), as a ball."""
+    """The shortest decimal number that stands for a float, as a ball."""
     fraction = Fraction(repr(float(value)))
     return arb(fmpq(fraction.numerator, fraction.denominator))
 
@@ -34,7 +34,7 @@ def bounds(ball: arb) -> tuple[float, float]:
     """The ends of a ball as floats, rounded outwards."""
     low, high = ball.lower(), ball.upper()
     below, above = float(low), float(high)
-    # float() rounds to nearest; one step outwards makes up for it.
+    # float() rounds to the nearest number, which may lie inside the ball.
     while not arb(below) <= low:
         below = math.nextafter(below, -math.inf)
     while not arb(above) >= high:

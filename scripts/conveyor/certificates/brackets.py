@@ -1,7 +1,7 @@
-"""Brackets of bifurcations: amplitudes between which a multiplier passes -1, or a branch turns.
+"""Brackets of bifurcations: amplitudes between which a Floquet multiplier passes -1, or a branch folds.
 
-The test functions (1 ± μ1)(1 ± μ2) have different signs at the ends of a branch that is proved without gaps, so that
-they vanish in between (Bolzano's theorem).
+The branch is proved to exist over the whole interval. The test function (1 ± μ1)(1 ± μ2) is continuous along it and has
+different signs at its ends, so that it has a zero in between (Bolzano's theorem).
 """
 
 from collections.abc import Callable
@@ -15,33 +15,34 @@ from .newton import Approximation, Zero, approximate_inverse, correct, exact, mi
 from .orbit import ProvedOrbit, linearise, prove_orbit
 from .shooting import Shooting, equations_on_arc, launch
 
-# Half the length of the first secant at an approximate bifurcation, in m/s² and along an arc in the units of the
-# unknowns, and how many secants there are, each on a hundredth of the length of the one before.
-NEAR, NEAR_ON_ARC, SECANTS = 1e-6, 1e-4, 2
+# Half the length of the first secant: in m/s², and along an arc in the units of the unknowns.
+NEAR, NEAR_ON_ARC = 1e-6, 1e-4
+# Number of secants; each is a hundred times shorter than the secant before.
+SECANTS = 2
 
 
 class Bracket(NamedTuple):
-    """An interval that contains the amplitude of a bifurcation, by proof."""
+    """An interval that is proved to contain the amplitude of a bifurcation."""
 
     acceleration: arb  # m/s²
     tests: tuple[arb, arb]  # (1 ± μ1)(1 ± μ2) at both ends of the interval or of the arc; different signs
 
 
-def check_within(zero: Zero, other: Zero) -> None:
-    """Prove that a zero at one value of the parameter is the one of a branch over a ball that contains this value.
+def check_within(zero: Zero, branch: Zero) -> None:
+    """Prove that a zero lies on a branch: its parameter value lies in the ball of the branch's parameter values.
 
     Raises
     ------
     Refused
-        if the enclosure of the one is not inside the box in which the other is the only one
+        if the zero's enclosure is not inside the box that contains exactly one zero for each of these values
     """
-    pairs = zip(other.box.entries(), zero.enclosure.entries(), strict=True)
+    pairs = zip(branch.box.entries(), zero.enclosure.entries(), strict=True)
     if not all(box.contains(point) for box, point in pairs):
         raise Refused("the ends are not proved to lie on the branch between them")
 
 
 def approach_root(test: Callable[[arb], arb], guess: arb, reach: float) -> arb:
-    """Where a test function is about zero, exact, by secants; nothing is proved here."""
+    """An approximate zero of a test function, as an exact number, by the secant method; nothing is proved here."""
     for _ in range(SECANTS):
         before, behind = test(guess - reach).mid(), test(guess + reach).mid()
         guess, reach = (guess - reach * (behind + before) / (behind - before)).mid(), reach / 100
@@ -56,7 +57,7 @@ def have_different_signs(one: arb, other: arb) -> bool:
 
 
 def bracket_doubling(shooting: Shooting, acceleration: float, strobes: np.ndarray, half_width: float) -> Bracket:
-    """A bracket of the amplitude at which a multiplier of an orbit passes -1.
+    """A bracket of the amplitude at which a Floquet multiplier of an orbit passes -1 (a period doubling).
 
     Parameters
     ----------
@@ -88,10 +89,11 @@ def bracket_doubling(shooting: Shooting, acceleration: float, strobes: np.ndarra
 
 
 def bracket_fold(shooting: Shooting, acceleration: float, strobes: np.ndarray, half_arc: float) -> Bracket:
-    """A bracket of the least amplitude of a branch that turns.
+    """A bracket of the least amplitude of a branch that folds.
 
-    On the arc the equations with the place as a parameter are regular, by proof. There, by Cramer's rule, dγ/d(place)
-    is det(P' - 1) = (1 - μ1)(1 - μ2) over a determinant that has no zero: it changes its sign with this product.
+    The equations with the place along an arc as a parameter are proved to be regular. By Cramer's rule dγ/d(place) is
+    det(P' - 1) = (1 - μ1)(1 - μ2) divided by a determinant without zeros. The derivative changes its sign with this
+    product.
 
     Parameters
     ----------
@@ -106,9 +108,9 @@ def bracket_fold(shooting: Shooting, acceleration: float, strobes: np.ndarray, h
         with the reason
     """
     gamma = shooting.law.gamma(exactly(acceleration)).mid()
-    # Newton's iteration at one amplitude would diverge here.
+    # Newton's iteration at a fixed amplitude would diverge near the fold, so that the approximation is not corrected.
     origin = arb_mat([*launch(shooting, gamma, strobes).centre.tolist(), [gamma]])
-    # The direction of the branch: what the equations, without the last one, leave free.
+    # The tangent of the branch is the null vector of the derivative without its last row.
     flat = equations_on_arc(shooting, origin, arb_mat([[0] * (2 * shooting.count) + [1]]), arb(0))
     _, slope, _ = flat(origin, True)
     direction = exact(np.linalg.svd(midpoints(slope)[:-1])[2][-1:])

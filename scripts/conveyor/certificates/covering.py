@@ -1,14 +1,17 @@
 """Chaos: covering relations of the stroboscopic map on small parallelograms along a homoclinic orbit.
 
-A parallelogram N = c + M [-1, 1]² has an unstable first axis x and a stable second one y. N covers N' under the map P,
-written N ⇒ N', if in the coordinates of N' the image of N lies between the stable sides, |y| < 1, and the images of
-the edges x = -1 and x = +1 of N lie beyond opposite unstable sides, one at x < -1, the other at x > 1. Then, for every
-endless path N ⇒ N' ⇒ N'' ⇒ … of such relations, a point's iterates pass through these sets in this order, and for
-every closed path a periodic one's (Zgliczyński and Gidea 2004).
+The first axis x of a parallelogram N = c + M [-1, 1]² is unstable, the second axis y is stable. N covers N' under the
+map P, written N ⇒ N', if two conditions hold in the coordinates of N':
 
-If N0 covers itself and also, by N0 ⇒ N1 ⇒ … ⇒ Nm ⇒ N0, sets that are disjoint from it, every sequence of stays of one
-cycle and excursions of m + 1 cycles is taken by an orbit: the topological entropy of P is at least log z per cycle with
-z^(m+1) = z^m + 1. For of paths of n cycles from N0 to N0 there are as many as z^n grows.
+- the image of N lies between the stable sides, |y| < 1;
+- the images of the edges x = -1 and x = +1 of N lie beyond opposite unstable sides, one at x < -1, the other at x > 1.
+
+For every infinite path N ⇒ N' ⇒ N'' ⇒ … there is then a point whose iterates pass through these sets in this order. If
+the path is closed, there is such a point that is periodic (Zgliczyński and Gidea 2004).
+
+Let N0 cover itself, and let N0 ⇒ N1 ⇒ … ⇒ Nm ⇒ N0 with N1 … Nm disjoint from N0. Then for every sequence of stays (one
+cycle) and excursions (m + 1 cycles) there is an orbit that follows it. The number of paths of n cycles from N0 to N0
+grows as zⁿ with z^(m+1) = z^m + 1, so that the topological entropy of P is at least log z per cycle.
 """
 
 from typing import NamedTuple
@@ -42,8 +45,8 @@ class Horseshoe(NamedTuple):
 def carry_set(system: System, centre: arb_mat, deviation: arb_mat) -> tuple[arb_mat, arb_mat]:
     """Image of a centre after one cycle, and the derivative over centre + deviation.
 
-    At each of the nodes the set is enclosed anew by the mean value theorem, image of the centre + derivative times
-    deviation: a box that is carried through the whole cycle would grow by the contact's ringing.
+    At each node the mean value theorem gives a new enclosure of the set: image of the centre + derivative × deviation.
+    A box that is carried through the whole cycle would grow with each oscillation of the contact.
     """
     point, box, matrix = centre, centre + deviation, arb_mat([[1, 0], [0, 1]])
     for node in range(NODES):
@@ -68,7 +71,7 @@ def check_covering(image: tuple[arb_mat, arb_mat], source: Parallelogram, target
     """
     point, matrix = image
     centre = target.axes.inv() * (point - target.centre)
-    # One matrix for both changes of coordinates: the image of a box would lose the directions.
+    # The product of all three matrices keeps the directions, which a box in the original coordinates would lose.
     linear = target.axes.inv() * matrix * source.axes
 
     def image_of_edge(x: arb) -> list[arb]:

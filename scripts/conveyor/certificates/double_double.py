@@ -1,8 +1,8 @@
-"""Probable enclosures of the Taylor coefficients of a contact step, in compiled double-double arithmetic.
+"""Candidates for enclosures of the Taylor coefficients of a contact step, in compiled double-double arithmetic.
 
-Nothing is proved here: `taylor` proves the enclosures by one evaluation in balls. Without them it would need one
+Nothing is proved here: `taylor` proves the enclosures with one evaluation in balls. Without candidates it would need an
 evaluation for each order, and proofs would take twice as long. A number is a midpoint and a radius; the midpoint is the
-unevaluated sum of two floats, with some 30 digits (Dekker 1971).
+unevaluated sum of two floats, which has about 30 digits (Dekker 1971).
 """
 
 import numpy as np
@@ -14,7 +14,8 @@ from ..solver.jit import compiled, compiled_inline
 W, Y, COSINE, SINE, PHASE, MOTION = range(6)
 # Parts of a number: the midpoint is HIGH + LOW.
 HIGH, LOW, RADIUS = range(3)
-# Relative errors that radii allow for: of a product here, of a ball of some bits with a few bits to spare, of a radius.
+# Relative rounding error of a product in double-double arithmetic. In an arithmetic of `bits` bits it is taken to be
+# 2^(SPARE_BITS - bits). Radii are enlarged by the factor WIDER, because they have rounding errors, too.
 ROUNDING, SPARE_BITS, WIDER = 1e-30, 4, 1.0 + 1e-6
 SPLIT = 134217729.0  # 2^27 + 1
 
@@ -46,12 +47,14 @@ def two_product(a, b):
 
 @compiled_inline
 def add(a, b):
+    """a + b of two numbers (high, low, radius)."""
     high, low = two_sum(a[HIGH], b[HIGH])
     return high, low + a[LOW] + b[LOW], a[RADIUS] + b[RADIUS]
 
 
 @compiled_inline
 def multiply(a, b, rounding):
+    """a b of two numbers; `rounding` is the relative rounding error that the radius includes."""
     high, low = two_product(a[HIGH], b[HIGH])
     radius = abs(a[HIGH]) * b[RADIUS] + a[RADIUS] * (abs(b[HIGH]) + b[RADIUS])
     return high, low + a[HIGH] * b[LOW] + a[LOW] * b[HIGH], radius + rounding * abs(high)
@@ -59,18 +62,20 @@ def multiply(a, b, rounding):
 
 @compiled_inline
 def coefficient(series, n):
+    """The coefficient of order n as a number (high, low, radius)."""
     return series[HIGH, n], series[LOW, n], series[RADIUS, n]
 
 
 @compiled_inline
 def set_coefficient(series, n, value, rounding):
+    """Set the coefficient of order n, with a radius that includes a relative error `rounding`."""
     series[HIGH, n], series[LOW, n] = two_sum(value[HIGH], value[LOW])
     series[RADIUS, n] = WIDER * (value[RADIUS] + rounding * abs(value[HIGH]))
 
 
 @compiled_inline
 def integrate(series, n, rate, rounding):
-    """Set the coefficient of order n + 1 from the coefficient of order n of the rate."""
+    """Set the coefficient of order n + 1 from the coefficient of order n of the derivative, `rate`."""
     count = n + 1.0
     high = rate[HIGH] / count
     back, lost = two_product(high, count)

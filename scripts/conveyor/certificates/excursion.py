@@ -12,11 +12,12 @@ import numpy as np
 from ..analysis.bifurcations.periodic_orbits import ReturnMap
 from .balls import Refused
 
-# Where the tried excursions begin, and how near to the fixed point they must return, in the scaled unknowns; how many
-# are tried; bisections towards the excursion that is found, and Newton's corrections of it.
+# Distance from the fixed point at which trial excursions begin, and the distance within which they must return, in
+# scaled unknowns.
 LEAVING, RETURNED = 1e-4, 0.2
+# Trial excursions on each side; bisections of an excursion's beginning; corrections by Newton's iteration.
 EXCURSIONS, BISECTIONS, CORRECTIONS = 1000, 60, 6
-# Where on the axes of the first set an excursion begins and, at most, ends.
+# Share of the half axes of the first set at which an excursion begins, and within which it ends.
 BEGINNING = 0.6
 
 
@@ -41,7 +42,13 @@ def differentiate(parameters: np.ndarray, amplitude: float, point: np.ndarray) -
 
 
 def find_saddle(parameters: np.ndarray, amplitude: float, point: np.ndarray) -> Saddle:
-    """Multipliers and directions of a fixed point; Refused if it is no saddle."""
+    """Multipliers and directions of a fixed point.
+
+    Raises
+    ------
+    Refused
+        if the fixed point is no saddle
+    """
     multipliers, vectors = np.linalg.eig(differentiate(parameters, amplitude, point))
     if np.iscomplexobj(multipliers) or not np.abs(multipliers).max() > 1.0 > np.abs(multipliers).min():
         raise Refused("the fixed point is no saddle")
@@ -60,7 +67,10 @@ def leave(saddle: Saddle, distance: float, cycles: int) -> np.ndarray:
 
 
 def crossings(saddle: Saddle, longest: int) -> Iterator[tuple[int, float, float]]:
-    """Cycles after which excursions cross the stable direction, shortest first, and distances on both sides."""
+    """Excursions that cross the stable direction, the shortest first.
+
+    Each has its number of cycles, and two neighbouring initial distances between which it begins.
+    """
     distances = LEAVING * np.geomspace(1.0 / abs(saddle.multipliers[0]), 1.0, EXCURSIONS)
     for side in (distances, -distances):
         across = np.array([project(saddle, leave(saddle, distance, longest))[:, 0] for distance in side])
@@ -70,7 +80,13 @@ def crossings(saddle: Saddle, longest: int) -> Iterator[tuple[int, float, float]
 
 
 def find_excursion(saddle: Saddle, longest: int) -> np.ndarray:
-    """The shortest excursion that leaves along the unstable and returns along the stable direction, shape (n, 2)."""
+    """The shortest excursion that leaves along the unstable and returns along the stable direction, shape (n, 2).
+
+    Raises
+    ------
+    Refused
+        if no excursion of up to `longest` cycles returns
+    """
     for cycles, low, high in crossings(saddle, longest):
         sign = project(saddle, leave(saddle, low, longest))[cycles, 0]
         for _ in range(BISECTIONS):
@@ -84,7 +100,7 @@ def find_excursion(saddle: Saddle, longest: int) -> np.ndarray:
 
 
 def correct_path(saddle: Saddle, path: np.ndarray) -> np.ndarray:
-    """An orbit that leaves and returns along the straight directions, by Newton's iteration on all its points."""
+    """An orbit whose ends lie on the straight unstable and stable directions, by Newton's iteration on all points."""
     count, across = len(path), np.linalg.inv(saddle.axes)
     for _ in range(CORRECTIONS):
         slope, value = np.zeros((2 * count, 2 * count)), np.zeros(2 * count)
@@ -100,7 +116,7 @@ def correct_path(saddle: Saddle, path: np.ndarray) -> np.ndarray:
 
 
 def carry_directions(matrices: list[np.ndarray], axes: np.ndarray) -> list[np.ndarray]:
-    """Axes at all points of a path: unstable directions are carried forwards, stable ones backwards."""
+    """Axes at all points of a path: the unstable direction is carried forwards, the stable direction backwards."""
     unstable, stable = [axes[:, 0]], [axes[:, 1]]
     for matrix in matrices[:-1]:
         ahead = matrix @ unstable[-1]
@@ -120,8 +136,9 @@ def plan_sets(
     ----------
     parameters : packed conveyor
     fixed : a saddle (δ, Y, â) of the map of one cycle
-    size, ratio : the largest half unstable axis, and that over half the stable axis of the first set
-    longest : cycles of the longest excursion that is looked for, from near the fixed point on
+    size : largest half axis in the unstable direction
+    ratio : of the half axes of the first set, unstable to stable
+    longest : cycles of the longest excursion to search for
 
     Returns
     -------
@@ -134,7 +151,7 @@ def plan_sets(
     """
     saddle = find_saddle(parameters, fixed[2], fixed[:2])
     path = find_excursion(saddle, longest)
-    # Longer by iterates on the straight directions, until both ends lie within the first set.
+    # Iterates along the straight directions extend the path until both ends lie within the first set.
     out, back = project(saddle, path[[0, -1]])[[0, 1], [0, 1]]
     before, behind = [], []
     while abs(out) > BEGINNING * size:
@@ -147,5 +164,5 @@ def plan_sets(
     path = correct_path(saddle, np.array([*before, *path, *behind]))
     axes = carry_directions([differentiate(parameters, saddle.amplitude, point) for point in path], saddle.axes)
     first = saddle.axes / np.array([1.0, BEGINNING * size / abs(back)])
-    # The excursion begins and ends within the set of the fixed point.
+    # Both ends of the excursion lie within the set of the fixed point and need no sets of their own.
     return np.vstack([saddle.point, path[1:-1]]), [size * part for part in (first, *axes[1:-1])]

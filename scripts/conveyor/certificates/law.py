@@ -1,4 +1,4 @@
-"""The law of motion: the conveyor without units, its numbers read as decimals.
+"""The law of motion in dimensionless form; the conveyor's numbers are read as exact decimals.
 
 With lengths in g/ω², velocities in g/ω and the phase φ of the excitation as time, penetration δ = w² and the quantity
 Y = δ' + β δ of the stroboscopic map obey, in contact with dφ = w ds,
@@ -17,12 +17,12 @@ from flint import arb
 from ..solver.model import TENSION_ALLOW, TENSION_MODES, Conveyor
 from .balls import exactly
 
-# Angles whose value in degrees has at most this many digits behind the point are read as that decimal.
+# Digits after the decimal point of an angle in degrees that is read as a decimal number of degrees.
 DIGITS_OF_DEGREES = 9
 
 
 class Law(NamedTuple):
-    """A conveyor but for its amplitude: enclosures of exact numbers."""
+    """A conveyor without its amplitude; the balls contain the exact numbers."""
 
     slope: arb  # γ per m/s² of the amplitude
     beta: arb
@@ -39,7 +39,7 @@ class Law(NamedTuple):
 
 
 class Accuracy(NamedTuple):
-    """How the steps of a contact are made."""
+    """Accuracy of the steps of a contact."""
 
     order: int  # of the Taylor series
     tolerance: float  # of the last terms of a series
@@ -54,7 +54,7 @@ class System(NamedTuple):
 
 
 def read_angle(angle: float) -> arb:
-    """An angle in rad: a decimal of degrees times π/180 where that is what the float means, else its own decimal."""
+    """An angle in rad. A float that stands for a decimal number of degrees is read as this number × π/180."""
     degrees = round(math.degrees(angle), DIGITS_OF_DEGREES)
     if abs(math.radians(degrees) - angle) <= 2.0 * math.ulp(angle):
         return exactly(degrees) * arb.pi() / 180
@@ -62,12 +62,12 @@ def read_angle(angle: float) -> arb:
 
 
 def law_of(conveyor: Conveyor) -> Law:
-    """The law of a conveyor whose numbers are the decimals that are written for them.
+    """The law of a conveyor; each of its floats stands for its shortest decimal.
 
     Raises
     ------
     ValueError
-        for a reading of the contact force or an exponent whose equations are not polynomial in w
+        for a treatment of tension or an exponent with which the equations are not polynomial in w
     """
     if TENSION_MODES.index(conveyor.tension) != TENSION_ALLOW:
         raise ValueError(f"certificates are for tension = allow, not {conveyor.tension}")

@@ -1,9 +1,9 @@
 """The motion from one phase of the excitation to another: flights and contacts with proved events, and the derivative.
 
-A state is (δ, Y) at a known phase (see law). The derivative of a later state by it is a product of matrices, one for
-each flight and for each step of a contact. Impacts and separations add none: the rates of δ and Y are continuous there,
-so that the matrix of the jump is the identity as long as the plate is met with a speed. It is: the proof of every root
-of the gap or of w contains a proof that the function falls there.
+A state is (δ, Y) at a known phase (see law). Its derivative by an earlier state is a product of matrices, one for each
+flight and for each step of a contact. An impact or a separation adds no matrix, because the rates of δ and Y are
+continuous there, as long as its speed is not zero. The speed is not zero, because the proof of each root of the gap or
+of w includes a proof that the function falls there.
 """
 
 from typing import NamedTuple
@@ -17,9 +17,10 @@ from .law import System
 from .roots import bracket_first_root, sharpen
 from .taylor import Step, make_step
 
-# Flights and steps after which a motion is given up; shorter steps that are tried where an event hides in a step's end;
-# bisections towards the end of a motion.
-MAX_PIECES, SHORTER_STEPS, BISECTIONS = 2000, 12, 40
+# Flights and steps after which a motion is given up.
+MAX_PIECES = 2000
+# Bisections in the search for the end of a motion.
+BISECTIONS = 40
 
 
 class Impact(NamedTuple):
@@ -60,7 +61,7 @@ def follow(system: System, begin: arb, end: arb, delta: arb, y: arb, columns: in
     Raises
     ------
     Refused
-        if the order of events is not the same for all of them, or an event grazes
+        if the order of events is not the same for all states and amplitudes, or an event grazes
     """
     matrix = arb_mat([[1, 0, 0][:columns], [0, 1, 0][:columns]])
     impacts: list[Impact] = []
@@ -122,31 +123,21 @@ def _find_end(system: System, step: Step, here: _Contact, end: arb) -> tuple[arb
     def ahead(s: arb) -> arb:
         return end - step.value(PHASE, s)
 
-    length, refusal = step.length, None
-    for _ in range(SHORTER_STEPS):
-        # A shorter step may end where w and the phase have a sign.
-        try:
-            bracket = bracket_first_root(w, slope, length, here.w.is_zero(), "the penetration of a contact")
-            separation = None if bracket is None else sharpen(w, slope, *bracket)
-            reach = length if separation is None else separation.lower()
-            # dφ/ds = w > 0 up to here: the phase is reached at most once.
-            arrival = None if ahead(reach) > 0 else _find_arrival(w, ahead, reach)
-        except Refused as refused:
-            refusal = refused
-            length = (length * arb(0.8)).mid()
-            continue
-        if arrival is not None:
-            return arrival, "end"
-        if separation is None:
-            return length, "step"
-        if not ahead(separation) > 0:
-            raise Refused("a separation lies at the section")
-        return separation, "separation"
-    raise refusal
+    bracket = bracket_first_root(w, slope, step.length, here.w.is_zero(), "the penetration of a contact")
+    separation = None if bracket is None else sharpen(w, slope, *bracket)
+    reach = step.length if separation is None else separation.lower()
+    # dφ/ds = w > 0 up to here: the phase is reached at most once.
+    if not ahead(reach) > 0:
+        return _find_arrival(w, ahead, reach), "end"
+    if separation is None:
+        return step.length, "step"
+    if not ahead(separation) > 0:
+        raise Refused("a separation lies at the section")
+    return separation, "separation"
 
 
 def _find_arrival(w, ahead, reach: arb) -> arb:
-    """The s at which a phase is reached before `reach`, exact, up to which w > 0 is proved."""
+    """The s below `reach` at which the end of the motion is reached; `reach` is exact, and w > 0 is proved up to it."""
     if not ahead(reach) < 0:
         raise Refused("the section lies at the end of a step")
     low, high = arb(0), reach

@@ -11,10 +11,10 @@ from .balls import Refused
 
 # Corrections of an approximate zero, and enlargements of a box that is too small.
 CORRECTIONS, INFLATIONS = 8, 4
-# A correction of this size leads somewhere else.
+# After a correction of this size the zero, if any, is not near the approximation.
 FARTHEST = 1.0
 
-# f(x) and f'(x), None where it is not wanted, over a ball of unknowns, and whatever else was found on the way.
+# A function of a box of unknowns x and a flag. It returns f(x), f'(x) (None without the flag) and intermediate results.
 Equations = Callable[[arb_mat, bool], tuple[arb_mat, arb_mat | None, Any]]
 
 
@@ -31,7 +31,7 @@ class Zero(NamedTuple):
 
     enclosure: arb_mat  # contains the zero
     box: arb_mat  # contains no other zero
-    evidence: Any  # what the equations found on the way, over the box
+    evidence: Any  # intermediate results of the equations over the box
 
 
 def midpoints(matrix: arb_mat) -> np.ndarray:
@@ -45,7 +45,7 @@ def exact(values: np.ndarray) -> arb_mat:
 
 
 def approximate_inverse(slope: arb_mat) -> arb_mat:
-    """The inverse of a matrix in floating point: a preconditioner need not be right.
+    """The inverse of a matrix in floating point; a preconditioner need not be exact.
 
     Raises
     ------
@@ -106,8 +106,8 @@ def krawczyk(value: arb_mat, slope: arb_mat, inverse: arb_mat, deviation: arb_ma
 def prove_zero(equations: Equations, near: Approximation, least: float) -> Zero:
     """Exactly one zero in a box around the centre of an approximation.
 
-    The radii of the box are twice Newton's correction, which a parameter with a wide ball makes wide, plus `least`. A
-    box that proves nothing is enlarged where its image sticks out.
+    The radii of the box are twice Newton's correction plus `least`. A parameter with a wide ball makes this correction
+    wide. If the image of the box does not lie inside the box, the box is enlarged to contain the image.
 
     Raises
     ------

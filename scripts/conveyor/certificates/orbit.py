@@ -13,13 +13,13 @@ from .shooting import NODES, Shooting, equations_at, launch
 
 
 class ProvedOrbit(NamedTuple):
-    """For each amplitude of a ball exactly one orbit in a box around it."""
+    """A box that contains exactly one orbit for each amplitude of a ball."""
 
     shooting: Shooting
     gamma: arb
     zero: Zero
     trace: arb  # of the derivative of (δ, Y) over a period
-    determinant: arb  # the product of the multipliers, from the phase in contact
+    determinant: arb  # product of the multipliers, from the duration of contact
     contact: arb  # phase in contact in a period
 
     def strobe(self, cycle: int) -> tuple[arb, arb]:
@@ -57,8 +57,9 @@ class ProvedOrbit(NamedTuple):
         """Proved from Jury's conditions: "stable" if both multipliers are inside the unit circle, "unstable" if one is
         outside, else "open".
 
-        The characteristic polynomial p(μ) = μ² - trace μ + det is positive at ±1 and det < 1 if and only if both are
-        inside; p(1) < 0 or p(-1) < 0 leaves a real one beyond +1 or -1. det < 1 holds for every orbit with contact.
+        Let p(μ) = μ² - trace μ + det be the characteristic polynomial. Both multipliers are inside if and only if
+        det < 1 and p(±1) > 0. If p(1) < 0 or p(-1) < 0, a real multiplier lies beyond +1 or -1. det < 1 holds for every
+        orbit with contact.
         """
         if self.fold_test > 0 and self.doubling_test > 0 and self.determinant < 1:
             return "stable"
@@ -72,7 +73,7 @@ class ProvedOrbit(NamedTuple):
         Raises
         ------
         Refused
-            if it is open whether they are real, or which one is larger
+            if the proof does not show whether they are real, or which one has the larger modulus
         """
         half = self.trace / 2
         square = half * half - self.determinant
@@ -87,11 +88,11 @@ class ProvedOrbit(NamedTuple):
 
 
 def linearise(shooting: Shooting, arrivals: list[Arrival]) -> tuple[arb, arb, arb]:
-    """Trace and determinant of the derivative over a period, and the phase in contact.
+    """Trace and determinant of the derivative P over a period, and the duration of contact as a phase.
 
-    The trace is that of Q⁻¹ P Q for any Q: with the Q of a QR decomposition at each node the factors of the product P
-    are nearly triangular, and its width stays that of its diagonal. The determinant is that of a flow with the
-    divergence -β in contact (Liouville), which is narrower than that of the product and must agree with it.
+    Q⁻¹ P Q has the trace of P for any Q. With the Q of a QR decomposition at each node the factors of P are nearly
+    triangular, and the trace is as narrow as the diagonal. The divergence of the flow is -β in contact, which gives the
+    determinant (Liouville). It is narrower than the determinant of the product, and must agree with it.
     """
     matrices = [arb_mat([[arrival.matrix[i, j] for j in range(2)] for i in range(2)]) for arrival in arrivals]
     whole = reduce(lambda product, matrix: midpoints(matrix) @ product, matrices, np.eye(2))
@@ -116,7 +117,7 @@ def prove_orbit(shooting: Shooting, gamma: arb, strobes: np.ndarray) -> ProvedOr
     Parameters
     ----------
     shooting : period and accuracy
-    gamma : amplitude; for each of its ball there is an orbit
+    gamma : amplitudes, a ball; there is an orbit for each of them
     strobes : (δ, Y) in units of the law, shape (period, 2)
 
     Raises
@@ -133,9 +134,9 @@ def prove_orbit(shooting: Shooting, gamma: arb, strobes: np.ndarray) -> ProvedOr
 
 
 def check_period(orbit: ProvedOrbit) -> None:
-    """Prove that no part of the period is a period.
+    """Prove that the period n is the least period.
 
-    The least period divides every period; if the orbit had the period n/p for a prime p, its states n/p cycles apart
+    The least period divides n. If it were smaller, n/p would be a period for some prime p, and states n/p cycles apart
     would be equal.
 
     Raises

@@ -6,9 +6,9 @@ from flint import arb
 
 from .balls import Refused
 
-# The part of the whole interval below which a search gives up: a function that stays so near zero grazes it.
+# Share of the interval: a search that needs shorter pieces gives up, because the function grazes zero.
 SMALLEST = 1e-9
-# Newton steps of `sharpen`, and the ratio of radii above which a step counts as the last one.
+# Newton steps of `sharpen`; a step that reduces the radius by less than this factor is the last one.
 ITERATIONS, SHRINKS = 40, 0.9
 
 Function = Callable[[arb], arb]

@@ -1,8 +1,8 @@
 """The equations of a periodic orbit, by multiple shooting.
 
-The orbit is cut at phases that divide each excitation cycle evenly. The unknowns are the states (δ, Y) at all of these
-nodes; the equations say that each state follows from the one before. The errors of one piece are not carried through
-the other pieces, where the contact's ringing would blow up their boxes, but are joined by one linear system.
+The orbit is cut at phases that divide each excitation cycle evenly. The unknowns are the states (δ, Y) at these nodes,
+and the equations say that each state leads to the next one. One linear system couples the errors of all pieces. Errors
+are not carried from piece to piece, because each oscillation of the contact would enlarge them.
 """
 
 from typing import NamedTuple
@@ -14,7 +14,7 @@ from .law import Accuracy, Law, System
 from .motion import Arrival, follow
 from .newton import Approximation, Equations, approximate_inverse
 
-# Nodes in an excitation cycle: the contact of a riding part rings about five times in it.
+# Nodes in an excitation cycle, in which the contact of a riding part oscillates about five times.
 NODES = 8
 
 
@@ -32,7 +32,7 @@ class Shooting(NamedTuple):
 
     @property
     def least(self) -> float:
-        """Least radius of a box: well above what one piece of the motion adds."""
+        """Least radius of a box, well above the error of one piece of the motion."""
         return 16.0 * self.accuracy.tolerance
 
 
@@ -98,7 +98,7 @@ def equations_at(shooting: Shooting, gamma: arb) -> Equations:
 def equations_on_arc(shooting: Shooting, origin: arb_mat, direction: arb_mat, place: arb) -> Equations:
     """Equations for (δ, Y) of all nodes and γ, at the places of a ball along an arc of a branch.
 
-    The place is the component of the unknowns, less `origin`, along `direction`: folds are no obstacle to it.
+    The place is the component of (unknowns - `origin`) along `direction`; it is regular at folds.
 
     Parameters
     ----------

@@ -4,9 +4,9 @@ The equations are polynomial in (w, Y, cos φ, sin φ), and so are those of pert
 
     η' = w (ζ - β η),   ζ' = -p κ w^(2p-1) η,   and for the derivative by γ, ζ' = … + w cos φ.
 
-`rates` writes them once; it is evaluated in three arithmetics, each with one purpose: on truncated series it proves the
-coefficients that `double_double` finds; on bounds of terms it gives the terms above the order; on norms it gives the
-bound of the remainder.
+`rates` states them once, for three kinds of arithmetic. On truncated series it proves the coefficients that
+`double_double` finds. On bounds of the coefficients it gives the terms above the order. On norms it gives a bound on
+the remainder.
 
 The remainder. Let ‖f‖ = Σ |f_n| hⁿ, so that ‖f g‖ ≤ ‖f‖ ‖g‖ and |f(s)| ≤ ‖f‖ for |s| ≤ h. Let x̄ be the exact solution's
 series up to order N, and T(x) = x0 + ∫ rates(x) ds. If
@@ -28,9 +28,9 @@ from .balls import Refused
 from .double_double import COSINE, MOTION, PHASE, enclose_series, parts_of
 from .law import System
 
-# How often a bound that does not hold is doubled, and a step without a bound is halved.
+# Attempts with a bound, each twice as large as the last one, and with a step, each half as long.
 DOUBLINGS, HALVINGS = 4, 20
-# Factor that makes up for the rounding of a sum of three floats.
+# Factor for the rounding errors of a sum of three floats.
 SLACK = 1.0 + 1e-15
 
 
@@ -97,9 +97,9 @@ class Step(NamedTuple):
 def expand(system: System, initial: Sequence[arb], columns: int) -> tuple[list[arb_poly], np.ndarray]:
     """The exact series of the solutions from all points of `initial`, in balls.
 
-    Probable enclosures are put into Picard's operator T(x) = x0 + ∫ rates(x) ds once. If they contain the result, they
-    contain the exact coefficients: the first one is given, and that of order n + 1 of T follows from those up to order
-    n. The result contains the exact coefficients, too.
+    Picard's operator T(x) = x0 + ∫ rates(x) ds is applied once to the candidates from `double_double`. If they contain
+    the result, they contain the exact coefficients: the first coefficient is given, and the coefficient of order n + 1
+    of T follows from the coefficients up to order n. The result then contains the exact coefficients, too.
 
     Returns
     -------
@@ -108,9 +108,9 @@ def expand(system: System, initial: Sequence[arb], columns: int) -> tuple[list[a
     Raises
     ------
     ValueError
-        where the context (see balls.precision) cuts series off before the order: the remainder would be wrong
+        if the context (see balls.precision) truncates series before this order, which would make the remainder wrong
     Refused
-        if the probable enclosures do not contain the result
+        if the candidates do not contain the result
     """
     law, gamma, (order, _) = system
     if ctx.cap <= order:
@@ -121,12 +121,12 @@ def expand(system: System, initial: Sequence[arb], columns: int) -> tuple[list[a
     numbers = gamma, -law.beta, -law.kappa, minus_p * law.kappa
     enclose_series(rows, law.twice_exponent, *map(parts_of, numbers), ctx.prec)
     sizes = SLACK * np.abs(rows).sum(axis=1)
-    probable = [
+    candidates = [
         arb_series([value, *high[1:]]) + arb_series([0, *low[1:]]) + arb_series([0, *radius[1:]]) * arb(0, 1)
         for value, (high, low, radius) in zip(initial, rows.tolist(), strict=True)
     ]
     proved = []
-    for value, series, rate in zip(initial, probable, rates(system, probable, columns), strict=True):
+    for value, series, rate in zip(initial, candidates, rates(system, candidates, columns), strict=True):
         image = [value, *rate.integral().coeffs()[1 : order + 1]]
         if not all(map(arb.contains, series.coeffs(), image)):
             raise Refused("the series of a step is not proved")

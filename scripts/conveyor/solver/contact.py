@@ -172,6 +172,16 @@ def power_term(series, w, power, exponent, n):
     return total / (n * series[w, 0])
 
 
+@compiled
+def expand_power(c, series, at, exponent):
+    """Fill the row SCRATCH with the series of w^exponent along a step; it is 0 where the spring is switched off."""
+    series[SCRATCH, :] = 0.0
+    if series[at + W, 0] > c.edge_w:
+        series[SCRATCH, 0] = series[at + W, 0] ** exponent
+        for n in range(1, ORDER):
+            series[SCRATCH, n] = power_term(series, at + W, SCRATCH, exponent, n)
+
+
 @compiled_inline
 def expand_force(c, series, at, scale, plate, slack):
     """Fill the row SCRATCH with the series of w (scale F_c/m + plate cos(θ + ε) + slack), which has the bracket's sign.

@@ -1,12 +1,12 @@
-"""The folders in which numba keeps machine code: one for each content of a module and of all that it imports.
+"""The folders in which numba keeps machine code: named by the content of the library's modules.
 
 Numba alone recognises a change only in the file of a function, although the machine code also holds functions of other
-files. Here a change in any module that a module imports gives its machine code a new folder, so that no stale code
-runs. Clones with equal sources share a folder, and the library itself may be read-only. Numba writes each file under a
-name of its own and then renames it, so that several jobs may compile at once.
+files. Here any change in the library gives the machine code of its modules a new folder, so that no stale code runs.
+Only the modules of `solver`, which import nothing but `parameters` and each other, keep theirs after a change
+elsewhere. Clones with equal sources share their folders, and the library itself may be read-only. Numba writes each
+file under a name of its own and then renames it, so that several jobs may compile at once.
 """
 
-import ast
 import hashlib
 import os
 import platform
@@ -20,24 +20,16 @@ import llvmlite
 import numba
 from numba.core.caching import UserWideCacheLocator
 
-from .imports import all_imports, parse
-
-LIBRARY = Path(__file__).resolve().parents[1]
-
-
-@cache
-def syntax(module: Path) -> bytes:
-    """The name of a module and its syntax tree, which does not depend on comments and line numbers."""
-    return f"{module.relative_to(LIBRARY)}\0{ast.dump(parse(module))}\0".encode()
+SOLVER = Path(__file__).resolve().parent
+LIBRARY = SOLVER.parent
 
 
 @cache
-def content(module: Path) -> str:
-    """16 hexadecimal digits: the SHA-256 of a module, of all that it imports at any depth, and of the compilers."""
-    files, _ = all_imports([module], LIBRARY.parent, LIBRARY.name)
+def content(folder: Path) -> str:
+    """16 hexadecimal digits: the SHA-256 of all modules below a folder, of `parameters`, and of the compilers."""
     digest = hashlib.sha256(f"{platform.python_version()} {numba.__version__} {llvmlite.__version__}".encode())
-    for file in files:
-        digest.update(syntax(file))
+    for file in sorted({LIBRARY / "parameters.py", *folder.rglob("*.py")}):
+        digest.update(f"\0{file.relative_to(LIBRARY)}\0".encode() + file.read_bytes())
     return digest.hexdigest()[:16]
 
 
@@ -75,7 +67,8 @@ class ByContent(UserWideCacheLocator):
     """One of numba's cache locators (see "Notes on Caching" in its documentation) for the modules of this library."""
 
     def __init__(self, function, file: str):
-        self.content = content(Path(file).resolve())
+        self.module = Path(file).resolve()
+        self.content = content(SOLVER if self.module.is_relative_to(SOLVER) else LIBRARY)
 
     @classmethod
     def from_function(cls, function, file: str):
@@ -83,7 +76,7 @@ class ByContent(UserWideCacheLocator):
         return cls(function, file) if Path(file).resolve().is_relative_to(LIBRARY) else None
 
     def get_cache_path(self) -> str:
-        return str(root() / self.content)
+        return str(root() / self.content / self.module.relative_to(LIBRARY).with_suffix(""))
 
     def get_source_stamp(self) -> str:
         return self.content

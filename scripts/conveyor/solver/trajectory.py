@@ -34,7 +34,18 @@ from .horizontal import (
 )
 from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import TENSION_CLIP, VZ0, Z0
-from .vertical import CONTACT, FLIGHT, LIMIT, LOST, arrive, begin, flight_from, in_cycle, motion_at, next_piece
+from .vertical import (
+    CONTACT,
+    FLIGHT,
+    LIMIT,
+    LOST,
+    arrive,
+    begin,
+    flight_from,
+    in_cycle,
+    motion_at,
+    next_piece,
+)
 
 # Phase at which a cycle begins, rad: the plate is at its top, where a part that leaves the plate is in the air.
 BEGIN_OF_CYCLE = -math.pi

@@ -185,6 +185,12 @@ def arrive(c, motion, piece, origin):
 
 
 @compiled_inline
+def is_finite(motion):
+    """Whether the state of a Motion is finite."""
+    return math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)
+
+
+@compiled_inline
 def in_cycle(c, motion, t, origin):
     """The same Motion at the time t (s) of another cycle, which begins at the phase `origin` (rad)."""
     theta = origin + c.omega * t

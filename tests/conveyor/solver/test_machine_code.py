@@ -1,4 +1,4 @@
-"""Where compiled code is kept: by the content of what a module imports, and nowhere that others can write."""
+"""Where compiled code is kept: by the content of the library, and nowhere that others can write."""
 
 import os
 import stat
@@ -6,54 +6,61 @@ import tempfile
 
 import pytest
 
-from conveyor.solver import imports, machine_code
-
-CACHED = (imports.direct_imports, machine_code.syntax, machine_code.content)
+from conveyor.solver import machine_code
+from pipeline.imports import direct_imports
 
 
 @pytest.fixture
 def library(tmp_path, monkeypatch):
-    """A small library in place of this one; a function writes a file of it and gives the content of a module."""
-    files = {
-        "solver/model.py": "G = 9.81\n",
-        "solver/contact.py": "from .model import G\n",
-        "analysis/orbits.py": "from ..solver import contact\n",
-        "analysis/states.py": "from ..solver.model import G\n",
-    }
-    for name, text in files.items():
-        (tmp_path / name).parent.mkdir(exist_ok=True)
-        (tmp_path / name).write_text(text)
+    """A small library in place of this one; a function writes a file of it and gives the folders' contents."""
+    files = {"parameters": "G = 9.81\n", "solver/contact": "W = 0\n", "analysis/orbits": "W = 1\n"}
     monkeypatch.setattr(machine_code, "LIBRARY", tmp_path)
+    monkeypatch.setattr(machine_code, "SOLVER", tmp_path / "solver")
 
-    def content(module, **texts):
-        for name, text in texts.items():
-            (tmp_path / f"{name.replace('__', '/')}.py").write_text(text)
-        for cached in CACHED:
-            cached.cache_clear()
-        return machine_code.content(tmp_path / f"{module}.py")
+    def contents(**changed):
+        for name, text in (files | {name.replace("__", "/"): text for name, text in changed.items()}).items():
+            (tmp_path / f"{name}.py").parent.mkdir(exist_ok=True)
+            (tmp_path / f"{name}.py").write_text(text)
+        machine_code.content.cache_clear()
+        places = tmp_path / "solver/contact.py", tmp_path / "analysis/orbits.py"
+        return tuple(machine_code.ByContent(None, str(file)).content for file in places)
 
-    yield content
-    for cached in CACHED:
-        cached.cache_clear()
-
-
-def test_only_what_is_imported_counts(library):
-    before = {name: library(name) for name in ("analysis/orbits", "analysis/states", "solver/contact")}
-    assert len(set(before.values())) == 3
-    changed = "from .model import G\nW = 0\n"
-    assert library("analysis/orbits", solver__contact=changed) != before["analysis/orbits"]
-    assert library("solver/contact") != before["solver/contact"]
-    assert library("analysis/states") == before["analysis/states"]
-    assert library("analysis/states", solver__model="G = 9.8\n") != before["analysis/states"]
+    yield contents
+    machine_code.content.cache_clear()
 
 
-def test_comments_do_not_count(library):
-    before = library("analysis/orbits")
-    assert library("analysis/orbits", solver__contact="# as it was\n\nfrom .model import G  # m/s²\n") == before
+@pytest.mark.parametrize(
+    ("changed", "same"),
+    [("parameters", (False, False)), ("solver__contact", (False, False)), ("analysis__orbits", (True, False))],
+)
+def test_a_change_gives_a_new_folder_to_all_code_that_may_hold_it(library, changed, same):
+    before, after = library(), library(**{changed: "G = 9.8\n"})
+    assert tuple(one == other for one, other in zip(before, after, strict=True)) == same
+    assert library() == before
 
 
-def test_the_folder_of_all_belongs_to_one_only(tmp_path, monkeypatch):
-    """What others can write there would be run."""
+def test_modules_with_one_name_have_folders_of_their_own(library):
+    library()
+    files = [machine_code.LIBRARY / "analysis/newton.py", machine_code.LIBRARY / "certificates/newton.py"]
+    one, other = (machine_code.ByContent(None, str(file)) for file in files)
+    assert one.content == other.content
+    assert one.get_cache_path() != other.get_cache_path()
+
+
+def test_a_new_module_gives_a_new_folder(library):
+    before = library()
+    assert all(one != other for one, other in zip(before, library(solver__flight="W = 2\n"), strict=True))
+
+
+def test_modules_of_the_solver_import_only_what_their_folder_is_named_by():
+    for file in machine_code.SOLVER.rglob("*.py"):
+        used, _ = direct_imports(file, machine_code.LIBRARY.parent, machine_code.LIBRARY.name)
+        named_by = {machine_code.LIBRARY / "parameters.py", *machine_code.SOLVER.rglob("*.py")}
+        assert used <= named_by | {machine_code.LIBRARY / "__init__.py"}, file
+
+
+def test_the_folder_belongs_to_one_user(tmp_path, monkeypatch):
+    """Otherwise code from other users could run."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
     own = tmp_path / f"conveyor-{os.getuid()}"
@@ -68,7 +75,7 @@ def test_the_folder_of_all_belongs_to_one_only(tmp_path, monkeypatch):
     assert own not in list(machine_code.roots())
 
 
-def test_a_folder_that_cannot_be_written_is_passed_over(tmp_path, monkeypatch):
+def test_a_folder_that_cannot_be_written_is_skipped(tmp_path, monkeypatch):
     blocked = tmp_path / "file"
     blocked.write_text("no folder")
     monkeypatch.setattr(machine_code, "roots", lambda: iter([blocked / "below", tmp_path / "good"]))

@@ -6,7 +6,6 @@ ends and the next one takes its place. A trajectory gives the same bits as in sc
 neighbours are.
 """
 
-import math
 from collections import namedtuple
 
 import numpy as np
@@ -47,6 +46,7 @@ from ...solver.vertical import (
     begin,
     fly,
     graze,
+    is_finite,
     is_grazing,
     motion_at,
     press,
@@ -125,8 +125,7 @@ def count_piece(piece, lane, steps, cycle):
 @compiled_into_callers
 def may_fail(motion, piece, lane, steps):
     """Whether stroboscopic_map.advance may fail here; scalar code follows such a trajectory again, and decides."""
-    finite = math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)
-    return piece.end == LOST or not finite or steps[STEPS, lane] > steps[MOST, lane]
+    return piece.end == LOST or not is_finite(motion) or steps[STEPS, lane] > steps[MOST, lane]
 
 
 @compiled_into_callers

@@ -1,18 +1,19 @@
-"""Folds and period doublings followed in two parameters: Γ and one that moves D and K along a power law.
+"""Curves of folds and period doublings in two parameters: Γ, and a parameter that moves D and K along a power law.
 
-The curve of a bifurcation is followed by pseudo-arclength (Keller 1977) in (x, y, log Γ, λ), where the parameter is
-e^λ times its first value. On it lie points of codimension two:
+Pseudo-arclength continuation (Keller 1977) follows the curve of a bifurcation in (x, y, log Γ, λ), where the second
+parameter is e^λ times its first value. Points of codimension two on such a curve are:
 
 cusp
-    on a fold, where l·D²Pⁿ(r, r) = 0: two folds meet
+    on a curve of folds, where l·D²Pⁿ(r, r) = 0 and two folds meet
 generalised doubling
-    on a doubling, where the coefficient of its normal form is 0: the doubled orbit's branch turns from one side to the
-    other, and the curve of its folds begins there
+    on a curve of period doublings, where the coefficient of the normal form is 0. The branch of the doubled orbit
+    changes its direction there, and a curve of folds of that orbit begins
 grazing
     where an impact of the orbit begins or ceases to exist
 
-l and r are the left and right eigenvectors of the multiplier. The product of the multipliers is below 1, where there is
-damping, and positive: no orbit has two multipliers +1, two -1, or one of each, and there are no other generic ones.
+l and r are the left and right eigenvectors of the multiplier. With damping, the product of the multipliers is positive
+and below 1. No orbit therefore has two multipliers +1, two -1, or one of each, and other points of codimension two are
+not generic.
 """
 
 from collections.abc import Iterable
@@ -25,23 +26,23 @@ from ..dimensionless_groups import Groups
 from .bifurcation_points import GRAZING, SIGNS, Point, derivatives, find_bifurcation, system, touch
 from .newton import follow_curve, newton, solve
 
-CONVERGED, ITERATIONS = 1e-10, 12
+CONVERGED, ITERATIONS = 1e-10, 12  # last correction of Newton's iteration, and number of corrections
 FARTHEST = 1.0  # distance over which a correction may move a point
 RESOLUTION = 1e-8  # of a point of codimension two along its curve
-FIRST_STEP, SMALLEST_STEP = 1e-2, 1e-6
+FIRST_STEP, SMALLEST_STEP = 1e-2, 1e-6  # arclengths
 STRAIGHT = 0.9  # cosine of the largest turn within one step
-MOST_EVALUATIONS = 60  # of the functions of a grazing in the search for it
-TOUCHES = 1e-8  # of the functions of a grazing
-NEARBY = 1e-2  # a grazing within this distance of the end of a curve, in log Γ and λ, is the one that ends it
-SMALL = 1e-3  # of its neighbours' tests: that of a cusp or generalised doubling
-SIDESTEP = 1e-4  # of the differences of second derivatives along r
+MOST_EVALUATIONS = 60  # of the functions whose zero is a grazing
+TOUCHES = 1e-8  # largest value of these functions at a grazing
+NEARBY = 1e-2  # a grazing within this distance of the end of a curve, in log Γ and λ, ends the curve
+SMALL = 1e-3  # ratio of the test at a cusp or generalised doubling to the tests at the neighbouring points
+SIDESTEP = 1e-4  # of the difference quotient of second derivatives along r
 
 # Why a curve ends.
 LIMIT, STEP, LENGTH, CLOSED, LOST, HALVED = "limit", "step", "length", "closed", "lost", "period halving"
 
 
 class Path(NamedTuple):
-    """How a parameter moves the groups: D ∝ e^(damping λ), K ∝ e^(stiffness λ)."""
+    """How the second parameter moves the groups: D ∝ e^(damping λ), K ∝ e^(stiffness λ)."""
 
     damping: float
     stiffness: float
@@ -52,23 +53,26 @@ class CodimensionTwoPoint(NamedTuple):
 
     kind: str  # cusp, generalised doubling or grazing
     point: Point
-    part: float  # λ
-    status: str  # ok, or why the point is only a neighbour of it
+    log_ratio: float  # λ
+    status: str  # ok, or why this is only a point near it
 
 
 class Curve(NamedTuple):
-    """A curve of one bifurcation in the order of its arclength, its points of codimension two, and why it ends."""
+    """A curve of one bifurcation in the order of its arclength, its points of codimension two, and why it ends.
+
+    `ends` are the reasons at the first and at the last point, one of the words above.
+    """
 
     points: list[Point]
-    parts: np.ndarray  # λ of each point
-    normal_forms: np.ndarray  # of each point: the test of cusps and of generalised doublings
-    impacts: np.ndarray  # of each point, per period
+    log_ratios: np.ndarray  # λ of each point, shape (n,)
+    normal_forms: np.ndarray  # coefficient at each point, whose zero is a cusp or a generalised doubling, shape (n,)
+    impacts: np.ndarray  # per period, at each point, shape (n,)
     meetings: list[CodimensionTwoPoint]
     ends: tuple[str, str]
 
 
-class Following:
-    """A kind of bifurcation of one period on a path through the groups: unknowns u = (x, y, log Γ, λ)."""
+class CurveEquations:
+    """The equations of a curve of one kind of bifurcation and one period; the unknowns are (x, y, log Γ, λ)."""
 
     def __init__(self, point: Point, path: Path):
         self.kind, self.period, self.origin, self.path = point.kind, point.period, point.groups, path
@@ -97,12 +101,12 @@ class Following:
             + found[1][:, 4] * self.path.stiffness * groups.stiffness
         )
         jacobian = np.column_stack([found[1][:, :2], found[1][:, 2] * groups.amplitude, by_path])
-        # Only the function of the multipliers grows with them.
+        # The third function, alone, grows with the multipliers.
         scale = np.append(np.ones(2), max(1.0, np.linalg.norm(jacobian[2])))
         return found[0] / scale, jacobian / scale[:, None]
 
     def tangent(self, unknown: np.ndarray, previous: np.ndarray) -> np.ndarray | None:
-        """Unit vector along the curve, pointing on from `previous`; None where the motion is lost."""
+        """Unit vector along the curve, at an acute angle to `previous`; None where the motion is lost."""
         found = self.system(unknown)
         if found is None or not np.isfinite(found[1]).all():
             return None
@@ -121,7 +125,7 @@ class Following:
         return newton(step_at, guess, converged=CONVERGED, iterations=ITERATIONS, farthest=FARTHEST)
 
     def halving(self, unknown: np.ndarray) -> np.ndarray:
-        """(x, y) half a period later, less (x, y): it passes zero where the orbit's period halves."""
+        """(x, y) half a period later minus (x, y); the difference passes zero where the orbit's period halves."""
         found = derivatives(self.groups(unknown), unknown[:2], self.period)
         return found.states[self.period // 2 - 1] - unknown[:2]
 
@@ -137,8 +141,8 @@ def eigenvectors(matrix: np.ndarray, sign: float) -> tuple[np.ndarray, np.ndarra
 def normal_form(point: Point, along: np.ndarray) -> tuple[float, np.ndarray]:
     """The coefficient whose zero is a cusp or a generalised doubling (Kuznetsov 2004, Sect. 5.4).
 
-    For a fold it is l·D²Pⁿ(r, r)/2, with the sign of r along `along`. For a doubling it is the cubic coefficient, which
-    is positive in the supercritical case: the doubled orbit is then stable if the single orbit was.
+    For a fold it is l·D²Pⁿ(r, r)/2, with the sign of r chosen so that r·`along` ≥ 0. For a doubling it is the cubic
+    coefficient, which is positive in the supercritical case: the doubled orbit is then stable if the single orbit was.
 
     Returns
     -------
@@ -175,7 +179,7 @@ def follow(
     longest_step: float,
     most: int,
 ) -> Curve:
-    """Follow the curve of a bifurcation to both sides.
+    """Follow the curve of a bifurcation in both directions.
 
     Parameters
     ----------
@@ -184,24 +188,24 @@ def follow(
     amplitude : lowest and highest Γ
     reach : lowest and highest λ
     longest_step : largest arclength of a step, in (x, y, log Γ, λ)
-    most : points of a side after which it ends with "length"
+    most : points in one direction after which the curve ends with "length"
     """
-    following = Following(point, path)
+    equations = CurveEquations(point, path)
     begin = np.append(point.unknown[:2], [np.log(point.groups.amplitude), 0.0])
     limits = (*np.log(amplitude), *reach)
-    onwards, last = _side(following, begin, np.array([0.0, 0.0, 0.0, 1.0]), limits, longest_step, most)
+    onwards, last = _side(equations, begin, np.array([0.0, 0.0, 0.0, 1.0]), limits, longest_step, most)
     before, first = [], last
     if last != CLOSED:
-        before, first = _side(following, begin, np.array([0.0, 0.0, 0.0, -1.0]), limits, longest_step, most)
+        before, first = _side(equations, begin, np.array([0.0, 0.0, 0.0, -1.0]), limits, longest_step, most)
     unknowns = [*before[:0:-1], *onwards]
-    points = [following.point(unknown) for unknown in unknowns]
+    points = [equations.point(unknown) for unknown in unknowns]
     forms, rights = [], [np.array([1.0, 0.0])]
     for one in points:
         form, right = normal_form(one, rights[-1])
         forms.append(form)
         rights.append(right)
     impacts = np.array([impacts_of(one) for one in points])
-    meetings = list(_meetings(following, unknowns, forms, rights[1:], impacts, (first, last)))
+    meetings = list(_meetings(equations, unknowns, forms, rights[1:], impacts, (first, last)))
     return Curve(
         points, np.array([unknown[3] for unknown in unknowns]), np.array(forms), impacts, meetings, (first, last)
     )
@@ -210,39 +214,39 @@ def follow(
 def follow_grazing(
     point: Point, path: Path, amplitude: tuple[float, float], reach: tuple[float, float], *, step: float
 ) -> Curve:
-    """Follow the amplitude at which an orbit touches the plate (a grazing) to both sides, in equal steps of λ.
+    """Follow the amplitude at which an orbit touches the plate (a grazing) in both directions, in equal steps of λ.
 
-    It ends where Newton's iteration finds no touch near the last one ("lost"). The other parameters are those of
-    `follow`; such a curve has no points of codimension two of its own.
+    The curve ends with "lost" where Newton's iteration finds no touch near the last one. The other parameters are those
+    of `follow`. Points of codimension two are not searched for.
     """
-    found, ends = [], []
+    found, ends, equations = [], [], CurveEquations(point, path)
     for direction, end in ((-1.0, reach[0]), (1.0, reach[1])):
-        here, part, side, reason = point, 0.0, [], LIMIT
-        while abs(part) < abs(end):
-            part = direction * min(abs(part) + step, abs(end))
-            groups = Following(point, path).groups(np.append(np.zeros(2), [np.log(here.groups.amplitude), part]))
+        here, log_ratio, side, reason = point, 0.0, [], LIMIT
+        while abs(log_ratio) < abs(end):
+            log_ratio = direction * min(abs(log_ratio) + step, abs(end))
+            groups = equations.groups(np.append(np.zeros(2), [np.log(here.groups.amplitude), log_ratio]))
             there = find_bifurcation(GRAZING, point.period, here.unknown, groups)
             if there is None or np.abs(there.unknown - here.unknown).max() > 3.0 * step:
                 reason = LOST
                 break
             here = there
-            side.append((here, part))
+            side.append((here, log_ratio))
             if not amplitude[0] <= here.groups.amplitude <= amplitude[1]:
                 break
         found = [*side[::-1], (point, 0.0)] if direction < 0.0 else [*found, *side]
         ends.append(reason)
-    points, parts = [one for one, _ in found], np.array([part for _, part in found])
+    points, log_ratios = [one for one, _ in found], np.array([log_ratio for _, log_ratio in found])
     impacts = np.zeros(len(points), dtype=np.int64)
-    return Curve(points, parts, np.full(len(points), np.nan), impacts, [], tuple(ends))
+    return Curve(points, log_ratios, np.full(len(points), np.nan), impacts, [], tuple(ends))
 
 
-def _side(following, begin, direction, limits, longest_step, most):
-    """Unknowns in the order in which they are met, and the reason of the end."""
+def _side(equations, begin, direction, limits, longest_step, most):
+    """The unknowns along one direction of a curve, and the reason why it ends."""
     unknowns = [begin]
     lengths = {"first": min(FIRST_STEP, longest_step), "smallest": SMALLEST_STEP, "largest": longest_step}
-    steps = follow_curve(following.correct, following.tangent, begin, direction, **lengths, straight=STRAIGHT)
+    steps = follow_curve(equations.correct, equations.tangent, begin, direction, **lengths, straight=STRAIGHT)
     for here, there, _, onwards, length in steps:
-        if following.period % 2 == 0 and following.halving(here) @ following.halving(there) < 0.0:
+        if equations.period % 2 == 0 and equations.halving(here) @ equations.halving(there) < 0.0:
             return unknowns, HALVED
         unknowns.append(there)
         if not (limits[0] <= there[2] <= limits[1] and limits[2] <= there[3] <= limits[3]):
@@ -251,69 +255,69 @@ def _side(following, begin, direction, limits, longest_step, most):
             return [*unknowns, begin], CLOSED
         if len(unknowns) > most:
             return unknowns, LENGTH
-    return unknowns, LOST if following.tangent(begin, direction) is None else STEP
+    return unknowns, LOST if equations.tangent(begin, direction) is None else STEP
 
 
-def _meetings(following, unknowns, forms, rights, impacts, ends) -> Iterable[CodimensionTwoPoint]:
+def _meetings(equations, unknowns, forms, rights, impacts, ends) -> Iterable[CodimensionTwoPoint]:
     """Points of codimension two on a curve, and grazings at its ends."""
     if ends[0] == STEP:
-        yield from _grazings(following, *unknowns[1::-1], "the curve ends here")
+        yield from _grazings(equations, *unknowns[1::-1], "the curve ends here")
     for n in range(len(unknowns) - 1):
         begin, end = unknowns[n], unknowns[n + 1]
         if impacts[n] != impacts[n + 1]:
-            found = list(_grazings(following, begin, end, "ok"))
-            yield from found or [CodimensionTwoPoint(GRAZING, following.point(end), float(end[3]), "not located")]
+            found = list(_grazings(equations, begin, end, "ok"))
+            yield from found or [CodimensionTwoPoint(GRAZING, equations.point(end), float(end[3]), "not located")]
         if np.sign(forms[n]) * np.sign(forms[n + 1]) < 0.0:
-            yield _degenerate(following, begin, end, lambda one, along=rights[n]: normal_form(one, along)[0])
+            yield _degenerate(equations, begin, end, lambda one, along=rights[n]: normal_form(one, along)[0])
     if ends[1] == STEP:
-        yield from _grazings(following, *unknowns[-2:], "the curve ends here")
+        yield from _grazings(equations, *unknowns[-2:], "the curve ends here")
 
 
-def _degenerate(following, begin, end, test):
-    """A cusp or a generalised doubling: where a test of the points between two unknowns is zero, by bisection."""
-    kind = "cusp" if following.kind == "fold" else "generalised doubling"
-    first, last = test(following.point(begin)), test(following.point(end))
+def _degenerate(equations, begin, end, test):
+    """The cusp or generalised doubling between two unknowns: a zero of `test`, by bisection."""
+    kind = "cusp" if equations.kind == "fold" else "generalised doubling"
+    first, last = test(equations.point(begin)), test(equations.point(end))
     largest, status = max(abs(first), abs(last)), "ok"
     while status == "ok" and np.linalg.norm(end - begin) > RESOLUTION:
         chord = end - begin
-        middle = following.correct(0.5 * (begin + end), chord / np.linalg.norm(chord))
+        middle = equations.correct(0.5 * (begin + end), chord / np.linalg.norm(chord))
         if middle is None:
             status = "not located"
             break
-        value = test(following.point(middle))
+        value = test(equations.point(middle))
         if value * first > 0.0:
             begin, first = middle, value
         else:
             end, last = middle, value
     if status == "ok" and max(abs(first), abs(last)) > SMALL * largest:
         status = "changes sign by a jump"  # at a grazing
-    return CodimensionTwoPoint(kind, following.point(end), float(end[3]), status)
+    return CodimensionTwoPoint(kind, equations.point(end), float(end[3]), status)
 
 
-def _grazings(following, begin, end, status):
-    """The orbit between two unknowns, or a little beyond the second one, that touches the plate with no speed, if any.
+def _grazings(equations, begin, end, status):
+    """The orbit between two unknowns, or a little beyond the second, that touches the plate at relative rest, if any.
 
-    The functions of the bifurcation have no second derivatives close to it. The grazing therefore is a zero of other
-    functions, of the phase ψ of the touch, log Γ and λ.
+    The functions of the bifurcation have no second derivatives there. The grazing is therefore found as a zero of other
+    functions, whose unknowns are the phase ψ of the touch, log Γ and λ.
     """
 
     def functions(guess):
-        groups = following.groups(np.append(np.zeros(2), guess[1:]))
-        found = derivatives(groups, np.zeros(2), following.period, guess[0])
+        groups = equations.groups(np.append(np.zeros(2), guess[1:]))
+        found = derivatives(groups, np.zeros(2), equations.period, guess[0])
         if found is None:
             return np.full(3, np.nan)
-        matrix, sign = found.first[:, :2], SIGNS[following.kind]
+        matrix, sign = found.first[:, :2], SIGNS[equations.kind]
         return np.append(found.image, 1.0 - sign * np.trace(matrix) + np.linalg.det(matrix))
 
     for near in (end, begin):
-        phase = touch(following.groups(near), near[:2], following.period)
+        phase = touch(equations.groups(near), near[:2], equations.period)
         if phase is None:
             continue
         solution = root(functions, np.append(phase[0], near[2:]), tol=CONVERGED, options={"maxfev": MOST_EVALUATIONS})
         if np.abs(solution.fun).max() < TOUCHES and np.abs(solution.x[1:] - near[2:]).max() < 2.0 * max(
             np.abs(end - begin).max(), NEARBY
         ):
-            groups = following.groups(np.append(np.zeros(2), solution.x[1:]))
-            point = Point(GRAZING, following.period, np.array([solution.x[0], groups.amplitude]), groups)
+            groups = equations.groups(np.append(np.zeros(2), solution.x[1:]))
+            point = Point(GRAZING, equations.period, np.array([solution.x[0], groups.amplitude]), groups)
             yield CodimensionTwoPoint(GRAZING, point, float(solution.x[2]), status)
             return

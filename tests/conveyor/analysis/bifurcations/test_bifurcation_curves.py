@@ -1,4 +1,4 @@
-"""Curves of bifurcations: every point is one, closed forms, and points of codimension two from both sides."""
+"""Curves of bifurcations: every point is a bifurcation, closed forms, and points of codimension two from both sides."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ ALONG = np.array([1.0, 0.0])
 
 @pytest.fixture(scope="module")
 def fold_over_damping():
-    """Up to the cusp and back."""
+    """The curve up to the cusp and back."""
     point = find_bifurcation("fold", 1, FOLD, GROUPS)
     return follow(point, Path(1.0, 0.0), reach=(-0.5, np.log(8.0)), **LIMITS)
 
@@ -29,8 +29,8 @@ def test_every_point_of_a_curve_is_a_bifurcation(kind, path):
     point = find_bifurcation(kind, 1, FOLD if kind == "fold" else DOUBLING, GROUPS)
     curve = follow(point, path, reach=(-0.5, 0.5), **LIMITS)
     assert curve.ends == ("limit", "limit")
-    assert np.ptp(curve.parts) > 1.0
-    for one, part in zip(curve.points[::4], curve.parts[::4], strict=True):
+    assert np.ptp(curve.log_ratios) > 1.0
+    for one, part in zip(curve.points[::4], curve.log_ratios[::4], strict=True):
         found = derivatives(one.groups, one.unknown[:2], 1)
         assert found.image == pytest.approx(one.unknown[:2], abs=1e-9)
         multipliers = np.linalg.eigvals(found.first[:, :2])
@@ -43,14 +43,14 @@ def test_the_curve_turns_back_at_its_cusp(fold_over_damping):
     """There it is the largest damping of the curve, which begins and ends at smaller ones, and two folds meet."""
     (cusp,) = [one for one in fold_over_damping.meetings if one.kind == "cusp"]
     assert cusp.status == "ok"
-    assert fold_over_damping.parts.max() <= cusp.part + 1e-9
-    assert cusp.part == pytest.approx(fold_over_damping.parts.max(), abs=1e-3)
+    assert fold_over_damping.log_ratios.max() <= cusp.log_ratio + 1e-9
+    assert cusp.log_ratio == pytest.approx(fold_over_damping.log_ratios.max(), abs=1e-3)
     at_cusp, _ = normal_form(cusp.point, ALONG)
     assert abs(at_cusp) < 1e-6
     assert fold_over_damping.normal_forms[0] * fold_over_damping.normal_forms[-1] < 0.0
 
 
-def test_normal_form_tells_the_stable_cascade():
+def test_normal_form_of_a_supercritical_doubling():
     """The doubled orbit of the paper's conveyor is stable: its cubic coefficient is positive."""
     value, right = normal_form(find_bifurcation("period_doubling", 1, DOUBLING, GROUPS), ALONG)
     assert value > 0.0

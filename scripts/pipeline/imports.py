@@ -1,9 +1,8 @@
 """The modules of this project that a module imports, found in its source without running it.
 
-Two caches need them. Snakemake notices a changed script, but not a changed module that the script imports. Numba
-notices a change in the file of a function, but not in the files of other functions in its machine code. Python's
-modulefinder would take 3 s for all scripts at every start, this module takes 0.5 s; modulefinder also counts each
-package on the way to a module as imported.
+Snakemake notices a changed script, but not a changed module that the script imports. Python's modulefinder would take
+3 s for all scripts at every start, this module takes 0.5 s; modulefinder also counts each package on the way to a
+module as imported.
 """
 
 import ast
@@ -12,14 +11,10 @@ from functools import cache
 from pathlib import Path
 
 
-def parse(file: Path) -> ast.Module:
-    return ast.parse(file.read_bytes(), filename=str(file))
-
-
 def imported_names(file: Path, root: Path) -> Iterator[tuple[str, str | None]]:
     """All (module, name) pairs that a file below `root` imports; the name is None for `import module`."""
     package = file.relative_to(root).parent.parts
-    for node in ast.walk(parse(file)):
+    for node in ast.walk(ast.parse(file.read_bytes(), filename=str(file))):
         if isinstance(node, ast.Import):
             for alias in node.names:
                 yield alias.name, None
