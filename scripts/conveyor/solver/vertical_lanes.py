@@ -199,6 +199,8 @@ def write_result(c, run, result):
 def follow(parameters, tolerance, times, samples, results, left, work):
     """The compiled part of `integrate`.
 
+    Parameters
+    ----------
     left : bool, shape (n,), filled: runs that lanes cannot follow, or not to the end
     work : the memory of contact_lanes, the state of each lane's run, shape (LANES, COUNTS), the row that each lane
         follows, a contact.workspace, and the kept steps of each lane

@@ -163,6 +163,8 @@ def begin_cycle(c, state, lane, steps, cycle):
 def follow(parameters, tolerance, search, found, left, work):
     """The compiled part of `follow_in_lanes`.
 
+    Parameters
+    ----------
     search : a Search
     work : the memory of contact_lanes, the state of each lane's cycle, shape (3, LANES), the trajectory of each lane,
         room for a state, a contact.workspace, and convergence.new_searches
