@@ -9,7 +9,7 @@ from project import ROOT, Project, merged, read_config
 
 from conveyor.solver.model import Conveyor
 from workflow.config import ConfigError, canonical, load_config, problems
-from workflow.config.entries import by_methods
+from workflow.config.entries import NORMAL, by_methods
 from workflow.config.files import DEFAULT_FILES
 from workflow.config.machine import (
     MARKS,
@@ -18,6 +18,7 @@ from workflow.config.machine import (
     refused_figures,
     scale_config,
 )
+from workflow.config.tables import TABLES, references, settings_of
 
 CONFIG = canonical(read_config())
 EXAMPLES = {path.stem: path for path in sorted((ROOT / "config/examples").glob("*.yaml"))}
@@ -204,3 +205,26 @@ def test_figures_and_captions_of_another_machine_are_made(built):
         assert "the paper" not in (project.folder / f"results/mine/captions/{figure}.rst").read_text()
     assert "are not tested for this one" in (project.folder / "results/mine/claims.md").read_text()
     assert not list((project.folder / "results/mine").rglob("*euler*"))
+
+
+@pytest.mark.parametrize("changed", [{"phase_shift": 0.5}, {"friction": 0.2}, {"static_friction": 0.3}])
+def test_tables_of_the_normal_motion_stay_when_only_the_motion_along_the_track_changes(changed):
+    reduced = read_config("reduced")
+    paper, own = (load_config(DEFAULT_FILES, [], merged(reduced, {"model": model})).config for model in ({}, changed))
+    normal = [
+        *(f"sweeps/{name}" for name, entry in paper["sweeps"].items() if entry.get("needs") == "vertical"),
+        *(f"{section}/{name}" for section in NORMAL for name in paper[section]),
+        *("regressions/height", "estimates/height", "results/settling_times", "sensitivity/continued"),
+        *(name for name in TABLES if name.startswith(("orbits/", "attractors/", "lyapunov/"))),
+    ]
+    found = [name for name in normal if name in references(own)]
+    assert len(found) > 20
+    assert [name for name in found if settings_of(paper, name) != settings_of(own, name)] == []
+    assert settings_of(paper, "sweeps/amplitudes") != settings_of(own, "sweeps/amplitudes")
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_the_reduced_config_serves_other_machines_too(name):
+    found = load_config(DEFAULT_FILES, [], merged(read_config("reduced"), example(name)))
+    assert found.config["uncertainty"]["claims"] == []
+    assert found.config["operating"]["starts"] == read_config("reduced")["operating"]["starts"]

@@ -51,6 +51,9 @@ def load_config(
         raise ConfigError(errors)
     if own_machine := is_own_machine(paper, whole):
         whole = merge(scale_config(paper, overlay), overlay)
+        # The claims are the paper's. An overlay for any conveyor, such as config/reduced.yaml, may name them.
+        checked = whole["uncertainty"]["claims"]
+        whole["uncertainty"] |= {"claims": [name for name in checked if name in whole["claims"]]}
     if check and (errors := problems(whole, paper)):
         raise ConfigError(errors)
     return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_machine, refused_figures(paper, whole))

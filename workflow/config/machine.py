@@ -10,7 +10,7 @@ from typing import Any
 
 from scripts.conveyor.parameters import normal_gravity
 
-from .entries import FIGURES, METHOD_SECTIONS, by_methods
+from .entries import FIGURES, METHOD_SECTIONS, by_methods, without_tangential
 from .errors import ConfigError
 from .files import merge
 from .model import MODEL
@@ -125,11 +125,13 @@ def scale_config(paper: dict, overlay: dict) -> dict:
         config["solver"]["step"] = scaled_step(paper, own)
     for entry in config["estimates"].values():
         entry["epsilon"] = scale(entry["epsilon"], schema_at(["model", entry["perturb"]]), ratios)
-    del config["orbits"]["seeds"]
     config["claims"], config["uncertainty"]["claims"] = {}, []
     drop_other_methods(config, overlay)
-    for entry in config["regressions"].values():
-        del entry["acceleration"], entry["paper"]
+    # With the paper's motion normal to the track, the tables of that motion stay as they are.
+    if without_tangential(own) != without_tangential(paper["model"]):
+        del config["orbits"]["seeds"]
+        for entry in config["regressions"].values():
+            del entry["acceleration"], entry["paper"]
     drop_figures(config, overlay)
     return config
 
