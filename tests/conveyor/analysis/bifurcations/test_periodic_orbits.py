@@ -148,6 +148,14 @@ def test_feigenbaum_of_a_geometric_sequence():
     assert error < 1e-12
 
 
+def test_error_of_the_accumulation_is_the_change_due_to_the_last_doubling():
+    amplitudes = np.array([0.0, 1.0, 1.25, 1.3, 1.312])
+    limit, error = doubling_cascade.accumulation(amplitudes)
+    before, _ = doubling_cascade.accumulation(amplitudes[:-1])
+    assert limit == pytest.approx(1.25 + 0.05**2 / (0.05 - 0.012))  # Aitken's process by hand
+    assert error == pytest.approx(abs(limit - before))
+
+
 def test_feigenbaums_ratio_is_that_of_the_logistic_map():
     """Of the parameters a of 1 - a x² at which 0 comes back to itself after 2, 4, … cycles."""
     superstable = [0.0, 1.0, 1.31]
