@@ -175,3 +175,14 @@ def test_feigenbaums_ratio_is_that_of_the_logistic_map():
 
 def test_no_orbit_is_found_where_there_is_none():
     assert settled(80.0, 0.0) is None
+
+
+def test_a_grazing_has_its_larger_multiplier():
+    """At 47.18 m/s² a micro-bounce begins on the branch of the riding part."""
+    riding = settled(46.0, 0.0)
+    found = continuation.follow_branch(PARAMETERS, riding, (45.0, 48.5)).bifurcations
+    grazings = [one for one in found if one.kind == "grazing"]
+    assert grazings
+    for one in grazings:
+        assert abs(one.multiplier) == pytest.approx(max(abs(value.real) for value in one.orbit.multipliers))
+        assert abs(one.orbit.multipliers[0] - one.orbit.multipliers[1]) > 1e-3
