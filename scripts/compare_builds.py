@@ -16,8 +16,6 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from builds.manifest import MAY_DIFFER
-
 EQUAL, WITHIN, DIFFERENT, TIMES = "equal", "within tolerance", "DIFFERENT", "measured times"
 
 
@@ -25,7 +23,7 @@ def timed_files(folder: Path) -> list[str]:
     """The files with measured times, according to the manifest in a folder of results."""
     manifest = folder / "manifest.sha256"
     lines = manifest.read_text(encoding="utf-8").splitlines() if manifest.is_file() else []
-    return [line.removeprefix(MAY_DIFFER) for line in lines if line.startswith(MAY_DIFFER)]
+    return [line.partition(": ")[2] for line in lines if line.startswith("# may differ")]
 
 
 def tables_below(folder: Path) -> set[str]:

@@ -19,6 +19,7 @@ from figures import style
 
 ROOT = Path(__file__).resolve().parents[1]
 COLOURS = {"this solver": style.CONVERGED, "explicit Euler": style.EULER}
+OTHERS = ("black", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")  # colours of the scored files
 MARKERS = "os^Dv"
 LOWEST = 1e-13  # smallest error of the chart
 
@@ -35,7 +36,7 @@ def draw(table: pd.DataFrame, scenes: dict[str, dict]) -> Figure:
                     rows.seconds,
                     rows.error.clip(lower=LOWEST),
                     marker=MARKERS[place % len(MARKERS)],
-                    color=COLOURS.get(solver, f"{0.5 * place / (place + 5):.2f}"),
+                    color=COLOURS.get(solver, OTHERS[place % len(OTHERS)]),
                     label=solver,
                 )
             axes.axhspan(0.1 * LOWEST, scores.error_bar(scene), color="0.85", linewidth=0.0)

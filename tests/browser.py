@@ -21,7 +21,7 @@ ARGUMENTS = (
 
 
 def chromium(profile: Path) -> webdriver.Chrome:
-    """Chromium with a profile of its own that logs what pages say; the test is skipped where it is not installed."""
+    """Chromium with a new profile and a log of the console. Skips the test if Chromium is not installed."""
     if not (CHROMIUM and CHROMEDRIVER):
         pytest.skip("Chromium and chromedriver are not installed (Debian: chromium, chromium-driver)")
     options = webdriver.ChromeOptions()

@@ -1,4 +1,4 @@
-"""A project that was made once on a small config, and copies of it to edit."""
+"""A project that is built once from a small config, and copies of it for tests that change something."""
 
 import shutil
 
@@ -8,7 +8,7 @@ from project import Project, copy_project
 
 @pytest.fixture(scope="session")
 def built(tmp_path_factory) -> Project:
-    """A project whose figures have been made; tests leave its sources and results as they are."""
+    """A built project; tests must not change its sources or results."""
     project = Project(copy_project(tmp_path_factory.mktemp("built")))
     project.make("all", "docs/companion.html")
     return project
@@ -16,13 +16,13 @@ def built(tmp_path_factory) -> Project:
 
 @pytest.fixture
 def copied(built, tmp_path) -> Project:
-    """A copy of the built project, to do anything to."""
+    """A copy of the built project, which a test may change."""
     return Project(shutil.copytree(built.folder, tmp_path / "copy", symlinks=True))
 
 
 @pytest.fixture
 def edited(copied):
-    """A function that edits one file of a copy of the built project and gives the copy."""
+    """A function that edits one file of a copy of the built project and returns the copy."""
 
     def edit(file: str, old: str, new: str) -> Project:
         path = copied.folder / file

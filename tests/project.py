@@ -19,7 +19,7 @@ PARTS = ("Snakefile", "workflow", "profiles", "config", "scripts")
 FIGURES = ("fig03", "fig08", "fig22")
 TARGETS = tuple(f"figures/{figure}.pdf" for figure in FIGURES)
 CAPTIONS = tuple(f"results/captions/{figure}.rst" for figure in FIGURES)
-# Sections that are no entries with a table each.
+# Sections whose entries are not tables.
 SINGLE = (
     "orbits",
     "certificates",
@@ -77,7 +77,7 @@ CONFIG_FILES = ("config", *STAGES)
 
 
 def read_config(*files: str) -> dict:
-    """The merged config, or that of some files."""
+    """The merged default config, or the merged config of some files."""
     return merged(*(yaml.safe_load((ROOT / f"config/{file}.yaml").read_text()) for file in files or CONFIG_FILES))
 
 
@@ -119,14 +119,14 @@ class Project:
 
     folder: Path
     overlay: dict = field(default_factory=dict)
-    environment: dict[str, str] = field(default_factory=dict)  # beside that of the tests
+    environment: dict[str, str] = field(default_factory=dict)  # in addition to the overlay of the tests
 
     def snakemake(self, *arguments: str) -> subprocess.CompletedProcess:
-        """Run Snakemake on the overlay; stdout holds what it and its jobs say."""
+        """Run Snakemake on the overlay; stdout contains its output and the output of its jobs."""
         return self.called(*arguments, *self.configfile())
 
     def configfile(self) -> tuple[str, str]:
-        """The option that names the overlay, which is written."""
+        """Write the overlay, and return the option that names it."""
         (self.folder / "overlay.yaml").write_text(yaml.safe_dump(self.overlay, sort_keys=False))
         return "--configfile", "overlay.yaml"
 
@@ -135,9 +135,9 @@ class Project:
         return self.given_to(subprocess.run, *arguments, check=False)
 
     def started(self, *arguments: str) -> subprocess.Popen:
-        """Start Snakemake with these arguments, in a process group of its own, as a terminal does.
+        """Start Snakemake with these arguments in a new process group, as a terminal does.
 
-        Tests that nohup has started would hand on that SIGHUP is ignored.
+        If nohup started the tests, Snakemake would inherit that SIGHUP is ignored.
         """
 
         def heed_the_terminal():
@@ -146,7 +146,7 @@ class Project:
         return self.given_to(subprocess.Popen, *arguments, start_new_session=True, preexec_fn=heed_the_terminal)
 
     def given_to(self, function, *arguments: str, **options):
-        """What a function of `subprocess` returns for Snakemake with these arguments."""
+        """Call a function of `subprocess` with the command line of Snakemake and these arguments."""
         environment = {name: value for name, value in os.environ.items() if not name.startswith("SNAKEMAKE")}
         return function(
             [sys.executable, "-m", "snakemake", *arguments],
@@ -174,12 +174,12 @@ class Project:
         return jobs
 
     def under(self, overlay: dict) -> "Project":
-        """The same folder under another overlay."""
+        """The same folder with another overlay."""
         return Project(self.folder, overlay, self.environment)
 
 
 def copy_project(folder: Path) -> Path:
-    """Copy the project to `folder`, on its small config."""
+    """Copy the project to `folder`, with the small config."""
     for part in PARTS:
         source = ROOT / part
         if source.is_dir() and not source.is_symlink():

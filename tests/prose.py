@@ -2,7 +2,7 @@
 
 import re
 
-# What is allowed: fields, references, citations, names, units, code, and in formulas single digits.
+# Allowed: fields, references, citations, names, units, code, and single digits in formulas.
 ALLOWED = (
     r"\{\{.*?\}\}|\{%.*?%\}",
     r"(?ms)^```.*?^```$",
@@ -24,7 +24,7 @@ WORDS = r"\b(?:eleven|twelve|thirteen|fifteen|twenty|thirty|fifty|hundred)\b"
 
 
 def typed(template: str) -> list[str]:
-    """Digits and number words of a template that no table has given."""
+    """Digits and number words that are typed into a template."""
     for pattern in ALLOWED:
         template = re.sub(pattern, " ", template)
     template = FORMULA.sub(lambda formula: re.sub(r"(?<![\d.])\d(?![\d.])", "", formula[0]), template)

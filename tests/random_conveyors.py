@@ -1,4 +1,4 @@
-"""Random conveyors and starts, to find out whether any of them breaks the solver."""
+"""Random conveyors and initial conditions that the solver must handle."""
 
 import math
 
@@ -7,13 +7,13 @@ import numpy as np
 from conveyor.solver import model
 from conveyor.solver.model import RANGES, Conveyor
 
-# How many of the random points have a usual exponent, a part that starts on the plate, a still plate or no damping.
+# Shares of the random points with a usual exponent, a part that starts on the plate, a plate at rest, or no damping.
 SHARE = 0.1
 ALONG_THE_TRACK = ("inclination", "phase_shift", "static_friction")
 
 
 def tension_and_exponent(points: np.ndarray, generator: np.random.Generator) -> None:
-    """Fill the columns of tension and exponent: all readings, all of [1, 3], Hooke, Hertz and whole ones more often."""
+    """Fill the columns of tension and exponent: all modes; exponents in [1, 3], often Hooke, Hertz or integers."""
     count = len(points)
     usual = generator.choice([1.0, 1.5, 1.5, 2.0, 3.0], count)
     low, high = RANGES["exponent"]
@@ -38,9 +38,9 @@ def tilted(points: np.ndarray, seed: int) -> np.ndarray:
 
 
 def around_the_paper(count: int, seed: int) -> np.ndarray:
-    """Packed parameters, shape (count, 13): log-uniform over two decades around the defaults where that has a meaning.
+    """Packed parameters, shape (count, 13): log-uniform over two decades around the defaults where possible.
 
-    Amplitudes reach 150 m/s², frequencies 5 to 500 Hz; every tenth start lies on the plate.
+    Amplitudes reach 150 m/s², frequencies 5 to 500 Hz; every tenth part starts on the plate.
     """
     generator = np.random.default_rng(seed)
     default = Conveyor()
@@ -66,7 +66,7 @@ def around_the_paper(count: int, seed: int) -> np.ndarray:
 
 
 def whole_ranges(count: int, seed: int) -> np.ndarray:
-    """Packed parameters, shape (count, 13), over all of model.RANGES, evenly in the logarithm or, for angles, as such.
+    """Packed parameters, shape (count, 13), over all of model.RANGES: log-uniform, or uniform for angles.
 
     What may be zero reaches down to a millionth of its largest value, and is zero in every tenth point; so do heights
     and velocities of either sign, and every tenth start lies on the plate.

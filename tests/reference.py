@@ -1,8 +1,8 @@
-"""A slow, independent solution of the model with scipy: the truth that the fast solvers are tested against.
+"""A slow, independent solution of the model with SciPy, with which tests compare the fast solvers.
 
 Explicit modes (flight, contact; loaded or not; slip forward, slip backward, stick) with events between them. Contact is
 integrated by DOP853 in plate coordinates: gap q, q̇, displacement u = x_p - x_s and slip velocity s = ẋ_s - ẋ_p, which
-keeps the digits of a penetration of micrometres. Flight is a closed form, its end found by a dense scan.
+keeps the digits of a penetration of micrometres. Flight has a closed form; a dense scan finds its end.
 """
 
 import math
@@ -54,12 +54,12 @@ def gravity_of(conveyor):
 
 
 def pull_of(conveyor, plate, t):
-    """Acceleration (m/s²) that the contact has to give a part that moves with the plate along the track."""
+    """Acceleration (m/s²) along the track that the contact must give to a part that sticks."""
     return plate.x(t, 2) + gravity_of(conveyor)[1]
 
 
 def grip_of(conveyor, force):
-    """Largest acceleration (m/s²) that the contact can give a part that sticks, from F_c/m."""
+    """Largest acceleration (m/s²) along the track that the contact can give to a part that sticks, from F_c/m."""
     coefficient = conveyor.friction if conveyor.static_friction is None else conveyor.static_friction
     return coefficient * force
 
@@ -90,7 +90,7 @@ def elastic_and_viscous(conveyor, q, gap_velocity):
 
 
 def choose_mode(conveyor, plate, t, state, loaded=None, slip=None):
-    """The mode that goes on from `state`; `loaded` and `slip` fix what an event has just decided."""
+    """The mode that follows `state`; `loaded` and `slip` are given if an event has just determined them."""
     q, gap_velocity, _, s = state
     relative_gravity = -gravity_of(conveyor)[0] - plate.z(t, 2)
     if q > 0.0 or (q == 0.0 and (gap_velocity > 0.0 or (gap_velocity == 0.0 and relative_gravity > 0.0))):
@@ -167,7 +167,7 @@ def flight_segment(conveyor, plate, mode, begin, state, duration):
 
 
 def contact_segment(conveyor, plate, mode, begin, state, duration, rtol):
-    """Contact from `begin` to its next event: the segment, the state there and what the event has decided."""
+    """Contact from `begin` to the next event: the segment, the state at the event, and the mode that it determines."""
 
     normal, downhill = gravity_of(conveyor)
 
@@ -194,7 +194,7 @@ def contact_segment(conveyor, plate, mode, begin, state, duration, rtol):
     def break_away(t, y):
         return grip_of(conveyor, elastic_and_viscous(conveyor, y[0], y[1])) - abs(pull_of(conveyor, plate, t))
 
-    # A variable that starts at its event's zero is watched only after it has turned back: that zero is handled.
+    # An event function that starts at zero counts only after it has changed sign; its first zero has been handled.
     events = [(deepest if state[0] == 0.0 else separation, 1.0)]
     if conveyor.tension != "allow":
         events.append((load_change, -1.0 if mode.loaded else 1.0))

@@ -81,7 +81,7 @@ SHOWN = {
 
 
 def thin_axes(axes: dict, points: int) -> dict:
-    """Axes with fewer, evenly chosen values and about `points` points; ends are kept, and axes of texts unchanged."""
+    """Axes with about `points` points in total: evenly chosen values with both ends; axes of texts stay unchanged."""
     values = {
         name: list(axis)
         if name == "tension" or "conveyor" in axis
@@ -120,8 +120,9 @@ def visible_differences(
 ) -> pd.DataFrame:
     """Whether a reader can see the difference of each drawn value of two tables; rows as in `truth`.
 
-    Numbers differ visibly by more than `line` times their range, texts if they are not equal, and values that only one
-    of the tables has. A column without any value in `found` was not computed and does not count.
+    A reader sees the difference of two numbers if it is more than `line` times their range, the difference of unequal
+    texts, and a value that only one table has. A column without any value in `found` was not computed and does not
+    count.
     """
     keys = [*axes, *shown.keys]
     both = truth.set_index(keys)[list(shown.drawn)].join(
@@ -144,10 +145,10 @@ def visible_differences(
 def robust_values(
     shown: Shown, truth: pd.DataFrame, others: list[pd.DataFrame], axes: dict, line: float
 ) -> pd.DataFrame:
-    """Whether each drawn value does not differ visibly from all `others`; rows and columns as in `visible_differences`.
+    """Whether each drawn value looks the same in all `others`; rows and columns as in `visible_differences`.
 
-    All samples after a differing one count as different, and all strobes of a motion with a differing one: two chaotic
-    motions may look alike at a moment by chance.
+    After the first different sample, all samples of a signal count as different. One different strobe makes all strobes
+    of its motion different. The reason is that two chaotic motions may look alike at a moment by chance.
     """
     differ = sum(visible_differences(shown, truth, other, axes, line).astype(int) for other in others) > 0
     if shown.each and "time" in shown.keys:

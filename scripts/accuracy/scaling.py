@@ -20,8 +20,6 @@ from statistics import median
 from time import perf_counter
 from typing import Any
 
-import numpy as np
-import pandas as pd
 import pyarrow.parquet as pq
 
 from conveyor.analysis.attractors import convergence_lanes
@@ -163,7 +161,7 @@ def make_row(case: dict, shard_results: list[dict[str, float]], gathering: dict[
     }
 
 
-def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> dict[str, np.ndarray]:
+def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> dict[str, list]:
     """The columns of the table, with one row per case. Code is compiled before the first measurement."""
     with tempfile.TemporaryDirectory() as folder:
         for one in cases:
@@ -177,5 +175,5 @@ def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> d
             times[k].append(measure_shards(cases[k], Path(folder)))
             if number == 0:
                 gathering[k] = measure_gathering(cases[k], Path(folder))
-    rows = (make_row(case, summarise(times[k]), gathering[k]) for k, case in enumerate(cases))
-    return {name: column.to_numpy() for name, column in pd.DataFrame(rows).items()}
+    rows = [make_row(case, summarise(times[k]), gathering[k]) for k, case in enumerate(cases)]
+    return fields.columns(rows, TABLES["scaling"])

@@ -73,9 +73,6 @@ NOTHING = {
     "reason": None,
 }
 
-# Columns of the table of processor times, which differ from run to run.
-TIMES = ("table", "variant", "tolerance", "seconds", "full_seconds", "ratio")
-
 
 def least_time(work: Callable[[], Any]) -> tuple[float, Any]:
     """The least processor time (s) of several rounds in this thread, and the result of `work`.
@@ -124,7 +121,8 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     settings = settings | {"axes": thinned} | budget["shortened"].get(section, {})
     _, parameters = grid.product(settings["axes"], settings["model"])
     full_settings = settings | {"needs": "feeding", "tolerance": TIGHT}
-    # Runs without timing come first, because they load compiled code.
+    # Runs without timing come first, because they compile or load all code that the variants use.
+    shown.observe(settings)
     alike = observables.observe_shifted(shown, full_settings, budget["shifts"])
     alike.append(shown.observe(full_settings | {"tolerance": TIGHTER}))
     full_seconds, truth = least_time(lambda: shown.observe(full_settings))
@@ -175,7 +173,7 @@ def make(
     *,
     threads: int = 1,
     progress: str | None = None,
-) -> dict[str, dict[str, np.ndarray]]:
+) -> dict[str, dict[str, list]]:
     """The columns of the table of budgets, by figure, table and variant, and of the table of processor times.
 
     Parameters
@@ -202,6 +200,6 @@ def make(
     ]
     times = [row for reference in entries for row in found[reference]]
     return {
-        "scene_budget": {column: np.array([row[column] for row in rows]) for column in ("figure", *NOTHING)},
-        "budget_times": {column: np.array([row[column] for row in times]) for column in TIMES},
+        "scene_budget": fields.columns(rows, TABLES["scene_budget"]),
+        "budget_times": fields.columns(times, TABLES["budget_times"]),
     }

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import beta
 
+from accuracy.closed_forms import compression, undamped_duration
 from conveyor.methods import fixed_step, peers
 from conveyor.simulation import DEFAULT_TOLERANCE, Run, simulate
 from conveyor.solver.model import Conveyor, Start, conveyor_motion, pack
@@ -121,21 +122,11 @@ def restitution(
 ) -> float:
     """Coefficient of restitution of one impact on a plate at rest; 0 if the part stays, infinity after a blow-up."""
     height = 1e-6
-    duration = 4.0 * height / speed + 6.0 * impact_time(conveyor, speed)
+    duration = 4.0 * height / speed + 6.0 * undamped_duration(conveyor, speed)
     z, vz, _ = run_to_end(method, conveyor, Start(height, -speed), duration, step, tolerance)
     if not (math.isfinite(z) and abs(z) < FAR):
         return math.inf
     return math.sqrt(max(vz * vz + 2.0 * conveyor.gravity * (z - height), 0.0)) / speed if z > 0.0 else 0.0
-
-
-def hertz_penetration(conveyor: Conveyor, speed: float) -> float:
-    """Largest penetration (m) of an undamped Hertz impact."""
-    return (1.25 * conveyor.mass * speed * speed / conveyor.stiffness) ** 0.4
-
-
-def impact_time(conveyor: Conveyor, speed: float) -> float:
-    """Duration (s) of an undamped Hertz impact, 2.943 δ_max / v."""
-    return 2.9432750658 * hertz_penetration(conveyor, speed) / speed
 
 
 def impact_limit(method: str, conveyor: Conveyor, speed: float) -> float:
@@ -144,7 +135,7 @@ def impact_limit(method: str, conveyor: Conveyor, speed: float) -> float:
     Explicit Euler adds the energy Δt ∫ k v² dt to an impact (from its modified equation), and damping dissipates
     d_c ∫ v² dt. The limit is the step at which both are equal. Other methods have the limit at the deepest point.
     """
-    stiffness = 1.5 * conveyor.stiffness * math.sqrt(hertz_penetration(conveyor, speed))
+    stiffness = 1.5 * conveyor.stiffness * math.sqrt(compression(conveyor, speed))
     if method == "euler":
         return conveyor.damping / stiffness * beta(0.4, 1.5) / beta(0.6, 1.5)
     return stability_limit(method, stiffness, conveyor.damping, conveyor.mass)

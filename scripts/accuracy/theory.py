@@ -1,4 +1,4 @@
-"""Comparison of the solver with published theory and closed forms.
+"""Comparison of the solver with published theory (`accuracy.closed_forms`).
 
 Isolated impacts are computed without gravity on a plate at rest. A rigid ball is the limit of a stiff linear contact
 whose damping keeps the coefficient of restitution constant.
@@ -10,9 +10,17 @@ from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
-from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
+from accuracy.closed_forms import (
+    compression,
+    damping_ratio,
+    light_loss,
+    reduced_restitution,
+    restitution_without_tension,
+    rigid_range,
+    undamped_duration,
+)
 from conveyor import Conveyor, Start, continue_orbit, periodic_orbit
 from conveyor.parameters import normal_gravity
 from conveyor.solver import trajectory
@@ -40,7 +48,6 @@ FEIGENBAUM = 4.669201609102990672
 TOLERANCE = 1e-14  # of contact steps
 LIGHT = 1e-5  # dimensionless damping so small that the loss of speed is proportional to it
 RUN = 20.0  # duration of a run in durations of an undamped impact
-REFERENCE = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-15}  # settings of SciPy for the dimensionless impact
 CYCLES = 200  # excitation cycles until a part with a stiff contact is close to its orbit
 
 
@@ -50,43 +57,6 @@ class Impact(NamedTuple):
     duration: float  # s
     peak: float  # N, largest contact force
     restitution: float
-
-
-def compression(conveyor: Conveyor, speed: float) -> float:
-    """Largest penetration (m) of an undamped impact at a speed (m/s), from the conservation of energy."""
-    power = conveyor.exponent + 1.0
-    return (power * conveyor.mass * speed**2 / (2.0 * conveyor.stiffness)) ** (1.0 / power)
-
-
-def undamped_duration(conveyor: Conveyor, speed: float) -> float:
-    """Duration (s) of an undamped impact at a speed (m/s) (Hertz 1882 for p = 1.5; any p by the same integral)."""
-    share = 1.0 / (conveyor.exponent + 1.0)
-    integral = math.sqrt(math.pi) * math.gamma(1.0 + share) / math.gamma(0.5 + share)
-    return 2.0 * compression(conveyor, speed) / speed * integral
-
-
-def light_loss(exponent: float) -> float:
-    """(1 - e)/β of a light damper: the work of F = d δ̇ along the undamped motion, 2 ∫ √(1 - x^(p+1)) dx over [0, 1]."""
-    share = 1.0 / (exponent + 1.0)
-    return 2.0 * share * math.gamma(share) * math.gamma(1.5) / math.gamma(share + 1.5)
-
-
-def reduced_restitution(exponent: float, beta: float) -> float:
-    """Coefficient of restitution of X'' = -(p+1)/2 X^p - β X' from X = 0, X' = 1 back to X = 0.
-
-    X is the penetration over the undamped `compression`, and β = (d_c/m) compression/speed. The coefficient depends
-    only on p and β (dimensional analysis as in Ramírez et al. 1999).
-    """
-
-    def rates(_, state):
-        return state[1], -0.5 * (exponent + 1.0) * max(state[0], 0.0) ** exponent - beta * state[1]
-
-    def separation(_, state):
-        return state[0]
-
-    separation.terminal, separation.direction = True, -1.0
-    run = solve_ivp(rates, (0.0, 100.0), (0.0, 1.0), events=separation, **REFERENCE)
-    return -run.y_events[0][0][1]
 
 
 def simulate_impact(conveyor: Conveyor, speed: float) -> Impact:
@@ -115,37 +85,11 @@ def simulate_impact(conveyor: Conveyor, speed: float) -> Impact:
     return Impact(separation - begin, peak, samples[0, 0, VZ] / speed)
 
 
-def damping_ratio(restitution: float) -> float:
-    """Damping ratio ζ of a linear contact that ends at zero penetration, from e = exp(-π ζ/√(1 - ζ²))."""
-    loss = -math.log(restitution)
-    return loss / math.hypot(math.pi, loss)
-
-
 def linear_contact(model: dict, stiffness: float, restitution: float, **changes: float | str) -> Conveyor:
     """A conveyor with a linear contact of a given stiffness (N/m) and coefficient of restitution."""
     damping = 2.0 * damping_ratio(restitution) * math.sqrt(stiffness * model["mass"])
     contact = {"exponent": 1.0, "stiffness": stiffness, "damping": damping, "tension": "allow"}
     return grid.conveyor_and_start({**model, **contact, **changes})[0]
-
-
-def restitution_without_tension(restitution: float) -> float:
-    """Coefficient of restitution of a linear contact that ends at zero force (Schwager, Pöschel 2007).
-
-    restitution : of the same contact if it ends at zero penetration
-    """
-    ratio = damping_ratio(restitution)
-    frequency = math.sqrt(1.0 - ratio**2)
-    return math.exp(-ratio / frequency * (math.pi - math.atan2(2.0 * ratio * frequency, frequency**2 - ratio**2)))
-
-
-def rigid_range(restitution: float) -> tuple[float, float]:
-    """Range of a_z/g in which a rigid ball's motion with one impact per cycle is stable (Luo, Han 1996).
-
-    The lower end is a fold, the upper end a period doubling. For e = 1, the upper end agrees with the approximate map
-    of Holmes (1982).
-    """
-    fold = math.pi * (1.0 - restitution) / (1.0 + restitution)
-    return fold, math.hypot(fold, 2.0 * (1.0 + restitution**2) / (1.0 + restitution) ** 2)
 
 
 def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[float, float]:

@@ -9,10 +9,10 @@ from pathlib import Path
 
 HEAD = """\
 # Results and figures with their SHA-256: equal on any number of cores, in any folder, time zone and locale.
-# Whether the files are those that were made: sha256sum --quiet --check MANIFEST
-# In what two builds differ: diff MANIFEST OTHER_MANIFEST
+# Check that all files are unchanged: sha256sum --quiet --check MANIFEST
+# Compare two builds: diff MANIFEST OTHER_MANIFEST
 """
-MAY_DIFFER = "# may differ, as measured times stand in it: "
+MAY_DIFFER = "# may differ between builds, because it contains measured times: "
 
 
 def line(file: str, timed: bool) -> str:

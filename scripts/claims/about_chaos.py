@@ -8,7 +8,7 @@ from claims.finding import METHODS, NONE, Finding, by_method, format_amplitude, 
 
 LONGEST_PERIOD = 64  # excitation cycles
 CLOSE = 0.05  # distance from an earlier state, over the largest position or velocity, of a motion that has returned
-NAMES = {"euler": "by the paper's method", "converged": "converged"}
+NAMES = {"euler": "by the paper's method", "converged": "by the converged solution"}
 
 
 def closest_return(run: pd.DataFrame) -> tuple[float, int]:
@@ -32,7 +32,7 @@ def no_period(*, euler: pd.DataFrame, converged: pd.DataFrame, horseshoes: pd.Da
 
     returns = by_method(find_returns, euler, converged)
     closest = {method: min(found) for method, found in returns.items()}
-    note = "the motions return to earlier states no closer than " + " and ".join(
+    note = "The motions return to earlier states no closer than " + " and ".join(
         f"{100 * distance:.0f} % of their extent, after {period} cycles ({NAMES[method]})"
         for method, (distance, period) in closest.items()
     )
@@ -86,9 +86,9 @@ def phase_estimate(
         for method, values in between.items()
     ]
     note = (
-        f"between {format_amplitude(found['euler'])} and {format_amplitude(found['converged'])}, the estimate is "
+        f"Between {format_amplitude(found['euler'])} and {format_amplitude(found['converged'])}, the estimate is "
         f"positive at {texts[0]} and at {texts[1]}, but {100 * (settled.period > 0).mean():.0f} % of the motions are "
-        f"periodic; {describe_perturbations(estimates)}"
+        f"periodic. {describe_perturbations(estimates)}"
     )
     proved = about_proofs.describe_periodic(certificates, found["euler"])
     return Finding(*({"amplitude": found[method]} for method in METHODS), note + proved)
@@ -100,9 +100,9 @@ def describe_perturbations(estimates: pd.DataFrame) -> str:
     by_euler, converged = (rows[rows.estimator == method].value for method in ("euler", "event"))
     acceleration = estimates.attrs["exponent"]["cases"]["orbit_phase"]["acceleration"]
     return (
-        f"at {acceleration:g} m/s², where the motion is periodic, perturbations from {rows.epsilon.min():g} to "
+        f"At {acceleration:g} m/s², where the motion is periodic, perturbations from {rows.epsilon.min():g} to "
         f"{rows.epsilon.max():g} rad give {by_euler.min():+.2f} to {by_euler.max():+.2f} 1/s by the paper's method and "
-        f"{converged.min():+.2f} to {converged.max():+.2f} 1/s converged"
+        f"{converged.min():+.2f} to {converged.max():+.2f} 1/s by the converged solution"
     )
 
 
@@ -118,8 +118,9 @@ def portraits(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
     found = by_method(dimensions, euler, converged)
     texts = {method: ", ".join(f"{value:.3f}" for value in values.values()) for method, values in found.items()}
     note = (
-        f"converged {texts['converged']} with 95 % intervals of at most ±{converged.error.max():.2f}; box counting as "
-        f"in the paper includes the transient and uses too few scales: {texts['euler']}"
+        f"The converged dimensions are {texts['converged']}, with 95 % intervals of at most "
+        f"±{converged.error.max():.2f}. Box counting as in the paper includes the transient and uses too few scales; "
+        f"it gives {texts['euler']}"
     )
     return Finding(found["euler"], found["converged"], note)
 
@@ -158,12 +159,13 @@ def predicted_onset(
         )
     unknown = converged[converged.dimension.isna()].acceleration
     note = (
-        f"by the dimension, chaos begins at {format_amplitude(dimension_onset(converged))}, by the estimate of Fig. 22 "
-        f"at {format_amplitude(positive_onset(converged_exponent))}; by the paper's method, at "
-        f"{format_amplitude(dimension_onset(euler))} and {format_amplitude(positive_onset(euler_exponent))}, where the "
-        f"second state begins, because its box counting gives {dimension_range(euler, states, 'second')} in the second "
-        f"state and {dimension_range(euler, states, 'chaos')} in chaos; converged phase portraits have no scaling "
-        f"region at {len(unknown)} of {len(converged)} amplitudes"
+        f"By the converged dimension, chaos begins at {format_amplitude(dimension_onset(converged))}, and by the "
+        f"converged estimate of Fig. 22 at {format_amplitude(positive_onset(converged_exponent))}. By the paper's "
+        f"method, it begins at {format_amplitude(dimension_onset(euler))} and "
+        f"{format_amplitude(positive_onset(euler_exponent))}, where the second state begins, because its box counting "
+        f"gives {dimension_range(euler, states, 'second')} in the second state and "
+        f"{dimension_range(euler, states, 'chaos')} in chaos. Converged phase portraits have no scaling region at "
+        f"{len(unknown)} of {len(converged)} amplitudes"
     )
     return Finding(*found, note)
 

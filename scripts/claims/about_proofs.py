@@ -30,7 +30,7 @@ def describe_coexistence(certificates: pd.DataFrame | None) -> str:
     if not len(amplitudes):
         return ""
     return (
-        f"; two stable motions are proved at {len(amplitudes)} amplitudes from {amplitudes.min():g} to "
+        f". Two stable motions are proved at {len(amplitudes)} amplitudes from {amplitudes.min():g} to "
         f"{amplitudes.max():g} m/s² ({PAGE})"
     )
 
@@ -44,7 +44,7 @@ def describe_periodic(certificates: pd.DataFrame | None, begin: float) -> str:
     if not len(amplitudes):
         return ""
     return (
-        f"; a stable periodic motion is proved at {len(amplitudes)} amplitudes from {amplitudes.min():g} to "
+        f". A stable periodic motion is proved at {len(amplitudes)} amplitudes from {amplitudes.min():g} to "
         f"{amplitudes.max():g} m/s² ({PAGE})"
     )
 
@@ -57,4 +57,4 @@ def describe_chaos(horseshoes: pd.DataFrame | None) -> str:
     if rows.empty:
         return ""
     amplitudes = ", ".join(f"{acceleration:g}" for acceleration in rows.acceleration)
-    return f"; the existence of chaotic motions is proved at {amplitudes} m/s² ({PAGE})"
+    return f". The existence of chaotic motions is proved at {amplitudes} m/s² ({PAGE})"

@@ -47,13 +47,13 @@ def interval(
     at_end = converged[converged.acceleration == high]
     first = at_end[at_end.state == "first"]
     note = (
-        f"with the initial heights of the config, both states exist from {format_amplitude(low)} to "
-        f"{format_amplitude(high)}; at the upper end, {len(first)} of {len(at_end)} initial heights still lead to the "
-        f"first state, up to z0 = {MM * highest(first.z0):.3g} mm"
+        f"With the initial heights of the config, both states exist from {format_amplitude(low)} to "
+        f"{format_amplitude(high)}. At the upper end, the first state is still reached from {len(first)} of "
+        f"{len(at_end)} initial heights, up to z0 = {MM * highest(first.z0):.3g} mm"
     )
     if tension is not None:
         found = describe_tensions(tension, lambda rows: "{:g} to {:g} m/s²".format(*two_states(rows)))
-        note += f"; by mode of the tensile contact force, with two initial heights only: {found}"
+        note += f". With two initial heights, for each treatment of a tensile contact force: {found}"
     quantities = ({"lower_end": lower, "upper_end": upper} for lower, upper in ends.values())
     return Finding(*quantities, note + about_proofs.describe_coexistence(certificates))
 
@@ -79,8 +79,9 @@ def onset_of_chaos(
     scatter = by_method(scatter_onset, euler, converged)
     chaos = by_method(chaos_onset, euler, converged)
     note = (
-        f"a reader sees scatter; most motions settle to chaos from {format_amplitude(chaos['converged'])} on "
-        f"({format_amplitude(chaos['euler'])} when continued from the paper's method)"
+        "From the onset on, velocities scatter, but most motions settle to chaos only from "
+        f"{format_amplitude(chaos['converged'])} on ({format_amplitude(chaos['euler'])} when continued from the "
+        "paper's method)"
     )
     between = converged[
         (converged.acceleration >= scatter["converged"]) & (converged.acceleration < chaos["converged"])
@@ -91,7 +92,8 @@ def onset_of_chaos(
             for period, share in between[between.period > 0].period.value_counts(normalize=True).head(3).items()
         )
         note += (
-            f", while in between {100 * (between.period > 0).mean():.0f} % of them settle to a periodic one ({periods})"
+            f". Between these amplitudes, {100 * (between.period > 0).mean():.0f} % of the motions settle to a "
+            f"periodic motion ({periods})"
         )
     proved = about_proofs.describe_periodic(certificates, scatter["converged"])
     return Finding(*({"onset": scatter[method]} for method in METHODS), note + proved)
@@ -112,12 +114,15 @@ def largest_critical_height(*, euler: pd.DataFrame, converged: pd.DataFrame, hei
     critical = converged[converged.is_critical]
     top = critical.loc[critical.z0.idxmax()] if len(critical) else None
     where = found["converged"].idxmax() if found["converged"].notna().any() else NONE
-    note = f"it occurs at {format_amplitude(where)}, where the critical height depends strongly on the amplitude"
+    note = (
+        f"The largest height occurs at {format_amplitude(where)}, where the critical height depends strongly on the "
+        "amplitude"
+    )
     if top is not None:
         repeated = converged[converged.crossing > 1].acceleration.nunique()
         note += (
-            f": it is {MM * top.z0:.4g} mm (converged) at {top.acceleration:g} m/s², the lowest amplitude with a "
-            f"second state; the state changes more than once over z0 at {repeated} of "
+            f". At {top.acceleration:g} m/s², the lowest amplitude with a second state, it is {MM * top.z0:.4g} mm "
+            f"(converged). The state changes more than once over z0 at {repeated} of "
             f"{converged.acceleration.nunique()} amplitudes"
         )
     return Finding(*({"largest_height": highest(found[method])} for method in METHODS), note)
@@ -144,8 +149,8 @@ def first_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd.
     low, high = ends["converged"]
     deviation = 100.0 * (ends["euler"][1] / high - 1.0)
     note = (
-        f"it rises by {high - low:.2f} cm/s; the paper's method deviates by {deviation:+.1f} % at the upper end; its "
-        f"largest value at any amplitude, by mode of the tensile contact force: {found}"
+        f"The velocity rises by {high - low:.2f} cm/s. The paper's method deviates by {deviation:+.1f} % at the upper "
+        f"end. The largest velocity at any amplitude, for each treatment of a tensile contact force: {found}"
     )
     return Finding(
         *(
@@ -161,10 +166,10 @@ def second_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd
     ends = by_method(lambda table: velocities(table, "second"), euler, converged)
     medians = 100.0 * converged[converged.state == "second"].groupby("acceleration").mean_velocity.median()
     found = describe_tensions(tension, lambda rows: "{:.2f} to {:.2f} cm/s".format(*velocities(rows, "second")))
-    least = f"its minimum, {medians.min():.2f} cm/s, is at {medians.idxmin():g} m/s²; " if len(medians) else ""
+    least = f"Its minimum, {medians.min():.2f} cm/s, is at {medians.idxmin():g} m/s². " if len(medians) else ""
     note = (
-        f"it falls from {ends['converged'][0]:.2f} to {ends['converged'][1]:.2f} cm/s; {least}"
-        f"by mode of the tensile contact force, each over its own interval: {found}"
+        f"The velocity falls from {ends['converged'][0]:.2f} to {ends['converged'][1]:.2f} cm/s. {least}"
+        f"For each treatment of a tensile contact force, over its own interval: {found}"
     )
     return Finding(*({"fall": ends[method][0] - ends[method][1]} for method in METHODS), note)
 
@@ -180,8 +185,8 @@ def fit(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
     paper_error = float(converged.set_index("fit").loc["paper"].error)
     valley = converged[(converged.fit == "valley") & (converged.error <= paper_error)]
     note = (
-        f"A, B and C are poorly determined: on the converged heights, the paper's values have the error "
-        f"{paper_error:.3g} m² and the best ones {found['converged']['error']:.3g} m², and every B from "
+        f"A, B and C are poorly determined. On the converged heights, the paper's values have the error "
+        f"{paper_error:.3g} m², and the best values {found['converged']['error']:.3g} m². Every B from "
         f"{valley.B.min():.3g} to {valley.B.max():.3g} m/s² with its best A and C fits no worse than the paper's"
     )
     return Finding(found["euler"], found["converged"], note)
@@ -210,12 +215,12 @@ def one_onset(*, converged: pd.DataFrame) -> Finding:
     onsets = np.array([onset(rows.acceleration.to_numpy(), rows.state == "chaos") for _, rows in heights])
     share = (converged.state == "chaos").groupby(converged.acceleration).mean()
     coexisting = find_runs(share.index, (share > 0.0) & (share < 1.0))
-    note = f"the onsets lie between {format_amplitude(onsets.min())} and {format_amplitude(onsets.max())}"
+    note = f"The onsets lie between {format_amplitude(onsets.min())} and {format_amplitude(onsets.max())}"
     if coexisting:
-        note += f"; chaos and regular motion coexist, depending on the initial height, at {format_runs(coexisting)}"
+        note += f". Chaos and regular motion coexist, depending on the initial height, at {format_runs(coexisting)}"
     if (share < 1.0).any():
         windows = find_runs(share.index, (share < 1.0) & (share.index > onsets.max()))
-        note += "; above the onset, regular motion remains " + (
+        note += ". Above the onset, regular motion remains " + (
             f"in windows only: {format_runs(windows)}" if windows else "nowhere"
         )
     return Finding({}, {"spread": float(np.ptp(onsets))}, note)
@@ -271,7 +276,7 @@ def overlap(
         shares[f"shared_{place}"] = float((low[first] == "first").mean()) if first.any() else NONE
         shares[f"chaos_{place}"] = float((high == "chaos").mean())
     chaotic = sum(int((table.state == "chaos").sum()) for table in (height_low, velocity_low))
-    return Finding({}, shares, f"{chaotic} points of both maps at the lower amplitude are chaotic")
+    return Finding({}, shares, f"At the lower amplitude, {chaotic} points of both maps are chaotic")
 
 
 def mapped(*, converged: pd.DataFrame) -> Finding:
@@ -294,7 +299,7 @@ def euler_error(
     right = np.sign(euler_exponent["lambda"]) == np.sign(converged_exponent["lambda"])
     wrong = converged_exponent[~right].acceleration
     note = (
-        f"of {len(signed)} runs of period 1, Euler is too slow in {100 * (signed < 0.0).mean():.0f} %; the sign of the "
+        f"Euler is too slow in {100 * (signed < 0.0).mean():.0f} % of {len(signed)} runs of period 1. The sign of the "
         f"estimate is wrong at {len(wrong)} of {len(right)} amplitudes"
     ) + (f", half of them between {wrong.quantile(0.25):.1f} and {wrong.quantile(0.75):.1f} m/s²" if len(wrong) else "")
     found = {"first_error": float(errors["first"]), "second_error": float(errors["second"])}

@@ -1,4 +1,4 @@
-"""Run the tests of the results, tests/results, in a process of their own."""
+"""Run the tests of the results, tests/results, in a separate process."""
 
 import json
 import os

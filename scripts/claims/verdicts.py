@@ -71,12 +71,17 @@ def verdict(finding: Finding, quantities: dict[str, dict]) -> str:
 def describe_misses(finding: Finding, quantities: dict[str, dict]) -> str:
     """The quantities outside their accepted interval, in words."""
     texts = []
-    for method in METHODS:
-        for name, value in getattr(finding, method).items():
-            quantity = quantities[name]
-            if not is_accepted(value, quantity["accepted"]):
-                accepted = format_interval(*quantity["accepted"])
-                texts.append(f"{quantity['is']}: {value:.4g} by the {NAMES[method]} is not in {accepted}")
+    for name, quantity in quantities.items():
+        values = {method: getattr(finding, method)[name] for method in METHODS if getattr(finding, method)}
+        misses = [
+            f"{value:.4g} by the {NAMES[method]}"
+            for method, value in values.items()
+            if not is_accepted(value, quantity["accepted"])
+        ]
+        if misses:
+            verb = "is" if len(misses) == 1 else "are"
+            accepted = format_interval(*quantity["accepted"])
+            texts.append(f"{quantity['is']}: {' and '.join(misses)} {verb} not in {accepted}")
     return "; ".join(texts)
 
 
@@ -85,7 +90,7 @@ def columns(claims: dict[str, dict], found: dict[str, Finding]) -> dict[str, lis
     quantities = [claim["quantities"] for claim in claims.values()]
     verdicts = [verdict(found[name], claim["quantities"]) for name, claim in claims.items()]
     reasons = [
-        "; ".join(filter(None, ("" if result == REPRODUCED else describe_misses(found[name], one), found[name].note)))
+        ". ".join(filter(None, ("" if result == REPRODUCED else describe_misses(found[name], one), found[name].note)))
         or None
         for result, name, one in zip(verdicts, claims, quantities, strict=True)
     ]

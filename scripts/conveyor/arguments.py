@@ -41,6 +41,12 @@ def check_flag(name: str, value: object) -> bool:
     return bool(value)
 
 
+def is_real(value: object) -> bool:
+    """Whether `value` is a real number. To NumPy, a timedelta64 is an integer."""
+    is_number = isinstance(value, (int, float, np.integer, np.floating))
+    return is_number and not isinstance(value, (bool, np.timedelta64))
+
+
 def check_number(name: str, value: object, low: float, high: float, unit: str = "", *, above: bool = False) -> float:
     """`value` as a float; it must lie in [low, high], or in (low, high] where it has to lie `above` the lower end.
 
@@ -50,15 +56,14 @@ def check_number(name: str, value: object, low: float, high: float, unit: str = 
         names the argument, its unit and its interval
     """
     interval = f"{'(' if above else '['}{low:g}, {high:g}] {unit}".rstrip()
-    number = isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
-    if not (number and low <= value <= high) or (above and value == low):
+    if not (is_real(value) and low <= value <= high) or (above and value == low):
         raise ValueError(f"{name} = {value!r} must be a number in {interval}")
     return float(value)
 
 
 def check_count(name: str, value: object, low: int, high: int) -> int:
     """`value` as an int; it must be a whole number from `low` to `high`."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
+    if not is_real(value) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
         raise ValueError(f"{name} = {value!r} must be a whole number from {low} to {high}")
     return int(value)
 
@@ -79,10 +84,13 @@ def check_array(name: str, values: object, low: float, high: float, unit: str = 
     array = check_numbers(name, values)
     if not least <= array.size <= MOST_VALUES:
         raise ValueError(f"{name} must have {least} to {MOST_VALUES:g} values, got the shape {array.shape}")
-    outside = ~((array >= low) & (array <= high))
+    with np.errstate(over="ignore"):
+        numbers = np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
+    # Not of the array: in float32, a large bound is infinite.
+    outside = ~((numbers >= low) & (numbers <= high))
     if outside.any():
         raise ValueError(f"{name} = {array[outside].flat[0]!s} is outside [{low:g}, {high:g}] {unit}".rstrip())
-    return np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
+    return numbers
 
 
 def check_packed(rows: object) -> np.ndarray:

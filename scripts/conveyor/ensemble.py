@@ -87,10 +87,10 @@ def run(
         names the argument that cannot be used
     """
     check_choice("needs", needs, NEEDS)
-    check_threads(threads)
+    threads = check_threads(threads)
     check_count("chunk", chunk, 1, 10**9)
     durations = check_array("duration", duration, np.finfo(np.float64).tiny, LONGEST, "s", least=0)
-    check_run(durations.max() if durations.size else LONGEST, method, tolerance, step)
+    _, tolerance, step = check_run(durations.max() if durations.size else LONGEST, method, tolerance, step)
     if method != "event" and durations.ndim > 0:
         raise ValueError("duration: only the event-driven method takes one for each point")
     parameters = check_packed(parameters)
@@ -105,7 +105,7 @@ def run(
         if method == "event":
             found = follow_by_events(parameters[rows], durations[rows], tolerance, feeding)
         else:
-            found = follow_by_steps(parameters[rows], duration, step, method, feeding)
+            found = follow_by_steps(parameters[rows], durations[begin], step, method, feeding)
         for name, values in found.items():
             columns[name][rows] = values
         return np.count_nonzero(columns["status"][rows] != trajectory.OK)

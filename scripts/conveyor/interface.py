@@ -286,6 +286,9 @@ def continue_orbit(conveyor: Conveyor, orbit: Orbit, *, low: float, high: float)
     check_type("orbit", orbit, Orbit)
     acceleration = check_number("orbit.acceleration", orbit.acceleration, *RANGES["acceleration"], "m/s²")
     check_count("orbit.period", orbit.period, 1, LARGEST_PERIOD)
+    check_count("orbit.impacts", orbit.impacts, 0, LARGEST_PERIOD * MOST_CYCLES)
+    if np.shape(orbit.multipliers) != (2,) or np.asarray(orbit.multipliers).dtype.kind not in "iufc":
+        raise ValueError(f"orbit.multipliers must be two numbers, got {orbit.multipliers!r}")
     state = check_array("orbit.state", orbit.state, -LARGEST_COORDINATE, LARGEST_COORDINATE)
     if state.shape != (2,):
         raise ValueError(f"orbit.state must be δ (m) and v (m/s), got the shape {state.shape}")

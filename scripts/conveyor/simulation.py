@@ -63,7 +63,7 @@ class Run:
 
     def mean_velocity(self, last: float = LAST) -> float:
         """Mean feeding velocity over the last part of the run, (x(T) - x((1 - last) T)) / (last T), m/s (Sect. 3.1)."""
-        check_number("last", last, 0.0, 1.0, above=True)
+        last = check_number("last", last, 0.0, 1.0, above=True)
         x_before = self.x_last
         if last != LAST:
             x_before = float(self.sample(np.array([(1.0 - last) * self.duration]))["x"][0])
@@ -104,14 +104,18 @@ class Run:
         return events
 
 
-def check_run(duration: float, method: str, tolerance: float, step: float) -> None:
-    """ValueError that names the argument of `simulate` that cannot be used."""
-    check_number("duration", duration, 0.0, LONGEST, "s", above=True)
+def check_run(duration: float, method: str, tolerance: float, step: float) -> tuple[float, float, float]:
+    """Duration, tolerance and step as floats; ValueError that names the argument of `simulate` that cannot be used.
+
+    Compiled functions would be compiled again for numbers of other types, as np.float32.
+    """
+    duration = check_number("duration", duration, 0.0, LONGEST, "s", above=True)
     check_choice("method", method, METHODS)
-    check_tolerance(tolerance)
-    check_number("step", step, 0.0, LONGEST, "s", above=True)
+    tolerance = check_tolerance(tolerance)
+    step = check_number("step", step, 0.0, LONGEST, "s", above=True)
     if method != "event" and duration / step > MOST_STEPS:
         raise ValueError(f"step = {step!r} s makes more than {MOST_STEPS:g} steps of the duration of {duration!r} s")
+    return duration, tolerance, step
 
 
 def simulate(
@@ -156,7 +160,7 @@ def simulate(
     """
     check_type("conveyor", conveyor, Conveyor)
     check_type("start", start, Start)
-    check_run(duration, method, tolerance, step)
+    duration, tolerance, step = check_run(duration, method, tolerance, step)
     check_flag("reuse", reuse)
     parameters = pack(conveyor, start)
     if method == "event":

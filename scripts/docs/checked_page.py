@@ -3,10 +3,12 @@
 import math
 
 import pandas as pd
+from scipy.stats import binomtest
 
 from pipeline.templates import render
 
 ROUNDING = 1e-13  # smaller differences are rounding errors
+CONFIDENCE = 0.95  # of the limit of the share of different labels
 
 
 def format_difference(value: float) -> str:
@@ -42,6 +44,8 @@ def map_rows(points: pd.DataFrame) -> list[list]:
 def make(template: str, theory: pd.DataFrame, map_check: pd.DataFrame) -> str:
     """The page from its template, the table of quantities with a closed form, and the table of checked map points."""
     settings = map_check.attrs
+    different, points = int((map_check.label != map_check.state).sum()), len(map_check)
+    limit = binomtest(different, points, alternative="less").proportion_ci(CONFIDENCE).high
     return render(
         template,
         {
@@ -51,8 +55,12 @@ def make(template: str, theory: pd.DataFrame, map_check: pd.DataFrame) -> str:
             **{name: settings[name] for name in ("repeats", "cycles")},
             **{name: f"{settings[name]:g}" for name in ("tolerance", "close", "significant")},
             "accepted_share": f"{settings['accepted']:g}",
-            "points": len(map_check),
-            "different": int((map_check.label != map_check.state).sum()),
+            "points": points,
+            "different": different,
+            "share": f"{different / points:.2g}",
+            "margin": f"{settings['accepted'] - different / points:.2g}",
+            "confidence": f"{100.0 * CONFIDENCE:g}",
+            "largest_share": f"{limit:.1g}",
             "undecided": int((map_check.state == "undecided").sum()),
             "maps": map_rows(map_check),
         },

@@ -57,7 +57,7 @@ def describe_values(schema: dict) -> str:
         case {"type": "array", "prefixItems": items}:
             return f"list of {', '.join(describe_values(item) for item in items)}"
         case {"type": "array", "items": item}:
-            return f"list, each {describe_values(item)}"
+            return f"list; each item: {describe_values(item)}"
         case {"type": "object", "properties": keys} if keys.keys() == {"start", "stop", "num"}:
             return "{start, stop, num}"
         case {"type": "boolean"}:
@@ -88,7 +88,7 @@ def list_keys(schema: dict, path: tuple[str, ...] = ()) -> Iterator[Key]:
     elif allowed == "keys below":
         entry = inner.get("additionalProperties") or next(iter(inner["patternProperties"].values()))
         yield from list_keys(entry, (*path, "NAME"))
-    elif not more and allowed == "list, each keys below":
+    elif not more and allowed == "list; each item: keys below":
         yield from list_keys(inner["items"], (*path, "[]"))
     else:
         yield Key(path, allowed, unit_of(schema), schema["description"])

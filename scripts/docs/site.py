@@ -13,6 +13,8 @@ from docs.pictures import for_screens
 SETTINGS = {
     "project": "Dynamics of a vibratory conveyor",
     "html_title": "Dynamics of a vibratory conveyor",
+    # Shown inside the tutorial.
+    "exclude_patterns": ["feeder_chart.md"],
     "extensions": ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "docs.sphinx_extension"],
     "myst_enable_extensions": ["colon_fence", "dollarmath"],
     "myst_heading_anchors": 3,

@@ -37,7 +37,7 @@ def shorten(
 
 
 def skip(app: Sphinx, what: str, name: str, of: Any, skipped: bool, options: Any) -> bool | None:
-    """Skip fields of named tuples without a docstring of their own."""
+    """Skip fields of named tuples that have no docstring."""
     return True if str(getattr(of, "__doc__", "")).startswith("Alias for field number") else None
 
 

@@ -25,6 +25,11 @@ TEXTBOOK_AGREES = 0.1  # largest relative difference from the textbook velocity 
 SIGNIFICANT = 3.0  # standard errors from zero of an exponent whose sign is certain
 
 
+def format_power(value: float) -> str:
+    """A small number in one digit, "1e-9"."""
+    return f"{value:.0e}".replace("e-0", "e-")
+
+
 def heights(table: pd.DataFrame) -> dict[str, str]:
     """Number and range of the initial heights of a sweep."""
     z0 = np.sort(table.z0.unique())
@@ -77,7 +82,7 @@ def fig20(*, converged: pd.DataFrame) -> dict[str, str]:
 
 
 def fig22(*, converged: pd.DataFrame, spectrum: pd.DataFrame, euler: pd.DataFrame | None = None) -> dict[str, str]:
-    numbers = {"epsilon": f"{converged.attrs['epsilon']:.0e}".replace("e-0", "e-")}
+    numbers = {"epsilon": format_power(converged.attrs["epsilon"])}
     if euler is None:
         return numbers
     up = spectrum[(spectrum.branch == "up")].sort_values("acceleration")
@@ -201,12 +206,13 @@ def speed_accuracy(
     return {
         "duration": f"{jumping.attrs['duration']:g}",
         "paper_factor": f"{float(f'{paper.ratio:.2g}'):g}",
-        "equal_error": f"{equal_error:g}",
+        "equal_error": format_power(equal_error),
         "rival_factor": f"{float(f'{rival[0].ratio:.2g}'):g}" if rival else "no",
         "rival": rival[0].method if rival else "none of which keeps that error",
         "missing": ", ".join(missing),
         "digits": str(reference.attrs["digits"]),
-        "reference_difference": f"{reference.difference.abs().max():.0e}".replace("e-0", "e-"),
+        "reference_difference": format_power(reference.difference.abs().max()),
+        "agreeing": str(int(-np.log10(reference.difference.abs().max()))),
     }
 
 
@@ -218,16 +224,18 @@ def stability_maps(*, stability: pd.DataFrame) -> dict[str, str]:
 
 
 def failed_rivals(*, stability: pd.DataFrame) -> dict[str, str]:
-    """Numbers of the stability maps, and the hard cases in which other integrators fail."""
+    """Numbers of the stability maps, the hard cases in which other integrators fail, and missing integrators."""
     rivals = stability.attrs["rivals"]["integrators"]
     rows = stability[stability.panel.str.startswith("hard") & stability.method.isin(rivals)]
+    failed = rows[~rows.outcome.isin(["right", "not installed"])]
     failures = [
-        f"{panel.removeprefix('hard: ')}: {', '.join(failed.method)} ({outcome})"
-        for (panel, outcome), failed in rows[rows.outcome != "right"].groupby(["panel", "outcome"], sort=False)
+        f"{panel.removeprefix('hard: ')}: {', '.join(methods.method)} ({outcome})"
+        for (panel, outcome), methods in failed.groupby(["panel", "outcome"], sort=False)
     ]
     return stability_maps(stability=stability) | {
         "failures": "; ".join(failures) or "none",
-        "tolerance": f"{stability.attrs['rivals']['tolerance']:g}",
+        "missing": ", ".join(rows[rows.outcome == "not installed"].method.unique()),
+        "tolerance": format_power(stability.attrs["rivals"]["tolerance"]),
         "max_evaluations": f"{stability.attrs['rivals']['max_evaluations']:,}",
     }
 
@@ -249,7 +257,7 @@ def sensitivity(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings:
     cusps = meetings[(meetings.begin == first) & (meetings.meeting == "cusp") & (meetings.parameter == "damping")]
     return {
         "heights": " and ".join(", ".join(f"{one:g}" for one in heights).rsplit(", ", 1)) or "no",
-        "error": f"{error.max():.0e}".replace("e-0", "e-"),
+        "error": format_power(error.max()),
         "failed": str(len(derivatives) - len(right)),
         "damping": f"{own.damping_group.iloc[0]:.2f}" if len(own) else "unknown",
         "stiffness": f"{own.stiffness_group.iloc[0]:.1f}" if len(own) else "unknown",

@@ -33,7 +33,7 @@ VERTICAL = ("allow", "clip")
 VERTICAL_OF = {"allow": "allow", "frictionless": "allow", "clip": "clip"}
 # Excitation cycles after which an unsettled motion is not in the first state, which settles within about 50.
 CYCLES = 1000
-# Amplitudes above an edge at which the first state may come back.
+# Amplitudes above an edge at which the first state may return.
 FURTHER = 10
 # Of the contact steps (see figure scene_budget).
 TOLERANCE = 1e-6
@@ -55,7 +55,7 @@ def impact_loss(damping: np.ndarray, stiffness: np.ndarray, model: dict) -> np.n
     """Relative loss of speed in an impact, d_c T / m, to first order in the damping and up to a factor of order one.
 
     Contacts with equal loss have nearly the same coefficient of restitution. The edges change least along lines of
-    equal loss, and a table over the loss has no corners without jumping motion or with nothing else.
+    equal loss, and a table over the loss has no corners in which no part jumps, or all parts do.
     """
     return damping * duration_over_mass(stiffness, model)
 
@@ -66,7 +66,7 @@ def find_edges(
     """Amplitude (m/s²) above which initial conditions no longer lead to the first state, shape (n,); NaN for none.
 
     A scan from below brackets the edge, and bisection locates it. Below the edge there may be tongues: narrow intervals
-    of amplitudes with another state. If the first state comes back at one of the amplitudes `further` above, the search
+    of amplitudes with another state. If the first state returns at one of the amplitudes `further` above, the search
     goes on from there. It cannot begin from above, because far above the edge there are unrelated motions without a
     long flight.
 
@@ -74,7 +74,7 @@ def find_edges(
     ----------
     parameters : float64, shape (n, 16), rows as from model.pack; their acceleration is not used
     scan : ascending amplitudes, m/s², shape (k,), or (k, n) for a scan of each row
-    further : distances above an edge at which the first state may come back, m/s², shape (s,)
+    further : distances above an edge at which the first state may return, m/s², shape (s,)
     resolution : largest width of the final bracket, m/s²
     decide : function from parameters, shape (m, 16), to states of motion, str, shape (m,)
     """

@@ -115,7 +115,7 @@ def parameters_of_both_states(parameters: np.ndarray, found: Curve, measured: di
 
     The axes after the first one are state and end. If both states do not coexist at an end, the nearest amplitude at
     which they do replaces it, moved inside by a step of the amplitude axis. The initial height of the first state is
-    the middle of the heights that lead to it; that of the second state is the height with the lowest edge.
+    the middle of the heights that lead to it; the initial height of the second state is the height of the lowest edge.
     """
     inside = measured["inside"]
     low, high = measured["interval"]

@@ -1,9 +1,9 @@
 """Profile of each parameter: the least total misfit of the paper's numbers over its value.
 
 The total misfit is the sum of the squared misfits, as for independent errors with a standard deviation of half an
-accepted interval. This is generous, because the standard deviation of a uniform distribution over the interval is
-smaller by √3. It is not generous that critical heights on one curve count as independent. If even the best parameters
-miss by more than these errors allow, all errors are scaled up by one factor (Birge's ratio).
+accepted interval. This makes the intervals wider, because the standard deviation of a uniform distribution over the
+accepted interval is smaller by √3. Counting critical heights on one curve as independent makes them narrower. If even
+the best parameters miss by more than these errors allow, all errors are scaled up by one factor (Birge's ratio).
 """
 
 from collections.abc import Callable

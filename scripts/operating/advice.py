@@ -1,9 +1,9 @@
 """What to do: amplitudes at which to run a conveyor, what is certain there, and which parameters make it faster.
 
-Two aims are considered. `certain`: every start of the box ends in one velocity, and the velocity is the largest of its
-kind. `fast`: there is no chaos, and the velocity of the fastest motion times the share of starts that reach it is the
-largest. Both must hold at all amplitudes looked at within a relative margin, because no drive holds its amplitude
-exactly.
+There are two aims. `certain`: all initial conditions of the box lead to one velocity, and no other amplitude where
+this holds has a larger one. `fast`: there is no chaos, and the velocity of the fastest motion times the share of
+initial conditions that reach it is largest. Both must hold at all amplitudes of the table within a relative margin,
+because no drive holds its amplitude exactly.
 """
 
 import numpy as np
@@ -17,7 +17,9 @@ from operating.shares import APART, FORGOTTEN, continue_normal, motions_at, para
 from pipeline import fields
 from pipeline.motions import motions_of_starts
 
-AIM = fields.text("aim", f"{CERTAIN}: one velocity for all starts, {FAST}: largest velocity times share, without chaos")
+AIM = fields.text(
+    "aim", f"{CERTAIN}: one velocity for all initial conditions, {FAST}: largest velocity times share, without chaos"
+)
 TABLES = {
     "advice": (
         AIM,
@@ -25,10 +27,10 @@ TABLES = {
         fields.number("throw_number", "1", "throw number Γ"),
         *fields.STATE,
         fields.number("mean_velocity", "m/s", "mean feeding velocity of the fastest motion"),
-        fields.number("share", "1", "of all starts of the box that get this velocity"),
+        fields.number("share", "1", "of the initial conditions that reach this velocity"),
         fields.number("stderr", "1", "standard error of the share"),
         fields.number(
-            "knock", "m/s", "smallest sudden change of ż that ends the motion; null if none of those tried does"
+            "knock", "m/s", "smallest sudden change of ż that ends the motion; null if no change that was tried does"
         ),
         fields.number("largest_kick", "m/s", "largest change of ż that was tried"),
         fields.number("impact_speed", "m/s", "largest speed of approach across the track in a period"),
@@ -39,9 +41,9 @@ TABLES = {
         AIM,
         fields.text("parameter", "that is changed"),
         fields.number("value", "SI", "that it gets"),
-        fields.text("regime", "what the starts of the box end in then, as in the table of regimes"),
-        fields.number("mean_velocity", "m/s", "mean over all starts; null where it is not known"),
-        fields.number("gain", "1", "its change, relative to the mean over all starts without a change"),
+        fields.text("regime", "of this amplitude with the changed parameter, as in the table of regimes"),
+        fields.number("mean_velocity", "m/s", "mean over all initial conditions; null where it is not known"),
+        fields.number("gain", "1", "relative change of the mean velocity"),
     ),
 }
 
@@ -97,7 +99,7 @@ def smallest_knock(
     return ended.min(initial=np.inf) if len(ended) else np.nan
 
 
-def mean_over_starts(table: pd.DataFrame) -> float:
+def mean_over_initial_conditions(table: pd.DataFrame) -> float:
     return float((table.share * table.mean_velocity).sum(skipna=False))
 
 
@@ -110,15 +112,15 @@ def with_parameter(model: dict, parameter: str, value: float) -> dict:
 
 
 def changes_at(acceleration: float, settings: dict, changes: dict[str, float], *, threads: int = 1) -> list[dict]:
-    """What the starts end in if one parameter at a time is increased or decreased."""
-    before = mean_over_starts(motions_at(np.array([acceleration]), settings, threads=threads))
+    """Regime and mean velocity if one parameter at a time is increased or decreased."""
+    before = mean_over_initial_conditions(motions_at(np.array([acceleration]), settings, threads=threads))
     rows = []
     for parameter, change in changes.items():
         for value in (settings["model"][parameter] - change, settings["model"][parameter] + change):
             changed = {**settings, "model": with_parameter(settings["model"], parameter, value)}
             table = motions_at(np.array([acceleration]), changed, threads=threads)
             _, (regime,) = regimes_of(table, settings["same_velocity"])
-            after = mean_over_starts(table)
+            after = mean_over_initial_conditions(table)
             gain = after / before - 1.0
             rows.append(
                 {"parameter": parameter, "value": value, "regime": regime, "mean_velocity": after, "gain": gain}

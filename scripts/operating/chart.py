@@ -1,4 +1,4 @@
-"""The operating chart in words: one paragraph and one table, all numbers from the tables."""
+"""The operating chart in words: advice, a summary and a table, with all numbers from the tables."""
 
 import math
 from typing import Any, NamedTuple
@@ -10,7 +10,8 @@ from conveyor.parameters import UNITS
 from operating.regimes import AIMS, CHAOS, ONE, REGIMES_OF_AIMS, SEVERAL, UNKNOWN, best_of
 from pipeline.templates import render
 
-# None of n independent starts did it: with 95 % confidence fewer than this over n do (-log 0.05 is 2.996).
+# If none of n independent initial conditions does something, then with 95 % confidence at most a share of 3/n does it:
+# -log(0.05) is 2.996.
 RULE_OF_THREE = 3.0
 WORTH_CHANGING = 0.01  # relative gain of velocity from which a change of a parameter is named
 MOST_CHANGES = 4  # that are named
@@ -41,7 +42,7 @@ def places(begin: pd.Series, end: pd.Series, resolution: float) -> str:
 
 
 def regular(shares: pd.DataFrame, regimes: pd.DataFrame) -> dict[str, str]:
-    """Where every start ends in one velocity, and where in several; of these which share gets the best one."""
+    """Where all initial conditions lead to one velocity, where to several, and which share reaches the largest one."""
     resolution = shares.attrs["resolution"]
     one, several = regimes[regimes.regime == ONE], regimes[regimes.regime == SEVERAL]
     found = {
@@ -73,7 +74,7 @@ def regular(shares: pd.DataFrame, regimes: pd.DataFrame) -> dict[str, str]:
 
 
 def irregular(regimes: pd.DataFrame, resolution: float) -> dict[str, str]:
-    """Where chaos begins, where it is all there is, and where nothing is known."""
+    """Where chaos begins, where there is nothing but chaos, and where the velocity is not known."""
     chaotic = regimes[regimes.states.str.contains("chaos")].begin.head(1)
     found = {"chaos": places(chaotic, chaotic, resolution) if len(chaotic) else ""}
     for name, regime in (("only", CHAOS), ("unknown", UNKNOWN)):
@@ -83,7 +84,7 @@ def irregular(regimes: pd.DataFrame, resolution: float) -> dict[str, str]:
 
 
 def search_numbers(shares: pd.DataFrame) -> dict[str, str]:
-    """What was looked at, and how closely."""
+    """Initial conditions, amplitudes and resolution of the table of shares."""
     search = shares.attrs
     amplitudes = np.sort(shares.acceleration.unique())
     return {

@@ -1,10 +1,10 @@
 """Drive design: amplitude, frequency, angle and phase shift at which parts are fast, gently handled and cheap to drive.
 
 NSGA-II (pymoo) searches the Pareto front of three objectives: the velocity that nearly all initial conditions reach,
-the impact speed and the acceleration of the drive. A design must give one velocity (to a wanted share of the initial
-conditions), no chaos, at least the least useful velocity, at most the largest impact speed, and a displacement of the
-drive within its limit. All of this must hold although the drive keeps its amplitude to a relative margin only: the
-velocity counts that is the least within the margin, and the largest impact speed.
+the impact speed and the acceleration of the drive. A design must give one velocity to the required share of the initial
+conditions, no chaos, at least the least useful velocity, at most the largest impact speed, and a displacement of the
+drive within its limit. Because a drive keeps its amplitude only within a relative margin, all of this must hold in the
+whole margin: the smallest velocity and the largest impact speed in it count.
 """
 
 from collections.abc import Callable
@@ -19,15 +19,16 @@ from pymoo.indicators.hv import HV
 from pymoo.optimize import minimize
 from pymoo.util.nds.non_dominated_sorting import NonDominatedSorting
 
+from conveyor.solver.progress import bar
 from operating.regimes import same
 from operating.shares import brief_velocities, motions_of_conveyors, parameters_of, starts_of_box, velocities
 from pipeline import fields
 from pipeline.fields import AXES
 
 SEARCHED = ("acceleration", "frequency", "angle", "phase_shift")
-# Errors of the amplitude, in parts of the margin, at which a design of the search is followed, and one that is checked.
+# Errors of the amplitude, as parts of the margin, at which the search follows a design, and at which it is checked.
 SEARCH_ERRORS, CHECK_ERRORS = np.array([-1.0, 1.0]), np.array([-1.0, 0.0, 1.0])
-FIRST_STARTS = 1  # initial conditions that show most designs with chaos, which cost most
+FIRST_STARTS = 1  # initial conditions that reveal most designs with chaos, which cost most
 TABLES = {
     "drive_front": (
         *(fields.number(name, AXES[name].metadata[b"unit"].decode(), "of the design") for name in SEARCHED),
@@ -86,12 +87,12 @@ def rows_of_designs(designs: np.ndarray, starts: np.ndarray, model: dict) -> np.
 def outcome_of_conveyor(
     velocity: np.ndarray, share: np.ndarray, impact: np.ndarray, is_chaos: np.ndarray, same_velocity: float
 ) -> dict[str, float]:
-    """What the initial conditions of one conveyor reach: `velocity`, that of most of them, with its share, its impact
-    speed and the share of chaos; mean and extremes over all of them. NaN where a velocity is not known.
+    """What the initial conditions of one conveyor reach: the `velocity` that most of them reach, with its share, its
+    impact speed and the share of chaos; mean and extremes over all of them. NaN where a velocity is not known.
 
     velocity, share, impact, is_chaos : of each motion, shape (m,)
     """
-    # Of the initial conditions that get the velocity of each motion; unknown velocities equal nothing.
+    # Shares of the initial conditions that reach the velocity of each motion; an unknown velocity equals no other.
     shares = same(velocity[:, None], velocity, same_velocity) @ share
     most = shares.argmax()
     return {
@@ -145,7 +146,7 @@ def constraints(outcome: pd.DataFrame, settings: dict) -> np.ndarray:
         outcome.impact_speed / settings["impact_speed"] - 1.0,
         outcome.displacement / settings["displacement"] - 1.0,
     ]
-    # What is not known counts as violated.
+    # A constraint on an unknown value counts as violated.
     return np.nan_to_num(np.column_stack(violations), nan=1.0)
 
 
@@ -158,7 +159,7 @@ def search_outcomes(designs: np.ndarray, settings: dict) -> tuple[np.ndarray, np
     """Objectives, shape (k, 3), all to be minimised, and constraints, shape (k, 5), of designs of the search.
 
     Designs with too large a displacement are not followed, and designs that break a constraint with the first initial
-    conditions are not followed from the other ones.
+    conditions are not followed from the remaining ones.
     """
     outcome = pd.DataFrame({"displacement": displacement(designs)}).reindex(columns=[*OVERALL, "displacement"])
     within = outcome.displacement.to_numpy() <= settings["displacement"]
@@ -174,15 +175,16 @@ def search_outcomes(designs: np.ndarray, settings: dict) -> tuple[np.ndarray, np
 
 
 def reference_point(settings: dict) -> np.ndarray:
-    """Objectives from which a design is worth nothing."""
+    """The objectives of a worthless design: the reference point of the hypervolume."""
     return np.array([-settings["velocity"], settings["impact_speed"], settings["bounds"]["acceleration"][1]])
 
 
 class Front(Callback):
-    """Keeps the designs within the constraints that none betters, and the hypervolume after each generation."""
+    """Keeps the non-dominated designs within the constraints, and the hypervolume after each generation."""
 
-    def __init__(self, settings: dict):
+    def __init__(self, settings: dict, count: Callable[[], object]):
         super().__init__()
+        self.count = count  # called after each generation
         self.bounds, self.reference, self.volumes = settings["bounds"], reference_point(settings), []
         self.designs, self.objectives = np.empty((0, len(SEARCHED))), np.empty((0, len(self.reference)))
 
@@ -192,10 +194,11 @@ class Front(Callback):
         objectives = np.vstack([self.objectives, algorithm.pop.get("F")[within]])
         self.designs, self.objectives = best_of_designs(designs, objectives)
         self.volumes.append(hypervolume(self.objectives, self.reference))
+        self.count()
 
 
 def best_of_designs(designs: np.ndarray, objectives: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Designs that no other design betters, each once, sorted by their objectives."""
+    """The non-dominated designs, each once, sorted by their objectives."""
     if len(designs) == 0:
         return designs, objectives
     objectives, places = np.unique(objectives, axis=0, return_index=True)
@@ -208,8 +211,11 @@ def hypervolume(objectives: np.ndarray, reference: np.ndarray) -> float:
     return float(HV(ref_point=reference)(objectives)) if len(objectives) else 0.0
 
 
-def search(settings: dict, seed: int) -> Front:
-    """The Pareto front of one seed; objectives are to be minimised: -velocity, impact speed, acceleration."""
+def search(settings: dict, seed: int, count: Callable[[], object]) -> Front:
+    """The Pareto front of one seed; objectives are to be minimised: -velocity, impact speed, acceleration.
+
+    count : called after each generation
+    """
     bounds = bounds_of_points(settings["bounds"])
 
     class Designs(Problem):
@@ -220,7 +226,7 @@ def search(settings: dict, seed: int) -> Front:
             designs = designs_of(x, settings["bounds"])
             out["F"], out["G"] = search_outcomes(designs, settings)
 
-    front = Front(settings)
+    front = Front(settings, count)
     # Many random designs find the narrow ranges with one velocity; the best ones go on.
     drawn = np.random.default_rng(seed).uniform(*bounds, (settings["drawn"], len(SEARCHED)))
     algorithm = NSGA2(pop_size=settings["population"], sampling=drawn)
@@ -229,9 +235,9 @@ def search(settings: dict, seed: int) -> Front:
 
 
 def spread(objectives: np.ndarray, count: int) -> np.ndarray:
-    """Places of at most `count` of some designs that differ as much as they can, the best in the first objective first.
+    """Indices of at most `count` designs that differ as much as possible, first the best in the first objective.
 
-    Each further one is the farthest from all before, in units of the range of each objective, shape (k, 3).
+    Each further design is the farthest from all previous ones, in units of the range of each objective, shape (k, 3).
     """
     if len(objectives) == 0:
         return np.empty(0, dtype=np.int64)
@@ -251,7 +257,7 @@ CHECKED = {
 
 
 def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFrame:
-    """A front with full operating runs of some designs, and the recommended ones among those that they confirm."""
+    """A front with full operating runs of some designs, and the recommended ones of the designs that they confirm."""
     front = front.assign(checked=False, confirmed=False, recommended=False, **dict.fromkeys(CHECKED.values(), np.nan))
     objectives = np.column_stack([-front.velocity, front.impact_speed, front.acceleration])
     chosen = spread(objectives, settings["checked"])
@@ -267,13 +273,14 @@ def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFr
     return front
 
 
-def make(settings: dict, *, threads: int = 1) -> dict[str, dict]:
+def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, dict]:
     """The columns of the tables of the front and of the generations."""
-    # What has not settled is refused, whether it is chaos or not.
+    # Designs with unsettled motions are refused, chaotic or not.
     few = {**settings, **settings["search"], "followed": 1, "exponents": False}
     # One thread for each seed: the designs of one generation are too few for several threads.
-    with ThreadPoolExecutor(threads) as pool:
-        searches = {seed: pool.submit(search, few, seed) for seed in settings["seeds"]}
+    total = len(settings["seeds"]) * settings["generations"]
+    with bar(total=total, label=progress, unit="generations") as shown, ThreadPoolExecutor(threads) as pool:
+        searches = {seed: pool.submit(search, few, seed, shown.update) for seed in settings["seeds"]}
     fronts = {seed: one.result() for seed, one in searches.items()}
     designs, objectives = best_of_designs(
         np.vstack([front.designs for front in fronts.values()]),

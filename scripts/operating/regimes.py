@@ -1,4 +1,4 @@
-"""What the shares of motions mean for who runs a conveyor: where one velocity is certain, where several exist."""
+"""Regimes: intervals of amplitudes with one velocity, with several velocities, with chaos."""
 
 import numpy as np
 import pandas as pd
@@ -20,25 +20,29 @@ SLIDES_AWAY = "slides away"
 
 TABLES = {
     "regimes": (
-        fields.count("number", "of the interval of amplitudes, from below"),
-        fields.text("regime", f"{', '.join(REGIMES)} (a start is undecided, or a velocity not known)"),
-        fields.number("begin", "m/s²", "lowest amplitude of the interval that was looked at"),
-        fields.number("end", "m/s²", "highest amplitude of the interval that was looked at"),
-        fields.number("step", "m/s²", "largest distance of neighbouring amplitudes that were looked at within"),
-        fields.count("amplitudes", "that were looked at"),
+        fields.count("number", "of the interval of amplitudes, in ascending order"),
+        fields.text("regime", f"{', '.join(REGIMES)} (a state is undecided, or a velocity is not known)"),
+        fields.number("begin", "m/s²", "smallest computed amplitude of the interval"),
+        fields.number("end", "m/s²", "largest computed amplitude of the interval"),
+        fields.number("step", "m/s²", "largest distance between neighbouring computed amplitudes"),
+        fields.count("amplitudes", "computed in the interval"),
         fields.text("states", "states of motion that occur, the most frequent one first"),
         fields.number("velocity_low", "m/s", "smallest mean velocity of any motion"),
         fields.number("best_low", "m/s", "smallest velocity, over the amplitudes, of the fastest motion"),
         fields.number("best_high", "m/s", "largest velocity of the fastest motion"),
-        fields.number("best_share_low", "1", "smallest share of starts that get the velocity of the fastest motion"),
-        fields.number("best_share_high", "1", "largest share of starts that get the velocity of the fastest motion"),
+        fields.number(
+            "best_share_low", "1", "smallest share of initial conditions that reach the velocity of the fastest motion"
+        ),
+        fields.number(
+            "best_share_high", "1", "largest share of initial conditions that reach the velocity of the fastest motion"
+        ),
         fields.number("best_share_stderr", "1", "largest standard error of these shares"),
     ),
 }
 
 
 def same(velocity: np.ndarray, other: float, share: float) -> np.ndarray:
-    """Which velocities are one with another: they differ by at most a share of the larger one."""
+    """Whether velocities count as equal to another: they differ by at most a share of the larger one."""
     return np.abs(velocity - other) <= share * np.maximum(np.abs(velocity), abs(other))
 
 
@@ -63,17 +67,17 @@ def regimes_of(table: pd.DataFrame, share: float) -> tuple[np.ndarray, np.ndarra
 
 
 def best_of(shares: pd.DataFrame, share: float) -> pd.DataFrame:
-    """By amplitude: `best`, the velocity of the fastest motion, `best_share`, that of all starts that get it, and the
-    `stderr` of the latter; NaN where no velocity is known.
+    """At each amplitude, the velocity of the fastest motion (`best`), the share of initial conditions that reach it
+    (`best_share`), and the standard error of this share (`stderr`); NaN where no velocity is known.
     """
     rows = []
     for acceleration, motions in shares.groupby("acceleration"):
         best = motions.mean_velocity.max()
-        get_it = float(motions.share[same(motions.mean_velocity.to_numpy(), best, share)].sum())
-        get_it = np.nan if np.isnan(best) else get_it
-        # The sum of shares may miss one by a rounding.
-        error = np.sqrt(max(get_it * (1.0 - get_it), 0.0) / motions.starts.sum())
-        rows.append((acceleration, best, get_it, error))
+        reach_it = float(motions.share[same(motions.mean_velocity.to_numpy(), best, share)].sum())
+        reach_it = np.nan if np.isnan(best) else reach_it
+        # Rounding may make the sum of shares slightly larger than 1.
+        error = np.sqrt(max(reach_it * (1.0 - reach_it), 0.0) / motions.starts.sum())
+        rows.append((acceleration, best, reach_it, error))
     return pd.DataFrame(rows, columns=["acceleration", "best", "best_share", "stderr"])
 
 

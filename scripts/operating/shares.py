@@ -1,7 +1,7 @@
-"""Basin stability: the motions in which the starts of a box end, with their shares and velocities, over the amplitude.
+"""Basin stability: the motions that random initial conditions lead to, with shares and velocities, over the amplitude.
 
-The starts are drawn independently, so that a share has the standard error of a binomial one. Steps of the amplitude are
-halved where the answer changes.
+The initial conditions are drawn independently from a box, so that the standard error of a share is binomial. Where the
+regime changes, steps of the amplitude are halved.
 """
 
 import math
@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor import ensemble
+from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.attractors.labels import Labels, continued
 from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
@@ -27,11 +28,11 @@ TABLES = {
         fields.count("motion", "number of the motion at this amplitude, the fastest one first"),
         *fields.STATE,
         fields.number("longest_flight", "1", "of the motion, in excitation cycles; null for none"),
-        fields.count("starts", "starts that end in the motion"),
-        fields.number("share", "1", "of all starts of the box"),
+        fields.count("starts", "initial conditions that lead to the motion"),
+        fields.number("share", "1", "of all initial conditions"),
         fields.number("stderr", "1", "standard error of the share"),
         fields.number("mean_velocity", "m/s", "mean feeding velocity of the motion; null where it is not known"),
-        fields.number("velocity_stderr", "m/s", "its standard error, from several starts that end in the motion"),
+        fields.number("velocity_stderr", "m/s", "its standard error, from several of these trajectories"),
         fields.number(
             "impact_speed", "m/s", "largest speed of approach at an impact; 0 without impacts, null if unknown"
         ),
@@ -40,23 +41,23 @@ TABLES = {
     ),
 }
 
-# Motions of one state and period are two if their longest flights are farther apart, in excitation cycles.
+# Two motions of one state and period are different if their longest flights differ by more, in excitation cycles.
 APART = 0.01
-# A mean velocity is known if a run twice as long has the same one, to this share of the plate's largest.
+# A mean velocity is known if a run twice as long gives the same, up to this share of the plate's largest velocity.
 SETTLED = 1e-3
-DOUBLINGS = 6  # of the run, after which its velocity is not known
+DOUBLINGS = 6  # of the run, after which its velocity counts as not known
 MOST_CYCLES = 4000  # of a brief run that is longer than asked for
-FORGOTTEN = 200  # excitation cycles that the horizontal motion gets at least to forget its start
+FORGOTTEN = 200  # excitation cycles, at least, for the transient of the feeding motion
 
 
 def starts_of_box(settings: dict) -> np.ndarray:
-    """Height above the plate (m), vertical velocity (m/s) and phase (rad) of the starts, shape (n, 3)."""
+    """Initial heights above the plate (m), velocities normal to it (m/s) and phases (rad), shape (n, 3)."""
     low, high = np.array([settings[name] for name in ("height", "vz0", "psi0")], dtype=np.float64).T
     return low + (high - low) * np.random.default_rng(settings["seed"]).random((settings["starts"], 3))
 
 
 def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:
-    """Packed parameters of all starts, shape (n, 3), at each of m amplitudes, shape (m n, 16)."""
+    """Packed parameters, shape (m n, 16), of n initial conditions, shape (n, 3), at each of m amplitudes."""
     _, conveyors = grid.product({"acceleration": list(amplitudes)}, model)
     rows = np.repeat(conveyors, len(starts), axis=0)
     height, velocity, phase = np.tile(starts, (len(amplitudes), 1)).T
@@ -67,7 +68,10 @@ def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np
 
 
 def groups(found: Labels) -> np.ndarray:
-    """The number of each start's motion, int64, shape (n,): state and period are one, longest flights neighbours."""
+    """The number of the motion that each label belongs to, int64, shape (n,).
+
+    Labels of one motion have one state and one period, and their longest flights are neighbours.
+    """
     flights = np.nan_to_num(found.longest_flight, nan=-1.0)
     order = np.lexsort((flights, found.period, found.state))
     same = (
@@ -80,11 +84,16 @@ def groups(found: Labels) -> np.ndarray:
     return number
 
 
+def select(found: Labels, places: slice | np.ndarray) -> Labels:
+    """The labels at some places."""
+    return Labels(*(column[places] for column in found))
+
+
 def continue_normal(rows: np.ndarray, cycles: np.ndarray, settings: dict, *, threads: int = 1) -> np.ndarray:
-    """Packed parameters, shape (n, 16), that go on where the motion normal to the track is after some cycles.
+    """Packed parameters, shape (n, 16), that continue the motion normal to the track after some excitation cycles.
 
     rows : packed parameters of trajectories, shape (n, 16)
-    cycles : excitation cycles that each of them is followed for, shape (n,)
+    cycles : of each trajectory, shape (n,)
     """
     durations = cycles / rows[:, FREQUENCY]
     ends = ensemble.run(rows, duration=durations, tolerance=settings["tolerance"], needs="vertical", threads=threads)
@@ -94,10 +103,10 @@ def continue_normal(rows: np.ndarray, cycles: np.ndarray, settings: dict, *, thr
 def last_quarters(
     parameters: np.ndarray, durations: np.ndarray, tolerance: float, threads: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Mean feeding velocities (m/s) over the last quarters of runs, shape (n, k); of the longest run the largest speed
-    of approach (m/s) and contact force (N) over its last quarter, shape (n, 2), and the status.
+    """Mean feeding velocities (m/s) over the last quarters of runs, shape (n, k), and, for the last quarter of the
+    longest run, the largest speed of approach (m/s) and contact force (N), shape (n, 2), and the status.
 
-    durations : s, shape (n, k); the last quarter of each begins behind the end of the one before
+    durations : s, shape (n, k); the last quarter of each run begins after the end of the run before
     """
     times = np.stack([(1.0 - LAST) * durations, durations], axis=-1).reshape(len(durations), 2 * durations.shape[1])
     means, codes = np.empty_like(durations), np.empty(len(durations), dtype=np.int64)
@@ -116,10 +125,10 @@ def last_quarters(
 
 
 def velocities(
-    parameters: np.ndarray, period: np.ndarray, settled: np.ndarray, settings: dict, *, threads: int = 1
+    parameters: np.ndarray, found: Labels, settings: dict, *, threads: int = 1
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Mean feeding velocity (m/s) of starts once they have settled, shape (n,); the largest speed of approach (m/s) and
-    contact force (N) over the same cycles, whole periods of the motion, shape (n, 2); and why they are not known.
+    """Mean feeding velocity (m/s) of settled trajectories, shape (n,); the largest speed of approach (m/s) and contact
+    force (N) over the same cycles, whole periods of the motion, shape (n, 2); and why they are not known.
 
     Each trajectory is followed until it has settled, and then twice as long, until both mean velocities agree. They
     never agree in chaos, where the mean is taken over the longer run.
@@ -127,11 +136,12 @@ def velocities(
     Parameters
     ----------
     parameters : float64, shape (n, 16)
-    period : of the motion in excitation cycles, 0 for none
-    settled : excitation cycles after which the vertical motion has settled
+    found : labels of these trajectories
     """
-    n = len(parameters)
-    found, status = np.full(n, np.nan), np.full(n, "mean velocity not settled", dtype=object)
+    n, period = len(parameters), found.period
+    # A motion without a period is not more settled in later cycles.
+    settled = np.where(period > 0, found.cycles, np.minimum(found.cycles, settings["cycles"]))
+    velocity, status = np.full(n, np.nan), np.full(n, "mean velocity not settled", dtype=object)
     peaks = np.full((n, 2), np.nan)
     plate = parameters[:, ACCELERATION] * np.cos(parameters[:, ANGLE]) / (2.0 * math.pi * parameters[:, FREQUENCY])
     # A mean over whole periods; the last quarter of a run is what a mean is taken over.
@@ -146,21 +156,21 @@ def velocities(
         failed = why != "ok"
         status[open_[failed]] = why[failed]
         for mean in means.T:
-            close = np.abs(mean - found[open_]) <= SETTLED * plate[open_]
-            found[open_] = mean
+            close = np.abs(mean - velocity[open_]) <= SETTLED * plate[open_]
+            velocity[open_] = mean
         known = ~failed & (close | (period[open_] == 0))
         status[open_[known]] = "ok"
         open_ = open_[~failed & ~known]
-    found[status != "ok"] = peaks[status != "ok"] = np.nan
-    return found, peaks, status
+    velocity[status != "ok"] = peaks[status != "ok"] = np.nan
+    return velocity, peaks, status
 
 
 def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> np.ndarray:
     """Durations (s) of runs whose last quarter has the mean velocity of settled normal motions, shape (n,).
 
-    The last quarter holds whole periods. In the three quarters before, friction must be able to change the velocity of
-    the part by that of the plate: on average, g (μ cos α - |sin α|) is left of it to do so. On tracks that are nearly
-    too steep this takes more cycles than asked for.
+    The last quarter contains whole periods. In the three quarters before it, friction must be able to accelerate the
+    part to the velocity of the plate. The mean acceleration that remains for this is g (μ cos α - |sin α|), so tracks
+    that are nearly too steep need more than `cycles`.
 
     parameters, period : packed, shape (n, 16), and the period in excitation cycles, 0 for none, shape (n,)
     cycles : least excitation cycles of a run
@@ -175,11 +185,13 @@ def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> 
 
 
 def brief_velocities(
-    parameters: np.ndarray, period: np.ndarray, settled: np.ndarray, settings: dict, *, threads: int = 1
+    parameters: np.ndarray, found: Labels, settings: dict, *, threads: int = 1
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """What `velocities` returns, from one run that begins with the settled normal motion; see `brief_durations`."""
-    rows = continue_normal(parameters, settled, settings, threads=threads)
-    durations = brief_durations(rows, period, settings["cycles"])
+    """What `velocities` returns, from one run that begins where the search for labels ended; see `brief_durations`."""
+    rows = parameters.copy()
+    rows[:, PSI0] = trajectory.BEGIN_OF_CYCLE
+    rows = stroboscopic_map.pack_states(rows, np.column_stack([found.delta, found.v]), settings["tolerance"])
+    durations = brief_durations(rows, found.period, settings["cycles"])
     run = ensemble.run(rows, duration=durations, tolerance=settings["tolerance"], threads=threads)
     return run["mean_velocity"], np.column_stack([run["impact_speed"], run["peak_force"]]), run["status"]
 
@@ -203,26 +215,23 @@ def motions_of_conveyors(
     rows, followed = [], []
     for k in range(len(parameters) // starts):
         own = slice(k * starts, (k + 1) * starts)
-        number = groups(Labels(*(column[own] for column in found)))
+        number = groups(select(found, own))
         for motion in range(number.max() + 1):
             members = own.start + np.flatnonzero(number == motion)
             rows.append((k, members[0], len(members)))
-            followed.append(members[np.argsort(found.cycles[members], kind="stable")][: settings["followed"]])
+            most = settings["followed"] if found.state[members[0]] != "undecided" else 0
+            followed.append(members[np.argsort(found.cycles[members], kind="stable")][:most])
     conveyor, first, count = np.array(rows).T
     chosen = np.concatenate(followed)
-    period, cycles = found.period[chosen], found.cycles[chosen]
-    # What has no period is no more settled later on.
-    settled = np.where(period > 0, cycles, np.minimum(cycles, settings["cycles"]))
-    each, each_peaks, each_status = measure(parameters[chosen], period, settled, settings, threads=threads)
-    each_status[found.state[chosen] == "undecided"] = "state not decided"
+    each, each_peaks, each_status = measure(parameters[chosen], select(found, chosen), settings, threads=threads)
     velocity, error = np.full(len(rows), np.nan), np.full(len(rows), np.nan)
     peaks, status = np.full((len(rows), 2), np.nan), np.full(len(rows), "ok", dtype=object)
     end = 0
     for row, size in enumerate(map(len, followed)):
         own, end = slice(end, end + size), end + size
         failed = each_status[own] != "ok"
-        if failed.any():
-            status[row] = each_status[own][failed][0]
+        if size == 0 or failed.any():
+            status[row] = each_status[own][failed][0] if size else "state not decided"
             continue
         velocity[row], peaks[row] = each[own].mean(), each_peaks[own].max(axis=0)
         error[row] = each[own].std(ddof=1) / math.sqrt(size) if size > 1 else np.nan

@@ -1,7 +1,7 @@
 """The velocity of each regular state over the inclination of the track and the phase shift of the drive.
 
 The motion normal to the track depends on the inclination, through g cos α, and not on the phase shift. Therefore each
-state is settled once per inclination; for each phase shift, only the feeding motion is followed from there.
+state is computed once per inclination; for each phase shift, only the feeding motion is followed from there.
 
 On average over a period, the contact force is m g cos α. Where |tan α| exceeds the friction coefficient, friction
 cannot hold a part in any periodic motion: it slides downhill faster and faster, and has no mean velocity.
@@ -23,7 +23,7 @@ TABLES = {
         fields.number("phase_shift", "rad", "phase by which the motion along the track leads"),
         *fields.STATE,
         fields.number("mean_velocity", "m/s", "mean feeding velocity; null where there is none"),
-        fields.text("status", f"ok, no start settles to the state, or {SLIDES_AWAY}"),
+        fields.text("status", f"ok, no initial condition leads to the state, or {SLIDES_AWAY}"),
     )
 }
 
@@ -42,7 +42,7 @@ def settled_motions(
     for number in range(len(inclinations)):
         own = np.arange(number * len(starts), (number + 1) * len(starts))
         for place, state in enumerate(STATES):
-            # The most frequent period, of which the trajectory that settles first.
+            # The trajectory with the most frequent period that settles first.
             members = own[(found.state[own] == state) & (found.period[own] > 0)]
             if len(members):
                 period = np.bincount(found.period[members]).argmax()
@@ -66,7 +66,10 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     velocity, period = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64)
     velocity[number, state] = run["mean_velocity"].reshape(len(settled), len(shifts))
     period[number, state] = of_motion[:, None]
-    model, status = settings["model"], np.where(period > 0, "ok", "no start settles to the state").astype(object)
+    model, status = (
+        settings["model"],
+        np.where(period > 0, "ok", "no initial condition leads to the state").astype(object),
+    )
     steep = np.abs(np.tan(inclinations)) > model.get("static_friction", model["friction"])
     velocity[steep], status[steep] = np.nan, SLIDES_AWAY
     alpha, state, shift = np.indices(shape)

@@ -77,7 +77,7 @@ TABLES = {
     ),
     "certified_bifurcations": (
         fields.text("kind", "fold or period_doubling"),
-        fields.count("number", "number of the bifurcation among those of its kind"),
+        fields.count("number", "number of the bifurcation among all of its kind"),
         fields.count("period", "excitation cycles of the orbit that folds or doubles"),
         fields.flag("proved", "whether the bifurcation is proved"),
         fields.text("reason", "why not; null if it is proved"),

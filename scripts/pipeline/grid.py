@@ -79,7 +79,7 @@ def product(
     ----------
     axes : the axes by name; the first one varies slowest
     model : values of the remaining parameters; missing ones have the paper's defaults
-    rows : first row and row behind the last one; None for all rows
+    rows : the first row and the row after the last one; None for all rows
 
     Returns
     -------

@@ -1,7 +1,7 @@
-"""Parquet tables: atomic writing of equal bytes for equal content, checked reading.
+"""Write Parquet tables in one step, with equal bytes for equal content, and check them when they are read.
 
-Units are in the metadata of the columns, and again in the metadata of the table for readers that do not show the
-former. The metadata of the table also contain its kind and the settings that it was made from (model, duration, method,
+Units are in the metadata of each column. They are also in the metadata of the table, because some readers show only
+these. The metadata of the table also contain its kind and the settings that it was made from (model, duration, method,
 …), which pandas.read_parquet shows as `attrs`.
 """
 
@@ -25,7 +25,7 @@ KIND = b"kind"
 UNIT, UNITS = b"unit", b"units"
 # Stands for the value of a missing key in messages.
 MISSING = "nothing"
-# Function from first row and row behind the last one to the expected values of columns, by name.
+# Function from the first row and the row after the last one to the expected values of columns, by name.
 Expected = Callable[[tuple[int, int]], Mapping[str, np.ndarray]]
 # The key under which pandas stores DataFrame.attrs.
 SETTINGS = b"PANDAS_ATTRS"
@@ -80,7 +80,7 @@ def replaced(path: str | Path) -> Iterator[Path]:
 
 
 def encoding(schema: pa.Schema) -> dict[str, Any]:
-    """Options of the Parquet writer. Floats are stored as byte streams, which take a third less room."""
+    """Options of the Parquet writer. Floats are stored as byte streams, which takes a third less space."""
     floats = [column.name for column in schema if pa.types.is_floating(column.type)]
     others = [column.name for column in schema if column.name not in floats]
     return {

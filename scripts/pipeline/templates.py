@@ -14,6 +14,6 @@ def render(template: str, values: Mapping[str, Any]) -> str:
     Raises
     ------
     jinja2.UndefinedError
-        names a value that the template asks for and nobody gives
+        names a value that the template uses and `values` does not have
     """
     return ENVIRONMENT.from_string(template).render(values)

@@ -47,7 +47,9 @@ def notice(overlays: list[str], sweeps: dict, paper_sweeps: dict) -> dict[str, s
     if not overlays:
         return {}
     own, paper = count_points(sweeps), count_points(paper_sweeps)
-    kind = f"coarse axes, {own:,} sweep points instead of {paper:,}" if own < paper else "a config of its own"
+    kind = (
+        f"coarse axes, {own:,} sweep points instead of {paper:,}" if own < paper else "a config other than the paper's"
+    )
     return {
         "heading": f"Made with {', '.join(overlays)}: {kind}.",
         "text": "Verdicts, captions and numbers belong to this config, not to the paper's.",

@@ -23,7 +23,7 @@ CURVE = (
     fields.text("parameter_unit", "unit of the varied parameter"),
 )
 PLACE = (
-    fields.number("value", "that of parameter_unit", "value of the varied parameter"),
+    fields.number("value", "see parameter_unit", "value of the varied parameter"),
     fields.number("acceleration", "m/s²", "amplitude of the excitation"),
     fields.number("amplitude_group", "1", "Γ = a_z/g"),
     fields.number("damping_group", "1", "D = d_c/(m ω)"),

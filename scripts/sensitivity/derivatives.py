@@ -37,7 +37,7 @@ TABLES = {
         fields.text("moved_unit", "unit of the differentiated quantity"),
         fields.text("parameter", "varied parameter; all remaining ones are constant"),
         fields.text("parameter_unit", "unit of the parameter"),
-        fields.number("value", "that of parameter_unit", "value of the parameter"),
+        fields.number("value", "see parameter_unit", "value of the parameter"),
         fields.number("derivative", "moved_unit per parameter_unit", "derivative by the implicit function theorem"),
         fields.number("difference", "moved_unit per parameter_unit", "finite difference between points solved again"),
         fields.number(
@@ -193,7 +193,7 @@ def point_columns(point: CriticalPoint) -> dict:
 def has_influence(name: str, value: float, point: CriticalPoint) -> bool:
     """Whether a parameter can have an influence on a point.
 
-    For a level track, the inclination has none to first order, because gravity normal to the track is largest there.
+    On a level track, the inclination has no influence to first order, because gravity normal to it is largest there.
     """
     return not (
         name in (point.quantity, *EXCLUDED)

@@ -38,7 +38,7 @@ def at(parameters: np.ndarray, acceleration: float) -> np.ndarray:
 
 
 def solve_again(parameters: np.ndarray, row: pd.Series) -> Point | None:
-    """The bifurcation of a row of a table, solved in the groups; None if none, or another one, is found."""
+    """The bifurcation of a row of a table, solved in the groups; None if it is not found, or a different one is."""
     kind, period = row["kind"], int(row.period)
     here = at(parameters, row.acceleration)
     groups = groups_of(here)

@@ -42,7 +42,7 @@ def columns(
     Parameters
     ----------
     settings : of the entry
-    rows : first row and row behind the last one, in the order of the product of the axes; None for all
+    rows : the first row and the row after the last one, in the order of the product of the axes; None for all
     threads, progress : as in conveyor.ensemble.run
     """
     options = {

@@ -1,4 +1,4 @@
-"""Stages that compare the solver with other methods: what they find, on the cases of the config."""
+"""Comparison of the solver with other methods, on the cases of the config."""
 
 import numpy as np
 import pandas as pd
@@ -20,7 +20,7 @@ def cases():
     }
 
 
-def test_benchmark_is_as_accurate_as_wanted(cases):
+def test_benchmark_reaches_its_goals(cases):
     found = benchmark.columns(cases, CONFIG["solver"]["tolerance"], 1)
     assert set(found["case"][found["chosen"] == "default"]) == set(cases)
     wanted = np.array([cases[name]["wanted"]["error"] for name in found["case"]])
@@ -29,9 +29,9 @@ def test_benchmark_is_as_accurate_as_wanted(cases):
     steps = [cases[name]["duration"] / cases[name]["step"] for name in found["case"]]
     np.testing.assert_array_equal(found["euler_steps"], steps)
     assert (found["steps"] < 1e-3 * found["euler_steps"]).all()
-    # Faster than the paper's method by far on any machine; how far is what results/benchmark.md is for.
+    # Much faster than the paper's method on any machine; results/benchmark.md has the exact factor.
     assert (found["speed"] > 10.0).all()
-    # A riding part repeats its steps, a chaotic one cannot; what is repeated is not counted as computed.
+    # A riding part repeats its steps, a chaotic one cannot. Repeated steps do not count as computed.
     repeated = dict(zip(found["case"], found["repeated_steps"], strict=True))
     assert repeated["D"] == 0 < repeated["B"]
     template = (ROOT / "workflow/templates/benchmark.md").read_text(encoding="utf-8")
@@ -60,7 +60,7 @@ def compared(request):
     return table
 
 
-def test_solver_and_an_independent_integration_meet(compared):
+def test_solver_and_an_independent_integration_agree(compared):
     best = compared[(compared.method == "DOP853") & (compared.tolerance == 1e-13)].iloc[0]
     assert best.outcome == "ok"
     assert best.velocity_error < 1e-11
@@ -73,21 +73,21 @@ def test_heyoka_need_not_be_installed(compared):
     assert heyoka.velocity_error < 1e-8 or not rivals.installed_version("heyoka")
 
 
-def test_times_are_those_of_the_same_runs_and_change_nothing(compared):
+def test_times_belong_to_the_same_runs_and_change_nothing(compared):
     tables = precision.make(compared.attrs, {"repeats": 2, "seconds": 0.02})
     pd.testing.assert_frame_equal(pd.DataFrame(tables["precision"]), compared, check_exact=True)
     times = pd.DataFrame(tables["precision_times"])
     run = list(precision.Method._fields)
     pd.testing.assert_frame_equal(times[run], compared[run])
     solver = times.method == "event"
-    # A fast run is repeated until a turn is over, a slow one is made once.
+    # A fast run is repeated until its turn ends; a slow one runs once.
     assert times.repeats[solver].min() > 2
     assert (times.repeats[times.seconds > 0.02] == 1).all()
     others = ~solver & (compared.outcome != "not installed")
     assert 0.0 < times.seconds[solver].max() < times.seconds[others].min()
 
 
-def test_runs_take_turns_until_enough_time_is_spent_on_them(monkeypatch):
+def test_runs_take_turns_until_each_has_run_long_enough(monkeypatch):
     clock, made = 0.0, []
 
     def lasting(name, seconds):
@@ -109,7 +109,7 @@ def test_runs_take_turns_until_enough_time_is_spent_on_them(monkeypatch):
     assert times == [[0.125] * 6, [0.5] * 2, [2.0]]
 
 
-def test_estimates_on_a_rising_track_are_those_of_gravity_normal_to_it():
+def test_estimates_on_a_rising_track_follow_gravity_normal_to_it():
     settings = {**CONFIG["precision_estimates"]["exponent"], "durations": [0.5]}
     model = {name: CONFIG["model"][name] for name in ("frequency", "gravity")}
     level = model | {"gravity": model["gravity"] * np.cos(0.2)}

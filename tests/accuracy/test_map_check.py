@@ -1,4 +1,4 @@
-"""Points of maps by brute force: known attractors, and what counts as near a boundary or as repeated."""
+"""Points of maps by brute force: known attractors, and the criteria for a boundary and for a period."""
 
 import numpy as np
 import pandas as pd
@@ -12,7 +12,7 @@ SETTINGS = {"tolerance": 1e-13, "close": 1e-9, "repeats": 64, "cycles": 1024, "s
 
 
 def found(*starts: tuple[float, float], **changes) -> dict:
-    """By brute force from amplitudes (m/s²) and initial heights (m)."""
+    """The result of brute force for amplitudes (m/s²) and initial heights (m)."""
     rows = np.array([pack(Conveyor(acceleration=amplitude), Start(height)) for amplitude, height in starts])
     return map_check.brute_force(rows, SETTINGS | changes)
 
@@ -33,7 +33,7 @@ def test_a_motion_without_a_period_and_without_a_positive_exponent_is_undecided(
     assert states["exponent"][0] < 0.0
 
 
-def test_micro_bounces_are_no_flights():
+def test_micro_bounces_do_not_count_as_flights():
     """At 48 m/s² the plate falls faster than the part for a small part of a cycle (label of the library: first)."""
     assert found((48.0, 0.0))["state"][0] == classify(Conveyor(acceleration=48.0), Start(0.0)).state == "first"
 
@@ -58,7 +58,7 @@ def test_the_least_period_is_found(period, expected):
 
 
 def test_a_wrong_label_of_a_map_is_found():
-    """A map of two points of which one has the label of the other."""
+    """A map of two points; one has the label of the other point."""
     table = pd.DataFrame({"state": ["first", "first"]})
     table.attrs = {"axes": {"acceleration": [40.0], "z0": [0.0, 3e-4]}, "model": {}}
     settings = SETTINGS | {"maps": ["one"], "points": 2, "boundary": 0.0, "seed": 1}

@@ -9,7 +9,7 @@ from conveyor import Conveyor, Start, simulate
 DIGITS = 26
 
 
-def test_free_fall_is_a_parabola_and_its_end_the_root_of_the_gap():
+def test_free_fall_is_a_parabola_that_ends_at_the_root_of_the_gap():
     """A plate at rest: the part lands after √(2 z0/g)."""
     conveyor = Conveyor(acceleration=0.0)
     states, events = multiprecision.simulate(conveyor, Start(z=1e-3), np.array([0.005, 0.0143]), DIGITS)
@@ -17,8 +17,8 @@ def test_free_fall_is_a_parabola_and_its_end_the_root_of_the_gap():
     assert events[0] == pytest.approx(np.sqrt(2e-3 / conveyor.gravity), rel=1e-15)
 
 
-def test_an_undamped_hertz_impact_gives_back_its_speed_after_its_known_duration():
-    """Duration 2.9432 δ/v with δ = (5 m v²/(4 k))^(2/5); the weight is small beside the spring."""
+def test_an_undamped_hertz_impact_keeps_its_speed_and_has_the_known_duration():
+    """Duration 2.9432 δ/v with δ = (5 m v²/(4 k))^(2/5); the weight is small compared with the spring force."""
     conveyor = Conveyor(acceleration=0.0, damping=0.0, gravity=1e-3)
     speed = 0.3
     states, events = multiprecision.simulate(conveyor, Start(z=1e-6, vz=-speed), np.array([2e-3]), DIGITS)
@@ -33,7 +33,7 @@ def test_other_tracks_and_drives_are_refused(other):
         multiprecision.simulate(Conveyor(**other), Start(z=1e-3), np.array([1e-3]), DIGITS)
 
 
-def test_it_meets_the_solver():
+def test_it_agrees_with_the_solver():
     conveyor, start, times = Conveyor(acceleration=40.0), Start(z=3e-4), np.arange(1, 15) * 7e-3
     states, events = multiprecision.simulate(conveyor, start, times, DIGITS)
     run = simulate(conveyor, start, duration=0.1, tolerance=1e-14)

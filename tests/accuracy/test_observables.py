@@ -1,4 +1,4 @@
-"""What a reader can tell apart: thinned axes, visible differences, known values."""
+"""Differences that a reader can see: thinned axes, visible differences, known values."""
 
 import numpy as np
 import pandas as pd
@@ -33,14 +33,14 @@ def test_thinned_axes_keep_their_ends_and_words():
     assert observables.thin_axes(AXES, 1000) == AXES
 
 
-def test_a_line_hides_what_is_narrower():
+def test_a_line_hides_smaller_differences():
     found = curve(value={1: 2.05, 2: 5.2}, state={3: "second"})
     seen = observables.visible_differences(CURVE, curve(), found, AXES, line=0.01)
     assert list(seen.value) == [False, False, True, False, False]
     assert list(seen.state) == [False, False, False, True, False]
 
 
-def test_what_is_missing_differs_and_what_was_not_computed_does_not():
+def test_missing_values_differ_and_uncomputed_values_do_not():
     seen = observables.visible_differences(CURVE, curve(), curve().drop(index=4), AXES, line=0.01)
     assert list(seen.value) == [False] * 4 + [True]
     assert list(seen.state) == [False] * 4 + [True]
@@ -50,7 +50,7 @@ def test_what_is_missing_differs_and_what_was_not_computed_does_not():
     assert list(seen.value) == [False, False, True, False, False]
 
 
-def test_samples_behind_a_difference_are_not_known():
+def test_samples_after_a_difference_are_not_known():
     axes = {"z0": [0.0, 1.0]}
     truth = pd.DataFrame({"z0": np.repeat([0.0, 1.0], 3), "time": [0.0, 1.0, 2.0] * 2, "value": [0.0, 5.0, 10.0] * 2})
     other = truth.assign(value=[0.0, 6.0, 10.0, 0.0, 5.0, 10.0])
@@ -59,7 +59,7 @@ def test_samples_behind_a_difference_are_not_known():
 
 
 @pytest.mark.parametrize(("z0", "vz0"), [("conveyor", 0.0), (1e-4, 0.0)])
-def test_shifted_starts_move_what_can_be_moved(z0, vz0):
+def test_shifted_initial_conditions_move_what_can_move(z0, vz0):
     seen = []
     shown = Shown(lambda settings: seen.append(settings["model"]) or curve(), (), ("value",), "a curve")
     model = {"frequency": 50.0, "z0": z0, "vz0": vz0}
@@ -69,7 +69,7 @@ def test_shifted_starts_move_what_can_be_moved(z0, vz0):
 
 
 @pytest.mark.parametrize(("name", "unit"), [("z0", 1.0), ("vz0", 100.0 * np.pi)])
-def test_shifts_along_an_axis_are_observed_at_once_and_told_apart(name, unit):
+def test_shifts_along_an_axis_are_observed_together_and_separated(name, unit):
     calls = []
 
     def observe(settings):

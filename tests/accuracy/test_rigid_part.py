@@ -1,4 +1,4 @@
-"""A rigid part in place of the contact: which state it ends in, and when it repeats itself."""
+"""A rigid part in place of the contact: its state of motion and its period."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ def test_states_of_parts_that_move_along_jump_and_jump_without_end():
 
 
 @pytest.mark.parametrize(("period", "found"), [(1, 1), (3, 3), (5, 0)])
-def test_a_period_is_the_first_after_which_heights_come_back(period, found):
+def test_the_period_is_the_first_after_which_heights_repeat(period, found):
     row = np.zeros(16)
     row[rigid_part.FREQUENCY] = 50.0
     times = rigid_part.sample_times(row, 10.0, 4)

@@ -1,4 +1,4 @@
-"""Jobs of sweeps in processes of their own: what is measured of them, and the page that says what it means."""
+"""Jobs of sweeps in separate processes: their measured times and memory, and the page about them."""
 
 import io
 import json
@@ -34,7 +34,7 @@ def measured(case, folder):
     return scaling.make_row(case, made, scaling.measure_gathering(case, folder))
 
 
-def test_all_shards_are_made_and_put_together(folder):
+def test_all_shards_are_made_and_joined(folder):
     row = measured(CASE, folder)
     assert set(row) == {field.name for field in scaling.TABLES["scaling"]}
     assert [pq.read_metadata(folder / f"{k}.parquet").num_rows for k in range(3)] == [7, 7, 6]
@@ -42,7 +42,7 @@ def test_all_shards_are_made_and_put_together(folder):
     assert (row["measured"], row["computed"]) == (3, 20)
     begin = row["shard_seconds"] - row["loading_seconds"] - row["computing_seconds"]
     assert begin > 0.0 and row["computing_seconds"] > 0.0
-    # The program with its libraries.
+    # Memory of the program with its libraries.
     assert 100.0 < row["gathering_memory"] < row["shard_memory"] < 1000.0
 
 
@@ -52,7 +52,7 @@ def test_shards_that_are_not_made_are_copied(tmp_path):
     assert (row["measured"], row["computed"], row["gathered"]) == (1, 7, 21)
 
 
-def test_of_several_rounds_medians_count_and_the_most_memory():
+def test_medians_of_several_rounds_and_the_largest_memory_count():
     def shard(whole, memory):
         return {"loading": 1.0, "computing": whole - 2.0, "memory": memory, "whole": whole}
 
@@ -62,7 +62,7 @@ def test_of_several_rounds_medians_count_and_the_most_memory():
 
 
 def test_sweeps_are_made_in_turns_until_they_have_taken_long_enough(monkeypatch):
-    """The first one so for all rounds, the second one for two, the third one once; each is put together once."""
+    """The first sweep runs in all rounds, the second in two, the third in one; each is joined once."""
     done, together = [], []
     cases = [CASE | {"conveyors": k, "whole": whole} for k, whole in enumerate((1.0, 20.0, 31.0))]
 
@@ -82,7 +82,7 @@ def test_sweeps_are_made_in_turns_until_they_have_taken_long_enough(monkeypatch)
     assert done == [0, 1, 2, 0, 1, 0, 0, 0]
     assert together == [0, 1, 2]
     assert found["computing_seconds"] == pytest.approx([0.3, 0.15, 0.1])
-    assert found["shard_seconds"].tolist() == [1.0, 20.0, 31.0]
+    assert found["shard_seconds"] == [1.0, 20.0, 31.0]
 
 
 def test_each_case_is_a_row(monkeypatch):
@@ -91,7 +91,7 @@ def test_each_case_is_a_row(monkeypatch):
     few["settings"] = SETTINGS | {"axes": {"z0": [0.0, 1.0e-4]}}
     found = scaling.make({}, [CASE, few])
     assert list(found) == [field.name for field in scaling.TABLES["scaling"]]
-    assert found["computed"].tolist() == [20, 2]
+    assert found["computed"] == [20, 2]
 
 
 @pytest.mark.parametrize(("end", "first"), [(9, 9), (40, 11)])
@@ -100,7 +100,7 @@ def test_the_first_points_are_computed_alone_before_all(monkeypatch, tmp_path, e
 
     def make_shard(rows, **others):
         made.append(tuple(rows))
-        assert not path.exists()  # no job writes over a file
+        assert not path.exists()  # no job overwrites a file
         path.touch()
 
     monkeypatch.setattr(scaling, "make_shard", make_shard)
@@ -111,15 +111,15 @@ def test_the_first_points_are_computed_alone_before_all(monkeypatch, tmp_path, e
 
 
 @pytest.mark.parametrize("rows", [[7, 13], [0, 20]])
-def test_loading_of_compiled_code_is_no_computing(tmp_path, rows):
-    """Some points take a millisecond or so, the loading some hundred, also of code for many that few do not run."""
+def test_loading_compiled_code_does_not_count_as_computing(tmp_path, rows):
+    """A few points take about a millisecond, loading takes about a hundred, also of code that only many points need."""
     for name in ("compiled", "some"):
         made = scaling.measure_job(settings=SETTINGS, threads=1, rows=rows, path=str(tmp_path / f"{name}.parquet"))
     assert made["computing"] < 0.5 * made["loading"] < 0.5 * made["whole"]
     assert pq.read_table(tmp_path / "some.parquet")["z0"].to_pylist() == ([0.0, 1.0e-4] * 10)[slice(*rows)]
 
 
-def test_memory_is_that_of_the_process_itself(tmp_path):
+def test_memory_of_the_process_itself_counts(tmp_path):
     ballast = np.ones(10**8)
     before = scaling.peak_memory()
     assert before > 800.0
@@ -129,7 +129,7 @@ def test_memory_is_that_of_the_process_itself(tmp_path):
 
 
 def table() -> pd.DataFrame:
-    """One job of 100 points in 2 s on two threads; of the largest sweep one of ten, of that of 250 points all three."""
+    """One job: 100 points in 2 s on two threads. The largest sweep ran one of ten shards, another sweep all three."""
     columns = {
         "varied": ["points", "points", "points", "conveyors", "threads", "threads", "shards"],
         "points": [100, 250, 1000, 100, 100, 100, 100],
@@ -153,7 +153,7 @@ def table() -> pd.DataFrame:
     return pd.DataFrame(columns)
 
 
-def test_what_the_whole_sweep_costs():
+def test_cost_of_the_whole_sweep():
     rows = cluster_page.total_costs(table()).set_index("points")
     assert rows.core_hours.to_dict() == pytest.approx(
         {100: 3.0 * 2 / 3600.0, 250: 8.0 * 2 / 3600.0, 1000: 10 * 3.0 * 2 / 3600.0}
@@ -169,13 +169,13 @@ def test_what_the_whole_sweep_costs():
     assert (fields["start"], fields["loading"]) == ("0.8", "0.2")
 
 
-def test_cost_of_a_point_is_told_without_and_with_the_start_of_the_job():
+def test_cost_of_a_point_without_and_with_the_start_of_the_job():
     computing, whole = chart.costs(table())
     assert computing.tolist() == pytest.approx([2e4, 2e4, 2e4, 2e4, 4e4, 2e4, 2e4])
     assert whole.tolist() == pytest.approx([3e4, 3.2e4, 3e4, 3e4, 5e4, 3e4, 4e4])
 
 
-def test_the_page_of_clusters_says_both():
+def test_the_page_of_clusters_shows_both():
     template = (ROOT / "workflow/templates/cluster.md").read_text()
     found = table()
     found.attrs["sharing"] = {"core_hours": 24.0, "most_jobs": 500, "job_seconds": 60.0}

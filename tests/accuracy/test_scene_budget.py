@@ -1,4 +1,4 @@
-"""The budget of tables: threads share them, and change nothing."""
+"""The budget of tables does not depend on threads."""
 
 import pandas as pd
 
@@ -33,12 +33,12 @@ def test_budgets_do_not_depend_on_threads():
     times, others = (pd.DataFrame(made["budget_times"]) for made in (one, three))
     assert times.table.unique().tolist() == list(ENTRIES)
     pd.testing.assert_frame_equal(times[["table", "variant"]], others[["table", "variant"]])
-    # A thread's own time, whatever the other ones do.
+    # The time of one thread, independent of other threads.
     assert (times.seconds > 0.0).all()
     assert 0.3 < (others.seconds / times.seconds).median() < 3.0
 
 
-def test_every_start_is_looked_at_in_every_variant():
+def test_every_initial_condition_is_compared_in_every_variant():
     one = pd.DataFrame(scene_budget.rows_of_table("sweeps/some", SETTINGS, BUDGET))
     assert (one.points == 6).all()
     assert 0.0 < one.known.iloc[0] <= 1.0

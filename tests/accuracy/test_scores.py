@@ -1,4 +1,4 @@
-"""The open benchmark: its reference, and what a solver's file scores."""
+"""The open benchmark: its reference, and the scores of a solver's file."""
 
 import json
 
@@ -37,7 +37,7 @@ def scene(folder):
     return scores.read_scenes(folder)["short"]
 
 
-def test_the_reference_is_that_of_an_independent_integrator(scene):
+def test_the_reference_agrees_with_an_independent_integrator(scene):
     row = scores.pack_scene(scene)
     run = peers.run(row, scene["duration"], "DOP853", "modes", 1e-13, 10**6)
     end = [scene["reference"][name][-1] for name in ("x", "vx", "z", "vz")]
@@ -72,6 +72,7 @@ def test_a_toy_solver_is_scored_and_drawn(folder, tmp_path, capsys):
     assert toy.impact_error.tolist() == pytest.approx([1e-6, np.inf])
     own, euler = (table[table.solver == name] for name in ("this solver", "explicit Euler"))
     assert own.error.min() < 1e-9 < euler.error.min()
+    assert own.impact_error.min() < 1e-12 < own.impact_error.max() < 1e-4
     assert chart.stat().st_size > 10_000
     assert "toy" in capsys.readouterr().out
 
@@ -89,7 +90,7 @@ def numbers(scene: dict, columns: dict | None = None) -> pd.DataFrame:
     return pd.DataFrame(table | (columns or {}))
 
 
-def test_numbers_from_a_file_score_as_a_function_does(folder, scene, tmp_path):
+def test_numbers_from_a_file_get_the_scores_of_the_function(folder, scene, tmp_path):
     numbers(scene).sample(frac=1.0, random_state=1).to_csv(tmp_path / "other.csv", index=False)
     (row,) = scores.score_file({"short": scene}, tmp_path / "other.csv")
     assert (row["solver"], row["run"], row["seconds"]) == ("other", "0.001", 0.25)
@@ -109,7 +110,7 @@ def test_wrong_numbers_are_refused(scene, change, message):
         list(scores.score_numbers({"short": scene}, "other", numbers(scene, change)))
 
 
-def test_what_a_file_lacks_is_named(scene, tmp_path):
+def test_missing_parts_of_a_file_are_named(scene, tmp_path):
     with pytest.raises(ValueError, match="lacks the columns x"):
         list(scores.score_numbers({"short": scene}, "other", numbers(scene).drop(columns="x")))
     with pytest.raises(ValueError, match=r"z must have one number for each of the 12 times of the scene short"):
@@ -122,7 +123,7 @@ def test_what_a_file_lacks_is_named(scene, tmp_path):
 
 
 def test_the_published_scenes_are_complete():
-    """The files that the repository keeps."""
+    """The files in the repository."""
     for name, scene in scores.read_scenes(ROOT / "docs/benchmark").items():
         assert json.loads(json.dumps(scene))["scene"] == name
         assert scores.error_bar(scene) < 1e-8

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from accuracy import theory
+from accuracy import closed_forms, theory
 from conveyor import Conveyor
 from conveyor.methods.rigid_part_orbits import rigid_orbit
 
@@ -17,21 +17,23 @@ def test_the_range_of_the_rigid_ball_is_that_of_the_library(restitution):
     conveyor = Conveyor(frequency=50.0, angle=0.2)
     orbit = rigid_orbit(conveyor, lambda speed: restitution)
     scale = math.sin(conveyor.angle) / conveyor.gravity
-    assert theory.rigid_range(restitution) == pytest.approx((orbit.fold * scale, orbit.doubling * scale), rel=1e-7)
+    assert closed_forms.rigid_range(restitution) == pytest.approx(
+        (orbit.fold * scale, orbit.doubling * scale), rel=1e-7
+    )
 
 
 def test_an_elastic_ball_has_the_range_of_the_approximate_map():
-    assert theory.rigid_range(1.0) == (0.0, 1.0)
+    assert closed_forms.rigid_range(1.0) == (0.0, 1.0)
 
 
 def test_a_stiff_contact_is_nearly_rigid():
     """An impact that takes a 7600th of a cycle moves both ends by less than a thousandth."""
-    assert theory.stiff_range(MODEL, 1e9, 0.5) == pytest.approx(theory.rigid_range(0.5), rel=1e-3)
+    assert theory.stiff_range(MODEL, 1e9, 0.5) == pytest.approx(closed_forms.rigid_range(0.5), rel=1e-3)
 
 
 def test_a_rising_track_has_the_same_range_in_units_of_gravity_normal_to_it():
     inclined = MODEL | {"inclination": 0.5}
-    assert theory.stiff_range(inclined, 1e9, 0.5) == pytest.approx(theory.rigid_range(0.5), rel=1e-3)
+    assert theory.stiff_range(inclined, 1e9, 0.5) == pytest.approx(closed_forms.rigid_range(0.5), rel=1e-3)
 
 
 def test_the_limit_of_a_polynomial_is_exact():
@@ -39,6 +41,15 @@ def test_the_limit_of_a_polynomial_is_exact():
     value, error = theory.extrapolate_to_zero(places, 2.0 - 3.0 * places + 4.0 * places**2)
     assert value == pytest.approx(2.0, abs=1e-13)
     assert error == pytest.approx(4.0 * 0.2 * 0.1)  # of the line through the last two places
+
+
+def test_deepest_point_and_duration_of_an_undamped_impact():
+    conveyor, speed = Conveyor(), 0.3
+    depth = closed_forms.compression(conveyor, speed)
+    assert 0.4 * conveyor.stiffness * depth**2.5 == pytest.approx(0.5 * conveyor.mass * speed**2, rel=1e-12)
+    slow = np.linspace(0.0, 1.0, 100_001)[:-1] ** 2  # the speed ends in a root
+    time = 2.0 * depth / speed * np.trapezoid(1.0 / np.sqrt(1.0 - (1.0 - slow) ** 2.5 + 1e-300)[1:], slow[1:])
+    assert closed_forms.undamped_duration(conveyor, speed) == pytest.approx(time, rel=1e-3)
 
 
 @pytest.mark.parametrize("speed", [0.01, 2.0])
@@ -54,22 +65,22 @@ def test_an_undamped_impact_is_that_of_hertz(speed):
 def test_the_reduced_equation_of_a_linear_contact_has_a_closed_form(ratio):
     """X'' = -X - 2 ζ X', whose velocity falls by exp(-π ζ/√(1 - ζ²)) in half a period."""
     expected = math.exp(-math.pi * ratio / math.sqrt(1.0 - ratio**2))
-    assert theory.reduced_restitution(1.0, 2.0 * ratio) == pytest.approx(expected, rel=1e-11)
-    assert theory.damping_ratio(expected) == pytest.approx(ratio)
+    assert closed_forms.reduced_restitution(1.0, 2.0 * ratio) == pytest.approx(expected, rel=1e-11)
+    assert closed_forms.damping_ratio(expected) == pytest.approx(ratio)
 
 
 @pytest.mark.parametrize("exponent", [1.0, 1.5])
 def test_light_damping_loses_the_work_of_the_damper(exponent):
-    loss = (1.0 - theory.reduced_restitution(exponent, 1e-5)) / 1e-5
-    assert loss == pytest.approx(theory.light_loss(exponent), rel=1e-4)
+    loss = (1.0 - closed_forms.reduced_restitution(exponent, 1e-5)) / 1e-5
+    assert loss == pytest.approx(closed_forms.light_loss(exponent), rel=1e-4)
 
 
 def test_a_contact_that_cannot_pull_ends_sooner_and_keeps_more_speed():
     contact = theory.linear_contact(MODEL, 1e5, 0.3, tension="clip")
     assert theory.simulate_impact(contact, 0.2).restitution == pytest.approx(
-        theory.restitution_without_tension(0.3), rel=1e-12
+        closed_forms.restitution_without_tension(0.3), rel=1e-12
     )
-    assert theory.restitution_without_tension(0.3) > 0.3
+    assert closed_forms.restitution_without_tension(0.3) > 0.3
 
 
 def test_an_impact_that_never_ends_is_an_error():

@@ -1,4 +1,4 @@
-"""What the config gives to findings is what their signatures name."""
+"""The arguments that the config gives to findings are the arguments in their signatures."""
 
 import inspect
 

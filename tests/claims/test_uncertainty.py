@@ -1,4 +1,4 @@
-"""How sure the claims are: tables of tighter tolerances beside those that claims read, and what they change."""
+"""Uncertainty of the claims: the tables with tighter tolerances, and the changes that they cause."""
 
 import json
 
@@ -26,7 +26,7 @@ def test_only_the_tolerance_of_a_tighter_table_differs():
     assert "amplitudes_euler_tighter" not in config["sweeps"]
 
 
-def test_a_tolerance_that_is_not_said_is_that_of_the_solver():
+def test_a_missing_tolerance_is_the_default_of_the_solver():
     config = tightened({"uncertainty": {"tighter": 10.0, "claims": ["C07"]}})
     assert "tolerance" not in config["critical"]["edge"]
     assert config["critical"]["edge_tighter"]["tolerance"] == config["solver"]["tolerance"] / 10.0
@@ -40,7 +40,7 @@ def test_a_fit_is_made_from_tighter_heights():
     assert tighter_reference(config, "impacts/map") == "impacts/map"
 
 
-def test_nobody_looks_where_no_claim_is_named():
+def test_no_tables_are_added_without_claims():
     assert tightened({"uncertainty": {"claims": []}}) == by_methods(
         canonical(merged(CONFIG, {"uncertainty": {"claims": []}}))
     )
@@ -62,7 +62,7 @@ def edges(height: float) -> pd.DataFrame:
 
 
 @pytest.mark.parametrize(("tighter", "same"), [(0.0721e-3, True), (0.0761e-3, False)])
-def test_changes_and_verdicts_are_those_of_the_tighter_tables(tighter, same):
+def test_changes_and_verdicts_come_from_the_tighter_tables(tighter, same):
     claim = CONFIG["claims"]["C07"] | {"tables": {"converged": "critical/edge_tighter", "euler": "critical/edge_euler"}}
     before = pd.DataFrame({"id": ["C07"], "verdict": [REPRODUCED], "converged": [[0.072]]})
     read = [edges(0.071e-3), edges(tighter)]
@@ -73,5 +73,5 @@ def test_changes_and_verdicts_are_those_of_the_tighter_tables(tighter, same):
     assert found["same_verdict"] is same
 
 
-def test_no_number_changes_by_no_number():
+def test_a_missing_number_has_no_change():
     assert uncertainty.differences([1.0, np.nan], [1.5, 2.0]) == [0.5, None]

@@ -1,4 +1,4 @@
-"""Findings from made-up tables whose answer is known, and verdicts that come out each way."""
+"""Findings from made-up tables with known answers, and each kind of verdict."""
 
 import math
 from pathlib import Path
@@ -33,8 +33,8 @@ def both(table):
     [
         ([0, 0, 1, 1], 3.0),
         ([1, 1, 1, 1], 1.0),
-        ([0, 1, 0, 0, 1, 1, 1], 5.0),  # a single early one is no onset
-        ([0, 0, 1, 1, 0, 1, 1], 3.0),  # nor does a window end what has begun
+        ([0, 1, 0, 0, 1, 1, 1], 5.0),  # a single early point is not an onset
+        ([0, 0, 1, 1, 0, 1, 1], 3.0),  # a window does not end the property
         ([0, 0, 0, 1], 4.0),
     ],
 )
@@ -44,11 +44,11 @@ def test_onset(holds, expected):
 
 @pytest.mark.parametrize("holds", [[0, 0, 0], [0, 1, 0, 0], [1, 0], [1, 1, 0, 0, 0]])
 def test_never_is_an_answer(holds):
-    """A few early ones are no onset at the last amplitude."""
+    """A few early points do not make the last amplitude an onset."""
     assert math.isnan(onset(np.arange(float(len(holds))), holds))
 
 
-def test_one_amplitude_of_many_is_no_onset():
+def test_one_amplitude_of_many_is_not_an_onset():
     assert math.isnan(onset(AMPLITUDES, AMPLITUDES == 42.0))
 
 
@@ -80,7 +80,7 @@ def test_verdicts(euler, converged, expected):
     assert verdicts.verdict(Finding(euler, converged), quantities(a=[0.5, 1.5])) == expected
 
 
-def test_a_quantity_that_no_finding_gives_is_an_error():
+def test_a_missing_quantity_is_an_error():
     with pytest.raises(KeyError, match="b"):
         verdicts.verdict(Finding({}, {"a": 1.0}), quantities(a=[0.5, 1.5], b=[0.0, 1.0]))
 
@@ -116,7 +116,7 @@ def beyond(low, high):
 
 
 @pytest.mark.parametrize("name", CLAIMS)
-def test_accepted_intervals_bring_each_verdict(name):
+def test_each_verdict_occurs(name):
     claimed = CLAIMS[name]["quantities"]
     right = {key: inside(*quantity["accepted"]) for key, quantity in claimed.items()}
     assert verdicts.verdict(Finding(right, right), claimed) == verdicts.REPRODUCED
@@ -132,7 +132,7 @@ def test_the_papers_own_numbers_are_accepted(name):
         assert quantity["paper"] is None or verdicts.is_accepted(quantity["paper"], quantity["accepted"])
 
 
-def test_notes_stand_beside_verdicts():
+def test_a_reproduced_claim_keeps_its_note():
     claim, held = CLAIMS["C01"], {"critical_amplitude": 50.0}
     table = verdicts.columns({"a": claim, "b": claim}, {"a": Finding({}, held, "note 1"), "b": Finding({}, held)})
     assert table["verdict"] == [verdicts.REPRODUCED] * 2
@@ -140,14 +140,14 @@ def test_notes_stand_beside_verdicts():
 
 
 def test_a_reason_begins_with_the_numbers_that_miss():
-    finding = Finding({"critical_amplitude": 50.0}, {"critical_amplitude": 60.0}, "because of 1")
+    finding = Finding({"critical_amplitude": 50.0}, {"critical_amplitude": 60.0}, "Because of 1")
     table = verdicts.columns({"C01": CLAIMS["C01"]}, {"C01": finding})
     assert table["verdict"] == [verdicts.PAPER_METHOD_ONLY]
     number = "critical amplitude in m/s²: 60 by the converged solution is not in [49, 51]"
-    assert table["reason"] == [f"{number}; because of 1"]
+    assert table["reason"] == [f"{number}. Because of 1"]
 
 
-def test_null_is_no_bound():
+def test_null_means_no_bound():
     assert verdicts.is_accepted(1e300, [0.0, None])
     assert verdicts.is_accepted(-1e300, [None, 0.0])
     assert not verdicts.is_accepted(-1.0, [0.0, None])
@@ -158,9 +158,11 @@ def test_reason_says_which_number_is_outside():
     claimed = quantities(height=[0.0, 1.0], width=[0.0, 1.0])
     text = verdicts.describe_misses(Finding({"height": 0.5, "width": 0.5}, {"height": 0.5, "width": 3.25}), claimed)
     assert text == "width: 3.25 by the converged solution is not in [0, 1]"
+    text = verdicts.describe_misses(Finding({"height": 2.0, "width": 0.5}, {"height": 3.0, "width": 0.5}), claimed)
+    assert text == "height: 2 by the paper's method and 3 by the converged solution are not in [0, 1]"
 
 
-def test_critical_acceleration_looks_at_the_start_at_rest():
+def test_critical_acceleration_uses_the_part_at_rest():
     table = sweep(lambda a, z: "second" if a >= 50.0 or z > 0.0 else "first")
     assert numbers(about_states.critical_acceleration(**both(table)).converged) == (50.0,)
 
@@ -171,7 +173,7 @@ def test_interval_of_two_states():
     assert all(math.isnan(end) for end in numbers(about_states.interval(**both(sweep("first"))).converged))
 
 
-def test_interval_by_the_reading_of_the_contact_force():
+def test_interval_by_tension_mode():
     table = sweep(lambda a, z: "second" if a > 47.0 or (a >= 29.0 and z > 0.0) else "first")
     finding = about_states.interval(**both(table), tension=table.assign(tension="clip"))
     assert finding.note.endswith("29 to 47 m/s² (clip)")
@@ -181,8 +183,11 @@ def test_onset_of_chaos_by_scatter_and_by_state():
     table = sweep(lambda a, z: "chaos" if a >= 63.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
     finding = about_states.onset_of_chaos(**both(table))
     assert (numbers(finding.euler), numbers(finding.converged)) == ((55.0,), (55.0,))
-    assert "settle to chaos from 63 m/s² on (63 m/s²" in finding.note
-    assert "in between 100 % of them settle to a periodic one (period 1 for 100 %)" in finding.note
+    assert "settle to chaos only from 63 m/s² on (63 m/s²" in finding.note
+    assert (
+        "Between these amplitudes, 100 % of the motions settle to a periodic motion (period 1 for 100 %)"
+        in finding.note
+    )
     late = sweep(lambda a, z: "chaos" if a >= 50.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
     assert "nan" not in about_states.onset_of_chaos(**both(late)).note
 
@@ -208,15 +213,15 @@ def certificates(*stable):
 
 
 def test_notes_name_what_is_proved():
-    """Two stable orbits at 30 and at 40 m/s², one at 56 m/s²; open ones do not count."""
+    """Two stable orbits at 30 and at 40 m/s², one at 56 m/s²; orbits with undecided stability do not count."""
     proved = pd.concat(
         [certificates(30.0, 30.0, 40.0, 40.0, 56.0), certificates(45.0, 45.0, 70.0).assign(stability="open")]
     )
-    assert "two stable motions are proved at 2 amplitudes from 30 to 40 m/s²" in about_proofs.describe_coexistence(
+    assert "Two stable motions are proved at 2 amplitudes from 30 to 40 m/s²" in about_proofs.describe_coexistence(
         proved
     )
     periodic = about_proofs.describe_periodic(proved, 55.0)
-    assert "a stable periodic motion is proved at 1 amplitudes from 56 to 56 m/s²" in periodic
+    assert "A stable periodic motion is proved at 1 amplitudes from 56 to 56 m/s²" in periodic
     horseshoes = pd.DataFrame({"acceleration": [65.0, 80.0], "proved": [False, True]})
     assert "is proved at 80 m/s²" in about_proofs.describe_chaos(horseshoes)
     assert about_proofs.describe_periodic(proved, 60.0) == ""
@@ -252,13 +257,13 @@ def test_critical_heights_are_read_between_amplitudes():
     assert math.isnan(*numbers(about_states.critical_height(**both(table), acceleration=50.0).converged))
 
 
-def test_largest_critical_height_is_that_of_all_amplitudes():
+def test_largest_critical_height_over_all_amplitudes():
     heights = pd.DataFrame({"acceleration": [29.0, 32.0, 35.0, 50.0]})
     rising = pd.DataFrame({"acceleration": [28.0, 29.0, 35.0], "z0": [4e-4, 1e-4, 3e-4], "is_critical": True})
     rising["crossing"] = 1
     finding = about_states.largest_critical_height(**both(rising), heights=heights)
-    assert numbers(finding.converged) == pytest.approx((0.3,))  # not that at 28 m/s², nor that at the lowest one
-    assert finding.note.startswith("it occurs at 35 m/s²")
+    assert numbers(finding.converged) == pytest.approx((0.3,))  # not the height at 28 m/s² or at the lowest amplitude
+    assert finding.note.startswith("The largest height occurs at 35 m/s²")
 
 
 def test_velocities_of_both_states():
@@ -272,7 +277,7 @@ def test_velocities_of_both_states():
     assert about_states.first_velocity(**tables).note.endswith("4.70 cm/s (clip)")
 
 
-def test_fit_is_that_of_the_regression():
+def test_fit_comes_from_the_regression():
     table = pd.DataFrame(
         {
             "fit": ["pymoo", "paper", "valley", "valley"],
@@ -284,8 +289,10 @@ def test_fit_is_that_of_the_regression():
     )
     finding = about_states.fit(**both(table))
     assert numbers(finding.converged) == (0.004, -20.0, -1e-4, 1e-11)
-    assert "every B from -21 to -21" not in finding.note  # 3e-11 is more than the paper's triple has
-    assert "every B from -18 to -18" in finding.note
+    assert (
+        "Every B from -21 to -21" not in finding.note
+    )  # its error, 3e-11, is larger than the error of the paper's triple
+    assert "Every B from -18 to -18" in finding.note
 
 
 def test_spread_of_onsets():
@@ -299,7 +306,7 @@ def test_early_chaos_of_some_heights_is_noted():
     early = sweep(lambda a, z: "chaos" if a >= 63.0 or (a == 53.0 and z == 0.0) else "second")
     finding = about_states.one_onset(converged=early)
     assert numbers(finding.converged) == (0.0,)
-    assert "chaos and regular motion coexist, depending on the initial height, at 53.00 m/s²" in finding.note
+    assert "Chaos and regular motion coexist, depending on the initial height, at 53.00 m/s²" in finding.note
     assert finding.note.endswith("regular motion remains nowhere")
     windows = sweep(lambda a, z: "chaos" if a >= 63.0 and a not in (71.0, 72.0) else "second")
     assert about_states.one_onset(converged=windows).note.endswith("in windows only: 71.00 to 72.00 m/s²")
@@ -335,7 +342,7 @@ def test_overlap_of_maps():
     }
     finding = about_states.overlap(**maps)
     assert numbers(finding.converged) == (0.5, 0.25, 0.5, 0.25)
-    assert finding.note.startswith("0 points")  # the chaos of the higher amplitude is not counted
+    assert " 0 points" in finding.note  # the chaos of the higher amplitude is not counted
 
 
 def test_only_the_first_state_is_shared():
@@ -364,7 +371,7 @@ def strobes(z0, values):
     return pd.DataFrame({"z0": z0, "time": 0.02 * np.arange(len(values)), "z": values, "vz": values})
 
 
-def test_a_motion_comes_back_after_its_period():
+def test_a_motion_returns_after_its_period():
     period_3 = np.tile([1.0, -0.5, 0.2], 43)[:128]
     assert about_chaos.closest_return(strobes(0.0, period_3)) == (0.0, 3)
     assert about_chaos.closest_return(strobes(0.0, np.tile(np.arange(65.0), 2)[:128]))[0] > about_chaos.CLOSE
@@ -376,8 +383,8 @@ def test_share_without_a_period():
     assert numbers(about_chaos.no_period(**both(pd.concat([noise, regular]))).converged) == (0.5,)
 
 
-def test_a_motion_that_comes_back_to_a_fifth_of_its_extent_has_no_period():
-    """One that comes back to a fiftieth of it has: the distance is that of the strongest of the last cycles."""
+def test_a_motion_that_returns_only_to_a_fifth_of_its_extent_has_no_period():
+    """A motion that returns to a fiftieth of its extent has one. The largest distance in the last cycles counts."""
     to_and_fro, one = np.tile([1.0, -1.0], 64), np.arange(128) == 100
     coarse, fine = strobes(0.0, to_and_fro - 0.2 * one), strobes(1e-4, to_and_fro - 0.02 * one)
     assert about_chaos.closest_return(coarse) == (pytest.approx(0.2), 2)
@@ -434,9 +441,9 @@ def test_phase_estimate():
     finding = about_chaos.phase_estimate(**estimates(50.0, 59.0))
     assert (numbers(finding.euler), numbers(finding.converged)) == ((50.0,), (59.0,))
     assert "positive at 100 % of the amplitudes by the paper's method" in finding.note
-    assert "at 0 % of the amplitudes converged" in finding.note
+    assert "at 0 % of the amplitudes by the converged solution" in finding.note
     assert "100 % of the motions are periodic" in finding.note
-    assert "+0.50 to +1.50 1/s by the paper's method and -9.00 to -8.00 1/s converged" in finding.note
+    assert "+0.50 to +1.50 1/s by the paper's method and -9.00 to -8.00 1/s by the converged solution" in finding.note
 
 
 def test_portraits_in_the_order_of_the_states():
@@ -475,10 +482,10 @@ def test_the_page_explains_verdicts_and_has_dashes_for_missing_numbers():
     template = (Path(__file__).parents[2] / "workflow/templates/claims.md").read_text(encoding="utf-8")
     claim = {"where": "3.1", "statement": "", "quantities": quantities(onset=[1.0, 2.0])}
     claim["quantities"]["onset"]["because"] = "why"
-    found = Finding({}, {"onset": 9.0}, "a note")
+    found = Finding({}, {"onset": 9.0}, "A note")
     table = pd.DataFrame(verdicts.columns({"C1": claim}, {"C1": found}))
     page = verdicts.report(template, table)
     assert "| – | 9 | [1, 2] (why) | **not reproduced** |" in page
-    assert "## Reasons\n\n- **C1** onset: 9 by the converged solution is not in [1, 2]; a note.\n" in page
+    assert "## Reasons\n\n- **C1** onset: 9 by the converged solution is not in [1, 2]. A note.\n" in page
     assert page.endswith("## Notes\n\n")
     assert "an overlay without a prefix" in verdicts.report(template, table.iloc[:0])

@@ -1,4 +1,4 @@
-"""A Slurm of one node on this machine that listens on the loopback only: started, and stopped without a trace."""
+"""Start and stop a Slurm of one node on this machine that listens on the loopback interface only."""
 
 import os
 import shutil
@@ -12,7 +12,7 @@ from pathlib import Path
 
 PACKAGES = "slurmctld slurmd slurm-client munge"
 PROGRAMS = ("slurmctld", "slurmd", "sbatch", "munged")
-# Snakemake's plugin takes SLURM_CONF away from its jobs: the file must lie where Slurm looks by itself.
+# Snakemake's plugin removes SLURM_CONF from the environment of its jobs, so the file must be where Slurm expects it.
 CONFIGURATION = Path("/etc/slurm/slurm.conf")
 MUNGE_SOCKET_FOLDER = Path("/run/munge")
 PATIENCE = 30.0  # s, until a daemon answers
@@ -45,7 +45,7 @@ PartitionName=main Nodes={host} Default=YES MaxTime=INFINITE State=UP
 
 
 def obstacle() -> str | None:
-    """Why no Slurm can be started here, and what helps; None if one can."""
+    """The reason why Slurm cannot be started here, with the remedy; None if it can."""
     if missing := [program for program in PROGRAMS if not shutil.which(program)]:
         return f"{', '.join(missing)} not found: apt-get install --no-install-recommends {PACKAGES}"
     if os.getuid() != 0:
@@ -56,7 +56,7 @@ def obstacle() -> str | None:
 
 
 def answers(*command: str, text: str = "") -> bool:
-    """Whether a command succeeds with this text in what it says."""
+    """Whether a command succeeds and prints this text."""
     found = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False)
     return found.returncode == 0 and text in found.stdout
 
@@ -72,7 +72,7 @@ def until(condition: Callable[[], bool], what: str, patience: float = PATIENCE) 
 
 @contextmanager
 def daemon(log: Path, *command: str, **options) -> Iterator[None]:
-    """A program that runs in the foreground of its own session, and is ended by its process id."""
+    """Run a program in the foreground of a new session, and end it by its process id."""
     with (
         log.open("w") as said,
         subprocess.Popen(
@@ -95,7 +95,7 @@ def munge_works() -> bool:
 
 @contextmanager
 def munge(folder: Path) -> Iterator[None]:
-    """Munge, which signs the messages of Slurm; one that runs already stays."""
+    """Munge, which signs the messages of Slurm; a running Munge is used and kept."""
     if munge_works():
         yield
         return
@@ -140,7 +140,7 @@ def slurm(folder: Path) -> Iterator[None]:
 
 
 def jobs(state: str = "PENDING,RUNNING,COMPLETING") -> dict[str, str]:
-    """The jobs in these states: what Snakemake says of each, rule and wildcards, by its id."""
+    """The jobs in these states: rule and wildcards, as Snakemake names them, by id."""
     found = subprocess.run(
         ["squeue", "--noheader", f"--states={state}", "--format=%i|%k"], capture_output=True, text=True, check=True
     )

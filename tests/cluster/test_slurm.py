@@ -28,7 +28,7 @@ def slurm(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def local(tmp_path_factory) -> Project:
-    """The table and the figure without a cluster."""
+    """The table and the figure, made without a cluster."""
     project = Project(copy_project(tmp_path_factory.mktemp("local")), OVERLAY)
     project.make("--cores", "2", TABLE, FIGURE)
     return project
@@ -41,7 +41,7 @@ def command() -> list[str]:
 
 
 def test_a_cluster_makes_what_one_machine_makes(slurm, local, tmp_path):
-    """Although one of its running shards is cancelled."""
+    """One of its running shards is cancelled on the way."""
     project = Project(copy_project(tmp_path), OVERLAY)
     run = project.started(*command(), *project.configfile(), "--", TABLE, FIGURE)
     try:

@@ -1,4 +1,4 @@
-"""What the library says about itself: the picture of its imports, the files it names, and references in docstrings."""
+"""The documentation of the library: the diagram of imports, file names, and references in docstrings."""
 
 import ast
 import importlib.util
@@ -24,7 +24,7 @@ def part_of(file: Path) -> str:
 
 
 def imports_between_parts() -> dict[str, set[str]]:
-    """Which other parts of the library each part imports."""
+    """The other parts of the library that each part imports."""
     found = {part_of(file): set() for file in FILES if file.stem != "__init__"}
     for file in FILES:
         if file.stem != "__init__":

@@ -17,6 +17,7 @@ from conveyor.solver.model import pack
 
 ODD = (
     *(float("nan"), float("inf"), -float("inf"), None, 1e308, -1e308, -1, 0, 10**30, 1e-308, True, 1j),
+    *(np.timedelta64(3, "s"), np.float32(0.25), np.longdouble(0.25)),
     *("", "event", "conveyor", b"x", [], {}, (), object()),
     *(
         np.array([]),
@@ -146,11 +147,11 @@ def test_arrays_broadcast_and_results_have_their_shape():
 
 
 def test_the_conveyor_keeps_its_static_friction_where_friction_is_swept():
-    sticky = Conveyor(acceleration=20.0, friction=0.05, static_friction=0.4)
+    sticky = Conveyor(acceleration=3.0, friction=0.05, static_friction=0.4)
     runs = conveyor.sweep(sticky, duration=0.2, friction=[0.05, 0.1])
-    alone = conveyor.sweep(Conveyor(acceleration=20.0, friction=0.1, static_friction=0.4), duration=0.2)
+    alone = conveyor.sweep(Conveyor(acceleration=3.0, friction=0.1, static_friction=0.4), duration=0.2)
     assert runs.x_end[1] == alone.x_end
-    assert runs.x_end[1] != conveyor.sweep(Conveyor(acceleration=20.0, friction=0.1), duration=0.2).x_end
+    assert runs.x_end[1] != conveyor.sweep(Conveyor(acceleration=3.0, friction=0.1), duration=0.2).x_end
 
 
 def test_a_basin_has_the_labels_of_its_initial_conditions():
@@ -221,3 +222,26 @@ def test_shapes_of_packed_parameters_and_states_are_checked():
         lyapunov.spectrum(ROWS, np.zeros((1, 2)))
     with pytest.raises(ValueError, match=r"state must be δ \(m\) and v \(m/s\)"):
         periodic_orbits.find_orbit(ROWS[0], 40.0, np.zeros(3), 1)
+
+
+@pytest.mark.parametrize("method", ["event", "euler"])
+@pytest.mark.parametrize("kind", [np.float32, np.longdouble, np.float64])
+def test_numbers_of_any_type_give_the_run_of_their_values(kind, method):
+    numbers = {"duration": kind(0.0625), "tolerance": kind(2.0**-24), "step": kind(2.0**-16)}
+    run, same = (
+        conveyor.simulate(Conveyor(), Start(3e-4), method=method, **options)
+        for options in (numbers, {name: float(value) for name, value in numbers.items()})
+    )
+    assert run == same
+    assert run.mean_velocity(kind(0.5)) == same.mean_velocity(0.5)
+
+
+@pytest.mark.parametrize("changed", [{"multipliers": 1.0}, {"multipliers": ("a", "b")}, {"impacts": [1, 2]}])
+def test_an_orbit_with_odd_fields_is_named(changed):
+    with pytest.raises(ValueError, match=f"orbit.{next(iter(changed))}"):
+        conveyor.continue_orbit(Conveyor(), ORBIT._replace(**changed), low=39.99, high=40.01)
+
+
+def test_infinite_points_of_single_precision_are_refused():
+    with pytest.raises(ValueError, match="points = inf is outside"):
+        conveyor.box_dimension(np.full((50, 2), np.inf, np.float32))

@@ -36,7 +36,7 @@ def test_periodic_motions_are_curves():
     assert (table.error < 0.1).all()
 
 
-def test_what_is_known_too_little_is_no_number():
+def test_an_uncertain_dimension_is_left_out():
     table = made(axes={"acceleration": [40.0], "z0": [3e-4]}, largest_error=1e-6)
     assert table.dimension.isna().all()
     assert table.error.notna().all()
@@ -49,7 +49,7 @@ def test_an_unknown_estimator_is_an_error():
 
 
 @pytest.mark.parametrize("method", ["event", "euler"])
-def test_a_portrait_holds_the_motion_from_its_beginning_on(method):
+def test_a_portrait_contains_the_motion_from_its_beginning(method):
     conveyor = Conveyor(acceleration=40.0)
     settings = {"method": method, "begin": 0.02, "interval": 0.5, "samples": 4, "tolerance": 1e-10, "step": 1e-6}
     points = portraits.portrait(pack(conveyor, Start(3e-4)), settings)

@@ -1,4 +1,4 @@
-"""The page on the open benchmark: a row for each scene, and the example as it stands in the repository."""
+"""The page on the open benchmark: a row for each scene, and the example from the repository."""
 
 from project import ROOT
 

@@ -1,4 +1,4 @@
-"""The page of what is proved: intervals are rounded outwards, and a refused orbit is listed with its reason."""
+"""The page of certificates: intervals are rounded outwards, and an orbit without a proof is listed with the reason."""
 
 from decimal import Decimal
 
@@ -52,7 +52,7 @@ def test_intervals_are_rounded_outwards(low, high):
     assert below <= Decimal(low) <= Decimal(high) <= above
 
 
-def test_a_refused_orbit_is_listed_with_its_reason():
+def test_an_orbit_without_a_proof_is_listed_with_the_reason():
     text = page(ORBIT, REFUSED)
     assert "Refused, with the reason:\n\n- branch 3, 40 m/s², 2 cycles: it grazes\n" in text
     assert "| 2 | 1 | 0 | 0 | 0 |" in text
@@ -63,6 +63,6 @@ def test_entropy_is_rounded_down():
     assert "| 80 | 7 | 0.1234 |" in page(ORBIT)
 
 
-def test_the_example_is_left_out_where_it_is_not_proved():
+def test_the_example_is_left_out_if_it_is_not_proved():
     assert "the jumping orbit at 40 m/s²" in page(ORBIT)
     assert "the jumping orbit at 40 m/s²" not in page(REFUSED)

@@ -1,4 +1,4 @@
-"""The companion in headless Chromium: it agrees with the library, and everybody can use it."""
+"""The companion in headless Chromium: agreement with the library, and use by mouse and keyboard."""
 
 import math
 import re
@@ -30,7 +30,7 @@ ROOT = Path(__file__).resolve().parents[2]
 CONFIG = read_config()
 TOLERANCE = CONFIG["companion"]["tolerance"]
 MAPS = ("map_height", "map_amplitude")
-# Relative change of a regular run's numbers with a shift of the phase by 1e-9: the runs amplify errors by 100 at most.
+# Largest relative change of a regular run's numbers if the phase changes by 1e-9: errors grow by at most 100.
 SENSITIVITY = 1e-7
 PHONE, DESKTOP = (360, 740), (1280, 900)
 PLOTS = ("velocity", "height", "contact", "friction", "phase", "distance")
@@ -68,7 +68,7 @@ class Browser:
         self.address = address
 
     def open(self, choice: str = "", size: tuple[int, int] = DESKTOP, motion: str = "reduce") -> None:
-        """Load the page with a choice in its address, as in "#acceleration=80"."""
+        """Load the page with a selection in its address, as in "#acceleration=80"."""
         width, height = size
         metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": size == PHONE}
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
@@ -99,7 +99,7 @@ class Browser:
         return self.number("velocity")
 
     def chosen(self, name: str) -> float:
-        """What the number of a parameter shows, in its unit there."""
+        """The value in the field of a parameter, in the unit of the page."""
         return float(self.run("return document.getElementById(arguments[0]).value", f"parameter-{name}"))
 
     def press(self, *keys: str) -> None:
@@ -155,18 +155,18 @@ def quantities(run: Run) -> np.ndarray:
 
 
 def relative_error(found: np.ndarray, truth: np.ndarray) -> float:
-    """The largest one; infinite for other lengths. Equal numbers have none, so that zeros may be compared."""
+    """The largest relative error; infinite for unequal lengths. It is zero for equal numbers, also if they are zero."""
     if len(found) != len(truth):
         return math.inf
     return float(np.max(np.abs(found - truth) / np.where(found == truth, 1.0, np.abs(truth))))
 
 
 def is_regular(run: Run, shifted: Run) -> bool:
-    """Whether a run has the events of a run at a slightly other phase and nearly its numbers."""
+    """Whether a run at a slightly different phase has the same events and nearly the same numbers."""
     if not run.status == shifted.status == "ok" or list(run.events["kind"]) != list(shifted.events["kind"]):
         return False
     found, other = quantities(run), quantities(shifted)
-    # What is zero but for rounding has no relative error.
+    # A number that is zero up to rounding has no relative error.
     fastest = run.conveyor.acceleration / (2.0 * math.pi * run.conveyor.frequency)
     return abs(found[0]) > 1e-9 * fastest and relative_error(found, other) < SENSITIVITY
 
@@ -246,7 +246,7 @@ def test_samples_between_the_events_agree_with_the_library(browser):
         assert np.max(np.abs(found[column] - truth[name])) < 1e-8 * np.max(np.abs(truth[name])), name
 
 
-def test_states_of_motion_are_those_of_the_library(browser):
+def test_states_of_motion_agree_with_the_library(browser):
     # 55 m/s²: an orbit of two cycles; 80 m/s²: chaos, which the page must not claim.
     points = np.concatenate([near_the_paper(40, 3), np.tile(pack(Conveyor(), Start()), (2, 1))])
     points[-2:, model.ACCELERATION] = 55.0, 80.0
@@ -259,7 +259,7 @@ def test_states_of_motion_are_those_of_the_library(browser):
     assert [(one["state"], one.get("period")) for one in found] == expected
 
 
-def test_euler_is_that_of_the_library(browser):
+def test_euler_agrees_with_the_library(browser):
     browser.open()
     feeder = {"inclination": 0.05, "phase_shift": 1.0}
     for changes in (*({"tension": tension} for tension in model.TENSION_MODES), feeder, {"static_friction": 0.4}):
@@ -296,7 +296,7 @@ def test_slow_convergence_is_not_called_chaos(browser):
     browser.open("#acceleration=80")
     assert browser.text("state").startswith("Not converged within")
     assert "map shows chaos" in browser.text("state")
-    # The page does not show digits that rounding decides: a part shifted by the size of an atom has others.
+    # The page does not show digits that depend on rounding; shifting the part by the size of an atom changes them.
     for measure in ("velocity", "impact-speed", "peak-force"):
         assert "rounding decides" in browser.text(measure)
         assert len(re.match(r"0\.0*(\d+) ", browser.text(measure))[1]) <= 2
@@ -306,7 +306,7 @@ def test_slow_convergence_is_not_called_chaos(browser):
     assert "Slow convergence alone is not chaos" in browser.text("state")
 
 
-def test_giving_up_is_said_and_nothing_is_drawn(browser):
+def test_a_run_that_gives_up_says_so_and_draws_nothing(browser):
     browser.open("#frequency=20000")
     alert = browser.driver.find_element(By.ID, "failure")
     assert alert.get_attribute("role") == "alert"
@@ -336,7 +336,7 @@ def test_curves_have_the_colour_of_the_state(browser):
             assert coloured_pixels(browser, f"plot-{plot}", build.style.STATE_COLOURS[state]) > 100, plot
 
 
-def test_a_second_part_comes_close_or_leaves(browser):
+def test_a_second_part_converges_or_separates(browser):
     distances = {}
     for name, choice in (("regular", "#z0=0.0003"), ("chaos", "#acceleration=80")):
         browser.open(choice)
@@ -358,7 +358,7 @@ def test_an_euler_that_blows_up_is_not_drawn(browser):
 
 
 @pytest.mark.parametrize("size", [PHONE, DESKTOP])
-def test_no_errors_and_nothing_cut(browser, size):
+def test_no_errors_and_no_cut_text(browser, size):
     for choice in ("", "#acceleration=80", "#z0=conveyor&tension=clip", "#stiffness=1e15&exponent=1"):
         browser.open(choice, size)
         browser.run("document.querySelector('details').open = true; document.getElementById('euler').click()")
@@ -369,7 +369,7 @@ def test_no_errors_and_nothing_cut(browser, size):
     assert browser.errors() == []
 
 
-def test_the_motion_waits_where_less_motion_is_preferred(browser):
+def test_the_animation_waits_if_reduced_motion_is_preferred(browser):
     browser.open()
     assert browser.text("play") == "Play"
     browser.open(motion="no-preference")
@@ -378,7 +378,7 @@ def test_the_motion_waits_where_less_motion_is_preferred(browser):
     browser.until("return document.getElementById('readout').textContent !== arguments[0]", before)
 
 
-def test_the_throw_number_is_that_of_the_inclined_track(browser):
+def test_the_throw_number_includes_the_inclination(browser):
     browser.open("#acceleration=50&angle=0.3&inclination=0.2")
     expected = 50.0 * math.sin(0.3) / (CONFIG["model"]["gravity"] * math.cos(0.2))
     assert browser.number("throw-number") == pytest.approx(expected, rel=1e-3)
@@ -441,7 +441,7 @@ def test_the_map_by_keyboard(browser):
 
 
 @pytest.mark.parametrize("size", [PHONE, DESKTOP])
-def test_a_click_into_the_map_starts_there(browser, maps, size):
+def test_a_click_into_the_map_sets_the_initial_condition(browser, maps, size):
     browser.open("", size)
     canvas = browser.driver.find_element(By.ID, "map")
     browser.run("arguments[0].scrollIntoView({block: 'center'})", canvas)
@@ -451,7 +451,7 @@ def test_a_click_into_the_map_starts_there(browser, maps, size):
         ActionChains(browser.driver).move_to_element_with_offset(canvas, *place).click().perform()
         browser.until("return document.getElementById('map-here').textContent !== arguments[0]", before)
         z0, psi0 = 1e-3 * browser.chosen("z0"), browser.chosen("psi0")
-        # A click takes a grid point, where the page says what the table says and shows it in its colour.
+        # A click selects a grid point. The page shows its state from the table, in the colour of the state.
         (state,) = maps[0].state[np.isclose(maps[0].z0, z0) & np.isclose(maps[0].psi0, psi0)]
         assert f"{state} state" in browser.text("map-here")
         assert states_at(browser, place) == {state}
@@ -462,7 +462,7 @@ def test_a_click_into_the_map_starts_there(browser, maps, size):
 
 
 def states_at(browser: Browser, place: tuple[int, int]) -> set[str]:
-    """States whose colours the map has about a place that is given from its middle, in pixels."""
+    """The states whose colours the map shows near a point, given in pixels from the middle."""
     script = """
     const canvas = document.getElementById("map");
     const [x, y] = [canvas.width / 2 + arguments[0], canvas.height / 2 + arguments[1]];
@@ -512,7 +512,7 @@ def test_a_wrong_value_is_named_and_changes_nothing(browser):
     assert browser.velocity() == before
 
 
-def test_static_friction_is_that_of_sliding_until_it_is_chosen(browser):
+def test_static_friction_equals_sliding_friction_by_default(browser):
     browser.open("#friction=0.2")
     browser.run("document.querySelector('details').open = true")
     entry = browser.driver.find_element(By.ID, "parameter-static_friction")
@@ -534,7 +534,7 @@ def test_static_friction_is_that_of_sliding_until_it_is_chosen(browser):
     assert browser.chosen("friction") == CONFIG["model"]["friction"]
 
 
-def test_everything_in_reach_of_the_keyboard_has_a_name(browser):
+def test_every_element_in_the_tab_order_has_a_name(browser):
     browser.open()
     browser.run("document.querySelector('details').open = true")
     nodes = browser.driver.execute_cdp_cmd("Accessibility.getFullAXTree", {})["nodes"]
@@ -554,7 +554,7 @@ def test_everything_in_reach_of_the_keyboard_has_a_name(browser):
 # -- the file ----------------------------------------------------------------------------------------------------------
 
 
-def test_one_file_that_loads_nothing(browser):
+def test_the_page_is_one_file_without_external_resources(browser):
     browser.open()
     path = Path(browser.address.removeprefix("file://"))
     assert path.stat().st_size <= 5_000_000
@@ -564,7 +564,7 @@ def test_one_file_that_loads_nothing(browser):
     assert "default-src 'none'" in text
 
 
-def test_the_stored_page_is_made_of_the_sources():
+def test_the_stored_page_is_made_from_the_sources():
     text = (ROOT / "docs/companion.html").read_text(encoding="utf-8")
     assert len(text.encode()) <= 5_000_000
     for name in build.PARTS:

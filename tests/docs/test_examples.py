@@ -1,4 +1,4 @@
-"""The Python sessions that pages of the site show give what the pages say."""
+"""The Python sessions on pages of the site print what the pages show."""
 
 import doctest
 import re
@@ -10,10 +10,16 @@ PAGES = ("tutorial", "library")
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_sessions_give_what_the_page_says(page):
+def test_sessions_print_what_the_page_shows(page):
     text = (ROOT / f"workflow/templates/site/{page}.md").read_text(encoding="utf-8")
     sessions = re.findall(r"^```pycon\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
     assert sessions
-    # One session: what a block defines is there in the next one.
+    # One session: later blocks use the names of earlier ones.
     test = doctest.DocTestParser().get_doctest("\n".join(sessions), {}, page, None, None)
     assert doctest.DocTestRunner().run(test).failed == 0
+
+
+def test_the_machine_of_the_tutorial_is_the_one_whose_chart_it_shows():
+    page = (ROOT / "workflow/templates/site/tutorial.md").read_text(encoding="utf-8")
+    (overlay,) = re.findall(r"^```yaml\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    assert overlay == (ROOT / "workflow/templates/site/feeder.yaml").read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Article, site and README: what they tell comes from tables, and a page that cannot be made says why."""
+"""Article, site and README: all numbers come from tables, and a page that cannot be made says why."""
 
 import os
 import re
@@ -20,7 +20,7 @@ from pipeline.templates import render
 
 TEMPLATES = ROOT / "workflow/templates"
 FRAME = (TEMPLATES / "article.typ").read_text(encoding="utf-8")
-# Pages with results; what a user may write, as an example, is no result.
+# Pages with results; numbers in examples for users are not results.
 PROSE = [
     TEMPLATES / "README.md",
     TEMPLATES / "findings.md",
@@ -60,18 +60,18 @@ def test_a_planted_result_is_found(text):
 @pytest.mark.parametrize(
     "text", ["see Figs. 13 and 18", "$\\omega^2 t_1$", "{{ fold }} m/s²", "`results/claims/C07.md`"]
 )
-def test_a_reference_or_a_formula_is_no_result(text):
+def test_references_and_formulas_are_not_results(text):
     assert typed(text) == []
 
 
-def test_a_number_that_nobody_gives_is_an_error():
+def test_a_missing_number_is_an_error():
     with pytest.raises(UndefinedError, match="speed"):
         render("at {{ speed }} m/s", {})
 
 
 @pytest.mark.parametrize("name", KEPT)
 def test_kept_pages_are_their_templates_filled(name):
-    """What the rule made last: all of the template but its fields, word by word."""
+    """The kept page equals its template, except for the fields."""
     findings, template = ((TEMPLATES / file).read_text(encoding="utf-8") for file in ("findings.md", name))
     template = template.replace("{{ findings }}", findings)
     parts = re.split(r"(\{\{.*?\}\}|\{%.*?%\})", template, flags=re.DOTALL)
@@ -115,7 +115,7 @@ def claim(verdict: str, low: float | None, high: float | None, value: float) -> 
         (0.065, 0.075, np.nan, "0.065 to 0.075", "–"),
     ],
 )
-def test_margins_are_distances_to_the_nearer_end(low, high, value, accepted, margin):
+def test_a_margin_is_the_distance_to_the_nearer_end(low, high, value, accepted, margin):
     found = facts.describe_claims(pd.DataFrame([claim(REPRODUCED, low, high, value)]))["C07"]
     assert (found["accepted"], found["margin"], found["paper_method"]) == ([accepted], [margin], ["–"])
 
@@ -191,7 +191,7 @@ def put(folder, text: str) -> None:
     site.gather(str(folder), [str(page)], str(style), [], {"": []})
 
 
-def test_a_link_that_leads_nowhere_is_an_error(source, tmp_path):
+def test_a_broken_link_is_an_error(source, tmp_path):
     put(source, "# A page\n\n[there](nowhere.md)\n")
     with pytest.raises(RuntimeError, match=r"nowhere\.md"):
         site.build(str(source), str(tmp_path / "html"))
@@ -205,7 +205,7 @@ site.build(*sys.argv[1:])
 
 
 def test_all_docstrings_of_the_library_can_be_read(source, tmp_path):
-    """In a process of its own: functions are documented as Python has them, without their compiler."""
+    """In a separate process, because the documentation needs the uncompiled functions."""
     files = sorted((ROOT / "scripts/conveyor").rglob("*.py"))
     modules = [".".join(file.relative_to(ROOT / "scripts").with_suffix("").parts) for file in files]
     directives = [f".. automodule:: {name}\n   :members:\n" for name in modules if not name.endswith("__init__")]

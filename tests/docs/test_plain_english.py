@@ -1,6 +1,6 @@
-"""Texts that people read avoid the phrases of an old dialect, in which nobody does anything and nouns are left out.
+"""Texts avoid some phrases that hide who acts, or leave out a noun.
 
-A line that needs such a phrase, because it quotes or names something, has the mark ALLOWED in a comment beside it.
+A line that needs such a phrase, because it quotes or names something, has the mark ALLOWED in a comment.
 """
 
 import re
@@ -10,7 +10,7 @@ import pytest
 from project import ROOT
 
 ALLOWED = "plain-english: ok"
-# Each with a plain way to say it.
+# Each with a plain alternative.
 PHRASES = {
     r"\b(is|are|was|were|be) told\b": "say who says it, or 'is determined'",
     r"\b(made|drawn) anew\b": "'made again', 'recomputed'",
@@ -32,9 +32,19 @@ PHRASES = {
     r"\bnobody (gave|gives|says|looked)\b": "say what is missing",
     r"\bbesides? what\b": "name it",
 }
-# Pages, captions, messages and config.
+# Pages, captions, messages, config, and the docstrings and comments of all scripts and tests but this one.
 READ = [
-    *(ROOT / file for file in ("CHANGELOG.md", "CONTRIBUTING.md", "config/README.md", "scripts/conveyor/README.md")),
+    *(
+        ROOT / file
+        for file in (
+            "README.md",
+            ".ci/run",
+            "CHANGELOG.md",
+            "CONTRIBUTING.md",
+            "config/README.md",
+            "scripts/conveyor/README.md",
+        )
+    ),
     *sorted((ROOT / "config").rglob("*.yaml")),
     *sorted((ROOT / "workflow/report").glob("*.rst")),
     *sorted((ROOT / "workflow/templates").glob("*.*")),
@@ -42,11 +52,13 @@ READ = [
     *sorted((ROOT / "workflow/rules").glob("*.smk")),
     *sorted((ROOT / "workflow/config").glob("*.py")),
     *sorted((ROOT / "scripts/report").glob("*.html")),
+    *sorted((ROOT / "scripts").rglob("*.py")),
+    *sorted(file for file in (ROOT / "tests").rglob("*.py") if file != Path(__file__)),
 ]
 
 
 def old_phrases(text: str) -> list[str]:
-    """The phrases to avoid that a text has, without marked lines; a phrase may go over the end of a line."""
+    """The phrases to avoid in a text, except in marked lines; a phrase may continue on the next line."""
     kept = " ".join(line.strip(" #") for line in text.splitlines() if ALLOWED not in line)
     return [found[0] for pattern in PHRASES for found in re.finditer(pattern, kept, re.IGNORECASE)]
 

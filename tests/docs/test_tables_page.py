@@ -1,4 +1,4 @@
-"""The page of tables has every table of every stage, where the workflow puts it."""
+"""The page of tables has every table of every stage, with the path that the workflow uses."""
 
 import re
 
@@ -16,10 +16,10 @@ def test_every_module_with_tables_is_listed():
     assert {module.__name__ for module in tables_page.MODULES} == found
 
 
-def test_files_are_those_of_the_workflow():
+def test_paths_are_the_paths_of_the_workflow():
     for reference in references(read_config()):
         kind, name = kind_of(reference), reference.split("/")[1]
-        # A scene of the section `precision` has a table of its own kind.
+        # A scene of the section `precision` has a different kind of table.
         file = tables_page.file_of(kind).replace("NAME", name)
         assert file == f"results/{reference.removeprefix('results/')}.parquet"
 

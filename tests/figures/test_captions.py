@@ -24,19 +24,19 @@ def test_a_typed_number_is_found(text):
     assert typed(f"The exponent of Fig. 22 in 1/s, {{{{ plateau }}}} {text}.")
 
 
-def test_a_number_that_nobody_gives_is_an_error():
+def test_a_missing_number_is_an_error():
     with pytest.raises(UndefinedError, match="speed"):
         captions.caption("at {{ speed }} m/s", "fig01", {}, {})
     assert captions.caption("no number\n", "fig01", {}, {}) == "no number\n"
 
 
-def test_titles_hold_no_typed_number():
+def test_titles_have_no_typed_number():
     for name, entry in FIGURES.items():
         assert typed(entry["title"]) == [], name
 
 
 def test_plateau_and_exponent_of_fig_22():
-    """The estimate where motion is chaotic, and the exponent there."""
+    """The estimate at amplitudes with chaos, and the exponent there."""
     acceleration = np.arange(20.0, 91.0)
     chaotic = acceleration >= 63.0
     estimate = pd.DataFrame({"acceleration": acceleration, "lambda": np.where(acceleration >= 59.0, 17.0, -9.0)})
@@ -54,7 +54,7 @@ def test_plateau_and_exponent_of_fig_22():
     }
 
 
-def test_chaos_before_the_accumulation_is_told():
+def test_chaos_before_the_accumulation_is_mentioned():
     acceleration = np.arange(55.0, 70.0, 0.5)
     spectrum = pd.concat(
         pd.DataFrame(
@@ -75,8 +75,8 @@ def test_chaos_before_the_accumulation_is_told():
     assert found["regular_share"] == f"{100 * 2 / 14:.0f}"  # 63.0 and the window at 66.0
 
 
-def test_costs_are_those_of_all_jobs_behind_a_figure():
-    """A table that several jobs make one after the other, and one that two of them share."""
+def test_costs_cover_all_jobs_behind_a_figure():
+    """Jobs in a sequence, and a table that two of them share."""
     table = pd.DataFrame(
         [
             ("figures/a.pdf", "results/logs/figures/a.log", "results/x/late.parquet"),
@@ -98,8 +98,8 @@ def test_costs_are_those_of_all_jobs_behind_a_figure():
     assert costs.jobs_of("figures/b.pdf", table) == {f"{folder}/figures/b.tsv", f"{folder}/y/both.tsv"}
 
 
-def test_the_workflow_tells_its_own_jobs(built, monkeypatch):
-    """A sweep has its shards and their states behind it."""
+def test_costs_cover_shards_and_states(built, monkeypatch):
+    """A sweep depends on its shards and their states."""
     monkeypatch.chdir(built.folder)
     jobs = costs.jobs_of("figures/fig08.pdf", costs.summary(["figures/fig08.pdf"], "Snakefile", []))
     names = {job.removeprefix("results/benchmarks/") for job in jobs}
@@ -112,7 +112,7 @@ def test_the_workflow_tells_its_own_jobs(built, monkeypatch):
 
 
 def test_when_a_rigid_part_leaves_and_arrives():
-    """It leaves at 30 and has half of the contact's velocity at 50; what feeds fast elsewhere does not count."""
+    """It leaves the plate at 30 and has half of the contact's velocity at 50 m/s²; other fast motions do not count."""
     rows = [
         (model, "velocity", amplitude, height, velocity, state)
         for model, velocities, states in (
@@ -129,7 +129,7 @@ def test_when_a_rigid_part_leaves_and_arrives():
     assert numbers == {"duration": "1", "leaves": "40", "rigid_leaves": "30", "arrives": "50"}
 
 
-def test_tables_are_counted_once_where_a_variant_is_seen():
+def test_tables_with_a_visible_variant_count_once():
     names = ("sweeps/a", "sweeps/a", "sweeps/b")
     table = pd.DataFrame({"table": names, "variant": "rigid part", "tolerance": np.nan, "visible": [True, True, False]})
     half = table.assign(variant="half the time", visible=False)

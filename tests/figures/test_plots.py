@@ -1,4 +1,4 @@
-"""What plots find in their tables by themselves, and what they load."""
+"""Plots: runs that have not settled, and the modules that plots import."""
 
 import subprocess
 import sys
@@ -8,28 +8,30 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from figures.plots import fig08, fig15
+from accuracy import precision
+from conveyor.methods import peers
+from figures.plots import fig08, fig15, work_precision
 
 
 def sweep(low: float, high: float) -> pd.DataFrame:
-    """Five starts at each of five amplitudes, two of which have velocities between `low` and `high`."""
+    """Five initial conditions at each of five amplitudes, two of which have velocities between `low` and `high`."""
     amplitudes = np.repeat([50.0, 51.0, 52.0, 53.0, 54.0], 5)
     velocity = np.where(amplitudes > 52.5, np.tile(np.linspace(low, high, 5), 5), 0.1)
     return pd.DataFrame({"acceleration": amplitudes, "mean_velocity": velocity, "state": "second"})
 
 
-def test_runs_that_have_not_settled_are_found_where_most_of_them_scatter():
+def test_unsettled_runs_are_found_where_most_velocities_scatter():
     assert fig08.unsettled(sweep(0.1, 0.2)) == pytest.approx((54.0, 0.125))
 
 
-def test_settled_runs_are_not_told_to_scatter():
+def test_settled_runs_do_not_count_as_scattered():
     assert fig08.unsettled(sweep(0.1, 0.102)) is None
     one_aside = sweep(0.1, 0.1)
     one_aside.loc[24, "mean_velocity"] = 0.2
     assert fig08.unsettled(one_aside) is None
 
 
-def test_chaos_scatters_by_itself():
+def test_chaos_does_not_count_as_unsettled():
     assert fig08.unsettled(sweep(0.1, 0.2).assign(state="chaos")) is None
 
 
@@ -42,8 +44,31 @@ def test_the_line_of_fig_15_follows_gravity_normal_to_the_track(inclination):
     assert line.get_ydata() == pytest.approx([0.3 + 2.0 * np.pi * 50.0 * fall, 0.3])
 
 
+def test_failures_are_listed_in_order_and_missing_peers_are_named():
+    """A method that is right in each run is not listed; a peer that is not installed has not failed."""
+    runs = pd.DataFrame(
+        [
+            ("event", "exact", "ok"),
+            ("euler", "fixed step", "wrong state"),
+            ("DOP853", "events", "through the plate"),
+            ("DOP853", "modes", "ok"),
+            ("heyoka", "modes", "not installed"),
+            ("euler", "fixed step", "ok"),
+        ],
+        columns=["method", "treatment", "outcome"],
+    )
+    assert work_precision.failing_methods(runs) == [("euler", "fixed step"), ("DOP853", "events")]
+    assert work_precision.missing_note([runs]).endswith(": heyoka")
+    assert work_precision.missing_note([runs[runs.outcome == "ok"]]) == ""
+
+
+def test_every_outcome_has_a_marker():
+    outcomes = {*peers.STATUSES, precision.WRONG, precision.THROUGH} - {peers.NOT_INSTALLED}
+    assert set(work_precision.OUTCOMES) == outcomes
+
+
 def test_a_picture_does_not_wait_for_the_compiler():
-    """What most plots take from the solver are names and closed forms; `simulate` loads the rest when asked for."""
+    """Most plots need only names and closed forms of the solver; `simulate` is imported on first use."""
     code = (
         "import sys, make, draw, conveyor; from figures.plots import fig13; before = 'numba' in sys.modules; "
         "from conveyor import simulate; print(before, 'numba' in sys.modules, hasattr(conveyor, 'nothing'))"

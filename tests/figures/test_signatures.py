@@ -1,4 +1,4 @@
-"""What the config gives to plots and captions is what their signatures name."""
+"""The arguments that the config gives to plots and captions are the arguments in their signatures."""
 
 import importlib
 import inspect
@@ -13,7 +13,7 @@ from figures import captions, style
 
 CONFIG = read_config()
 FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]
-# Settings that mark a number of the paper, which a machine of the user's own does without.
+# Settings that mark a number of the paper; other machines do not have them.
 PAPER_MARKS = {"critical_acceleration", "critical_height", "first_positive", "two_states"}
 
 
@@ -31,7 +31,7 @@ def test_a_plot_takes_the_tables_and_settings_of_its_figure(figure):
 
 
 @pytest.mark.parametrize("figure", [name for name, entry in FIGURES.items() if "paper_only" not in entry])
-def test_a_plot_does_without_the_published_method_and_the_papers_marks(figure):
+def test_a_plot_works_without_the_published_method_and_the_papers_marks(figure):
     entry = FIGURES[figure]
     tables = [role for role, reference in entry["tables"].items() if not reference.endswith("_euler")]
     settings = [name for name in entry.get("settings", {}) if name not in PAPER_MARKS]
@@ -40,7 +40,7 @@ def test_a_plot_does_without_the_published_method_and_the_papers_marks(figure):
 
 
 @pytest.mark.parametrize("figure", FIGURES)
-def test_a_caption_function_finds_what_it_reads(figure):
+def test_the_arguments_of_a_caption_function_exist(figure):
     wanted = find_undeclared_variables(
         Environment().parse((ROOT / f"workflow/report/{figure}.rst").read_text(encoding="utf-8"))
     )
@@ -50,7 +50,7 @@ def test_a_caption_function_finds_what_it_reads(figure):
     given = names(FIGURES[figure], ("tables", "caption_tables", "settings"))
     parameters = inspect.signature(captions.NUMBERS[figure]).parameters
     assert {name for name, one in parameters.items() if one.default is one.empty} <= set(given)
-    # A table that only the caption has is read by its function.
+    # A table that only the caption has is an argument of its function.
     assert set(FIGURES[figure].get("caption_tables", {})) <= set(parameters)
 
 

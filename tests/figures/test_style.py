@@ -1,10 +1,10 @@
-"""The one place that saves figures."""
+"""Saving of figures."""
 
 from figures import style
 
 
 def test_files_of_a_figure_have_one_layout(tmp_path):
-    """That of the first one, to the digit: a layout depends a little on what it is made for."""
+    """The layout of the first file, because the layout depends slightly on the file format."""
 
     def position(*names):
         with style.applied():

@@ -23,7 +23,7 @@ def made(settings: dict = SETTINGS) -> pd.DataFrame:
 
 
 def heights() -> pd.DataFrame:
-    """Critical heights on the curve; what is not critical, or outside of the settings' amplitudes, lies off it."""
+    """Critical heights on the curve; heights that are not critical, or at amplitudes that are not used, lie off it."""
     acceleration = np.linspace(25.0, 50.0, 51)
     height = TRUE["A"] / (TRUE["B"] + acceleration) + TRUE["C"]
     on_curve = pd.DataFrame({"acceleration": acceleration, "z0": height, "is_critical": True})
@@ -47,7 +47,7 @@ def test_the_valley_has_its_bottom_at_the_true_parameter():
 
 
 def test_without_an_interval_all_amplitudes_are_fitted():
-    """As for a machine of one's own: the lowest amplitude bounds B, and no triple of the paper's is looked at."""
+    """As for your own machine: the lowest amplitude bounds B, and the paper's A, B and C are not used."""
     own = {name: value for name, value in SETTINGS.items() if name not in ("acceleration", "paper")}
     data = heights()
     data = data[data.is_critical & (data.z0 < 1.0)]

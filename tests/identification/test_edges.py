@@ -1,4 +1,4 @@
-"""Amplitudes above which starts leave the first state."""
+"""Edges: amplitudes above which initial conditions no longer lead to the first state."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ SCAN, FURTHER = np.arange(10.0, 31.0, 2.0), 0.1 * np.arange(1.0, 11.0)
 
 
 def first_below(*intervals):
-    """A state for each amplitude: first within the intervals."""
+    """The state at each amplitude: first within the intervals."""
 
     def decide(parameters):
         a = parameters[:, ACCELERATION]
@@ -38,19 +38,19 @@ def first_below(*intervals):
 )
 def test_the_edge_lies_above_all_tongues(intervals, expected):
     found = edges.find_edges(np.zeros((1, len(PARAMETERS))), SCAN, FURTHER, 1e-6, first_below(*intervals))
-    # The middle of what encloses it.
+    # The middle of its bracket.
     assert found == pytest.approx([expected], abs=0.5e-6, nan_ok=True)
 
 
-def test_each_row_may_have_a_scan_of_its_own():
+def test_each_row_may_have_its_own_scan():
     rows = np.zeros((2, len(PARAMETERS)))
     scan = np.array([[17.0, 10.0], [18.0, 11.0]])
     found = edges.find_edges(rows, scan, FURTHER, 1e-6, first_below((0.0, 17.3)))
     assert found == pytest.approx([17.3, np.nan], abs=1e-6, nan_ok=True)
 
 
-def test_the_loss_is_that_of_the_linear_contact():
-    """For a Hooke contact d_c/m times sqrt(m/k), twice the damping ratio; and for any it is dimensionless."""
+def test_the_loss_of_a_hooke_contact():
+    """For a Hooke contact it is d_c/m times sqrt(m/k), twice the damping ratio. It is dimensionless for any contact."""
     linear = MODEL | {"exponent": 1.0}
     ratio = 0.3 / np.sqrt(2e3 * MODEL["mass"])
     assert edges.impact_loss(0.3, 2e3, linear) == pytest.approx(ratio)
@@ -59,13 +59,13 @@ def test_the_loss_is_that_of_the_linear_contact():
     assert edges.impact_loss(0.3e3, 5e5 * 10**1.5, other) == pytest.approx(edges.impact_loss(0.3, 5e5, MODEL))
 
 
-def test_the_loss_on_a_rising_track_is_that_of_gravity_normal_to_it():
+def test_the_loss_on_a_rising_track_follows_gravity_normal_to_it():
     level = MODEL | {"gravity": MODEL["gravity"] * np.cos(0.4)}
     assert edges.impact_loss(0.3, 5e5, MODEL | {"inclination": 0.4}) == edges.impact_loss(0.3, 5e5, level)
 
 
-def test_one_edge_serves_all_angles_frictions_and_frictionless_tension():
-    """States of motion depend on the vertical amplitude alone, not on friction, and not on friction under tension."""
+def test_edges_hold_for_all_angles_frictions_and_frictionless_tension():
+    """States of motion depend on the vertical amplitude only, not on friction, also if the contact pulls."""
     z0 = np.array([0.0, 1e-4, 3e-4])
     for degrees, friction, tension in ((9.0, 0.3, "allow"), (15.0, 0.1, "frictionless")):
         angle = np.radians(degrees)

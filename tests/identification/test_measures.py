@@ -1,4 +1,4 @@
-"""Numbers measured from edges and four trajectories, against the claims' own way to them."""
+"""Quantities from edges and four trajectories, compared with the functions of the claims."""
 
 import numpy as np
 import pandas as pd
@@ -28,7 +28,7 @@ MEASURED = {
     "triple": TRIPLE,
     "bounds_of_b": [-28.0, 0.0],
 }
-# Contacts close around the printed one.
+# Contacts close to the printed one.
 NEAR = {
     **OWN,
     "model": MODEL,
@@ -47,7 +47,7 @@ def direct() -> dict[str, float]:
 
 
 def test_edges_by_the_paper_method_lie_a_little_lower():
-    """By docs/claims.md its critical heights are 1 to 4 % lower, so that its edges are, too."""
+    """Its critical heights are 1 to 4 % lower (docs/claims.md), so its edges are lower, too."""
     euler = {"method": "euler", "duration": 1.0, "step": 5e-7, "settling": 1000}
     few = NEAR | {"heights": [5e-5, 1.3e-4], "euler": euler, "edges": NEAR["edges"] | {"resolution": 2e-3}}
     found = [printed.edges_at(PRINTED, "allow", method, few, 1) for method in (printed.EULER, printed.CONVERGED)]
@@ -65,7 +65,7 @@ MODEL_WITHOUT = {name: value for name, value in MODEL.items() if name not in ("a
 
 
 def test_places_agree_with_the_claims_on_a_thin_axis(direct):
-    """The claims take the first or the last amplitude of an axis: within its step the edge lies."""
+    """The claims use the first or the last amplitude of an axis, so the edge lies within one of its steps."""
     step = 0.25
     ends = np.concatenate([np.arange(28.25, 29.5, step), np.arange(48.75, 50.25, step)])
     table = states({"acceleration": ends, "z0": np.linspace(0.0, 0.5e-3, 11)}, {})
@@ -112,7 +112,7 @@ def test_critical_heights_and_their_fit_agree_with_the_claims(direct):
 
 
 def test_velocities_agree_with_the_claims(direct):
-    """Within what starts of one state differ by after a second; and friction alone moves them, as first looked at."""
+    """Up to the differences between initial conditions of one state after a second."""
     table = states({"acceleration": [29.0, 47.0], "z0": np.linspace(0.0, 0.4e-3, 41)}, {})
     first, second = (about_states.velocities(table, state) for state in ("first", "second"))
     assert direct["C05.velocity_at_lower_end"] == pytest.approx(first[0], abs=0.005)
@@ -125,17 +125,17 @@ def interpolated() -> measures.Edges:
     return measures.interpolate_edges(pd.DataFrame(edges.make(NEAR)), MODEL)
 
 
-def test_interpolated_edges_are_those_of_the_contact(interpolated, direct):
+def test_interpolated_edges_agree_with_the_search(interpolated, direct):
     found = measures.quantities_at(interpolated, PRINTED[None], "allow", NEAR, measures.converged_velocities)
     for name, value in found.items():
         assert value[0] == pytest.approx(direct[name], rel=2e-3), name
 
 
-def test_the_config_knows_what_is_measured(direct):
+def test_the_config_lists_the_measured_quantities(direct):
     assert set(NUMBERS_OF_CLAIMS) == {name for name in direct if name not in ("C09.A", "C09.B", "C09.C")}
 
 
-def test_friction_moves_velocities_alone(interpolated):
+def test_friction_changes_only_velocities(interpolated):
     values = np.tile(PRINTED, (3, 1))
     values[:, 0] = 0.15, 0.20, 0.25
     found = measures.quantities_at(interpolated, values, "allow", NEAR, measures.converged_velocities)
@@ -147,7 +147,7 @@ def test_friction_moves_velocities_alone(interpolated):
 
 
 def test_velocities_scale_with_friction_and_the_slope_of_the_excitation(interpolated):
-    """μ times a function of cot φ/μ and the vertical motion: x over μ feels a_x over μ, and nothing else of both."""
+    """They are μ times a function of cot φ/μ and the vertical motion, because x/μ depends on a_x/μ only."""
     angle = np.radians(13.0)
     values = np.tile(PRINTED, (2, 1))
     values[1, 3] = angle
@@ -158,15 +158,15 @@ def test_velocities_scale_with_friction_and_the_slope_of_the_excitation(interpol
     assert velocities[0] == pytest.approx(velocities[1], rel=1e-6)
 
 
-def test_velocities_are_those_of_runs():
+def test_velocities_equal_the_velocities_of_runs():
     rows = np.repeat(packed(PRINTED[None], "clip", MODEL), 3, axis=0)
     rows[:, 0], rows[:, 11] = 40.0, [0.0, 1e-4, 3e-4]
     runs = ensemble.run(rows, tolerance=measures.TOLERANCE)
     assert measures.converged_velocities(rows).tolist() == runs["mean_velocity"].tolist()
 
 
-def test_each_reading_of_tension_has_its_own_edges():
-    """Frictionless tension those of `allow`, as the vertical motion knows no friction."""
+def test_tension_modes_have_different_edges():
+    """Only `frictionless` has the edges of `allow`, because the vertical motion does not depend on friction."""
     columns = pd.MultiIndex.from_product(
         [[0.2, 0.24, 0.26, 0.3], [4e5, 5e5, 6e5, 7e5], ["allow", "clip"], [0.0, 1e-4]],
         names=["loss", "stiffness", "tension", "z0"],
@@ -179,15 +179,15 @@ def test_each_reading_of_tension_has_its_own_edges():
 
 
 def test_the_critical_height_is_the_lowest_that_leaves_the_first_state():
-    """Behind a hump of the edge as well: what leaves before it leaves first."""
+    """Also if the edge has a hump: lower heights that leave the first state count first."""
     heights = np.linspace(0.0, 4.0, 4001)
     found = measures.Curve(heights, np.interp(heights, range(5), [50.0, 40.0, 45.0, 30.0, 60.0])[None])
     wanted = np.array([[55.0, 42.0, 41.0, 35.0, 30.0, 20.0]])
     assert found.critical_height(wanted)[0] == pytest.approx([0.0, 0.8, 0.9, 8.0 / 3.0, 3.0, 3.0], abs=2e-3)
 
 
-def test_the_largest_critical_height_is_led_down_to_the_lower_end():
-    """Where the second state begins above it, by the slope of Eq. 13 there: heights of two conveyors 1 m/s² apart."""
+def test_the_largest_critical_height_is_extrapolated_to_the_lower_end():
+    """With the slope of Eq. 13, if the second state begins above it: two conveyors with edges 1 m/s² apart."""
     heights = np.linspace(0.0, 5e-4, 501)
     falling = 50.0 - 4e4 * heights
     found = measures.Curve(heights, np.stack([np.maximum(falling, edge) for edge in (30.0, 31.0)]))
@@ -198,7 +198,7 @@ def test_the_largest_critical_height_is_led_down_to_the_lower_end():
     assert other == pytest.approx(1e3 * (4.75e-4 - 2.0 * slope), rel=1e-3)
 
 
-def test_a_table_with_a_gap_is_refused(interpolated):
+def test_a_table_with_a_missing_edge_is_an_error(interpolated):
     table = pd.DataFrame(
         {"loss": [0.2], "stiffness": [5e5], "tension": ["allow"], "z0": [0.0], "vertical_acceleration": [np.nan]}
     )

@@ -1,4 +1,4 @@
-"""Distances from the paper's numbers, in half accepted intervals."""
+"""Misfits: distances from the paper's numbers, in half accepted intervals."""
 
 import numpy as np
 import pandas as pd
@@ -29,7 +29,7 @@ def test_shifts_are_added_before_numbers_are_compared():
 
 
 def test_two_numbers_of_one_quantity():
-    """50 ± 1 and 47 ± 0.5 meet at 48 if both are twice as wide, and at no other value if less."""
+    """50 ± 1 and 47 ± 0.5 touch at 48 if both are twice as wide."""
     one, other = Number(49.0, 51.0), Number(46.5, 47.5)
     factor = smallest_widening(one, other)
     assert factor == pytest.approx(2.0)
@@ -44,7 +44,7 @@ def test_two_numbers_of_one_quantity():
 
 
 def test_intervals_end_where_the_lowest_profile_has_risen():
-    """Parabolas about 1 under two readings, of which the lower one counts; the best lies between two values."""
+    """Parabolas about 1 for two tension modes, of which the lower one counts; the minimum lies between two values."""
     x = np.array([0.4, 0.7, 1.2, 1.5])
     profiles = pd.concat(
         (
@@ -66,7 +66,7 @@ def test_intervals_end_where_the_lowest_profile_has_risen():
     assert list(found) == list(PARAMETERS)
     for k, name in enumerate(PARAMETERS, start=50):
         low, high = found[name]
-        # By straight lines between (1, 5) or (0.7, 5 + 0.09 k) and the next value.
+        # Linear interpolation between (1, 5) or (0.7, 5 + 0.09 k) and the next value.
         assert low.value == pytest.approx(1.0 - 0.3 * 3.0 / (0.09 * k))
         at, there = (1.2, 0.04 * k) if 0.04 * k <= 3.0 else (1.0, 0.0)
         ahead, beyond = (1.5, 0.25 * k) if at == 1.2 else (1.2, 0.04 * k)
@@ -89,8 +89,8 @@ NUMBERS = {
         (4.0, "the fall from 0.075 to 0.125, all three at no friction"),
     ],
 )
-def test_frictions_that_are_accepted(fall, words):
-    """Velocities that grow in proportion to friction."""
+def test_accepted_frictions(fall, words):
+    """Velocities are proportional to friction."""
     friction = np.linspace(0.0, 0.4, 41)
     grown = {"friction": friction, "first_low": 5.0 * friction, "first_high": 10.0 * friction, "fall": fall * friction}
     words_of_all = findings.describe_frictions(pd.DataFrame(grown), NUMBERS)
@@ -98,7 +98,7 @@ def test_frictions_that_are_accepted(fall, words):
     assert words_of_all.endswith(words)
 
 
-def test_few_contacts_are_a_coarse_table():
+def test_a_table_of_few_contacts_is_coarse():
     assert findings.is_coarse({"contacts": {"loss": 4, "stiffness": 4}})
     assert not findings.is_coarse({"contacts": {"loss": 9, "stiffness": 9}})
 
@@ -108,6 +108,6 @@ def test_the_distance_of_fronts_counts_members_of_both():
     assert distance(one, other) == distance(other, one) == 0.25
 
 
-def test_shifts_are_what_the_paper_method_adds():
+def test_shifts_are_the_differences_of_the_paper_method():
     rows = [("printed", "euler", "a", 3.0), ("printed", "converged", "a", 1.0), ("other", "euler", "a", 9.0)]
     assert shifts_of(pd.DataFrame(rows, columns=["set", "method", "number", "value"])) == {"a": 2.0}

@@ -1,4 +1,4 @@
-"""Fits, fronts and profiles of misfits whose least values are known."""
+"""Fits, fronts and profiles of misfits with known minima."""
 
 import numpy as np
 import pandas as pd
@@ -19,7 +19,7 @@ CENTRE = BOUNDS.mean(axis=0)
 SETTINGS = {**OWN["search"], "population": 40, "generations": 40}
 
 
-def test_values_and_what_is_searched_are_inverse():
+def test_values_of_and_searched_are_inverse():
     values = np.array([[0.15, 0.3, 5e5, 0.2], [0.3, 0.2, 1e5, 0.25]])
     assert values_of(searched(values, MODEL), MODEL) == pytest.approx(values)
     named = ("angle", "stiffness", "damping", "friction", "tension")
@@ -41,8 +41,8 @@ def test_least_squares_finds_the_bottom_and_stops_at_bounds():
     assert found.settled
 
 
-def test_least_squares_takes_the_lowest_of_its_ends_and_says_if_it_gave_up(monkeypatch):
-    """Two valleys, of which the one on the right is deeper; and a search that is stopped after a step."""
+def test_least_squares_returns_the_lowest_result_and_says_if_it_gave_up(monkeypatch):
+    """Two valleys, of which the right one is deeper, and a search that is stopped after one step."""
 
     def residuals(x):
         return np.hstack([3.0 * (x**2 - 1.0), x - 2.0])
@@ -54,7 +54,7 @@ def test_least_squares_takes_the_lowest_of_its_ends_and_says_if_it_gave_up(monke
     assert not fit(residuals, np.array([[-0.9]]), bounds).settled
 
 
-def test_least_squares_take_no_misfit_twice():
+def test_least_squares_computes_no_misfit_twice():
     seen = []
 
     def residuals(x):
@@ -66,7 +66,7 @@ def test_least_squares_take_no_misfit_twice():
 
 
 @pytest.mark.parametrize("parameter", PARAMETERS)
-def test_the_values_of_a_profile_ascend_within_what_is_searched(parameter):
+def test_the_values_of_a_profile_ascend_within_the_bounds(parameter):
     grid = profiles.grid_of(parameter, 9, BOUNDS, MODEL)
     assert (np.diff(grid) > 0.0).all()
     column = list(PARAMETERS).index(parameter)
@@ -90,7 +90,7 @@ def test_a_held_parameter_is_held(parameter):
 
 
 def test_the_profile_of_a_linear_problem_is_a_parabola():
-    """Two misfits of the sum and one of the first: held, the others make up for all but its own."""
+    """Two misfits of the sum and one of the first parameter: if it is held, the other parameters cancel the rest."""
     column = SEARCHED.index("friction")
 
     def misfits(x):
@@ -104,8 +104,8 @@ def test_the_profile_of_a_linear_problem_is_a_parabola():
     assert {status for *_, status in found} == {"ok"}
 
 
-def test_a_profile_takes_a_better_valley_back_to_where_it_was_not_seen():
-    """Two valleys over the angle. The search begins in the shallow one; a point near the last value is in the other."""
+def test_a_profile_continues_a_better_valley_backwards():
+    """Two valleys over the angle. The search begins in the shallow one; one guess lies in the deep one."""
     column, other = SEARCHED.index("friction"), SEARCHED.index("angle")
     reach = np.ptp(BOUNDS[:, other])
 
@@ -124,8 +124,8 @@ def test_a_profile_takes_a_better_valley_back_to_where_it_was_not_seen():
     assert [total for _, total, _ in found] == pytest.approx([0.1] * 4, abs=1e-5)
 
 
-def test_a_profile_starts_nowhere_twice(monkeypatch):
-    """Its totals rise on either side of the optimum, and each value has started from its better neighbour before."""
+def test_a_profile_uses_no_guess_twice(monkeypatch):
+    """The totals rise on both sides of the optimum, and each value was fitted from its better neighbour before."""
     column, starts_of = SEARCHED.index("friction"), []
 
     def watched(residuals, starts, bounds):
@@ -139,7 +139,7 @@ def test_a_profile_starts_nowhere_twice(monkeypatch):
     assert len(set(starts_of)) == len(starts_of) > len(grid)
 
 
-def test_status_tells_a_bound_and_a_search_that_gave_up():
+def test_status_names_a_bound_and_a_search_that_gave_up():
     bounds = np.array([[0.0], [1.0]])
     assert profiles.fit_status(profiles.Fit(np.array([1.0]), 0.0, True), bounds) == "at a bound"
     assert profiles.fit_status(profiles.Fit(np.array([0.5]), 0.0, False), bounds) == "not settled"
@@ -156,7 +156,7 @@ def test_ends_of_an_interval():
         findings.find_ends(x, total, free, -1.0)
 
 
-def test_rises_grow_where_the_best_misses_by_more_than_the_errors():
+def test_rises_grow_if_the_best_misfit_exceeds_the_errors():
     optima = pd.DataFrame(
         {"evidence": ["a", "a", "b"], "tension": ["allow", "clip", "allow"], "total": [18.0, 20.0, 3.0], "numbers": 10}
     )
@@ -167,7 +167,7 @@ def test_rises_grow_where_the_best_misses_by_more_than_the_errors():
 
 
 def conflict(x):
-    """Misfits of which no two of the last three can be zero at once: 0, y, y - 1 and z."""
+    """Misfits that cannot all be zero: 0, y, y - 1 and z."""
     y = (x - CENTRE) / np.ptp(BOUNDS, axis=0)
     return np.stack([4.0 * y[:, 1], 4.0 * y[:, 0], 4.0 * y[:, 0] - 1.0, 4.0 * y[:, 2]], axis=1)
 
@@ -185,7 +185,7 @@ def test_objectives_are_root_mean_squares_of_their_groups():
 
 
 def test_the_front_of_two_parabolas():
-    """Between the zeros of both: the first objective is y/√2, the second 1 - y, and the third can vanish."""
+    """Between their minima, the first objective is y/√2, the second is 1 - y, and the third can be zero."""
     drawn = np.random.default_rng(1).uniform(*BOUNDS, (50, 4))
     first = fronts.fit_compromises(conflict, SIZES, drawn, BOUNDS, SETTINGS)
     x, found, shares = fronts.search(objectives, first, BOUNDS, SETTINGS, 1)
@@ -194,14 +194,14 @@ def test_the_front_of_two_parabolas():
     y = np.linspace(0.0, 1.0, 21)
     true = np.stack([y / np.sqrt(2.0), 1.0 - y, np.zeros(21)], axis=1)
     assert np.abs(found[:, None] - true).max(axis=-1).min(axis=0).max() < 0.08
-    # All of the cube of 4 x 4 x 4 but the prism below the front.
+    # The cube of 4 x 4 x 4 without the prism below the front.
     assert shares[-1] == pytest.approx(1.0 - 0.5 / np.sqrt(2.0) * 4.0 / 4.0**3, abs=0.002)
     assert (np.diff(shares) >= 0.0).all()
     again, *_ = fronts.search(objectives, first, BOUNDS, SETTINGS, 1)
     assert np.array_equal(x, again)
 
 
-def test_a_search_that_has_not_come_to_rest_says_so():
+def test_a_search_that_has_not_converged_says_so():
     front = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
     still, grows = [0.5] * 20, [0.01 * n for n in range(1, 21)]
     assert fronts.status([front, front], [still, still], OWN["search"]) == "converged"

@@ -1,4 +1,4 @@
-"""Tables of critical heights where the state of each start is given."""
+"""Tables of critical heights from given states."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from motion import critical_heights
 
 
 def test_changes_are_numbered_from_below_at_each_conveyor(monkeypatch):
-    """At 30 m/s² the first state ends at 0.15 mm; at 40 m/s² it also comes back at 0.25 mm and ends at 0.35 mm."""
+    """At 30 m/s² the first state ends at 0.15 mm; at 40 m/s² it also returns at 0.25 mm and ends at 0.35 mm."""
 
     def decide(rows, *_):
         height, stripe = rows[:, Z0], rows[:, ACCELERATION] == 40.0

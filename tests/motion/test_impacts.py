@@ -1,4 +1,4 @@
-"""Impacts: starts and their images on the plate lead where they lead by themselves."""
+"""Impacts: states of initial conditions, and of their first impacts on the plate."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ SETTINGS = {
 }
 
 
-def test_states_of_starts_and_images_are_those_that_each_leads_to():
+def test_states_equal_the_states_of_single_runs():
     made = impacts.make(SETTINGS, threads=2)
     _, parameters = grid.product(SETTINGS["axes"], SETTINGS["model"])
     found = first_impacts(parameters)

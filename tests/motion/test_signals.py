@@ -16,13 +16,13 @@ def settings(**others):
 
 
 def frame(stage, entry):
-    """The table that a stage makes of an entry, as it is written and read."""
+    """The table of an entry after writing and reading."""
     (kind, columns), *_ = stage.TABLES.items()
     schema = [*(fields.AXES[axis] for axis in entry["axes"]), *columns]
     return tables.make(kind, schema, stage.make(entry), entry).to_pandas()
 
 
-def test_part_of_a_still_conveyor_rests_on_it():
+def test_a_part_rests_on_a_conveyor_at_rest():
     entry = settings(axes={"acceleration": [0.0]}, times={"start": 0.09, "stop": 0.1, "num": 3})
     table = frame(signals, entry)
     assert table.time.tolist() == pytest.approx([0.09, 0.095, 0.1])
@@ -32,7 +32,7 @@ def test_part_of_a_still_conveyor_rests_on_it():
 
 
 @pytest.mark.parametrize("method", ["event", "euler"])
-def test_plate_columns_are_its_motion_for_each_point(method):
+def test_plate_columns_are_the_motion_of_the_plate_at_each_point(method):
     accelerations = [30.0, 60.0]
     entry = settings(axes={"acceleration": accelerations}, times={"start": 0.0, "stop": 0.02, "num": 9}, method=method)
     entry |= {"step": 1e-5, "duration": 0.02}
@@ -74,8 +74,8 @@ def test_starts_and_their_images_lead_to_the_same_state():
     assert table.query("psi0 == 0.0").state.tolist() == ["first", "second"]
 
 
-def test_a_spectrum_is_that_of_the_last_period():
-    """At frequency 0 stands the mean velocity, which still grows here."""
+def test_a_spectrum_covers_the_last_period():
+    """The value at frequency 0 is the mean velocity, which still grows here."""
     run = simulate(Conveyor(), Start(3e-4), duration=0.1)
     found = spectra.spectra_of_end(run, 2, 0.25, 4096)["vx"]
     ends = run.sample([0.06, 0.1])["x"]

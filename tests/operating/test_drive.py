@@ -1,4 +1,4 @@
-"""Drive design: single designs against the operating table, constraints, fronts with known members, and the page."""
+"""Drive design: single designs and the operating table, constraints, fronts with known members, and the page."""
 
 import math
 
@@ -24,7 +24,7 @@ def outcome() -> pd.DataFrame:
     return drive.evaluate(np.array([[22.0, *PAPER], [40.0, *PAPER]]), SETTINGS, EXACTLY)
 
 
-def test_designs_have_the_outcomes_of_the_operating_table(outcome):
+def test_outcomes_of_designs_agree_with_the_operating_table(outcome):
     table = shares.motions_at(np.array([22.0, 40.0]), SETTINGS)
     one, two = (table[table.acceleration == acceleration] for acceleration in (22.0, 40.0))
     most = two.loc[two.share.idxmax()]
@@ -38,7 +38,7 @@ def test_designs_have_the_outcomes_of_the_operating_table(outcome):
     assert outcome.displacement[1] == pytest.approx(40.0 / (100.0 * math.pi) ** 2)
 
 
-def test_brief_runs_have_the_velocities_of_long_ones(outcome):
+def test_velocities_of_brief_runs_agree_with_long_runs(outcome):
     designs = np.array([[22.0, *PAPER], [40.0, *PAPER]])
     few = {**SETTINGS, "followed": 1, "cycles": 60}
     brief = drive.evaluate(designs, few, EXACTLY, measure=shares.brief_velocities)
@@ -62,7 +62,7 @@ def motions(states: list[str], velocities: list[float], counts: list[float]) -> 
     return pd.DataFrame(columns).assign(impact_speed=0.1)
 
 
-def test_chaos_and_what_is_not_decided_count_as_chaos(monkeypatch):
+def test_undecided_motions_count_as_chaos(monkeypatch):
     table = motions(["first", "chaos", "undecided"], [0.1] * 3, [0.7, 0.2, 0.1]).assign(conveyor=0)
     monkeypatch.setattr(drive, "motions_of_conveyors", lambda *_, **__: table)
     assert drive.evaluate(np.array([[10.0, *PAPER]]), SETTINGS, EXACTLY).chaos[0] == pytest.approx(0.3)
@@ -137,7 +137,7 @@ def test_bounds_of_the_search_hold_all_designs():
         assert drive.designs_of(edge[None], bounds)[0] == pytest.approx(corner)
 
 
-def test_designs_that_break_a_constraint_are_followed_no_further(monkeypatch):
+def test_designs_that_violate_a_constraint_are_dropped_early(monkeypatch):
     """The first has too large a displacement, the second has too small a share with its first initial condition."""
     followed = []
 
@@ -154,7 +154,7 @@ def test_designs_that_break_a_constraint_are_followed_no_further(monkeypatch):
     assert objectives[2].tolist() == [-0.1, 0.1, 30.0]
 
 
-def test_the_front_keeps_what_nothing_betters():
+def test_the_front_keeps_the_non_dominated_designs():
     objectives = np.array([[1.0, 2.0, 3.0], [1.0, 2.0, 4.0], [0.0, 3.0, 3.0], [1.0, 2.0, 3.0]])
     designs = np.arange(16.0).reshape(4, 4)
     kept, best = drive.best_of_designs(designs, objectives)
@@ -198,7 +198,7 @@ def made(monkeypatch) -> dict[str, pd.DataFrame]:
 
 
 def test_a_search_with_known_outcomes_finds_their_front(made):
-    """No phase shift is best. The outcomes are those of full runs where these were made."""
+    """A phase shift of zero is best. Designs with full runs have the outcomes of these runs."""
     front = made["drive_front"]
     assert front.phase_shift.abs().median() < 0.1
     assert (front.displacement <= SETTINGS["displacement"]).all()
@@ -223,8 +223,8 @@ def growing(*volumes: float) -> pd.DataFrame:
 
 
 def test_seeds_search_on_their_own_whatever_the_number_of_threads(monkeypatch):
-    def search(settings, seed):
-        front = drive.Front(settings)
+    def search(settings, seed, count):
+        front = drive.Front(settings, count)
         front.designs, front.objectives = (
             np.array([[30.0 + seed, 50.0, 0.3, 0.0]]),
             np.array([[-0.1, 0.1, 30.0 + seed]]),
@@ -242,7 +242,7 @@ def test_seeds_search_on_their_own_whatever_the_number_of_threads(monkeypatch):
         assert found["drive_front"]["acceleration"] == [33.0]
 
 
-def test_growth_is_that_of_the_last_quarter_of_the_worst_seed():
+def test_growth_covers_the_last_quarter_of_the_worst_seed():
     one, other = growing(0.1, 0.5, 0.8, 0.8, 0.8, 0.9, 0.9, 0.9), growing(0.1, 0.5, 0.5, 0.8, 0.8, 0.8, 0.8, 1.0)
     assert drive_page.last_growth(one) == pytest.approx(0.0)
     assert drive_page.last_growth(pd.concat([one, other.assign(seed=2)])) == pytest.approx(0.25)
@@ -259,10 +259,10 @@ def test_the_page_lists_the_recommended_settings(made):
     assert f"| {slowest.checked_velocity:.3g} | {low:.3g} to {high:.3g} |" in line
     assert page.count(" | 100.0 |") == SETTINGS["recommended"]
     assert "The search has settled" in page
-    assert "fewer than 9.1 % of the box" in page
+    assert "fewer than 9.1 % of all possible initial conditions" in page
 
 
-def test_the_page_says_what_was_not_found(made):
+def test_the_page_says_that_nothing_was_found(made):
     template = (ROOT / "workflow/templates/drive.md").read_text()
     none = made["drive_front"].assign(recommended=False, confirmed=False)
     none.attrs = SETTINGS

@@ -1,4 +1,4 @@
-"""Shares of starts: the box, its motions and their velocities, and what is said of them."""
+"""Shares of initial conditions: the box, its motions and their velocities, and the chart in words."""
 
 import math
 
@@ -24,7 +24,7 @@ BOX = {
 }
 
 
-def test_heights_are_above_the_plate_at_the_phase_of_the_start():
+def test_heights_are_above_the_plate_at_the_initial_phase():
     starts = np.array([[1e-4, 0.1, 0.0], [0.0, -0.2, 1.0], [3e-4, 0.0, 4.0]])
     rows = shares.parameters_of(np.array([30.0, 50.0]), starts, {"angle": 0.3})
     assert rows.shape == (6, 16)
@@ -36,7 +36,7 @@ def test_heights_are_above_the_plate_at_the_phase_of_the_start():
         assert (row[VZ0], row[PSI0]) == (velocity, phase)
 
 
-def test_starts_fill_the_box_and_follow_the_seed():
+def test_initial_conditions_fill_the_box_and_depend_on_the_seed():
     starts = shares.starts_of_box({**BOX, "starts": 1000})
     for column, name in zip(starts.T, ("height", "vz0", "psi0"), strict=True):
         low, high = BOX[name]
@@ -46,12 +46,14 @@ def test_starts_fill_the_box_and_follow_the_seed():
     assert (starts != shares.starts_of_box({**BOX, "starts": 1000, "seed": 2})).all()
 
 
-def test_motions_are_told_apart_by_state_period_and_flight():
+def test_motions_differ_by_state_period_and_flight():
     found = Labels(
         state=np.array(["second", "first", "second", "chaos", "second", "second", "chaos"]),
         period=np.array([1, 1, 2, 0, 1, 1, 0]),
         longest_flight=np.array([0.92, 0.0, 0.92, np.nan, 1.9, 0.9201, np.nan]),
         cycles=np.zeros(7, dtype=np.int64),
+        delta=np.zeros(7),
+        v=np.zeros(7),
     )
     number = shares.groups(found)
     assert number[0] == number[5]
@@ -65,8 +67,8 @@ def table():
     return pd.DataFrame(shares.motions_at(np.array([22.0, 40.0]), BOX))
 
 
-def test_labels_are_those_of_sweeps(table):
-    """The same starts as rows of a sweep, whose chaotic sets are not shared."""
+def test_labels_agree_with_sweeps(table):
+    """The same initial conditions as rows of a sweep, without shared chaotic sets."""
     parameters = shares.parameters_of(np.array([40.0]), shares.starts_of_box(BOX), {})
     found = motions(parameters, {**BOX, "axes": {"acceleration": [40.0]}})
     own = table[table.acceleration == 40.0].set_index("state").starts
@@ -75,7 +77,7 @@ def test_labels_are_those_of_sweeps(table):
 
 
 def test_velocities_are_means_over_whole_cycles(table):
-    """Those of one long run by itself, over fifty cycles behind its first hundred."""
+    """They agree with single long runs, over fifty cycles after the first hundred."""
     for state, start in (("second", Start(3e-4)), ("first", Start(0.0))):
         x = simulate(Conveyor(acceleration=40.0), start, duration=3.0).sample(np.array([2.0, 3.0]))["x"]
         row = table[(table.acceleration == 40.0) & (table.state == state)].iloc[0]
@@ -88,10 +90,9 @@ def test_velocities_are_means_over_whole_cycles(table):
 
 
 def velocity(conveyor: Conveyor, start: Start, period: int, **settings) -> tuple[float, str]:
-    """The mean velocity of one start that has settled vertically after twenty cycles, and its status."""
-    (found,), _, (status,) = shares.velocities(
-        pack(conveyor, start)[None], np.array([period]), np.array([20]), {**BOX, **settings}
-    )
+    """The mean velocity of one initial condition that has settled vertically after twenty cycles, and its status."""
+    labels = Labels(np.array(["second"]), np.array([period]), np.zeros(1), np.array([20]), np.zeros(1), np.zeros(1))
+    (found,), _, (status,) = shares.velocities(pack(conveyor, start)[None], labels, {**BOX, **settings})
     return found, status
 
 
@@ -103,14 +104,14 @@ def test_velocities_wait_for_a_slow_horizontal_motion():
     assert status == "ok"
     plate = 40.0 * math.cos(conveyor.angle) / (100.0 * math.pi)
     assert found == pytest.approx(x[1] - x[0], abs=2.0 * shares.SETTLED * plate)
-    # With less still it is not known within six doublings.
+    # With even less friction, six doublings of the time are not enough.
     found, status = velocity(Conveyor(friction=1e-5), Start(3e-4), 1, cycles=20)
     assert np.isnan(found)
     assert status == "mean velocity not settled"
 
 
 def test_velocities_are_means_over_whole_periods():
-    """Of a motion of four cycles, behind the second doubling, asked for over a number of cycles that is no multiple."""
+    """A motion with a period of four cycles, over a number of cycles that is not a multiple of four."""
     conveyor = Conveyor(acceleration=61.8)
     assert classify(pack(conveyor, Start(3e-4))[None]).period.tolist() == [4]
     found, status = velocity(conveyor, Start(3e-4), 4, cycles=251)
@@ -119,21 +120,21 @@ def test_velocities_are_means_over_whole_periods():
     assert found == pytest.approx((x[1] - x[0]) / 8.0, rel=1e-7)
 
 
-def test_runs_that_begin_alike_are_followed_once():
-    """The means of a run's beginning and of all of it are those of two runs."""
+def test_runs_with_the_same_beginning_are_followed_once():
+    """The means over the beginning of a run and over the whole run equal the means of two runs."""
     rows = np.array([pack(Conveyor(acceleration=a), Start(z0)) for a in (40.0, 80.0) for z0 in (0.0, 3e-4)])
     durations = np.array([[0.4, 0.6], [0.4, 0.8], [0.2, 0.8], [0.4, 0.9]])
     means, peaks, status = shares.last_quarters(rows, durations, 1e-9, 1)
     for k, (mean, duration) in enumerate(zip(means.T, durations.T, strict=True)):
         alone = ensemble.run(rows, duration=duration, tolerance=1e-9)
         assert mean.tolist() == alone["mean_velocity"].tolist()
-        if k == 1:  # peaks are those of the longest run
+        if k == 1:  # peaks of the longest run
             np.testing.assert_array_equal(peaks, np.column_stack([alone["impact_speed"], alone["peak_force"]]))
     assert (status == "ok").all()
 
 
 def test_samples_of_both_first_runs_ascend(monkeypatch):
-    """Also where a mean is asked for over less than a period."""
+    """Also if a mean covers less than a period."""
     wanted = []
 
     def last_quarters(parameters, durations, *_):
@@ -147,18 +148,19 @@ def test_samples_of_both_first_runs_ascend(monkeypatch):
 
 
 def test_brief_runs_take_means_over_whole_periods():
-    """A motion of four cycles, whose velocity over single cycles differs."""
+    """A motion with a period of four cycles, whose velocity differs from cycle to cycle."""
     rows = pack(Conveyor(acceleration=61.8), Start(3e-4))[None]
-    options = {**BOX, "cycles": 250}
-    found, peaks, status = shares.brief_velocities(rows, np.array([4]), np.array([2000]), options)
-    long, long_peaks, _ = shares.velocities(rows, np.array([4]), np.array([2000]), options)
+    options, labels = {**BOX, "cycles": 250}, classify(rows)
+    assert labels.period.tolist() == [4]
+    found, peaks, status = shares.brief_velocities(rows, labels, options)
+    long, long_peaks, _ = shares.velocities(rows, labels, options)
     assert status.tolist() == ["ok"]
     assert found == pytest.approx(long, rel=1e-3)
     assert peaks == pytest.approx(long_peaks, rel=1e-5)
     assert (shares.brief_durations(rows, np.array([4]), 250) * 50.0).tolist() == pytest.approx([256.0])
 
 
-def test_brief_runs_are_as_long_as_friction_takes():
+def test_brief_runs_are_as_long_as_friction_needs():
     """On a track steeper than friction holds, no length helps."""
     rows = np.array([pack(Conveyor(inclination=alpha), Start()) for alpha in (0.0, -0.147, 0.14888, 0.2)])
     flat, steep, steepest, beyond = shares.brief_durations(rows, np.ones(4, dtype=int), 60) * 50.0
@@ -180,10 +182,10 @@ def test_a_run_that_fails_says_why_there_is_no_velocity():
         ("undecided", ["ok", "ok"], (np.nan, np.nan, "state not decided")),
     ],
 )
-def test_velocities_of_a_motion_are_put_together(monkeypatch, states, statuses, wanted):
+def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, wanted):
     def motions_found(parameters, *_, **__):
         n = len(parameters)
-        return Labels(np.full(n, states), np.ones(n, np.int64), np.zeros(n), np.arange(n))
+        return Labels(np.full(n, states), np.ones(n, np.int64), np.zeros(n), np.arange(n), np.zeros(n), np.zeros(n))
 
     monkeypatch.setattr(shares, "motions_of_starts", motions_found)
     velocities = np.array([1.0, 3.0]), np.array([[0.1, 2.0], [0.2, 1.0]]), np.array(statuses, dtype=object)
@@ -195,18 +197,18 @@ def test_velocities_of_a_motion_are_put_together(monkeypatch, states, statuses, 
     assert (row.impact_speed, row.peak_force) == pytest.approx(peaks, nan_ok=True)
 
 
-def test_the_standard_error_is_that_of_repeated_draws():
+def test_the_standard_error_agrees_with_repeated_draws():
     drawn = [
         pd.DataFrame(shares.motions_at(np.array([40.0]), {**BOX, "seed": seed})).set_index("state").loc["first"]
         for seed in range(30)
     ]
     share = np.array([row.share for row in drawn])
-    # A standard deviation of thirty is known to an eighth.
+    # A standard deviation from thirty draws is known to an eighth.
     assert share.std(ddof=1) == pytest.approx(np.mean([row.stderr for row in drawn]), rel=0.4)
 
 
 def test_machines_with_equal_dimensionless_groups_have_equal_shares(table):
-    """Lengths in g/ω², velocities in g/ω: another frequency, gravity and mass with damping and stiffness that fit."""
+    """Lengths in g/ω², velocities in g/ω: another frequency, gravity and mass, with matching damping and stiffness."""
     paper = Conveyor()
     frequency, gravity, mass = 3.0, 1.7, 5.0
     length, velocity = gravity / frequency**2, gravity / frequency
@@ -226,8 +228,8 @@ def test_machines_with_equal_dimensionless_groups_have_equal_shares(table):
 
 
 def rows_at(acceleration: float) -> dict[str, list]:
-    """Made-up motions: one velocity below 31.4 m/s², two up to 50, of one of which there are two kinds; chaos beside a
-    jump beyond, and alone above 56.
+    """Made-up motions: one velocity below 31.4 m/s², two up to 50 (one of them by two motions), chaos and a jumping
+    motion above 50, chaos alone above 56.
     """
     common = {"period": 1, "longest_flight": 0.0, "velocity_stderr": 0.0, "status": "ok", "stderr": 0.05}
     common |= {"acceleration": acceleration, "vertical": acceleration / 47.0}
@@ -277,8 +279,8 @@ def test_numbers_in_words(ends, words):
     assert chart.numbers(*ends) == words
 
 
-def test_chaos_begins_where_it_is_first_seen():
-    """Whatever is in between later on."""
+def test_chaos_begins_at_its_lowest_amplitude():
+    """Also if motion is regular at a higher amplitude."""
     found = pd.DataFrame(
         {
             "regime": [regimes.ONE, regimes.BESIDE, regimes.ONE, regimes.CHAOS],
@@ -291,7 +293,7 @@ def test_chaos_begins_where_it_is_first_seen():
 
 
 def advised() -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Made-up tables of advice and of changes, of one aim."""
+    """Made-up tables of advice and changes for one aim."""
     row = {
         **{"aim": "certain", "acceleration": 31.0, "throw_number": 0.66, "state": "first", "period": 1},
         **{"mean_velocity": 0.01, "share": 1.0, "stderr": 0.0, "knock": 0.05, "largest_kick": 0.2},
@@ -319,7 +321,10 @@ def test_the_page_begins_with_the_advice(refined):
     assert page.startswith("# Operating chart\n\n## What to do\n")
     assert "- **Amplitude 31 m/s²**, throw number Γ = 0.66\n" in page
     assert "- At most 30 parts of 20 mm per minute, one behind the other\n" in page
-    assert "each of 100 initial conditions reaches this velocity; fewer than 3 % of the box do not" in page
+    assert (
+        "all 100 initial conditions reach this velocity; at 95 % confidence, fewer than 3 % of all possible ones do not"
+        in page
+    )
     assert "A sudden velocity change of 0.05 m/s normal to the track can end the motion" in page
     assert "- Impact speed 0.1 m/s, peak force 0.5 N (50 times the weight of the part)\n" in page
     assert "  - friction of 0.17 (now 0.15): +20 %, one velocity\n" in page
@@ -346,7 +351,7 @@ def test_worst_of_neighbours():
 
 
 def test_a_settled_motion_goes_on_and_a_large_kick_ends_it(table):
-    """At 40 m/s² the smallest kick that ends the first state is one of those tried; all smaller ones do not end it."""
+    """At 40 m/s² one of the kicks tried is the smallest that ends the first state; smaller kicks do not end it."""
     motion = table[(table.acceleration == 40.0) & (table.state == "first")].iloc[0]
     rows = advice.settled(motion, BOX, 4)
     assert advice.is_motion(classify(rows), motion).all()
@@ -354,7 +359,7 @@ def test_a_settled_motion_goes_on_and_a_large_kick_ends_it(table):
     knock = advice.smallest_knock(rows, motion, sizes, BOX)
     assert 1e-4 < knock < 0.4
     assert np.isnan(advice.smallest_knock(rows, motion, sizes[sizes < knock], BOX))
-    # The label of a kicked part alone, at the phase at which the kick is largest in effect.
+    # The label of a single kicked part, at the phase at which the kick has the largest effect.
     at_knock = np.repeat(rows, 2, axis=0)
     at_knock[:, VZ0] += np.tile([-knock, knock], len(rows))
     assert (classify(at_knock).state == "second").any()
@@ -385,8 +390,8 @@ def test_advice_has_the_numbers_of_its_motion_and_of_changed_conveyors():
     assert (certain.regime == regimes.ONE).all()
 
 
-def test_the_share_of_the_advice_is_that_of_all_motions_with_its_velocity(refined, monkeypatch):
-    """Above 40 m/s² two kinds of one velocity: 24 and 10 of 100 initial conditions."""
+def test_the_share_of_the_advice_covers_all_motions_with_its_velocity(refined, monkeypatch):
+    """Above 40 m/s² two motions have the same velocity: 24 and 10 of 100 initial conditions reach them."""
     monkeypatch.setattr(advice, "settled", lambda *_, **__: None)
     monkeypatch.setattr(advice, "smallest_knock", lambda *_, **__: np.nan)
     monkeypatch.setattr(advice, "changes_at", lambda *_, **__: [])
@@ -414,7 +419,7 @@ def test_regimes_and_their_words(refined):
     assert list(found.velocity_low) == [0.01, 0.01, 0.05, 0.05]
     assert list(found.states) == ["first", "first, second", "chaos, second", "chaos"]
     assert found.best_share_stderr[1] == pytest.approx(math.sqrt(0.34 * 0.66 / 100))
-    # The config's own amplitudes lie 5 m/s² apart; nearer ones were looked at where the answer changes.
+    # The amplitudes of the config are 5 m/s² apart; closer ones were added where the answer changes.
     assert list(found.step[:2]) == [5.0, 5.0]
     template = (ROOT / "workflow/templates/operating_chart.md").read_text()
     page = chart.make(template, refined, found, *advised())
@@ -424,7 +429,7 @@ def test_regimes_and_their_words(refined):
     assert "This share is largest (34.0 ± 4.7 %) at 40 m/s², with 0.06 m/s." in page
     assert "Chaos begins at 50.2 m/s². All initial conditions end in chaos at 56.1 to 60.0 m/s²." in page
     assert "from heights of 0 to 0.5 mm above" in page
-    assert "fewer than 3 % of the box\ndo, at 95 % confidence" in page
+    assert "at 95 % confidence, fewer than 3 % of all possible ones lead\nto another motion" in page
     assert "is not known." not in page
 
 
@@ -445,8 +450,8 @@ def test_regime_of_an_amplitude(states, velocities, regime):
     assert regimes.regime_of(np.array(states), np.array(velocities), 0.02) == regime
 
 
-def test_nothing_is_said_that_is_not_there(refined):
-    """A table of an unknown amplitude alone."""
+def test_a_table_without_known_amplitudes_gives_no_advice(refined):
+    """The table has a single amplitude, whose regime is not known."""
     alone = refined[refined.acceleration == 20.0].assign(state="undecided", mean_velocity=np.nan)
     page = chart.make(
         (ROOT / "workflow/templates/operating_chart.md").read_text(),
@@ -454,7 +459,7 @@ def test_nothing_is_said_that_is_not_there(refined):
         pd.DataFrame(regimes.make(alone)),
         *(table.iloc[:0] for table in advised()),
     )
-    assert "At no amplitude, with a margin of 1 %, does every part get the same velocity." in page
+    assert "At no amplitude does every part get the same velocity even if the amplitude is 1 % off." in page
     assert "At no amplitude do all initial conditions reach one velocity" in page
     assert "No initial condition ends in chaos" in page
     assert "At 20.0 m/s², the state or the velocity of a motion is not known." in page
@@ -462,7 +467,7 @@ def test_nothing_is_said_that_is_not_there(refined):
 
 
 def test_conveyors_with_equal_groups_have_equal_motions_over_the_throw_number():
-    """An example that is the config's conveyor in other units of length and time, on a climbing track."""
+    """The example is the config's conveyor in other units of length and time, on a climbing track."""
     gravity, frequency = math.cos(0.4), 2.0
     paper, unit = Conveyor(), math.cos(0.4) / 4.0
     example = {

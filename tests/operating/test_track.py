@@ -29,7 +29,7 @@ def table() -> pd.DataFrame:
 
 
 @pytest.mark.parametrize(("inclination", "phase_shift"), [(0.0, 0.0), (0.05, 0.0), (0.0, 1.0)])
-def test_velocities_are_those_of_single_runs(table, inclination, phase_shift):
+def test_velocities_agree_with_single_runs(table, inclination, phase_shift):
     conveyor = Conveyor(acceleration=40.0, inclination=inclination, phase_shift=phase_shift)
     for state, height in (("first", 0.0), ("second", 3e-4)):
         alone = simulate(conveyor, Start(height), duration=4.0).mean_velocity()
@@ -59,7 +59,7 @@ def test_a_track_steeper_than_friction_holds_has_no_velocity(table):
 
 
 def test_velocities_settle_on_tracks_that_are_nearly_too_steep():
-    """A part at rest of the second state gains speed for a thousand cycles; then it is as fast as on a level track."""
+    """A part in the second state gains speed for a thousand cycles; then it is as fast as on a level track."""
     steep = 0.1483
     assert 0.149 > math.atan(0.15) > steep
     found = make(inclination=[steep], phase_shift=[0.0]).mean_velocity[steep, "second", 0.0]

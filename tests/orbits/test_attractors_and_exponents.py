@@ -1,4 +1,4 @@
-"""Strobes, exponents and witnesses on a few amplitudes, where they are known."""
+"""Strobes, exponents and witnesses at a few amplitudes where they are known."""
 
 from types import SimpleNamespace
 
@@ -51,7 +51,7 @@ def test_a_resting_part_has_the_static_penetration(tables):
     points, _, _ = tables
     rest = points[points.acceleration == 0.0]
     assert len(rest) == 2 * SETTINGS["strobes"]
-    # Ringing dies with -d_c/2m; what is left of it after 300 cycles is rounding.
+    # Oscillations decay with -d_c/2m; after 300 cycles only rounding errors remain.
     static = (MODEL["mass"] * MODEL["gravity"] / MODEL["stiffness"]) ** (1.0 / MODEL["exponent"])
     up = rest[rest.branch == "up"]
     assert up.delta.to_numpy() == pytest.approx(np.full(len(up), static), rel=1e-6)
@@ -66,7 +66,7 @@ def test_exponents_sum_to_the_damping_in_contact(tables):
     assert rest.lambda_1.to_numpy() == pytest.approx(-MODEL["damping"] / (2.0 * MODEL["mass"]), rel=1e-3)
 
 
-def test_witnesses_agree_where_the_motion_is_clear(tables):
+def test_witnesses_agree_on_clear_motions(tables):
     _, _, seen = tables
     assert seen.agree.all(), seen.reason
     assert seen.set_index(["branch", "acceleration"]).by_exponent.to_dict() == {
@@ -81,8 +81,8 @@ def test_limits_below_the_first_doubling_are_named():
         branches.make(settings)
 
 
-def test_orbits_to_begin_with_are_found():
-    """At 35 to 45 m/s² a part rides on the plate or jumps with the period of the excitation, and no cascade begins."""
+def test_seeds_are_found():
+    """At 35 to 45 m/s² a part rides or jumps with the period of the excitation, and no cascade begins."""
     section = read_config("orbits")["orbits"]
     settings = {**section, "limits": [35.0, 45.0], "max_period": 1, "cycles": 300, "model": MODEL}
     del settings["seeds"]
@@ -105,8 +105,8 @@ def test_a_search_without_a_stable_orbit_says_so():
         branches.make(settings)
 
 
-def test_orbits_of_a_doubled_branch_begin_no_other_one(monkeypatch):
-    """Each orbit stands for a branch; that of one cycle leads to the doubled one, on which another orbit lies."""
+def test_orbits_on_a_known_branch_start_no_new_branch(monkeypatch):
+    """The branch of the orbit of one cycle leads to the doubled branch, on which the other orbit lies."""
     periods = {"double": 2, "once": 1, "apart": 2}
     starts = [SimpleNamespace(name=name, period=period) for name, period in periods.items()]
     found = {"once": ["once", "double"], "apart": ["apart"], "double": ["double"]}
@@ -120,8 +120,8 @@ def test_orbits_of_a_doubled_branch_begin_no_other_one(monkeypatch):
     assert branches.explore_branches(None, starts, settings) == ["once", "double", "apart"]
 
 
-def test_an_exponent_within_its_error_is_no_witness_of_chaos(monkeypatch):
-    """λ1 = 1 ± 1 1/s does not differ from zero at two standard errors; 3 ± 1 1/s is."""
+def test_an_exponent_within_its_error_is_not_a_witness_of_chaos(monkeypatch):
+    """λ1 = 1 ± 1 1/s does not differ from zero by two standard errors; 3 ± 1 1/s does."""
     last = pd.DataFrame({"acceleration": [50.0, 60.0], "branch": "up", "period": [0, 0], "state": "chaos"})
     monkeypatch.setattr(witnesses, "parameters_on_attractors", lambda *_: (last, None))
     monkeypatch.setattr(witnesses, "zero_one_values", lambda *_, **__: np.array([0.99, 0.99]))

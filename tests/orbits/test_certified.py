@@ -1,4 +1,4 @@
-"""Rows of proofs: columns in SI units against the orbit in floating point."""
+"""Rows of proofs: columns in SI units, compared with the orbit in floating point."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ SETTINGS = {"model": {}, "bits": 128, "order": 24, "tolerance": 1e-22, "closenes
 
 
 def test_the_row_of_a_riding_part():
-    """It is never in the air; its penetration, speed of approach and period are those of floating point."""
+    """It is never in the air; penetration, speed of approach and period agree with the orbit in floating point."""
     row = pack(Conveyor(acceleration=30.0), Start())
     state = stroboscopic_map.initial_states(row[None], periodic_orbits.TOLERANCE)[0]
     orbit, _ = periodic_orbits.settled_orbit(row, 30.0, state, (1,), 1000)

@@ -18,7 +18,7 @@ def test_first_axis_is_slowest_and_ends_are_included():
     assert parameters.shape == (12, 16)
 
 
-def test_parameters_are_those_of_the_model():
+def test_parameters_agree_with_the_model():
     _, parameters = grid.product(AXES, {"damping": 0.2, "vz0": 0.1})
     assert unpack(parameters[7]) == (
         Conveyor(acceleration=35.0, damping=0.2, static_friction=0.15, tension="clip"),
@@ -26,7 +26,7 @@ def test_parameters_are_those_of_the_model():
     )
 
 
-def test_parts_make_the_whole():
+def test_parts_of_a_product_make_the_whole():
     columns, parameters = grid.product(AXES, {})
     parts = [grid.product(AXES, {}, rows) for rows in ((0, 5), (5, 6), (6, 12))]
     np.testing.assert_array_equal(np.concatenate([part for _, part in parts]), parameters)

@@ -1,4 +1,4 @@
-"""Motions of starts of several conveyors, in batches and in any order."""
+"""Motions of initial conditions on several conveyors, in batches and in any order."""
 
 import numpy as np
 import pytest
@@ -37,7 +37,7 @@ def test_labels_do_not_depend_on_batches(monkeypatch, starts, labels, conveyors)
     assert equal(motions.motions(starts, SETTINGS, threads=2), labels)
 
 
-def test_labels_do_not_depend_on_the_order_of_starts(monkeypatch, starts, labels):
+def test_labels_do_not_depend_on_the_order_of_initial_conditions(monkeypatch, starts, labels):
     monkeypatch.setattr(motions, "CONVEYORS", 1)
     order = np.random.default_rng(1).permutation(len(starts))
     found = motions.motions(starts[order], SETTINGS)
@@ -45,8 +45,8 @@ def test_labels_do_not_depend_on_the_order_of_starts(monkeypatch, starts, labels
 
 
 @pytest.mark.parametrize(("count", "settling", "sets"), [(9, 4000, 1), (9, 3000, 0), (7, 20_000, 0)])
-def test_attractors_are_looked_for_where_starts_are_followed_long_enough(count, settling, sets):
-    """One conveyor in chaos: with few starts, or short searches, each is followed by itself."""
+def test_attractors_are_searched_if_that_saves_time(count, settling, sets):
+    """One conveyor in chaos: a few initial conditions, or short runs, are followed one by one."""
     row = grid.product({"acceleration": [80.0]}, {})[1]
     found = motions.shared_attractors(row, count, {"settling": settling, "tolerance": 1e-8})
     assert (len(found.chaotic.low), len(found.orbits.periods)) == (sets, 0)

@@ -1,4 +1,4 @@
-"""Progress: a bar on a terminal, lines elsewhere, no empty ones; points that fail are counted."""
+"""Progress: a bar on a terminal, lines elsewhere, no empty lines; failed points are counted."""
 
 import io
 import sys
@@ -16,11 +16,11 @@ class Terminal(io.StringIO):
 
 
 def swept(label: str | None) -> None:
-    """Ten points, in the last of whose chunks one has failed."""
+    """Ten points; one in the last chunk has failed."""
     for_each_chunk(lambda begin, end: 1 if end == 10 else None, 10, chunk=5, progress=label)
 
 
-def test_lines_where_no_terminal_is(monkeypatch):
+def test_lines_without_a_terminal(monkeypatch):
     monkeypatch.setattr(progress, "SECONDS_OF_LINES", 0.0)
     monkeypatch.setattr(sys, "stderr", io.StringIO())
     swept("mine")
@@ -32,7 +32,7 @@ def test_lines_where_no_terminal_is(monkeypatch):
     assert " points/s, " in lines[1]
 
 
-def test_one_line_of_what_is_quick(monkeypatch):
+def test_a_quick_job_has_one_line(monkeypatch):
     monkeypatch.setattr(sys, "stderr", io.StringIO())
     swept("mine")
     assert list(progress.bar("abc", label="turns", unit="rounds")) == ["a", "b", "c"]

@@ -26,7 +26,7 @@ def made(columns=None, schema=SCHEMA, settings=SETTINGS, kind="estimates"):
 
 
 def nothing(rows):
-    """That no column has to hold what its rows say."""
+    """No expected values for any column."""
     return {}
 
 
@@ -35,7 +35,7 @@ def path(tmp_path):
     return tmp_path / "a.parquet"
 
 
-def test_what_is_written_is_read(path):
+def test_reading_returns_what_was_written(path):
     tables.write(path, made())
     table = tables.read(path, "estimates", SETTINGS)
     assert list(table) == ["acceleration", "lambda"]
@@ -50,7 +50,7 @@ def test_fields_carry_units_and_nan_becomes_null(path):
     written = pq.read_table(path)
     units = {field.name: field.metadata[b"unit"].decode() for field in written.schema}
     assert units == {"acceleration": "m/s²", "lambda": "1/s"}
-    # For readers that see no fields, as DuckDB.
+    # For readers that do not show fields, such as DuckDB.
     assert json.loads(written.schema.metadata[b"units"]) == units
     assert written["lambda"].null_count == 1
 
@@ -112,7 +112,7 @@ def a_folder(path):
 
 
 @pytest.mark.parametrize("harm", [damaged, foreign, a_folder])
-def test_what_is_no_table_is_named_with_the_remedy(path, harm):
+def test_a_file_that_is_not_a_table_is_named_with_the_remedy(path, harm):
     tables.write(path, made())
     harm(path)
     with pytest.raises(tables.TableError, match=r"a\.parquet .*table of estimates.*; delete it"):
@@ -133,7 +133,7 @@ def test_another_kind_or_other_settings_are_refused(path):
 
 @pytest.mark.parametrize("cuts", [[], [1, 2], range(1, 23)])
 def test_gathered_shards_have_the_bytes_of_the_whole(tmp_path, monkeypatch, cuts):
-    """Row groups of five, which no cut respects."""
+    """Row groups of five; no shard ends at one."""
     monkeypatch.setattr(tables, "ROW_GROUP", 5)
     whole = made(estimates_of(23))
     tables.write(tmp_path / "whole", whole)
@@ -145,8 +145,8 @@ def test_gathered_shards_have_the_bytes_of_the_whole(tmp_path, monkeypatch, cuts
     assert (tmp_path / "gathered").read_bytes() == (tmp_path / "whole").read_bytes()
 
 
-def test_shards_of_another_cut_are_refused(tmp_path):
-    """As Snakemake takes them for current where it is told to look at times alone."""
+def test_shards_of_another_division_are_refused(tmp_path):
+    """Snakemake uses such shards if its only rerun trigger is the modification time."""
     tables.write(tmp_path / "0.parquet", made())
     with pytest.raises(tables.TableError, match=r"all\.parquet have 3 rows, not 5; delete them"):
         tables.gather(tmp_path / "all.parquet", [tmp_path / "0.parquet"], "estimates", SETTINGS, 5, nothing)
@@ -163,7 +163,7 @@ def test_a_foreign_shard_is_named(tmp_path):
 
 
 def test_a_shard_of_other_rows_is_named(tmp_path):
-    """As where one is copied by hand over another."""
+    """For example, if one was copied over another by hand."""
     accelerations = np.array([20.0, 55.0, 90.0, 91.0])
 
     def wanted(rows):

@@ -1,4 +1,4 @@
-"""The report: what a reader sees in a browser, and that verdicts and captions are seen with what they belong to."""
+"""The report: what a reader sees in a browser, with verdicts and captions beside their statements and figures."""
 
 import base64
 import io
@@ -64,7 +64,7 @@ def cells(page: str, place: str) -> list[str]:
     return [re.sub(r"<[^>]+>", "", cell).strip() for cell in re.findall(r"<t[dh][^>]*>(.*?)</t[dh]>", part, re.DOTALL)]
 
 
-def test_claims_stand_with_their_numbers_verdicts_and_reasons(pages):
+def test_claims_have_their_numbers_verdicts_and_reasons(pages):
     text = "It is low &amp; small (Fig. 9)"
     accepted = "[-∞, 2.5]: &lt;as read&gt;"
     assert cells(pages["claims"], "C01") == ["C01", text, "height in mm", "2", "1.75", "2.25", accepted, "reproduced"]
@@ -72,12 +72,12 @@ def test_claims_stand_with_their_numbers_verdicts_and_reasons(pages):
     assert only[4:6] == ["2.125", "7"]
     assert only[7] == "reproduced by the paper&#39;s method only"
     assert only[9] == "height in mm: 7 by the converged solution is not in [-∞, 2.5]."
-    # A method that has no say has no number.
+    # A method that a claim does not concern has no number.
     assert cells(pages["claims"], "C03")[4:6] == ["–", "8"]
     assert "it is not." in cells(pages["claims"], "C03")[9]
 
 
-def test_the_start_page_counts_the_verdicts_and_says_on_top_what_they_are_of(pages):
+def test_the_start_page_counts_the_verdicts_and_names_the_config(pages):
     start = pages["summary"]
     counted = "3 statements of the paper: 1 reproduced, 1 reproduced by the paper&#39;s method only, 1 not reproduced"
     assert counted in start
@@ -87,7 +87,7 @@ def test_the_start_page_counts_the_verdicts_and_says_on_top_what_they_are_of(pag
         assert pages[name].index("Made with my.yaml.") < pages[name].index("<table")
 
 
-def test_findings_lead_to_their_figures_and_claims(pages):
+def test_findings_link_to_their_figures_and_claims(pages):
     start = pages["summary"]
     view = "javascript:app.setView({content: 'html', contentPath: results['%s'].data_uri + '#%s'})"
     assert "<strong>Two exist</strong>, &amp;\nlow (" in start
@@ -95,7 +95,7 @@ def test_findings_lead_to_their_figures_and_claims(pages):
         f'(<a href="{view % ("a.html", "fig03")}">fig03</a>, <a href="{view % ("claims.html", "C02")}">C02</a>)'
         in start
     )
-    # This one is not in the report.
+    # This figure is not in the report.
     assert "<li>None (<code>figures/fig99.pdf</code>).</li>" in start
     assert start.index("Two exist") < start.index("3 statements of the paper")
 
@@ -110,7 +110,7 @@ def test_pictures_keep_white_and_colours_in_few_bytes(tmp_path):
     pixels[100:200, 100:300] = 0, 114, 178
     Image.fromarray(pixels).save(tmp_path / "figure.png")
     uri, width = figure_pages.encode_picture(tmp_path / "figure.png")
-    assert width == 144  # 1 inch of print, half as large again on the screen
+    assert width == 144  # 1 inch in print, 1.5 times as large on the screen
     assert uri.startswith("data:image/webp;base64,")
     found = np.asarray(Image.open(io.BytesIO(base64.b64decode(uri.split(",")[1]))).convert("RGB"), dtype=np.int64)
     assert np.abs(found - pixels[::2, ::2]).max() <= 2  # of 255
@@ -119,7 +119,7 @@ def test_pictures_keep_white_and_colours_in_few_bytes(tmp_path):
 
 def test_white_stays_white_among_many_colours(tmp_path):
     pixels = np.random.default_rng(1).integers(0, 256, (400, 400, 3), dtype=np.uint8)
-    pixels[:, 100:200] |= 248  # as at the rim of a letter
+    pixels[:, 100:200] |= 248  # as at the edge of a letter
     pixels[:, 200:] = 255
     Image.fromarray(pixels).save(tmp_path / "figure.png")
     uri, _ = figure_pages.encode_picture(tmp_path / "figure.png")
@@ -127,7 +127,7 @@ def test_white_stays_white_among_many_colours(tmp_path):
         assert found.getpixel((150, 100)) == (255, 255, 255)
 
 
-def test_a_page_that_no_browser_shows_is_refused(tmp_path):
+def test_a_page_too_large_for_browsers_is_refused(tmp_path):
     pixels = np.random.default_rng(1).integers(0, 256, (1400, 1400, 3), dtype=np.uint8)
     Image.fromarray(pixels).save(tmp_path / "noise.png")
     (tmp_path / "noise.rst").write_text("Noise.\n")
@@ -179,7 +179,7 @@ def test_the_report_opens_with_the_summary(browser):
     until(lambda: browser.find_elements(By.CSS_SELECTOR, ".prose h1"))
     heading, notice = (browser.find_element(By.CSS_SELECTOR, f".prose {name}") for name in ("h1", ".notice"))
     assert heading.text == "Dynamics of a vibratory conveyor"
-    assert notice.text.startswith("Made with overlay.yaml: a config of its own.")
+    assert notice.text.startswith("Made with overlay.yaml: a config other than the paper's.")
     assert seen(browser, heading)
     assert seen(browser, notice)
     # Sections in the paper's order.
@@ -190,7 +190,7 @@ def test_the_report_opens_with_the_summary(browser):
     ]
 
 
-def test_figure_and_caption_are_seen_together(browser, built):
+def test_figure_and_caption_are_visible_together(browser, built):
     for figure in FIGURES:
         title = f"Fig. {int(figure[3:])}: {ENTRIES[figure]['title']}"
         browser.execute_script("app.setView({content: 'rulegraph'})")

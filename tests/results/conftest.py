@@ -1,4 +1,4 @@
-"""Tests of results that the pipeline has made, not of its code: `snakemake` runs them as its rule check_results."""
+"""Tests of the results of the pipeline, not of its code; the rule check_results runs them."""
 
 import pytest
 

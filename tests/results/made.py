@@ -1,5 +1,6 @@
-"""What has been made: the results below the folder that CONVEYOR_RESULTS names and the figures, as in the config, that
-CONVEYOR_FIGURES holds as JSON; else those of the paper.
+"""The results to test: CONVEYOR_RESULTS names their folder, CONVEYOR_FIGURES has the section `figures` of the config.
+
+Without these variables, the results of the paper's config.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""The charts of accuracy: the solver is right where it is chosen, others fail where theory says."""
+"""The tables of accuracy: the solver is right at its settings, and other methods fail where theory predicts it."""
 
 import numpy as np
 import pandas as pd
@@ -22,7 +22,7 @@ def test_solver_is_right_at_every_tolerance(result):
 
 
 def test_an_independent_integration_agrees(result):
-    """scipy's DOP853 from event to event knows nothing of the solver."""
+    """SciPy's DOP853, from event to event, does not use the solver."""
     for scene in SCENES:
         table = result(f"precision/{scene}")
         peers = table[(table.treatment == "modes") & (table.outcome == "ok")]
@@ -31,13 +31,13 @@ def test_an_independent_integration_agrees(result):
 
 
 def test_solver_needs_fewest_evaluations(result):
-    """For every run of SciPy or a fixed step with four right digits the solver has a better one with fewer evaluations.
+    """The solver has a better run with fewer evaluations than every run of SciPy or a fixed step with four digits.
 
     The optional peers are compared by time: a multistep method or a long Taylor series needs few evaluations.
     """
     compared = ("RK45", "DOP853", "Radau", "LSODA", *FIXED_STEP_METHODS)
     for scene in SCENES:
-        # A mean velocity alone may be right by luck, the state at the end with it hardly.
+        # A mean velocity alone may be right by chance, but hardly together with the final state.
         table = result(f"precision/{scene}").assign(
             error=lambda rows: rows[["velocity_error", "state_error"]].max(axis=1)
         )
@@ -48,8 +48,8 @@ def test_solver_needs_fewest_evaluations(result):
             assert ((own.evaluations < other.evaluations) & (own.error <= max(other.error, 1e-12))).any(), other
 
 
-def test_failures_are_told_whatever_the_methods_report(result):
-    """Euler's largest step leaves the right state; a part that falls through the plate has a finite velocity."""
+def test_failures_are_found_whatever_the_methods_report(result):
+    """Euler's largest step ends in a wrong state; a part that falls through the plate has a finite velocity."""
     through = []
     for scene in SCENES:
         table = result(f"precision/{scene}")
@@ -63,7 +63,7 @@ def test_failures_are_told_whatever_the_methods_report(result):
     assert (through.state_error > 1.0).all()
 
 
-def test_edges_of_stability_are_those_of_theory(result):
+def test_edges_of_stability_agree_with_theory(result):
     table = result("stability")
     for panel in ("stiffness", "damping", "impact velocity"):
         edges = table[table.panel == f"edge: {panel}"]
@@ -72,7 +72,7 @@ def test_edges_of_stability_are_those_of_theory(result):
 
 
 def test_fixed_steps_fail_beyond_the_limit_and_hold_within(result):
-    """Impacts beyond the limit come back with energy, or with one step in the contact with any speed."""
+    """Beyond the limit, impacts gain energy, or have any speed after a contact of a single step."""
     table = result("stability")
     for panel in ("stiffness", "damping", "impact velocity", "conveyor"):
         rows = table[table.panel == panel]
@@ -80,7 +80,7 @@ def test_fixed_steps_fail_beyond_the_limit_and_hold_within(result):
         assert len(beyond)
         assert len(within)
         assert not (beyond.outcome == "right").any(), panel
-        if panel != "conveyor":  # its theory is that of the deepest point alone
+        if panel != "conveyor":  # its theory covers only the deepest point
             assert not within.outcome.isin(["energy grows", "blow-up"]).any(), panel
 
 
@@ -103,7 +103,7 @@ def test_solver_holds_in_hard_cases_and_euler_does_not(result):
 
 
 def test_the_paper_s_exponent_of_an_orbit_has_the_wrong_sign(result):
-    """A shift of the phase dies on a settled orbit; Euler keeps it alive, however small it is."""
+    """A shift of the phase decays on a settled orbit; with Euler it does not, however small it is."""
     table = result("stability_estimates")
     rows = table[(table.panel == "perturbation") & (table.case == "orbit_phase") & (table.epsilon < 1e-6)]
     by_euler, converged = (rows[rows.estimator == method].value for method in ("euler", "event"))
@@ -112,8 +112,8 @@ def test_the_paper_s_exponent_of_an_orbit_has_the_wrong_sign(result):
     assert (converged < 0.0).all()
 
 
-def test_the_paper_s_exponent_of_chaos_tells_the_perturbation(result):
-    """After a while the pair is as far apart as the signal goes: log(size/ε) over the time, whatever the motion is.
+def test_the_paper_s_exponent_of_chaos_depends_on_the_perturbation(result):
+    """Soon the distance of the pair is as large as the signal: log(size/ε) over time, for any motion.
 
     The mean of 1/t over the last quarter of the run is the slope over -log ε.
     """
@@ -131,7 +131,7 @@ def test_the_paper_s_exponent_of_chaos_tells_the_perturbation(result):
 
 
 def test_dimensions_of_known_sets(result):
-    """Our intervals hold the truth; boxes as in the paper miss it, the more the fewer the points."""
+    """The intervals contain the true dimension; box counting as in the paper misses it, more so with fewer points."""
     table = result("stability_estimates").query("panel == 'known set'")
     own = table[(table.estimator != "boxes, as in the paper") & table.value.notna()]
     off = (own.value - own.truth).abs()
@@ -167,8 +167,8 @@ def test_euler_chatters_where_the_solver_sticks(result):
     assert (own.y < 1e-12).all()
 
 
-def test_choices_cannot_be_told_from_the_full_model(result):
-    """Where one can, the config says why."""
+def test_choices_look_like_the_full_model(result):
+    """If a difference is visible, the config gives the reason."""
     table = result("scene_budget")
     assert table.groupby(["figure", "table"]).chosen.sum().eq(1).all()
     chosen = table[table.chosen]
@@ -178,10 +178,10 @@ def test_choices_cannot_be_told_from_the_full_model(result):
 
 @pytest.mark.skipif(RESULTS != ROOT / "results", reason="too few points to show what may change")
 def test_no_choice_is_more_than_a_notch_tighter_than_it_must_be(result):
-    """Of the tolerances that were tried, the choice is not beyond the second loosest that a reader cannot see.
+    """The choice is the loosest or second loosest of the tried tolerances whose error a reader cannot see.
 
-    Where a point draws one value, and fewer were looked at than it takes to show the share that may change, one of them
-    is that share.
+    If each point shows one value, and too few points were compared to resolve the share that may change, one changed
+    point is allowed.
     """
     table = result("scene_budget")
     table = table[(table.variant == table.needs) & table.tolerance.notna()]
@@ -205,9 +205,9 @@ def test_maps_are_computed_without_the_horizontal_motion(result):
 
 
 def test_half_the_time_and_the_rigid_part_are_seen(result):
-    """Where velocities are drawn and known: neither is a model that would do."""
+    """Neither simplification is good enough where velocities are drawn and known."""
     table = result("scene_budget")
-    # Of both columns together more than half is known only where some velocities are: those of chaos never are.
+    # More than half of both columns is known only if some velocities are known; velocities of chaos never are.
     table = table[(table["shows"] == "mean velocity, state") & (table.known > 0.5)]
     others = table[table.variant.isin(["half the time", "rigid part"])]
     assert others.table.nunique() >= 3
@@ -229,7 +229,7 @@ def test_rigid_part_doubles_near_the_contact_but_leaves_the_plate_at_lower_ampli
     off = places.drop(columns="contact").div(places["contact"], axis=0) - 1.0
     assert off.size >= 4
     assert (off.abs() < 0.1).all().all()
-    assert (off.abs() > 1e-3).all().all()  # yet no reader of six digits would take one for the other
+    assert (off.abs() > 1e-3).all().all()  # but they differ within six digits
     from_rest = table[(table.kind == "velocity") & (table.z0 == 0.0)]
     last_ride = from_rest[from_rest.state == "first"].groupby("model").acceleration.max()
     assert set(last_ride.index) == {"contact", "rigid part, e(u)"}

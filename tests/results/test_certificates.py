@@ -1,4 +1,4 @@
-"""What is proved of the orbits: bounds in their order, agreement with what was computed, theorems of the page."""
+"""Certificates of orbits: order of the bounds, agreement with floating point, and the theorems of the page."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ BOUNDED = ("delta", "v", "impact_phase", "impact_speed", "duration", "contact_ti
 
 
 def test_orbits_are_proved(result):
-    """What is not proved has a reason; nearly all is."""
+    """Nearly all are proved; each of the rest has a reason."""
     table = result("orbits/certificates")
     assert table.contained.mean() > 0.95
     assert (table.reason.notna() == ~table.contained).all()
@@ -26,7 +26,7 @@ def test_bounds_are_in_order_and_narrow(result):
     assert (held.half_width < 1e-12).all()
 
 
-def test_proved_orbits_are_the_computed_ones(result):
+def test_proved_orbits_agree_with_floating_point(result):
     """States to the round-off of long unstable orbits, stability everywhere, and a period of whole cycles."""
     table = result("orbits/certificates")
     held = table[table.contained]
@@ -55,7 +55,7 @@ def test_bifurcations_are_bracketed(result):
     assert (table.acceleration_low < table.acceleration_high).all()
     assert (table.acceleration_high - table.acceleration_low < 1e-6).all()
     assert ((table.acceleration_low - table.stored_acceleration).abs() < 1e-6).all()
-    # The test function has one sign at one end, for certain, and the other at the other end.
+    # The test function provably has different signs at both ends.
     assert (np.sign(table.test_begin_low) == np.sign(table.test_begin_high)).all()
     assert (np.sign(table.test_end_low) == np.sign(table.test_end_high)).all()
     assert (table.test_begin_low * table.test_end_low < 0.0).all()

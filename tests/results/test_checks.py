@@ -1,4 +1,4 @@
-"""What the page of checks says: the solver agrees with published theory, and maps with brute force."""
+"""The page of checks: the solver agrees with published theory, and maps agree with brute force."""
 
 
 def test_all_quantities_agree_with_theory(result):
@@ -7,7 +7,7 @@ def test_all_quantities_agree_with_theory(result):
     assert (table.difference <= table.accepted).all(), table[table.difference > table.accepted].to_string()
 
 
-def test_labels_of_maps_are_those_of_brute_force(result):
+def test_labels_of_maps_agree_with_brute_force(result):
     table = result("map_check")
     assert (table.label != table.state).mean() <= table.attrs["accepted"]
     chaos = table[table.state == "chaos"]

@@ -1,4 +1,4 @@
-"""The claims: all there, each with a verdict and a reason for any other than `reproduced`, and as they were before."""
+"""The claims are complete and unchanged, and each verdict other than `reproduced` has a reason."""
 
 import re
 
@@ -11,12 +11,12 @@ from made import RESULTS, ROOT
 PAGE = ROOT / "docs/claims.md"
 # Claims whose tables are the same on coarse axes.
 ON_ANY_AXES = ("C07", "C08", "C12", "C13", "C14", "C20", "C23")
-# To how many digits numbers must be those of the page: it has four of them.
+# Relative tolerance of the comparison with the page, which has four digits.
 DIGITS = 3e-3
 
 
 def kept() -> dict[str, dict]:
-    """The numbers and verdicts of the page that is kept beside the sources, by the claims' names."""
+    """The numbers and verdicts of the page in the repository, by claim."""
     rows = {}
     for line in PAGE.read_text(encoding="utf-8").splitlines():
         if line.startswith("| C"):
@@ -34,7 +34,7 @@ def numbers_in(cell: str) -> list[float]:
 
 
 def differences(table, names) -> list[str]:
-    """Claims that are not those of the page, with both values."""
+    """Claims that differ from the page, with both values."""
     found, page = [], kept()
     for row in table[table.id.isin(names)].itertuples():
         was = page[row.id]
@@ -68,19 +68,19 @@ def test_every_limit_has_a_reason(result):
 
 
 @pytest.mark.skipif(RESULTS != ROOT / "results", reason="other axes than the page of claims has")
-def test_verdicts_and_numbers_are_those_of_the_page(result):
-    """docs/claims.md is made by a rule of its own: it changes when someone decides that it shall."""
+def test_verdicts_and_numbers_agree_with_the_page(result):
+    """docs/claims.md is made by a separate rule, so it changes only on request."""
     table = result("claims")
     assert set(kept()) == set(table.id)
     assert differences(table, table.id) == []
 
 
-def test_claims_that_do_not_depend_on_axes_are_those_of_the_page(result):
+def test_claims_that_do_not_depend_on_axes_agree_with_the_page(result):
     table = result("claims")
     assert differences(table, ON_ANY_AXES) == []
 
 
-def test_a_difference_is_told_with_both_values(result):
+def test_a_difference_is_reported_with_both_values(result):
     """The comparison can fail."""
     table = result("claims")
     row = table.index[table.id == "C07"][0]

@@ -1,4 +1,4 @@
-"""All figures as they have been made: the journal's size, units on every axis, fonts, equal pages, fine maps."""
+"""All figures of the results: the journal's size, units on every axis, fonts, equal pages, fine maps."""
 
 import re
 import zlib
@@ -64,7 +64,7 @@ NO_UNIT = (
 
 
 class Drawn(NamedTuple):
-    """A figure drawn once more from its tables, and the page that it is saved as, with whose layout it stays."""
+    """A figure that is drawn again from its tables, and its saved page, which has the same layout."""
 
     name: str
     figure: Figure
@@ -73,7 +73,7 @@ class Drawn(NamedTuple):
 
 @pytest.fixture(scope="module", params=ENTRIES)
 def drawn(request, tmp_path_factory):
-    """Each figure in turn: pytest puts the tests of a figure behind each other."""
+    """Each figure in turn; pytest runs the tests of one figure one after the other."""
     entry = ENTRIES[request.param]
     paths, expected = {}, {}
     for role, reference in entry["tables"].items():
@@ -138,7 +138,7 @@ def words_and_numbers(page):
 
 
 def test_pages_are_equal_vectors_with_embedded_fonts_and_fine_maps(drawn):
-    """Equal to the page of another process, up to the last digits of the layout, which differ from run to run."""
+    """They equal the pages of another process, up to the last digits of the layout, which differ from run to run."""
     page = drawn.page
     words, numbers = words_and_numbers(page)
     saved_words, saved_numbers = words_and_numbers((FIGURES / f"{drawn.name}.pdf").read_bytes())

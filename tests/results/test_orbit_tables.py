@@ -1,4 +1,4 @@
-"""Orbits, exponents and witnesses on the results: identities on every row, and agreement."""
+"""Orbits, exponents and witnesses of the results: identities in every row, and agreement."""
 
 import numpy as np
 import pytest

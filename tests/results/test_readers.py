@@ -1,4 +1,4 @@
-"""Tables as others read them: the same numbers in pandas and DuckDB, with a unit for every column of numbers."""
+"""Tables in pandas and DuckDB: the same numbers, with a unit for every column of numbers."""
 
 import json
 

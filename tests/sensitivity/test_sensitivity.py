@@ -1,4 +1,4 @@
-"""The stage's tables from a few bifurcations: identities between columns, selection, and rows of what is not found."""
+"""Tables from a few bifurcations: identities between columns, selection, and rows for points that are not found."""
 
 import numpy as np
 import pandas as pd
@@ -54,7 +54,7 @@ def test_every_bifurcation_is_chosen_once(chosen):
     assert all(one.point is not None for one in chosen)
 
 
-def test_what_is_not_found_again_keeps_its_row_with_a_reason(tables):
+def test_a_point_that_is_not_found_again_keeps_its_row_with_a_reason(tables):
     lost = tables[0].iloc[[1]].assign(acceleration=33.0)
     parameters = grid.packed(MODEL)
     (one,) = selection.select_bifurcations(parameters, lost, tables[1].iloc[:0], 1, 0)
@@ -72,7 +72,7 @@ def test_differences_agree(made):
     assert set(table.kind) == {"fold", "grazing", "period_doubling", "critical_amplitude", "critical_height"}
 
 
-def test_friction_moves_nothing_and_the_phase_only_starts(made):
+def test_friction_moves_nothing_and_the_phase_only_boundaries(made):
     table = made["derivatives"]
     assert (table[table.parameter == "friction"].derivative == 0.0).all()
     phases = table[table.parameter == "psi0"].set_index("kind").derivative

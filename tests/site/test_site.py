@@ -1,6 +1,6 @@
-"""Article and site as they have been made by `snakemake article site`: links, pictures, and a browser wide and narrow.
+"""Article and site, made by `snakemake article site`: links and pictures, in a wide and a narrow browser.
 
-The results are those below the folder that CONVEYOR_RESULTS names, else those of the paper.
+CONVEYOR_RESULTS names the folder of the results; by default it is the folder of the paper's results.
 """
 
 import os
@@ -19,12 +19,12 @@ SITE = RESULTS / "site"
 PAGES = sorted(path.name for path in SITE.glob("*.html"))
 CONFIG = read_config()
 WIDE, NARROW = (1600, 900), (360, 740)
-# The page to play with is one of its own, with tests of its own.
+# The interactive page has separate tests.
 OWN = [page for page in PAGES if page not in ("companion.html", "search.html", "genindex.html", "py-modindex.html")]
 
 
 class Links(HTMLParser):
-    """Addresses that a page leads to, and the places in it that others may lead to."""
+    """Addresses of the links of a page, and the places in it to which links may point."""
 
     def __init__(self, text: str):
         super().__init__()
@@ -45,7 +45,7 @@ def links() -> dict[str, Links]:
 
 
 def broken(page: str, links: dict[str, Links]) -> list[str]:
-    """The links of a page that lead to no file or no place of the site, or out of it for what the page needs."""
+    """The links of a page that point to a missing file or place of the site."""
     found = []
     for link in links[page].found:
         address = urlsplit(link)
@@ -64,7 +64,7 @@ def test_all_pages_are_there():
 
 
 @pytest.mark.parametrize("page", OWN)
-def test_links_lead_somewhere(page, links):
+def test_links_are_not_broken(page, links):
     assert broken(page, links) == []
 
 
@@ -93,7 +93,7 @@ def test_the_article_shows_all_figures_of_the_paper():
         assert f"results/claims/{claim}.md" in text
 
 
-def test_the_article_is_made_of_its_text_to_the_byte(monkeypatch):
+def test_the_article_is_made_from_its_text(monkeypatch):
     monkeypatch.chdir(ROOT)
     frame = (ROOT / "workflow/templates/article.typ").read_text(encoding="utf-8")
     text = (RESULTS / "article/article.md").read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Sweeps from the config: columns and rows of an own one, and independence of how it is cut and shared."""
+"""Sweeps from the config: columns and rows, and independence of shards, blocks, threads and order."""
 
 from functools import partial
 from itertools import pairwise
@@ -13,7 +13,7 @@ from conveyor.solver.model import UNITS
 from pipeline import fields, grid, tables
 from sweeps import shards
 
-# As the README shows it.
+# The sweep of the README.
 MINE = {
     "axes": {"acceleration": {"start": 30, "stop": 40, "num": 11}, "z0": [0.0, 1.0e-4]},
     "model": {"damping": 0.2},
@@ -47,7 +47,7 @@ MIXED = {
     "duration": 0.2,
     "needs": "vertical",
 }
-# Starts of conveyors that share what is known of their chaotic sets, among those of one that has none.
+# Initial conditions on conveyors with shared chaotic sets, between initial conditions on a conveyor without any.
 MAP = {
     "axes": {"acceleration": [30.0, 40.0, 45.0, 48.0, 80.0], "psi0": [0.0, 3.0], "z0": [0.0, 1e-4, 2e-4, 3e-4, 4e-4]},
     "model": {},
@@ -60,14 +60,14 @@ POINTS = 50
 
 
 def rows_per_shard(rows: int) -> dict:
-    """Of the config: starts so slow, one in a second, that a shard has so many rows."""
+    """A config with an estimated cost of one second per row, so that a shard has this number of rows."""
     start = {known: [1, 1] for known in ("alone", "chaos", "orbits")}
     return {"job_seconds": 0.5 * rows + 0.1, "seconds": {"start": start}}
 
 
 @pytest.fixture(scope="module")
 def swept(built):
-    """Own sweeps, the same one under different cuts and cores; a function gives the path of a table."""
+    """The same sweep with different shards and cores; a function returns the path of a table."""
 
     sweeps = {"mine": MINE, "mixed": MIXED}
     whole = {"prefix": "whole", "sweeps": sweeps}
@@ -108,13 +108,13 @@ def test_words_on_axes_and_vertical_needs(swept):
     assert table.z_end[0] == pytest.approx(on_plate.z_end, rel=1e-9)
 
 
-def test_equal_bytes_for_any_cut_and_cores(swept):
+def test_equal_bytes_for_any_shards_and_cores(swept):
     shards = swept("cut", "mixed").parents[1] / "shards/mixed"
     assert sorted(path.name for path in shards.iterdir()) == ["0.parquet", "1.parquet", "2.parquet"]
     assert swept("whole", "mixed").read_bytes() == swept("cut", "mixed").read_bytes()
 
 
-def test_a_large_sweep_is_cut_into_few_jobs(built):
+def test_a_large_sweep_has_few_jobs(built):
     many = {"axes": {"z0": {"start": 0.0, "stop": 1.0e-4, "num": 2001}}}
     overlay = {"sharing": rows_per_shard(1), "sweeps": {"many": many}}
     assert 400 <= built.under(overlay).planned("results/sweeps/many.parquet")["shards"] <= 500
@@ -122,12 +122,12 @@ def test_a_large_sweep_is_cut_into_few_jobs(built):
 
 @pytest.fixture(scope="module")
 def in_one(tmp_path_factory):
-    """The file of a sweep that one thread has made in one piece."""
+    """The file of a sweep that one thread computed in one piece."""
     return gathered(tmp_path_factory.mktemp("one"), MAP, 1, threads=1)
 
 
 def gathered(folder, settings, count, threads):
-    """The file of a sweep that is cut into so many shards."""
+    """The file of a sweep that is divided into this number of shards."""
     schema = [*(fields.AXES[axis] for axis in settings["axes"]), *shards.TABLES["sweeps"]]
     paths, cuts = [], np.linspace(0, POINTS, count + 1).astype(int)
     for number, rows in enumerate(pairwise(cuts.tolist())):
@@ -150,7 +150,7 @@ def test_equal_bytes_for_any_blocks(tmp_path, monkeypatch, in_one):
 
 
 def test_rows_do_not_depend_on_their_order(in_one):
-    """The values of all axes in another order: the table is that of before, its rows permuted."""
+    """With the values of all axes in another order, the table has the same rows in another order."""
     permuted = {name: np.random.default_rng(1).permutation(values).tolist() for name, values in MAP["axes"].items()}
     found = pd.DataFrame(shards.columns(MAP | {"axes": permuted}))
     axes = list(permuted)
@@ -162,7 +162,7 @@ def test_rows_do_not_depend_on_their_order(in_one):
 
 
 def test_a_run_that_failed_has_no_state(monkeypatch):
-    """Whatever it left as its end; a run beside it, of the same motion, has the state of that."""
+    """It has none, whatever its final numbers are; another run of the same motion has its state."""
     true = ensemble.run
 
     def failing(parameters, **options):

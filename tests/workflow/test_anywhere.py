@@ -1,4 +1,4 @@
-"""The workflow from another folder, and as a module of another workflow."""
+"""The workflow in another folder, and as a module of another workflow."""
 
 import subprocess
 import sys

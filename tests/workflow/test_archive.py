@@ -18,7 +18,7 @@ from pipeline import fields
 
 @pytest.fixture(scope="module")
 def archive(built, tmp_path_factory):
-    """The archive of the small project, away from it."""
+    """The archive of the small project, moved elsewhere."""
     project = Project(shutil.copytree(built.folder, tmp_path_factory.mktemp("project") / "copy", symlinks=True))
     project.make("archive")
     return shutil.copytree(project.folder / "archive/paper", tmp_path_factory.mktemp("alone") / "archive")
@@ -30,13 +30,13 @@ def copy(archive, tmp_path):
 
 
 def redraw(folder) -> subprocess.CompletedProcess:
-    """Redraw an archive from elsewhere, as one who has nothing but it."""
+    """Redraw an archive outside the project, with nothing but the archive."""
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     command = [sys.executable, str(folder / "scripts/redraw.py")]
     return subprocess.run(command, cwd="/", env=environment, capture_output=True, text=True, check=False)
 
 
-def test_the_sums_are_those_of_all_files(archive):
+def test_all_files_have_correct_sums(archive):
     check = ["sha256sum", "--quiet", "--strict", "--check", "SHA256SUMS"]
     subprocess.run(check, cwd=archive, check=True)
     listed = {line.split("  ", maxsplit=1)[1] for line in (archive / "SHA256SUMS").read_text().splitlines()}
@@ -47,11 +47,11 @@ def test_the_sums_are_those_of_all_files(archive):
         assert file in listed
 
 
-def test_figures_drawn_again_are_equal_to_the_byte(archive):
+def test_redrawn_figures_are_equal_byte_for_byte(archive):
     run = redraw(archive)
     assert run.returncode == 0, run.stderr
     assert f"{len(FIGURES)} figures drawn" in run.stdout
-    # No terminal: lines in place of a bar.
+    # Without a terminal there are lines instead of a bar.
     assert "\r" not in run.stderr
     assert run.stderr.splitlines()[-1].startswith(f"drawn: {len(FIGURES)} of {len(FIGURES)} figures")
     for figure in FIGURES:
@@ -76,7 +76,7 @@ def test_a_large_archive_is_refused(built, tmp_path):
     assert not (project.folder / "archive/paper").exists()
 
 
-def test_nothing_but_the_ends_of_runs_is_left_out(archive, built):
+def test_only_the_final_states_of_runs_are_left_out(archive, built):
     ends = {field.name for field in fields.ENDS}
     for path in archive.rglob("*.parquet"):
         whole = pq.read_table(built.folder / path.relative_to(archive))
@@ -86,7 +86,7 @@ def test_nothing_but_the_ends_of_runs_is_left_out(archive, built):
 
 
 def test_pandas_and_duckdb_read_the_same_numbers_and_units(archive):
-    """As ARCHIVE.md says."""
+    """As ARCHIVE.md describes."""
     files = sorted(archive.rglob("*.parquet"))
     assert len(files) > 4
     for file in files:

@@ -1,4 +1,4 @@
-"""Builds on other cores, in another folder, time zone and locale: equal but for what the manifest names."""
+"""Builds on other cores, in another folder, time zone and locale: equal except for files that the manifest names."""
 
 import json
 import os
@@ -11,7 +11,7 @@ from project import Project, copy_project, read_config
 from builds import provenance
 from builds.manifest import MAY_DIFFER
 
-# Of the figures that are drawn from measured times the one that is made fastest.
+# The fastest of the figures that are drawn from measured times.
 TIMED = {
     "figures": {"scene_budget": read_config("figures")["figures"]["scene_budget"]},
     "scene_budget": {"points": {"sweeps": 1, "estimates": 1, "lyapunov": 1, "attractors": 1}},
@@ -23,7 +23,7 @@ ELSEWHERE = {"TZ": "ELSEWHERE-12:45", "LC_ALL": "C" if USES_UTF8 else "C.UTF-8"}
 
 @pytest.fixture(scope="module")
 def builds(built, tmp_path_factory):
-    """Two builds of all that one config names."""
+    """Two complete builds of one config."""
     first = shutil.copytree(built.folder, tmp_path_factory.mktemp("builds") / "first", symlinks=True)
     second = copy_project(tmp_path_factory.mktemp("zweiter Ort für alles"))
     projects = Project(first, TIMED), Project(second, TIMED, ELSEWHERE)
@@ -34,17 +34,17 @@ def builds(built, tmp_path_factory):
 
 def made(project):
     """The contents of all results, figures and pages, by their paths."""
-    # What other tests have made below a prefix of their own is none of this build.
+    # Results that other tests have made under another prefix are not part of this build.
     prefixes = [logs.parent.name for logs in (project.folder / "results").glob("*/logs")]
     others = [f"{part}/{prefix}/" for part in ("results", "figures") for prefix in prefixes]
-    # Where results come from is not what they are; the report tells it.
+    # The origin of the results differs between builds; the report shows it.
     aside = ("results/logs/", "results/benchmarks/", "results/report/", PROVENANCE, *others)
     files = [path for part in ("results", "figures", "docs") for path in (project.folder / part).rglob("*")]
     contents = {str(path.relative_to(project.folder)): path.read_bytes() for path in files if path.is_file()}
     return {name: content for name, content in contents.items() if not name.startswith(aside)}
 
 
-def test_two_builds_differ_in_what_their_manifest_names_only(builds):
+def test_two_builds_differ_only_in_files_that_the_manifest_names(builds):
     first, second = map(made, builds)
     assert set(first) == set(second)
     lines = first[MANIFEST].decode().splitlines()
@@ -55,7 +55,7 @@ def test_two_builds_differ_in_what_their_manifest_names_only(builds):
     assert different <= named
 
 
-def test_the_manifest_lists_all_but_pages_and_what_only_tables_are_made_of(builds):
+def test_the_manifest_lists_all_files_except_pages_and_intermediate_tables(builds):
     project = builds[0]
     listed = {line.split()[-1] for line in (project.folder / MANIFEST).read_text().splitlines()[3:]}
     assert set(made(project)) - listed == {
@@ -69,7 +69,7 @@ def test_the_manifest_lists_all_but_pages_and_what_only_tables_are_made_of(build
 
 
 def test_a_changed_result_is_found_with_the_manifest(builds, tmp_path):
-    """As the README says."""
+    """As the page "Compare two builds" describes."""
     folder = shutil.copytree(builds[0].folder, tmp_path / "copy", symlinks=True)
     check = ["sha256sum", "--quiet", "--check", MANIFEST]
     subprocess.run(check, cwd=folder, check=True)
@@ -80,7 +80,7 @@ def test_a_changed_result_is_found_with_the_manifest(builds, tmp_path):
     assert run.stdout == "figures/fig08.pdf: FAILED\n"
 
 
-def test_provenance_tells_all_and_reruns_nothing(builds):
+def test_provenance_is_complete_and_reruns_nothing(builds):
     recorded = json.loads((builds[1].folder / PROVENANCE).read_text())
     assert recorded["commit"] == recorded["clean"] == "unknown"
     assert len(recorded["config_sha256"]) == 64
@@ -93,7 +93,7 @@ def test_provenance_tells_all_and_reruns_nothing(builds):
         assert project.planned("all") == {}
 
 
-def test_the_commit_is_that_of_the_sources_themselves(tmp_path):
+def test_the_commit_belongs_to_the_sources(tmp_path):
     def git(*arguments):
         identity = ("-c", "user.name=A", "-c", "user.email=a@b.c")
         subprocess.run(["git", *identity, *arguments], cwd=tmp_path, check=True, capture_output=True)

@@ -1,4 +1,4 @@
-"""The comparison of two builds: exact, within a tolerance, and what it must not miss."""
+"""The comparison of two builds: exact, within a tolerance, and differences that it must not miss."""
 
 import subprocess
 import sys
@@ -15,7 +15,7 @@ TABLE = {"x": [1.0, 2.0, None], "state": ["first", "second", None], "list": [[1.
 
 @pytest.fixture
 def folders(tmp_path):
-    """Two folders with the same table below them, and a function that changes the second one."""
+    """Two folders with the same table, and a function that changes the second table."""
     for name in ("one", "other"):
         (tmp_path / name / "sweeps").mkdir(parents=True)
         pq.write_table(pa.table(TABLE), tmp_path / name / "sweeps/a.parquet")

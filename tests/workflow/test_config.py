@@ -1,4 +1,4 @@
-"""Errors of the config: named, early, readable; its words are those of the library."""
+"""Errors of the config: early, readable, and with the names of the library."""
 
 import subprocess
 import sys
@@ -18,7 +18,7 @@ from workflow.config.tables import references, settings_of
 CONFIG = read_config()
 MINE = {"axes": {"acceleration": {"start": 30, "stop": 40, "num": 3}, "z0": [0.0, "conveyor"]}}
 
-# An overlay, and words of the message that it must cause.
+# An overlay, and a part of the expected message.
 WRONG = [
     ({"companion": {"maps": ["none"]}}, "companion.maps[0] = 'none' is unknown"),
     ({"companion": {"opening": "third"}}, "companion.opening = 'third' is unknown; there are first, second, chaos"),
@@ -92,7 +92,7 @@ WRONG = [
     ({"prefix": "a/b"}, "prefix = 'a/b' should be a folder name"),
     ({"prefix": "a\n"}, "prefix = 'a\\n' should be a folder name of at most 64"),
     ({"prefix": "a" * 300}, "should be a folder name of at most 64"),
-    # accepted once, and silently wrong
+    # accepted by earlier versions, with silently wrong results
     ({"estimates": {"height": {"model": {"z0": "conveyor"}}}}, "estimates.height.perturb = 'z0' has no effect"),
     (
         {"estimates": {"height": {"axes": {"z0": [0.0, "conveyor"]}}}},
@@ -146,7 +146,7 @@ WRONG = [
         {"claims": {"C01": {"quantities": {"critical_amplitude": {"accepted": [[51, 49]]}}}}},
         "accepted[0] = [51, 49] should be a valid number",
     ),
-    # accepted once, and failing in a job
+    # accepted by earlier versions, and failing in a job
     ({"orbits": {"limits": [20, 40]}}, "orbits.limits = [20.0, 40.0] m/s² must hold the amplitude of orbits.seeds[1]"),
     ({"dimensions": {"portrait": {"estimator": "paper"}}}, "dimensions.portrait lacks octaves"),
     ({"dimensions": {"portrait": {"estimator": "correlation"}}}, "dimensions.portrait lacks theiler"),
@@ -220,10 +220,11 @@ WRONG = [
         {"dimensions": {"portrait_euler": {"method": "event", "step": 1.0e-6}}},
         "dimensions.portrait_euler.step is not used by the method event",
     ),
+    ({"sweeps": {"mine": {**MINE, "step": 1.0e-6}}}, "sweeps.mine.step is not used by the method event"),
     # folders of the default results
     *(
         ({"prefix": name}, f"prefix = '{name}' is a folder of")
-        for name in ("sweeps", "logs", "claims", "shards", "docs")
+        for name in ("sweeps", "logs", "claims", "shards", "docs", "Logs")
     ),
     # tables and settings that the default config does not have there
     ({"figures": {"fig03": {"settings": {"acceleration": 40.0}}}}, "figures.fig03.settings.acceleration is an unknown"),
@@ -243,13 +244,14 @@ WRONG = [
         {"sweeps": {"mine": {"axes": {"friction": [0.1, 0.3]}, "model": {"static_friction": 0.2}}}},
         "sweeps.mine has static_friction = 0.2 below friction = 0.3",
     ),
+    ({"drive": {"recommended": 9, "checked": 8}}, "drive.recommended = 9 is above drive.checked = 8; check more"),
     ({"drive": {"velocity": 0}}, "drive.velocity = 0 should be more than 0 (m/s)"),
     ({"drive": {"velocity": 200.0}}, "drive.velocity = 200.0 should be at most 100 (m/s)"),
     ({"drive": {"velocity": "2 cm/s"}}, "drive.velocity = '2 cm/s' should be a valid number (m/s)"),
     ({"drive": {"settled": 0.0}}, "drive.settled = 0.0 should be more than 0"),
     ({"model": {"inclination": 3.0}}, "model.inclination = 3.0 should be at most 1.4 (rad); angles are in radians"),
     ({"figures_on_request": {"fig98": {**CONFIG["figures"]["fig03"]}}}, "has no workflow/report/fig98.rst"),
-    # what crashed the check, or took it for ever
+    # crashed the check of earlier versions, or ran without end
     ({"figures": {"fig03": {"tables": {"euler": "model/acceleration"}}}}, "euler = 'model/acceleration' is unknown"),
     ({"figures": {"fig03": {"tables": {"euler": "prefix/x"}}}}, "figures.fig03.tables.euler = 'prefix/x' is unknown"),
     ({1: {}}, "config has a key that YAML reads as 1, not as text"),
@@ -276,7 +278,12 @@ def test_an_error_names_key_and_remedy(overlay, message):
     assert all(line.isprintable() for line in lines)
 
 
-def test_configs_are_right():
+def test_a_fault_of_the_model_is_reported_once_for_all_entries_that_inherit_it():
+    lines = problems(merged(CONFIG, {"model": {"static_friction": 0.1}}))
+    assert [line.partition(" = ")[0] for line in lines] == ["model has static_friction"]
+
+
+def test_configs_are_valid():
     assert problems(CONFIG) == []
     assert problems(merged(CONFIG, read_config("reduced"))) == []
     assert problems(merged(CONFIG, {"sweeps": {"mine": MINE}})) == []
@@ -297,10 +304,13 @@ def test_configs_are_right():
         },
         {"figures": {"fig03": {"tables": {"euler": "sweeps/amplitudes"}, "settings": {"critical_acceleration": 45}}}},
         {"prefix": "mine_1"},
+        {"model": {"static_friction": 0.15}},
+        {"model": {"static_friction": 0.2}},
+        {"model": {"friction": 0.0, "static_friction": 0.1}},
     ],
     ids=str,
 )
-def test_names_and_methods_that_do_not_clash_are_right(overlay):
+def test_names_and_methods_that_do_not_clash_are_valid(overlay):
     assert problems(merged(CONFIG, overlay)) == []
 
 
@@ -333,7 +343,7 @@ def test_a_long_list_is_rejected_at_once(overlay):
     assert len(line) < 300
 
 
-def test_the_words_of_the_config_are_those_of_the_library():
+def test_the_config_uses_the_names_of_the_library():
     for section, key, words in (("solver", "method", simulation.METHODS), ("model", "tension", model.TENSION_MODES)):
         assert tuple(schema_at([section, key])["enum"]) == words
     assert tuple(schema_at(["sweeps", "mine", "needs"])["enum"]) == ensemble.NEEDS

@@ -1,5 +1,6 @@
-"""What the files of the config say before Snakemake merges them, and how it is refused."""
+"""Faults of config files that are found before Snakemake merges them, and how they are reported."""
 
+import os
 import resource
 
 import pytest
@@ -31,8 +32,15 @@ FAULTS = [
         "a0: &a0 [1, 1]\n" + "".join(f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]\n" for i in range(1, 40)),
         ":13: has more than 12,000 values",
     ),
-    ("model: {mass: " + "1" * 5000 + "}", ": is not YAML: Exceeds the limit"),
-    ("model: {mass: 2001-13-45}", ": is not YAML: month must be"),
+    ("model: {mass: " + "1" * 5000 + "}", ":1: model.mass = 1111"),
+    ("model: {mass: 2001-13-45}", ":1: model.mass = 2001-13-45 cannot be read as timestamp; write a number"),
+    ("model: {mass: !!int heavy}", ":1: model.mass = heavy cannot be read as int"),
+    ("model: {mass: !!int ''}", ":1: model.mass =  cannot be read as int"),
+    ("model: {mass: !!bool maybe}", ":1: model.mass = maybe cannot be read as bool"),
+    ("model: {mass: !!timestamp now}", ":1: model.mass = now cannot be read as timestamp"),
+    ("model: {mass: !gram 3}", ":1: model.mass = 3 cannot be read as !gram"),
+    ("model: {!!bool maybe: 3}", ":1: model.maybe = maybe cannot be read as bool"),
+    ("prefix: " + "a" * 2_000_000, ":1: has more than 1,000,000 characters"),
 ]
 
 
@@ -45,14 +53,26 @@ def test_a_fault_names_file_line_and_key(tmp_path, text, message):
     assert faults[0].startswith(f"{file}{message}"), faults
 
 
-def test_a_directory_is_no_config(tmp_path):
+def test_a_directory_is_not_a_config(tmp_path):
     assert read(tmp_path) == (
-        [f"{tmp_path}: Is a directory; name a config file (targets stand before --configfile)"],
+        [f"{tmp_path}: Is a directory; name a config file (put targets before --configfile)"],
         None,
     )
 
 
-def test_only_octal_numbers_are_told(tmp_path):
+def test_a_pipe_is_refused_because_snakemake_cannot_read_it_again(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    faults, _ = read(tmp_path / "pipe")
+    assert faults == [f"{tmp_path}/pipe: is no regular file; save the config in one, and name that file"]
+
+
+def test_merge_keys_are_read(tmp_path):
+    file = tmp_path / "mine.yaml"
+    file.write_text("a: &a {b: 1}\nc: {<<: *a, d: 2}\n")
+    assert read(file) == ([], {"a": {"b": 1}, "c": {"b": 1, "d": 2}})
+
+
+def test_only_octal_numbers_are_reported(tmp_path):
     file = tmp_path / "mine.yaml"
     file.write_text("a: {b: 010}\nd: '050'\ne: 0\nf: 0.5\n")
     assert read(file)[0] == [f"{file}:1: a.b = 010 is read as 8, an octal number; write it without the 0"]
@@ -65,12 +85,12 @@ def test_json_is_a_config(tmp_path):
 
 
 @pytest.mark.parametrize("file", [*CONFIG_FILES, "reduced"])
-def test_files_of_the_project_are_right(file):
+def test_files_of_the_project_are_valid(file):
     assert read(ROOT / f"config/{file}.yaml") == ([], read_config(file))
 
 
 def test_keys_are_in_the_order_of_the_first_file(tmp_path):
-    """Snakemake begins with the overlay and fills in the config of the Snakefile, then the overlay once more."""
+    """Snakemake begins with the overlay, adds the config of the Snakefile, and merges the overlay again."""
     overlay = {"sweeps": {"heights": {"axes": {"z0": {"num": 41}}}}, "figures": {"fig22": {"title": "x"}}}
     file = tmp_path / "mine.yaml"
     file.write_text(yaml.safe_dump(overlay))
@@ -92,7 +112,7 @@ def test_a_config_is_loaded_from_any_folder(tmp_path, monkeypatch):
 
 
 def test_a_config_without_files_is_the_overlay_of_a_module(tmp_path):
-    """Another workflow gives its config directly: it has the effect of a file with the same content."""
+    """Another workflow passes its config directly, which has the effect of a file with the same content."""
     overlay = {"prefix": "mine", "model": {"frequency": 100, "mass": 1.0e-3}, "sweeps": {"one": {"axes": {"z0": [0]}}}}
     file = tmp_path / "mine.yaml"
     file.write_text(yaml.safe_dump(overlay))
@@ -112,7 +132,7 @@ def test_an_error_has_six_lines_and_jobs_are_not_checked_again():
 
 
 def test_the_config_of_the_paper_is_in_canonical_form():
-    """So that no table changes: what a rule is given has its keys in this order and its numbers in these types."""
+    """Otherwise tables would change, because rules pass keys in this order and numbers of these types."""
     config = plain(read_config())
     found = canonical(config)
     assert found == config
@@ -129,7 +149,7 @@ def written(value) -> str:
 
 
 def plain(value):
-    """A value of its own at each place where YAML has an anchor."""
+    """A copy of the value at each place where YAML has an anchor."""
     if isinstance(value, dict):
         return {key: plain(item) for key, item in value.items()}
     return [plain(item) for item in value] if isinstance(value, list) else value
@@ -137,12 +157,12 @@ def plain(value):
 
 @pytest.fixture(scope="module")
 def project(tmp_path_factory) -> Project:
-    """A copy of the project in which nothing is made."""
+    """A copy of the project without results."""
     return Project(copy_project(tmp_path_factory.mktemp("refused")))
 
 
 def seconds_of_children() -> float:
-    """Processor time that child processes have taken: a busy machine does not add to it."""
+    """Processor time of child processes (s), which does not depend on the load of the machine."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 
@@ -211,7 +231,8 @@ COMMANDS = [
     (["--config=novalue"], f"--config 'novalue' {BOTH}"),
     (["-C", "novalue"], f"--config 'novalue' {BOTH}"),
     (["-Cnovalue"], f"--config 'novalue' {BOTH}"),
-    (["--config", "model={mass: 3}"], "model.mass = '3' is text to YAML"),
+    (["--config", "model={mass: 3}"], f"--config 'model={{mass: 3}}' {BOTH}"),
+    (["--config", "prefix=[x]"], f"--config 'prefix=[x]' {BOTH}"),
 ]
 
 
@@ -222,7 +243,7 @@ def test_values_of_the_command_line_are_checked_before_snakemake_reads_them(proj
     assert_refused(run, message)
 
 
-def test_right_values_of_the_command_line_are_accepted():
+def test_valid_values_of_the_command_line_are_accepted():
     check_command_line(["snakemake", "--config", "prefix=mine", "-n", "all", "-C", "a_b=1=2", "--cores", "2"])
 
 

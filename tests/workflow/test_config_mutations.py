@@ -1,4 +1,4 @@
-"""Mutations of the paper's config: whatever is wrong with one value is told with its key, and nothing else is."""
+"""Mutations of the paper's config: an error of one value names its key, and no other key."""
 
 import copy
 import math
@@ -10,7 +10,7 @@ from project import merged, permuted, read_config
 from workflow.config import canonical, problems
 
 CONFIG = read_config()
-# Values that are wrong wherever another value of the same type is right.
+# Values that are invalid wherever another value of the same type is valid.
 WRONG = {
     float: ["abc", "5e5", math.nan, math.inf, -math.inf, [], {}, True, 10**400],
     int: ["abc", "5e5", math.nan, math.inf, 2.5, [], {}, True, -(10**30), 10**400],
@@ -37,7 +37,7 @@ def key_of(path: tuple) -> str:
 
 
 def changed(path: tuple, change) -> dict:
-    """A copy of the config in which `change` was called with the mapping or list above `path` and its last part."""
+    """A copy of the config after `change` was called with the mapping or list above `path`, and its last part."""
     config = here = dict(CONFIG)
     for part in path[:-1]:
         here[part] = copy.copy(here[part])
@@ -53,8 +53,8 @@ def put(path: tuple, value) -> dict:
     return changed(path, change)
 
 
-def assert_told(config: dict, path: tuple, name: str = "") -> None:
-    """Some line names the key of `path`, and `name`; every line is one line of readable length."""
+def assert_reported(config: dict, path: tuple, name: str = "") -> None:
+    """Assert that a line names the key of `path`, and `name`, and that all lines have a readable length."""
     lines = problems(config)
     assert any(key_of(path) in line and name in line for line in lines), (key_of(path), lines)
     assert all(len(line) < 600 and line.isprintable() for line in lines), lines
@@ -65,7 +65,7 @@ def places(section: str, *kinds: type) -> list[tuple[tuple, object]]:
 
 
 def may_be(path: tuple, value) -> bool:
-    """Whether a value of another type than the paper's is right there: a number that happens to be whole, a height."""
+    """Whether a value of another type is valid at a path: a number that happens to be whole, a height."""
     if path[-1] == "z0":
         return value == 5
     if "accepted" in path:
@@ -74,22 +74,22 @@ def may_be(path: tuple, value) -> bool:
 
 
 @pytest.mark.parametrize("section", SECTIONS)
-def test_a_value_of_another_type_is_told(section):
+def test_a_value_of_another_type_is_reported(section):
     for path, value in [((section,), CONFIG[section]), *places(section, *WRONG)]:
         for wrong in WRONG[type(value)]:
             if not may_be(path, wrong):
-                assert_told(put(path, wrong), path)
+                assert_reported(put(path, wrong), path)
 
 
 @pytest.mark.parametrize("section", SECTIONS)
-def test_null_is_told_where_it_does_not_mean_no_number(section):
+def test_null_is_reported_unless_it_means_no_number(section):
     for path, _ in places(section, float, int):
         if not {"accepted", "paper"} & set(path[3:]) or section == "regressions":
-            assert_told(put(path, None), path)
+            assert_reported(put(path, None), path)
 
 
 def is_of_names(path: tuple) -> bool:
-    """Whether any name may stand in a mapping."""
+    """Whether a mapping may have any name as a key."""
     places = {("figures",), ("claims",), ("benchmark", "cases"), ("precision", "scenes"), ("stability", "hard")}
     places |= {("published_scenes", "further"), ("companion", "presets"), ("identification", "told")}
     entries = {"sweeps", "estimates", "critical", "regressions", "dimensions", "signals", "spectra", "impacts"}
@@ -97,42 +97,42 @@ def is_of_names(path: tuple) -> bool:
 
 
 @pytest.mark.parametrize("section", SECTIONS)
-def test_a_misspelt_key_and_a_key_that_is_no_text_are_told(section):
+def test_a_misspelt_key_and_a_key_that_is_not_text_are_reported(section):
     for path, value in [((section,), CONFIG[section]), *places(section, dict)]:
         if not isinstance(value, dict):
             continue
         for name in value:
             misspelt = {key + "x" if key == name else key: item for key, item in value.items()}
-            # Another name of an entry is right in itself; what refers to it, if anything does, is not.
+            # Another name of an entry is valid; references to the old name, if any, are not.
             if not is_of_names(path):
-                assert_told(put(path, misspelt), path, f"{name}x")
+                assert_reported(put(path, misspelt), path, f"{name}x")
         for key in (1, True, None):
-            assert_told(put(path, {**value, key: 1}), path, repr(key))
-        assert_told(put(path, {**value, "extra key": 1}), path, "extra key")
+            assert_reported(put(path, {**value, key: 1}), path, repr(key))
+        assert_reported(put(path, {**value, "extra key": 1}), path, "extra key")
 
 
 @pytest.mark.parametrize("section", SECTIONS)
-def test_reversed_bounds_are_told(section):
+def test_reversed_bounds_are_reported(section):
     for path, value in places(section, dict):
         if value.keys() >= {"start", "stop"}:
             backwards = {**value, "start": value["stop"], "stop": value["start"]}
-            assert_told(put(path, backwards), path)
+            assert_reported(put(path, backwards), path)
     for path, value in places(section, list):
         if path[-1] in ("accepted", "limits", "A", "B", "C", "two_states", "scan") and None not in value:
-            assert_told(put(path, value[::-1]), path) if value[0] != value[1] else None
+            assert_reported(put(path, value[::-1]), path) if value[0] != value[1] else None
 
 
 @pytest.mark.parametrize(
     "path", [(section,) for section in SECTIONS] + [("model", key) for key in CONFIG["model"]], ids=key_of
 )
-def test_a_missing_key_is_told(path):
+def test_a_missing_key_is_reported(path):
     def delete(here, part):
         del here[part]
 
-    assert_told(changed(path, delete), path, "is missing")
+    assert_reported(changed(path, delete), path, "is missing")
 
 
-def test_another_order_or_spelling_is_right_and_means_the_same():
+def test_another_order_or_spelling_is_valid_and_equivalent():
     other = permuted(CONFIG)
     assert problems(other) == []
     assert repr(canonical(merged(CONFIG, other))) == repr(canonical(CONFIG))
@@ -150,7 +150,7 @@ def test_another_order_or_spelling_is_right_and_means_the_same():
     ],
     ids=str,
 )
-def test_a_right_config_is_right(overlay):
+def test_a_valid_config_has_no_errors(overlay):
     assert problems(merged(CONFIG, overlay)) == []
 
 
@@ -165,15 +165,15 @@ def test_a_right_config_is_right(overlay):
     ],
     ids=key_of,
 )
-def test_what_a_script_needs_is_told(path):
+def test_a_missing_setting_of_a_script_is_reported(path):
     def delete(here, part):
         del here[part]
 
-    assert_told(changed(path, delete), path, "is missing")
+    assert_reported(changed(path, delete), path, "is missing")
 
 
 @pytest.mark.parametrize("config", [None, [], "model", 3], ids=repr)
-def test_what_is_no_mapping_is_told(config):
+def test_a_section_that_is_not_a_mapping_is_reported(config):
     assert problems(config) == [f"config = {config!r} should be a valid mapping"]
 
 

@@ -1,4 +1,4 @@
-"""config/schema.json: current, complete, and true of all config files."""
+"""config/schema.json: current, complete, and valid for all config files."""
 
 import json
 import re
@@ -78,14 +78,14 @@ def test_every_key_has_a_description():
     assert lacking == []
 
 
-def test_units_stand_in_the_schema():
+def test_the_schema_has_units():
     assert unit_of(schema_at(["model", "mass"])) == "kg"
     assert unit_of(schema_at(["sweeps", "mine", "axes", "z0", "start"])) == "m"
     assert unit_of(schema_at(["figures", "fig23", "settings", "portraits", 0, 1])) == "m"
     assert schema_at(["model", "weight"]) == {}
 
 
-def test_every_key_of_the_default_config_is_one_of_the_schema():
+def test_the_schema_has_every_key_of_the_default_config():
     for key in (key for file in FILES for key in parse_file(file.read_text(encoding="utf-8"))):
         assert schema_at(list(key.path)), key.path
 
@@ -99,6 +99,6 @@ def test_the_page_of_keys_has_all_sections_with_values_and_units():
     assert by_name["model.mass"] == ("number in [1e-12, 1e+06]", "kg", "mass of the part, m_p")
     assert by_name["solver.duration"][:2] == ("number in (0, 1e+06]", "s")
     assert by_name["sweeps.NAME.needs"][0] == "feeding, vertical"
-    assert by_name["critical.NAME.scan"][:2] == ("list, each number in [-1, 10], or {start, stop, num}", "m")
+    assert by_name["critical.NAME.scan"][:2] == ("list; each item: number in [-1, 10], or {start, stop, num}", "m")
     assert by_name["orbits.seeds.[].z0"][:2] == ("number in [-1, 10], or conveyor", "m")
     assert by_name["companion.presets.NAME"][0] == "keys of `model`"

@@ -1,4 +1,4 @@
-"""Files in place of the tables that were made: an error that names the file and the remedy, never a wrong number."""
+"""Damaged or foreign files in place of tables: an error names the file and the remedy; no wrong number results."""
 
 import re
 import shutil
@@ -11,7 +11,7 @@ OTHER = r"was made from settings other than those requested \(model.damping = 0.
 
 @pytest.fixture(scope="module")
 def damped(built):
-    """The folder of results under another damping."""
+    """The folder of results for another damping."""
     project = built.under({"prefix": "damped", "model": {"damping": 0.2}})
     project.make("results/damped/sweeps/amplitudes.parquet")
     return built.folder / "results/damped"

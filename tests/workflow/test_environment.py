@@ -1,4 +1,4 @@
-"""What jobs find in their environment."""
+"""The environment of jobs."""
 
 STATUS = """
     import pyarrow
@@ -9,7 +9,7 @@ STATUS = """
     return figure"""
 
 
-def test_tables_ask_for_no_huge_pages(edited, monkeypatch):
+def test_tables_request_no_huge_pages(edited, monkeypatch):
     monkeypatch.delenv("MIMALLOC_ALLOW_THP", raising=False)
     project = edited("scripts/figures/plots/fig03.py", "\n    return figure", STATUS)
     project.make("figures/fig03.pdf")

@@ -1,4 +1,4 @@
-"""What CONTRIBUTING, pre-commit, GitHub Actions and the workflow catalogue say is there."""
+"""Files and names in CONTRIBUTING, pre-commit, GitHub Actions and the workflow catalogue exist."""
 
 import re
 
@@ -8,7 +8,7 @@ from project import ROOT
 CI = (ROOT / ".ci/run").read_text()
 
 
-def test_files_that_the_guide_names_are_there():
+def test_files_that_the_guide_names_exist():
     guide = (ROOT / "CONTRIBUTING.md").read_text()
     named = {name for name in re.findall(r"`([\w./*]+/[\w./*]+)`", guide) if not re.search("STAGE|NAME|SECTION", name)}
     assert len(named) > 10
@@ -17,7 +17,7 @@ def test_files_that_the_guide_names_are_there():
     ] == []
 
 
-def test_names_that_the_guide_tells_to_edit_are_there():
+def test_names_that_the_guide_says_to_edit_exist():
     for file, name in (
         ("scripts/figures/captions.py", "NUMBERS"),
         ("scripts/claims/verdicts.py", "FINDINGS"),
@@ -52,7 +52,7 @@ def test_github_runs_the_same_script_with_pinned_actions():
     )
 
 
-def test_the_catalogue_finds_what_it_asks_for():
+def test_the_catalogue_finds_its_files():
     usage = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text())["usage"]
     assert set(usage) == {"mandatory-flags", "software-stack-deployment", "report"}
     assert (ROOT / "workflow/Snakefile").is_file()
@@ -61,14 +61,14 @@ def test_the_catalogue_finds_what_it_asks_for():
     assert "workflow" in readme
 
 
-def test_the_config_guide_names_files_that_are_there():
+def test_files_that_the_config_guide_names_exist():
     named = re.findall(r"`(\w+\.yaml)`", (ROOT / "config/README.md").read_text())
     assert len(named) > 3
     assert all((ROOT / "config" / name).is_file() for name in named)
 
 
 def test_the_other_snakefile_plans_the_same(built):
-    """The catalogue's way in: workflow/Snakefile."""
+    """workflow/Snakefile, which the catalogue uses."""
     plans = [
         built.snakemake("--dry-run", "--forceall", *options) for options in ((), ("--snakefile", "workflow/Snakefile"))
     ]

@@ -1,4 +1,4 @@
-"""Snakemake ended from outside: a closed terminal leaves nothing behind; a kill leaves a lock that --unlock removes."""
+"""Interrupted runs: a closed terminal leaves nothing behind; a kill leaves a lock, which --unlock removes."""
 
 import os
 import signal
@@ -10,8 +10,8 @@ TARGET, LOG = "results/{prefix}/estimates/phase.parquet", "results/{prefix}/logs
 
 
 def ended(built, prefix, end):
-    """A project with a job that was ended while it ran, its target, and the process of Snakemake."""
-    # Long enough that the job still runs when its end comes.
+    """A project with a running job, its target, and the process of Snakemake."""
+    # Long enough that the job still runs when it is interrupted.
     project = built.under({"prefix": prefix, "estimates": {"phase": {"duration": 20.0}}})
     target = TARGET.format(prefix=prefix)
     process = project.started(target, *project.configfile())
@@ -20,7 +20,7 @@ def ended(built, prefix, end):
         assert process.poll() is None, process.stdout.read()
         time.sleep(0.05)
     end(process.pid)
-    # Ends once neither Snakemake nor a job of it can write any more.
+    # Wait until neither Snakemake nor its jobs can write any more.
     process.communicate(timeout=60)
     return project, target, process
 

@@ -1,4 +1,4 @@
-"""The house: each stage is a column, and imports point from later stages to earlier ones, never the other way."""
+"""The layout: each stage has one name everywhere, and later stages import earlier ones, never the reverse."""
 
 import pytest
 from project import ROOT, STAGES
@@ -6,8 +6,8 @@ from project import ROOT, STAGES
 from scripts.pipeline import source_hash
 from scripts.pipeline.imports import direct_imports
 
-# Rooms of the library, from the ground up; `conveyor` itself has what leads to solver and methods: simulate, ensembles.
-# The module `parameters` imports nothing and stands below them.
+# Packages of the library, lowest first; `conveyor` itself has the functions on top of solver and methods.
+# The module `parameters` imports nothing and is below all of them.
 ROOMS = (
     "conveyor.solver",
     "conveyor.methods",
@@ -19,8 +19,8 @@ ROOMS = (
 FLOORS = ("conveyor.parameters", *ROOMS, "pipeline", *STAGES, "builds", "report", "")
 
 
-def floor_of(module: str) -> int:
-    """The floor on which a module stands; the two scripts stand on top of all."""
+def layer_of(module: str) -> int:
+    """The layer of a module; the two scripts are above all stages."""
     package = module if module in FLOORS else module.rpartition(".")[0]
     while package not in FLOORS:
         package = package.rpartition(".")[0]
@@ -40,11 +40,11 @@ def test_imports_point_downwards(module):
     for file in files:
         used = ".".join(file.relative_to(source_hash.SCRIPTS).with_suffix("").parts)
         if not used.endswith("__init__"):
-            assert floor_of(used) <= floor_of(module), f"{module} imports {used}"
+            assert layer_of(used) <= layer_of(module), f"{module} imports {used}"
 
 
 @pytest.mark.parametrize("stage", STAGES)
-def test_a_stage_has_its_name_everywhere(stage):
+def test_a_stage_has_one_name_everywhere(stage):
     for file in (f"config/{stage}.yaml", f"workflow/rules/{stage}.smk", f"scripts/{stage}/__init__.py"):
         assert (ROOT / file).is_file(), file
     assert list((ROOT / f"tests/{stage}").glob("test_*.py"))

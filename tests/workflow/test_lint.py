@@ -1,4 +1,4 @@
-"""Snakemake's linter has no complaints, and the workflow names nothing private of Snakemake."""
+"""Snakemake's linter has no complaints, and the workflow uses only the public interface of Snakemake."""
 
 import re
 import subprocess
@@ -7,8 +7,8 @@ import sys
 from project import ROOT
 
 SOURCES = [ROOT / "Snakefile", *(path for path in (ROOT / "workflow").rglob("*") if path.suffix in (".smk", ".py"))]
-# Private names of another object: `workflow._x`, `snakemake.x._y`.
-PRIVATE = re.compile(r"\b\w+\._(?!asdict|replace)[a-z]\w*")  # _asdict and _replace are public, of named tuples
+# Private names of another object: `workflow._x`, `snakemake.x._y`. Those of named tuples are public.
+PRIVATE = re.compile(r"\b(?!self\b)\w+\._(?!asdict\b|replace\b|fields\b)[a-z]\w*")
 DOCUMENTED = {"snakemake.exceptions", "snakemake.utils"}
 
 
@@ -25,3 +25,8 @@ def test_the_workflow_uses_only_the_public_interface_of_snakemake():
         imported = set(re.findall(r"^(?:from|import) (snakemake[\w.]*)", text, re.MULTILINE))
         assert imported <= DOCUMENTED, path
         assert not PRIVATE.findall(text), path
+
+
+def test_scripts_use_no_private_name_of_another_package():
+    for path in (ROOT / "scripts").rglob("*.py"):
+        assert not PRIVATE.findall(path.read_text(encoding="utf-8")), path

@@ -1,4 +1,4 @@
-"""A machine of one's own: the paper's config in its scales, without what belongs to the paper."""
+"""Another machine: the paper's config in the scales of the machine, without the parts that belong to the paper."""
 
 import math
 import re
@@ -48,11 +48,11 @@ def config_of(overlay: dict) -> dict:
         ({"prefix": "mine", "model": {"friction": 0.2}}, True),
     ],
 )
-def test_a_prefix_and_another_machine_make_a_machine_of_ones_own(overlay, own):
+def test_a_prefix_and_another_model_make_another_machine(overlay, own):
     assert is_own_machine(CONFIG, merged(CONFIG, overlay)) == own
 
 
-def test_overlays_of_the_paper_change_what_they_name_only():
+def test_overlays_of_the_paper_change_only_the_keys_that_they_name():
     """The reduced config has a prefix, but the paper's machine: its axes begin and end where the paper's do."""
     assert not is_own_machine(CONFIG, merged(CONFIG, read_config("reduced")))
 
@@ -77,7 +77,7 @@ def test_numbers_keep_their_values_in_the_scales_of_the_machine():
     assert found["figures"]["fig23"]["settings"]["portraits"][2] == [320.0, 0.0]
 
 
-def test_amplitudes_are_those_of_the_vertical_motion():
+def test_amplitudes_scale_with_the_vertical_motion():
     angle = math.asin(2.0 * math.sin(CONFIG["model"]["angle"]))
     found = config_of({"prefix": "mine", "model": {"angle": angle}})
     assert found["orbits"]["limits"] == [10.0, 45.0]
@@ -93,7 +93,7 @@ def test_a_machine_of_the_same_scales_has_the_same_axes():
     assert found["model"] == CONFIG["model"] | {"damping": 0.4, "friction": 0.3}
 
 
-def test_the_step_is_that_of_the_contact():
+def test_the_step_scales_with_the_contact_time():
     """A contact a hundred times as stiff (p = 1.5: k^(1/3) in the frequency), whole steps in each cycle."""
     assert contact_time(CONFIG["model"]) == pytest.approx(1.0 / (2.0 * math.pi * 255.0), rel=0.01)
     stiff = scale_config(CONFIG, {"prefix": "mine", "model": {"stiffness": 5.0e7}})["solver"]["step"]
@@ -113,7 +113,7 @@ def test_examples_are_short_and_unlike_the_paper(name):
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
-def test_what_is_the_papers_own_is_left_out(name):
+def test_parts_that_belong_to_the_paper_are_left_out(name):
     found = config_of(example(name))
     assert set(found["figures"]) >= ANY
     assert not set(found["figures"]) & set(refused_figures(CONFIG, found))
@@ -132,7 +132,7 @@ def test_what_is_the_papers_own_is_left_out(name):
     assert methods == {"event"}
 
 
-def test_what_an_overlay_names_is_as_it_says():
+def test_keys_of_an_overlay_keep_their_values():
     overlay = merged(
         example("bowl"),
         {
@@ -166,7 +166,7 @@ def test_what_an_overlay_names_is_as_it_says():
         (3, "model = 3 should be a valid mapping"),
     ],
 )
-def test_a_machine_that_cannot_be_is_told(model, told):
+def test_an_impossible_machine_is_reported(model, told):
     with pytest.raises(ConfigError, match=re.escape(told)):
         load_config(DEFAULT_FILES, [], {"prefix": "mine", "model": model})
 
@@ -195,7 +195,7 @@ def test_a_figure_that_makes_no_sense_says_so():
 
 
 def test_figures_and_captions_of_another_machine_are_made(built):
-    """On the small config: the converged solution alone, and nothing of the paper's in the captions."""
+    """On the small config: only the converged solution, and captions without the paper."""
     project = built.under({"prefix": "mine", "model": {"frequency": 100.0, "friction": 0.3}})
     figures = ("fig03", "fig08", "fig22")
     made = [f"figures/mine/{figure}.pdf" for figure in figures]

@@ -1,4 +1,4 @@
-"""Profiles and interpreters: what must not depend on where or how Snakemake is called."""
+"""Profiles and interpreters: independence of where and how Snakemake is called."""
 
 import os
 import subprocess
@@ -17,7 +17,7 @@ exit 1
 
 
 def run(project, *arguments, path):
-    """Snakemake by its full path, as in a fresh shell, with the PATH given."""
+    """Run Snakemake by its full path, as in a new shell, with a given PATH."""
     return subprocess.run(
         [Path(sys.executable).with_name("snakemake"), *arguments],
         cwd=project.folder,
@@ -29,8 +29,8 @@ def run(project, *arguments, path):
     )
 
 
-def test_slurm_is_given_its_jobs(edited, tmp_path):
-    """A dry run would hide a profile that cannot be parsed: a scheduler that refuses everything gets the first jobs."""
+def test_slurm_gets_the_jobs(edited, tmp_path):
+    """A dry run would hide an invalid profile, so a scheduler that refuses every job gets the first ones."""
     project = edited("scripts/orbits/estimates.py", "import numpy as np\n", "import numpy as np  # changed\n")
     calls, commands = tmp_path / "calls", tmp_path / "commands"
     commands.mkdir()
@@ -44,12 +44,12 @@ def test_slurm_is_given_its_jobs(edited, tmp_path):
     assert calls.is_file(), found.stdout
     submitted = calls.read_text().splitlines()
     assert all("--cpus-per-task=2" in call for call in submitted)
-    # Wall times are taken by jobs that have a node to themselves.
+    # Jobs that measure wall times have a whole node.
     assert {"rule_benchmark" in call: "--exclusive" in call for call in submitted} == {True: True, False: False}
 
 
 def test_results_are_checked_by_the_interpreter_that_runs_snakemake(tmp_path, monkeypatch):
-    """No python on PATH."""
+    """PATH has no Python."""
     (tmp_path / "tests/results").mkdir(parents=True)
     test = tmp_path / "tests/results/test_one.py"
     test.write_text("def test_one():\n    pass\n")
@@ -61,7 +61,7 @@ def test_results_are_checked_by_the_interpreter_that_runs_snakemake(tmp_path, mo
         check_results.make("results", {}, "tests/results")
 
 
-def test_no_rule_leaves_its_command_to_the_path():
+def test_no_rule_finds_its_command_on_the_path():
     """Commands of `shell:` would be looked up there; scripts run with Snakemake's own interpreter."""
     rules = list((ROOT / "workflow/rules").glob("*.smk"))
     assert rules

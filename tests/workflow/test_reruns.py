@@ -1,4 +1,4 @@
-"""What runs again after which change."""
+"""Jobs that run again after a change."""
 
 import os
 
@@ -6,7 +6,7 @@ import pytest
 from project import CAPTIONS, FIGURES, TARGETS, permuted, small_config
 
 PLOTS = {"plot": len(FIGURES)}
-# A change in content that every module of the library can bear.
+# A change of content that is valid in every module of the library.
 REMARK = ("import numpy as np\n", "import numpy as np  # changed\n")
 
 
@@ -56,7 +56,7 @@ def test_no_exponent_after_the_states(edited):
         ("scripts/figures/style.py", '"#0072B2"', '"#123456"'),
     ],
 )
-def test_the_companion_after_what_it_is_made_of(edited, file, old, new):
+def test_the_companion_after_its_sources(edited, file, old, new):
     assert edited(file, old, new).planned("docs/companion.html") == {"companion": 1}
 
 
@@ -72,11 +72,11 @@ def test_the_companion_after_its_model(built):
         # Fixed steps have no tolerance.
         ({"estimates": {"phase": {"tolerance": 1.0e-9}}}, {"estimates": 1, "plot": 1}),
         ({"figures": {"fig22": {"settings": {"critical_acceleration": 51.0}}}}, {"plot": 1}),
-        # The amplitude is an axis everywhere here: its default reaches no table.
+        # The amplitude is an axis of every table here, so its default has no effect.
         ({"model": {"acceleration": 41.0}}, {}),
     ],
 )
-def test_only_users_after_a_config_value(built, change, expected):
+def test_only_tables_that_use_it_after_a_config_value(built, change, expected):
     assert built.under(change).planned(*TARGETS, *CAPTIONS) == {**expected, **({"captions": 1} if expected else {})}
 
 
@@ -109,7 +109,7 @@ def test_a_title_may_have_braces_and_reruns_nothing(built):
     assert project.planned(*TARGETS) == {}
 
 
-def test_a_changed_figure_is_the_one_that_is_drawn(edited):
+def test_only_a_changed_figure_is_drawn(edited):
     project = edited("scripts/figures/plots/fig22.py", 'style.CURVES[role]["color"]', '"#123456"')
     run = project.snakemake("--dry-run", *TARGETS)
     assert "Draw fig22" in run.stdout

@@ -18,5 +18,5 @@ MODULES = sorted(
 def test_a_script_is_a_module(name):
     before = dict(os.environ)
     assert importlib.import_module(name)
-    # Other tests of the same process, and whoever imports it, keep their settings.
+    # Importing it does not change the settings of the process.
     assert dict(os.environ) == before

@@ -1,4 +1,4 @@
-"""Estimates of what sweeps cost, and how these cut them: against counts by hand, and against what they claim."""
+"""Estimated costs of sweeps and their division into jobs: counts by hand, and agreement with the estimates."""
 
 import pytest
 from project import merged, read_config
@@ -35,8 +35,8 @@ AXES = [
 
 
 @pytest.mark.parametrize("axes", AXES, ids=" ".join)
-def test_conveyors_of_the_first_rows_are_those_that_there_are(axes):
-    """At least: where the first rows end within a value of a slow axis, its conveyors count as whole."""
+def test_number_of_conveyors_in_the_first_rows(axes):
+    """If the rows end within a value of a slow axis, its conveyors count completely."""
     counts = []
     for rows in range(1, 13 if "friction" in axes else 7):
         _, parameters = grid.product(axes, {}, (0, rows))
@@ -63,8 +63,8 @@ def test_a_plate_throws_parts_where_its_acceleration_exceeds_gravity(axes, share
     assert restless({"axes": axes, "model": model}) == pytest.approx(share, abs=1e-3)
 
 
-def test_jobs_take_the_wanted_time():
-    """Not by a count of points: slow ones make more jobs."""
+def test_jobs_take_the_requested_time():
+    """Slow points make more jobs."""
     points = sweep(psi0=span(6.0, 1000), z0=span(1e-4, 10_000))
     quick, slow = planned(points), planned(points | {"duration": 1.0})
     for shared in (quick, slow):
@@ -79,12 +79,12 @@ def test_no_job_of_a_usual_sweep_takes_a_gigabyte(points):
     assert max(shared.memory, shared.gathering) < 1000.0
 
 
-def test_a_sweep_has_at_most_so_many_jobs():
+def test_a_sweep_has_at_most_the_allowed_number_of_jobs():
     shared = planned(sweep(psi0=span(6.0, 10_000), z0=span(1e-4, 10_000)), most_jobs=7)
     assert shared.shards == 7
 
 
-def test_what_costs_too_much_is_refused_with_its_cost_and_the_key():
+def test_an_expensive_sweep_is_refused_with_its_cost_and_the_key():
     huge = sweep(psi0=span(6.0, 100_000), z0=span(1e-4, 100_000))
     (line,) = problems(merged(CONFIG, {"sweeps": {"mine": huge}}))
     shared = planned(huge)

@@ -1,11 +1,11 @@
-"""Which sources a script depends on."""
+"""The sources that a script depends on."""
 
 import pytest
 from project import ROOT
 
 from scripts.pipeline import imports, source_hash
 
-# Stages that call the functions of others: the budget makes what figures draw once more, in other ways.
+# Stages that call functions of other stages; the budget makes the tables of figures again with other settings.
 CALLS = {
     "accuracy/reference_check": {"accuracy/precision"},
     "accuracy/scene_budget": {
@@ -64,7 +64,7 @@ def test_imports_are_followed_to_any_depth(scripts):
     assert source_hash.closure("use")[1] == ["math", "numpy"]
 
 
-def test_a_package_on_the_way_to_a_module_does_not_count(scripts):
+def test_the_package_of_an_imported_module_does_not_count(scripts):
     assert modules("read") == {"read.py", "library/tables.py", "library/model.py"}
 
 
@@ -72,7 +72,7 @@ def test_imports_inside_functions_count(scripts):
     assert modules("late") == {"late.py", "library/deep.py", "library/model.py"}
 
 
-def test_hash_changes_with_what_is_imported_only(scripts):
+def test_hash_changes_only_with_imported_files(scripts):
     def write(file: str, text: str) -> None:
         (scripts / file).write_text(text)
         # A process reads each file once.
@@ -88,7 +88,7 @@ def test_hash_changes_with_what_is_imported_only(scripts):
 
 
 @pytest.mark.parametrize("package", ["numpy", "python"])
-def test_hash_changes_with_the_version_of_what_runs(scripts, monkeypatch, package):
+def test_hash_changes_with_the_version_of_packages(scripts, monkeypatch, package):
     before = source_hash.source_hash("use")
     true = source_hash.version
     monkeypatch.setattr(source_hash, "version", lambda name: "0.0" if name == package else true(name))
@@ -99,7 +99,7 @@ def test_hash_changes_with_the_version_of_what_runs(scripts, monkeypatch, packag
 
 
 def test_every_package_behind_a_number_or_a_picture_counts():
-    """Found by what is imported, not listed: pandas, and llvmlite and pillow behind others."""
+    """They are found from imports, without a list: pandas, and indirectly llvmlite and pillow."""
     _, packages = source_hash.closure("draw", "figures/plots/fig22", "fit/regressions", "sweeps/shards")
     names = {one.split("==")[0] for one in source_hash.versions(packages)}
     assert {
@@ -117,7 +117,7 @@ def test_every_package_behind_a_number_or_a_picture_counts():
     assert not names & {"math", "dataclasses"}
 
 
-def test_what_checks_the_config_reruns_nothing():
+def test_checks_of_the_config_rerun_nothing():
     scripts = {str(path.relative_to(source_hash.SCRIPTS).with_suffix("")) for path in source_hash.SCRIPTS.rglob("*.py")}
     # Pages show the comments of the config files and where the workflow puts its tables; a stage reads the examples.
     _, packages = source_hash.closure(
@@ -147,8 +147,8 @@ STAGES = sorted(
 
 
 @pytest.mark.parametrize("stage", STAGES)
-def test_only_a_stage_itself_holds_the_columns_of_its_tables(stage):
-    """A new text of a column runs the stage again, and those that call its functions, but no other one."""
+def test_only_a_stage_itself_has_the_columns_of_its_tables(stage):
+    """A new description of a column reruns the stage and the stages that call its functions, but no other stage."""
     users = {other for other in STAGES if ROOT / f"scripts/{stage}.py" in source_hash.closure(other)[0]}
     assert users == {stage} | {user for user, used in CALLS.items() if stage in used}
 

@@ -40,7 +40,7 @@ STEPS_IN_A_CYCLE = 20  # smallest number of steps that resolves an excitation cy
 
 
 def prefix(config: dict, defaults: dict) -> Iterator[str]:
-    if config["prefix"] in RESERVED:
+    if config["prefix"].lower() in RESERVED:  # macOS does not distinguish Logs from logs
         yield f"prefix = {config['prefix']!r} is a folder of the default results; give another name"
 
 
@@ -48,7 +48,7 @@ def methods(config: dict, defaults: dict) -> Iterator[str]:
     """Settings of methods that exclude each other, and entries that make the same table."""
     for section in METHOD_SECTIONS:
         for name, entry in config[section].items():
-            used = entry.get("methods") or [entry.get("method")]
+            used = entry.get("methods") or [entry.get("method", config["solver"]["method"])]
             if "method" in entry and "methods" in entry:
                 yield f"{section}.{name} has both method and methods; give methods: [{entry['method']}] alone"
             elif "step" in entry and used == ["event"] and "step" not in defaults[section].get(name, {}):
@@ -75,20 +75,18 @@ def axes(config: dict, defaults: dict) -> Iterator[str]:
 
 
 def models(config: dict) -> Iterator[tuple[str, list, list]]:
-    """All models with a static friction of their own: the key, the values of friction and of static_friction."""
+    """The model and all models with a friction of their own: the key, the values of friction and static_friction."""
     base = config["model"]
-    own = {"model": base}
+    changes = {"model": base}
     for section in ENTRIES:
         for name, entry in config[section].items():
             axes = {key: ends(axis) for key, axis in entry.get("axes", {}).items()}
-            own[f"{section}.{name}"] = base | entry.get("model", {}) | axes
-    own |= {
-        f"benchmark.cases.{name}.model": base | case["model"] for name, case in config["benchmark"]["cases"].items()
-    }
-    own |= {f"companion.presets.{name}": base | preset for name, preset in config["companion"]["presets"].items()}
-    own |= {f"identification.told.{name}": base | told for name, told in config["identification"]["told"].items()}
-    for key, model in own.items():
-        if "static_friction" in model:
+            changes[f"{section}.{name}"] = entry.get("model", {}) | axes
+    changes |= {f"benchmark.cases.{name}.model": case["model"] for name, case in config["benchmark"]["cases"].items()}
+    changes |= {f"companion.presets.{name}": preset for name, preset in config["companion"]["presets"].items()}
+    for key, changed in changes.items():
+        model = base | changed
+        if "static_friction" in model and not changed.keys().isdisjoint(("friction", "static_friction")):
             frictions, statics = (
                 value if isinstance(value, list) else [value] for value in (model["friction"], model["static_friction"])
             )
@@ -268,7 +266,7 @@ def figures(config: dict, defaults: dict) -> Iterator[str]:
 
 
 def default_claim(name: str, claim: dict, defaults: dict) -> dict:
-    """The claim of the default config with the same finding, first that of the same name; {} if there is none."""
+    """The claim of the default config with the same finding, if possible with the same name; {} if there is none."""
     claims = ({name: {}} | defaults["claims"]).values()
     return next((one for one in claims if one.get("finding") == claim["finding"]), {})
 
@@ -317,6 +315,12 @@ def identification(config: dict, defaults: dict) -> Iterator[str]:
         )
 
 
+def drive(config: dict, defaults: dict) -> Iterator[str]:
+    checked, recommended = config["drive"]["checked"], config["drive"]["recommended"]
+    if recommended > checked:
+        yield f"drive.recommended = {recommended} is above drive.checked = {checked}; check more, or recommend fewer"
+
+
 def tighter_names(config: dict) -> Iterator[str]:
     """Entries with the name of a table of tighter tolerances. The config has no other contradictions."""
     single = by_methods(config)
@@ -334,16 +338,16 @@ def precision(config: dict, defaults: dict) -> Iterator[str]:
         whole = max(1, round(interval / step))
         if abs(interval / step - whole) > 1e-9 * whole:
             yield (
-                f"precision.sample_interval = {interval!r} s is no multiple of precision.steps[{place}] = {step!r} s; "
-                f"take {whole * step!r} s"
+                f"precision.sample_interval = {interval!r} s is not a multiple of precision.steps[{place}] = {step!r} s"
+                f"; take {whole * step!r} s"
             )
     if scene not in precision["scenes"]:
-        yield f"precision.reference.scene = {scene!r} is no scene; take one of {', '.join(precision['scenes'])}"
+        yield f"precision.reference.scene = {scene!r} is not a scene; take one of {', '.join(precision['scenes'])}"
 
 
 CHECKS = (
     *(prefix, methods, axes, friction, sweeps, steps, perturbations, critical, times, orbits, dimensions),
-    *(unknown_references, figures, unused_keys, identification, precision),
+    *(unknown_references, figures, unused_keys, identification, precision, drive),
 )
 
 

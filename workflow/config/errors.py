@@ -86,7 +86,7 @@ def explain(error: dict) -> str:
 
 
 def type_problems(config: Any, ignored: str = "") -> list[str]:
-    """Errors of the types of a config, one line each, without those of the kind `ignored`."""
+    """Errors of the types of a config, one line each, without errors of the kind `ignored`."""
     try:
         MODEL.validate_python(config)
     except ValidationError as invalid:

@@ -20,8 +20,12 @@ STAGES = (
     *("claims", "identification", "figures", "docs"),
 )
 DEFAULT_FILES = tuple(ROOT / f"config/{name}.yaml" for name in ("config", *STAGES))
-MOST_VALUES, MOST_LEVELS = 12_000, 50  # of a file, anchors expanded: larger files take seconds to check
+# Of a file, with anchors expanded: larger files take seconds to check.
+MOST_CHARACTERS, MOST_VALUES, MOST_LEVELS = 1_000_000, 12_000, 50
 OCTAL = re.compile(r"[-+]?0[0-7_]+")
+# PyYAML's errors for text that its tag does not allow, as in !!bool maybe, 2024-13-45, or an integer of 5,000 digits.
+UNREADABLE = (yaml.YAMLError, ValueError, LookupError, AttributeError)
+SCALARS = yaml.SafeLoader("")
 
 
 def size_fault(text: str) -> str | None:
@@ -43,11 +47,13 @@ def size_fault(text: str) -> str | None:
         if values > MOST_VALUES:
             remedy = "write a long axis as {start: …, stop: …, num: …}, and fewer anchors"
             return f"{line}: has more than {MOST_VALUES:,} values; {remedy}"
+    if len(text) > MOST_CHARACTERS:
+        return f"1: has more than {MOST_CHARACTERS:,} characters; write a shorter file"
     return None
 
 
 def misread(node: yaml.Node, path: tuple[str | int, ...] = (), above: tuple[yaml.Node, ...] = ()) -> Iterator[str]:
-    """ "LINE: fault" for all that YAML reads below a node otherwise than a reader expects; `above` are its parents."""
+    """ "LINE: fault" for each value below a node that YAML reads differently than expected; `above` are its parents."""
     key, line = format_key(path), node.start_mark.line + 1
     if node in above:
         yield f"{line}: {key} contains itself through an anchor; write the values out"
@@ -59,37 +65,55 @@ def misread(node: yaml.Node, path: tuple[str | int, ...] = (), above: tuple[yaml
                 if name.value in lines:
                     yield f"{here}: {format_key(inner)} is already set in line {lines[name.value]}; merge both"
                 lines[name.value] = here
+                yield from misread(name, inner)
                 yield from misread(value, inner, (*above, node))
     elif isinstance(node, yaml.SequenceNode):
         for place, value in enumerate(node.value):
             yield from misread(value, (*path, place), (*above, node))
-    elif node.tag.endswith((":int", ":float")) and (":" in node.value or OCTAL.fullmatch(node.value)):
+    elif fault := scalar_fault(node):
+        yield f"{line}: {key} = {format_value(node.value)[1:-1]} {fault}"
+
+
+def scalar_fault(node: yaml.ScalarNode) -> str | None:
+    """That YAML cannot read a scalar, or reads it otherwise than a reader expects."""
+    if node.tag.endswith(":merge"):
+        return None
+    try:
+        value = SCALARS.construct_object(node)
+    except UNREADABLE:
+        return f"cannot be read as {node.tag.rpartition(':')[2]}; write a number, or text in quotes, without a tag"
+    if node.tag.endswith((":int", ":float")) and (":" in node.value or OCTAL.fullmatch(node.value)):
         reason, sign = ("with base 60", "colons") if ":" in node.value else ("an octal number", "the 0")
-        yield f"{line}: {key} = {node.value} is read as {yaml.safe_load(node.value)}, {reason}; write it without {sign}"
+        return f"is read as {value}, {reason}; write it without {sign}"
+    return None
 
 
 def read(file: str | Path) -> tuple[list[str], Any]:
     """All faults of a config file, one line each, and its content (None if it cannot be read)."""
+    # A pipe, as in --configfile <(…), cannot be read again by Snakemake.
+    if Path(file).exists() and not Path(file).is_file() and not Path(file).is_dir():
+        return [f"{file}: is no regular file; save the config in one, and name that file"], None
     try:
         text = Path(file).read_text(encoding="utf-8")
         if fault := size_fault(text):
             return [f"{file}:{fault}"], None
         node = yaml.compose(text, Loader=yaml.CSafeLoader)
-        faults = list(misread(node)) if node else []
+        if faults := list(misread(node)) if node else []:
+            return list(dict.fromkeys(f"{file}:{fault}" for fault in faults)), None
         content = yaml.load(text, Loader=yaml.CSafeLoader)
     except OSError as error:
-        return [f"{file}: {error.strerror}; name a config file (targets stand before --configfile)"], None
+        return [f"{file}: {error.strerror}; name a config file (put targets before --configfile)"], None
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
         return [f"{file}:{line}: is not UTF-8 text ({error.reason}); save it as UTF-8"], None
-    except (yaml.YAMLError, ValueError, TypeError) as error:
+    except (*UNREADABLE, TypeError) as error:
         mark = getattr(error, "problem_mark", None)
         reason = " ".join(str(getattr(error, "problem", error)).split())
         place = f"{file}:{mark.line + 1}" if mark else file
         return [f"{place}: is not YAML: {reason}; compare it with config/config.yaml"], None
     if not isinstance(content, dict):
         return [f"{file}: has no keys with values; begin with a section of config/config.yaml"], None
-    return list(dict.fromkeys(f"{file}:{fault}" for fault in faults)), content
+    return [], content
 
 
 def read_all(files: list[str | Path]) -> list[dict]:
@@ -122,10 +146,10 @@ def check_command_line(arguments: list[str]) -> None:
     options, _ = parser.parse_known_args(arguments)
     faults = [fault for file in options.configfile for fault in read(file)[0]]
     faults += [
-        f"--config {format_value(value)} is not KEY=VALUE with a top-level KEY such as prefix; put other values in an "
-        "overlay file, and name it with --configfile"
+        f"--config {format_value(value)} is not KEY=VALUE with a top-level KEY such as prefix and a single VALUE; put "
+        "other values in an overlay file, and name it with --configfile"
         for value in options.config
-        if not re.fullmatch(r"[A-Za-z_]\w+=.*", value, re.DOTALL)
+        if not re.fullmatch(r"[A-Za-z_]\w+=(?![{\[]).*", value, re.DOTALL)
     ]
     if faults:
         raise SystemExit(str(ConfigError(faults)))

@@ -1,8 +1,8 @@
 """Scale the paper's config to another conveyor, which an overlay with a prefix and a model describes.
 
 Axes, heights, velocities and times keep their values in the characteristic scales of the conveyor. The scaled config
-lacks what follows from the paper's own numbers, unless the overlay names it: claims, marks in figures, fits, first
-orbits, and the tables of the paper's method.
+leaves out everything that follows from the paper's own numbers, unless the overlay names it: claims, marks in figures,
+fits, first orbits, and the tables of the paper's method.
 """
 
 import math
@@ -113,7 +113,7 @@ def drop_figures(config: dict, overlay: dict) -> None:
 def scale_config(paper: dict, overlay: dict) -> dict:
     """The paper's config scaled to the conveyor of an overlay, which is then merged over it.
 
-    ConfigError says that there is no scale for amplitudes. The types of the overlay are right.
+    ConfigError if there is no scale for amplitudes. The types of the overlay are right.
     """
     own = paper["model"] | {name: float(value) for name, value in overlay["model"].items() if name in MACHINE}
     if math.sin(own["angle"]) == 0.0:

@@ -91,7 +91,7 @@ class Costs(TypedDict):
 
 
 class Sharing(TypedDict):
-    job_seconds: number("wanted duration of a job on two cores", "s", gt=0, le=1e6)
+    job_seconds: number("duration of a job on two cores", "s", gt=0, le=1e6)
     most_jobs: whole("largest number of jobs per sweep", 1, 10**5)
     core_hours: number("largest estimated cost of a sweep", "h", gt=0, le=1e9)
     seconds: Annotated[Costs, Field(description="measured costs from which a sweep's cost is estimated")]
@@ -106,7 +106,9 @@ class Followed(TypedDict):
     axes: Axes
     model: NotRequired[Model]
     method: NotRequired[Method]
-    methods: NotRequired[many(Method, "methods; the second and further ones make tables of their own, NAME_METHOD")]
+    methods: NotRequired[
+        many(Method, "methods; the first one makes the table NAME, each further one a table NAME_METHOD")
+    ]
     tolerance: NotRequired[Tolerance]
     step: NotRequired[Step]
 
@@ -327,7 +329,7 @@ class PublishedScenes(TypedDict):
     samples: whole("reference states of each scene", 2, 10**5)
     tolerance: Tolerance
     compared: many(Tolerance, "tolerances of the solutions that give the error bars")
-    further: Annotated[dict[Name, PublishedScene], Field(description="scenes besides those of `precision`")]
+    further: Annotated[dict[Name, PublishedScene], Field(description="scenes in addition to the scenes of `precision`")]
 
 
 class ExponentPairs(TypedDict):

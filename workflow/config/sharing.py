@@ -15,7 +15,7 @@ from scripts.pipeline.sizes import BLOCK, ROW_GROUP
 from .entries import count_points, count_values, ends, values_of
 
 THREADS = 2  # of a job
-STARTS = ("psi0", "z0", "vz0")  # parameters of an initial condition; the others belong to the conveyor
+STARTS = ("psi0", "z0", "vz0")  # parameters of an initial condition; all other ones belong to the conveyor
 
 
 class Plan(NamedTuple):
@@ -26,7 +26,7 @@ class Plan(NamedTuple):
     shards: int
     seconds: float  # of a shard on one core
     memory: float  # MB, of a shard
-    gathering: float  # MB, of the job that puts the shards together
+    gathering: float  # MB, of the job that joins the shards
 
     @property
     def core_hours(self) -> float:
@@ -81,7 +81,7 @@ def seconds_of(entry: dict, costs: dict, rows: int) -> float:
 
 
 def plan(sharing: dict, entry: dict) -> Plan:
-    """The division of a sweep into jobs of the wanted duration, or longer jobs if there were too many."""
+    """The division of a sweep into jobs of the requested duration, or longer jobs if there were too many."""
     costs, memory = sharing["seconds"], sharing["megabytes"]
     points = count_points(entry["axes"])
     # The largest number of rows that take at most this time.

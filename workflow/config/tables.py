@@ -161,7 +161,7 @@ def of_identification(table: str, config: dict) -> dict:
 
 
 FOLLOWED = ("tolerance", "settling")
-# The tables that are no entries, and the function that returns the settings of each.
+# The tables that are not entries, and the function that returns the settings of each.
 TABLES = {
     **dict.fromkeys(
         ("orbits/branches", "orbits/folds_and_doublings", "orbits/cascade"),
@@ -219,7 +219,7 @@ def kind_of(reference: str) -> str:
 
 
 def entry_of(config: dict, reference: str) -> dict:
-    """The entry of the table SECTION/NAME, {} if the table is no entry."""
+    """The entry of the table SECTION/NAME, {} if the table is not an entry."""
     section, name = reference.split("/")
     return config[section].get(name, {}) if section in ENTRIES else {}
 

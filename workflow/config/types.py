@@ -38,7 +38,7 @@ def text(description: str, pattern: str, expected: str) -> Any:
 
 
 def mapping(description: str, keys: dict[str, Any], total: bool = True) -> Any:
-    """A small mapping without a class of its own; `total` says whether all of its keys are required."""
+    """A small mapping without its own class; `total` says whether all of its keys are required."""
     return Annotated[TypedDict("_".join(keys), keys, total=total), Field(description=description)]
 
 
@@ -105,7 +105,7 @@ def span(item: Any, description: str, least: int = 2) -> Any:
 def either(description: str, expected: str, choose, **forms: Any) -> Any:
     """One of several forms; `choose` returns the name of the form that a value has, or None.
 
-    The location of an error holds this name in brackets.
+    The location of an error contains this name in brackets.
     """
     one, other = (Annotated[form, Tag(f"({name})")] for name, form in forms.items())
     form = Discriminator(
@@ -167,5 +167,5 @@ Axes = Annotated[
     Field(description="axes of the table: lists of values or {start, stop, num}; the first one varies slowest"),
 ]
 Model = Annotated[
-    TypedDict("Model", MODEL_TYPES, total=False), Field(description="parameters that differ from those of `model`")
+    TypedDict("Model", MODEL_TYPES, total=False), Field(description="parameters that differ from the section `model`")
 ]

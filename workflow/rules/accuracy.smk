@@ -68,7 +68,7 @@ rule precision:
         "../../scripts/make.py"
 
 
-# The fit of Eq. 13 as in the paper; None for a machine of the user's own whose config has no such entry.
+# The fit of Eq. 13 as in the paper; None for another machine whose config has no such entry.
 PAPER_FIT = config["regressions"].get("height")
 
 

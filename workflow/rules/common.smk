@@ -122,7 +122,7 @@ def shards_of_sweep(wildcards):
 
 
 def rows_of_shard(wildcards):
-    """First row of a shard, and the row behind its last one."""
+    """First row of a shard, and the row after its last one."""
     sweep = PLANS[wildcards.name]
     first = int(wildcards.shard) * sweep.rows
     return [first, min(first + sweep.rows, sweep.points)]

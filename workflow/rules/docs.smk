@@ -246,7 +246,7 @@ rule site:
             f"{DOCS}add_your_solver.md",
         ],
         scenes=SCENE_FILES,
-        examples=sources("docs/bowl_*.png"),
+        examples=sources("docs/bowl_*.png") + sources("docs/feeder_*.*"),
         style=source("scripts/docs/site.css"),
         pdf=figure_files(),
         png=[*figure_files("png"), *DIAGRAMS.values()],
@@ -308,7 +308,9 @@ rule picture:
         "../../scripts/make.py"
 
 
-# The pictures of the page on your own conveyor: snakemake docs/bowl_operating.png --configfile config/examples/bowl.yaml
+# What the site shows of other machines:
+#   snakemake docs/bowl_operating.png --configfile config/examples/bowl.yaml
+#   snakemake docs/feeder_operating.png docs/feeder_chart.md --configfile workflow/templates/site/feeder.yaml
 if config["prefix"]:
 
     use rule picture as example_picture with:
@@ -322,6 +324,16 @@ if config["prefix"]:
             figure="operating|basin_stability|drive",
         message:
             "The picture {wildcards.figure} of an example"
+
+    use rule claims_page as example_chart with:
+        input:
+            result("operating/chart.md"),
+        output:
+            f"docs/{config['prefix']}_chart.md",
+        log:
+            log_file("docs/example_chart"),
+        message:
+            "The operating chart of an example"
 
 
 # The JSON Schema of the config, which the repository keeps for editors: snakemake --force config/schema.json

@@ -64,9 +64,10 @@ def no_refcount(typing_context, array):
     """
 
     def code(context, builder, signature, arguments):
-        (view,), model = arguments, context.data_model_manager[signature.return_type]
-        for owner in ("meminfo", "parent"):
-            place = model.get_field_position(owner)
+        (view,) = arguments
+        fields = context.data_model_manager[signature.return_type]
+        for name in ("meminfo", "parent"):
+            place = fields.get_field_position(name)
             view = builder.insert_value(view, view.type.elements[place](None), place)
         return view
 

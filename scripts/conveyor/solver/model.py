@@ -47,7 +47,7 @@ TENSION_ALLOW, TENSION_FRICTIONLESS, TENSION_CLIP = range(len(TENSION_MODES))
 def check_parameter(name: str, value: float) -> float:
     """Return `value` as a float; raise ValueError that names the parameter, its unit and its range if it is outside."""
     low, high = RANGES[name]
-    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+    if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise ValueError(f"{name} must be a number in {UNITS[name]}, got {value!r}")
     if not low <= value <= high:
         raise ValueError(f"{name} = {value!r} is outside [{low:g}, {high:g}] {UNITS[name]}")

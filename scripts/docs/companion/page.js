@@ -86,7 +86,7 @@ function computeEuler() {
   drawAll();
 }
 
-/* The state to show: that of the periodic motion to which the part converges; otherwise the map's, which distinguishes
+/* The state to show: the state of the periodic motion to which the part converges; otherwise the map's, which distinguishes
    chaos from slow convergence by the Lyapunov exponent. */
 function statedState() {
   if (run.status !== "ok") return { name: undefined, text: "Not known", note: "" };

@@ -17,7 +17,7 @@ function unpackMap(packed) {
   const pixels = new DataView(image.data.buffer);
   const palette = data.states.map((state) => parseInt(`${colours[state].slice(1)}ff`, 16));
   states.forEach((state, k) => {
-    // The first row of the table is the lowest one, that of a picture the highest.
+    // The first row of the table is the lowest one, the first row of a picture the highest.
     const row = packed.y.num - 1 - Math.floor(k / packed.x.num);
     pixels.setUint32(4 * (row * packed.x.num + (k % packed.x.num)), palette[state]);
   });

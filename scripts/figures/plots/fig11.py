@@ -19,5 +19,5 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, two_states: list[float
             axes.plot(rows.acceleration, rows.mean_velocity, ".", markersize=2.0, markeredgewidth=0.0, color=colour)
     panels[0].set_ylim(bottom=0.0)
     intended = Patch(color="0.93", label="two states intended (paper)")
-    panels[0].legend(handles=[*style.state_handles(euler, converged), intended], loc="upper left")
+    figure.legend(handles=[*style.state_handles(euler, converged), intended], loc="outside upper center", ncols=4)
     return figure

@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 from matplotlib import colormaps
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
@@ -16,69 +17,80 @@ MARKERS = {
 CURVES = 5  # in panel c
 
 
-def plot(*, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame, paper_error: float) -> Figure:
-    """Draw the fits of the critical heights `converged`, and mark the error `paper_error` (m²)."""
-    figure = style.figure(style.PAGE, 62.0)
-    errors, triples, heights = figure.subplots(1, 3)
-    valley = fit[fit.fit == "valley"]
-    flat = valley[valley.error <= paper_error]
+def marks(fit: pd.DataFrame) -> list[tuple[pd.Series, dict, str]]:
+    """The single fits of a table: row, look and label of each."""
+    return [
+        (
+            fit[fit.fit == name].iloc[0],
+            {"marker": marker, "color": colour, "linestyle": "", "markersize": 4.0, "markerfacecolor": "none"},
+            label,
+        )
+        for name, (marker, colour, label) in MARKERS.items()
+    ]
 
-    errors.axhline(1e6 * paper_error**0.5, color="black", linewidth=0.6, linestyle=":")
-    style.note(
-        errors,
-        "paper's fit",
-        (1.0, 1e6 * paper_error**0.5),
-        (0, -2),
-        xycoords=("axes fraction", "data"),
-        ha="right",
-        va="top",
-    )
+
+def draw_errors(axes: Axes, fit: pd.DataFrame, fit_euler: pd.DataFrame, paper_error: float) -> None:
+    """Draw the smallest error for each B, and the error of the paper's fit (m²)."""
+    paper = 1e6 * paper_error**0.5
+    axes.axhline(paper, color="black", linewidth=0.6, linestyle=":")
+    style.note(axes, "paper's fit", (1.0, paper), (0, -2), xycoords=("axes fraction", "data"), ha="right", va="top")
     fits = (
         (fit, style.CONVERGED, "fit to the converged solution"),
         (fit_euler, style.EULER, "fit to the published method"),
     )
     for table, colour, label in fits:
         curve = table[table.fit == "valley"]
-        errors.plot(curve.B, 1e6 * curve.error**0.5, color=colour, linewidth=0.8, label=label)
-    errors.set_yscale("log")
-    errors.set_yticks([4.0, 6.0, 10.0, 20.0], ["4", "6", "10", "20"])
-    errors.minorticks_off()
-    errors.set_ylabel("smallest rms deviation in µm")
-    errors.legend(loc="upper right")
+        axes.plot(curve.B, 1e6 * curve.error**0.5, color=colour, linewidth=0.8, label=label)
+    for row, look, _ in marks(fit):
+        axes.plot(row.B, 1e6 * row.error**0.5, **look)
+    axes.set_yscale("log")
+    axes.set_yticks([4.0, 6.0, 10.0, 20.0], ["4", "6", "10", "20"])
+    axes.minorticks_off()
+    axes.set_ylim(top=2.0 * axes.get_ylim()[1])  # room for the legend above the curves
+    axes.set_xlabel("$B$ in m/s²")
+    axes.set_ylabel("smallest rms deviation in µm")
+    axes.legend(loc="upper right", handlelength=1.2)
 
-    triples.plot(1e3 * valley.A, 1e3 * valley.C, color="0.6", linewidth=0.8, label="best $A$ and $C$ for each $B$")
-    triples.plot(1e3 * flat.A, 1e3 * flat.C, color="0.6", linewidth=4.0, alpha=0.5, label="error ≤ paper's fit")
-    triples.set_xlabel("$A$ in 10$^{-3}$ m²/s²")
-    triples.set_ylabel("$C$ in mm")
-    for name, (marker, colour, label) in MARKERS.items():
-        row = fit[fit.fit == name].iloc[0]
-        style_of = {"marker": marker, "color": colour, "linestyle": "", "markersize": 4.0, "markerfacecolor": "none"}
-        errors.plot(row.B, 1e6 * row.error**0.5, **style_of)
-        triples.plot(1e3 * row.A, 1e3 * row.C, **style_of, label=label)
-    triples.legend(loc="lower left")
-    errors.set_xlabel("$B$ in m/s²")
 
-    range_of_fit = np.linspace(*fit.attrs["acceleration"], 200)
-    for index, shade in zip(
-        np.linspace(0, len(flat) - 1, CURVES).astype(int), np.linspace(0.0, 0.9, CURVES), strict=True
-    ):
-        row = flat.iloc[index]
-        curve = critical_height(range_of_fit, Hyperbola(row.A, row.B, row.C))
+def draw_parameters(axes: Axes, fit: pd.DataFrame, flat: pd.DataFrame) -> None:
+    """Draw A and C of the best fit for each B, wide for the fits in `flat`."""
+    valley = fit[fit.fit == "valley"]
+    axes.plot(1e3 * valley.A, 1e3 * valley.C, color="0.6", linewidth=0.8, label="best $A$ and $C$ for each $B$")
+    axes.plot(1e3 * flat.A, 1e3 * flat.C, color="0.6", linewidth=4.0, alpha=0.5, label="error ≤ paper's fit")
+    for row, look, label in marks(fit):
+        axes.plot(1e3 * row.A, 1e3 * row.C, **look, label=label)
+    axes.set_xlabel("$A$ in 10$^{-3}$ m²/s²")
+    axes.set_ylabel("$C$ in mm")
+    # Room for the legend below the curve.
+    axes.set_ylim(bottom=1e3 * (valley.C.min() - 0.6 * np.ptp(valley.C)))
+    axes.legend(loc="lower left")
+
+
+def draw_heights(axes: Axes, converged: pd.DataFrame, flat: pd.DataFrame, acceleration: list[float]) -> None:
+    """Draw some fits of `flat` over the amplitudes of the fit (m/s²), and the critical heights."""
+    amplitudes = np.linspace(*acceleration, 200)
+    places = np.linspace(0, len(flat) - 1, CURVES).astype(int)
+    for place, shade in zip(places, np.linspace(0.0, 0.9, CURVES), strict=True):
+        row = flat.iloc[place]
+        curve = critical_height(amplitudes, Hyperbola(row.A, row.B, row.C))
         colour = colormaps["viridis"](shade)
-        heights.plot(range_of_fit, 1e3 * curve, color=colour, linewidth=0.6, label=f"$B = {row.B:.1f}$ m/s²")
+        axes.plot(amplitudes, 1e3 * curve, color=colour, linewidth=0.6, label=f"$B = {row.B:.1f}$ m/s²")
     edge = converged[converged.is_critical]
-    heights.plot(
-        edge.acceleration,
-        1e3 * edge.z0,
-        ".",
-        color="black",
-        markersize=2.0,
-        markeredgewidth=0.0,
-        label="converged solution",
-    )
-    heights.set_xlabel(style.AMPLITUDE)
-    heights.set_ylabel("critical initial height $z_0$ in mm")
-    heights.legend()
-    for axes, letter in zip((errors, triples, heights), "abc", strict=True):
+    look = {"color": "black", "markersize": 2.0, "markeredgewidth": 0.0}
+    axes.plot(edge.acceleration, 1e3 * edge.z0, ".", **look, label="converged solution")
+    axes.set_xlabel(style.AMPLITUDE)
+    axes.set_ylabel("critical initial height $z_0$ in mm")
+    axes.legend()
+
+
+def plot(*, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame, paper_error: float) -> Figure:
+    """Draw the fits of the critical heights `converged`, and mark the error `paper_error` (m²)."""
+    figure = style.figure(style.PAGE, 62.0)
+    panels = figure.subplots(1, 3)
+    flat = fit[(fit.fit == "valley") & (fit.error <= paper_error)]
+    draw_errors(panels[0], fit, fit_euler, paper_error)
+    draw_parameters(panels[1], fit, flat)
+    draw_heights(panels[2], converged, flat, fit.attrs["acceleration"])
+    for axes, letter in zip(panels, "abc", strict=True):
         axes.set_title(letter, loc="left", fontweight="bold")
     return figure

@@ -42,7 +42,7 @@ def draw_friction_alone(axes: Axes, frictions: pd.DataFrame, numbers: pd.DataFra
         axes.plot(frictions.friction, frictions[column], color=colour, linestyle=line, label=label)
         values = frictions[column].where(frictions[column].between(one.low, one.high))
         axes.plot(frictions.friction, values, color=colour, linewidth=4.5, alpha=0.35, solid_capstyle="butt")
-    axes.axvline(printed, color="black", linewidth=0.6, linestyle=":")
+    axes.axvline(printed, ymax=0.75, color="black", linewidth=0.6, linestyle=":")  # ends below the legend
     style.note(axes, "printed", (printed, 0.02), (2, 0), xycoords=("data", "axes fraction"))
     axes.set_xlabel(UNITS["friction"][1])
     axes.set_ylabel("mean feeding velocity in cm/s")

@@ -1,5 +1,7 @@
 """Cost and visible effect of cheaper variants of the table behind each figure."""
 
+import math
+
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -20,6 +22,11 @@ def marker_and_colour(row) -> tuple[str, str]:
         return VARIANTS[row.variant]
     nearest = min(TOLERANCES, key=lambda tolerance: abs(tolerance / row.tolerance - row.tolerance / tolerance))
     return "o", TOLERANCES[nearest]
+
+
+def power_of_ten(value: float) -> str:
+    """The power of ten that is nearest to a value, for a label."""
+    return f"$10^{{{round(math.log10(value))}}}$"
 
 
 def figure_label(figure: str) -> str:
@@ -72,7 +79,7 @@ def plot(*, budget: pd.DataFrame, times: pd.DataFrame) -> Figure:
     seen.set_xticks([NONE, 1e-3, 1e-2, 1e-1, 1.0], ["none", "0.001", "0.01", "0.1", "1"])
     seen.set_xlabel("share of drawn values with a visible change")
     handles = [
-        Line2D([], [], linestyle="", marker="o", color=colour, label=f"tolerance {tolerance:.0e}")
+        Line2D([], [], linestyle="", marker="o", color=colour, label=f"tolerance {power_of_ten(tolerance)}")
         for tolerance, colour in TOLERANCES.items()
     ]
     handles += [
@@ -82,7 +89,7 @@ def plot(*, budget: pd.DataFrame, times: pd.DataFrame) -> Figure:
     handles += [
         Line2D([], [], linestyle="", marker="o", color="0.5", markerfacecolor="white", label="open: visible"),
         Line2D([], [], label="chosen", **RING),
-        Line2D([], [], label=f"full model, tolerance {full.tolerance.iloc[0]:.0e}", **FULL),
+        Line2D([], [], label=f"full model, tolerance {power_of_ten(full.tolerance.iloc[0])}", **FULL),
     ]
     figure.legend(handles=handles, loc="outside upper center", ncols=5)
     return figure

@@ -6,6 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
 
 from figures import style
 from figures.plots.stability_details import AXES, OUTCOMES
@@ -38,7 +39,9 @@ def draw_panel(axes: Axes, rows: pd.DataFrame, panel: str, methods: list[str], p
     for method in methods:
         limits = largest_right_step(rows[rows.method == method])
         wide = method == "euler"
-        axes.plot(limits.index, limits, color=style.METHODS[method][0], linewidth=2.0 if wide else 1.0)
+        width = 2.0 if wide else 1.0
+        edge = withStroke(linewidth=width + 1.0, foreground="white")
+        axes.plot(limits.index, limits, color=style.METHODS[method][0], linewidth=width, path_effects=[edge])
     own = rows[rows.method == "event"].sort_values("y")
     top = OWN_ROW * euler.x.max()
     right = own.y.where(own.outcome == "right")

@@ -115,11 +115,12 @@ def plot(*, stability: pd.DataFrame, acceleration: float) -> Figure:
     handles.append(Line2D([], [], **LIMIT, label="theoretical limit"))
     handles.append(Line2D([], [], linestyle="", **PAPER, label="published time step"))
     above.legend(handles=handles, loc="outside upper center", ncols=6)
-    in_hard_cases = stability.method[stability.panel.str.startswith("hard")]
-    methods = dict.fromkeys((*stability.attrs["methods"], "event", *in_hard_cases))
-    handles = [
-        Line2D([], [], linestyle="", marker="o", color=colour, label=name)
-        for colour, name in (style.METHODS[method] for method in methods)
-    ]
+    in_hard_cases = stability[stability.panel.str.startswith("hard")]
+    missing = set(in_hard_cases.method[in_hard_cases.outcome == "not installed"])
+    handles = []
+    for method in dict.fromkeys((*stability.attrs["methods"], "event", *in_hard_cases.method)):
+        colour, name = style.METHODS[method]
+        label = f"{name} (not installed)" if method in missing else name
+        handles.append(Line2D([], [], linestyle="", marker="o", color=colour, label=label))
     below.legend(handles=handles, loc="outside upper center", ncols=4)
     return figure

@@ -4,6 +4,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.ticker import NullFormatter
 
 from figures import style
 
@@ -41,6 +42,7 @@ def draw_exponents(axes: Axes, rows: pd.DataFrame, panel: str) -> None:
     room = 0.15 * (high - low)
     axes.set_ylim(min(low, rows.truth.iloc[0]) - room, max(high, rows.truth.iloc[0]) + room)
     axes.set_xscale("log")
+    axes.xaxis.set_minor_formatter(NullFormatter())  # labels of a short axis would overlap
     axes.set_xlabel(label)
 
 
@@ -63,14 +65,18 @@ def draw_dimensions(axes: Axes, rows: pd.DataFrame, column: str, label: str) -> 
                 axes,
                 NAMES.get(case, case),
                 (line[column].iloc[-1], line.value.iloc[-1]),
-                (-2, 3 if case == "chaos" else -3),
-                va="bottom" if case == "chaos" else "top",
-                ha="right",
+                (4, 0),
+                va="top"
+                if line.value.iloc[-1] < line.truth.iloc[-1]
+                else "bottom",  # beside the line of the true value
             )
     for truth in rows.truth.dropna().unique():
         axes.axhline(truth, **TRUTH)
     axes.set_ylim(0.4, 2.4)
     axes.set_xscale("log")
+    axes.xaxis.set_minor_formatter(NullFormatter())  # labels of a short axis would overlap
+    least, most = rows[column].min(), rows[column].max()
+    axes.set_xlim(right=most * (most / least) ** 0.38)  # room for the names
     axes.set_xlabel(label)
 
 

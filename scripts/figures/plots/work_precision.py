@@ -1,52 +1,42 @@
-"""Error over work: all methods in three scenes, with their failures, and estimates of exponent, dimension and fit."""
+"""Error over processor time of all methods in three scenes, and a list of their failures."""
 
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 
 from figures import style
 
-# Marker and line of each treatment.
+# Marker and line of each treatment of events, and its name in the legend.
 TREATMENTS = {
     "exact": ("o", "-", None),
     "exact, nothing repeated": ("o", "-.", "this solver, no step reused"),
     "fixed step": (".", "-", None),
-    "sign": ("x", ":", "sign() friction"),
-    "events": ("^", "--", "events, naive restart"),
-    "modes": ("s", "-", "events and contact modes"),
+    "sign": ("x", ":", "sign: no events, friction by sign()"),
+    "events": ("^", "--", "events: naive restart"),
+    "modes": ("s", "-", "modes: events and contact modes"),
 }
-FAILURES = {
-    "gave up": "T",
-    "stuck at an event": "R",
-    "step too small": "S",
-    "event lost": "E",
-    "not finite": "N",
-    "wrong state": "W",
-    "through the plate": "P",
+# Marker of each outcome in the list of failures, and its meaning.
+OUTCOMES = {
+    "ok": ("|", "right state of motion"),
+    "wrong state": ("x", "wrong state of motion"),
+    "through the plate": ("v", "fell through the plate, reported success"),
+    "gave up": ("s", "limit of evaluations reached"),
+    "stuck at an event": ("o", "same event again and again"),
+    "step too small": ("<", "step too small"),
+    "event lost": ("^", "event missed"),
+    "not finite": ("D", "not finite"),
 }
-MEANINGS = (
-    "T: evaluation limit reached · W: wrong state of motion · P: fell through the plate, reported success\n"
-    "R: repeats the same event endlessly · S: step too small · E: event missed · N: not finite"
-)
 MISSING = "not installed"
-# Columns of work and error, and their labels.
-PANELS = (
-    ("milliseconds", "velocity_error", "processor time in ms", "mean velocity"),
-    ("evaluations", "velocity_error", "force evaluations", "mean velocity"),
-    ("milliseconds", "state_error", "processor time in ms", "final state"),
-    ("evaluations", "state_error", "force evaluations", "final state"),
-)
-# Failures are drawn in a band above this error, with a line for each method and treatment.
-FAILED = 3.0
-BAND_ENDS = 1e10
-
-QUANTITIES = {
-    "exponent": ("simulated cycles", "relative error of $\\lambda_1$"),
-    "dimension": ("points", "error of the dimension"),
-    "fit": ("evaluations", "relative gap to the best fit"),
+# Columns of error, and their titles.
+ERRORS = {
+    "velocity_error": "mean velocity,\nrelative",
+    "state_error": "state at the end,\nin plate amplitudes",
+    "trajectory_error": "trajectory (rms of x, z),\nin plate amplitudes",
+    "event_error": "impacts and separations,\nin cycles",
 }
+NAMES = {"jumping": "jumping", "riding": "always in contact", "bouncing": "micro-bounces"}  # of the scenes
 
 
 def draw_curve(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
@@ -70,29 +60,16 @@ def draw_curve(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
     )
 
 
-def draw_failures(axes: Axes, table: pd.DataFrame, x: str) -> None:
-    """Draw the failures of a scene in the band: for each kind a line over its work, with its letter at the right."""
-    kinds = table[table.outcome.isin(FAILURES)].groupby(["method", "treatment", "outcome"], sort=False)
-    lines = np.geomspace(BAND_ENDS, FAILED, kinds.ngroups + 2)[1:-1]
-    for line, ((method, _, outcome), failed) in zip(lines, kinds, strict=True):
-        colour, _ = style.METHODS[method]
-        least, most = failed[x].min(), failed[x].max()
-        axes.plot([least, most], [line] * 2, color=colour, linewidth=0.8, marker="|", markersize=2.5)
-        style.note(axes, FAILURES[outcome], (most, line), (3.0, 0.0), color=colour, va="center", annotation_clip=False)
-
-
 def draw_panel(axes: Axes, table: pd.DataFrame, x: str, y: str, paper_step: float) -> None:
     """Draw the error `y` over the work `x` of all methods in one scene."""
     for _, rows in table.groupby(["method", "treatment"], sort=False):
         draw_curve(axes, rows, x, y)
     paper = table[(table.method == "euler") & np.isclose(table.step, paper_step)]
     axes.plot(paper[x], paper[y], "o", markersize=7.0, markerfacecolor="none", color=style.EULER)
-    draw_failures(axes, table, x)
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_ylim(1e-15, BAND_ENDS)
+    axes.set_ylim(1e-16, 1e3)
     axes.set_yticks([1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1.0])
-    axes.axhspan(FAILED, BAND_ENDS, color="0.95", linewidth=0.0)
     axes.minorticks_off()
     axes.grid(linewidth=0.3, color="0.9")
 
@@ -120,17 +97,48 @@ def missing_note(scenes: list[pd.DataFrame]) -> str:
     """A line that names the peers that are not installed; empty if all are."""
     everything = pd.concat(scenes)
     missing = dict.fromkeys(everything[everything.outcome == MISSING].method)
-    return f"\nnot installed, so not shown: {', '.join(missing)}" if missing else ""
+    return f"not installed, so not shown: {', '.join(missing)}" if missing else ""
 
 
-def draw_estimates(axes: Axes, rows: pd.DataFrame, work: str, error: str) -> None:
-    """Draw the error of the estimates of one quantity over their work."""
-    colours = (style.EULER, "black", style.CONVERGED)
-    for colour, (name, curve) in zip(colours, rows.groupby("estimator", sort=False), strict=False):
-        axes.loglog(curve.work, curve.error.clip(lower=1e-16), ".-", color=colour, linewidth=0.8, label=name)
-    axes.set_xlabel(work)
-    axes.set_ylabel(error)
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), handlelength=1.2)
+def failing_methods(runs: pd.DataFrame) -> list[tuple[str, str]]:
+    """Methods and treatments with at least one failed run, in the order of the table."""
+    failed = runs[~runs.outcome.isin(["ok", MISSING])]
+    return list(failed[["method", "treatment"]].drop_duplicates().itertuples(index=False, name=None))
+
+
+def draw_outcomes(axes: Axes, table: pd.DataFrame, kinds: list[tuple[str, str]]) -> None:
+    """Draw the outcomes of a scene over tolerance or time step, with a line for each method and treatment."""
+    accuracy = table.tolerance.fillna(table.step)
+    for place, (method, treatment) in enumerate(kinds):
+        here = (table.method == method) & (table.treatment == treatment)
+        for outcome, (marker, _) in OUTCOMES.items():
+            values = accuracy[here & (table.outcome == outcome)]
+            look = {"color": style.METHODS[method][0], "markerfacecolor": "none", "markersize": 3.5}
+            axes.plot(values, np.full(len(values), place), marker, **look)
+    axes.set_xscale("log")
+    axes.minorticks_off()
+    axes.set_xlabel("tolerance, or time step in s")
+
+
+def draw_failures(figure: SubFigure, scenes: dict[str, pd.DataFrame]) -> None:
+    """Draw the outcomes of all methods that fail in some scene, a panel for each scene."""
+    runs = pd.concat(scenes.values())
+    kinds = failing_methods(runs)
+    panels = figure.subplots(1, len(scenes), sharex=True, sharey=True)
+    for axes, (name, table) in zip(panels, scenes.items(), strict=True):
+        draw_outcomes(axes, table, kinds)
+        axes.set_title(NAMES[name])
+    panels[0].invert_xaxis()
+    panels[0].set_ylim(len(kinds) - 0.5, -0.5)
+    treatments = {kind: "" if kind[1] == "fixed step" else f", {kind[1]}" for kind in kinds}
+    panels[0].set_yticks(range(len(kinds)), [style.METHODS[kind[0]][1] + treatments[kind] for kind in kinds])
+    handles = [
+        Line2D([], [], color="0.3", linestyle="", marker=marker, markerfacecolor="none", markersize=3.5, label=meaning)
+        for outcome, (marker, meaning) in OUTCOMES.items()
+        if (runs.outcome == outcome).any()
+    ]
+    figure.legend(handles=handles, loc="outside upper center", ncols=3, handletextpad=0.2)
+    figure.supxlabel(missing_note(list(scenes.values())), size=7.0)
 
 
 def plot(
@@ -141,29 +149,23 @@ def plot(
     jumping_times: pd.DataFrame,
     riding_times: pd.DataFrame,
     bouncing_times: pd.DataFrame,
-    estimates: pd.DataFrame,
     paper_step: float,
 ) -> Figure:
-    """Draw the errors over the work in three scenes, with a ring around the published step, `paper_step` (s)."""
-    figure = style.figure(style.PAGE, 215.0)
-    upper, lower = figure.subfigures(2, 1, height_ratios=(3.4, 1.0))
-    grid = upper.subplots(3, len(PANELS), sharex="col", sharey=True)
-    scenes = {
-        "jumping": (jumping, jumping_times),
-        "always in contact": (riding, riding_times),
-        "micro-bounces": (bouncing, bouncing_times),
-    }
-    for (name, (work, times)), row in zip(scenes.items(), grid, strict=True):
-        table = work.assign(milliseconds=1e3 * times.seconds)
-        for axes, (x, y, label, title) in zip(row, PANELS, strict=True):
-            draw_panel(axes, table, x, y, paper_step)
-            if axes in grid[0]:
-                axes.set_title(title)
-            if axes in grid[-1]:
-                axes.set_xlabel(label)
-        row[0].set_ylabel(f"{name}\nrelative error")
-    upper.legend(handles=legend_handles([jumping, riding, bouncing]), loc="outside upper center", ncols=4)
-    upper.supxlabel(MEANINGS + missing_note([jumping, riding, bouncing]), size=7.0)
-    for axes, (quantity, labels) in zip(lower.subplots(1, len(QUANTITIES)), QUANTITIES.items(), strict=True):
-        draw_estimates(axes, estimates[estimates.quantity == quantity], *labels)
+    """Draw the errors over processor time in three scenes, with a ring around `paper_step` (s), and all failures."""
+    figure = style.figure(style.PAGE, 195.0)
+    upper, lower = figure.subfigures(2, 1, height_ratios=(2.0, 1.0))
+    scenes = {"jumping": jumping, "riding": riding, "bouncing": bouncing}
+    grid = upper.subplots(len(scenes), len(ERRORS), sharex=True, sharey=True)
+    times = (jumping_times, riding_times, bouncing_times)
+    for row, (name, work), seconds in zip(grid, scenes.items(), times, strict=True):
+        table = work.assign(milliseconds=1e3 * seconds.seconds)
+        for axes, error in zip(row, ERRORS, strict=True):
+            draw_panel(axes, table, "milliseconds", error, paper_step)
+        row[0].set_ylabel(f"{NAMES[name]}\nerror")
+    for axes, title in zip(grid[0], ERRORS.values(), strict=True):
+        axes.set_title(title)
+    for axes in grid[-1]:
+        axes.set_xlabel("processor time in ms")
+    upper.legend(handles=legend_handles(list(scenes.values())), loc="outside upper center", ncols=4)
+    draw_failures(lower, scenes)
     return figure

@@ -1,4 +1,4 @@
-"""Spectra of sums of cosines, whose lines are known."""
+"""Spectra of sums of cosines with known lines."""
 
 import numpy as np
 import pytest

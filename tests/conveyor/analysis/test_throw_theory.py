@@ -52,7 +52,7 @@ def test_the_general_form_agrees_with_the_motion_step_by_step(inclination, phase
         assert throw_theory.mean_velocity(acceleration, **shape) == pytest.approx(expected, abs=2e-4)
 
 
-def test_there_is_no_throw_up_to_one_and_no_theory_beyond_a_cycle():
+def test_there_is_no_throw_up_to_one_and_no_theory_for_longer_flights():
     cycles = throw_theory.flight_cycles([0.0, 0.5, 1.0, 1.0 + 1e-8, throw_theory.LONGEST_THROW, 3.3])
     assert cycles[:3].tolist() == [0.0, 0.0, 0.0]
     assert cycles[3] == pytest.approx(math.sqrt(32.0 * 1e-8) / (2.0 * math.pi), rel=1e-4)  # Γ = 1 + N²/32 + …

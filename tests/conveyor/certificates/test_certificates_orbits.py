@@ -1,4 +1,4 @@
-"""Proved orbits, brackets and horseshoes: against the library and other arithmetic, and proofs that must fail."""
+"""Proofs of orbits, bifurcations and horseshoes, compared with other arithmetic, and proofs that must fail."""
 
 from fractions import Fraction
 
@@ -29,7 +29,7 @@ def arithmetic():
 
 
 def settled(acceleration: float, z0: float, period: int) -> np.ndarray:
-    """Strobes (δ, Y) of the stable orbit that a start ends in, in units of the law."""
+    """Strobes (δ, Y) of the stable orbit that an initial condition leads to, in units of the law."""
     row = pack(Conveyor(acceleration=acceleration), Start(z0))
     state = stroboscopic_map.initial_states(row[None], periodic_orbits.TOLERANCE)[0]
     orbit, _ = periodic_orbits.settled_orbit(row, acceleration, state, (period,), 1000)
@@ -99,7 +99,7 @@ def test_other_bits_and_order_agree(jumping):
 
 
 def test_a_false_orbit_is_refused(jumping):
-    """Shifted by 1e-6: there is no orbit in a small box around it, and the one that Newton finds is another one."""
+    """Shifted by 1e-6: there is no orbit in a small box around it, and Newton finds a different orbit."""
     problem = shooting(1)
     gamma = problem.law.gamma(exactly(40.0))
     equations = equations_at(problem, gamma)
@@ -151,7 +151,7 @@ def test_zeros_of_a_parabola():
     ],
 )
 def test_stability_by_hand(multipliers, stability):
-    """Both multipliers inside the unit circle, one outside, or none of it for certain."""
+    """Both multipliers inside the unit circle, one outside, or undecided."""
     one, other = multipliers
     trace, determinant = (arb(complex(value).real) for value in (one + other, one * other))
     orbit = ProvedOrbit(None, None, None, trace, determinant, arb(0))
@@ -168,7 +168,7 @@ def test_a_wrong_period_is_refused(jumping):
         proved(58.0, double[:1])
 
 
-def test_a_map_with_a_sign_turned_around_is_refused(jumping):
+def test_a_map_with_a_wrong_sign_is_refused(jumping):
     law = law_of(Conveyor())
     for turned in (law._replace(beta=-law.beta), law._replace(slope=-law.slope)):
         with pytest.raises(Refused):
@@ -176,7 +176,7 @@ def test_a_map_with_a_sign_turned_around_is_refused(jumping):
 
 
 def test_an_orbit_that_grazes_is_refused():
-    """Amplitudes at some of which the riding part just leaves the plate."""
+    """An interval of amplitudes in which the riding part begins to leave the plate."""
     riding = continuation.follow_branch(PARAMETERS, stored(45.0, settled(45.0, 0.0, 1), 1), (44.9, 46.0))
     grazing = bifurcation(riding, "grazing")
     equations = shooting(1)
@@ -205,7 +205,7 @@ def test_the_doubling_is_bracketed(branch):
 
 
 def test_no_doubling_is_bracketed_where_there_is_none(jumping, monkeypatch):
-    """Far from a doubling the search leads nowhere; without a search the signs at the ends are equal."""
+    """Far from a doubling the search fails; without a search the signs at both ends are equal."""
     with pytest.raises(Refused):
         bracket_doubling(shooting(1), 40.0, jumping, 1e-9)
     monkeypatch.setattr(brackets, "SECANTS", 0)
@@ -223,7 +223,7 @@ def test_the_fold_is_bracketed(branch):
 
 
 def test_no_fold_is_bracketed_where_there_is_none(jumping, branch, monkeypatch):
-    """Nor where the arc lies beside the turn, or is so long that it is not proved."""
+    """Also if the arc does not contain the turn, or is too long for a proof."""
     with pytest.raises(Refused):
         bracket_fold(shooting(1), 40.0, jumping, 1e-6)
     orbit = bifurcation(branch, "fold")
@@ -273,7 +273,7 @@ def test_a_false_horseshoe_is_refused(horseshoe_plan):
 
 
 def test_entropy_of_a_full_shift():
-    """Stays and excursions of one cycle each are two symbols without rule; of one and two, the golden mean."""
+    """Stays and excursions of one cycle each are two free symbols; of one and two cycles, the golden mean."""
     for cycles, root in ((1, arb(2)), (2, (1 + arb(5).sqrt()) / 2)):
         bound = covering.bound_entropy(cycles)
         assert bound <= root.log()
@@ -323,7 +323,7 @@ class Interval:
 
 
 def sine_cosine(phase: Interval) -> tuple[Interval, Interval]:
-    """By their series about the centre; the rest of an alternating series is less than its next term."""
+    """Their series about the centre; the remainder of an alternating series is less than its next term."""
     centre = sum(phase.ends) / 2
     sums = [Fraction(0), Fraction(0)]
     term = Fraction(1)
@@ -390,9 +390,9 @@ def lagrange_step(law, w, v, phase, length, order):
 
 
 def test_an_independent_enclosure_by_hand(jumping):
-    """One contact and one flight of the jumping orbit, from an impact to the next, without a line of the library.
+    """One contact and one flight of the jumping orbit, from an impact to the next, without code of the library.
 
-    The law of motion in units g/ω², g/ω and 1/ω; its numbers are handed over, as bounds.
+    The law of motion in units g/ω², g/ω and 1/ω, with bounds of its numbers from the library.
     """
     orbit = proved(40.0, jumping)
     units = law_of(Conveyor())
@@ -418,7 +418,7 @@ def test_an_independent_enclosure_by_hand(jumping):
         if not (value.low > 0 or value.high < 0):
             break
         low, high = (middle, high) if value.low > 0 else (low, middle)
-    # Between these two w passes zero; somewhat wider, so that both signs are certain.
+    # w passes zero between these two values, which are wide enough for certain signs.
     low, high = low - Fraction(1, 10**13), high + Fraction(1, 10**13)
     assert at(Interval(low))[0].low > 0 > at(Interval(high))[0].high
     _, v, phase = at(Interval(low, high))

@@ -1,4 +1,4 @@
-"""Enclosures of flights, contacts and events: against the solver, closed forms, and cases that must be refused."""
+"""Enclosures of flights, contacts and events: the solver, closed forms, and cases that must be refused."""
 
 import math
 
@@ -48,8 +48,8 @@ def after_a_cycle(conveyor: Conveyor, state: np.ndarray) -> tuple[np.ndarray, np
     return returns.scaled(conveyor.acceleration, end)[:2], matrices[0] * unit / unit[:, None], features[0]
 
 
-def test_enclosures_hold_the_solver_on_random_cycles():
-    """Starts in the air, conveyors of all kinds; the enclosures are wider than the solver's round-off, not much."""
+def test_enclosures_contain_the_solver_on_random_cycles():
+    """Initial states in the air, random conveyors; enclosures are little wider than the round-off of the solver."""
     random = np.random.default_rng(1)
     held = 0
     for _ in range(60):
@@ -120,7 +120,7 @@ def test_contact_against_the_closed_form_of_a_spring():
     assert found.delta.overlaps(delta)
     assert found.y.overlaps(speed + law.beta * delta)
     assert found.delta.rad() < 1e-19
-    # The derivative by δ and Y of a linear motion is its difference; that by γ too.
+    # The motion is linear, so its derivatives by δ, Y and γ are differences.
     for column, (change, more) in enumerate((((1, 0), 0), ((0, 1), 0), ((0, 0), 1))):
         start = arb(0.03) + change[0], arb(0.05) + change[1]
         other = hooke(law, gamma + more, begin, end, start[0], start[1] - law.beta * start[0])
@@ -128,7 +128,7 @@ def test_contact_against_the_closed_form_of_a_spring():
         assert found.matrix[1, column].overlaps(other[1] - speed + law.beta * (other[0] - delta))
 
 
-def test_determinant_is_that_of_the_time_in_contact():
+def test_determinant_follows_from_the_time_in_contact():
     law = law_of(Conveyor())
     found = follow(System(law, law.gamma(arb(40)), FINE), arb(0), 2 * arb.pi(), arb(-5.5), arb(0.7), columns=2)
     assert len(found.impacts) == 1
@@ -136,7 +136,7 @@ def test_determinant_is_that_of_the_time_in_contact():
     assert found.matrix.det().rad() < 1e-17
 
 
-def test_derivative_by_the_amplitude_is_that_of_differences():
+def test_derivative_by_the_amplitude_agrees_with_differences():
     law = law_of(Conveyor())
     step = arb(1e-9)
     at = [
@@ -150,7 +150,7 @@ def test_derivative_by_the_amplitude_is_that_of_differences():
         assert float(at[1].matrix[row, 2]) == pytest.approx(float(difference), rel=1e-9)
 
 
-def test_a_box_of_starts_holds_the_images_of_all():
+def test_the_image_of_a_box_contains_all_images():
     law = law_of(Conveyor())
     gamma, end = law.gamma(arb(40)), 2 * arb.pi()
     wide = follow(System(law, gamma, COARSE), arb(0), end, arb(-5.5, 1e-5), arb(0.7, 1e-5), columns=2)
@@ -163,8 +163,8 @@ def test_a_box_of_starts_holds_the_images_of_all():
         assert (centre.delta + moved[0, 0]).overlaps(corner.delta)
 
 
-def test_remainder_holds_what_a_short_series_leaves_out():
-    """A step of low order against the same step of high order."""
+def test_the_remainder_bounds_the_missing_terms():
+    """A step of low order, compared with the same step of high order."""
     law = law_of(Conveyor())
     start = [arb(0), arb(3.6), arb(2.26)]
     short = taylor.make_step(System(law, law.gamma(arb(40)), Accuracy(6, 1e-5)), start, 3)
@@ -181,7 +181,7 @@ def test_remainder_holds_what_a_short_series_leaves_out():
 
 @pytest.mark.parametrize("change", [(slice(None), 0, 3, 1e-24), (slice(None), 2, slice(None), -1e-31)])
 def test_a_false_enclosure_of_a_series_is_refused(monkeypatch, change):
-    """Midpoints that are moved by more than their radii, and radii that are too small."""
+    """Midpoints moved by more than their radii, and radii that are too small."""
     component, part, order, by = change
 
     def enclose_falsely(rows, *rest):
@@ -210,14 +210,14 @@ def test_enclosures_of_series_are_narrow(exponent, bits):
                 assert max(widths) < 1e-12 + 100.0 * radius
 
 
-def test_series_are_not_cut_off_unseen():
+def test_truncation_of_series_is_noticed():
     law = law_of(Conveyor())
     with precision(128, 16), pytest.raises(ValueError, match="series of order 24 in a context for 16"):
         follow(System(law, law.gamma(arb(40)), FINE), arb(0), arb(1), arb(1), arb(1))
 
 
 def test_grazing_is_refused():
-    """A flight whose gap touches zero from above, and a box of flights of which some hit and some miss."""
+    """A flight whose gap touches zero from above, and a box of flights that includes hits and misses."""
     gamma, touch = arb(3), arb.pi()
     back = Flight(touch, arb(0), arb(0), gamma)
     start = Flight(touch - 1, back.gap(arb(-1)), back.rate(arb(-1)), gamma)

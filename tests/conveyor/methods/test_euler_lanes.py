@@ -1,4 +1,4 @@
-"""Explicit Euler in lanes: sine and cosine, equal bits however the work is shared out, a plain loop, closed forms."""
+"""Explicit Euler in lanes: sine and cosine, bits that do not depend on lanes, a plain loop, closed forms."""
 
 import math
 
@@ -46,7 +46,7 @@ def bits(found):
 
 
 def random_parameters(n, seed):
-    """Conveyors of all kinds, starts in the plate, on it and above; every fifth part leaves the range of numbers."""
+    """Random conveyors; parts that start in, on or above the plate; every fifth part leaves the range of numbers."""
     rng = np.random.default_rng(seed)
     rows = []
     for k in range(n):
@@ -78,7 +78,7 @@ def fill(phases, values):
 
 
 def slow_euler(parameters, step, n_steps, sincos):
-    """Euler's method written down plainly from Eqs. 2-12: samples at all steps, events, and a row of results."""
+    """A plain implementation of Euler's method from Eqs. 2-12: samples at all steps, events, and a row of results."""
     a, phi, f, psi0, k_c, d_c, mu, m, p, g, alpha, shift, mu_s, tension, z0, vz0 = map(float, parameters)
     (ahead, straight), (down, normal), (sine, cosine) = sincos(shift), sincos(alpha), sincos(phi)
     a_x, downhill, g = a * cosine, g * down, g * normal
@@ -141,18 +141,18 @@ def test_sine_and_cosine_of_zero_are_exact():
 
 
 @pytest.mark.parametrize("n", range(1, 18))
-def test_a_group_gives_what_single_runs_give(n):
+def test_a_group_agrees_with_single_runs(n):
     parameters = random_parameters(n, seed=n)
     single = [bits(follow(parameters[[k]])) for k in range(n)]
     np.testing.assert_array_equal(bits(follow(parameters)), np.concatenate(single))
 
 
 @pytest.mark.parametrize("lanes", [1, 2, 4, 8])
-def test_the_number_of_lanes_changes_no_bit(lanes):
+def test_bits_do_not_depend_on_the_number_of_lanes(lanes):
     parameters = random_parameters(19, seed=100)
     found = follow(parameters, integrate=euler_lanes.in_lanes(lanes))
     np.testing.assert_array_equal(bits(found), bits(follow(parameters)))
-    # What is compared is worth it.
+    # The comparison is meaningful.
     evaluations, status = found[2][:, EVALUATIONS], found[2][:, STATUS]
     assert (found[2][:, IMPACTS] > 1).sum() > 5
     assert set(status) == {euler_lanes.OK, euler_lanes.NOT_FINITE}
@@ -184,7 +184,7 @@ def test_samples_and_room_for_events_do_not_disturb_the_run():
 @pytest.mark.parametrize("start", [Start(5e-5, -0.05), Start("conveyor", -0.1), Start(-2e-5)])
 @pytest.mark.parametrize("track", [{}, TILTED], ids=["level", "tilted"])
 def test_the_plain_loop(exponent, tension, start, track):
-    """With the same sine and cosine a plain loop gives the same bits, with the library's the same but for rounding."""
+    """A plain loop with the same sine and cosine gives the same bits; with the C library's it differs by rounding."""
     contact = {"exponent": exponent, "tension": tension, "stiffness": STIFFNESS[exponent]}
     parameters = pack(Conveyor(psi0=0.3, **contact, **track), start)
     n_steps = 3000
@@ -239,7 +239,7 @@ def test_first_order():
     root /= conveyor.mass
     rest, duration = -conveyor.gravity * conveyor.mass / conveyor.stiffness, 0.01
     amplitude = 0.4 * rest
-    # A deflection without speed: the real part of (1 + i ratio) exp(root t).
+    # A deflection without velocity: the real part of (1 + i ratio) exp(root t).
     exact = rest + amplitude * (complex(1.0, root.real / root.imag) * np.exp(root * duration)).real
     parameters = np.array([pack(conveyor, Start(rest + amplitude))])
     counts = 20_000 * 2 ** np.arange(4)
@@ -250,7 +250,7 @@ def test_first_order():
 
 
 def test_a_state_that_is_not_finite():
-    """Only the row that leaves the range of numbers ends, at the next check, and says so."""
+    """Only the row that leaves the range of numbers ends, at the next check, with a status."""
     calm, lost = random_parameters(1, seed=5)[0], pack(Conveyor(), Start(1e-3))
     lost[[GRAVITY, VZ0]] = -1e308, 1.77e308
     samples, _, results = follow(np.array([calm, lost, calm]))

@@ -16,7 +16,7 @@ LINEAR = Conveyor(acceleration=30.0, exponent=1.0, stiffness=3e3, psi0=0.4)
 
 
 def slow_integrate(parameters, step, n_steps, method):
-    """The methods written down plainly, from Eqs. 2-12: states and forces at all steps, shape (n_steps + 1, 6)."""
+    """Plain implementations of the methods from Eqs. 2-12: states and forces at all steps, shape (n_steps + 1, 6)."""
     a, phi, f, psi0, k_c, d_c, mu, m, p, g, alpha, shift, _, tension, z0, vz0 = map(float, parameters)
     omega = 2.0 * math.pi * f
     a_x, a_z = a * math.cos(phi), a * math.sin(phi)
@@ -59,8 +59,8 @@ def slow_integrate(parameters, step, n_steps, method):
 @pytest.mark.parametrize("tension", ["allow", "frictionless", "clip"])
 @pytest.mark.parametrize("exponent", [1.5, 1.0, 1.8])
 @pytest.mark.parametrize("track", [{}, {"inclination": 0.2, "phase_shift": 0.7}], ids=["level", "tilted"])
-def test_compiled_loop_is_the_plain_loop(method, tension, exponent, track):
-    """Over two impacts the compiled loop differs from the plain one by rounding alone."""
+def test_compiled_loop_agrees_with_the_plain_loop(method, tension, exponent, track):
+    """Over two impacts the compiled loop differs from the plain loop only by rounding."""
     stiffness = {1.0: 3e3, 1.5: 5e5, 1.8: 5e6}[exponent]
     conveyor = Conveyor(tension=tension, exponent=exponent, stiffness=stiffness, **track)
     parameters = pack(conveyor, Start(z=5e-5, vz=-0.05))
@@ -169,7 +169,7 @@ def test_friction_follows_the_vertical_motion(method):
 
 
 def test_sign_of_zero_slip():
-    """At the very start part and plate have no horizontal velocity: the contact presses but does not rub."""
+    """At the beginning, part and plate have no horizontal velocity, so there is a contact force but no friction."""
     samples = fixed_step.sample(pack(Conveyor(), Start(z=-1e-3)), np.array([0.0]), 1e-6)
     assert samples["contact_force"][0] > 0.0
     assert samples["friction_force"][0] == 0.0
@@ -207,7 +207,7 @@ def test_sampling_does_not_disturb_the_run():
         assert events[1, 0] > 0.0
         np.testing.assert_array_equal(events, same_events)
         assert samples[-1, :4].tolist() == watched[:4]
-        np.testing.assert_array_equal(samples[1], samples[2])  # one step, asked for twice
+        np.testing.assert_array_equal(samples[1], samples[2])  # one step, requested twice
 
 
 @pytest.mark.parametrize("method", fixed_step.METHODS)
@@ -245,7 +245,7 @@ def test_many_are_followed_as_one_is(method):
 
 
 @pytest.mark.parametrize("code", [-1, len(fixed_step.METHODS)])
-def test_an_unknown_method_is_never_run_as_another_one(code):
+def test_an_unknown_method_raises_an_error(code):
     parameters = np.array([pack(Conveyor(), Start())])
     indices, samples, events, results = np.empty(0, int), np.empty((1, 0, 6)), np.empty((1, 0, 2)), np.empty((1, 10))
     with pytest.raises(ValueError, match="method"):
@@ -289,11 +289,11 @@ def test_explicit_euler_amplifies_above_damping_over_stiffness(damping_ratio):
         assert (excess > 0.0) == (share > 1.0)
         steps = round(6.0 / abs(excess))
         growth = contact_oscillation("euler", step, omega, damping_ratio, steps)
-        # The oscillation is an ellipse that is seen at one phase: hence the wide tolerance.
+        # The tolerance is wide, because the oscillation is an ellipse that is sampled at one phase.
         assert growth == pytest.approx((1.0 + excess) ** (0.5 * steps), rel=0.3)
 
 
-def test_explicit_euler_shakes_the_resting_part_off():
+def test_explicit_euler_shakes_off_a_resting_part():
     """On a Hertz contact the limit is d_c/k_eff with k_eff = 1.5 k_c √δ: 1.7e-4 s for the paper's part at rest."""
     conveyor = Conveyor(acceleration=0.0)
     depth = (conveyor.mass * conveyor.gravity / conveyor.stiffness) ** (2.0 / 3.0)
@@ -318,7 +318,7 @@ def test_limit_of_stability_without_damping(method, limit):
 
 @pytest.mark.parametrize("method", fixed_step.METHODS)
 def test_converges_to_the_reference(method):
-    """Fast against slow: over impacts and friction reversals every method is of first order, and gets there."""
+    """Over impacts and friction reversals, every method converges to the slow reference with first order."""
     conveyor, start, duration = Conveyor(), Start(z=3e-4), 0.1
     exact = reference_mean_velocity(conveyor, start, duration)
     errors = [
@@ -330,7 +330,7 @@ def test_converges_to_the_reference(method):
 
 
 def test_status_not_finite():
-    """A fall of 1e162 s overflows: the status says so, and samples behind that point are NaN."""
+    """A fall of 1e162 s overflows: the status says so, and samples after that point are NaN."""
     parameters = pack(Conveyor(), Start(z=3e-4, vz=1.0))
     run = fixed_step.run(parameters, 1e162, 1e160)
     assert run.status == "not finite"
@@ -356,7 +356,7 @@ def test_errors_name_the_argument(call, word):
         call(pack(Conveyor(), Start()))
 
 
-def test_a_run_ends_where_it_is_said_to_end():
+def test_a_run_lasts_for_its_duration():
     """Steps that do not divide the duration would end early."""
     with pytest.raises(ValueError, match=r"no whole number of steps of 3e-07 s; take step = 3.00000030"):
         simulate(Conveyor(), duration=1.0, method="euler", step=3e-7)
@@ -393,7 +393,7 @@ def test_a_part_that_slips_at_the_start_does_not_stick_at_once(method):
 
 
 @pytest.mark.parametrize("method", fixed_step.METHODS)
-def test_peaks_are_those_of_the_last_part_of_a_run(method):
+def test_peaks_cover_the_last_part_of_a_run(method):
     """A part that falls onto the plate hits it hard at first only."""
     parameters = pack(Conveyor(acceleration=5.0), Start(1e-3))
     late, whole = (fixed_step.run(parameters, 0.5, 2e-6, method, last) for last in (0.25, 1.0))

@@ -1,4 +1,4 @@
-"""The slow reference against closed forms and against known mean velocities."""
+"""The slow reference compared with closed forms and known mean velocities."""
 
 import math
 
@@ -26,7 +26,7 @@ def test_known_mean_velocities():
 
 @pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0, 3.0])
 def test_undamped_impact_on_a_plate_at_rest(exponent):
-    """Penetration, duration and restitution of an undamped power-law impact; gravity is next to nothing."""
+    """Penetration, duration and restitution of an undamped power-law impact; gravity is negligible."""
     speed = 0.5
     conveyor = Conveyor(acceleration=0.0, damping=0.0, exponent=exponent, stiffness=5e5, gravity=1e-3)
     depth = ((exponent + 1.0) * conveyor.mass * speed**2 / (2.0 * conveyor.stiffness)) ** (1.0 / (exponent + 1.0))
@@ -35,7 +35,7 @@ def test_undamped_impact_on_a_plate_at_rest(exponent):
     segments = reference_segments(conveyor, Start(z="conveyor", vz=-speed), 1.5 * lasting)
     contact = [segment for segment in segments if segment.mode.contact]
     assert contact[-1].end == pytest.approx(lasting, rel=1e-4)
-    # The contact is split where the part turns: deepest point, no speed.
+    # The contact is split at its deepest point.
     assert contact[0].state(contact[0].end)[0] == pytest.approx(-depth, rel=1e-4)
     assert segments[-1].state(contact[-1].end)[1] == pytest.approx(speed, rel=1e-10)
 

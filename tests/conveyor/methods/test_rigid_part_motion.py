@@ -17,7 +17,7 @@ PERIOD = 0.02
 
 
 def vertical(acceleration, **others):
-    """A conveyor that shakes vertically with the given amplitude (m/s²)."""
+    """A conveyor that vibrates vertically with the given amplitude (m/s²)."""
     return Conveyor(acceleration=acceleration, angle=0.5 * math.pi, **others)
 
 
@@ -55,7 +55,7 @@ def test_elastic_bounces_keep_their_height():
 
 
 def test_restitution_as_a_table():
-    """Between the speeds of the table the coefficient is linear, beyond them constant."""
+    """The coefficient is interpolated linearly in the table and constant outside."""
     parameters = pack(Conveyor(acceleration=0.0), Start(z=0.05))
     speeds, coefficients = np.array([0.15, 0.4, 0.8]), np.array([0.2, 0.5, 0.6])
     impacts = impacts_of(parameters, 1.0, (speeds, coefficients))
@@ -71,7 +71,7 @@ def test_period_one_orbit(e):
     least = math.pi * G * (1.0 - e) / (1.0 + e)
     assert least == pytest.approx(plate_speed * OMEGA)
     a_z = 1.05 * least
-    # Of the two phases with that plate speed the stable one has a decelerating plate: a late impact is a weaker one.
+    # Of the two phases with this plate speed, the stable one has a decelerating plate, because a late impact is weaker.
     theta = math.pi - math.asin(plate_speed * OMEGA / a_z)
     for offset in (0.0, 1e-2):
         parameters = pack(vertical(a_z, psi0=theta + offset), Start(z="conveyor", vz=0.5 * G * PERIOD))
@@ -129,7 +129,7 @@ def test_plastic_part_leaves_the_plate_when_it_falls_faster_than_g():
 
 
 @pytest.mark.parametrize("room", [0, 100])
-def test_samples_and_impacts_of_one_run_are_those_of_two(room, monkeypatch):
+def test_samples_do_not_change_the_impacts(room, monkeypatch):
     parameters = pack(Conveyor(acceleration=50.0), Start(z=1e-3))
     times = np.array([0.7, 0.2, 0.7])
     samples, impacts = rigid_part_motion.sample(parameters, times, 0.5), impacts_of(parameters, 0.7, 0.5)
@@ -156,7 +156,7 @@ def test_friction_impulse_is_bounded():
     assert 0.3 * (1.0 + e) * speed < plate_velocity < 3.0 * (1.0 + e) * speed
 
 
-# Mostly slip; stick in between; slip both ways out of stick; backward only; never; no friction; nothing at all.
+# Mostly slip; stick in between; slip in both directions after stick; backward only; never; no friction; no motion.
 @pytest.mark.parametrize(
     ("acceleration", "friction"),
     [(30.0, 0.15), (30.0, 0.6), (8.0, 0.6), (6.5, 0.6), (5.0, 0.6), (45.0, 0.02), (45.0, 0.0), (0.0, 0.0)],
@@ -214,8 +214,8 @@ def test_restitution_of_a_hertz_contact():
     assert (coefficients(1e4) == 0.0).all()
 
 
-def test_restitution_is_that_of_the_event_driven_solver():
-    """An impact at 20 m/s lasts so short that gravity and the plate at rest are those of the contact alone."""
+def test_restitution_agrees_with_the_event_driven_solver():
+    """An impact at 20 m/s is so short that gravity has no effect."""
     conveyor = Conveyor(acceleration=0.0, gravity=1e-3)
     run = simulate(conveyor, Start(z="conveyor", vz=-20.0), duration=1e-3, tolerance=1e-12)
     found = rigid_part_motion.restitution_coefficients(pack(conveyor, Start()), np.array([20.0]))
@@ -240,7 +240,7 @@ def test_a_stiff_contact_tends_to_the_rigid_part():
     assert differences[0] / differences[1] == pytest.approx(10.0, rel=0.1)
 
 
-def test_start_below_the_plate_is_a_start_on_it():
+def test_a_part_that_starts_below_the_plate_starts_on_it():
     conveyor = Conveyor(psi0=math.pi)
     below = rigid_part_motion.run(pack(conveyor, Start(z=-1e-3, vz=0.3)), 0.1, 0.5)
     assert below == rigid_part_motion.run(pack(conveyor, Start(z="conveyor", vz=0.3)), 0.1, 0.5)

@@ -1,4 +1,4 @@
-"""The rigid part's orbit with one impact in a cycle: closed forms, against each other and against the bouncing part."""
+"""Orbit of the rigid part with one impact per cycle: closed forms, and comparison with the bouncing part."""
 
 import math
 
@@ -31,7 +31,7 @@ def test_a_coefficient_that_falls_with_the_speed_moves_the_doubling():
     found = rigid_orbit(conveyor, lambda speed: 0.9 - 1.5 * speed)
 
     def returns(acceleration: float, period: int) -> float:
-        """How far the part is from where it was `period` cycles before, in units of its jump, after a long run."""
+        """Distance of the part from its place `period` cycles before, in units of its jump, after a long run."""
         row = pack(conveyor, Start(0.3e-3))
         row[ACCELERATION] = acceleration
         times = 60.0 - np.array([0, period]) / conveyor.frequency

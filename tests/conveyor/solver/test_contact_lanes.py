@@ -1,4 +1,4 @@
-"""Contact steps in lanes: the bits of those that are taken one by one, and no event passed over."""
+"""Contact steps in lanes: bit for bit equal to single steps, and no missed event."""
 
 import functools
 

@@ -1,4 +1,4 @@
-"""Flights: no impact is jumped over, whatever the conveyor; a search that gets lost says so."""
+"""Flights: no impact is missed on any conveyor; a search that fails says so."""
 
 import math
 import shutil
@@ -18,7 +18,7 @@ TURN = 2.0 * math.pi
 
 
 def random_flights(count, seed):
-    """Heights above the plate (m), velocities (m/s) and excitations over the whole ranges, evenly in the logarithm."""
+    """Heights above the plate (m), velocities (m/s) and excitations over the whole ranges, log-uniform."""
     generator = np.random.default_rng(seed)
 
     def between(low, high):
@@ -28,7 +28,7 @@ def random_flights(count, seed):
         gravity, omega = between(*RANGES["gravity"]), TURN * between(*RANGES["frequency"])
         a_z = between(1e-6, RANGES["acceleration"][1])
         theta = generator.uniform(0.0, TURN)
-        # Starts that the plate may come near: some way above it, thrown a little.
+        # Initial conditions near the plate: a little above it, with a small velocity.
         q = between(1e-6, 1e2) * a_z / omega**2
         vz = generator.uniform(-3.0, 3.0) * a_z / omega
         yield (
@@ -48,8 +48,8 @@ def scanned(z, vz, theta, gravity, a_z, omega, times):
     return z + vz * times - 0.5 * gravity * times**2 + a_z / omega**2 * np.cos(theta + omega * times)
 
 
-def test_no_impact_is_passed():
-    """Where a scan of forty samples a cycle sees the first gap below zero, or before it."""
+def test_no_impact_is_missed():
+    """It is at or before the first negative gap of a scan with forty samples per cycle."""
     met = 0
     for z, vz, q, rate, theta, gravity, a_z, omega in random_flights(400, seed=1):
         tau, speed = flight.next_impact(flight.Flight(z, vz, theta, gravity, a_z, omega), q, rate, math.inf)
@@ -65,7 +65,7 @@ def test_no_impact_is_passed():
     assert met > 300
 
 
-def test_largest_gap_is_that_of_a_scan():
+def test_largest_gap_agrees_with_a_scan():
     for z, vz, q, rate, theta, gravity, a_z, omega in random_flights(300, seed=2):
         tau, _ = flight.next_impact(flight.Flight(z, vz, theta, gravity, a_z, omega), q, rate, math.inf)
         highest = flight.highest_gap(flight.Flight(z, vz, theta, gravity, a_z, omega), tau)
@@ -78,7 +78,7 @@ def test_largest_gap_is_that_of_a_scan():
 
 
 def test_a_long_fall_ends_on_the_plate():
-    """The plate shakes hard and gravity is weak: the search used to run out of steps and the part fell through."""
+    """Strong vibration and weak gravity: earlier, the search ran out of steps and the part fell through."""
     conveyor = Conveyor(acceleration=1e3, gravity=1e-3)
     run = simulate(conveyor, Start(z=1.0), duration=60.0)
     assert run.status == "ok"
@@ -92,7 +92,7 @@ def test_a_long_fall_ends_on_the_plate():
     assert run.max_gap == pytest.approx(gaps.max(), rel=1e-6)
 
 
-def test_a_search_that_gets_lost_says_so(monkeypatch):
+def test_a_failed_search_says_so(monkeypatch):
     monkeypatch.setattr(flight, "MAX_STEPS", 2)
     tau, _ = flight.next_impact.py_func(flight.Flight(1.0, 0.0, 0.0, 9.81, 8.0, 314.0), 1.0, 0.0, math.inf)
     assert math.isnan(tau)
@@ -113,8 +113,8 @@ print(rigid_part_motion.run(pack(conveyor, start), 0.1, 0.5).status)
 """
 
 
-def test_every_user_of_a_lost_search_says_so(tmp_path):
-    """The library with a search of two steps only."""
+def test_every_caller_of_a_failed_search_says_so(tmp_path):
+    """The library with a search of at most two steps."""
     shutil.copytree(LIBRARY, tmp_path / "conveyor", ignore=shutil.ignore_patterns("__pycache__"))
     source = tmp_path / "conveyor/solver/flight.py"
     text = source.read_text()

@@ -19,7 +19,7 @@ FEEDER = Conveyor(acceleration=40.0, inclination=0.08, phase_shift=0.7, static_f
 
 
 def resting(conveyor):
-    """A start at the penetration at which a still plate carries the part."""
+    """An initial condition at the penetration at which a plate at rest carries the part."""
     weight = conveyor.mass * conveyor.gravity * math.cos(conveyor.inclination)
     return Start(-((weight / conveyor.stiffness) ** (1.0 / conveyor.exponent)))
 
@@ -131,7 +131,7 @@ def test_friction_falls_from_static_to_sliding_where_a_slip_begins():
     for shift, coefficient in ((-1e-9, 0.6), (1e-9, 0.5)):
         sample = run.sample(slips + shift)
         np.testing.assert_allclose(np.abs(sample["friction_force"]) / sample["contact_force"], coefficient, rtol=1e-5)
-    # The part slips the way in which it was held back from moving with the plate.
+    # The part slips in the direction in which friction held it back.
     later = slips + 1e-6
     slip = conveyor_motion(conveyor, later)["vx"] - run.sample(later)["vx"]
     pull = 8.0 * math.cos(conveyor.angle) * np.cos(100.0 * math.pi * slips + 0.4) + 9.81 * math.sin(0.05)
@@ -139,7 +139,7 @@ def test_friction_falls_from_static_to_sliding_where_a_slip_begins():
 
 
 def test_a_part_sticks_where_sliding_friction_alone_could_not_hold_it():
-    """Where the slip vanishes with μ F_c < m |ẍ_s| ≤ μ_s F_c the part sticks; with μ_s = μ it turns at once."""
+    """If the slip vanishes with μ F_c < m |ẍ_s| ≤ μ_s F_c, the part sticks; with μ_s = μ it reverses at once."""
     level = Conveyor(acceleration=8.0, friction=0.3)
     higher = replace(level, static_friction=0.9)
     counts = []
@@ -220,7 +220,7 @@ def test_fixed_steps_converge_to_the_events(method):
 def test_fixed_steps_stick_on_a_still_incline(method):
     conveyor = replace(AT_REST, inclination=0.25, friction=0.2, static_friction=0.3)
     run = simulate(conveyor, resting(conveyor), duration=0.05, method=method, step=1e-5)
-    # Runge-Kutta's inner evaluations see friction without stick, and creep by a part of a step.
+    # The inner evaluations of Runge-Kutta have friction without stick, and creep by a part of a step.
     assert abs(run.x_end) < (1e-6 if method == "rk4" else 1e-12)
     slides = replace(conveyor, inclination=0.35)
     run = simulate(slides, resting(slides), duration=0.05, method=method, step=1e-5)
@@ -228,7 +228,7 @@ def test_fixed_steps_stick_on_a_still_incline(method):
 
 
 @pytest.mark.parametrize("exponent", [1.0, 1.3, 1.5, 2.0])
-def test_peaks_are_those_of_a_dense_sample(exponent):
+def test_peaks_agree_with_a_dense_sample(exponent):
     stiffness = {1.0: 2e3, 1.3: 2e5, 1.5: 5e5, 2.0: 5e7}[exponent]
     conveyor = replace(FEEDER, exponent=exponent, stiffness=stiffness, acceleration=70.0)
     run = simulate(conveyor, Start(3e-4), duration=0.2, tolerance=1e-8)

@@ -59,8 +59,8 @@ def test_modules_of_the_solver_import_only_what_their_folder_is_named_by():
         assert used <= named_by | {machine_code.LIBRARY / "__init__.py"}, file
 
 
-def test_the_folder_of_all_belongs_to_one_only(tmp_path, monkeypatch):
-    """What others can write there would be run."""
+def test_the_folder_belongs_to_one_user(tmp_path, monkeypatch):
+    """Otherwise code from other users could run."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
     own = tmp_path / f"conveyor-{os.getuid()}"
@@ -75,7 +75,7 @@ def test_the_folder_of_all_belongs_to_one_only(tmp_path, monkeypatch):
     assert own not in list(machine_code.roots())
 
 
-def test_a_folder_that_cannot_be_written_is_passed_over(tmp_path, monkeypatch):
+def test_a_folder_that_cannot_be_written_is_skipped(tmp_path, monkeypatch):
     blocked = tmp_path / "file"
     blocked.write_text("no folder")
     monkeypatch.setattr(machine_code, "roots", lambda: iter([blocked / "below", tmp_path / "good"]))

@@ -1,4 +1,4 @@
-"""Ranges of points in threads: all points once, short ranges at the end, and no work after an error."""
+"""Ranges of points in threads: each point once, short ranges at the end, and no work after an error."""
 
 import threading
 
@@ -30,7 +30,7 @@ def test_the_last_range_is_short_where_threads_would_wait():
 
 
 @pytest.mark.parametrize("threads", [1, 2, 5])
-def test_every_point_is_worked_on_once(threads):
+def test_every_point_is_computed_once(threads):
     seen = []
     for_each_chunk(lambda begin, end: seen.extend(range(begin, end)), 1000, threads=threads, chunk=64)
     assert sorted(seen) == list(range(1000))

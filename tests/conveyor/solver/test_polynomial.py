@@ -1,4 +1,4 @@
-"""Roots of polynomials that were made from their roots."""
+"""Roots of polynomials with known roots."""
 
 import math
 
@@ -9,7 +9,7 @@ from conveyor.solver import polynomial
 
 
 def series_of(roots):
-    """Rows as the solver has them: the coefficients of Π (1 - s/r), positive at 0, in the row behind the free one."""
+    """Rows as in the solver: the coefficients of Π (1 - s/r), positive at 0, in the row after the free row."""
     coefficients = np.ones(1)
     for root in roots:
         coefficients = np.convolve(coefficients, [1.0, -1.0 / root])
@@ -19,12 +19,12 @@ def series_of(roots):
 
 
 @pytest.mark.parametrize("distance", [0.3, 1e-2, 1e-4])
-def test_no_pair_of_roots_is_passed(distance):
+def test_no_pair_of_roots_is_missed(distance):
     """Between two roots a polynomial is below zero, and above it at both ends of the search."""
     for first in np.linspace(0.05, 0.65, 25):
         for others in ((), (1.2,), (-0.5, -0.7), (3.0, -2.0)):
             found = polynomial.first_root(series_of([first, first + distance, *others]), 1, 0.0, 1.0, polynomial.LEAVE)
-            # Where the first step lands on the root, it is taken for a start on it, and left by two smallest steps.
+            # If the first step ends on the root, it counts as a start on it, which two smallest steps leave.
             assert found == pytest.approx(first, abs=3.0 * polynomial.LEAVE)
 
 
@@ -46,11 +46,11 @@ def test_first_root_is_the_least_of_all():
 
 @pytest.mark.parametrize("exponent", [-60, -50, -40, -30, -20])
 def test_a_root_next_to_zero_is_found_relative_to_itself(exponent):
-    """A separation from within the plate by next to nothing, in steps of usual lengths."""
+    """A separation from a tiny penetration, in steps of usual lengths."""
     generator = np.random.default_rng(1)
     for _ in range(50):
         root, length = 10.0 ** generator.uniform(exponent, exponent + 1), generator.uniform(0.01, 1.0)
         series = series_of([root])
-        series[1] *= root  # as √penetration is: small, with a speed of usual size
+        series[1] *= root  # as √penetration: small, with a speed of usual size
         series[1, 3] = -30.0
         assert polynomial.root_of_crossing(series, 1, 0.0, length) == pytest.approx(root, rel=1e-9, abs=0.0)

@@ -1,4 +1,4 @@
-"""The event-driven solver against analytic truths, an independent slow solution, energy, and its own tolerance."""
+"""The event-driven solver compared with closed forms, an independent slow solution, energy, and its tolerance."""
 
 import itertools
 import math
@@ -137,7 +137,7 @@ def test_horizontal_motion_is_the_integral_of_the_friction_force():
 
 
 def test_stick_obeys_filippov():
-    """While the part sticks it moves with the plate and friction stays within its cone; it leaves where that ends."""
+    """While the part sticks, it moves with the plate and friction stays within its cone."""
     conveyor = Conveyor(acceleration=8.0, friction=0.6)
     run = simulate(conveyor, Start("conveyor"), duration=0.2, tolerance=1e-12)
     stick = run.events[run.events["kind"] == "stick"]["time"]
@@ -156,7 +156,7 @@ def test_stick_obeys_filippov():
 
 @pytest.mark.parametrize("tolerance", [1e-5, 1e-7, 1e-9])
 def test_stick_ends_with_its_friction(tolerance):
-    """It may outlast |ẍ_s| = μ F_c/m by a force that cannot be told from none: ten tolerances of the part's weight."""
+    """It ends at |ẍ_s| = μ F_c/m, up to a force that rounding cannot resolve: ten tolerances of the part's weight."""
     conveyor = Conveyor(acceleration=8.0, friction=0.6)
     run = simulate(conveyor, Start("conveyor"), duration=0.2, tolerance=tolerance)
     slip = run.events[run.events["kind"] == "slip"]["time"]
@@ -167,7 +167,7 @@ def test_stick_ends_with_its_friction(tolerance):
 
 
 @pytest.mark.parametrize(("acceleration", "z"), [(30.0, 0.0), (40.0, 3e-4), (47.0, 0.0)])
-def test_tolerance_means_what_it_says(acceleration, z):
+def test_errors_follow_the_tolerance(acceleration, z):
     answers = [
         simulate(Conveyor(acceleration=acceleration), Start(z), tolerance=10.0**-k).mean_velocity()
         for k in range(6, 13)
@@ -177,7 +177,7 @@ def test_tolerance_means_what_it_says(acceleration, z):
 
 
 def test_start_on_the_plate_at_relative_rest():
-    """The part neither falls through nor hangs, whether the plate presses on or leaves it behind."""
+    """The part neither falls through nor gets stuck, whether the plate presses against it or moves away."""
     for psi0 in np.linspace(0.0, 2 * math.pi, 33):
         conveyor = Conveyor(acceleration=60.0, psi0=psi0)
         plate = conveyor_motion(conveyor, np.array([0.0]))
@@ -194,7 +194,7 @@ def test_start_inside_the_plate():
 
 
 def test_samples_do_not_disturb_a_run():
-    """Any set of sample times gives bit for bit the same motion, in the order that was asked for."""
+    """Any set of sample times gives bit for bit the same motion, in the requested order."""
     run = simulate(Conveyor(acceleration=80.0), Start(), duration=0.5)
     times = np.array([[0.4, 0.1], [0.25, 0.5]])
     sample = run.sample(times)
@@ -206,7 +206,7 @@ def test_samples_do_not_disturb_a_run():
 
 
 def test_long_runs_keep_their_phase():
-    """After 1000 s the settled motion repeats that after 1 s."""
+    """The settled motion after 1000 s equals the motion after 1 s."""
     run = simulate(Conveyor(acceleration=30.0), Start(), duration=1000.0)
     assert run.status == "ok"
     late = run.sample(np.linspace(999.9, 999.98, 5))["vz"]
@@ -215,7 +215,7 @@ def test_long_runs_keep_their_phase():
 
 
 def test_a_contact_that_is_too_stiff_is_a_status():
-    """Its time constant m/d_c is 1e-9 s: no run of 0.1 s can follow it, and none takes long to say so."""
+    """Its time constant m/d_c is 1e-9 s: no run of 0.1 s can follow it, and each run reports that quickly."""
     run = simulate(Conveyor(damping=1e6, mass=1e-3), Start("conveyor"), duration=0.1)
     assert run.status == "contact too stiff"
     assert math.isnan(run.z_end)
@@ -235,14 +235,14 @@ def test_a_contact_that_is_too_stiff_is_a_status():
         (lambda: simulate(Conveyor(), duration=0.1).sample(np.array([0.2])), "times"),
     ],
 )
-def test_errors_name_what_is_wrong(call, name):
+def test_errors_name_the_fault(call, name):
     with pytest.raises(ValueError, match=name):
         call()
 
 
 @pytest.mark.parametrize("acceleration", [0.0, 1e-300, 2.220446049250313e-16, 1e-9])
 def test_a_nearly_still_plate_is_not_passed(acceleration):
-    """Without damping a part that falls on a plate at rest comes back to its height; a root that cancels misses it."""
+    """An undamped part on a plate at rest returns to its height, unless a root is lost to cancellation."""
     conveyor = Conveyor(acceleration=acceleration, damping=0.0)
     times = np.linspace(0.0, 0.3, 3001)
     gap = simulate(conveyor, Start("conveyor", vz=-0.07), duration=0.3).sample(times)["z"]
@@ -251,8 +251,8 @@ def test_a_nearly_still_plate_is_not_passed(acceleration):
     assert gap.max() == pytest.approx(0.07**2 / (2.0 * 9.81), rel=1e-3)
 
 
-def test_the_largest_gap_is_that_of_all_flights():
-    """A part that is dropped on a plate at rest never comes as high again."""
+def test_the_largest_gap_covers_all_flights():
+    """A part that is dropped on a plate at rest never reaches its initial height again."""
     run = simulate(AT_REST, Start(z=5e-3), duration=0.3)
     assert run.impacts > 3
     assert run.max_gap == pytest.approx(5e-3, rel=1e-12)
@@ -260,7 +260,7 @@ def test_the_largest_gap_is_that_of_all_flights():
 
 @pytest.mark.parametrize("speed", [1e-2, 5e-2])
 def test_small_bounces_go_on(speed):
-    """Without damping a part that jumps off a plate at rest jumps as high again and again, however low that is."""
+    """An undamped part on a plate at rest jumps to the same height again and again, however low."""
     conveyor = replace(AT_REST, damping=0.0)
     depth = (conveyor.mass * conveyor.gravity / conveyor.stiffness) ** (1.0 / conveyor.exponent)  # at rest
     velocity = speed * math.sqrt(2.0 * conveyor.gravity * depth)
@@ -273,7 +273,7 @@ def test_small_bounces_go_on(speed):
 
 @pytest.mark.parametrize("acceleration", [30.0, 47.0])
 def test_steps_of_a_settled_motion_are_used_again(acceleration):
-    """The vertical motion settles within the first second; from then on no step is computed, and nothing changes."""
+    """The vertical motion settles within a second; from then on no step is computed, and the results are equal."""
     short, long = (simulate(Conveyor(acceleration=acceleration), duration=duration) for duration in (1.0, 20.0))
     assert long.work < 1.2 * short.work
     tight = simulate(Conveyor(acceleration=acceleration), duration=20.0, tolerance=1e-13)
@@ -283,8 +283,8 @@ def test_steps_of_a_settled_motion_are_used_again(acceleration):
     assert len(long.events) == len(tight.events)
 
 
-def test_runs_are_compiled_once_however_their_times_lie_in_memory():
-    """Numba compiles a kernel for each layout of an array, this one for seconds."""
+def test_runs_are_compiled_once_for_all_layouts_of_times():
+    """Numba compiles a kernel for each layout of an array, which takes seconds here."""
     parameters = np.tile(pack(Conveyor(acceleration=40.0), Start()), (2, 1))
     by_columns = np.linspace(0.0, [0.01, 0.02], 3, axis=1)
     assert not by_columns.flags.c_contiguous
@@ -315,7 +315,7 @@ def test_friction_accelerates_a_sticking_part_with_the_plate():
 
 
 @pytest.mark.parametrize("psi0", [0.0, math.pi])
-def test_a_plate_presses_on_or_leaves_a_part_at_relative_rest(psi0):
+def test_a_plate_presses_against_or_leaves_a_part_at_relative_rest(psi0):
     """At the phase 0 the plate accelerates upwards and presses, at π it falls away by (a_z - g) t²/2: 2.7 m/s² t²/2."""
     conveyor = Conveyor(acceleration=60.0, psi0=psi0)
     run = simulate(conveyor, Start("conveyor"), duration=0.01)

@@ -1,4 +1,4 @@
-"""Whatever the parameters are: no hang, no NaN, no fall through the plate, and the same again when asked again."""
+"""Random parameters: no hang, no NaN, no fall through the plate, and reproducible results."""
 
 import math
 from dataclasses import replace
@@ -18,7 +18,7 @@ NO_SHRINKING = (Phase.explicit, Phase.reuse, Phase.generate)
 
 
 def logarithmic(low, high):
-    """Evenly in the logarithm from the larger of `low` and a millionth of `high`; zero, too, where `low` is."""
+    """Log-uniform from the larger of `low` and a millionth of `high`; also zero if `low` is zero."""
     size = st.floats(math.log(max(low, 1e-6 * high)), math.log(high)).map(lambda x: min(max(math.exp(x), low), high))
     return st.one_of(st.just(0.0), size) if low == 0.0 else size
 
@@ -52,11 +52,11 @@ starts_anywhere = st.builds(Start, z=st.one_of(st.just("conveyor"), signed(*RANG
 
 
 def around(default):
-    """Two decades around a default, evenly in the logarithm."""
+    """Two decades around a default, log-uniform."""
     return st.floats(-1.0, 1.0).map(lambda exponent: default * 10.0**exponent)
 
 
-# Where nothing is given up.
+# For runs that do not end early.
 conveyors = st.builds(
     Conveyor,
     acceleration=st.floats(0.0, 150.0),
@@ -81,12 +81,12 @@ def check(run, tolerance):
     depth = conveyor_motion(run.conveyor, times)["z"] - sample["z"]
     allowed = deepest_allowed(pack(run.conveyor, run.start)[None], np.array([run.max_gap]))[0]
     assert depth.max() <= allowed * (1.0 + 1e-6) + 1e-12 * abs(sample["z"]).max()
-    # It is a sum over the steps, each with a rounding.
+    # It is a sum over steps with rounding errors.
     assert 0.0 <= run.contact_fraction <= 1.0 + 1e-12 + (run.work + run.repeats) * np.finfo(float).eps
     assert (np.diff(run.events["time"]) >= -1e-13 * run.duration).all()  # of one moment, up to rounding
     static = max(run.conveyor.friction, run.conveyor.static_friction or 0.0)
     force = static * np.abs(sample["contact_force"])
-    # A force that stick cannot tell from none rubs as well.
+    # A force below the resolution of stick also causes friction.
     least = 100.0 * tolerance * run.conveyor.mass * run.conveyor.gravity * (1.0 + static)
     assert (np.abs(sample["friction_force"]) <= force * (1.0 + 1e-6) + least).all()
 
@@ -94,7 +94,7 @@ def check(run, tolerance):
 @settings(max_examples=400, deadline=None, phases=NO_SHRINKING, suppress_health_check=[HealthCheck.too_slow])
 @given(st.one_of(anywhere, st.builds(tilt, anywhere, *TRACK)), starts_anywhere)
 def test_any_run_within_the_ranges_ends_with_a_motion_or_a_reason(conveyor, start):
-    simulate(Conveyor(), duration=0.02)  # compiled before the clock runs
+    simulate(Conveyor(), duration=0.02)  # compiled before the time is measured
     begin = process_time()
     run = simulate(conveyor, start, duration=3.0 / conveyor.frequency, tolerance=1e-9)
     assert process_time() - begin < 10.0
@@ -201,7 +201,7 @@ def test_any_run_ends_with_a_finite_motion_above_the_plate(conveyor, start):
 
 @pytest.mark.parametrize("acceleration", [0.0, 20.0, 35.0])
 def test_the_deepest_penetration_is_that_of_a_drop(acceleration):
-    """An undamped part dropped on a plate pushed up evenly: δ where the spring holds the work m (g + a) (h + δ).
+    """An undamped part dropped on a plate with constant acceleration: the spring stores the work m (g + a) (h + δ).
 
     From its lowest point on, 1 Hz, the plate's acceleration stays at a during the drop, to 1 - cos(0.04).
     """
@@ -230,8 +230,8 @@ def test_four_thousand_random_points():
             assert np.isfinite(columns[name][ok]).all()
 
 
-# Among a million points these fourteen once ended as "too many events": at the end of a contact the slip velocity could
-# not be told from zero, and a reversal that was none was found ten thousand times.
+# Of a million points, these fourteen ended as "too many events" in an earlier version: at the end of a contact, the
+# slip velocity was zero up to rounding, and a false reversal was found ten thousand times.
 HARDLY_MOVED = [2168, 25795, 79256, 150482, 183686, 242537, 389317]
 HARDLY_MOVED += [412813, 654028, 659772, 693679, 851221, 862144, 966681]
 

@@ -1,4 +1,4 @@
-"""Vertical runs side by side: the bits of those that are followed one by one, whoever their neighbours are."""
+"""Vertical runs in lanes: bit for bit equal to single runs, for any neighbours."""
 
 import numpy as np
 import pytest

@@ -42,6 +42,8 @@ class Labels(NamedTuple):
     period: np.ndarray  # int64, excitation cycles; 0 for none of up to convergence.MAX_PERIOD
     longest_flight: np.ndarray  # excitation cycles; NaN for chaos and undecided trajectories
     cycles: np.ndarray  # int64, excitation cycles that the trajectory was followed for
+    delta: np.ndarray  # m, the last penetration δ at trajectory.BEGIN_OF_CYCLE
+    v: np.ndarray  # m/s, its rate there
 
 
 def continued(
@@ -108,4 +110,4 @@ def classify(
         longer = still[signs < 0]
         codes[longer] = regular[longer]
     flights[(codes == CHAOS) | (codes == UNDECIDED)] = math.nan
-    return Labels(np.array(STATES, dtype=object)[codes], found.periods, flights, found.followed)
+    return Labels(np.array(STATES, dtype=object)[codes], found.periods, flights, found.followed, *found.states.T)

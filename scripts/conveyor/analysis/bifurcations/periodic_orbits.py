@@ -161,7 +161,7 @@ def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, p
         names the argument that cannot be used
     """
     (parameters,) = check_packed([parameters])
-    check_number("acceleration", acceleration, *RANGES["acceleration"], "m/s²")
+    acceleration = check_number("acceleration", acceleration, *RANGES["acceleration"], "m/s²")
     check_count("period", period, 1, LONGEST_PERIOD)
     state = check_array("state", state, -LARGEST_COORDINATE, LARGEST_COORDINATE)
     if state.shape != (2,):

@@ -102,8 +102,8 @@ def spectrum(
     tolerance, threads, progress : as in ensemble.run
     """
     parameters = check_packed(parameters)
-    check_tolerance(tolerance)
-    check_threads(threads)
+    tolerance = check_tolerance(tolerance)
+    threads = check_threads(threads)
     check_count("transient", transient, 0, MOST_CYCLES)
     check_count("cycles", cycles, 1, MOST_CYCLES)
     check_count("blocks", blocks, 2, MOST_BLOCKS)

@@ -1,4 +1,4 @@
-"""Starts that settle side by side: the bits of those that are followed one by one, whoever their neighbours are."""
+"""Convergence in lanes: bit for bit equal to single trajectories, for any neighbours."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""States of motion and attractors: those that are known, however cut or started."""
+"""States of motion and attractors: known labels, which do not depend on how runs are divided."""
 
 import numpy as np
 import pytest
@@ -39,7 +39,7 @@ def test_state_does_not_depend_on_when_the_run_is_cut():
         assert list(labels.classify(later).state) == [state for state, _ in KNOWN.values()]
 
 
-def test_a_run_goes_on_in_place_or_elsewhere():
+def test_a_run_continues_in_place_or_in_a_copy():
     true = points()
     runs = ensemble.run(true, duration=0.013)
     ends = runs["z_end"], runs["vz_end"], 0.013
@@ -65,8 +65,8 @@ def test_part_that_cannot_be_followed_is_undecided():
     assert labels.classify(row[None]).state[0] == "undecided"
 
 
-def test_an_exponent_of_zero_is_no_state():
-    """A part that rides undamped on a spring swings for ever, with two exponents of zero: neither settled nor chaos."""
+def test_an_exponent_of_zero_gives_no_state():
+    """A part that rides on an undamped spring oscillates without end, with exponents of zero: unsettled, not chaos."""
     conveyor = Conveyor(acceleration=0.0, damping=0.0, exponent=1.0, stiffness=3e3)
     depth = conveyor.mass * conveyor.gravity / conveyor.stiffness  # at rest
     found = labels.classify(np.array([pack(conveyor, Start(z=-share * depth)) for share in (0.5, 0.9)]), cycles=400)
@@ -95,7 +95,7 @@ HARD = (52.5, 53.0, 53.25, 60.0, 61.0, 61.25, 64.84, 65.0, 72.0, 72.19, 72.97, 7
 
 
 def random_starts(acceleration, count):
-    """Starts of one conveyor as on the maps, with any phase."""
+    """Initial conditions on one conveyor as on the maps, with any phase."""
     generator = np.random.default_rng(int(100 * acceleration))
     rows = np.tile(pack(Conveyor(acceleration=acceleration), Start()), (count, 1))
     rows[:, Z0] = generator.uniform(0.0, 5e-4, count)
@@ -108,8 +108,8 @@ def hard():
     return np.concatenate([random_starts(acceleration, 8) for acceleration in HARD])
 
 
-def test_a_label_is_its_starts_own(hard):
-    """Alone, together, in reverse order and in threads, with and without what starts of a conveyor share."""
+def test_labels_do_not_depend_on_other_initial_conditions(hard):
+    """Alone, together, in reverse order and in threads, with and without shared attractors."""
     together = labels.classify(hard, threads=2)
     backwards = labels.classify(hard[::-1])
     alone = [labels.classify(row[None]) for row in hard]
@@ -122,7 +122,9 @@ def test_a_label_is_its_starts_own(hard):
         np.testing.assert_array_equal(np.concatenate([getattr(one, name) for one in alone]), wanted)
         found = getattr(shared, name)
         np.testing.assert_array_equal(np.concatenate([getattr(one, name) for one in one_by_one]), found[::3])
-        if name == "longest_flight":  # that of the orbit, to which the others have come close
+        if (
+            name == "longest_flight"
+        ):  # the longest flight of the orbit, to which trajectories have converged only approximately
             np.testing.assert_allclose(found, wanted, rtol=0.0, atol=1e-6)
         else:
             np.testing.assert_array_equal(found, wanted)
@@ -131,33 +133,33 @@ def test_a_label_is_its_starts_own(hard):
 
 
 def test_long_transients_are_not_chaos():
-    """At 73 m/s² all starts settle to a period of 8, most of them after thousands of cycles."""
+    """At 73 m/s² all trajectories settle to a period of 8, most of them after thousands of cycles."""
     found = labels.classify(random_starts(73.0, 12), cycles=60_000)
     assert set(found.period) == {8}
     assert np.median(found.cycles) > 1000
     early = labels.classify(random_starts(73.0, 12), cycles=400)
-    assert (early.state == "chaos").any()  # what has not settled by then has a positive exponent so far
+    assert (early.state == "chaos").any()  # trajectories that have not settled by then have a positive exponent so far
 
 
 def test_a_conveyor_may_have_two_chaotic_attractors():
     rows = random_starts(53.0, 1)
-    for tolerance in (1e-6, 1e-8):  # the exponent of one of them is small, and needs time to be told from zero
+    for tolerance in (1e-6, 1e-8):  # one exponent is small, and differs from zero only after a long time
         found = search.find_attractors(rows, cycles=labels.CYCLES, tolerance=tolerance)
         assert len(found.chaotic.low) == 2
     assert len(search.find_attractors(random_starts(40.0, 1), cycles=labels.CYCLES).chaotic.low) == 0
-    # At 72.97 m/s² chaos is a long transient: no start may be called chaos before its time is over.
+    # At 72.97 m/s² chaos is a long transient, so the label chaos must wait until the end of the search.
     assert len(search.find_attractors(random_starts(72.97, 1), cycles=labels.CYCLES).chaotic.low) == 0
 
 
 @pytest.mark.parametrize("cycles", [500, 1000, 2000])
-def test_chaos_that_some_starts_leave_late_is_no_attractor(cycles):
-    """At 73 m/s² all starts settle in the end: those that do late show it, though others have not settled by then."""
+def test_transient_chaos_is_not_an_attractor(cycles):
+    """At 73 m/s² all trajectories settle; some that settle late show that chaos is transient there."""
     assert len(search.find_attractors(random_starts(73.0, 1), cycles=cycles).chaotic.low) == 0
 
 
 @pytest.mark.parametrize("settles_after", [None, 3])
-def test_a_start_that_settles_in_the_second_half_settles_late(monkeypatch, settles_after):
-    """A start at 80 m/s², where chaos is known; it is made to settle some cycles after the first half of the search."""
+def test_settling_in_the_second_half_counts_as_late(monkeypatch, settles_after):
+    """A trajectory at 80 m/s², in chaos, that is made to settle some cycles after the first half of the search."""
     row, cycles = attractor_table.without_initial_conditions(random_starts(80.0, 1)), 2000
     follow, halves = sampling.follow, []
 
@@ -177,7 +179,7 @@ def test_a_start_that_settles_in_the_second_half_settles_late(monkeypatch, settl
 
 @pytest.mark.parametrize("together", [1, 3, 16])
 def test_conveyors_that_are_probed_side_by_side_do_not_disturb_each_other(monkeypatch, together):
-    """Some have chaotic sets, one or two, some have none, some would not do in lanes."""
+    """Some have one or two chaotic sets, some have none, some cannot be followed in lanes."""
     monkeypatch.setattr(search, "TOGETHER", together)
     alike = [Conveyor(acceleration=a) for a in (40.0, 53.0, 65.0, 73.0, 80.0, 89.0)]
     rows = np.array([pack(one, Start()) for one in (*alike, Conveyor(acceleration=80.0, tension="clip"))])
@@ -191,13 +193,13 @@ def test_conveyors_that_are_probed_side_by_side_do_not_disturb_each_other(monkey
 
 
 def test_a_period_is_the_shortest():
-    """Next to its period doubling a motion comes back after twice its period first, from the other side."""
+    """Close to its period doubling, a motion first returns after twice its period, from the other side."""
     found = labels.classify(np.array([pack(Conveyor(acceleration=72.98), Start(2.3e-4))]))
     assert found.period[0] == 2
 
 
-def test_longest_flight_is_that_of_the_end_of_the_search():
-    """A part that falls from high up onto a hardly damped contact bounces high at first, and less at last."""
+def test_longest_flight_covers_the_end_of_the_search():
+    """A part that falls from a large height onto a weakly damped contact bounces higher at first than at the end."""
     parameters = pack(Conveyor(acceleration=5.0, damping=0.05, psi0=np.pi), Start(z=0.05))
     c, series = contact.constants(parameters, 1e-8), contact.workspace()
     state, count = np.empty(2), 200
@@ -214,7 +216,7 @@ def test_longest_flight_is_that_of_the_end_of_the_search():
     assert longest == pytest.approx(flights[-convergence.MAX_PERIOD :].max(), rel=1e-6)
 
 
-def test_motions_of_one_state_are_told_apart():
+def test_motions_of_one_state_differ():
     """At 50.5 m/s² a part jumps over one cycle or over two, with velocities of 0.066 and 0.126 m/s."""
     rows = np.array([pack(Conveyor(acceleration=50.5), Start(z)) for z in (0.0, 0.05e-3)])
     found = labels.classify(rows)
@@ -222,7 +224,7 @@ def test_motions_of_one_state_are_told_apart():
     assert found.longest_flight[1] > 1.0 > found.longest_flight[0]
 
 
-def test_boxes_hold_a_motion_and_its_neighbourhood():
+def test_boxes_contain_a_motion_and_its_neighbourhood():
     """A point within a box's size of any strobe, on every side, lies in a box that counts as visited."""
     strobes = np.random.default_rng(2).normal(size=(500, 2)) * [1e-5, 0.1]
     low, size, visited = chaotic_sets.cover_by_boxes(strobes)

@@ -1,4 +1,4 @@
-"""Neighbourhoods of attracting orbits: what starts there ends there; and which conveyor a start is on."""
+"""Neighbourhoods of attracting orbits: trajectories in them stay; and the conveyor of an initial condition."""
 
 import numpy as np
 import pytest
@@ -37,14 +37,14 @@ def found(request):
 
 
 def share_that_ends_there(row, orbits, k, scale):
-    """Of starts in the neighbourhood of orbit k, enlarged, that are followed in full."""
+    """Share of the initial conditions in the enlarged neighbourhood of orbit k that lead to it."""
     starts = inside(row, orbits.centres[k], orbits.factors[k] / scale, 60)
     motions = sampling.follow(np.tile(row, (60, 1)), starts, 1000, TOLERANCE)
     same = (motions.outcomes == convergence.PERIODIC) & (motions.periods == orbits.periods[k])
     return np.mean(same & (np.abs(motions.flights - orbits.flights[k]) < 1e-8))
 
 
-def test_what_starts_in_a_neighbourhood_ends_in_its_orbit(found):
+def test_trajectories_from_a_neighbourhood_converge_to_its_orbit(found):
     row, orbits = found
     assert len(orbits.periods) >= 2
     assert [share_that_ends_there(row, orbits, k, 1.0) for k in range(len(orbits.periods))] == [1.0] * len(
@@ -57,7 +57,7 @@ def test_neighbourhoods_are_not_much_smaller_than_basins(found):
     assert min(share_that_ends_there(row, orbits, k, 32.0) for k in range(len(orbits.periods))) < 1.0
 
 
-def test_a_curve_far_out_does_not_come_inside():
+def test_a_curve_far_outside_does_not_enter():
     row = conveyor_of(40.0)
     (motions,) = sampling.sample_conveyors(row[None], 400, TOLERANCE)
     k = int(np.argmax(motions.flights))
@@ -67,7 +67,7 @@ def test_a_curve_far_out_does_not_come_inside():
 
 
 def test_an_orbit_that_does_not_attract_has_no_neighbourhood():
-    """A part on an undamped spring swings for ever."""
+    """A part on an undamped spring oscillates without end."""
     row = conveyor_of(0.0, damping=0.0, exponent=1.0, stiffness=3e3)
     state = np.array([1.5 * 0.7e-3 * 9.81 / 3e3, 0.0])
     assert trapping_regions.find_trapping_region(row, TOLERANCE, state, 1) is None
@@ -85,7 +85,7 @@ def test_norm_contracts_in_each_step():
             assert trapping_regions.contracting_norm(matrix * radius / np.abs(np.linalg.eigvals(matrix)).max()) is None
 
 
-def test_orbits_are_left_out_where_they_are_not_wanted():
+def test_orbits_can_be_left_out():
     assert len(find_attractors(conveyor_of(40.0)[None], cycles=500, orbits=False).orbits.periods) == 0
 
 
@@ -107,7 +107,7 @@ def test_places_of_conveyors_in_any_order():
 
 
 @pytest.mark.parametrize("name", [name for name in PARAMETERS if name not in ("psi0", "z0", "vz0")])
-def test_a_conveyor_is_another_one_if_any_parameter_is(name):
+def test_conveyors_differ_if_any_parameter_differs(name):
     rows = np.tile(conveyor_of(40.0), (4, 1))
     rows[2:, PARAMETERS.index(name)] += 1.0
     sorted_rows, numbers = attractor_table.distinct_conveyors(rows)

@@ -1,4 +1,4 @@
-"""Edges of basins: against where starts end, free fall, and solving again."""
+"""Edges of basins, compared with the states on both sides, free fall, and solving again."""
 
 import numpy as np
 import pytest
@@ -19,13 +19,13 @@ def edge():
     return find_boundary_point(InitialCondition(7.19e-5 / LENGTH, 0.0, 0.0), GROUPS, HEIGHT)
 
 
-def test_starts_on_both_sides_end_in_different_states(edge):
+def test_both_sides_lead_to_different_states(edge):
     height = edge.launch.height * LENGTH
     rows = np.array([pack(Conveyor(acceleration=40.0), Start(height + part)) for part in (-1e-10, 1e-10)])
     assert classify(rows).state.tolist() == ["first", "second"]
 
 
-def test_the_images_come_to_the_saddle(edge):
+def test_the_images_converge_to_the_saddle(edge):
     unstable, stable = edge.multipliers
     assert abs(unstable) > 1.0 > abs(stable) > 0.0
     distances = np.linalg.norm(edge.images - edge.saddle, axis=1)
@@ -35,8 +35,8 @@ def test_the_images_come_to_the_saddle(edge):
 
 
 @pytest.mark.parametrize("velocity", [0.0, 0.15])
-def test_a_start_later_on_the_same_flight_lies_on_the_same_edge(velocity):
-    """dz = ż dt, dż = -g dt, dψ = ω dt: no equation of contact is needed for that."""
+def test_a_later_point_of_the_same_flight_lies_on_the_same_edge(velocity):
+    """dz = ż dt, dż = -g dt, dψ = ω dt: the equations of contact are not needed."""
     edge = find_boundary_point(InitialCondition(0.7, velocity, 0.0), GROUPS, HEIGHT)
     assert edge.moves[PHASE] - edge.moves[VELOCITY] == pytest.approx(velocity, abs=1e-8)
 
@@ -57,11 +57,11 @@ def test_the_edge_solved_again_moves_as_its_derivatives_say(edge):
 
 
 def test_amplitude_and_height_are_two_sides_of_one_edge(edge):
-    """The derivative of either by the other: one is the inverse of the other."""
+    """The two derivatives are inverse to each other."""
     other = find_boundary_point(edge.launch, edge.groups, AMPLITUDE)
     assert other.groups.amplitude == pytest.approx(GROUPS.amplitude, rel=1e-9)
     assert other.moves[HEIGHT] * edge.moves[AMPLITUDE] == pytest.approx(1.0, rel=1e-6)
 
 
-def test_a_start_far_from_any_edge_has_a_reason():
+def test_an_initial_condition_far_from_any_edge_has_a_reason():
     assert isinstance(find_boundary_point(InitialCondition(0.0, 0.0, 0.0), GROUPS._replace(amplitude=0.1), HEIGHT), str)

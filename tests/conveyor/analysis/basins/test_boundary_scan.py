@@ -1,4 +1,4 @@
-"""Edges of basins over z0: toys with known edges, and the paper's two critical heights."""
+"""Edges of basins over z0: made-up states with known edges, and the paper's two critical heights."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ def striped(rows):
     return np.array(["first", "second", "first", "chaos"])[np.searchsorted([1e-4, 2e-4, 1e-3 / 3.0], rows[:, Z0])]
 
 
-def test_the_edge_of_a_monotone_toy_is_enclosed_to_the_resolution():
+def test_a_single_edge_is_bracketed_to_the_resolution():
     accelerations = np.array([20.0, 33.3, 77.0])
     for resolution in (1e-6, 1e-9, 1e-12):
         found = boundary_scan.find_crossings(conveyors(*accelerations), HEIGHTS, monotone, resolution)
@@ -71,7 +71,7 @@ def test_unusable_arguments_are_named(heights, resolution):
 
 
 def test_the_paper_s_critical_heights():
-    """0.13 mm at 35 m/s² and 0.07 mm at 40 m/s² (Sect. 3.2); starts on either side end in different states."""
+    """0.13 mm at 35 m/s² and 0.07 mm at 40 m/s² (Sect. 3.2); both sides lead to different states."""
     parameters = conveyors(35.0, 40.0)
     found = boundary_scan.find_crossings(
         parameters, HEIGHTS, lambda rows: labels.classify(rows, tolerance=1e-10).state, 1e-9

@@ -1,4 +1,4 @@
-"""First impacts against closed forms, and the motion that goes on from them."""
+"""First impacts compared with closed forms, and the motion after them."""
 
 import math
 
@@ -18,14 +18,14 @@ def starts(conveyor, *pairs):
 
 
 @pytest.mark.parametrize(("z0", "vz0"), [(3e-4, 0.0), (3e-4, -0.2), (0.0, 0.4), (2.0, 1.5)])
-def test_plate_at_rest_is_met_as_in_free_fall(z0, vz0):
+def test_a_part_falls_freely_onto_a_plate_at_rest(z0, vz0):
     t1, v1, phase = (values[0] for values in first_impacts(starts(AT_REST, (z0, vz0))))
     assert t1 == pytest.approx((vz0 + math.sqrt(vz0**2 + 2 * G * z0)) / G, rel=1e-12)
     assert v1 == pytest.approx(-math.sqrt(vz0**2 + 2 * G * z0), rel=1e-12)
     assert phase == pytest.approx(2 * math.pi * 50.0 * t1, rel=1e-12)
 
 
-def test_part_meets_a_moving_plate_where_it_is():
+def test_a_part_meets_a_moving_plate_at_its_height():
     z0 = np.linspace(0.0, 5e-4, 21)
     for psi0 in (0.0, 2.0, 5.0):
         conveyor = Conveyor(acceleration=60.0, psi0=psi0)
@@ -41,7 +41,7 @@ def test_starts_on_and_below_the_surface():
     assert np.isnan([t1[2], v1[2], phase[2]]).all()
 
 
-def test_image_on_the_plate_moves_as_the_start_does_after_its_impact():
+def test_the_first_impact_continues_as_the_initial_condition():
     parameters = starts(Conveyor(), (3e-4, 0.0))
     impacts = first_impacts(parameters)
     images = on_conveyor(parameters, impacts)

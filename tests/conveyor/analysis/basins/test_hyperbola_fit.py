@@ -1,4 +1,4 @@
-"""Fits of Eq. 13 to data made by it."""
+"""Fits of Eq. 13 to data from Eq. 13."""
 
 import numpy as np
 import pytest
@@ -38,7 +38,7 @@ def test_least_squares_recovers_the_triple(triple):
 
 
 def test_least_squares_has_no_gradient_left():
-    """An independent look: no change of a parameter, alone or along the valley, lowers the error."""
+    """An independent check: no change of a parameter, alone or along the valley, lowers the error."""
     height = critical_height(ACCELERATION, PAPER) + SCATTER
     fit = fit_least_squares(ACCELERATION, height, BOUNDS["B"])
     steps = np.vstack([np.diag(np.abs(fit.parameters)), -np.diag(np.abs(fit.parameters))]) * 1e-4

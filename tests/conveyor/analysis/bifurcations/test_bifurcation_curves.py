@@ -1,4 +1,4 @@
-"""Curves of bifurcations: every point is one, closed forms, and points of codimension two from both sides."""
+"""Curves of bifurcations: every point is a bifurcation, closed forms, and points of codimension two from both sides."""
 
 from types import SimpleNamespace
 
@@ -21,7 +21,7 @@ ALONG = np.array([1.0, 0.0])
 
 @pytest.fixture(scope="module")
 def fold_over_damping():
-    """Up to the cusp and back."""
+    """The curve up to the cusp and back."""
     point = find_bifurcation("fold", 1, FOLD, GROUPS)
     return follow(point, Path(1.0, 0.0), reach=(-0.5, np.log(8.0)), **LIMITS)
 
@@ -53,7 +53,7 @@ def test_the_curve_turns_back_at_its_cusp(fold_over_damping):
     assert fold_over_damping.normal_forms[0] * fold_over_damping.normal_forms[-1] < 0.0
 
 
-def test_normal_form_tells_the_stable_cascade():
+def test_normal_form_of_a_supercritical_doubling():
     """The doubled orbit of the paper's conveyor is stable: its cubic coefficient is positive."""
     value, right = normal_form(find_bifurcation("period_doubling", 1, DOUBLING, GROUPS), ALONG)
     assert value > 0.0

@@ -1,4 +1,4 @@
-"""How bifurcations move: against closed forms (linear contact, rigid ball), dimensional analysis, and solving again."""
+"""Derivatives of bifurcations, compared with closed forms, dimensional analysis, and solving again."""
 
 import math
 
@@ -63,7 +63,7 @@ def rigid(kind, damping_ratio):
 @pytest.mark.parametrize("kind", ["fold", "period_doubling"])
 @pytest.mark.parametrize("ratio", [0.1, 0.3])
 def test_a_stiff_linear_contact_is_the_rigid_bouncing_ball(kind, ratio):
-    """Fold and doubling of the ball are known in closed form; its restitution is that of D/(2 √K)."""
+    """Fold and doubling of the ball have closed forms; its restitution follows from D/(2 √K)."""
     speed, push, elasticity = rigid(kind, ratio)
     amplitude, phase = math.hypot(speed, push), math.atan2(speed, push)
     stiffness = 1e9
@@ -121,7 +121,7 @@ def alike(groups, **changed):
 
 
 def test_two_conveyors_with_the_same_groups_have_the_same_scaled_fold():
-    """By the continuation in SI units, which knows no groups: a bowl feeder on the Moon with other friction."""
+    """The continuation in SI units does not use the groups; the other conveyor is a bowl feeder on the Moon."""
     groups = groups_of(PAPER)
     other = alike(groups, frequency=100.0, angle=0.35, mass=5e-3, gravity=1.62, friction=0.4)
     assert groups_of(other)[1:] == pytest.approx(groups[1:])
@@ -140,7 +140,7 @@ def test_two_conveyors_with_the_same_groups_have_the_same_scaled_fold():
     assert ratios[0] == pytest.approx(of_paper("fold").groups.amplitude, rel=1e-8)
 
 
-def test_groups_of_the_scaled_conveyor_are_its_own():
+def test_groups_of_the_scaled_conveyor_are_unchanged():
     groups = groups_of(PAPER)
     assert groups_of(packed(groups)) == pytest.approx(groups)
 
@@ -162,7 +162,7 @@ def test_slopes_of_the_groups():
         assert slope == pytest.approx(difference, rel=1e-6, abs=1e-9)
 
 
-def test_a_state_at_another_phase_is_brought_to_phase_zero():
+def test_a_state_at_another_phase_is_moved_to_phase_zero():
     orbit = periodic_orbits.find_orbit(PAPER, 40.0, np.array([-6.2e-4 * 0.9, 0.03]), 1)
     assert orbit is not None
     row = PAPER.copy()

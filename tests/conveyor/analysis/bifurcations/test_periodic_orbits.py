@@ -1,4 +1,4 @@
-"""Periodic orbits: multipliers against a trace identity and finite differences, bifurcations against iteration."""
+"""Periodic orbits: multipliers compared with a trace identity and finite differences, bifurcations with iteration."""
 
 import math
 
@@ -47,7 +47,7 @@ def test_known_periods(acceleration, z0, period):
     assert settled(acceleration, z0, cycles=2000).period == period
 
 
-def test_product_of_multipliers_is_that_of_the_time_in_contact(branch):
+def test_product_of_multipliers_follows_from_the_time_in_contact(branch):
     determinants = np.array([orbit.determinant for orbit in branch.orbits])
     wanted = np.exp([-DECAY * orbit.contact_time for orbit in branch.orbits])
     assert determinants == pytest.approx(wanted, abs=1e-9)
@@ -55,7 +55,7 @@ def test_product_of_multipliers_is_that_of_the_time_in_contact(branch):
     assert products == pytest.approx(wanted, abs=1e-9)
 
 
-def test_multipliers_are_those_of_finite_differences(jumping):
+def test_multipliers_agree_with_finite_differences(jumping):
     returns = periodic_orbits.ReturnMap(PARAMETERS, 1)
     unknown = returns.scaled(40.0, jumping.state)
     columns = []
@@ -81,7 +81,7 @@ def test_tests_of_bifurcations_are_determinants(branch):
 
 
 def test_jumping_exists_down_to_its_fold(branch):
-    """Below the fold a part that jumps just above it comes to ride; at the fold a multiplier is +1."""
+    """Below the fold, a part that jumps just above it settles to riding; at the fold a multiplier is +1."""
     fold = next(b for b in branch.bifurcations if b.kind == "fold")
     assert fold.multiplier == pytest.approx(1.0, abs=1e-6)
     stable = [orbit for orbit in branch.orbits if orbit.stable]
@@ -95,7 +95,7 @@ def test_jumping_exists_down_to_its_fold(branch):
 
 
 def test_a_branch_is_followed_around_its_turns(monkeypatch):
-    """A closed branch, a circle half as large as the largest step: chords between its points keep to it within 2 %."""
+    """A closed branch, a circle half as large as the largest step: chords between its points stay within 2 % of it."""
     radius = 0.5 * continuation.LARGEST_STEP
 
     class Circle(periodic_orbits.ReturnMap):
@@ -124,14 +124,14 @@ def test_a_branch_is_followed_around_its_turns(monkeypatch):
     assert np.linalg.norm(middles, axis=1).min() > 0.98 * radius
 
 
-def test_period_doubles_where_iteration_says(branch):
+def test_period_doubling_agrees_with_iteration(branch):
     doubling = next(b for b in branch.bifurcations if b.kind == "period_doubling")
     assert doubling.multiplier == pytest.approx(-1.0, abs=1e-6)
     for change, period in ((-0.05, 1), (0.05, 2)):
         assert settled(doubling.orbit.acceleration + change, 3e-4, cycles=6000).period == period
 
 
-def test_doubled_orbit_is_one_of_twice_the_period(branch):
+def test_doubled_orbit_has_twice_the_period(branch):
     doubling = next(b for b in branch.bifurcations if b.kind == "period_doubling")
     double = continuation.find_doubled_orbit(PARAMETERS, doubling)
     assert double.period == 2
@@ -156,8 +156,8 @@ def test_error_of_the_accumulation_is_the_change_due_to_the_last_doubling():
     assert error == pytest.approx(abs(limit - before))
 
 
-def test_feigenbaums_ratio_is_that_of_the_logistic_map():
-    """Of the parameters a of 1 - a x² at which 0 comes back to itself after 2, 4, … cycles."""
+def test_feigenbaums_ratio_of_the_logistic_map():
+    """From the parameters a of 1 - a x² at which 0 returns to itself after 2, 4, … cycles."""
     superstable = [0.0, 1.0, 1.31]
     for n in range(2, 12):
         a = superstable[n]
@@ -173,7 +173,7 @@ def test_feigenbaums_ratio_is_that_of_the_logistic_map():
     )
 
 
-def test_no_orbit_is_found_where_there_is_none():
+def test_no_orbit_is_found_without_one():
     assert settled(80.0, 0.0) is None
 
 

@@ -1,4 +1,4 @@
-"""Lyapunov exponents: the trace identity, an independent pair of trajectories, known limits, and what rides."""
+"""Lyapunov exponents: the trace identity, an independent pair of trajectories, known limits, and riding parts."""
 
 import numpy as np
 import pytest
@@ -20,7 +20,7 @@ PAIRS = ((25.0, 0.0), (40.0, 0.0), (40.0, 3e-4), (47.0, 0.0), (62.0, 0.0), (80.0
 
 
 @pytest.mark.parametrize("tension", ["allow", "frictionless", "clip"])
-def test_sum_of_exponents_is_that_of_the_time_in_contact(tension):
+def test_sum_of_exponents_follows_from_the_time_in_contact(tension):
     found = lyapunov.spectrum(points(*PAIRS, tension=tension), cycles=50, tolerance=1e-12)
     assert found.lambda_1 + found.lambda_2 == pytest.approx(-DECAY * found.contact_fraction, abs=1e-8)
     # Both moduli of a complex pair are equal, and any of them may come out as the larger one in a finite run.
@@ -28,7 +28,7 @@ def test_sum_of_exponents_is_that_of_the_time_in_contact(tension):
 
 
 def test_chaos_regular_motion_and_a_pair_of_trajectories():
-    """Against two trajectories whose distance is set back each cycle: no variational equation."""
+    """Comparison with two trajectories whose distance is reset in each cycle, without variational equations."""
     rows = points((62.0, 0.0), (80.0, 0.0))
     found = lyapunov.spectrum(rows, transient=300, cycles=200)
     states = stroboscopic_map.initial_states(rows, 1e-12)
@@ -42,7 +42,7 @@ def test_chaos_regular_motion_and_a_pair_of_trajectories():
 
 
 def test_signs(monkeypatch):
-    """Of chaos, of what settles, of an undamped swing, for which none shows, and of what cannot be followed."""
+    """Signs for chaos, a settled motion, an undamped oscillation (zero), and a motion that cannot be followed."""
     spring = Conveyor(acceleration=0.0, damping=0.0, exponent=1.0, stiffness=3e3)
     rest = spring.mass * spring.gravity / spring.stiffness
     rows = np.array([*points((80.0, 0.0), (40.0, 3e-4)), pack(spring, Start()), pack(spring, Start())])
@@ -51,7 +51,7 @@ def test_signs(monkeypatch):
     looks, spectrum = [], lyapunov.spectrum_from
 
     def seen(parameters, states, cycles, **options):
-        """Weak chaos, which does not show in the first look; and a start that leaves the regular one."""
+        """Weak chaos, which the first estimate does not show, and a part that leaves the regular motion."""
         looks.append((cycles, len(parameters)))
         found = spectrum(parameters, states, cycles, **options)
         values = [1.0, -10.0, 10.0] if len(looks) == 1 else [10.0, 10.0]
@@ -70,7 +70,7 @@ def test_rider_is_a_damped_oscillator():
     assert found.lambda_1 + found.lambda_2 == pytest.approx(-DECAY, abs=1e-7)
 
 
-def test_what_repeats_itself_has_the_exponents_of_its_multipliers():
+def test_periodic_motions_have_the_exponents_of_their_multipliers():
     """Against Newton's orbit, and chaos bit for bit as it is followed. Riding, d_c/(2m) is lost in either direction."""
     rows = points((25.0, 0.0), (40.0, 3e-4), (62.0, 0.0), (80.0, 0.0))
     begun, periods = rows.copy(), (1, 1, 4)
@@ -89,9 +89,9 @@ def test_what_repeats_itself_has_the_exponents_of_its_multipliers():
     followed = lyapunov.spectrum(begun, transient=0, **options)
     assert [column[3] for column in found] == [column[3] for column in followed]
     assert followed.stderr[3] > 0.0
-    # With nothing to follow.
+    # Without any trajectory.
     assert (lyapunov.spectrum_on_attractors(begun[:3], **options).lambda_1 == found.lambda_1[:3]).all()
-    # A perturbation that turns is as long as its direction lets it be at the end of a run.
+    # The length of a rotating perturbation depends on its direction at the end of a run.
     assert found.lambda_1[:3] == pytest.approx(followed.lambda_1[:3], abs=5.0)
 
 
@@ -108,7 +108,7 @@ def test_exponents_do_not_depend_on_threads():
 
 @pytest.mark.parametrize("method", ["event", "rk4"])
 def test_the_papers_estimate_of_a_flight(method):
-    """In the air a push ε shifts the velocity by ε and the height by ε t: Eq. 23 gives 0 and log(t) / t."""
+    """In flight, a perturbation ε of the velocity shifts the height by ε t: Eq. 23 gives 0 and log(t) / t."""
     here, times = points((20.0, 10.0)), np.linspace(0.75, 1.0, 501)
     pushed = here.copy()
     pushed[:, VZ0] += 1e-3

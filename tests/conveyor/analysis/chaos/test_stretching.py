@@ -1,4 +1,4 @@
-"""Lyapunov exponents of maps and a flow for which they are known."""
+"""Lyapunov exponents of maps and a flow with known exponents."""
 
 import math
 
@@ -95,7 +95,7 @@ def test_linear_maps(turn):
 @pytest.mark.parametrize("size", [1e-4, 1.0, 1e4])
 @pytest.mark.parametrize("turn", [0.0, 0.7])
 def test_eigenvalues_of_a_product(size, turn):
-    """In their order from right to left, real and complex, also where the product is too small or large for a float."""
+    """Products from right to left, real and complex, also if the product is too small or large for a float."""
     basis = np.array([[1.0, 0.4], [0.3, 1.0]])
     core = np.diag([0.5, 1.0]) if not turn else np.array([[0.6, -math.sin(turn)], [math.sin(turn), 0.6]])
     one = size * basis @ core @ np.linalg.inv(basis)

@@ -1,4 +1,4 @@
-"""The 0-1 test on series whose nature is known."""
+"""The 0-1 test on series that are known to be regular or chaotic."""
 
 import numpy as np
 import pytest
@@ -29,7 +29,7 @@ def quasi_periodic():
     return np.cos(np.sqrt(5.0) * np.pi * n) + 0.3 * np.cos(2 * np.sqrt(2.0) * np.pi * n + 0.2)
 
 
-# The tent conjugacy of r = 4 collapses in doubles for some starts; 0.3 is none of them.
+# At r = 4 some initial values collapse in floating point, because the map is conjugate to the tent map; 0.3 does not.
 @pytest.mark.parametrize("series", [logistic(4.0), logistic(3.97), henon()], ids=["r = 4", "r = 3.97", "Hénon"])
 def test_chaos(series):
     found = zero_one(series, seed=1)

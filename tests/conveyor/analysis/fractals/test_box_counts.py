@@ -1,4 +1,4 @@
-"""Numbers of boxes against sets of boxes, and of sets that are known exactly."""
+"""Box counts compared with sets of boxes and with exact numbers."""
 
 import numpy as np
 import pytest
@@ -7,13 +7,13 @@ from conveyor.analysis.fractals import box_counting
 
 
 def counts_of(points, scales, *arguments, step=None):
-    """Box counts of points without parts, of scales that need not be related."""
+    """Box counts of points in one part, at independent scales."""
     samples = box_counting.Samples(points, np.zeros(len(points), np.int64), scales, step or len(scales))
     return box_counting.box_counts(samples, *arguments)[0]
 
 
 def test_box_counts_are_exact():
-    """Boxes of 1/3^k hold the Cantor set's 2^k intervals, boxes of 1/2^k all of a square's 4^k."""
+    """The Cantor set occupies 2^k boxes of 1/3^k, a square occupies 4^k boxes of 1/2^k."""
     unshifted = np.zeros((1, 2))
     left_ends = np.zeros(1)
     for k in range(1, 9):
@@ -36,7 +36,7 @@ def test_box_counts_agree_with_sets_of_boxes():
 
 
 def test_grids_within_each_other_agree_with_sets_of_boxes():
-    """The coarsest grid of an octave chain is shifted as asked for; the finer ones are its halves."""
+    """The coarsest grid of an octave chain has the given shift; the finer grids halve its boxes."""
     rng = np.random.default_rng(5)
     points, shifts, step = rng.random((500, 2)) ** 2, rng.random((3, 2)), 2
     scales = 0.3 * 0.5 ** (np.arange(9) / step)
@@ -75,7 +75,7 @@ def test_parts_are_counted_as_if_alone(scales, step):
         assert resolved.any()
         assert not resolved.all()
         assert found[part, resolved].tolist() == alone[resolved].tolist()
-        # The search ends where boxes of the whole set are empty by chance.
+        # The search ends at scales at which boxes of the whole set are empty by chance.
         assert (alone[~resolved] == 0.0).all() or (found[0, ~resolved] == 0.0).all()
 
 

@@ -1,4 +1,4 @@
-"""Dimensions of sets that are known exactly, or by a band in the literature."""
+"""Dimensions of sets that are known exactly, or within a range in the literature."""
 
 import numpy as np
 import pytest
@@ -48,7 +48,7 @@ def test_henon_correlation_dimension_lies_in_the_literature_band(seed):
 
 
 def test_theiler_window_removes_neighbours_in_time():
-    """Short strokes strewn over a square: lines to all who count samples of one stroke as neighbours, else an area."""
+    """Short lines in a square: if samples of one line count as neighbours, the dimension is one, otherwise two."""
     rng = np.random.default_rng(5)
     start, angle = rng.random((1_000, 1, 2)), rng.uniform(0.0, 2 * np.pi, 1_000)
     along = np.column_stack([np.cos(angle), np.sin(angle)])[:, None] * 0.001 * np.arange(20)[:, None]
@@ -69,13 +69,13 @@ def test_a_series_whose_parts_differ_has_a_larger_error():
 
 
 def test_the_paper_s_way_misses_the_dimension_of_a_square_by_more_than_its_error():
-    """Its smallest boxes have run out of points, and it does not know."""
+    """Its smallest boxes contain too few points, which the method does not notice."""
     found = box_counting.box_dimension_of_paper(square(np.random.default_rng(1), 10_000))
     assert found.value + found.error < 1.9
 
 
-def test_boxes_are_counted_by_one_kernel_for_both_ways():
-    """Numba compiles it for each layout of its arrays."""
+def test_boxes_are_counted_by_one_kernel_for_both_methods():
+    """Numba would compile it for each layout of its arrays."""
     points = square(np.random.default_rng(1), 1000)
     box_counting.box_dimension(points)
     compiled = list(box_counting.box_counts.signatures)
