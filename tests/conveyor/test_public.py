@@ -146,6 +146,14 @@ def test_arrays_broadcast_and_results_have_their_shape():
     assert conveyor.sweep(Conveyor(), duration=0.1).status.shape == ()
 
 
+def test_the_conveyor_keeps_its_static_friction_where_friction_is_swept():
+    sticky = Conveyor(acceleration=3.0, friction=0.05, static_friction=0.4)
+    runs = conveyor.sweep(sticky, duration=0.2, friction=[0.05, 0.1])
+    alone = conveyor.sweep(Conveyor(acceleration=3.0, friction=0.1, static_friction=0.4), duration=0.2)
+    assert runs.x_end[1] == alone.x_end
+    assert runs.x_end[1] != conveyor.sweep(Conveyor(acceleration=3.0, friction=0.1), duration=0.2).x_end
+
+
 def test_a_basin_has_the_labels_of_its_initial_conditions():
     heights, speeds = np.linspace(0.0, 5e-4, 6), np.array([-0.05, 0.05])
     found = conveyor.basin(Conveyor(), heights, speeds)

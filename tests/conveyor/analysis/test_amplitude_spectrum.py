@@ -28,6 +28,11 @@ def test_highest_frequency_is_not_doubled():
     assert spectrum.amplitude[-1] == pytest.approx(0.7)
 
 
+def test_all_lines_of_an_odd_number_of_samples_are_doubled():
+    found = harmonics(0.5 + 3.0 * np.cos(2.0 * np.pi * 4.0 * np.arange(9) / 9.0), 1.0)
+    np.testing.assert_allclose(found.amplitude, [0.5, 0.0, 0.0, 0.0, 3.0], atol=1e-14)
+
+
 def test_window_keeps_amplitudes_of_lines_on_bins():
     duration, n = 1.0, 4000
     spectrum = windowed(signal(np.arange(n) * duration / n), duration)

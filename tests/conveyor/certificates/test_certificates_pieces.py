@@ -240,6 +240,20 @@ def test_a_state_at_an_event_is_refused():
         follow(System(law, law.gamma(arb(40)), FINE), arb(0), arb(1), arb(0, 1e-9), arb(1))
 
 
+def test_a_separation_at_the_end_of_a_motion_is_refused():
+    """Parts in a ball of states leave the plate within a ball of phases; a motion cannot end there."""
+    law, delta = law_of(Conveyor()), arb(0.01, 1e-3)
+    system = System(law, law.gamma(arb(40)), FINE)
+    separation = follow(system, arb(0), arb(1), delta, arb(-1)).contact
+    reasons = set()
+    for part in np.linspace(-0.5, 0.95, 30):
+        end = (separation.mid() + separation.rad() * arb(float(part))).mid()
+        with pytest.raises(Refused) as refusal:
+            follow(system, arb(0), end, delta, arb(-1))
+        reasons.add(str(refusal.value))
+    assert "a separation lies at the section" in reasons
+
+
 def test_first_of_several_roots_is_found():
     """cos has its first zero at π/2, and none before 1.5."""
     low, high = bracket_first_root(lambda s: s.cos(), lambda s: -s.sin(), arb(9), False, "cosine")

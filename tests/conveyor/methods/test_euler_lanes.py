@@ -21,7 +21,7 @@ from conveyor.methods.euler_lanes import (
     Z,
 )
 from conveyor.solver.jit import compiled
-from conveyor.solver.model import GRAVITY, TENSION_MODES, VZ0, Z0, pack
+from conveyor.solver.model import FRICTION, GRAVITY, STATIC_FRICTION, TENSION_MODES, VZ0, Z0, pack
 
 STEP = 1e-3 / 64
 INDICES = np.array([0, 1, 1, 255, 256, 257, 1000, 3700, 5000])
@@ -260,6 +260,19 @@ def test_a_state_that_is_not_finite():
     assert np.isfinite(samples[1, :6]).all()
     assert np.isnan(samples[1, 6:]).all()
     assert np.isfinite(samples[[0, 2]]).all()
+
+
+def test_events_of_a_trajectory_end_where_it_is_lost():
+    """Friction without bounds loses the velocity along the track; the gap of this part still opens and closes."""
+    calm = pack(Conveyor(), Start(1e-4))
+    lost = calm.copy()
+    lost[[FRICTION, STATIC_FRICTION]] = 1e308
+    _, events, results = follow(np.array([lost, calm]))
+    assert results[:, STATUS].tolist() == [euler_lanes.NOT_FINITE, euler_lanes.OK]
+    seen = int(results[0, EVENTS])
+    assert 0 < seen < results[1, EVENTS]
+    np.testing.assert_array_equal(events[0, :seen], events[1, :seen])
+    assert np.isnan(events[0, seen:]).all()
 
 
 def test_lanes_of_this_processor():

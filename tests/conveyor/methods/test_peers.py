@@ -6,7 +6,7 @@ from project import read_config
 
 from conveyor import simulate
 from conveyor.methods import peers, rivals
-from conveyor.methods.leg import Leg
+from conveyor.methods.leg import GaveUp, Leg, Mode, Task
 from pipeline import grid
 
 CONFIG = read_config()
@@ -27,6 +27,51 @@ def test_a_run_that_finds_the_same_event_for_ever_says_so(monkeypatch):
     run = peers.run(scene("riding"), 1.0, "DOP853", "events", 1e-8, 200_000)
     assert run.status == peers.STUCK
     assert np.isnan(run.mean_velocity)
+
+
+def test_a_run_whose_event_is_not_found_says_so_and_counts_its_evaluations(monkeypatch):
+    """SciPy raises ValueError where LSODA's interpolant does not change its sign; here its stand-in always does."""
+
+    def lose(rates, span, state, **_):
+        for _ in range(7):
+            rates(span[0], state)
+        raise ValueError("f(a) and f(b) must have different signs")
+
+    monkeypatch.setattr(peers.scipy_peer, "solve_ivp", lose)
+    run = peers.run(scene("riding"), 1.0, "LSODA", "events", 1e-8, 1000)
+    assert (run.status, run.evaluations) == (peers.EVENT_LOST, 7)
+
+
+def test_scipy_makes_as_many_evaluations_as_allowed():
+    calls = []
+
+    def counted_rates(derivatives, t, state, parameters, mode):
+        calls.append(t)
+        parameters[-1] += 1.0
+        derivatives[:] = state
+
+    mode = Mode(counted_rates, scene("riding"), peers.SIGN, ())
+    task = Task(0.0, 1.0, np.ones(4), np.empty(0), 1e-12, np.full(4, 1e-12), 100)
+    with pytest.raises(GaveUp):
+        peers.scipy_peer.follow("RK45", mode, task)
+    assert len(calls) == 100
+
+
+@pytest.mark.parametrize("mode", [peers.FLIGHT, peers.FORWARD, peers.BACKWARD, peers.STICK])
+def test_a_mode_begins_on_its_own_side_of_the_event(mode):
+    """A part that leaves or meets the plate has a gap of the right sign, a part that begins to slip has such a slip."""
+    parameters, t = scene("riding"), 0.0123
+    for ended in (peers.gap_of, peers.slip_of):
+        z, _, vx, _ = peers.plate_motion(parameters, t)
+        state = np.array([0.0, vx, z, 0.0])
+        peers.put_beside(parameters, t, state, ended, mode)
+        if ended is peers.gap_of:
+            assert np.sign(peers.gap_of(t, state, parameters)) == (1.0 if mode == peers.FLIGHT else -1.0)
+            assert state[1] == vx
+        else:
+            wanted = {peers.FORWARD: 1.0, peers.BACKWARD: -1.0}.get(mode, 0.0)
+            assert np.sign(peers.slip_of(t, state, parameters)) == wanted
+            assert state[2] == z
 
 
 @pytest.mark.parametrize("tolerance", [1e-6, 1e-8])

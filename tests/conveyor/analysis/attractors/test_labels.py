@@ -234,3 +234,10 @@ def test_boxes_contain_a_motion_and_its_neighbourhood():
         assert places.max() < len(visited)
         assert visited[places[:, 0], places[:, 1]].all()
     assert visited.mean() < 0.1
+
+
+def test_flights_of_undecided_trajectories_are_not_known():
+    row = pack(Conveyor(acceleration=80.0), Start(3e-4))
+    found = labels.classify(row[None], cycles=70, exponents=False)
+    assert found.state.tolist() == ["undecided"]
+    assert np.isnan(found.longest_flight).all()

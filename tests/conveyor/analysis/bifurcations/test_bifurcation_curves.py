@@ -1,9 +1,12 @@
 """Curves of bifurcations: every point is a bifurcation, closed forms, and points of codimension two from both sides."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start
+from conveyor.analysis.basins.boundary_point import find_fixed_point
 from conveyor.analysis.bifurcations import bifurcation_curves
 from conveyor.analysis.bifurcations.bifurcation_curves import Path, follow, follow_grazing, normal_form
 from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, SIGNS, derivatives, find_bifurcation
@@ -86,3 +89,24 @@ def test_a_curve_says_why_it_ends():
     low = follow(point, Path(1.0, 0.0), reach=(-3.0, 3.0), amplitude=(0.4, 0.6), longest_step=0.1, most=100)
     assert low.ends == (bifurcation_curves.LIMIT, bifurcation_curves.LIMIT)
     assert 0.3 < low.points[0].groups.amplitude <= 0.4
+
+
+def test_normal_form_gives_the_distance_of_the_doubled_orbit():
+    """With the multiplier -(1 + μ) and the cubic coefficient c it is √(μ/c) along the eigenvector, for small μ."""
+    point = find_bifurcation("period_doubling", 1, DOUBLING, GROUPS)
+    coefficient, right = normal_form(point, ALONG)
+    groups = point.groups._replace(amplitude=point.groups.amplitude * (1.0 + 1e-5))
+    single = find_fixed_point(groups, point.unknown[:2], 1, 0.0)
+    multiplier = np.linalg.eigvals(derivatives(groups, single, 1).first[:, :2]).real.min()
+    distance = np.sqrt((-1.0 - multiplier) / coefficient)
+    doubled = find_fixed_point(groups, single + distance * right, 2, 0.0)
+    assert abs((doubled - single) @ right) == pytest.approx(distance, rel=0.03)
+
+
+@pytest.mark.parametrize(("test", "status"), [(lambda u: u[3] - 0.3, "ok"), (lambda u: np.sign(u[3] - 0.3), "jump")])
+def test_a_test_function_that_jumps_is_not_zero(test, status):
+    """Beside a grazing the coefficient of the normal form may change its sign without a zero."""
+    straight = SimpleNamespace(kind="fold", correct=lambda guess, _: guess, point=lambda unknown: unknown)
+    found = bifurcation_curves._degenerate(straight, np.zeros(4), np.array([0.0, 0.0, 0.0, 1.0]), test)
+    assert found.log_ratio == pytest.approx(0.3, abs=1e-7)
+    assert status in found.status

@@ -148,6 +148,14 @@ def test_feigenbaum_of_a_geometric_sequence():
     assert error < 1e-12
 
 
+def test_error_of_the_accumulation_is_the_change_due_to_the_last_doubling():
+    amplitudes = np.array([0.0, 1.0, 1.25, 1.3, 1.312])
+    limit, error = doubling_cascade.accumulation(amplitudes)
+    before, _ = doubling_cascade.accumulation(amplitudes[:-1])
+    assert limit == pytest.approx(1.25 + 0.05**2 / (0.05 - 0.012))  # Aitken's process by hand
+    assert error == pytest.approx(abs(limit - before))
+
+
 def test_feigenbaums_ratio_of_the_logistic_map():
     """From the parameters a of 1 - a x² at which 0 returns to itself after 2, 4, … cycles."""
     superstable = [0.0, 1.0, 1.31]
@@ -167,3 +175,14 @@ def test_feigenbaums_ratio_of_the_logistic_map():
 
 def test_no_orbit_is_found_without_one():
     assert settled(80.0, 0.0) is None
+
+
+def test_a_grazing_has_its_larger_multiplier():
+    """At 47.18 m/s² a micro-bounce begins on the branch of the riding part."""
+    riding = settled(46.0, 0.0)
+    found = continuation.follow_branch(PARAMETERS, riding, (45.0, 48.5)).bifurcations
+    grazings = [one for one in found if one.kind == "grazing"]
+    assert grazings
+    for one in grazings:
+        assert abs(one.multiplier) == pytest.approx(max(abs(value.real) for value in one.orbit.multipliers))
+        assert abs(one.orbit.multipliers[0] - one.orbit.multipliers[1]) > 1e-3

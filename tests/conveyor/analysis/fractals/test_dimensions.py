@@ -59,6 +59,15 @@ def test_theiler_window_removes_neighbours_in_time():
     assert without.value + without.error < 1.7
 
 
+def test_a_series_whose_parts_differ_has_a_larger_error():
+    """A line and then a square: each part of the series sees a slope of its own; in random order all see the same."""
+    rng = np.random.default_rng(1)
+    series = np.concatenate([np.column_stack([rng.random(4000), np.full(4000, 0.5)]), square(rng, 4000)])
+    ordered = correlation_sum.correlation_dimension(series, 0)
+    mixed = correlation_sum.correlation_dimension(rng.permutation(series), 0)
+    assert ordered.error > 3.0 * mixed.error
+
+
 def test_the_paper_s_way_misses_the_dimension_of_a_square_by_more_than_its_error():
     """Its smallest boxes contain too few points, which the method does not notice."""
     found = box_counting.box_dimension_of_paper(square(np.random.default_rng(1), 10_000))
