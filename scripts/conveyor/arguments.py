@@ -123,7 +123,7 @@ def check_threads(threads: object) -> int:
 def check_parameters(values: dict[str, object], names: Collection[str]) -> dict[str, np.ndarray]:
     """`values` of parameters as float64 arrays, broadcast to one shape.
 
-    names : the admissible ones; the ranges are parameters.RANGES, with those of z0 and vz0 for `z` and `vz`
+    names : the admissible names; `z` and `vz` have the ranges of z0 and vz0 in parameters.RANGES
     """
     for name in values:
         if name not in names:

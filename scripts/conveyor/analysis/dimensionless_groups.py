@@ -22,7 +22,7 @@ from ..solver.model import PARAMETERS
 # The groups in the order of their derivatives. The last three, z0 ω²/g, ż0 ω/g and ψ0, are the initial condition.
 NAMES = ("amplitude", "damping", "stiffness", "exponent", "height", "velocity", "phase")
 AMPLITUDE, DAMPING, STIFFNESS, EXPONENT, HEIGHT, VELOCITY, PHASE = range(len(NAMES))
-# A conveyor whose units are those of its groups: g = 1, ω = 1, m = 1, φ = 90°.
+# A conveyor whose parameters equal its dimensionless groups: g = 1, ω = 1, m = 1, φ = 90°.
 FREQUENCY_OF_ONE = 0.5 / math.pi
 
 

@@ -1,6 +1,7 @@
 """One Taylor step of the contact: polynomials in s, and a proved bound on their remainders.
 
-The equations are polynomial in (w, Y, cos φ, sin φ), and so are those of perturbations (η, ζ) of (δ, Y) at fixed time,
+The equations are polynomial in (w, Y, cos φ, sin φ), and so are the equations of perturbations (η, ζ) of (δ, Y) at
+fixed time,
 
     η' = w (ζ - β η),   ζ' = -p κ w^(2p-1) η,   and for the derivative by γ, ζ' = … + w cos φ.
 

@@ -6,8 +6,8 @@ computed and one is selected, and sine and cosine are computed here as well: a l
 
 Every operation is rounded as IEEE 754 defines it; none is merged with another or moved, and fma multiply-adds are asked
 for by name. What a trajectory gives depends neither on its neighbours nor on the lane nor on the number of lanes, and a
-single run is the same code in one lane. For the exponents 1 and 1.5 no library function is called, so that the digits
-are those of every machine; any other exponent takes the power of the C library, lane after lane.
+single run is the same code in one lane. For the exponents 1 and 1.5 no library function is called, so that every
+machine gives the same digits; any other exponent takes the power of the C library, lane after lane.
 """
 
 import functools

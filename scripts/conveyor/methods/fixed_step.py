@@ -345,7 +345,7 @@ def sample(parameters: np.ndarray, times: np.ndarray, step: float, method: str =
 def events(parameters: np.ndarray, duration: float, step: float, method: str = "euler") -> np.ndarray:
     """Impacts and separations of one trajectory, as the fixed steps see them.
 
-    Parameters and errors are those of `run`. The array of EVENT_DTYPE has the fields time (s) and kind ("impact",
+    Parameters and errors as in `run`. The array of EVENT_DTYPE has the fields time (s) and kind ("impact",
     "separation"), in order of time.
     """
     n_steps = step_count(duration, step)

@@ -15,7 +15,7 @@ from .leg import BACKWARD, FLIGHT, FORWARD, STICK, Leg, Mode, Task
 
 
 def quantities(state: tuple) -> tuple[dict[str, Any], Any, Any, Any, Any]:
-    """Expressions of the model in those of x, ẋ, z, ż.
+    """Quantities of the model as expressions of x, ẋ, z and ż.
 
     Returns
     -------
@@ -39,7 +39,7 @@ def quantities(state: tuple) -> tuple[dict[str, Any], Any, Any, Any, Any]:
 def systems(exponent: float, tolerance: float) -> dict[int, Any]:
     """Compiled integrators by mode; their parameters are set when they are used.
 
-    Their events are those of the mode in its order; a part that sticks has two last ones, one for each direction.
+    Each has the events of its mode, in the same order; the last event of stick occurs twice, once for each direction.
     """
     import heyoka as hy
 

@@ -1,6 +1,6 @@
 """Other integrators on the same model, used as their users would: peers to compare the solver with.
 
-The integrators are those of scipy's `solve_ivp`, and CyRK, CVODE of SUNDIALS and heyoka if they are installed.
+The integrators are the methods of scipy's `solve_ivp` and, if they are installed, CyRK, CVODE of SUNDIALS and heyoka.
 
 `treatment` is the way in which the jumps of the right-hand side are handled:
 
@@ -115,7 +115,7 @@ def rates(t, state, parameters, mode):
 
 @compiled
 def counted_rates(derivatives, t, state, parameters, mode):
-    """Fill in `rates`; the last of the parameters, after those of the model, counts the calls."""
+    """Fill in `rates`; an additional last parameter counts the calls."""
     parameters[-1] += 1.0
     derivatives[:] = rates(t, state, parameters, mode)
 

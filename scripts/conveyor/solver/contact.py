@@ -240,7 +240,7 @@ def begin_step(c, series, at, w0, v0, sine0, cosine0, pulled):
 
 @compiled_into_callers
 def end_step(c, series, at, w0, v0, pulled, length):
-    """Find the end of a step whose series is good up to `length`; the other arguments are those of `begin_step`.
+    """Find the end of a step whose series is valid up to `length`; the other arguments as in `begin_step`.
 
     Returns
     -------

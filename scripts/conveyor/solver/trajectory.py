@@ -289,7 +289,7 @@ def follow(parameters, options, records, results, room):
                 status = NOT_FINITE
                 break
             events = record_end(record, events, ends, piece, pulled, motion)
-            # Each cycle begins with a step of its own, so that its steps can be compared with those of the last cycle.
+            # Each cycle begins with a step of its own, so that its steps can be compared with the last cycle.
             motion, cycles = next_cycle(c, motion, piece)
             if cycles > 0:
                 cycle += cycles

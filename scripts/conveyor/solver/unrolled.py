@@ -51,7 +51,7 @@ def hertz_source() -> str:
     """Source of `expand_hertz`, which fills the rows of a step.
 
     Its arguments are w, v, sine and cosine at s = 0; gravity, a_z, omega, stiffness and damping per mass; the array and
-    the first row to fill. The equations are those of contact.py. Because v w is the derivative of w², the equation for
+    the first row to fill. contact.py has the equations. Because v w is the derivative of w², the equation for
     v + (d_c/m) w² needs no product of v and w.
     """
     lines = ["def expand_hertz(w0, v0, s0, c0, gravity, a_z, omega, stiffness, damping, series, at):"]

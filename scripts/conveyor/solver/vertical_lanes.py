@@ -256,7 +256,7 @@ def follow(parameters, tolerance, times, samples, results, left, work):
 def integrate(parameters: np.ndarray, times: np.ndarray, *, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
     """Follow parts without their horizontal motion, and sample them at the end.
 
-    Parameters and results are those of trajectory.integrate, with three differences: `times` has the shape (n, 2),
+    Parameters and results as in trajectory.integrate, with three differences: `times` has the shape (n, 2),
     samples, shape (n, 6), belong to the second time, and the numbers of events and steps are NaN.
     """
     n = len(parameters)

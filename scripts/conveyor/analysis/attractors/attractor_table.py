@@ -48,7 +48,7 @@ def find_places(conveyors: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 
 
 class AttractingOrbits(NamedTuple):
-    """m periodic orbits, each with a trapping region; those of one conveyor side by side."""
+    """m periodic orbits, each with a trapping region. The orbits of one conveyor are adjacent."""
 
     conveyors: np.ndarray  # float64, shape (m, 16), packed, their phases and initial conditions zero
     centres: np.ndarray  # float64, shape (m, 2), δ (m) and Y (m/s) of a point at trajectory.BEGIN_OF_CYCLE
@@ -58,7 +58,7 @@ class AttractingOrbits(NamedTuple):
 
 
 class ChaoticSets(NamedTuple):
-    """m chaotic sets; those of one conveyor side by side."""
+    """m chaotic sets. The sets of one conveyor are adjacent."""
 
     conveyors: np.ndarray  # float64, shape (m, 16), packed, their phases and initial conditions zero
     low: np.ndarray  # float64, shape (m, 2), lower corner of the boxes: δ (m), v (m/s) at trajectory.BEGIN_OF_CYCLE

@@ -79,7 +79,7 @@ def classify(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 16), rows as from model.pack; after a run, those of `continued`
+    parameters : float64, shape (n, 16), rows from model.pack or, after a run, from `continued`
     cycles : excitation cycles after which the search for a period ends
     attractors : known attractors of the conveyors, see search.find_attractors; by default none
     exponents : whether Lyapunov exponents label trajectories that have not converged; otherwise they stay undecided

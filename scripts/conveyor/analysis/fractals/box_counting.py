@@ -69,10 +69,10 @@ def boxes_of(points, size, across_shift, along_shift, boxes):
 
 
 def along_boxes(points: np.ndarray, size: float) -> np.ndarray:
-    """The order of points of the unit square, shape (n, 2), along a Z-curve (Morton): those of a box follow each other.
+    """The order of points of the unit square, shape (n, 2), along a Z-curve (Morton): points in one box are adjacent.
 
-    `size` is that of the smallest boxes. The order does not change the counts, but it saves time, because boxes that
-    are looked up one after the other stay in the processor's cache.
+    `size` is the edge of the smallest boxes. The order does not change the counts, but it saves time, because boxes
+    that are looked up one after the other stay in the processor's cache.
     """
     boxes = np.empty(len(points), np.int64)
     boxes_of(points, size, 0.0, 0.0, boxes)
