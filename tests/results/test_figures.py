@@ -1,7 +1,6 @@
 """All figures of the results: the journal's size, units on every axis, fonts, equal pages, fine maps."""
 
 import re
-import zlib
 from typing import NamedTuple
 
 import matplotlib.legend
@@ -14,6 +13,7 @@ from matplotlib.figure import Figure
 from draw import draw
 from figures import style
 from made import FIGURES, RESULTS, entries
+from redraw import CLOSE, words_and_numbers
 from workflow.config.tables import kind_of
 
 ENTRIES = entries()
@@ -127,23 +127,13 @@ def in_words(axis):
     return not texts or any(re.search("[a-z]{3}", text) for text in texts)
 
 
-NUMBER = re.compile(rb"-?\d+(?:\.\d+)?")
-
-
-def words_and_numbers(page):
-    """The streams of a page without their numbers, and these numbers."""
-    found = re.findall(rb"stream\n(.*?)\nendstream", page, re.DOTALL)
-    plain = b"\n".join(zlib.decompress(one) if one.startswith(b"\x78") else one for one in found)
-    return NUMBER.sub(b"#", plain), np.array(NUMBER.findall(plain), dtype=float)
-
-
 def test_pages_are_equal_vectors_with_embedded_fonts_and_fine_maps(drawn):
     """They equal the pages of another process, up to the last digits of the layout, which differ from run to run."""
     page = drawn.page
     words, numbers = words_and_numbers(page)
     saved_words, saved_numbers = words_and_numbers((FIGURES / f"{drawn.name}.pdf").read_bytes())
     assert words == saved_words
-    np.testing.assert_allclose(numbers, saved_numbers, rtol=0.0, atol=1e-4)
+    np.testing.assert_allclose(numbers, saved_numbers, rtol=0.0, atol=CLOSE)
     assert b"/FontFile2" in page
     assert b"/Type3" not in page
     if drawn.name in MAPS:
