@@ -1,16 +1,15 @@
 """Trajectories in multiprecision arithmetic: a reference that shares no code, step or rounding with the solver.
 
 Taylor series of Eqs. 7 and 11 in contact (tension = allow), a parabola in flight. The force of the spring is not smooth
-at the surface, so that steps shrink with the depth, and contact begins and ends at the depth CLOSE. Numbers are
-midpoints of python-flint's balls; mpmath gives the same numbers for the jumping scene, but is fifty times slower.
-Suitable for motions with a flight in each cycle, as in that scene.
+at the surface, so that steps shrink with the depth, and contact begins and ends at the depth CLOSE. Suitable for
+motions with a flight in each cycle, as in the jumping scene.
 """
 
 from collections.abc import Callable
 from dataclasses import asdict
 
 import numpy as np
-from flint import arb, ctx
+from mpmath import mp, mpf
 
 from conveyor.solver.model import Conveyor, Start
 
@@ -20,45 +19,24 @@ INSIDE = 4  # checks for events in a step
 SCAN = 400  # checks for an impact in a cycle of flight
 
 
-def find_root(function: Callable, low: arb, high: arb) -> arb:
-    """The zero between two places at which a function has different signs, by the Illinois method."""
-    f_low, f_high = function(low), function(high)
-    for _ in range(300):
-        place = (high - f_high * (high - low) / (f_high - f_low)).mid()
-        found = function(place)
-        if found == 0 or place in (low, high):
-            break
-        # The Illinois method halves the value at the end that stays.
-        low, f_low = (high, f_high) if (found > 0) != (f_high > 0) else (low, f_low / 2)
-        high, f_high = place, found
-    return place
-
-
-def evaluate_polynomial(coefficients: list[arb], at: arb) -> arb:
-    total = arb(0)
-    for coefficient in reversed(coefficients):
-        total = total * at + coefficient
-    return total.mid()
-
-
 class Motion:
     """The current state of a part: t, x, ẋ, z, ż, and the sign of its slip, 0 for stick."""
 
     def __init__(self, conveyor: Conveyor, start: Start, digits: int):
-        ctx.dps = self.digits = digits
-        self.p = {name: arb(one) for name, one in asdict(conveyor).items() if isinstance(one, float)}
-        self.omega = 2 * arb.pi() * self.p["frequency"]
-        self.a_z = self.p["acceleration"] * self.p["angle"].sin()
-        self.a_x = self.p["acceleration"] * self.p["angle"].cos()
-        self.t, self.x, self.vx, self.vz = arb(0), arb(0), arb(0), arb(start.vz)
-        self.z = self.plate(self.t)[0] if start.z == "conveyor" else arb(start.z)
+        mp.dps = self.digits = digits
+        self.p = {name: mpf(one) for name, one in asdict(conveyor).items() if isinstance(one, float)}
+        self.omega = 2 * mp.pi * self.p["frequency"]
+        self.a_z = self.p["acceleration"] * mp.sin(self.p["angle"])
+        self.a_x = self.p["acceleration"] * mp.cos(self.p["angle"])
+        self.t, self.x, self.vx, self.vz = mpf(0), mpf(0), mpf(0), mpf(start.vz)
+        self.z = self.plate(self.t)[0] if start.z == "conveyor" else mpf(start.z)
         self.slip = 0
         self.events: list[float] = []
 
-    def plate(self, t: arb) -> tuple[arb, arb, arb, arb]:
+    def plate(self, t: mpf) -> tuple[mpf, mpf, mpf, mpf]:
         """z_s, ż_s, ẋ_s and ẍ_s."""
         phase = self.omega * t + self.p["psi0"]
-        sine, cosine = phase.sin(), phase.cos()
+        cosine, sine = mp.cos_sin(phase)
         return (
             -self.a_z / self.omega**2 * cosine,
             self.a_z / self.omega * sine,
@@ -66,7 +44,7 @@ class Motion:
             self.a_x * cosine,
         )
 
-    def fly(self, end: arb) -> tuple[arb, Callable]:
+    def fly(self, end: mpf) -> tuple[mpf, Callable]:
         """The time of the next impact, at most `end`, and the state (x, ẋ, z, ż) as a function of time until then."""
         t, x, vx, z, vz, g = self.t, self.x, self.vx, self.z, self.vz, self.p["gravity"]
 
@@ -75,41 +53,42 @@ class Motion:
             return x + vx * tau, vx, z + vz * tau - g * tau**2 / 2, vz - g * tau
 
         def gap(now):
-            return (state(now)[2] - self.plate(now)[0]).mid()
+            return state(now)[2] - self.plate(now)[0]
 
         spacing = 1 / (SCAN * self.p["frequency"])
-        low, high = t, min((t + spacing).mid(), end)
+        low, high = t, min(t + spacing, end)
         while gap(high) > 0 and high < end:
-            low, high = high, min((high + spacing).mid(), end)
-        return (find_root(gap, low, high) if gap(high) <= 0 else end), state
+            low, high = high, min(high + spacing, end)
+        return (mp.findroot(gap, (low, high), solver="anderson") if gap(high) <= 0 else end), state
 
-    def series(self, depth: arb, speed: arb) -> tuple[list[arb], list[arb], list[arb]]:
+    def series(self, depth: mpf, speed: mpf) -> tuple[list[mpf], list[mpf], list[mpf]]:
         """Taylor coefficients of the depth, its rate and F_c/m around the current time."""
         stiffness, damping = (self.p[name] / self.p["mass"] for name in ("stiffness", "damping"))
         exponent, phase = self.p["exponent"], self.omega * self.t + self.p["psi0"]
         deep, fast, spring, force, turn = [depth], [speed], [], [], self.a_z
-        derivatives = (phase.cos(), -phase.sin(), -phase.cos(), phase.sin())
+        cosine, sine = mp.cos_sin(phase)
+        derivatives = (cosine, -sine, -cosine, sine)
         for n in range(ORDER):
             if n == 0:
                 spring.append(depth**exponent)
             else:
                 terms = [(k * exponent - (n - k)) * deep[k] * spring[n - k] for k in range(1, n + 1)]
-                spring.append((sum(terms, arb(0)) / (n * depth)).mid())
-            force.append((stiffness * spring[n] + damping * fast[n]).mid())
+                spring.append(mp.fsum(terms) / (n * depth))
+            force.append(stiffness * spring[n] + damping * fast[n])
             pull = turn * derivatives[n % 4] + (self.p["gravity"] if n == 0 else 0)
-            deep.append((fast[n] / (n + 1)).mid())
-            fast.append(((pull - force[n]) / (n + 1)).mid())
+            deep.append(fast[n] / (n + 1))
+            fast.append((pull - force[n]) / (n + 1))
             turn = turn * self.omega / (n + 1)
         return deep, fast, force
 
-    def step_in_contact(self, end: arb) -> tuple[arb, Callable, int | None]:
+    def step_in_contact(self, end: mpf) -> tuple[mpf, Callable, int | None]:
         """The end of a step in contact, the state as a function of time, and the sign of a slip that begins at its end.
 
         The sign is 0 if the part begins to stick, and None without a change.
         """
         t, x, vx, slip = self.t, self.x, self.vx, self.slip
         zs, vzs, _, _ = self.plate(t)
-        depth, speed = (zs - self.z).mid(), (vzs - self.vz).mid()
+        depth, speed = zs - self.z, vzs - self.vz
         deep, fast, force = self.series(depth, speed)
         last = [abs(float(one)) for one in deep[-2:]]
         size = abs(float(depth))
@@ -125,30 +104,30 @@ class Motion:
             z, vz, vx_s, _ = self.plate(now)
             if slip:
                 x_now, vx_now = (
-                    x + vx * tau + tau**2 * evaluate_polynomial(path, tau),
-                    vx + tau * evaluate_polynomial(rate, tau),
+                    x + vx * tau + tau**2 * mp.polyval(path, tau, asc=True),
+                    vx + tau * mp.polyval(rate, tau, asc=True),
                 )
             else:
-                swing = (self.omega * t + self.p["psi0"]).cos() - (self.omega * now + self.p["psi0"]).cos()
+                swing = mp.cos(self.omega * t + self.p["psi0"]) - mp.cos(self.omega * now + self.p["psi0"])
                 x_now, vx_now = x + self.a_x / self.omega**2 * swing, vx_s
-            return x_now, vx_now, z - evaluate_polynomial(deep, tau), vz - evaluate_polynomial(fast, tau)
+            return x_now, vx_now, z - mp.polyval(deep, tau, asc=True), vz - mp.polyval(fast, tau, asc=True)
 
         def margin(now):
             """Positive while the mode lasts: slip speed, or in stick the largest friction minus the needed one."""
             _, _, vx_s, ax_s = self.plate(now)
             if slip:
-                return (slip * (vx_s - state(now)[1])).mid()
-            return (friction * evaluate_polynomial(force, now - t) - abs(ax_s)).mid()
+                return slip * (vx_s - state(now)[1])
+            return friction * mp.polyval(force, now - t, asc=True) - abs(ax_s)
 
-        step = min(arb(step), end - t).mid()
-        places = [(t + step * k / INSIDE).mid() for k in range(1, INSIDE + 1)]
+        step = min(mpf(step), end - t)
+        places = [t + step * k / INSIDE for k in range(1, INSIDE + 1)]
         before = t
         for place in places:
             if margin(place) < 0:
-                now = find_root(margin, before, place) if margin(before) > 0 else place
+                now = mp.findroot(margin, (before, place), solver="anderson") if margin(before) > 0 else place
                 _, _, _, ax_s = self.plate(now)
                 away = 1 if ax_s > 0 else -1
-                held = friction * evaluate_polynomial(force, now - t) - abs(ax_s) >= 0
+                held = friction * mp.polyval(force, now - t, asc=True) - abs(ax_s) >= 0
                 return now, state, (0 if slip and held else away)
             before = place
         return places[-1], state, None
@@ -156,21 +135,21 @@ class Motion:
     def cross_surface(self) -> None:
         """Move between the surface and the depth CLOSE: inwards after an impact, outwards before a separation."""
         zs, vzs, _, _ = self.plate(self.t)
-        depth, speed = (zs - self.z).mid(), (vzs - self.vz).mid()
-        target = arb(CLOSE) if speed > 0 else arb(0)
+        depth, speed = zs - self.z, vzs - self.vz
+        target = mpf(CLOSE) if speed > 0 else mpf(0)
         tau = (target - depth) / speed
         for _ in range(3):
             now = self.t + tau
             damping = self.p["damping"] / self.p["mass"]
-            lift = self.a_z * (self.omega * (self.t + tau / 2) + self.p["psi0"]).cos()
+            lift = self.a_z * mp.cos(self.omega * (self.t + tau / 2) + self.p["psi0"])
             pull = self.p["gravity"] + lift - damping * speed
-            tau = ((target - depth) / (speed + pull * tau / 2)).mid()
+            tau = (target - depth) / (speed + pull * tau / 2)
         force = damping * (speed + pull * tau / 2)
-        self.x = (self.x + self.vx * tau).mid()
-        self.vx = (self.vx + self.slip * self.p["friction"] * force * tau).mid()
-        self.t = now.mid()
+        self.x = self.x + self.vx * tau
+        self.vx = self.vx + self.slip * self.p["friction"] * force * tau
+        self.t = now
         zs, vzs, _, _ = self.plate(self.t)
-        self.z, self.vz = (zs - target).mid(), (vzs - speed - pull * tau).mid()
+        self.z, self.vz = zs - target, vzs - speed - pull * tau
 
 
 def simulate(conveyor: Conveyor, start: Start, times: np.ndarray, digits: int) -> tuple[np.ndarray, list[float]]:
@@ -190,16 +169,16 @@ def simulate(conveyor: Conveyor, start: Start, times: np.ndarray, digits: int) -
             "static_friction from its scene"
         )
     motion, samples, contact = Motion(conveyor, start, digits), [], False
-    end = arb(float(times[-1]))
+    end = mpf(float(times[-1]))
     while motion.t < end:
         if contact:
             now, state, slip = motion.step_in_contact(end)
         else:
             now, state = motion.fly(end)
             slip = None
-        while len(samples) < len(times) and arb(float(times[len(samples)])) <= now:
-            samples.append([float(one) for one in state(arb(float(times[len(samples)])))])
-        motion.x, motion.vx, motion.z, motion.vz = (one.mid() for one in state(now))
+        while len(samples) < len(times) and mpf(float(times[len(samples)])) <= now:
+            samples.append([float(one) for one in state(mpf(float(times[len(samples)])))])
+        motion.x, motion.vx, motion.z, motion.vz = (one for one in state(now))
         motion.t = now
         if now >= end:
             break
