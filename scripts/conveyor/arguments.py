@@ -55,8 +55,8 @@ def check_number(name: str, value: object, low: float, high: float, unit: str = 
     ValueError
         names the argument, its unit and its interval
     """
-    interval = f"{'(' if above else '['}{low:g}, {high:g}] {unit}".rstrip()
     if not (is_real(value) and low <= value <= high) or (above and value == low):
+        interval = f"{'(' if above else '['}{low:g}, {high:g}] {unit}".rstrip()
         raise ValueError(f"{name} = {value!r} must be a number in {interval}")
     return float(value)
 

@@ -116,30 +116,35 @@ def is_hertz(c):
 expand_hertz = compiled(unrolled.expand_hertz)
 
 
-@compiled_into_callers
-def expand(c, series, at, w0, v0, sine0, cosine0, free):
-    """Fill the rows of a step from their values at s = 0; `free` leaves the contact force out."""
-    stiffness = 0.0 if free else c.stiffness
-    damping = 0.0 if free else c.damping
-    gravity, a_z, omega = c.gravity, c.a_z, c.omega
-    if is_hertz(c):
-        expand_hertz(w0, v0, sine0, cosine0, gravity, a_z, omega, stiffness, damping, series, at)
-        return
+@compiled
+def power_term(series, w, power, exponent, n):
+    """Coefficient n ≥ 1 of w^exponent (row `power`) from the lower coefficients, for w_0 > 0."""
+    total = 0.0
+    for k in range(1, n + 1):
+        total += (k * exponent - (n - k)) * series[w, k] * series[power, n - k]
+    return total / (n * series[w, 0])
+
+
+@compiled
+def expand_other(w0, v0, sine0, cosine0, gravity, a_z, omega, stiffness, damping, exponent, edge_w, series, at):
+    """Fill the rows of a step for any contact exponent; other arguments as in unrolled.expand_hertz.
+
+    edge_w : √m, see Constants; below it, the spring is switched off
+    """
     w, t, v, sine, cosine = at + W, at + T, at + V, at + SINE, at + COSINE
     square, spring = at + SQUARE, at + SPRING
-    hooke = c.exponent == 1.0
-    exponent = 2.0 * c.exponent + 1.0
+    hooke = exponent == 1.0
+    of_w = 2.0 * exponent + 1.0
     series[w, 0] = w0
     series[t, 0] = 0.0
     series[v, 0] = v0
     series[sine, 0] = sine0
     series[cosine, 0] = cosine0
     series[square, 0] = w0 * w0
-    # Near w = 0 the spring is switched off, see above.
-    general = not hooke and w0 > c.edge_w
+    general = not hooke and w0 > edge_w
     series[spring, :] = 0.0
     if general:
-        series[spring, 0] = w0**exponent
+        series[spring, 0] = w0**of_w
     for n in range(ORDER):
         inverse = 1.0 / (n + 1)
         series[w, n + 1] = 0.5 * series[v, n] * inverse
@@ -160,16 +165,20 @@ def expand(c, series, at, w0, v0, sine0, cosine0, free):
         rate = gravity * series[w, n] + a_z * cosine_w - stiffness * series[spring, n]
         series[v, n + 1] = rate * inverse - damping * doubled
         if general:
-            series[spring, n + 1] = power_term(series, w, spring, exponent, n + 1)
+            series[spring, n + 1] = power_term(series, w, spring, of_w, n + 1)
 
 
-@compiled
-def power_term(series, w, power, exponent, n):
-    """Coefficient n ≥ 1 of w^exponent (row `power`) from the lower coefficients, for w_0 > 0."""
-    total = 0.0
-    for k in range(1, n + 1):
-        total += (k * exponent - (n - k)) * series[w, k] * series[power, n - k]
-    return total / (n * series[w, 0])
+@compiled_into_callers
+def expand(c, series, at, w0, v0, sine0, cosine0, free):
+    """Fill the rows of a step from their values at s = 0; `free` leaves the contact force out."""
+    stiffness = 0.0 if free else c.stiffness
+    damping = 0.0 if free else c.damping
+    if is_hertz(c):
+        expand_hertz(w0, v0, sine0, cosine0, c.gravity, c.a_z, c.omega, stiffness, damping, series, at)
+    else:
+        expand_other(
+            w0, v0, sine0, cosine0, c.gravity, c.a_z, c.omega, stiffness, damping, c.exponent, c.edge_w, series, at
+        )
 
 
 @compiled

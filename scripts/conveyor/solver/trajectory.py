@@ -152,14 +152,15 @@ def record_end(record, events, time, piece, pulled, motion):
 @compiled_into_callers
 def peak_of_step(c, kept, place, at, motion, piece, first, last):
     """Largest F_c/m (m/s²) of the contact step in a place, from `first` to `last` (s) after its beginning."""
-    if first > 0.0 or last < piece.duration:
-        return peaks.largest_force_between(c, kept.series, at, piece, first, last)
-    found = kept.steps[place, repeated_steps.PEAK]
-    if math.isnan(found):
-        if peaks.is_monotonic(c, motion, piece):
-            found = peaks.largest_force_at_ends(c, motion, piece)
-        else:
-            found = peaks.largest_force_between(c, kept.series, at, piece, first, last)
+    is_whole = first <= 0.0 and last >= piece.duration
+    kept_peak = kept.steps[place, repeated_steps.PEAK] if is_whole else math.nan
+    if not math.isnan(kept_peak):
+        return kept_peak
+    if is_whole and peaks.is_monotonic(c, motion, piece):
+        found = peaks.largest_force_at_ends(c, motion, piece)
+    else:
+        found = peaks.largest_force_between(c, kept.series, at, piece, first, last)
+    if is_whole:
         kept.steps[place, repeated_steps.PEAK] = found
     return found
 
@@ -172,22 +173,6 @@ def next_cycle(c, motion, piece):
     cycles = 1 if piece.end == LIMIT else int(motion.t / c.period)
     t = 0.0 if piece.end == LIMIT else max(motion.t - cycles * c.period, 0.0)
     return in_cycle(c, motion, t, BEGIN_OF_CYCLE), cycles
-
-
-@compiled_into_callers
-def find_piece(c, kept, place, at, motion, limit, reuse):
-    """The Piece that begins with `motion`, and whether it is a kept one.
-
-    place, at : of the contact step that may begin here, and the first row of its series
-    limit : s, duration of the longest flight that is wanted
-    reuse : whether steps may be repeated
-    """
-    if reuse and motion.touching and repeated_steps.repeats(c, kept, place, motion):
-        return repeated_steps.recall(kept, place), True
-    piece = next_piece(c, kept.series, at, motion, c.period - motion.t if motion.touching else limit)
-    if piece.kind == CONTACT:
-        repeated_steps.keep(kept, place, motion, piece)
-    return piece, False
 
 
 @compiled_into_callers
@@ -244,7 +229,14 @@ def follow(parameters, options, records, results, room):
                 break
             at = repeated_steps.first_row(kept, place)
             begins = base + motion.t
-            piece, is_kept = find_piece(c, kept, place, at, motion, end - begins, reuse)
+            is_kept = reuse and motion.touching and repeated_steps.repeats(c, kept, place, motion)
+            if is_kept:
+                piece = repeated_steps.recall(kept, place)
+            else:
+                limit = c.period - motion.t if motion.touching else end - begins
+                piece = next_piece(c, kept.series, at, motion, limit)
+                if piece.kind == CONTACT:
+                    repeated_steps.keep(kept, place, motion, piece)
             eventless = eventless + 1 if piece.end == NOTHING else 0
             ends = begins + piece.duration
             if piece.kind == FLIGHT:
