@@ -147,7 +147,7 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
             "ratio": full_seconds / seconds,
             "steps": np.nan if variant == RIGID else steps,
             "sticks": sticks,
-            "known": float(robust.to_numpy().mean()),
+            "known": float(robust.to_numpy().mean()) if robust.size else np.nan,
             "changed": float(max(shares, default=0.0)),
             "visible": bool(max(shares, default=0.0) > budget["pixels"]),
             "chosen": of is settings,

@@ -8,7 +8,7 @@ from tqdm import tqdm
 
 SECONDS = 1.0  # between two updates of a bar
 SECONDS_OF_LINES = 60.0  # between two lines
-LINE = "{desc}: {n_fmt} of {total_fmt}{unit}, {rate_fmt}, {elapsed} gone, {remaining} left{postfix}"
+LINE = "{desc}: {n_fmt} of {total_fmt}{unit}, {rate_noinv_fmt}, {elapsed} gone, {remaining} left{postfix}"
 
 
 class Lines(tqdm):
