@@ -127,10 +127,7 @@ def power_term(series, w, power, exponent, n):
 
 @compiled
 def expand_other(w0, v0, sine0, cosine0, gravity, a_z, omega, stiffness, damping, exponent, edge_w, series, at):
-    """Fill the rows of a step for any contact exponent; other arguments as in unrolled.expand_hertz.
-
-    edge_w : √m, see Constants; below it, the spring is switched off
-    """
+    """Fill the rows of a step for any contact exponent. Below `edge_w` (√m), the spring is switched off, see above."""
     w, t, v, sine, cosine = at + W, at + T, at + V, at + SINE, at + COSINE
     square, spring = at + SQUARE, at + SPRING
     hooke = exponent == 1.0
