@@ -178,7 +178,7 @@ def simulate(conveyor: Conveyor, start: Start, times: np.ndarray, digits: int) -
             slip = None
         while len(samples) < len(times) and mpf(float(times[len(samples)])) <= now:
             samples.append([float(one) for one in state(mpf(float(times[len(samples)])))])
-        motion.x, motion.vx, motion.z, motion.vz = (one for one in state(now))
+        motion.x, motion.vx, motion.z, motion.vz = state(now)
         motion.t = now
         if now >= end:
             break
