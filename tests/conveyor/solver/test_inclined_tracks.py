@@ -240,6 +240,18 @@ def test_peaks_agree_with_a_dense_sample(exponent):
     assert run.impact_speed == pytest.approx(approach.max(), rel=1e-6)
 
 
+@pytest.mark.parametrize("share", [0.1, 0.3, 0.5, 0.7, 0.9])
+def test_the_peak_force_counts_from_the_last_quarter_on(share):
+    """The last quarter begins within a contact: what the contact did before does not count."""
+    conveyor, start = Conveyor(acceleration=40.0), Start(3e-4)
+    events = simulate(conveyor, start, duration=0.1).events
+    impact, separation = (events["time"][events["kind"] == kind][1] for kind in ("impact", "separation"))
+    since = impact + share * (separation - impact)
+    run = simulate(conveyor, start, duration=since / 0.75)
+    sample = run.sample(np.linspace(since, run.duration, 20_001))
+    assert run.peak_force == pytest.approx(sample["contact_force"].max(), rel=1e-5)
+
+
 def test_a_part_that_never_lands_has_no_peaks():
     run = simulate(AT_REST, Start(0.1), duration=0.1)
     assert (run.impact_speed, run.peak_force) == (0.0, 0.0)
