@@ -1,4 +1,4 @@
-"""Score solvers on the open benchmark in docs/benchmark, and compare them with this solver and the published method.
+"""Score solvers on the open benchmark in docs/benchmark, and compare them with this solver and the paper's method.
 
     python scripts/score.py my_solver.py              a file with the function solve(scene, tolerance)
     python scripts/score.py my_numbers.csv            results of a program in any language

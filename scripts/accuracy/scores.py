@@ -147,12 +147,12 @@ def solve_by_events(scene: dict, tolerance: float) -> dict:
 
 
 def solve_by_euler(scene: dict, step: float) -> dict:
-    """Solve a scene with the published method, explicit Euler, and a time step (s)."""
+    """Solve a scene with the paper's method, explicit Euler, and a time step (s)."""
     return fixed_step.sample(pack_scene(scene), np.array(scene["times"]), step, "euler")
 
 
 def compared_scores(scenes: dict[str, dict]) -> list[dict]:
-    """Scores of this project's solver and of the published method on this machine."""
+    """Scores of this project's solver and of the paper's method on this machine."""
     return [
         *score_function(scenes, "this solver", solve_by_events, OWN_TOLERANCES),
         *score_function(scenes, "explicit Euler", solve_by_euler, EULER_STEPS, "step"),

@@ -32,9 +32,12 @@ def no_period(*, euler: pd.DataFrame, converged: pd.DataFrame, horseshoes: pd.Da
 
     returns = by_method(find_returns, euler, converged)
     closest = {method: min(found) for method, found in returns.items()}
-    note = "The motions return to earlier states no closer than " + " and ".join(
-        f"{100 * distance:.0f} % of their extent, after {period} cycles ({NAMES[method]})"
-        for method, (distance, period) in closest.items()
+    note = (
+        f"No motion repeats itself with a period of up to {LONGEST_PERIOD} cycles. The best period misses by "
+        + " and ".join(
+            f"{100 * distance:.0f} % of the largest height or velocity ({period} cycles, {NAMES[method]})"
+            for method, (distance, period) in closest.items()
+        )
     )
     shares = ({"share": float(np.mean([distance > CLOSE for distance, _ in found]))} for found in returns.values())
     return Finding(*shares, note + about_proofs.describe_chaos(horseshoes))

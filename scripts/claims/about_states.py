@@ -48,8 +48,8 @@ def interval(
     first = at_end[at_end.state == "first"]
     note = (
         f"With the initial heights of the config, both states exist from {format_amplitude(low)} to "
-        f"{format_amplitude(high)}. At the upper end, the first state is still reached from {len(first)} of "
-        f"{len(at_end)} initial heights, up to z0 = {MM * highest(first.z0):.3g} mm"
+        f"{format_amplitude(high)}. At the upper end, {len(first)} of {len(at_end)} initial heights still lead to the "
+        f"first state; the largest of them is {MM * highest(first.z0):.3g} mm"
     )
     if tension is not None:
         found = describe_tensions(tension, lambda rows: "{:g} to {:g} m/s²".format(*two_states(rows)))
@@ -299,8 +299,8 @@ def euler_error(
     right = np.sign(euler_exponent["lambda"]) == np.sign(converged_exponent["lambda"])
     wrong = converged_exponent[~right].acceleration
     note = (
-        f"Euler is too slow in {100 * (signed < 0.0).mean():.0f} % of {len(signed)} runs of period 1. The sign of the "
-        f"estimate is wrong at {len(wrong)} of {len(right)} amplitudes"
+        f"Explicit Euler underestimates the mean velocity in {100 * (signed < 0.0).mean():.0f} % of {len(signed)} runs "
+        f"of period 1. The sign of the estimate is wrong at {len(wrong)} of {len(right)} amplitudes"
     ) + (f", half of them between {wrong.quantile(0.25):.1f} and {wrong.quantile(0.75):.1f} m/s²" if len(wrong) else "")
     found = {"first_error": float(errors["first"]), "second_error": float(errors["second"])}
     return Finding(found | {"right_signs": float(right.mean())}, {}, note)

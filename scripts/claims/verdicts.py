@@ -79,9 +79,9 @@ def describe_misses(finding: Finding, quantities: dict[str, dict]) -> str:
             if not is_accepted(value, quantity["accepted"])
         ]
         if misses:
-            verb = "is" if len(misses) == 1 else "are"
-            accepted = format_interval(*quantity["accepted"])
-            texts.append(f"{quantity['is']}: {' and '.join(misses)} {verb} not in {accepted}")
+            texts.append(
+                f"{quantity['is']}: {' and '.join(misses)}; accepted: {format_interval(*quantity['accepted'])}"
+            )
     return "; ".join(texts)
 
 

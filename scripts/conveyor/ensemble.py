@@ -1,4 +1,4 @@
-"""Many trajectories: one row per point, in the order of the points, whatever fails and however work is shared."""
+"""Many trajectories: one row per point, in the order of the points, also where a run fails."""
 
 import numpy as np
 
@@ -63,14 +63,14 @@ def run(
     chunk: int = 1024,
     progress: str | None = None,
 ) -> dict[str, np.ndarray]:
-    """Follow every point for `duration` (s), for the event-driven method also one for each point, shape (n,).
+    """Follow every point for `duration` (s). The event-driven method also takes one duration per point, shape (n,).
 
     Parameters
     ----------
     parameters : float64, shape (n, 16), rows as from model.pack
     duration, method, tolerance, step : as in simulation.simulate
-    needs : "feeding"; or "vertical" for the vertical motion alone, with NaN in the columns of the horizontal motion
-        (event-driven method)
+    needs : "feeding"; or "vertical" for NaN in the columns of the horizontal motion, which saves time with the
+        event-driven method
     threads, chunk : number of threads, and points that a thread takes at a time; the result does not depend on them
     progress : name of a progress bar on stderr, or None
 
@@ -79,7 +79,7 @@ def run(
     dict of arrays of shape (n,): mean_velocity (m/s, over the last quarter), z_end, vz_end, x_end, vx_end (m, m/s),
     max_gap (m), impacts (int64), contact_fraction (1), impact_speed (m/s) and peak_force (N), the largest speed of
     approach at an impact and the largest contact force over the last quarter (0 if there is none), and status (str;
-    "ok", or why the run ended early: numbers that are then not known are NaN)
+    "ok", or why the run ended early; unknown numbers are NaN)
 
     Raises
     ------

@@ -214,8 +214,9 @@ def lyapunov_spectrum(
     Parameters
     ----------
     conveyor, start : the parameters that are not among the `values`
-    transient : excitation cycles at first that do not count, up to 1e6
-    cycles, blocks : `blocks` (2 to 1e4) of `cycles` (1 to 1e6) count; the standard error is that of the blocks' means
+    transient : excitation cycles that are discarded at the beginning, up to 1e6
+    cycles, blocks : mean over `blocks` (2 to 1e4) blocks of `cycles` (1 to 1e6) excitation cycles; the standard error
+        comes from the means of the blocks
     tolerance, threads, values : as in `sweep`
 
     Returns
@@ -242,10 +243,10 @@ def periodic_orbit(
 
     Parameters
     ----------
-    conveyor, start : the beginning of the trajectory
-    period : excitation cycles of the orbit, 1 to 1024; an orbit whose period divides it counts, too
-    transient : excitation cycles of the trajectory, up to 1e6; 0 to begin the iteration at `start`, as unstable orbits
-        need it
+    conveyor, start : conveyor and initial condition of the trajectory
+    period : excitation cycles of the orbit, 1 to 1024; the orbit may have a shorter period that divides `period`
+    transient : excitation cycles of the trajectory, up to 1e6; 0 begins Newton's iteration at `start`, which unstable
+        orbits need
 
     Returns
     -------

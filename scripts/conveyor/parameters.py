@@ -9,8 +9,8 @@ from collections.abc import Mapping
 TENSION_MODES = ("allow", "frictionless", "clip")
 # Compiled functions receive a conveyor and an initial condition as one vector of parameters, in this order.
 DESCRIPTIONS = {
-    "acceleration": "amplitude of the excitation, â",
-    "angle": "angle of throw φ",
+    "acceleration": "acceleration amplitude of the plate along the direction of vibration, â (peak value)",
+    "angle": "angle of throw φ between the direction of vibration and the track",
     "frequency": "frequency of the excitation, f",
     "psi0": "phase of the excitation at t = 0",
     "stiffness": "contact stiffness k_c",
@@ -20,10 +20,10 @@ DESCRIPTIONS = {
     "exponent": "exponent p of the contact law: 1 is Hooke, 1.5 is Hertz",
     "gravity": "gravitational acceleration g",
     "inclination": "inclination α of the track, which rises in the feeding direction",
-    "phase_shift": "phase shift ε of the plate's motion along the track against its motion normal to it",
+    "phase_shift": "phase ε by which the plate's motion along the track leads its motion normal to the track",
     "static_friction": "coefficient μ_s up to which the part sticks, at least friction; absent: equal to friction",
     "tension": "treatment of a contact force that pulls (Eqs. 7 and 11)",
-    "z0": "initial height of the part, normal to the track; the word conveyor puts the part on the plate (Eq. 15)",
+    "z0": "initial height above the plate's mean position; the word conveyor puts the part on the plate (Eq. 15)",
     "vz0": "initial velocity of the part normal to the track",
 }
 PARAMETERS = tuple(DESCRIPTIONS)
@@ -46,8 +46,7 @@ UNITS = {
     "z0": "m",
     "vz0": "m/s",
 }
-# Admissible closed intervals. They reject impossible values and common mix-ups of units (degrees for radians, grams for
-# kilograms), not unusual conveyors.
+# Admissible closed intervals. They reject impossible values and most angles in degrees, but not unusual conveyors.
 RANGES = {
     "acceleration": (0.0, 1e4),
     "angle": (0.0, 0.5 * math.pi),

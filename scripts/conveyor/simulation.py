@@ -23,7 +23,7 @@ EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U14")])
 
 @dataclass(frozen=True)
 class Run:
-    """The result of `simulate`. It holds the end of the run; `sample` and `events` follow the part again.
+    """The result of `simulate`. It stores the final state; `sample` and `events` repeat the simulation.
 
     Attributes
     ----------
@@ -107,7 +107,7 @@ class Run:
 def check_run(duration: float, method: str, tolerance: float, step: float) -> tuple[float, float, float]:
     """Duration, tolerance and step as floats; ValueError that names the argument of `simulate` that cannot be used.
 
-    Compiled functions would be compiled again for numbers of other types, as np.float32.
+    Compiled functions would be compiled again for numbers of another type, such as np.float32.
     """
     duration = check_number("duration", duration, 0.0, LONGEST, "s", above=True)
     check_choice("method", method, METHODS)
@@ -128,7 +128,7 @@ def simulate(
     step: float = DEFAULT_STEP,
     reuse: bool = True,
 ) -> Run:
-    """Follow one part on one conveyor from rest in x.
+    """Follow one part on one conveyor. At t = 0, x and vx are zero.
 
     Parameters
     ----------
@@ -136,7 +136,7 @@ def simulate(
     duration : s, above 0 and up to 1e6
     method : "event" for the exact event loop, or one of fixed_step: "euler" (the paper's), "semi_implicit_euler", "rk4"
     tolerance : relative error per Taylor step, 1e-14 to 1e-2; used by "event"
-    step : step size in s, of which the duration is a whole number; used by the fixed-step methods
+    step : time step in s; the duration must be a whole number of steps; used by the fixed-step methods
     reuse : whether Taylor steps of a settled motion are used again (see repeated_steps); used by "event"
 
     Returns

@@ -16,7 +16,7 @@ from pipeline.templates import render
 EVIDENCE = {
     "all": "all numbers",
     "end_left_out": "without the upper end of Fig. 8",
-    "paper_method": "without it, with the paper's method",
+    "paper_method": "without this end, with the error of the paper's method",
 }
 UNITS = {
     "friction": (1.0, "friction μ", "", 3),
@@ -79,9 +79,9 @@ def interval_rows(profiles: pd.DataFrame, optima: pd.DataFrame, model: dict) -> 
         cells = []
         for name, (low, high) in findings.intervals(profiles, optima, evidence).items():
             inside = (low is None or low.value <= model[name]) and (high is None or model[name] <= high.value)
-            verdict = "with" if inside else "**without**"
+            verdict = "contains" if inside else "**excludes**"
             interval = f"{format_end(name, low)} to {format_end(name, high)}"
-            cells.append(f"{format_value(name, best[name])}; {interval}, {verdict} the printed one")
+            cells.append(f"{format_value(name, best[name])} ({interval}; {verdict} the printed value)")
         rows.append([EVIDENCE[evidence], *cells])
     return rows
 
@@ -95,7 +95,7 @@ def describe_bounds(profiles: pd.DataFrame, optima: pd.DataFrame, evidence: str)
     found = {kind: [] for kind in kinds}
     for name, ends in findings.intervals(profiles, optima, evidence).items():
         found[kinds[sum(end is None or end.held for end in ends)]].append(UNITS[name][1])
-    return "; ".join(f"{kind}: {', '.join(names)}" for kind, names in found.items() if names)
+    return "; ".join(f"{', '.join(names)} ({kind})" for kind, names in found.items() if names)
 
 
 def total_rows(optima: pd.DataFrame) -> list[list[str]]:
@@ -127,8 +127,9 @@ def describe_printed(optima: pd.DataFrame, tension: str) -> str:
     for evidence, rows in optima.groupby("evidence", sort=False):
         one = rows[rows.tension == tension].iloc[0]
         rise = one.printed_total - rows.total.min()
-        verdict = "inside the region" if rise <= one.rise_of_all else "outside the region"
-        parts.append(f"{EVIDENCE[evidence]}: {verdict} (a rise of {rise:.1f}, allowed are {one.rise_of_all:.1f})")
+        verdict = "inside" if rise <= one.rise_of_all else "outside"
+        limit = f"the total rises by {rise:.1f}; the limit is {one.rise_of_all:.1f}"
+        parts.append(f"{EVIDENCE[evidence]}: {verdict} the confidence region ({limit})")
     return "; ".join(parts)
 
 
@@ -177,7 +178,7 @@ def values(tables: dict[str, pd.DataFrame]) -> dict[str, object]:
         "bounded_all": describe_bounds(profiles, optima, "all"),
         "bounded_without": describe_bounds(profiles, optima, "end_left_out"),
         "bounded_method": describe_bounds(profiles, optima, "paper_method"),
-        "reading": "not identifiable" if difference <= without.rise.iloc[0] else "identifiable",
+        "treatment": "not identifiable" if difference <= without.rise.iloc[0] else "identifiable",
         "pulls": f"{without.total['allow']:.2f}",
         "clipped": f"{without.total['clip']:.2f}",
         "pulls_printed": f"{without.printed_total['allow']:.1f}",

@@ -115,7 +115,7 @@ def describe_frictions(frictions: pd.DataFrame, numbers: dict[str, dict]) -> str
             ("fall", "the fall"),
         )
     ]
-    together = f"all three from {low:.3f} to {high:.3f}" if low <= high else "all three at no friction"
+    together = f"all three from {low:.3f} to {high:.3f}" if low <= high else "but no single friction gives all three"
     return f"{', '.join(parts)}, {together}"
 
 
@@ -127,6 +127,6 @@ def describe_search(front: pd.DataFrame, generations: pd.DataFrame) -> str:
         share = rows.hypervolume
         status = front[front.tension == tension].status.iloc[0]
         parts.append(
-            f"{tension}: {status}, hypervolume {share.min():.3f} to {share.max():.3f} of the cube over all seeds"
+            f"{tension}: {status}, hypervolume {share.min():.3f} to {share.max():.3f} of the cube, over all seeds"
         )
     return "; ".join(parts)

@@ -102,7 +102,7 @@ def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, 
     model = settings["model"]
     interpolated = measures.interpolate_edges(edges, model)
     found = []
-    for name, variant in settings["told"].items():
+    for name, variant in settings["reported"].items():
         values = np.array([(model | variant)[parameter] for parameter in PARAMETERS])
         for method in (CONVERGED, EULER) if not variant else (CONVERGED,):
             found.append(number_rows(name, values, model["tension"], method, interpolated, settings, threads))

@@ -20,7 +20,7 @@ EDGES = ("bounds", "contacts", "heights", "edges")
 SEARCH = ("bounds", "objectives", "search", "numbers", "measured")
 IDENTIFICATION = {
     "edges": EDGES,
-    "printed": ("heights", "edges", "told", "numbers", "measured", "euler"),
+    "printed": ("heights", "edges", "reported", "numbers", "measured", "euler"),
     **dict.fromkeys(("front", "generations"), (*SEARCH, "readings")),
     **dict.fromkeys(("profiles", "optima", "frictions", "implied"), (*SEARCH, *EDGES, "evidence", "profiles")),
 }

@@ -27,7 +27,7 @@ TABLES = {
         fields.number("throw_number", "1", "throw number Γ"),
         *fields.STATE,
         fields.number("mean_velocity", "m/s", "mean feeding velocity of the fastest motion"),
-        fields.number("share", "1", "of the initial conditions that reach this velocity"),
+        fields.number("share", "1", "share of the initial conditions that reach this velocity"),
         fields.number("stderr", "1", "standard error of the share"),
         fields.number(
             "knock", "m/s", "smallest sudden change of ż that ends the motion; null if no change that was tried does"
@@ -39,9 +39,9 @@ TABLES = {
     ),
     "changes": (
         AIM,
-        fields.text("parameter", "that is changed"),
-        fields.number("value", "SI", "that it gets"),
-        fields.text("regime", "of this amplitude with the changed parameter, as in the table of regimes"),
+        fields.text("parameter", "changed parameter"),
+        fields.number("value", "SI", "its new value"),
+        fields.text("regime", "regime at this amplitude with the changed parameter"),
         fields.number("mean_velocity", "m/s", "mean over all initial conditions; null where it is not known"),
         fields.number("gain", "1", "relative change of the mean velocity"),
     ),

@@ -31,9 +31,11 @@ SEARCH_ERRORS, CHECK_ERRORS = np.array([-1.0, 1.0]), np.array([-1.0, 0.0, 1.0])
 FIRST_STARTS = 1  # initial conditions that reveal most designs with chaos, which cost most
 TABLES = {
     "drive_front": (
-        *(fields.number(name, AXES[name].metadata[b"unit"].decode(), "of the design") for name in SEARCHED),
+        *(fields.number(name, AXES[name].metadata[b"unit"].decode(), "parameter of the design") for name in SEARCHED),
         fields.number("displacement", "m", "amplitude of the drive's displacement"),
-        fields.number("velocity", "m/s", "that most initial conditions of the search reach; least within the margin"),
+        fields.number(
+            "velocity", "m/s", "smallest velocity, within the margin, that most initial conditions of the search reach"
+        ),
         fields.number("impact_speed", "m/s", "largest speed of approach normal to the track within the margin"),
         fields.flag("checked", "whether full operating runs were made; the next columns are null without them"),
         fields.number("checked_velocity", "m/s", "mean over all initial conditions and errors of the amplitude"),
@@ -46,9 +48,9 @@ TABLES = {
         fields.flag("recommended", "whether it is one of the recommended settings"),
     ),
     "drive_generations": (
-        fields.count("seed", "of the search"),
-        fields.count("generation", "from 1"),
-        fields.number("hypervolume", "1", "of the front so far, relative to the front of all seeds"),
+        fields.count("seed", "seed of the search"),
+        fields.count("generation", "number of the generation, from 1"),
+        fields.number("hypervolume", "1", "hypervolume of the front so far, relative to the front of all seeds"),
     ),
 }
 

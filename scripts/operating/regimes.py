@@ -20,12 +20,12 @@ SLIDES_AWAY = "slides away"
 
 TABLES = {
     "regimes": (
-        fields.count("number", "of the interval of amplitudes, in ascending order"),
+        fields.count("number", "number of the interval of amplitudes, in ascending order"),
         fields.text("regime", f"{', '.join(REGIMES)} (a state is undecided, or a velocity is not known)"),
         fields.number("begin", "m/s²", "smallest computed amplitude of the interval"),
         fields.number("end", "m/s²", "largest computed amplitude of the interval"),
         fields.number("step", "m/s²", "largest distance between neighbouring computed amplitudes"),
-        fields.count("amplitudes", "computed in the interval"),
+        fields.count("amplitudes", "number of computed amplitudes in the interval"),
         fields.text("states", "states of motion that occur, the most frequent one first"),
         fields.number("velocity_low", "m/s", "smallest mean velocity of any motion"),
         fields.number("best_low", "m/s", "smallest velocity, over the amplitudes, of the fastest motion"),

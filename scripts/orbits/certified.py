@@ -46,7 +46,7 @@ TABLES = {
         fields.count("period", "excitation cycles; the least period, if the orbit is proved"),
         fields.number("acceleration", "m/s²", "amplitude of the excitation, exact as a decimal number"),
         fields.flag("contained", "whether exactly one orbit is proved in a box around the stored one"),
-        fields.text("reason", "why not; null if it is proved"),
+        fields.text("reason", "reason why the proof failed; null if it is proved"),
         fields.text("stability", "proved stability: stable or unstable; open if not proved"),
         fields.count("impacts", "impacts in a period, proved if the orbit is"),
         fields.number(
@@ -80,7 +80,7 @@ TABLES = {
         fields.count("number", "number of the bifurcation among all of its kind"),
         fields.count("period", "excitation cycles of the orbit that folds or doubles"),
         fields.flag("proved", "whether the bifurcation is proved"),
-        fields.text("reason", "why not; null if it is proved"),
+        fields.text("reason", "reason why the proof failed; null if it is proved"),
         fields.number("stored_acceleration", "m/s²", "amplitude in floating point"),
         *bounds_fields("acceleration", "m/s²", "amplitude of the bifurcation"),
         *bounds_fields(
@@ -88,13 +88,13 @@ TABLES = {
             "1",
             "(1 ∓ μ1)(1 ∓ μ2) of a fold (-) or doubling (+) at the lower amplitude or first end of the arc",
         ),
-        *bounds_fields("test_end", "1", "the same at the higher amplitude or last end of the arc"),
+        *bounds_fields("test_end", "1", "the same test at the higher amplitude or last end of the arc"),
         *ARITHMETIC,
     ),
     "certified_chaos": (
         fields.number("acceleration", "m/s²", "amplitude of the excitation, exact as a decimal number"),
         fields.flag("proved", "whether covering relations that imply chaos are proved"),
-        fields.text("reason", "why not; null if they are proved"),
+        fields.text("reason", "reason why the proof failed; null if they are proved"),
         fields.count("sets", "number of parallelograms, and of excitation cycles of an excursion from the first one"),
         fields.number("entropy", "1", "topological entropy per excitation cycle, proved lower bound"),
         fields.number("delta", "m", "penetration at the phase ψ0 of the orbit of one cycle in the first parallelogram"),

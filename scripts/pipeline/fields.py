@@ -56,8 +56,8 @@ RESULTS = (
     *ENDS,
 )
 STATE = (
-    text("state", "state of motion that the initial condition leads to: first, second, chaos or undecided"),
-    count("period", "period of that motion in excitation cycles; 0 for none"),
+    text("state", "state of motion: first, second, chaos or undecided"),
+    count("period", "period of this motion in excitation cycles; 0 for none"),
 )
 FEATURES = (
     number("max_gap", "m", "largest distance between part and plate"),

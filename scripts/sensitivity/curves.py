@@ -42,7 +42,7 @@ TABLES = {
     ),
     "meetings": (
         *CURVE,
-        fields.text("meeting", "cusp, generalised doubling, or grazing"),
+        fields.text("meeting", "kind of the codimension-two point: cusp, generalised doubling, or grazing"),
         *PLACE,
         fields.text("status", "ok, or the reason why the point is only near the meeting"),
     ),

@@ -318,7 +318,7 @@ def test_the_page_begins_with_the_advice(refined):
         pd.DataFrame(regimes.make(refined)),
         *advised(),
     )
-    assert page.startswith("# Operating chart\n\n## What to do\n")
+    assert page.startswith("# Operating chart\n\n## Recommended amplitudes\n")
     assert "- **Amplitude 31 m/s²**, throw number Γ = 0.66\n" in page
     assert "- At most 30 parts of 20 mm per minute, one behind the other\n" in page
     assert (

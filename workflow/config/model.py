@@ -659,7 +659,9 @@ class Identification(TypedDict):
     inside: number("distance inside the interval of two states at which velocities are measured", "m/s²", gt=0, le=10)
     search: Annotated[Front, Field(description="multi-objective search with NSGA-II")]
     profiles: Annotated[Profiles, Field(description="profile likelihoods")]
-    told: Annotated[dict[Name, ChangedParameters], Field(description="parameters at which the quantities are reported")]
+    reported: Annotated[
+        dict[Name, ChangedParameters], Field(description="parameters at which the quantities are reported")
+    ]
 
 
 # [amplitude, initial height]

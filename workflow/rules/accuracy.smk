@@ -20,7 +20,7 @@ rule benchmark:
     params:
         **stage("accuracy.benchmark", "results/benchmark"),
     message:
-        "The solver compared with the published method"
+        "The solver compared with the paper's method"
     script:
         "../../scripts/make.py"
 

@@ -94,7 +94,7 @@ function looks() {
     plate: { colour: style("plate"), width: 3, label: "plate" },
     part: { colour: colours[stated.name] || style("ink"), width: 2, label: "part" },
     twin: { colour: style("ink"), width: 1.5, dash: [6, 3], label: "second part" },
-    euler: { colour: data.euler, width: 1.5, dash: [2, 3], label: "published method (Euler)" },
+    euler: { colour: data.euler, width: 1.5, dash: [2, 3], label: "paper's method (Euler)" },
   };
 }
 

@@ -1,4 +1,4 @@
-"""Fig. 3: mean feeding velocity over the acceleration amplitude, published method and converged solution."""
+"""Fig. 3: mean feeding velocity over the acceleration amplitude, paper's method and converged solution."""
 
 import pandas as pd
 from matplotlib.figure import Figure

@@ -1,4 +1,4 @@
-"""Fig. 8: feeding velocities for several initial heights, published method and converged solution side by side."""
+"""Fig. 8: feeding velocities for several initial heights, paper's method and converged solution side by side."""
 
 import numpy as np
 import pandas as pd

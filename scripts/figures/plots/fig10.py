@@ -26,7 +26,7 @@ def plot(
     edge = converged[converged.is_critical]
     curves = (
         (fit, "pymoo", style.CONVERGED, "-", "Eq. 13 fitted to the converged solution"),
-        (fit_euler, "pymoo", style.EULER, "-", "Eq. 13 fitted to the published method"),
+        (fit_euler, "pymoo", style.EULER, "-", "Eq. 13 fitted to the paper's method"),
         (fit, "paper", "black", ":", "Eq. 13 with the paper's A, B, C"),
     )
     for fits, name, colour, line, label in curves:

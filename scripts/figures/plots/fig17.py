@@ -1,4 +1,4 @@
-"""Fig. 17: mean feeding velocity over the initial height in chaotic motion, published method and converged solution."""
+"""Fig. 17: mean feeding velocity over the initial height in chaotic motion, paper's method and converged solution."""
 
 import pandas as pd
 from matplotlib.figure import Figure

@@ -1,4 +1,4 @@
-"""Fig. 20: Lyapunov exponent of z_p by finite differences in z0, published method and converged solution."""
+"""Fig. 20: Lyapunov exponent of z_p by finite differences in z0, paper's method and converged solution."""
 
 import pandas as pd
 from matplotlib.figure import Figure

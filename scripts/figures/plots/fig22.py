@@ -1,4 +1,4 @@
-"""Fig. 22: Lyapunov exponent of the feeding velocity by finite differences, published method and converged solution."""
+"""Fig. 22: Lyapunov exponent of the feeding velocity by finite differences, paper's method and converged solution."""
 
 import pandas as pd
 from matplotlib.figure import Figure

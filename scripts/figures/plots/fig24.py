@@ -1,4 +1,4 @@
-"""Fig. 24: dimension of phase portraits over the acceleration amplitude, published method and converged solution."""
+"""Fig. 24: dimension of phase portraits over the acceleration amplitude, paper's method and converged solution."""
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -7,7 +7,7 @@ from figures import style
 
 UNKNOWN = {"converged": 0.05, "correlation": 0.02}  # axes fraction of the marks of amplitudes without an estimate
 LOOKS = {
-    "euler": ("o-", style.EULER, "published method: box counting, first second"),
+    "euler": ("o-", style.EULER, "paper's method: box counting, first second"),
     "converged": ("s", style.CONVERGED, "converged solution: box counting, settled motion"),
     "correlation": ("x", style.SECOND_ESTIMATE, "converged solution: correlation sum, settled motion"),
 }

@@ -36,7 +36,7 @@ def draw_errors(axes: Axes, fit: pd.DataFrame, fit_euler: pd.DataFrame, paper_er
     style.note(axes, "paper's fit", (1.0, paper), (0, -2), xycoords=("axes fraction", "data"), ha="right", va="top")
     fits = (
         (fit, style.CONVERGED, "fit to the converged solution"),
-        (fit_euler, style.EULER, "fit to the published method"),
+        (fit_euler, style.EULER, "fit to the paper's method"),
     )
     for table, colour, label in fits:
         curve = table[table.fit == "valley"]

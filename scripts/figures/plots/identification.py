@@ -13,7 +13,7 @@ from identification.search_space import PARAMETERS
 EVIDENCE = {
     "all": ("black", "-", "all numbers"),
     "end_left_out": (style.CONVERGED, "-", "without the upper end of Fig. 8"),
-    "paper_method": (style.EULER, (0, (3, 2)), "the same, shifted by the error of the published method"),
+    "paper_method": (style.EULER, (0, (3, 2)), "the same, shifted by the error of the paper's method"),
 }
 READINGS = {
     "allow": ("o", style.CONVERGED, "contact pulls"),

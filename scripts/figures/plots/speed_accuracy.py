@@ -75,7 +75,7 @@ def plot(*, jumping: pd.DataFrame, jumping_times: pd.DataFrame, paper_step: floa
     axes.plot(paper.milliseconds, paper.trajectory_error, "o", markersize=9.0, color=style.EULER, fillstyle="none")
     style.note(
         axes,
-        "published method and time step",
+        "paper's method and time step",
         (paper.milliseconds, paper.trajectory_error),
         (8, 3),
         color=style.EULER,
@@ -83,7 +83,7 @@ def plot(*, jumping: pd.DataFrame, jumping_times: pd.DataFrame, paper_step: floa
     )
     for factor in speed.factors(runs, paper_step, equal_error):
         is_paper = factor.error == paper.trajectory_error
-        other = "the published method" if is_paper else "the best rival"
+        other = "the paper's method" if is_paper else "the best rival"
         draw_factor(axes, factor, f"faster than\n{other}", is_paper)
     axes.set_xscale("log")
     axes.set_yscale("log")

@@ -1,4 +1,4 @@
-"""Time steps at which the published method leaves the right state of motion; this solver has no such limit."""
+"""Time steps at which the paper's method leaves the right state of motion; this solver has no such limit."""
 
 import numpy as np
 import pandas as pd
@@ -33,7 +33,7 @@ def largest_right_step(rows: pd.DataFrame) -> pd.Series:
 
 
 def draw_panel(axes: Axes, rows: pd.DataFrame, panel: str, methods: list[str], paper_step: float) -> None:
-    """Draw the outcomes of the published method over one quantity and the step, and the limits of all methods."""
+    """Draw the outcomes of the paper's method over one quantity and the step, and the limits of all methods."""
     euler = rows[rows.method == "euler"]
     style.class_map(axes, euler.pivot(index="x", columns="y", values="outcome"), OUTCOMES)
     for method in methods:
@@ -56,8 +56,8 @@ def draw_panel(axes: Axes, rows: pd.DataFrame, panel: str, methods: list[str], p
 
 
 def legend_handles(methods: list[str]) -> list[Patch | Line2D]:
-    """Legend handles of the outcomes of the published method, the limits of all methods, and the solver."""
-    names = {"right": "published method: right state"}
+    """Legend handles of the outcomes of the paper's method, the limits of all methods, and the solver."""
+    names = {"right": "paper's method: right state"}
     areas = [Patch(color=colour, label=names.get(outcome, outcome)) for outcome, colour in OUTCOMES.items()]
     lines = [
         Line2D([], [], color=style.METHODS[method][0], linewidth=2.0 if method == "euler" else 1.0)

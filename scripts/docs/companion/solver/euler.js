@@ -1,4 +1,4 @@
-/* The trajectory by the published method, explicit Euler with a fixed step (Sect. 3 of the paper). It steps over
+/* The trajectory by the paper's method, explicit Euler with a fixed step (Sect. 3 of the paper). It steps over
    impacts, and its friction chatters where the part should stick. Only where the static friction exceeds the friction
    may a part whose slip changes its sign take on the velocity of the plate. It keeps every `stride`th step. */
 class EulerRun {
