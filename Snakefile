@@ -5,12 +5,12 @@ from workflow.config import ConfigError, replace_config
 
 min_version("9.27")
 
-# The config of the paper with the overlays of the command line, checked.
+# The config of the paper, with the overlays of the command line merged over it and checked.
 try:
     loaded, OVERLAYS = replace_config(workflow, config)
 except ConfigError as error:
     raise WorkflowError(str(error))
-PAPER, OWN_MACHINE, REFUSED = loaded.paper, loaded.own_machine, loaded.refused
+PAPER, OWN_MACHINE = loaded.paper, loaded.own_machine
 
 
 report: "workflow/report/workflow.rst"

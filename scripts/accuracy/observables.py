@@ -9,7 +9,7 @@ import pandas as pd
 
 from conveyor.solver.model import Conveyor
 from dimensions import portraits
-from motion import critical_heights, impacts, signals, spectra
+from motion import critical, impacts, signals, spectra
 from orbits import estimates, exponents, strobes
 from pipeline import grid
 from sweeps import shards
@@ -30,7 +30,7 @@ class Shown(NamedTuple):
 
 def make_critical_heights(settings: dict) -> pd.DataFrame:
     """The critical heights among the heights at which the state changes."""
-    found = pd.DataFrame(critical_heights.make(settings))
+    found = pd.DataFrame(critical.make(settings))
     return found[found.is_critical]
 
 

@@ -92,12 +92,12 @@ def dimension_rows(settings: dict, seed: int) -> list[dict]:
     return found
 
 
-def fit_rows(settings: dict, data: pd.DataFrame, fit: dict, seed: int) -> list[dict]:
+def fit_rows(settings: dict, data: pd.DataFrame, regression: dict, seed: int) -> list[dict]:
     """Relative gap of the mean squared error to the best fit, over the number of evaluated triples."""
-    low, high = fit["acceleration"]
+    low, high = regression["acceleration"]
     rows = data[data.is_critical & data.acceleration.between(low, high)]
     values = rows.acceleration.to_numpy(), rows.z0.to_numpy()
-    bounds = {name: tuple(interval) for name, interval in fit["bounds"].items()}
+    bounds = {name: tuple(interval) for name, interval in regression["bounds"].items()}
     found = {
         "CMA-ES (pymoo)": hyperbola_fit.fit_pymoo(*values, bounds, seed, settings["evaluations"]),
         "least squares": hyperbola_fit.fit_least_squares(*values, bounds["B"]),
@@ -110,10 +110,10 @@ def fit_rows(settings: dict, data: pd.DataFrame, fit: dict, seed: int) -> list[d
     ]
 
 
-def make(settings: dict, model: dict, fit: dict | None = None, critical: pd.DataFrame | None = None) -> dict:
-    """The columns of the table; rows of the fit need the entry `fit` of the config and its critical heights."""
-    rows = exponent_rows(settings["exponent"], model)
+def make(settings: dict, critical: pd.DataFrame | None = None) -> dict:
+    """The columns of the table; a conveyor without a fit of Eq. 13 has no table of critical heights."""
+    rows = exponent_rows(settings["exponent"], settings["model"])
     rows += dimension_rows(settings["dimension"], settings["seed"])
     if critical is not None:
-        rows += fit_rows(settings["fit"], critical, fit, settings["seed"])
+        rows += fit_rows(settings["fit"], critical, settings["regression"], settings["seed"])
     return fields.columns(rows, TABLES["precision_estimates"])

@@ -164,8 +164,7 @@ def bifurcation_row(model: str, kind: str, number: int, acceleration: float) -> 
 
 def make(
     settings: dict,
-    entry: dict,
-    sweeps: pd.DataFrame,
+    amplitudes: pd.DataFrame,
     folds_and_doublings: pd.DataFrame,
     cascade: pd.DataFrame,
     *,
@@ -176,18 +175,17 @@ def make(
     Parameters
     ----------
     settings : the section `rigid_part` of the config
-    entry : settings of the sweep
-    sweeps, folds_and_doublings, cascade : tables of the compliant contact
+    amplitudes, folds_and_doublings, cascade : tables of the compliant contact
     """
-    conveyor, _ = grid.conveyor_and_start(entry["model"])
+    conveyor, _ = grid.conveyor_and_start(amplitudes.attrs["model"])
     speed_dependent = tabulate_restitution(pack(conveyor, Start()))
     constant = SPEEDS, np.full(len(SPEEDS), find_orbit(conveyor, speed_dependent).restitution)
 
     rows = []
-    heights = sweeps.z0.agg(["min", "max"])
-    compliant = sweeps[sweeps.z0.isin(heights)]
+    heights = amplitudes.z0.agg(["min", "max"])
+    compliant = amplitudes[amplitudes.z0.isin(heights)]
     axes = {"z0": list(heights), "acceleration": list(compliant.acceleration.unique())}
-    rigid = sweep({**entry, "axes": axes})
+    rigid = sweep({**amplitudes.attrs, "axes": axes})
     for model, table in ((CONTACT, compliant), (RIGID, rigid)):
         found = table[["acceleration", "z0", "mean_velocity", "state"]].assign(model=model, kind="velocity", number=0)
         rows += found.to_dict("records")

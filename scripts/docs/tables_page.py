@@ -23,7 +23,7 @@ from claims import verdicts
 from dimensions import portraits
 from fit import regressions
 from identification import edges, fronts, printed, profiles
-from motion import critical_heights, impacts, signals, spectra
+from motion import critical, impacts, signals, spectra
 from operating import advice, drive, regimes, shares, throws, track
 from orbits import branches, certified, estimates, exponents, strobes, witnesses
 from pipeline import fields
@@ -38,7 +38,7 @@ MODULES = (
     signals,
     spectra,
     impacts,
-    critical_heights,
+    critical,
     branches,
     strobes,
     exponents,

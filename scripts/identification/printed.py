@@ -11,7 +11,7 @@ from identification import edges as edge_search
 from identification import measures
 from identification.misfits import misfit, number
 from identification.search_space import PARAMETERS, packed
-from motion.critical_heights import find_states
+from motion.critical import find_states
 from pipeline import fields
 
 NUMBERS = (

@@ -143,7 +143,7 @@ def test_a_reason_begins_with_the_numbers_that_miss():
     finding = Finding({"critical_amplitude": 50.0}, {"critical_amplitude": 60.0}, "Because of 1")
     table = verdicts.columns({"C01": CLAIMS["C01"]}, {"C01": finding})
     assert table["verdict"] == [verdicts.PAPER_METHOD_ONLY]
-    number = "critical amplitude in m/s²: 60 by the converged solution is not in [49, 51]"
+    number = "critical amplitude in m/s²: 60 by the converged solution; accepted: [49, 51]"
     assert table["reason"] == [f"{number}. Because of 1"]
 
 
@@ -157,9 +157,9 @@ def test_null_means_no_bound():
 def test_reason_says_which_number_is_outside():
     claimed = quantities(height=[0.0, 1.0], width=[0.0, 1.0])
     text = verdicts.describe_misses(Finding({"height": 0.5, "width": 0.5}, {"height": 0.5, "width": 3.25}), claimed)
-    assert text == "width: 3.25 by the converged solution is not in [0, 1]"
+    assert text == "width: 3.25 by the converged solution; accepted: [0, 1]"
     text = verdicts.describe_misses(Finding({"height": 2.0, "width": 0.5}, {"height": 3.0, "width": 0.5}), claimed)
-    assert text == "height: 2 by the paper's method and 3 by the converged solution are not in [0, 1]"
+    assert text == "height: 2 by the paper's method and 3 by the converged solution; accepted: [0, 1]"
 
 
 def test_critical_acceleration_uses_the_part_at_rest():
@@ -486,6 +486,9 @@ def test_the_page_explains_verdicts_and_has_dashes_for_missing_numbers():
     table = pd.DataFrame(verdicts.columns({"C1": claim}, {"C1": found}))
     page = verdicts.report(template, table)
     assert "| – | 9 | [1, 2] (why) | **not reproduced** |" in page
-    assert "## Reasons\n\n- **C1** onset: 9 by the converged solution is not in [1, 2]. A note.\n" in page
+    assert (
+        "## Why statements are not reproduced\n\n- **C1** onset: 9 by the converged solution; accepted: [1, 2]. A note.\n"
+        in page
+    )
     assert page.endswith("## Notes\n\n")
     assert "an overlay without a prefix" in verdicts.report(template, table.iloc[:0])

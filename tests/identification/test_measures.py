@@ -12,7 +12,7 @@ from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height, mean_
 from identification import edges, measures, printed
 from identification.search_space import PARAMETERS, packed
 from identification.settings import NUMBERS_OF_CLAIMS
-from motion import critical_heights
+from motion import critical
 from pipeline import grid
 
 CONFIG = read_config()
@@ -95,7 +95,7 @@ def test_critical_heights_and_their_fit_agree_with_the_claims(direct):
         "method": "event",
         "tolerance": 1e-6,
     }
-    table = pd.DataFrame(critical_heights.make(settings))
+    table = pd.DataFrame(critical.make(settings))
     for name, acceleration in (("C04.largest_height", 29.0), ("C07.height", 40.0), ("C08.height", 35.0)):
         assert direct[name] == pytest.approx(1e3 * about_states.critical_at(table, acceleration), abs=2e-4), name
     data = table[table.is_critical].sort_values("acceleration")

@@ -71,7 +71,7 @@ def test_claims_have_their_numbers_verdicts_and_reasons(pages):
     only = cells(pages["claims"], "C02")
     assert only[4:6] == ["2.125", "7"]
     assert only[7] == "reproduced by the paper&#39;s method only"
-    assert only[9] == "height in mm: 7 by the converged solution is not in [-∞, 2.5]."
+    assert only[9] == "height in mm: 7 by the converged solution; accepted: [-∞, 2.5]."
     # A method that a claim does not concern has no number.
     assert cells(pages["claims"], "C03")[4:6] == ["–", "8"]
     assert "it is not." in cells(pages["claims"], "C03")[9]

@@ -107,7 +107,6 @@ def test_a_config_is_loaded_from_any_folder(tmp_path, monkeypatch):
     loaded = load_config(DEFAULT_FILES, [], {})
     assert loaded.paper == read_config()
     assert not loaded.own_machine
-    assert loaded.refused == {}
     assert "amplitudes_euler" in loaded.config["sweeps"]
 
 
@@ -119,16 +118,15 @@ def test_a_config_without_files_is_the_overlay_of_a_module(tmp_path):
     loaded = load_config(DEFAULT_FILES, [], overlay)
     assert repr(loaded) == repr(load_config(DEFAULT_FILES, [file], overlay))
     assert loaded.own_machine
-    assert "fig04" in loaded.refused
+    assert "fig04" not in loaded.config["figures"]
     assert loaded.config["sweeps"]["one"] == {"axes": {"z0": [0.0]}}
 
 
-def test_an_error_has_six_lines_and_jobs_are_not_checked_again():
+def test_an_error_has_six_lines():
     overlay = {"sharing": {"core_hours": 1.0e-6}}
     with pytest.raises(ConfigError, match="The config cannot be used") as error:
         load_config(DEFAULT_FILES, [], overlay)
     assert len(str(error.value).splitlines()) <= 6
-    assert load_config(DEFAULT_FILES, [], overlay, check=False).config["sharing"]["core_hours"] == 1.0e-6
 
 
 def test_the_config_of_the_paper_is_in_canonical_form():

@@ -15,7 +15,6 @@ from workflow.config.machine import (
     MARKS,
     contact_time,
     is_own_machine,
-    refused_figures,
     scale_config,
 )
 from workflow.config.tables import TABLES, references, settings_of
@@ -117,9 +116,8 @@ def test_examples_are_short_and_unlike_the_paper(name):
 def test_parts_that_belong_to_the_paper_are_left_out(name):
     found = config_of(example(name))
     assert set(found["figures"]) >= ANY
-    assert not set(found["figures"]) & set(refused_figures(CONFIG, found))
-    everything = set(CONFIG["figures"]) | set(CONFIG["figures_on_request"])
-    assert set(found["figures"]) | set(found["figures_on_request"]) | set(refused_figures(CONFIG, found)) == everything
+    for section in ("figures", "figures_on_request"):
+        assert set(found[section]) == {name for name, one in CONFIG[section].items() if "paper_only" not in one}
     assert found["claims"] == {}
     assert "seeds" not in found["orbits"]
     for entry in found["figures"].values():
@@ -192,7 +190,14 @@ def test_the_named_figures_are_planned(name):
 def test_a_figure_that_makes_no_sense_says_so():
     run = Project(ROOT).called("--dry-run", "figures/bowl/fig04.pdf", "--configfile", str(EXAMPLES["bowl"]))
     assert run.returncode != 0
-    assert "figures/bowl/fig04.pdf cannot be made for this machine: its amplitudes lie" in run.stdout
+    assert "figures/bowl/fig04.pdf cannot be made for this conveyor: its amplitudes lie" in run.stdout
+
+
+def test_a_figure_of_the_paper_that_the_overlay_names_keeps_its_marks():
+    """Its plot cannot be drawn without them."""
+    found = config_of(example("bowl") | {"figures": {"fig11": {"title": "Mine"}}})
+    assert set(found["figures"]["fig11"]["settings"]) == set(CONFIG["figures"]["fig11"]["settings"])
+    assert not set(found["figures"]["fig10"].get("settings", {})) & set(MARKS)
 
 
 def test_figures_and_captions_of_another_machine_are_made(built):

@@ -7,7 +7,7 @@ from pipeline import grid
 from pipeline.motions import batches_by_conveyor
 from workflow.config import problems
 from workflow.config.entries import resolve
-from workflow.config.sharing import THREADS, conveyors_of, plan, restless
+from workflow.config.sharing import THREADS, conveyors_of, plan, throwing_share
 
 CONFIG = read_config()
 SHARING = CONFIG["sharing"]
@@ -60,7 +60,7 @@ def test_number_of_conveyors_in_the_first_rows(axes):
 )
 def test_a_plate_throws_parts_where_its_acceleration_exceeds_gravity(axes, share):
     model = {name: value for name, value in CONFIG["model"].items() if name not in axes}
-    assert restless({"axes": axes, "model": model}) == pytest.approx(share, abs=1e-3)
+    assert throwing_share({"axes": axes, "model": model}) == pytest.approx(share, abs=1e-3)
 
 
 def test_jobs_take_the_requested_time():

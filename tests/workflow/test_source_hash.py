@@ -11,7 +11,7 @@ CALLS = {
     "accuracy/scene_budget": {
         "accuracy/rigid_part",
         "dimensions/portraits",
-        "motion/critical_heights",
+        "motion/critical",
         "motion/impacts",
         "motion/signals",
         "motion/spectra",
@@ -27,8 +27,8 @@ CALLS = {
     "operating/drive": {"operating/regimes", "operating/shares"},
     "operating/throws": {"operating/regimes", "operating/shares"},
     "identification/fronts": {"identification/edges"},
-    "identification/printed": {"identification/edges", "motion/critical_heights"},
-    "identification/profiles": {"identification/edges", "identification/printed", "motion/critical_heights"},
+    "identification/printed": {"identification/edges", "motion/critical"},
+    "identification/profiles": {"identification/edges", "identification/printed", "motion/critical"},
 }
 
 

@@ -9,7 +9,7 @@ from .checks import problems
 from .entries import by_methods, with_tighter
 from .errors import ConfigError, type_problems
 from .files import DEFAULT_FILES, ROOT, merge, read_all
-from .machine import is_own_machine, refused_figures, scale_config
+from .machine import is_own_machine, scale_config
 from .model import MODEL
 
 __all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems", "replace_config"]
@@ -21,7 +21,6 @@ class Loaded(NamedTuple):
     config: dict  # canonical, with the tables of all methods and of tighter tolerances
     paper: dict  # the default config
     own_machine: bool
-    refused: dict[str, str]  # figures that make no sense for this conveyor, with the reasons
 
 
 def canonical(config: dict) -> dict:
@@ -32,31 +31,29 @@ def canonical(config: dict) -> dict:
     return MODEL.validate_python(config)
 
 
-def load_config(
-    default_files: Sequence[str | Path], overlay_files: Sequence[str | Path], config: dict, check: bool = True
-) -> Loaded:
+def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str | Path], config: dict) -> Loaded:
     """The config of a run; ConfigError says what is wrong with it in at most six lines.
 
     Parameters
     ----------
     default_files : the config of the paper
-    overlay_files : files that are merged over it, which `config` contains already: they say which file has a key first
+    overlay_files : files that are merged over it. `config` contains them already; they are read again because keys keep
+        the order of the first file that has them
     config : Snakemake's merged config; as a module of another workflow, it is the only overlay
-    check : whether to check it, which jobs of a running workflow need not do
     """
     paper, overlay = merge(*read_all(default_files)), merge(*read_all(overlay_files), config)
     whole = merge(paper, overlay)
-    # Not whether values fit together: an overlay may give one end of a range whose other end is yet to be scaled.
-    if check and (errors := type_problems(whole, ignored="value_error")):
+    # Not whether values fit together: an overlay may give one end of a range whose other end is scaled below.
+    if errors := type_problems(whole, ignored="value_error"):
         raise ConfigError(errors)
     if own_machine := is_own_machine(paper, whole):
         whole = merge(scale_config(paper, overlay), overlay)
         # The claims are the paper's. An overlay for any conveyor, such as config/reduced.yaml, may name them.
         checked = whole["uncertainty"]["claims"]
         whole["uncertainty"] |= {"claims": [name for name in checked if name in whole["claims"]]}
-    if check and (errors := problems(whole, paper)):
+    if errors := problems(whole, paper):
         raise ConfigError(errors)
-    return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_machine, refused_figures(paper, whole))
+    return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_machine)
 
 
 def replace_config(workflow: Any, config: dict) -> tuple[Loaded, list[str]]:
@@ -67,8 +64,7 @@ def replace_config(workflow: Any, config: dict) -> tuple[Loaded, list[str]]:
     """
     is_module = not Path(workflow.main_snakefile).resolve().is_relative_to(ROOT)
     overlays = [] if is_module else [os.path.relpath(file) for file in workflow.overwrite_configfiles]
-    # Jobs start Snakemake again; the config has been checked by then.
-    loaded = load_config(DEFAULT_FILES, overlays, config, check=workflow.is_main_process)
+    loaded = load_config(DEFAULT_FILES, overlays, config)
     config.clear()
     config.update(loaded.config)
     return loaded, overlays

@@ -12,7 +12,6 @@ from .entries import (
     ENTRIES,
     FIGURES,
     METHOD_SECTIONS,
-    TIGHTENED,
     by_methods,
     count_points,
     count_values,
@@ -21,7 +20,6 @@ from .entries import (
     resolve,
     values_of,
     variants,
-    with_tighter,
 )
 from .errors import suggest_name, type_problems
 from .files import DEFAULT_FILES, ROOT, merge, read_all
@@ -74,32 +72,32 @@ def axes(config: dict, defaults: dict) -> Iterator[str]:
         yield f"operating.starts makes {starts:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
 
 
-def models(config: dict) -> Iterator[tuple[str, list, list]]:
-    """The model and all models with a friction of their own: the key, the values of friction and static_friction."""
-    base = config["model"]
-    changes = {"model": base}
+def friction(config: dict, defaults: dict) -> Iterator[str]:
+    """Static friction below sliding friction, in the model and in all models that change one of them."""
+    changed = {"model": config["model"]}
     for section in ENTRIES:
         for name, entry in config[section].items():
             axes = {key: ends(axis) for key, axis in entry.get("axes", {}).items()}
-            changes[f"{section}.{name}"] = entry.get("model", {}) | axes
-    changes |= {f"benchmark.cases.{name}.model": case["model"] for name, case in config["benchmark"]["cases"].items()}
-    changes |= {f"companion.presets.{name}": preset for name, preset in config["companion"]["presets"].items()}
-    for key, changed in changes.items():
-        model = base | changed
-        if "static_friction" in model and not changed.keys().isdisjoint(("friction", "static_friction")):
-            frictions, statics = (
-                value if isinstance(value, list) else [value] for value in (model["friction"], model["static_friction"])
-            )
-            yield key, frictions, statics
-
-
-def friction(config: dict, defaults: dict) -> Iterator[str]:
-    for key, frictions, statics in models(config):
-        if min(statics) < max(frictions):
-            yield (
-                f"{key} has static_friction = {min(statics)!r} below friction = {max(frictions)!r}; give a larger "
-                "static_friction, or leave it out to make both equal"
-            )
+            changed[f"{section}.{name}"] = entry.get("model", {}) | axes
+    changed |= {f"{section}.model": config[section].get("model", {}) for section in ("orbits", "attractors")}
+    changed |= {f"precision.scenes.{name}": model for name, model in config["precision"]["scenes"].items()}
+    changed |= {f"companion.presets.{name}": model for name, model in config["companion"]["presets"].items()}
+    for key, runs in (
+        ("benchmark.cases", config["benchmark"]["cases"]),
+        ("published_scenes.further", config["published_scenes"]["further"]),
+        ("stability.hard", config["stability"]["hard"]),
+    ):
+        changed |= {f"{key}.{name}.model": run["model"] for name, run in runs.items()}
+    for key, own in changed.items():
+        model = config["model"] | own
+        if "static_friction" in model and own.keys() & {"friction", "static_friction"}:
+            values = (model[name] for name in ("friction", "static_friction"))
+            sliding, static = (value if isinstance(value, list) else [value] for value in values)
+            if min(static) < max(sliding):
+                yield (
+                    f"{key} has static_friction = {min(static)!r} below friction = {max(sliding)!r}; give a larger "
+                    "static_friction, or leave it out to make both equal"
+                )
 
 
 def sweeps(config: dict, defaults: dict) -> Iterator[str]:
@@ -113,20 +111,6 @@ def sweeps(config: dict, defaults: dict) -> Iterator[str]:
                     f"hours in {shared.shards} jobs of {shared.memory / 1000.0:.2g} GB; give a smaller num, or raise "
                     f"sharing.core_hours = {limit:g}"
                 )
-
-
-def step_fault(step: float, duration: float, frequency: float) -> str | None:
-    """The fault of a time step (s) of a run (s) at a frequency (Hz) with its remedy, or None."""
-    largest, whole = 1.0 / (STEPS_IN_A_CYCLE * frequency), max(1, round(duration / step))
-    if step > duration:
-        return f"is longer than its duration of {duration!r} s"
-    if step > largest * (1.0 + 1e-9):
-        return f"is too long for {frequency:g} Hz; take at most {largest:g} s, 1/{STEPS_IN_A_CYCLE} of a cycle"
-    if duration / step > MOST_STEPS:
-        return f"makes {duration / step:.0e} steps of {duration!r} s; take at least {duration / MOST_STEPS:g} s"
-    if abs(duration / step - whole) > 1e-9 * whole:
-        return f"does not divide its duration of {duration!r} s; take {duration / whole!r}"
-    return None
 
 
 def runs_with_step(config: dict) -> Iterator[tuple[str, float, float, float]]:
@@ -159,8 +143,21 @@ def runs_with_step(config: dict) -> Iterator[tuple[str, float, float, float]]:
 
 def steps(config: dict, defaults: dict) -> Iterator[str]:
     for key, step, duration, frequency in runs_with_step(config):
-        if fault := step_fault(step, duration, frequency):
-            yield f"{key} = {step!r} s {fault}"
+        given, largest, whole = (
+            f"{key} = {step!r} s",
+            1.0 / (STEPS_IN_A_CYCLE * frequency),
+            max(1, round(duration / step)),
+        )
+        if step > duration:
+            yield f"{given} is longer than its duration of {duration!r} s; take less"
+        elif step > largest * (1.0 + 1e-9):
+            remedy = f"take at most {largest:g} s, 1/{STEPS_IN_A_CYCLE} of a cycle"
+            yield f"{given} is too long for {frequency:g} Hz; {remedy}"
+        elif duration / step > MOST_STEPS:
+            remedy = f"take at least {duration / MOST_STEPS:g} s"
+            yield f"{given} makes {duration / step:.0e} steps of {duration!r} s; {remedy}"
+        elif abs(duration / step - whole) > 1e-9 * whole:
+            yield f"{given} does not divide its duration of {duration!r} s; take {duration / whole!r}"
 
 
 def perturbed_runs(config: dict) -> Iterator[tuple[str, str, float, list]]:
@@ -208,7 +205,8 @@ def times(config: dict, defaults: dict) -> Iterator[str]:
     for name, case in config["benchmark"]["cases"].items():
         duration = (config["solver"] | case)["duration"]
         if case["compared"] > duration:
-            yield f"benchmark.cases.{name}.compared = {case['compared']!r} s is beyond the duration of {duration!r} s"
+            key = f"benchmark.cases.{name}.compared = {case['compared']!r} s"
+            yield f"{key} is beyond the duration of {duration!r} s; give less"
 
 
 def orbits(config: dict, defaults: dict) -> Iterator[str]:
@@ -227,7 +225,8 @@ def dimensions(config: dict, defaults: dict) -> Iterator[str]:
         if needed and needed not in entry:
             yield f"dimensions.{name} lacks {needed}, which the estimator {entry['estimator']} needs"
         if entry.get("theiler", 0) >= entry["samples"]:
-            yield f"dimensions.{name}.theiler = {entry['theiler']} leaves no pair of {entry['samples']} samples"
+            key = f"dimensions.{name}.theiler = {entry['theiler']}"
+            yield f"{key} leaves no pair of {entry['samples']} samples; give less"
 
 
 def unknown_references(config: dict, defaults: dict) -> Iterator[str]:
@@ -241,12 +240,13 @@ def unknown_references(config: dict, defaults: dict) -> Iterator[str]:
         for key in ("tables", "caption_tables")
         for role, table in entry.get(key, {}).items()
     ]
-    used += [("scene_budget.reasons", table, tables) for table in config["scene_budget"]["reasons"]]
+    used += [(f"scene_budget.reasons.{table}", table, tables) for table in config["scene_budget"]["reasons"]]
     used += [(f"regressions.{name}.critical", one["critical"], fitted) for name, one in config["regressions"].items()]
     used += [("sensitivity.critical", config["sensitivity"]["critical"], fitted)]
     for user in ("companion", "map_check"):
         used += [(f"{user}.maps[{place}]", name, single["sweeps"]) for place, name in enumerate(config[user]["maps"])]
     used += [("companion.opening", companion["opening"], companion["presets"])]
+    used += [("precision.reference.scene", config["precision"]["reference"]["scene"], config["precision"]["scenes"])]
     used += [("uncertainty.claims", name, config["claims"]) for name in config["uncertainty"]["claims"]]
     for key, name, known in used:
         if name not in known:
@@ -292,7 +292,7 @@ def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
             for name in (name for name in given if name not in known):
                 yield f"{place}.{key}.{name} is an unknown key; {suggest_name(name, known)}"
             for name in (name for name in known if name not in given and not may_lack):
-                yield f"{place}.{key}.{name} is missing"
+                yield f"{place}.{key}.{name} is missing; add it"
 
 
 def identification(config: dict, defaults: dict) -> Iterator[str]:
@@ -321,19 +321,9 @@ def drive(config: dict, defaults: dict) -> Iterator[str]:
         yield f"drive.recommended = {recommended} is above drive.checked = {checked}; check more, or recommend fewer"
 
 
-def tighter_names(config: dict) -> Iterator[str]:
-    """Entries with the name of a table of tighter tolerances. The config has no other contradictions."""
-    single = by_methods(config)
-    tightened = with_tighter(single)
-    for section in TIGHTENED:
-        for name, entry in single[section].items():
-            if tightened[section][name] != entry:
-                yield f"{section}.{name} has the name of a table of tighter tolerances (uncertainty.claims); rename it"
-
-
 def precision(config: dict, defaults: dict) -> Iterator[str]:
     precision = config["precision"]
-    interval, scene = precision["sample_interval"], precision["reference"]["scene"]
+    interval = precision["sample_interval"]
     for place, step in enumerate(precision["steps"]):
         whole = max(1, round(interval / step))
         if abs(interval / step - whole) > 1e-9 * whole:
@@ -341,8 +331,6 @@ def precision(config: dict, defaults: dict) -> Iterator[str]:
                 f"precision.sample_interval = {interval!r} s is not a multiple of precision.steps[{place}] = {step!r} s"
                 f"; take {whole * step!r} s"
             )
-    if scene not in precision["scenes"]:
-        yield f"precision.reference.scene = {scene!r} is not a scene; take one of {', '.join(precision['scenes'])}"
 
 
 CHECKS = (
@@ -362,4 +350,4 @@ def problems(config: dict, defaults: dict | None = None) -> list[str]:
         return errors
     typed, defaults = MODEL.validate_python(config), default_config() if defaults is None else defaults
     lines = [line for check in CHECKS for line in check(typed, defaults)]
-    return list(dict.fromkeys(lines)) or list(tighter_names(typed))
+    return list(dict.fromkeys(lines))

@@ -1,4 +1,4 @@
-"""Entries of sections with one table per entry: methods, defaults, twins with tighter tolerances, axes."""
+"""Entries of sections with one table per entry: methods, defaults, tables of tighter tolerances, axes."""
 
 import math
 
@@ -12,7 +12,8 @@ SETTLING = ("sweeps", "critical", "impacts", "signals", "spectra")
 METHOD_SECTIONS = ("sweeps", "estimates", "critical", "dimensions", "signals", "spectra")
 # Sections whose tables depend on a tolerance, directly or through another table.
 TIGHTENED = (*METHOD_SECTIONS, "regressions")
-TIGHTER = "tighter"
+# Ending of the name of a table with a tighter tolerance; the name of an entry cannot have a dot.
+TIGHTER = ".tighter"
 # Sections whose tables describe only the motion normal to the track.
 NORMAL = ("critical", "dimensions", "impacts")
 
@@ -36,37 +37,17 @@ def by_methods(config: dict) -> dict:
     return found
 
 
-def roles_of_solution(tables: dict[str, str]) -> list[str]:
-    """The roles of the converged solution among the tables of a claim; all roles if none is named converged."""
-    named = [role for role in tables if role.startswith("converged")]
-    return named or list(tables)
-
-
-def tighter_reference(config: dict, reference: str) -> str:
-    """The twin of a table with a tighter tolerance, or the table itself if it has no such twin."""
-    section, name = reference.split("/")
-    twin = f"{name}_{TIGHTER}"
-    return f"{section}/{twin}" if section in ENTRIES and twin in config[section] else reference
-
-
 def with_tighter(config: dict) -> dict:
-    """A config with twins NAME_tighter of the tables behind the claims in `uncertainty`, with a tighter tolerance."""
+    """A config with one method per entry, and each converged table a second time, with a tighter tolerance."""
     found = config | {section: dict(config[section]) for section in TIGHTENED}
-
-    def tighten(reference: str) -> None:
-        section, name = reference.split("/")
-        entry = config[section][name] if section in TIGHTENED else {"method": None}
-        if section == "regressions":
-            tighten(f"critical/{entry['critical']}")
-            found[section][f"{name}_{TIGHTER}"] = entry | {"critical": f"{entry['critical']}_{TIGHTER}"}
-        elif entry.get("method", config["solver"]["method"]) == "event":
-            tolerance = entry.get("tolerance", config["solver"]["tolerance"]) / config["uncertainty"]["tighter"]
-            found[section][f"{name}_{TIGHTER}"] = entry | {"tolerance": tolerance}
-
-    for name in config["uncertainty"]["claims"]:
-        tables = config["claims"][name]["tables"]
-        for role in roles_of_solution(tables):
-            tighten(tables[role])
+    for section in METHOD_SECTIONS:
+        for name, entry in config[section].items():
+            if entry.get("method", config["solver"]["method"]) == "event":
+                tolerance = entry.get("tolerance", config["solver"]["tolerance"]) / config["uncertainty"]["tighter"]
+                found[section][name + TIGHTER] = entry | {"tolerance": tolerance}
+    for name, entry in config["regressions"].items():
+        if entry["critical"] + TIGHTER in found["critical"]:
+            found["regressions"][name + TIGHTER] = entry | {"critical": entry["critical"] + TIGHTER}
     return found
 
 
@@ -84,7 +65,7 @@ def fill_defaults(config: dict, section: str, entry: dict) -> dict:
 
 
 def without_tangential(model: dict) -> dict:
-    """A model without the parameters that leave the motion normal to the track as it is."""
+    """A model without the parameters that do not affect the motion normal to the track."""
     return {name: value for name, value in model.items() if name not in TANGENTIAL}
 
 

@@ -2,6 +2,7 @@
 
 import difflib
 import math
+import re
 from collections.abc import Iterable
 from reprlib import Repr
 from textwrap import shorten
@@ -12,12 +13,14 @@ from pydantic import ValidationError
 from .model import MODEL
 from .schema import options_of, schema_at, unit_of
 
-# Errors with a remedy: to look for similar names in thousands of errors would take seconds.
+# Errors with a remedy: searching similar names for thousands of errors would take seconds.
 MOST_EXPLAINED = 200
 MOST_LINES = 6  # of a message: ten with the four lines that Snakemake adds
 SHORT = Repr()
 SHORT.maxstring = SHORT.maxother = 60
 format_value = SHORT.repr
+# A number that YAML 1.1 reads as text, such as 1e-4.
+NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
 
 
@@ -44,13 +47,6 @@ def format_key(path: Iterable[str | int]) -> str:
     return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in names).lstrip(".") or "config"
 
 
-def reads_as_number(value: Any) -> bool:
-    try:
-        return isinstance(value, str) and float(value) is not None
-    except ValueError:
-        return False
-
-
 def explain(error: dict) -> str:
     """One line for an error of pydantic."""
     # Without the names of forms ("(span)"), and without "[key]" behind a name of the user's choice.
@@ -73,7 +69,7 @@ def explain(error: dict) -> str:
         return f"{shown} {error['ctx']['error']}"
     if kind == "string_pattern_mismatch":
         return f"{shown} should be {schema['patternErrorMessage']}"
-    if kind in ("float_type", "int_type", "form") and reads_as_number(value):
+    if kind in ("float_type", "int_type", "form") and isinstance(value, str) and NUMBER.fullmatch(value):
         return f"{shown} is text to YAML; write it with a decimal point and a signed exponent (1.0e-4)"
     # "Input should be …", "List should have …"
     unit, fault = unit_of(schema), error["msg"].partition(" ")[2]

@@ -75,7 +75,7 @@ def misread(node: yaml.Node, path: tuple[str | int, ...] = (), above: tuple[yaml
 
 
 def scalar_fault(node: yaml.ScalarNode) -> str | None:
-    """That YAML cannot read a scalar, or reads it otherwise than a reader expects."""
+    """The fault of a scalar that YAML cannot read, or reads differently than expected; None if it has none."""
     if node.tag.endswith(":merge"):
         return None
     try:

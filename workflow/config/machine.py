@@ -30,7 +30,7 @@ STEPS = 4000  # the steps per excitation cycle are a multiple of this number, so
 
 
 def is_own_machine(paper: dict, config: dict) -> bool:
-    """Whether a whole config has a prefix and another conveyor than the paper."""
+    """Whether a complete config has a prefix and a conveyor other than the paper's."""
     return bool(config["prefix"]) and any(config["model"].get(name) != paper["model"].get(name) for name in MACHINE)
 
 
@@ -82,7 +82,7 @@ def scaled_step(paper: dict, own: dict) -> float:
 
 
 def drop_other_methods(config: dict, overlay: dict) -> None:
-    """Drop the tables of fixed-step methods that neither the overlay nor a figure of it names."""
+    """Drop the tables of fixed-step methods that neither the overlay nor its figures name."""
     figures = [config[section].get(name, {}) for section in FIGURES for name in overlay.get(section, ())]
     needed = {reference for figure in figures if "paper_only" in figure for reference in figure["tables"].values()}
     for section in METHOD_SECTIONS:
@@ -106,14 +106,15 @@ def drop_figures(config: dict, overlay: dict) -> None:
                 del config[section][name]
             for key in {"tables", "caption_tables"} & entry.keys():
                 entry[key] = {role: table for role, table in entry[key].items() if table in tables}
-            if "settings" in entry:
+            # A figure of the paper that the overlay names cannot be drawn without its marks.
+            if "settings" in entry and "paper_only" not in entry:
                 entry["settings"] = {key: value for key, value in entry["settings"].items() if key not in MARKS}
 
 
 def scale_config(paper: dict, overlay: dict) -> dict:
     """The paper's config scaled to the conveyor of an overlay, which is then merged over it.
 
-    ConfigError if there is no scale for amplitudes. The types of the overlay are right.
+    ConfigError if there is no scale for amplitudes. The overlay must have passed the type checks.
     """
     own = paper["model"] | {name: float(value) for name, value in overlay["model"].items() if name in MACHINE}
     if math.sin(own["angle"]) == 0.0:
@@ -134,13 +135,3 @@ def scale_config(paper: dict, overlay: dict) -> dict:
             del entry["acceleration"], entry["paper"]
     drop_figures(config, overlay)
     return config
-
-
-def refused_figures(paper: dict, config: dict) -> dict[str, str]:
-    """Figures of the paper's config that another config does not have, with the reasons."""
-    return {
-        name: entry["paper_only"]
-        for section in FIGURES
-        for name, entry in paper[section].items()
-        if "paper_only" in entry and name not in config[section]
-    }

@@ -31,6 +31,7 @@ from .types import (
     span,
     text,
     whole,
+    word,
 )
 
 # Types of several keys.
@@ -39,8 +40,8 @@ Height, HeightNumber = MODEL_TYPES["z0"], parameter("z0", "height above the mean
 Velocity = parameter("vz0")
 Duration = number("simulated time of a run", "s", gt=0, le=1e6)
 Durations = many(Duration, "durations")
-FixedStepMethod = Annotated[Literal[FIXED_STEP_METHODS], Field(description="method with a fixed step")]
-Method = Annotated[Literal["event", *FIXED_STEP_METHODS], Field(description="event, or a method with a fixed step")]
+FixedStepMethod = word("method with a fixed step", *FIXED_STEP_METHODS)
+Method = word("event, or a method with a fixed step", "event", *FIXED_STEP_METHODS)
 Tolerance = number("relative error per step of the method event", ge=1e-14, le=1e-2)
 Tolerances = many(Tolerance, "relative tolerances")
 Step = number("time step of the fixed-step methods", "s", ge=1e-12, le=1e-1)
@@ -57,10 +58,8 @@ Strobes = whole("stroboscopic samples, one per excitation cycle", 1, 10**9)
 BlockCycles = whole("cycles per block", 1, 10**9, "excitation cycles")
 Blocks = whole("number of blocks", 2, 10**6)
 Period = whole("longest period considered", 1, 64, "excitation cycles")
-Starts = whole("number of random initial conditions", 1, 10**6)
 Repeats = whole("repetitions", 1, 10**9)
 MaxEvaluations = whole("force evaluations after which a peer method is stopped", 1, 10**9)
-ProcessorTime = number("time after which a run is not repeated", "s of processor time", gt=0, le=3600)
 Seconds = number("measured time on one core", "s", gt=0, le=1e6)
 SecondsPair = interval(Seconds, "[time where the plate cannot throw parts, time where it can]", point=True)
 Megabytes = number("memory", "MB", gt=0, le=1e6)
@@ -68,8 +67,6 @@ Bits = whole("bits of the interval arithmetic", 53, 4096)
 Order = whole("order of the Taylor series", 4, 200)
 LastTerms = number("size of the last terms of the Taylor series, in g/ω² and g/ω", gt=0, le=1e-3)
 Resolution = number("width to which a bracket is halved", "m/s²", gt=0, le=1e4)
-Amplitudes = many(Acceleration, "amplitudes of the excitation")
-Heights = interval(HeightNumber, "interval of the random initial heights")
 
 
 class Solver(TypedDict):
@@ -115,19 +112,14 @@ class Followed(TypedDict):
 
 class Sweep(Followed):
     duration: NotRequired[Duration]
-    needs: NotRequired[
-        Annotated[
-            Literal["feeding", "vertical"],
-            Field(description="vertical leaves out the feeding velocity, which is faster"),
-        ]
-    ]
+    needs: NotRequired[word("vertical leaves out the feeding velocity, which is faster", "feeding", "vertical")]
 
 
 class Estimate(Followed):
     duration: NotRequired[Duration]
-    perturb: Annotated[Literal["psi0", "z0", "vz0"], Field(description="perturbed parameter")]
+    perturb: word("perturbed parameter", "psi0", "z0", "vz0")
     epsilon: Epsilon
-    output: Annotated[Literal["x", "vx", "z", "vz"], Field(description="compared state variable")]
+    output: word("compared state variable", "x", "vx", "z", "vz")
     last: number("share of the run that is averaged", "of the duration", gt=0, lt=1)
     samples: whole("samples in this share", 2, 10**8)
 
@@ -159,7 +151,7 @@ class Dimension(Followed):
     begin: number("time of the first sample", "s", ge=0, le=1e6)
     interval: Interval
     samples: Samples
-    estimator: Annotated[Literal["paper", "box", "correlation"], Field(description="estimator of the dimension")]
+    estimator: word("estimator of the dimension", "paper", "box", "correlation")
     octaves: NotRequired[whole("box sizes are 1/2 to 1/2^octaves of the extent", 3, 30)]
     theiler: NotRequired[Theiler]
     largest_error: NotRequired[number("estimates with a larger error are left out", gt=0, le=2)]
@@ -267,7 +259,7 @@ class Claim(TypedDict):
 
 
 CLAIMS = tuple(f"C{place:02d}" for place in range(1, 24))
-NameOfClaim = Annotated[Literal[CLAIMS], Field(description="claim of the paper")]
+NameOfClaim = word("claim of the paper", *CLAIMS)
 
 
 class Uncertainty(TypedDict):
@@ -317,7 +309,7 @@ class Precision(TypedDict):
     peers: mapping("peers by their treatment of impacts", {"sign": Peers, "events": Peers, "modes": Peers}, total=False)
     max_evaluations: MaxEvaluations
     repeats: Repeats
-    seconds: ProcessorTime
+    seconds: number("time after which a run is not repeated", "s of processor time", gt=0, le=3600)
 
 
 class PublishedScene(TypedDict):
@@ -391,8 +383,8 @@ class Perturbed(TypedDict):
 
     acceleration: Acceleration
     z0: Height
-    perturb: Annotated[Literal["psi0", "z0"], Field(description="perturbed parameter")]
-    output: Annotated[Literal["vx", "z"], Field(description="compared state variable")]
+    perturb: word("perturbed parameter", "psi0", "z0")
+    output: word("compared state variable", "vx", "z")
 
 
 class PaperExponent(TypedDict):
@@ -483,14 +475,11 @@ class MapCheck(TypedDict):
 
 
 class SettlingTimes(TypedDict):
-    acceleration: Amplitudes
-    starts: Starts
-    z0: Heights
+    acceleration: many(Acceleration, "amplitudes of the excitation")
+    starts: whole("number of random initial conditions", 1, 10**6)
+    z0: interval(HeightNumber, "interval of the random initial heights")
     cycles: Cycles
     seed: Seed
-
-
-Conveyors = whole("number of random conveyors", 1, 10**7)
 
 
 Factor = number("factor by which a parameter is increased and decreased", gt=1, le=1e3)
@@ -595,7 +584,7 @@ class Drive(TypedDict):
     recommended: whole("recommended settings", 1, 100)
 
 
-NumberOfClaim = Annotated[Literal[NUMBERS_OF_CLAIMS], Field(description="quantity of a claim, as CLAIM.QUANTITY")]
+NumberOfClaim = word("quantity of a claim, as CLAIM.QUANTITY", *NUMBERS_OF_CLAIMS)
 NumbersOfClaims = many(NumberOfClaim, "quantities of claims")
 
 
@@ -690,7 +679,7 @@ class Figure(TypedDict):
     title: Annotated[Line, Field(description="title")]
     section: Annotated[Line, Field(description="section of the paper")]
     paper_only: NotRequired[Annotated[Line, Field(description="why only the paper's conveyor has this figure")]]
-    needs: Annotated[Literal["feeding", "vertical", "nothing"], Field(description="motion that the figure needs")]
+    needs: word("motion that the figure needs", "feeding", "vertical", "nothing")
     tables: Annotated[dict[Name, Reference], Field(description="tables by the roles that the plot script knows")]
     settings: NotRequired[Annotated[FigureSettings, Field(description="numbers that the plot script draws")]]
     caption_tables: NotRequired[Annotated[dict[Name, Reference], Field(description="further tables of the caption")]]

@@ -9,7 +9,7 @@ from .model import MODEL
 
 
 class EditorSchema(GenerateJsonSchema):
-    """A schema without required keys, which overlays need not have, and without titles made from the names of keys."""
+    """A schema for overlays: no key is required, and keys have no titles made from their names."""
 
     def field_is_required(self, field, total):
         return False

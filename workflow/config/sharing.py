@@ -33,7 +33,7 @@ class Plan(NamedTuple):
         return self.shards * self.seconds / 3600.0
 
 
-def restless(entry: dict) -> float:
+def throwing_share(entry: dict) -> float:
     """The share of conveyors whose plate can throw a part that rests on it, where chaos is frequent."""
     lift = math.sin(max(values_of(entry, "angle")))
     normal = min(values_of(entry, "gravity")) * math.cos(max(map(abs, values_of(entry, "inclination"))))
@@ -70,7 +70,7 @@ def seconds_of(entry: dict, costs: dict, rows: int) -> float:
     else:
         frequencies = values_of(entry, "frequency")
         run = costs["cycle"] * entry["duration"] * sum(frequencies) / len(frequencies)
-    known, share = known_of(entry), restless(entry)
+    known, share = known_of(entry), throwing_share(entry)
     start, conveyor = (
         quiet + share * (thrown - quiet)
         for quiet, thrown in (costs["start"][known], costs["conveyor"].get(known, (0, 0)))

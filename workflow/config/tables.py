@@ -6,56 +6,53 @@ table expects the same settings, so a table that was made from other settings is
 
 import itertools
 import math
+from collections.abc import Collection
 from functools import partial
 from operator import itemgetter
 
 from scripts.identification.settings import IDENTIFICATION, identification_settings
 
-from .entries import ENTRIES, fill_defaults, resolve, roles_of_solution, tighter_reference, without_tangential
+from .entries import ENTRIES, TIGHTER, fill_defaults, resolve, without_tangential
 from .sharing import THREADS, plan, seconds_of
 
 
-def model_without_acceleration(config: dict) -> dict:
-    """The model for sections that state their amplitudes, so that the default amplitude does not rerun them."""
-    return {name: value for name, value in config["model"].items() if name != "acceleration"}
+def model_of(config: dict, section: str = "", *, normal: bool = False, without: Collection[str] = ()) -> dict:
+    """The model with the overrides of a section, for tables that state their amplitudes.
+
+    Parameters
+    ----------
+    normal : leave out what does not affect the motion normal to the track
+    without : further parameters that the table states itself
+    """
+    model = {name: value for name, value in config["model"].items() if name not in ("acceleration", *without)}
+    if section:
+        model |= config[section].get("model", {})
+    return without_tangential(model) if normal else model
 
 
-def with_model(config: dict, *sections: str, solver: tuple[str, ...] = ()) -> dict:
-    """Settings of the solver and sections of the config, of which later ones win, with the model."""
+def with_model(config: dict, *sections: str, solver: tuple[str, ...] = (), normal: bool = False) -> dict:
+    """Settings of the solver and of sections of the config, of which later ones win, with the first one's model."""
     settings = {key: config["solver"][key] for key in solver}
     for section in sections:
         settings |= config[section]
-    return {**settings, "model": {**model_without_acceleration(config), **settings.get("model", {})}}
+    return {**settings, "model": model_of(config, sections[0], normal=normal)}
 
 
-def with_normal_model(config: dict, *sections: str, solver: tuple[str, ...] = ()) -> dict:
-    """The same for tables that follow from the motion normal to the track alone."""
-    settings = with_model(config, *sections, solver=solver)
-    return settings | {"model": without_tangential(settings["model"])}
-
-
-def sensitivity_settings(config: dict) -> dict:
-    return {**config["sensitivity"], "model": with_model(config, "orbits")["model"]}
-
-
-def operating_settings(config: dict) -> dict:
-    """The operating section states the amplitudes and the box of initial conditions."""
-    initial = ("psi0", "z0", "vz0")
-    model = {name: value for name, value in model_without_acceleration(config).items() if name not in initial}
-    return {**config["operating"], "settling": config["solver"]["settling"], "model": model}
-
-
-def of_box(section: str, config: dict) -> dict:
-    """A section that follows the initial conditions of the operating section's box, at other conveyors."""
-    own = {key: value for key, value in operating_settings(config).items() if key not in ("acceleration", "resolution")}
-    own = own | config[section]
-    return {**own, "model": {name: value for name, value in own["model"].items() if name not in config[section]}}
+def box_settings(section: str, config: dict) -> dict:
+    """A section whose initial conditions are drawn from the box of the section `operating`."""
+    box = {key: value for key, value in config["operating"].items() if key not in ("acceleration", "resolution")}
+    own = {**box, **config[section], "settling": config["solver"]["settling"]}
+    stated = ("psi0", "z0", "vz0", *config[section], *own.get("bounds", ()))
+    return {**own, "model": model_of(config, without=stated)}
 
 
 def drive_settings(config: dict) -> dict:
-    """The drive's searched parameters come from the bounds, and the error of its amplitude from the advice."""
-    own = {**of_box("drive", config), "margin": config["advice"]["margin"]}
-    return {**own, "model": {name: value for name, value in own["model"].items() if name not in own["bounds"]}}
+    return {**box_settings("drive", config), "margin": config["advice"]["margin"]}
+
+
+def precision_estimates_settings(config: dict) -> dict:
+    """The section with the model, and the fit of Eq. 13 as in the paper (None if the config has no such entry)."""
+    return {**with_model(config, "precision_estimates"), "regression": config["regressions"].get("height")}
 
 
 def precision_settings(config: dict, scene: str) -> dict:
@@ -143,21 +140,21 @@ def scaling_cases(config: dict) -> list[dict]:
 
 
 def certificates_settings(config: dict) -> dict:
-    return {**config["certificates"], "model": with_normal_model(config, "orbits")["model"]}
+    return {**config["certificates"], "model": model_of(config, "orbits", normal=True)}
 
 
 def derivatives_settings(config: dict) -> dict:
-    return {key: value for key, value in sensitivity_settings(config).items() if key != "curves"}
+    own = {key: value for key, value in config["sensitivity"].items() if key != "curves"}
+    return {**own, "model": model_of(config, "orbits")}
 
 
 def curves_settings(config: dict) -> dict:
-    settings = sensitivity_settings(config) | {"model": with_normal_model(config, "orbits")["model"]}
-    return {key: settings[key] for key in ("longest_period", "curves", "model")}
+    own = {key: config["sensitivity"][key] for key in ("longest_period", "curves")}
+    return {**own, "model": model_of(config, "orbits", normal=True)}
 
 
-def of_identification(table: str, config: dict) -> dict:
-    model = model_without_acceleration(config)
-    return identification_settings(config, table, without_tangential(model) if table == "edges" else model)
+def identification_table_settings(table: str, config: dict) -> dict:
+    return identification_settings(config, table, model_of(config, normal=table == "edges"))
 
 
 FOLLOWED = ("tolerance", "settling")
@@ -165,32 +162,32 @@ FOLLOWED = ("tolerance", "settling")
 TABLES = {
     **dict.fromkeys(
         ("orbits/branches", "orbits/folds_and_doublings", "orbits/cascade"),
-        lambda config: with_normal_model(config, "orbits", solver=("tolerance",)),
+        lambda config: with_model(config, "orbits", solver=("tolerance",), normal=True),
     ),
     "orbits/certificates": certificates_settings,
     "orbits/certified_bifurcations": certificates_settings,
     "orbits/certified_chaos": certificates_settings,
     "orbits/certificate_times": certificates_settings,
-    "attractors/strobes": lambda config: with_normal_model(config, "attractors", solver=FOLLOWED),
-    "lyapunov/spectrum": lambda config: with_normal_model(config, "attractors", "lyapunov", solver=FOLLOWED),
-    "lyapunov/witnesses": lambda config: with_normal_model(config, "attractors", "witnesses", solver=FOLLOWED),
+    "attractors/strobes": lambda config: with_model(config, "attractors", solver=FOLLOWED, normal=True),
+    "lyapunov/spectrum": lambda config: with_model(config, "attractors", "lyapunov", solver=FOLLOWED, normal=True),
+    "lyapunov/witnesses": lambda config: with_model(config, "attractors", "witnesses", solver=FOLLOWED, normal=True),
     "sensitivity/derivatives": derivatives_settings,
     "sensitivity/groups": derivatives_settings,
     "sensitivity/continued": curves_settings,
     "sensitivity/meetings": curves_settings,
-    "operating/shares": operating_settings,
+    "operating/shares": partial(box_settings, "operating"),
     "operating/regimes": lambda config: None,  # made from other tables only
     "operating/advice": itemgetter("advice"),
     "operating/changes": itemgetter("advice"),
-    "operating/throws": partial(of_box, "throws"),
-    "operating/track": partial(of_box, "track"),
+    "operating/throws": partial(box_settings, "throws"),
+    "operating/track": partial(box_settings, "track"),
     "operating/drive_front": drive_settings,
     "operating/drive_generations": drive_settings,
-    **{f"identification/{name}": partial(of_identification, name) for name in IDENTIFICATION},
+    **{f"identification/{name}": partial(identification_table_settings, name) for name in IDENTIFICATION},
     "results/claims": lambda config: {"claims": config["claims"]},
     "results/benchmark": benchmark_settings,
     "results/reference_check": reference_settings,
-    "results/precision_estimates": itemgetter("precision_estimates"),
+    "results/precision_estimates": precision_estimates_settings,
     "results/stability": itemgetter("stability"),
     "results/stability_estimates": lambda config: with_model(config, "stability_estimates"),
     "results/scene_budget": itemgetter("scene_budget"),
@@ -198,7 +195,7 @@ TABLES = {
     "results/rigid_part": itemgetter("rigid_part"),
     "results/theory": lambda config: with_model(config, "theory"),
     "results/map_check": itemgetter("map_check"),
-    "results/settling_times": lambda config: with_normal_model(config, "settling_times", solver=FOLLOWED),
+    "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED, normal=True),
     "results/scaling": lambda config: {**config["scaling"], "sharing": config["sharing"]},
 }
 # Tables that only an explicit target makes.
@@ -261,10 +258,11 @@ def budgeted_entries(config: dict) -> dict[str, dict]:
 
 def tighter_claims(config: dict) -> dict[str, dict]:
     """The claims whose uncertainty is estimated, with tables of tighter tolerances for the converged solution."""
-
-    def tighten(claim: dict) -> dict:
-        tables = claim["tables"]
-        tighter = {role: tighter_reference(config, tables[role]) for role in roles_of_solution(tables)}
-        return claim | {"tables": tables | tighter}
-
-    return {name: tighten(config["claims"][name]) for name in config["uncertainty"]["claims"]}
+    known, found = set(references(config)), {}
+    for name in config["uncertainty"]["claims"]:
+        claim = config["claims"][name]
+        # A claim without a role of this name reads converged tables only.
+        roles = [role for role in claim["tables"] if role.startswith("converged")] or claim["tables"]
+        tighter = {role: claim["tables"][role] + TIGHTER for role in roles if claim["tables"][role] + TIGHTER in known}
+        found[name] = claim | {"tables": claim["tables"] | tighter}
+    return found

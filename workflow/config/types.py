@@ -37,6 +37,11 @@ def text(description: str, pattern: str, expected: str) -> Any:
     return Annotated[str, Field(description=description, pattern=f"^{pattern}$", json_schema_extra=extra)]
 
 
+def word(description: str, *words: str) -> Any:
+    """One of several words."""
+    return Annotated[Literal[words], Field(description=description)]
+
+
 def mapping(description: str, keys: dict[str, Any], total: bool = True) -> Any:
     """A small mapping without its own class; `total` says whether all of its keys are required."""
     return Annotated[TypedDict("_".join(keys), keys, total=total), Field(description=description)]
@@ -145,7 +150,7 @@ def keep_order(values: Any, validate) -> dict:
 
 
 MODEL_TYPES = {name: parameter(name) for name in RANGES} | {
-    "tension": Annotated[Literal[TENSION_MODES], Field(description=DESCRIPTIONS["tension"])],
+    "tension": word(DESCRIPTIONS["tension"], *TENSION_MODES),
     "z0": either(
         DESCRIPTIONS["z0"],
         "a number, or the word conveyor",

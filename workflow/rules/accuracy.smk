@@ -1,6 +1,6 @@
 # How accurate, fast and robust the solver is, compared with other methods. Jobs that measure wall times run alone: they take
 # all cores here, and a node of their own on a cluster.
-from workflow.config.tables import budgeted_entries, budgeted_tables, model_without_acceleration, scaling_cases
+from workflow.config.tables import budgeted_entries, budgeted_tables, scaling_cases
 
 
 rule benchmark:
@@ -21,28 +21,6 @@ rule benchmark:
         **stage("accuracy.benchmark", "results/benchmark"),
     message:
         "The solver compared with the paper's method"
-    script:
-        "../../scripts/make.py"
-
-
-# Tables that are made from the config alone.
-rule accuracy:
-    output:
-        table("results/{name}"),
-    log:
-        log_file("accuracy/{name}"),
-    benchmark:
-        benchmark_file("accuracy/{name}")
-    wildcard_constraints:
-        name="stability|stability_estimates|settling_times|reference_check",
-    resources:
-        cpus_per_task=JOB_THREADS,
-        mem_mb=2000,
-        runtime=60,
-    params:
-        **stage("accuracy.{name}", "results/{name}"),
-    message:
-        "Accuracy: {wildcards.name}"
     script:
         "../../scripts/make.py"
 
@@ -68,25 +46,37 @@ rule precision:
         "../../scripts/make.py"
 
 
-# The fit of Eq. 13 as in the paper; None for another machine whose config has no such entry.
+# The fit of Eq. 13 as in the paper; None for a conveyor whose config has no such entry.
 PAPER_FIT = config["regressions"].get("height")
+# The tables that each table of the rule `accuracy` is made from; most are made from the config alone.
+COMPARED_TABLES = {
+    **dict.fromkeys(("stability", "stability_estimates", "settling_times", "reference_check"), {}),
+    "map_check": {"maps": [table(f"sweeps/{name}") for name in config["map_check"]["maps"]]},
+    "precision_estimates": {"critical": table(f"critical/{PAPER_FIT['critical']}")} if PAPER_FIT else {},
+    "rigid_part": tables_of("orbits/folds_and_doublings", "orbits/cascade", "sweeps/amplitudes"),
+    "theory": tables_of("orbits/cascade"),
+}
 
 
-rule precision_estimates:
+rule accuracy:
     input:
-        **({"critical": table(f"critical/{PAPER_FIT['critical']}")} if PAPER_FIT else {}),
+        unpack(lambda wildcards: COMPARED_TABLES[wildcards.name]),
     output:
-        precision_estimates=table("results/precision_estimates"),
+        table("results/{name}"),
     log:
-        log_file("accuracy/precision_estimates"),
+        log_file("accuracy/{name}"),
     benchmark:
-        benchmark_file("accuracy/precision_estimates")
+        benchmark_file("accuracy/{name}")
+    wildcard_constraints:
+        name=one_of(COMPARED_TABLES),
+    resources:
+        cpus_per_task=JOB_THREADS,
+        mem_mb=2000,
+        runtime=60,
     params:
-        **stage("accuracy.precision_estimates", "results/precision_estimates"),
-        model=model_without_acceleration(config),
-        fit=PAPER_FIT,
+        **stage("accuracy.{name}", "results/{name}"),
     message:
-        "Error and work of the estimates"
+        "Accuracy: {wildcards.name}"
     script:
         "../../scripts/make.py"
 
@@ -109,61 +99,6 @@ rule scene_budget:
         drawn=budgeted_tables(config),
     message:
         "Accuracy that the data of each figure need"
-    script:
-        "../../scripts/make.py"
-
-
-rule rigid_part:
-    input:
-        **tables_of("orbits/folds_and_doublings", "orbits/cascade"),
-        sweeps=table("sweeps/amplitudes"),
-    output:
-        rigid_part=table("results/rigid_part"),
-    log:
-        log_file("accuracy/rigid_part"),
-    benchmark:
-        benchmark_file("accuracy/rigid_part")
-    params:
-        **stage("accuracy.rigid_part", "results/rigid_part"),
-        entry=settings_of(config, "sweeps/amplitudes"),
-    message:
-        "A rigid part instead of the compliant contact"
-    script:
-        "../../scripts/make.py"
-
-
-rule theory:
-    input:
-        **tables_of("orbits/cascade"),
-    output:
-        theory=table("results/theory"),
-    log:
-        log_file("accuracy/theory"),
-    benchmark:
-        benchmark_file("accuracy/theory")
-    params:
-        **stage("accuracy.theory", "results/theory"),
-    message:
-        "The solver compared with published theory"
-    script:
-        "../../scripts/make.py"
-
-
-rule map_check:
-    input:
-        maps=[table(f"sweeps/{name}") for name in config["map_check"]["maps"]],
-    output:
-        map_check=table("results/map_check"),
-    log:
-        log_file("accuracy/map_check"),
-    benchmark:
-        benchmark_file("accuracy/map_check")
-    resources:
-        cpus_per_task=JOB_THREADS,
-    params:
-        **stage("accuracy.map_check", "results/map_check"),
-    message:
-        "State maps by brute force"
     script:
         "../../scripts/make.py"
 

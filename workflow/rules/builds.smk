@@ -3,10 +3,17 @@ import hashlib
 import json
 
 # The tables that figures, captions and claims are made from, and tables that the same jobs make for pages only.
-READ = sorted({*references_of(config["figures"]), *references_of(config["claims"])})
-BESIDE = {"sensitivity/derivatives": "sensitivity/groups", "identification/profiles": "identification/implied"}
-BUILT_TABLES = sorted({"results/claims", *READ, *TESTED_TABLES, *(BESIDE[name] for name in READ if name in BESIDE)})
-BUILT = [
+QUOTED_TABLES = sorted({*references_of(config["figures"]), *references_of(config["claims"])})
+BYPRODUCTS = {"sensitivity/derivatives": "sensitivity/groups", "identification/profiles": "identification/implied"}
+BUILT_TABLES = sorted(
+    {
+        "results/claims",
+        *QUOTED_TABLES,
+        *TESTED_TABLES,
+        *(BYPRODUCTS[name] for name in QUOTED_TABLES if name in BYPRODUCTS),
+    }
+)
+BUILT_FILES = [
     *map(table, BUILT_TABLES),
     *([result("benchmark.md")] if "results/benchmark" in BUILT_TABLES else []),
     result("claims.md"),
@@ -27,7 +34,7 @@ ARCHIVED = [
 # The last job, which runs alone: it needs one core, but records how many there are.
 rule provenance:
     input:
-        BUILT,
+        BUILT_FILES,
         CHECKED,
     output:
         manifest=result("manifest.sha256"),
@@ -41,7 +48,7 @@ rule provenance:
         cpus_per_task=CORES,
     params:
         **stage("builds.provenance"),
-        files=sorted(BUILT),
+        files=sorted(BUILT_FILES),
         timed=[
             *(table(name) for name in BUILT_TABLES if kind_of(name) in TIMED),
             result("benchmark.md"),
@@ -57,7 +64,13 @@ rule provenance:
 
 rule archive:
     input:
-        results=[*figure_files(), *caption_files(), *map(table, READ), *rules.claims.output, *rules.provenance.output],
+        results=[
+            *figure_files(),
+            *caption_files(),
+            *map(table, QUOTED_TABLES),
+            *rules.claims.output,
+            *rules.provenance.output,
+        ],
         sources=[file for pattern in ARCHIVED for file in sources(pattern)],
         overlays=[file for file in OVERLAYS if not file.startswith("..")],
         readme=source("workflow/templates/ARCHIVE.md"),

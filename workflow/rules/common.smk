@@ -9,10 +9,11 @@ from workflow.config.files import DEFAULT_FILES, ROOT
 from workflow.config.sharing import THREADS, plan
 from workflow.config.tables import kind_of, settings_of
 
-# Without huge pages: clearing one takes 5 to 14 ms on a virtual machine, and joining shards takes 8 % more memory with them.
+# Keep pyarrow's allocator from huge pages: clearing one takes 5 to 14 ms on a virtual machine, and joining shards takes 8 % more
+# memory with them.
 os.environ.setdefault("MIMALLOC_ALLOW_THP", "0")
 
-# A closed terminal ends Snakemake as SIGTERM does, without a lock left behind. A job started with nohup goes on.
+# If the terminal is closed, Snakemake ends as after SIGTERM and removes its lock. Under nohup it goes on.
 if signal.getsignal(signal.SIGHUP) is signal.SIG_DFL:
     signal.signal(signal.SIGHUP, lambda number, frame: signal.raise_signal(signal.SIGTERM))
 
@@ -55,7 +56,7 @@ def table(reference):
 
 
 def reference_of(file):
-    """The table SECTION/NAME in a file."""
+    """The name SECTION/NAME of the table in a file."""
     name = file.rpartition(f"results/{PREFIX}")[2].removesuffix(".parquet")
     return name if os.path.dirname(name) else f"results/{name}"
 
@@ -85,24 +86,24 @@ def one_of(names):
 # -- params ------------------------------------------------------------------------------------------------------------
 
 
-def stage(module, made=None):
+def stage(module, reference=None):
     """Common params of jobs with the script make.py.
 
-    The module that the script calls, the hash of all code behind it, what each input table must be, and the settings of
-    the table SECTION/NAME that the job makes. Module and table may have wildcards.
+    They are the module that the script calls, the hash of all code behind it, what each input table must be, and the
+    settings of the table SECTION/NAME that the job makes (`reference`). Module and table may have wildcards.
     """
 
     def code(wildcards):
         return source_hash("make", module.format(**wildcards).replace(".", "/"))
 
     def settings(wildcards):
-        section, name = made.format(**wildcards).split("/")
+        section, name = reference.format(**wildcards).split("/")
         if section in ENTRIES and name not in config[section]:
             raise WorkflowError(f"the config has no entry {section}.{name}; add it, or name another entry")
         return settings_of(config, f"{section}/{name}")
 
     params = {"stage": module, "code": code, "expected": expected}
-    return params | {"settings": settings} if made else params
+    return params | {"settings": settings} if reference else params
 
 
 def expected(wildcards, input):
@@ -131,12 +132,18 @@ def rows_of_shard(wildcards):
 # -- figures and claims ------------------------------------------------------------------------------------------------
 
 FIGURES = config["figures"] | config["figures_on_request"]
+# Figures of the paper's conveyor only, with the reasons.
+PAPER_FIGURES = {
+    name: entry["paper_only"]
+    for name, entry in (PAPER["figures"] | PAPER["figures_on_request"]).items()
+    if "paper_only" in entry and name not in FIGURES
+}
 
 
 def tables_of_figure(wildcards):
-    """The tables that a figure draws, by their roles; an error for a figure that makes no sense for this machine."""
-    if reason := REFUSED.get(wildcards.figure):
-        raise WorkflowError(f"{figure_file(wildcards.figure)} cannot be made for this machine: {reason}")
+    """The tables that a figure draws, by their roles; an error for a figure that makes no sense for this conveyor."""
+    if reason := PAPER_FIGURES.get(wildcards.figure):
+        raise WorkflowError(f"{figure_file(wildcards.figure)} cannot be made for this conveyor: {reason}")
     return {role: table(reference) for role, reference in FIGURES[wildcards.figure]["tables"].items()}
 
 

@@ -6,6 +6,8 @@ from workflow.config.tables import TABLES, published_scenes
 
 # Pages made from the paper's config are part of the repository: in docs/, some of them in the project's folder.
 DOCS, PROJECT = (result("docs/"), result("docs/")) if PREFIX else ("docs/", "")
+# Begin of the names of pages about another conveyor, which the repository keeps as well.
+EXAMPLE = config["prefix"] and f"{config['prefix']}_"
 SCENES = published_scenes(config)
 SCENE_FILES = [f"{DOCS}benchmark/{scene}.json" for scene in SCENES]
 # Inputs that fill the template of each page.
@@ -288,18 +290,20 @@ rule costs:
         "../../scripts/make.py"
 
 
-# The pictures of the README.
+# The pictures of the README, and what the site shows of other conveyors:
+#   snakemake docs/bowl_operating.png --configfile config/examples/bowl.yaml
+#   snakemake docs/feeder_operating.png docs/feeder_chart.md --configfile workflow/templates/site/feeder.yaml
 rule picture:
     input:
         png=figure_file("{figure}", "png"),
     output:
-        f"{DOCS}{{figure}}.png",
+        f"docs/{EXAMPLE}{{figure}}.png",
     log:
         log_file("docs/{figure}"),
     benchmark:
         benchmark_file("docs/{figure}")
     wildcard_constraints:
-        figure="overview|speed_accuracy",
+        figure="operating|basin_stability|drive" if EXAMPLE else "overview|speed_accuracy",
     params:
         **stage("docs.pictures"),
     message:
@@ -308,32 +312,15 @@ rule picture:
         "../../scripts/make.py"
 
 
-# What the site shows of other machines:
-#   snakemake docs/bowl_operating.png --configfile config/examples/bowl.yaml
-#   snakemake docs/feeder_operating.png docs/feeder_chart.md --configfile workflow/templates/site/feeder.yaml
-if config["prefix"]:
-
-    use rule picture as example_picture with:
-        output:
-            f"docs/{config['prefix']}_{{figure}}.png",
-        log:
-            log_file("docs/example_{figure}"),
-        benchmark:
-            benchmark_file("docs/example_{figure}")
-        wildcard_constraints:
-            figure="operating|basin_stability|drive",
-        message:
-            "The picture {wildcards.figure} of an example"
-
-    use rule claims_page as example_chart with:
-        input:
-            result("operating/chart.md"),
-        output:
-            f"docs/{config['prefix']}_chart.md",
-        log:
-            log_file("docs/example_chart"),
-        message:
-            "The operating chart of an example"
+use rule claims_page as chart_page with:
+    input:
+        result("operating/chart.md"),
+    output:
+        f"docs/{EXAMPLE}chart.md",
+    log:
+        log_file("docs/chart"),
+    message:
+        "The operating chart of an example"
 
 
 # The JSON Schema of the config, which the repository keeps for editors: snakemake --force config/schema.json

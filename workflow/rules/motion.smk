@@ -9,32 +9,13 @@ rule motion:
     benchmark:
         benchmark_file("{section}/{name}")
     wildcard_constraints:
-        section="signals|spectra|impacts",
-        name=one_of({*config["signals"], *config["spectra"], *config["impacts"]}),
+        section="signals|spectra|impacts|critical",
+        name=one_of({name for section in ("signals", "spectra", "impacts", "critical") for name in config[section]}),
     resources:
         cpus_per_task=JOB_THREADS,
     params:
         **stage("motion.{section}", "{section}/{name}"),
     message:
         "Motion of single parts: {wildcards.section}, {wildcards.name}"
-    script:
-        "../../scripts/make.py"
-
-
-rule critical:
-    output:
-        critical=table("critical/{name}"),
-    log:
-        log_file("critical/{name}"),
-    benchmark:
-        benchmark_file("critical/{name}")
-    wildcard_constraints:
-        name=one_of(config["critical"]),
-    resources:
-        cpus_per_task=JOB_THREADS,
-    params:
-        **stage("motion.critical_heights", "critical/{name}"),
-    message:
-        "Critical initial heights, {wildcards.name}"
     script:
         "../../scripts/make.py"

@@ -104,7 +104,7 @@ rule operating_chart:
         "../../scripts/make.py"
 
 
-use rule operating as front with:
+use rule operating as drive with:
     output:
         **tables_of("operating/drive_front", "operating/drive_generations"),
     log:

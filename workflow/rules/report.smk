@@ -1,5 +1,6 @@
 # Pages of `snakemake --report`: a start page, the figures of each section beside their captions, the claims, the provenance.
 from scripts.report.pages import escape_label, figure_pages, notice
+from workflow.config.entries import TIGHTER
 
 REPORT = result("report")
 REPORT_PAGES = figure_pages(
@@ -15,7 +16,8 @@ REPORT_PAGES = figure_pages(
     },
     folder=REPORT,
 )
-REPORT_NOTICE = notice(OVERLAYS, config["sweeps"], PAPER["sweeps"])
+OWN_SWEEPS = {name: entry for name, entry in config["sweeps"].items() if not name.endswith(TIGHTER)}
+REPORT_NOTICE = notice(OVERLAYS, OWN_SWEEPS, PAPER["sweeps"])
 REPORT_SOURCES = [*sources("scripts/report/*.html"), source("scripts/report/page.css")]
 # The findings quote the claims of the paper.
 HAS_FINDINGS = config["claims"] and config["claims"].keys() >= PAPER["claims"].keys()

@@ -2,8 +2,8 @@
 # shards, so that a cluster can share it; the joined table does not depend on the number of shards.
 import math
 
-MARGIN = 3  # a job may take so many times its estimated time
-JOINED_ROWS = 20_000_000  # a minute
+MARGIN = 3  # runtime limit of a job, in units of its estimated time
+JOINED_ROWS = 20_000_000  # rows joined per minute
 
 
 rule shards:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from conveyor.solver.model import ACCELERATION, Z0
-from motion import critical_heights
+from motion import critical
 
 
 def test_changes_are_numbered_from_below_at_each_conveyor(monkeypatch):
@@ -14,9 +14,9 @@ def test_changes_are_numbered_from_below_at_each_conveyor(monkeypatch):
         first = (height < 1.5e-4) | (stripe & (height > 2.5e-4) & (height < 3.5e-4))
         return np.where(first, "first", "second")
 
-    monkeypatch.setattr(critical_heights, "find_states", decide)
-    monkeypatch.setattr(critical_heights, "shared_attractors", lambda *_, **__: None)
-    found = critical_heights.make(
+    monkeypatch.setattr(critical, "find_states", decide)
+    monkeypatch.setattr(critical, "shared_attractors", lambda *_, **__: None)
+    found = critical.make(
         {
             "axes": {"acceleration": [30.0, 40.0]},
             "model": {"vz0": 0.0},
