@@ -487,8 +487,7 @@ def test_the_page_explains_verdicts_and_has_dashes_for_missing_numbers():
     page = verdicts.report(template, table)
     assert "| – | 9 | [1, 2] (why) | **not reproduced** |" in page
     assert (
-        "## Why statements are not reproduced\n\n- **C1** onset: 9 by the converged solution; accepted: [1, 2]. A note.\n"
-        in page
+        "## Why statements are not reproduced\n\n- **C1** onset: 9 by the converged solution; accepted: [1, 2]." in page
     )
     assert page.endswith("## Notes\n\n")
     assert "an overlay without a prefix" in verdicts.report(template, table.iloc[:0])
