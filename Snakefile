@@ -10,7 +10,7 @@ try:
     loaded, OVERLAYS = replace_config(workflow, config)
 except ConfigError as error:
     raise WorkflowError(str(error))
-PAPER, OWN_MACHINE = loaded.paper, loaded.own_machine
+PAPER, OWN_CONVEYOR = loaded.paper, loaded.own_conveyor
 
 
 report: "workflow/report/workflow.rst"

@@ -13,7 +13,7 @@ from figures import captions, style
 
 CONFIG = read_config()
 FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]
-# Settings that mark a number of the paper; other machines do not have them.
+# Settings that mark a number of the paper; other conveyors do not have them.
 PAPER_MARKS = {"critical_acceleration", "critical_height", "first_positive", "two_states"}
 
 

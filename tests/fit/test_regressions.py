@@ -47,7 +47,7 @@ def test_the_valley_has_its_bottom_at_the_true_parameter():
 
 
 def test_without_an_interval_all_amplitudes_are_fitted():
-    """As for your own machine: the lowest amplitude bounds B, and the paper's A, B and C are not used."""
+    """As for your own conveyor: the lowest amplitude bounds B, and the paper's A, B and C are not used."""
     own = {name: value for name, value in SETTINGS.items() if name not in ("acceleration", "paper")}
     data = heights()
     data = data[data.is_critical & (data.z0 < 1.0)]

@@ -106,7 +106,7 @@ def test_a_config_is_loaded_from_any_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     loaded = load_config(DEFAULT_FILES, [], {})
     assert loaded.paper == read_config()
-    assert not loaded.own_machine
+    assert not loaded.own_conveyor
     assert "amplitudes_euler" in loaded.config["sweeps"]
 
 
@@ -117,7 +117,7 @@ def test_a_config_without_files_is_the_overlay_of_a_module(tmp_path):
     file.write_text(yaml.safe_dump(overlay))
     loaded = load_config(DEFAULT_FILES, [], overlay)
     assert repr(loaded) == repr(load_config(DEFAULT_FILES, [file], overlay))
-    assert loaded.own_machine
+    assert loaded.own_conveyor
     assert "fig04" not in loaded.config["figures"]
     assert loaded.config["sweeps"]["one"] == {"axes": {"z0": [0.0]}}
 

@@ -9,8 +9,8 @@ from .checks import problems
 from .entries import by_methods, with_tighter
 from .errors import ConfigError, type_problems
 from .files import DEFAULT_FILES, ROOT, merge, read_all
-from .machine import is_own_machine, scale_config
 from .model import MODEL
+from .own_conveyor import is_own_conveyor, scale_config
 
 __all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems", "replace_config"]
 
@@ -20,7 +20,7 @@ class Loaded(NamedTuple):
 
     config: dict  # canonical, with the tables of all methods and of tighter tolerances
     paper: dict  # the default config
-    own_machine: bool
+    own_conveyor: bool
 
 
 def canonical(config: dict) -> dict:
@@ -46,14 +46,14 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
     # Not whether values fit together: an overlay may give one end of a range whose other end is scaled below.
     if errors := type_problems(whole, ignored="value_error"):
         raise ConfigError(errors)
-    if own_machine := is_own_machine(paper, whole):
+    if own_conveyor := is_own_conveyor(paper, whole):
         whole = merge(scale_config(paper, overlay), overlay)
         # The claims are the paper's. An overlay for any conveyor, such as config/reduced.yaml, may name them.
         checked = whole["uncertainty"]["claims"]
         whole["uncertainty"] |= {"claims": [name for name in checked if name in whole["claims"]]}
     if errors := problems(whole, paper):
         raise ConfigError(errors)
-    return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_machine)
+    return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_conveyor)
 
 
 def replace_config(workflow: Any, config: dict) -> tuple[Loaded, list[str]]:

@@ -23,8 +23,8 @@ from .entries import (
 )
 from .errors import suggest_name, type_problems
 from .files import DEFAULT_FILES, ROOT, merge, read_all
-from .machine import is_own_machine
 from .model import MODEL
+from .own_conveyor import is_own_conveyor
 from .sharing import plan
 from .tables import TABLES, entry_of, references
 
@@ -285,7 +285,7 @@ def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
         else:
             remedy = suggest_name(claim["finding"], [one["finding"] for one in defaults["claims"].values()])
             yield f"claims.{name}.finding = {claim['finding']!r} is not a finding of the default config; {remedy}"
-    may_lack = is_own_machine(defaults, config)
+    may_lack = is_own_conveyor(defaults, config)
     for place, entry, default, keys in parts:
         for key in keys:
             given, known = entry.get(key, {}), default.get(key, {})

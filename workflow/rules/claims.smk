@@ -5,7 +5,7 @@ from workflow.config.tables import ON_REQUEST, references, tighter_claims
 CLAIM = {name: {name: claim} for name, claim in config["claims"].items()}
 TIGHTER_CLAIMS = tighter_claims(config)
 # Tests of the results, which apply to the paper's conveyor only, and the tables that they read.
-RESULT_TESTS = [] if OWN_MACHINE else sources("tests/results/*.py")
+RESULT_TESTS = [] if OWN_CONVEYOR else sources("tests/results/*.py")
 CHECKED = [result("checked.txt")] if RESULT_TESTS else []
 TESTED_TABLES = [
     reference

@@ -39,7 +39,7 @@ rule captions:
         **stage("figures.captions"),
         figures=config["figures"],
         references=references_of(config["figures"]),
-        paper=not OWN_MACHINE,
+        paper=not OWN_CONVEYOR,
     message:
         "Captions of all figures"
     script:

@@ -1,4 +1,4 @@
-"""Another machine: the paper's config in the scales of the machine, without the parts that belong to the paper."""
+"""Another conveyor: the paper's config in the scales of the conveyor, without the parts that belong to the paper."""
 
 import math
 import re
@@ -11,17 +11,17 @@ from conveyor.solver.model import Conveyor
 from workflow.config import ConfigError, canonical, load_config, problems
 from workflow.config.entries import NORMAL, by_methods
 from workflow.config.files import DEFAULT_FILES
-from workflow.config.machine import (
+from workflow.config.own_conveyor import (
     MARKS,
     contact_time,
-    is_own_machine,
+    is_own_conveyor,
     scale_config,
 )
 from workflow.config.tables import TABLES, references, settings_of
 
 CONFIG = canonical(read_config())
 EXAMPLES = {path.stem: path for path in sorted((ROOT / "config/examples").glob("*.yaml"))}
-# Figures for any machine.
+# Figures for any conveyor.
 ANY = {f"fig{number:02d}" for number in (3, 8, 9, 10, 12, 13, 14, 17, 18, 19, 20, 22, 23, 24)}
 ANY |= {"bifurcation", "operating", "basin_stability"}
 
@@ -48,16 +48,16 @@ def config_of(overlay: dict) -> dict:
         ({"prefix": "mine", "model": {"friction": 0.2}}, True),
     ],
 )
-def test_a_prefix_and_another_model_make_another_machine(overlay, own):
-    assert is_own_machine(CONFIG, merged(CONFIG, overlay)) == own
+def test_a_prefix_and_another_model_make_another_conveyor(overlay, own):
+    assert is_own_conveyor(CONFIG, merged(CONFIG, overlay)) == own
 
 
 def test_overlays_of_the_paper_change_only_the_keys_that_they_name():
-    """The reduced config has a prefix, but the paper's machine: its axes begin and end where the paper's do."""
-    assert not is_own_machine(CONFIG, merged(CONFIG, read_config("reduced")))
+    """The reduced config has a prefix, but the paper's conveyor: its axes begin and end where the paper's do."""
+    assert not is_own_conveyor(CONFIG, merged(CONFIG, read_config("reduced")))
 
 
-def test_numbers_keep_their_values_in_the_scales_of_the_machine():
+def test_numbers_keep_their_values_in_the_scales_of_the_conveyor():
     """Twice the frequency under four times the gravity: heights g/ω² stay, velocities double, times halve."""
     found = config_of({"prefix": "mine", "model": {"frequency": 100.0, "gravity": 39.24}})
     assert found["model"]["acceleration"] == 160.0
@@ -84,7 +84,7 @@ def test_amplitudes_scale_with_the_vertical_motion():
     assert found["critical"]["edge"]["scan"] == CONFIG["critical"]["edge"]["scan"]
 
 
-def test_a_machine_of_the_same_scales_has_the_same_axes():
+def test_a_conveyor_of_the_same_scales_has_the_same_axes():
     found = scale_config(CONFIG, {"prefix": "mine", "model": {"damping": 0.4, "friction": 0.3}})
     assert found["operating"] == CONFIG["operating"]
     assert found["attractors"] == CONFIG["attractors"]
@@ -165,7 +165,7 @@ def test_keys_of_an_overlay_keep_their_values():
         (3, "model = 3 should be a valid mapping"),
     ],
 )
-def test_an_impossible_machine_is_reported(model, told):
+def test_an_impossible_conveyor_is_reported(model, told):
     with pytest.raises(ConfigError, match=re.escape(told)):
         load_config(DEFAULT_FILES, [], {"prefix": "mine", "model": model})
 
@@ -200,7 +200,7 @@ def test_a_figure_of_the_paper_that_the_overlay_names_keeps_its_marks():
     assert not set(found["figures"]["fig10"].get("settings", {})) & set(MARKS)
 
 
-def test_figures_and_captions_of_another_machine_are_made(built):
+def test_figures_and_captions_of_another_conveyor_are_made(built):
     """On the small config: only the converged solution, and captions without the paper."""
     project = built.under({"prefix": "mine", "model": {"frequency": 100.0, "friction": 0.3}})
     figures = ("fig03", "fig08", "fig22")
@@ -229,7 +229,7 @@ def test_tables_of_the_normal_motion_stay_when_only_the_motion_along_the_track_c
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
-def test_the_reduced_config_serves_other_machines_too(name):
+def test_the_reduced_config_serves_other_conveyors_too(name):
     found = load_config(DEFAULT_FILES, [], merged(read_config("reduced"), example(name)))
     assert found.config["uncertainty"]["claims"] == []
     assert found.config["operating"]["starts"] == read_config("reduced")["operating"]["starts"]

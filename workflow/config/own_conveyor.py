@@ -18,7 +18,7 @@ from .schema import child, full_schema, schema_at, unit_of
 from .tables import references
 
 # Parameters of the conveyor and the part; the other parameters of the model are settings of a run.
-MACHINE = (
+CONVEYOR = (
     *("angle", "frequency", "stiffness", "damping", "friction", "mass", "exponent", "gravity"),
     *("inclination", "phase_shift", "static_friction"),
 )
@@ -29,9 +29,9 @@ ROUNDED = ("m/s²", "m", "m/s", "m²/s²")
 STEPS = 4000  # the steps per excitation cycle are a multiple of this number, so that samples lie on steps
 
 
-def is_own_machine(paper: dict, config: dict) -> bool:
+def is_own_conveyor(paper: dict, config: dict) -> bool:
     """Whether a complete config has a prefix and a conveyor other than the paper's."""
-    return bool(config["prefix"]) and any(config["model"].get(name) != paper["model"].get(name) for name in MACHINE)
+    return bool(config["prefix"]) and any(config["model"].get(name) != paper["model"].get(name) for name in CONVEYOR)
 
 
 def scale_ratios(paper: dict, own: dict) -> dict[str, float]:
@@ -116,12 +116,12 @@ def scale_config(paper: dict, overlay: dict) -> dict:
 
     ConfigError if there is no scale for amplitudes. The overlay must have passed the type checks.
     """
-    own = paper["model"] | {name: float(value) for name, value in overlay["model"].items() if name in MACHINE}
+    own = paper["model"] | {name: float(value) for name, value in overlay["model"].items() if name in CONVEYOR}
     if math.sin(own["angle"]) == 0.0:
         raise ConfigError(["model.angle = 0.0 means that no amplitude can lift a part; give a larger angle"])
     ratios = scale_ratios(paper["model"], own)
     config = scale(MODEL.validate_python(paper), full_schema(), ratios)
-    config["model"] |= {name: own[name] for name in MACHINE if name in own}
+    config["model"] |= {name: own[name] for name in CONVEYOR if name in own}
     if own != paper["model"]:
         config["solver"]["step"] = scaled_step(paper, own)
     for entry in config["estimates"].values():
