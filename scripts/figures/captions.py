@@ -296,17 +296,13 @@ def track(*, track: pd.DataFrame) -> dict[str, Any]:
 
 def identification(
     *, front: pd.DataFrame, profiles: pd.DataFrame, frictions: pd.DataFrame, generations: pd.DataFrame
-) -> dict[str, str]:
+) -> dict[str, Any]:
     settings = profiles.attrs
     return {
-        "friction_alone": findings.describe_frictions(frictions, settings["numbers"]),
-        "search": findings.describe_search(front, generations),
-        "confidence": f"{100.0 * settings['profiles']['confidence']:g}",
-        "population": str(settings["search"]["population"]),
-        "generations": str(settings["search"]["generations"]),
-        "contacts": str(settings["contacts"]["loss"] * settings["contacts"]["stiffness"]),
-        "points": str(settings["profiles"]["points"]),
-        "coarse": "Coarse: " if findings.is_coarse(settings) else "",
+        "settings": settings,
+        "coarse": findings.is_coarse(settings),
+        "accepted": findings.accepted_frictions(frictions, settings["numbers"]),
+        "search": findings.summarize_search(front, generations),
     }
 
 
