@@ -132,10 +132,7 @@ def velocities(
     Each trajectory is followed until it has settled, and then twice as long, until both mean velocities agree. They
     never agree in chaos, where the mean is taken over the longer run.
 
-    Parameters
-    ----------
-    parameters : float64, shape (n, 16)
-    found : labels of these trajectories
+    parameters, found : packed, shape (n, 16), and the labels of the trajectories
     """
     n, period = len(parameters), found.period
     # A motion without a period is not more settled in later cycles.
