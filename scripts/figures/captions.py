@@ -16,7 +16,7 @@ from claims.finding import lowest
 from figures.plots.throw import proved_fold
 from identification import findings
 from operating import drive_page
-from operating.chart import search_numbers
+from operating.chart import summarize_shares
 from pipeline.templates import render
 
 MM = 1e3
@@ -266,8 +266,8 @@ def sensitivity(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings:
     }
 
 
-def box_numbers(*, shares: pd.DataFrame) -> dict[str, str]:
-    return search_numbers(shares) | {"largest_error": f"{100.0 * shares.stderr.max():.1f}"}
+def box_numbers(*, shares: pd.DataFrame) -> dict[str, Any]:
+    return summarize_shares(shares) | {"largest_error": shares.stderr.max()}
 
 
 def throw(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> dict[str, str]:
@@ -296,17 +296,13 @@ def track(*, track: pd.DataFrame) -> dict[str, Any]:
 
 def identification(
     *, front: pd.DataFrame, profiles: pd.DataFrame, frictions: pd.DataFrame, generations: pd.DataFrame
-) -> dict[str, str]:
+) -> dict[str, Any]:
     settings = profiles.attrs
     return {
-        "friction_alone": findings.describe_frictions(frictions, settings["numbers"]),
-        "search": findings.describe_search(front, generations),
-        "confidence": f"{100.0 * settings['profiles']['confidence']:g}",
-        "population": str(settings["search"]["population"]),
-        "generations": str(settings["search"]["generations"]),
-        "contacts": str(settings["contacts"]["loss"] * settings["contacts"]["stiffness"]),
-        "points": str(settings["profiles"]["points"]),
-        "coarse": "Coarse: " if findings.is_coarse(settings) else "",
+        "settings": settings,
+        "coarse": findings.is_coarse(settings),
+        "accepted": findings.accepted_frictions(frictions, settings["numbers"]),
+        "search": findings.summarize_search(front, generations),
     }
 
 
@@ -331,7 +327,7 @@ NUMBERS: dict[str, Callable[..., dict[str, Any]]] = {
     "scaling": scaling,
     "settling": settling,
     "throw": throw,
-    "drive": drive_page.search_numbers,
+    "drive": drive_page.summarize_search,
     "track": track,
     "speed_accuracy": speed_accuracy,
     "stability": stability_limits,

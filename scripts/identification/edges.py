@@ -21,11 +21,7 @@ TABLES = {
         fields.text("tension", "mode of a tensile contact force: allow (also for frictionless) or clip"),
         fields.number("z0", "m", "initial height"),
         fields.number("damping", "N s/m", "contact damping, from loss and stiffness"),
-        fields.number(
-            "vertical_acceleration",
-            "m/s²",
-            "vertical amplitude above which the initial height no longer leads to the first state",
-        ),
+        fields.number("vertical_acceleration", "m/s²", "vertical amplitude up to which z0 leads to the first state"),
     ),
 }
 # Tension modes with different vertical motions, and the vertical motion of each mode.

@@ -81,18 +81,18 @@ def intervals(profiles: pd.DataFrame, optima: pd.DataFrame, evidence: str) -> di
     return found
 
 
-def accepted_frictions(frictions: pd.DataFrame, numbers: dict[str, dict]) -> dict[str, tuple[float, float]]:
-    """The range of friction in which each velocity lies in its accepted interval, with the other printed parameters.
+def accepted_frictions(frictions: pd.DataFrame, numbers: dict[str, dict]) -> dict[str, tuple[float, float] | None]:
+    """The range of friction in which each velocity, and `all` of them, lie in their accepted intervals.
 
-    All three velocities rise with friction. If one does not reach its interval, both ends are the same end of the
-    frictions.
+    The other parameters are as printed. All three velocities rise with friction. If one does not reach its interval,
+    both ends are the same end of the frictions. `all` is None if no friction gives all three.
     """
-    return {
-        name: tuple(
-            float(np.interp(numbers[name][end], frictions[column], frictions.friction)) for end in ("low", "high")
-        )
+    ranges = {
+        column: tuple(np.interp([numbers[name]["low"], numbers[name]["high"]], frictions[column], frictions.friction))
         for column, name in VELOCITIES.items()
     }
+    low, high = max(low for low, _ in ranges.values()), min(high for _, high in ranges.values())
+    return ranges | {"all": (low, high) if low <= high else None}
 
 
 def contradiction(numbers: dict[str, dict]) -> float:
@@ -103,30 +103,8 @@ def contradiction(numbers: dict[str, dict]) -> float:
     return smallest_widening(number(numbers[UP_ALONE]), number(numbers[DOWN_ALONE]))
 
 
-def describe_frictions(frictions: pd.DataFrame, numbers: dict[str, dict]) -> str:
-    """The ranges of friction in which the velocities are accepted, with the other printed parameters, in words."""
-    each = accepted_frictions(frictions, numbers)
-    low, high = max(low for low, _ in each.values()), min(high for _, high in each.values())
-    parts = [
-        f"{words} from {each[VELOCITIES[column]][0]:.3f} to {each[VELOCITIES[column]][1]:.3f}"
-        for column, words in (
-            ("first_low", "the lower end is accepted"),
-            ("first_high", "the upper end"),
-            ("fall", "the fall"),
-        )
-    ]
-    together = f"all three from {low:.3f} to {high:.3f}" if low <= high else "but no single friction gives all three"
-    return f"{', '.join(parts)}, {together}"
-
-
-def describe_search(front: pd.DataFrame, generations: pd.DataFrame) -> str:
-    """Whether the searches have converged, in words."""
+def summarize_search(front: pd.DataFrame, generations: pd.DataFrame) -> list[dict]:
+    """For each tension mode: whether its searches have converged, and the range of their final hypervolumes."""
     last = generations[generations.generation == generations.generation.max()]
-    parts = []
-    for tension, rows in last.groupby("tension", sort=False):
-        share = rows.hypervolume
-        status = front[front.tension == tension].status.iloc[0]
-        parts.append(
-            f"{tension}: {status}, hypervolume {share.min():.3f} to {share.max():.3f} of the cube, over all seeds"
-        )
-    return "; ".join(parts)
+    ends = last.groupby("tension", sort=False).hypervolume.agg(["min", "max"])
+    return ends.assign(status=front.groupby("tension").status.first()).reset_index().to_dict("records")

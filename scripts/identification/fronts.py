@@ -27,9 +27,7 @@ TABLES = {
     "front": (
         *SEARCH,
         *(fields.number(name, unit, "parameter") for name, unit in PARAMETERS.items()),
-        fields.number(
-            "places", "1", "root mean square misfit of amplitudes and heights of changes of state, in half intervals"
-        ),
+        fields.number("places", "1", "root mean square misfit of the amplitudes and heights of changes of state"),
         fields.number("first_velocity", "1", "root mean square misfit of the first state's velocity"),
         fields.number("second_velocity", "1", "misfit of the decrease of the second state's velocity"),
         fields.flag("on_front", "whether no member of any tension mode and seed is better in all three"),
@@ -162,10 +160,8 @@ def make(edges: pd.DataFrame, settings: dict) -> dict[str, dict]:
     interpolated = measures.interpolate_edges(edges, model)
     bounds = bounds_of(settings)
     groups = [settings["objectives"][name] for name in OBJECTIVES]
-    numbers, sizes = (
-        numbers_of(settings, [name for group in groups for name in group]),
-        [len(group) for group in groups],
-    )
+    numbers = numbers_of(settings, [name for group in groups for name in group])
+    sizes = [len(group) for group in groups]
     drawn = np.random.default_rng(options["seeds"][0]).uniform(*bounds, (options["drawn"], len(SEARCHED)))
     members, history = [], []
     for tension in settings["readings"]:

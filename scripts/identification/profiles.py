@@ -207,9 +207,7 @@ def make(
     shifts = shifts_of(printed)
     sets = {
         evidence: numbers_of(
-            settings,
-            [name for name in names if name not in one["without"]],
-            shifts if one["shifted"] else None,
+            settings, [name for name in names if name not in one["without"]], shifts if one["shifted"] else None
         )
         for evidence, one in settings["evidence"].items()
     }

@@ -29,9 +29,7 @@ TABLES = {
         fields.number("mean_velocity", "m/s", "mean feeding velocity of the fastest motion"),
         fields.number("share", "1", "share of the initial conditions that reach this velocity"),
         fields.number("stderr", "1", "standard error of the share"),
-        fields.number(
-            "knock", "m/s", "smallest sudden change of ż that ends the motion; null if no change that was tried does"
-        ),
+        fields.number("knock", "m/s", "smallest sudden change of ż that ends the motion; null if no tested one does"),
         fields.number("largest_kick", "m/s", "largest change of ż that was tried"),
         fields.number("impact_speed", "m/s", "largest speed of approach across the track in a period"),
         fields.number("peak_force", "N", "largest contact force in a period"),

@@ -33,9 +33,7 @@ TABLES = {
     "drive_front": (
         *(fields.number(name, AXES[name].metadata[b"unit"].decode(), "parameter of the design") for name in SEARCHED),
         fields.number("displacement", "m", "amplitude of the drive's displacement"),
-        fields.number(
-            "velocity", "m/s", "smallest velocity, within the margin, that most initial conditions of the search reach"
-        ),
+        fields.number("velocity", "m/s", "smallest velocity, within the margin, that most initial conditions reach"),
         fields.number("impact_speed", "m/s", "largest speed of approach normal to the track within the margin"),
         fields.flag("checked", "whether full operating runs were made; the next columns are null without them"),
         fields.number("checked_velocity", "m/s", "mean over all initial conditions and errors of the amplitude"),

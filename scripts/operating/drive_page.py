@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from operating.chart import RULE_OF_THREE, numbers, rounded
+from operating.chart import RULE_OF_THREE
 from pipeline.templates import render
 
 
@@ -17,43 +17,22 @@ def last_growth(generations: pd.DataFrame) -> float:
     return max(growth)
 
 
-def search_numbers(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict[str, str | bool]:
-    """How the front was searched and checked, and whether the search has settled."""
-    search, growth = front.attrs, last_growth(generations)
+def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
+    """The settings of the search, the sizes of its front, and how much the hypervolume grew at the end."""
     last = generations[generations.generation == generations.generation.max()]
     return {
-        **{name: str(search[name]) for name in ("starts", "drawn", "population", "generations")},
-        "displacement": rounded(1e3 * search["displacement"]),
-        "velocity": rounded(search["velocity"]),
-        "impact_speed": rounded(search["impact_speed"]),
-        "share": rounded(100.0 * search["share"]),
-        "margin": rounded(100.0 * search["margin"]),
-        "others": f"{100.0 * RULE_OF_THREE / search['starts']:.2g}",
-        "seeds": str(len(search["seeds"])),
-        "found": str(len(front)),
-        "checked": str(int(front.checked.sum())),
-        "confirmed": str(int(front.confirmed.sum())),
-        "growth": f"{100.0 * growth:.2g}",
-        "limit": rounded(100.0 * search["settled"]),
-        "settled": growth <= search["settled"],
-        "worst_seed": f"{100.0 * last.hypervolume.min():.3g}",
+        "search": front.attrs,
+        "unseen_share": RULE_OF_THREE / front.attrs["starts"],
+        "found": len(front),
+        "checked": front.checked.sum(),
+        "confirmed": front.confirmed.sum(),
+        "growth": last_growth(generations),
+        "worst_seed": last.hypervolume.min(),
     }
 
 
 def make(template: str, drive_front: pd.DataFrame, drive_generations: pd.DataFrame) -> str:
     """The page from its template and the tables of the front and of the generations."""
-    rows = [
-        [
-            rounded(row.acceleration),
-            rounded(row.frequency),
-            rounded(np.degrees(row.angle)),
-            rounded(np.degrees(row.phase_shift)),
-            rounded(1e3 * row.displacement),
-            rounded(row.checked_velocity),
-            numbers(row.velocity_low, row.velocity_high),
-            numbers(row.impact_low, row.impact_high),
-            f"{100.0 * row.checked_share:.1f}",
-        ]
-        for row in drive_front[drive_front.recommended].sort_values("checked_velocity").itertuples()
-    ]
-    return render(template, search_numbers(front=drive_front, generations=drive_generations) | {"rows": rows})
+    recommended = drive_front[drive_front.recommended].sort_values("checked_velocity")
+    values = summarize_search(front=drive_front, generations=drive_generations)
+    return render(template, values | {"rows": recommended.to_dict("records")})

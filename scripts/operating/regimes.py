@@ -30,12 +30,8 @@ TABLES = {
         fields.number("velocity_low", "m/s", "smallest mean velocity of any motion"),
         fields.number("best_low", "m/s", "smallest velocity, over the amplitudes, of the fastest motion"),
         fields.number("best_high", "m/s", "largest velocity of the fastest motion"),
-        fields.number(
-            "best_share_low", "1", "smallest share of initial conditions that reach the velocity of the fastest motion"
-        ),
-        fields.number(
-            "best_share_high", "1", "largest share of initial conditions that reach the velocity of the fastest motion"
-        ),
+        fields.number("best_share_low", "1", "smallest share of initial conditions that reach the largest velocity"),
+        fields.number("best_share_high", "1", "largest share of initial conditions that reach the largest velocity"),
         fields.number("best_share_stderr", "1", "largest standard error of these shares"),
     ),
 }

@@ -33,9 +33,7 @@ TABLES = {
         fields.number("stderr", "1", "standard error of the share"),
         fields.number("mean_velocity", "m/s", "mean feeding velocity of the motion; null where it is not known"),
         fields.number("velocity_stderr", "m/s", "its standard error, from several of these trajectories"),
-        fields.number(
-            "impact_speed", "m/s", "largest speed of approach at an impact; 0 without impacts, null if unknown"
-        ),
+        fields.number("impact_speed", "m/s", "largest speed of approach at an impact; 0 for none, null if unknown"),
         fields.number("peak_force", "N", "largest contact force; null if unknown"),
         fields.text("status", "ok, or why there is no velocity"),
     ),
@@ -43,10 +41,11 @@ TABLES = {
 
 # Two motions of one state and period are different if their longest flights differ by more, in excitation cycles.
 APART = 0.01
-# A mean velocity is known if a run twice as long gives the same, up to this share of the plate's largest velocity.
+# A mean velocity counts as converged if a run twice as long agrees within this fraction of the plate's largest
+# velocity.
 SETTLED = 1e-3
-DOUBLINGS = 6  # of the run, after which its velocity counts as not known
-MOST_CYCLES = 4000  # of a brief run that is longer than asked for
+RUNS = 6  # each twice as long as the one before
+MOST_CYCLES = 4000  # upper limit of cycles of a brief run
 FORGOTTEN = 200  # excitation cycles, at least, for the transient of the feeding motion
 
 
@@ -128,15 +127,12 @@ def velocities(
     parameters: np.ndarray, found: Labels, settings: dict, *, threads: int = 1
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Mean feeding velocity (m/s) of settled trajectories, shape (n,); the largest speed of approach (m/s) and contact
-    force (N) over the same cycles, whole periods of the motion, shape (n, 2); and why they are not known.
+    force (N) over the same cycles, whole periods of the motion, shape (n, 2); and the status.
 
     Each trajectory is followed until it has settled, and then twice as long, until both mean velocities agree. They
     never agree in chaos, where the mean is taken over the longer run.
 
-    Parameters
-    ----------
-    parameters : float64, shape (n, 16)
-    found : labels of these trajectories
+    parameters, found : packed, shape (n, 16), and the labels of the trajectories
     """
     n, period = len(parameters), found.period
     # A motion without a period is not more settled in later cycles.
@@ -148,8 +144,8 @@ def velocities(
     step = np.maximum(period, 1)
     quarter = np.maximum(np.maximum(settings["cycles"], np.ceil((settled + FORGOTTEN) / 3.0)), step)
     open_ = np.arange(n)
-    # All need the second run, which begins with the first one.
-    for doublings in ([0, 1], *([doubling] for doubling in range(2, DOUBLINGS))):
+    # Every trajectory needs the second run, which contains the first; one integration gives both.
+    for doublings in ([0, 1], *([doubling] for doubling in range(2, RUNS))):
         cycles = 4.0 * step[open_, None] * np.ceil(2.0 ** np.array(doublings) * (quarter / step)[open_, None])
         durations = cycles / parameters[open_, None, FREQUENCY]
         means, peaks[open_], why = last_quarters(parameters[open_], durations, settings["tolerance"], threads)

@@ -66,10 +66,8 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     velocity, period = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64)
     velocity[number, state] = run["mean_velocity"].reshape(len(settled), len(shifts))
     period[number, state] = of_motion[:, None]
-    model, status = (
-        settings["model"],
-        np.where(period > 0, "ok", "no initial condition leads to the state").astype(object),
-    )
+    model = settings["model"]
+    status = np.where(period > 0, "ok", "no initial condition leads to the state").astype(object)
     steep = np.abs(np.tan(inclinations)) > model.get("static_friction", model["friction"])
     velocity[steep], status[steep] = np.nan, SLIDES_AWAY
     alpha, state, shift = np.indices(shape)

@@ -54,9 +54,9 @@ def test_intervals_are_rounded_outwards(low, high):
 
 def test_an_orbit_without_a_proof_is_listed_with_the_reason():
     text = page(ORBIT, REFUSED)
-    assert "Refused, with the reason:\n\n- branch 3, 40 m/s², 2 cycles: it grazes\n" in text
+    assert "Rejected, with the reason:\n\n- branch 3, 40 m/s², 2 cycles: it grazes\n" in text
     assert "| 2 | 1 | 0 | 0 | 0 |" in text
-    assert "None was refused." in page(ORBIT)
+    assert "None was rejected." in page(ORBIT)
 
 
 def test_entropy_is_rounded_down():

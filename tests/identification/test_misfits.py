@@ -82,20 +82,18 @@ NUMBERS = {
 
 
 @pytest.mark.parametrize(
-    ("fall", "words"),
-    [
-        (2.0, "the fall from 0.150 to 0.250, all three from 0.200 to 0.210"),
-        (1.5, "the fall from 0.200 to 0.333, all three from 0.200 to 0.210"),
-        (4.0, "the fall from 0.075 to 0.125, all three at no friction"),
-    ],
+    ("fall", "of_fall", "of_all"),
+    [(2.0, (0.15, 0.25), (0.2, 0.21)), (1.5, (0.2, 1 / 3), (0.2, 0.21)), (4.0, (0.075, 0.125), None)],
 )
-def test_accepted_frictions(fall, words):
+def test_accepted_frictions(fall, of_fall, of_all):
     """Velocities are proportional to friction."""
     friction = np.linspace(0.0, 0.4, 41)
     grown = {"friction": friction, "first_low": 5.0 * friction, "first_high": 10.0 * friction, "fall": fall * friction}
-    words_of_all = findings.describe_frictions(pd.DataFrame(grown), NUMBERS)
-    assert words_of_all.startswith("the lower end is accepted from 0.200 to 0.240, the upper end from 0.190 to 0.210, ")
-    assert words_of_all.endswith(words)
+    accepted = findings.accepted_frictions(pd.DataFrame(grown), NUMBERS)
+    assert accepted["first_low"] == pytest.approx((0.2, 0.24))
+    assert accepted["first_high"] == pytest.approx((0.19, 0.21))
+    assert accepted["fall"] == pytest.approx(of_fall)
+    assert accepted["all"] == (of_all and pytest.approx(of_all))
 
 
 def test_a_table_of_few_contacts_is_coarse():

@@ -259,7 +259,7 @@ def test_the_page_lists_the_recommended_settings(made):
     assert f"| {slowest.checked_velocity:.3g} | {low:.3g} to {high:.3g} |" in line
     assert page.count(" | 100.0 |") == SETTINGS["recommended"]
     assert "The search has settled" in page
-    assert "fewer than 9.1 % of all possible initial conditions" in page
+    assert "fewer than 9.1 % of all initial conditions" in page
 
 
 def test_the_page_says_that_nothing_was_found(made):

@@ -13,6 +13,7 @@ from conveyor.analysis.attractors.labels import Labels, classify
 from conveyor.solver.model import PSI0, VZ0, Z0, Conveyor, conveyor_motion, pack
 from operating import advice, chart, regimes, shares, throws
 from pipeline.motions import motions
+from pipeline.templates import format_range
 from workflow.config.tables import TABLES
 
 BOX = {
@@ -276,7 +277,7 @@ def test_amplitudes_are_halved_where_the_answer_changes(refined):
     [((0.0648, 0.141), "0.0648 to 0.141"), ((0.1, 0.10001), "0.1"), ((np.nan, np.nan), "not known")],
 )
 def test_numbers_in_words(ends, words):
-    assert chart.numbers(*ends) == words
+    assert format_range(ends) == words
 
 
 def test_chaos_begins_at_its_lowest_amplitude():
@@ -289,7 +290,10 @@ def test_chaos_begins_at_its_lowest_amplitude():
             "end": [29.0, 39.0, 49.0, 60.0],
         }
     )
-    assert chart.irregular(found, 0.2) == {"chaos": "30.0", "only": "50.0 to 60.0", "unknown": ""}
+    parts = chart.summarize_regimes(found)
+    assert [row["begin"] for row in parts["chaos"]] == [30.0]
+    assert [(row["begin"], row["end"]) for row in parts["only_chaos"]] == [(50.0, 60.0)]
+    assert parts["unknown"] == []
 
 
 def advised() -> tuple[pd.DataFrame, pd.DataFrame]:
@@ -319,13 +323,12 @@ def test_the_page_begins_with_the_advice(refined):
         *advised(),
     )
     assert page.startswith("# Operating chart\n\n## Recommended amplitudes\n")
-    assert "- **Amplitude 31 m/s²**, throw number Γ = 0.66\n" in page
-    assert "- At most 30 parts of 20 mm per minute, one behind the other\n" in page
     assert (
-        "all 100 initial conditions reach this velocity; at 95 % confidence, fewer than 3 % of all possible ones do not"
-        in page
+        "- **Amplitude 31 m/s²** (peak acceleration along the direction of vibration), throw number Γ = 0.66\n" in page
     )
-    assert "A sudden velocity change of 0.05 m/s normal to the track can end the motion" in page
+    assert "- At most 30 parts of 20 mm per minute, one behind the other\n" in page
+    assert "all 100 random initial conditions reach this velocity. At 95 % confidence, fewer than 3 % of all" in page
+    assert "A sudden change of the part's velocity by 0.05 m/s normal to the track can end this motion" in page
     assert "- Impact speed 0.1 m/s, peak force 0.5 N (50 times the weight of the part)\n" in page
     assert "  - friction of 0.17 (now 0.15): +20 %, one velocity\n" in page
     assert "  - angle of 13.8° (now 12°): +10 %, one velocity\n" in page
@@ -429,7 +432,7 @@ def test_regimes_and_their_words(refined):
     assert "This share is largest (34.0 ± 4.7 %) at 40 m/s², with 0.06 m/s." in page
     assert "Chaos begins at 50.2 m/s². All initial conditions end in chaos at 56.1 to 60.0 m/s²." in page
     assert "from heights of 0 to 0.5 mm above" in page
-    assert "at 95 % confidence, fewer than 3 % of all possible ones lead\nto another motion" in page
+    assert "at 95 % confidence, fewer than 3 % of all initial conditions in\nthese ranges lead to" in page
     assert "is not known." not in page
 
 
@@ -459,7 +462,7 @@ def test_a_table_without_known_amplitudes_gives_no_advice(refined):
         pd.DataFrame(regimes.make(alone)),
         *(table.iloc[:0] for table in advised()),
     )
-    assert "At no amplitude does every part get the same velocity even if the amplitude is 1 % off." in page
+    assert "There is no amplitude at which every part reaches the same velocity with an amplitude error of 1 %." in page
     assert "At no amplitude do all initial conditions reach one velocity" in page
     assert "No initial condition ends in chaos" in page
     assert "At 20.0 m/s², the state or the velocity of a motion is not known." in page
