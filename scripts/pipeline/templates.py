@@ -1,11 +1,58 @@
-"""Pages from Jinja templates and data."""
+"""Pages from Jinja templates and data: Python hands over tables and plain numbers, and the templates format them.
 
-from collections.abc import Mapping
+A number without a format has up to six digits. A missing value is an error.
+"""
+
+import math
+from collections.abc import Iterable, Mapping
 from typing import Any
 
+import numpy as np
 from jinja2 import Environment, StrictUndefined
 
-ENVIRONMENT = Environment(undefined=StrictUndefined, keep_trailing_newline=True)
+
+def format_number(value: float | None, digits: int = 6) -> str:
+    """A number in up to so many digits, without leading zeros in the exponent: "3e-10"; a dash for None or NaN."""
+    if value is None or math.isnan(value):
+        return "–"
+    return f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e")
+
+
+def format_field(value: Any) -> Any:
+    """The value of a field without a format."""
+    return format_number(value) if isinstance(value, float) else value
+
+
+def format_significant(value: float, digits: int = 3) -> str:
+    """A number to some significant digits, without an exponent: "0.0648", "1240"."""
+    return np.format_float_positional(float(f"{value:.{digits - 1}e}"), trim="-")
+
+
+def round_up(value: float) -> str:
+    """A number rounded up to two digits, "1.3e-9"."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return format_number(math.ceil(value / unit) * unit, 2)
+
+
+def separate_thousands(value: int) -> str:
+    """ "1,000,000"."""
+    return f"{value:,}"
+
+
+def join_list(values: Iterable) -> str:
+    """Texts or numbers as a list in a sentence, "a, b and c"."""
+    texts = [str(format_field(value)) for value in values]
+    return " and ".join(filter(None, [", ".join(texts[:-1]), *texts[-1:]]))
+
+
+ENVIRONMENT = Environment(undefined=StrictUndefined, keep_trailing_newline=True, finalize=format_field)
+ENVIRONMENT.filters |= {
+    "number": format_number,
+    "significant": format_significant,
+    "round_up": round_up,
+    "thousands": separate_thousands,
+    "listed": join_list,
+}
 
 
 def render(template: str, values: Mapping[str, Any]) -> str:
