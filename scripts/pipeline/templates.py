@@ -11,16 +11,19 @@ import numpy as np
 from jinja2 import Environment, StrictUndefined
 
 
-def format_number(value: float | None, digits: int = 6) -> str:
-    """A number in up to so many digits, without leading zeros in the exponent: "3e-10"; a dash for None or NaN."""
-    if value is None or math.isnan(value):
-        return "–"
+def format_number(value: float | None, digits: int = 4) -> str:
+    """A number in up to so many digits; a dash for None or NaN."""
+    return "–" if value is None or math.isnan(value) else f"{value:.{digits}g}"
+
+
+def format_plain(value: float, digits: int = 6) -> str:
+    """A number in up to so many digits, without leading zeros in the exponent: "3e-10"."""
     return f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e")
 
 
 def format_field(value: Any) -> Any:
     """The value of a field without a format."""
-    return format_number(value) if isinstance(value, float) else value
+    return format_plain(value) if isinstance(value, float) else value
 
 
 def format_significant(value: float, digits: int = 3) -> str:
@@ -31,7 +34,7 @@ def format_significant(value: float, digits: int = 3) -> str:
 def round_up(value: float) -> str:
     """A number rounded up to two digits, "1.3e-9"."""
     unit = 10.0 ** (math.floor(math.log10(value)) - 1)
-    return format_number(math.ceil(value / unit) * unit, 2)
+    return format_plain(math.ceil(value / unit) * unit, 2)
 
 
 def separate_thousands(value: int) -> str:
@@ -48,6 +51,7 @@ def join_list(values: Iterable) -> str:
 ENVIRONMENT = Environment(undefined=StrictUndefined, keep_trailing_newline=True, finalize=format_field)
 ENVIRONMENT.filters |= {
     "number": format_number,
+    "plain": format_plain,
     "significant": format_significant,
     "round_up": round_up,
     "thousands": separate_thousands,
