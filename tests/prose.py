@@ -14,6 +14,7 @@ ALLOWED = (
     r"(?m)^:scale: \d+$|^\d+\. ",
     r"(?m)^:::\{figure\} \S+$",
     r"1/s\b",
+    r"Γ [<>] 1\b",
     r"\b[A-Z]\w+ \((18|19|20)\d\d\)|\([A-Z][^()\d]* (18|19|20)\d\d(;\s[A-Z][^()\d]* (18|19|20)\d\d)*\)",
     r"(?ms)^## References.*?(?=^## )",
     r"a confidence of 95 %",

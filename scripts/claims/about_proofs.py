@@ -21,6 +21,11 @@ def stable_motions(table: pd.DataFrame) -> pd.Series:
     return pd.Series({amplitude: count(rows) for amplitude, rows in stable.groupby("acceleration")}, dtype=int)
 
 
+def lowest_fold(bifurcations: pd.DataFrame) -> float:
+    """Amplitude (m/s²) of the lowest proved fold; NaN if none is proved."""
+    return bifurcations.acceleration_low[(bifurcations.kind == "fold") & bifurcations.proved].min()
+
+
 def describe_coexistence(certificates: pd.DataFrame | None) -> str:
     """The amplitudes at which two stable motions are proved."""
     if certificates is None:

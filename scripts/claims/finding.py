@@ -65,11 +65,6 @@ def format_amplitude(value: float) -> str:
     return "nowhere" if np.isnan(value) else f"{value:g} m/s²"
 
 
-def format_number(value: float | None) -> str:
-    """A number in four digits; a dash for None or NaN."""
-    return "–" if value is None or np.isnan(value) else f"{value:.4g}"
-
-
 def format_interval(low: float | None, high: float | None) -> str:
     """An accepted interval with all digits that the config gives; None or NaN is no bound."""
     below = "-∞" if low is None or np.isnan(low) else f"{low:.8g}"

@@ -1,13 +1,12 @@
 """The paper's checkable statements: numbers by both methods, and the verdicts that follow from them."""
 
 import math
-from collections.abc import Iterable
 
 import pandas as pd
 import pyarrow as pa
 
 from claims import about_chaos, about_states
-from claims.finding import METHODS, Finding, format_interval, format_number
+from claims.finding import METHODS, Finding, format_interval
 from pipeline import fields, tables
 from pipeline.templates import render
 
@@ -39,6 +38,8 @@ REPRODUCED = "reproduced"
 PAPER_METHOD_ONLY = "reproduced by the paper's method only"
 NOT_REPRODUCED = "not reproduced"
 VERDICTS = (REPRODUCED, PAPER_METHOD_ONLY, NOT_REPRODUCED)
+# Columns of the table with one entry per quantity.
+PER_QUANTITY = ("paper", "paper_method", "converged", "accepted_low", "accepted_high", "because")
 NAMES = {"euler": "paper's method", "converged": "converged solution"}
 
 
@@ -119,9 +120,22 @@ def columns(claims: dict[str, dict], found: dict[str, Finding]) -> dict[str, lis
     }
 
 
-def format_numbers(values: Iterable[float | None]) -> str:
-    """Numbers of a claim in a cell of the page, with dashes for missing ones."""
-    return ", ".join(map(format_number, values)) or "–"
+def describe_claims(claims: pd.DataFrame) -> list[dict]:
+    """The rows of the table of claims for templates; `quantities` has a mapping for each quantity.
+
+    Its keys are `name` and the columns with one entry per quantity. Numbers and texts that a claim does not have are
+    None.
+    """
+    described = []
+    for row in claims.to_dict("records"):
+        # A claim that does not concern a method has no numbers by it.
+        columns = {name: list(row[name]) or [None] * len(row["quantities"]) for name in PER_QUANTITY}
+        quantities = [
+            {"name": name, **dict(zip(columns, values, strict=True))}
+            for name, *values in zip(row["quantities"], *columns.values(), strict=True)
+        ]
+        described.append(row | {"quantities": quantities, "reason": None if pd.isna(row["reason"]) else row["reason"]})
+    return described
 
 
 def report(template: str, rows: pd.DataFrame) -> str:
@@ -130,7 +144,6 @@ def report(template: str, rows: pd.DataFrame) -> str:
         "rows": rows.to_dict("records"),
         "explained": rows.dropna(subset="reason").to_dict("records"),
         "reproduced": REPRODUCED,
-        "numbers": format_numbers,
         "interval": format_interval,
     }
     return render(template, values)

@@ -7,7 +7,7 @@ A template is Markdown (or YAML) with Jinja fields. It can use the facts of docs
     tighter           factor between the usual tolerances and the tighter ones that give the uncertainty of the claims
     figures           titles, sections, captions and labels of all figures, by name
     of_the_paper      names of the paper's figures; the remaining ones are this project's own
-    statements        the claims as described by docs.facts, with their uncertainty
+    statements        the claims as described by claims.verdicts, by name; quantities have a margin and an uncertainty
     tightened         number of claims evaluated with tighter tolerances
     same_verdicts     number of them whose verdict does not change
     costs             seconds, memory (MiB) and jobs of all `figures`, all `claims`, and of `everything`
@@ -20,17 +20,18 @@ A template is Markdown (or YAML) with Jinja fields. It can use the facts of docs
     findings          the list of findings beyond the paper
     figure(name)      a figure with its caption, in the markup of the medium
     cell(text)        a text for a cell of a table
+    interval(low, high)   an accepted interval in words
 """
 
 import json
 import re
-from collections import Counter
 from collections.abc import Callable
 
 import pandas as pd
 
+from claims.verdicts import describe_claims
 from docs.config_keys import FileKey, Key, list_keys, parse_file
-from docs.facts import collect_facts, describe_claims, plain
+from docs.facts import collect_facts, describe_interval, margin
 from pipeline.templates import render
 
 # Markup of a subscript for pandoc and for Sphinx; captions are reStructuredText.
@@ -131,14 +132,14 @@ def group_modules(library: list[str]) -> dict[str, list[str]]:
     return found
 
 
-def add_uncertainty(claims: dict[str, dict], tighter: dict[str, dict]) -> dict[str, dict]:
-    """Claims with the change of each quantity at tighter tolerances; a dash for quantities without a change."""
-
-    def format_changes(name: str) -> list[str]:
-        changes = tighter.get(name, {}).get("changes", []) or [None] * len(claims[name]["quantities"])
-        return [f"{value:.1g}" if value is not None else "–" for value in changes]
-
-    return {name: claim | {"uncertainty": format_changes(name)} for name, claim in claims.items()}
+def add_uncertainty(claims: dict[str, dict], tighter: dict[str, dict]) -> None:
+    """Add the margin of each quantity, and its change at tighter tolerances; None for quantities without a change."""
+    for name, claim in claims.items():
+        changes = tighter.get(name, {}).get("changes", []) or [None] * len(claim["quantities"])
+        for quantity, change in zip(claim["quantities"], changes, strict=True):
+            decisive = quantity["paper_method"] if quantity["converged"] is None else quantity["converged"]
+            quantity["margin"] = margin(decisive, quantity["accepted_low"], quantity["accepted_high"])
+            quantity["uncertainty"] = change
 
 
 def make(
@@ -181,16 +182,16 @@ def make(
     known = list(list_keys(json.loads(schema))) if schema else []
     described = describe_figures(figures, captions, medium)
     changes = json.loads(uncertainty) if uncertainty else {}
-    claims = add_uncertainty(describe_claims(tables["claims"]), changes)
+    claims = {claim["id"]: claim for claim in describe_claims(tables["claims"])}
+    add_uncertainty(claims, changes)
     fields = {
         **collect_facts(tables),
-        **{name: value if isinstance(value, str) else plain(value) for name, value in values.items()},
+        **values,
         "figures": described,
         "of_the_paper": [name for name in described if PAPER.fullmatch(name)],
         "statements": claims,
-        "tightened": str(len(changes)),
-        "same_verdicts": str(sum(one["same_verdict"] for one in changes.values())),
-        "verdicts": Counter(claim["verdict"] for claim in claims.values()),
+        "tightened": len(changes),
+        "same_verdicts": sum(one["same_verdict"] for one in changes.values()),
         "costs": json.loads(costs) if costs else {},
         "proved": proved,
         "findings": findings,
@@ -201,6 +202,7 @@ def make(
         "modules": group_modules(library),
         "figure": lambda name: FIGURE[medium](described[name], folder),
         "cell": format_cell,
+        "interval": describe_interval,
         "medium": medium,
     }
     pages = [render(template, fields) for template in templates]

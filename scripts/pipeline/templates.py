@@ -1,11 +1,29 @@
-"""Pages from Jinja templates and data."""
+"""Pages from Jinja templates and data: Python hands over tables and plain numbers, and the templates format them.
+
+A number without a format has up to six digits. A missing value is an error.
+"""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 from jinja2 import Environment, StrictUndefined
+
+
+def format_number(value: float | None, digits: int = 4) -> str:
+    """A number in up to so many digits; a dash for None or NaN."""
+    return "–" if value is None or math.isnan(value) else f"{value:.{digits}g}"
+
+
+def format_plain(value: float, digits: int = 6) -> str:
+    """A number in up to so many digits, without leading zeros in the exponent: "3e-10"."""
+    return f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e")
+
+
+def format_field(value: Any) -> Any:
+    """The value of a field without a format."""
+    return format_plain(value) if isinstance(value, float) else value
 
 
 def format_significant(value: float, digits: int = 3) -> str:
@@ -21,9 +39,34 @@ def format_range(ends: tuple[float, float], factor: float = 1.0) -> str:
     return low if low == high else f"{low} to {high}"
 
 
-FILTERS = {"degrees": math.degrees, "significant": format_significant, "range": format_range}
-ENVIRONMENT = Environment(undefined=StrictUndefined, keep_trailing_newline=True)
-ENVIRONMENT.filters |= FILTERS
+def round_up(value: float) -> str:
+    """A number rounded up to two digits, "1.3e-9"."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return format_plain(math.ceil(value / unit) * unit, 2)
+
+
+def separate_thousands(value: int) -> str:
+    """ "1,000,000"."""
+    return f"{value:,}"
+
+
+def join_list(values: Iterable) -> str:
+    """Texts or numbers as a list in a sentence, "a, b and c"."""
+    texts = [str(format_field(value)) for value in values]
+    return " and ".join(filter(None, [", ".join(texts[:-1]), *texts[-1:]]))
+
+
+ENVIRONMENT = Environment(undefined=StrictUndefined, keep_trailing_newline=True, finalize=format_field)
+ENVIRONMENT.filters |= {
+    "number": format_number,
+    "plain": format_plain,
+    "degrees": math.degrees,
+    "significant": format_significant,
+    "range": format_range,
+    "round_up": round_up,
+    "thousands": separate_thousands,
+    "listed": join_list,
+}
 
 
 def render(template: str, values: Mapping[str, Any]) -> str:

@@ -53,7 +53,7 @@ def make(pages: dict[str, dict], notice: dict[str, str]) -> dict[str, str]:
     Parameters
     ----------
     pages : `heading` and `figures` of each page, by name; a figure has name, number, title, section, file, png and rst
-    notice : heading and text on top of each page; empty for the paper's config
+    notice : as from report.pages.notice
 
     Raises
     ------

@@ -2,17 +2,16 @@
 
 from pathlib import Path
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined, select_autoescape
+from jinja2 import FileSystemLoader, select_autoescape
 
-from claims.finding import format_number
+from pipeline.templates import ENVIRONMENT
 
 FOLDER = Path(__file__).parent
 
 
 def render(template: str, **values) -> str:
     """The page from a template of this folder; a missing value is an error."""
-    environment = Environment(
-        loader=FileSystemLoader(FOLDER), autoescape=select_autoescape(), undefined=StrictUndefined, trim_blocks=True
+    environment = ENVIRONMENT.overlay(
+        loader=FileSystemLoader(FOLDER), autoescape=select_autoescape(), trim_blocks=True, keep_trailing_newline=False
     )
-    environment.filters["number"] = format_number
     return environment.get_template(template).render(values)

@@ -42,18 +42,11 @@ def escape_label(text: str) -> str:
     return text.replace("{", "{\u2060")
 
 
-def notice(overlays: list[str], sweeps: dict, paper_sweeps: dict) -> dict[str, str]:
-    """Heading and text on top of every page if overlays change the paper's config; empty otherwise."""
+def notice(overlays: list[str], sweeps: dict, paper_sweeps: dict) -> dict:
+    """Overlays that change the paper's config, and the numbers of sweep points of both; empty without overlays."""
     if not overlays:
         return {}
-    own, paper = count_points(sweeps), count_points(paper_sweeps)
-    kind = (
-        f"coarse axes, {own:,} sweep points instead of {paper:,}" if own < paper else "a config other than the paper's"
-    )
-    return {
-        "heading": f"Made with {', '.join(overlays)}: {kind}.",
-        "text": "Verdicts, captions and numbers belong to this config, not to the paper's.",
-    }
+    return {"overlays": overlays, "points": count_points(sweeps), "paper_points": count_points(paper_sweeps)}
 
 
 def count_points(sweeps: dict[str, dict]) -> int:

@@ -2,39 +2,14 @@
 
 import json
 import re
-from collections import Counter
 
 import pandas as pd
 from markdown_it import MarkdownIt
 from markupsafe import Markup
 
 from claims.finding import format_interval
-from claims.verdicts import VERDICTS
+from claims.verdicts import VERDICTS, describe_claims
 from report.page import render
-
-LISTS = ("quantities", "paper", "paper_method", "converged", "accepted_low", "accepted_high", "because")
-
-
-def describe_claim(row: pd.Series) -> dict:
-    """The fields of a claim in the templates, with one entry per quantity."""
-    # A claim that does not concern a method has no numbers by it.
-    columns = {name: list(row[name]) or [None] * len(row.quantities) for name in LISTS}
-    quantities = [dict(zip(LISTS, values, strict=True)) for values in zip(*columns.values(), strict=True)]
-    for quantity in quantities:
-        quantity["name"] = quantity["quantities"]
-        quantity["accepted"] = format_interval(quantity["accepted_low"], quantity["accepted_high"])
-    reason = None if pd.isna(row.reason) else row.reason
-    return {name: row[name] for name in ("id", "where", "statement", "verdict")} | {
-        "quantities": quantities,
-        "reason": reason,
-    }
-
-
-def count_verdicts(found: pd.Series) -> str:
-    """The number of verdicts of each kind, in words."""
-    counts = Counter(found)
-    parts = ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS)
-    return f"{len(found)} statements of the paper: {parts}"
 
 
 def link(file: str, place: str, text: str) -> Markup:
@@ -79,21 +54,20 @@ def make(
     step : of the paper's method, s
     pages : the pages of figures in order, with `heading`, `file` and `figures`: name, number and title of each
     files : files of the other pages by name
-    notice : heading and text on top of each page; empty for the paper's config
+    notice : as from report.pages.notice
     findings : findings beyond the paper, a list in Markdown
     """
     shared = {
         "notice": notice,
-        "claims": [describe_claim(row) for _, row in claims.iterrows()],
-        "counted": count_verdicts(claims.verdict),
+        "claims": describe_claims(claims),
+        "verdicts": VERDICTS,
+        "interval": format_interval,
         "origin": json.loads(provenance),
     }
     links = {f"{name}_page": file for name, file in files.items()}
     linked = link_findings(findings, pages, files["claims"])
     return {
-        "summary": render(
-            "summary.html", step_us=f"{1e6 * step:g}", pages=pages, findings=linked, link=link, **links, **shared
-        ),
+        "summary": render("summary.html", step=step, pages=pages, findings=linked, link=link, **links, **shared),
         "claims": render("claims.html", title="The paper's statements", **shared),
         "provenance": render("provenance.html", title="Provenance", **shared),
     }

@@ -14,6 +14,12 @@ CONFIG = read_config()
 FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]
 
 
+def caption(name: str, settings: dict | None = None, **tables: pd.DataFrame) -> str:
+    """The caption of a figure from its own template, on one line."""
+    template = (ROOT / f"workflow/report/{name}.rst").read_text(encoding="utf-8")
+    return " ".join(captions.caption(template, name, tables, settings or {}).split())
+
+
 @pytest.mark.parametrize("name", FIGURES)
 def test_no_number_of_a_caption_is_typed(name):
     assert typed((ROOT / f"workflow/report/{name}.rst").read_text()) == []
@@ -44,14 +50,12 @@ def test_plateau_and_exponent_of_fig_22():
     spectrum = pd.DataFrame(
         {"acceleration": acceleration, "branch": "up", "lambda_1": np.where(chaotic, 36.0, -20.0), "stderr": 1.0}
     )
-    found = captions.fig22(converged=estimate, euler=estimate, spectrum=spectrum)
-    assert found == {
-        "epsilon": "1e-8",
-        "euler_positive": "59",
-        "converged_positive": "59",
-        "plateau": "17",
-        "truth": "36",
-    }
+    text = caption("fig22", converged=estimate, euler=estimate, spectrum=spectrum)
+    assert "phases differ by 1e-8 rad. With" in text
+    assert "is positive from 59 m/s² on, where" in text
+    assert "is positive only from 59 m/s² on. This" in text
+    assert "the plateau of 17 1/s" in text
+    assert "motion there is 36 1/s." in text
 
 
 def test_chaos_before_the_accumulation_is_mentioned():
@@ -68,11 +72,12 @@ def test_chaos_before_the_accumulation_is_mentioned():
         for branch, early in (("up", (acceleration >= 59.5) & (acceleration <= 61.0)), ("down", False))
     )
     cascade = pd.DataFrame({"accumulation": [np.nan, 62.77]})
-    found = captions.bifurcation(spectrum=spectrum, cascade=cascade, longest_period=2)
-    assert found["accumulation"] == "62.77"
-    assert found["early_up"] == "59.50 to 61.00 m/s²"
-    assert found["early_down"] == "nowhere"
-    assert found["regular_share"] == f"{100 * 2 / 14:.0f}"  # 63.0 and the window at 66.0
+    text = caption("bifurcation", {"longest_period": 2}, spectrum=spectrum, cascade=cascade)
+    assert "accumulate at 62.77 m/s²." in text
+    assert "(increasing amplitude: 59.50 to 61.00 m/s²; decreasing amplitude: nowhere)" in text
+    assert f"; {100 * 2 / 14:.0f} % of the amplitudes" in text  # 63.0 and the window at 66.0
+    without = caption("bifurcation", {"longest_period": 2}, spectrum=spectrum, cascade=cascade[:1])
+    assert without.endswith("attractors. No cascade of period doublings was found.")
 
 
 def test_costs_cover_all_jobs_behind_a_figure():
@@ -125,13 +130,15 @@ def test_when_a_rigid_part_leaves_and_arrives():
     table = pd.DataFrame(rows, columns=["model", "kind", "acceleration", "z0", "mean_velocity", "state"])
     contact = pd.DataFrame()
     contact.attrs["duration"] = 1.0
-    numbers = captions.rigid_part(rigid=table, contact=contact)
-    assert numbers == {"duration": "1", "leaves": "40", "rigid_leaves": "30", "arrives": "50"}
+    text = caption("rigid_part", rigid=table, contact=contact)
+    assert "quarter of 1 s" in text
+    assert "it leaves the first state at 30 m/s² (the compliant part at 40 m/s²)" in text
+    assert "Only from 50 m/s² on" in text
 
 
 def test_tables_with_a_visible_variant_count_once():
     names = ("sweeps/a", "sweeps/a", "sweeps/b")
     table = pd.DataFrame({"table": names, "variant": "rigid part", "tolerance": np.nan, "visible": [True, True, False]})
     half = table.assign(variant="half the time", visible=False)
-    numbers = captions.scene_budget(budget=pd.concat([table, half]))
-    assert numbers == {"rigid_seen": "1", "rigid_of": "2", "half_seen": "0", "half_of": "2"}
+    text = caption("scene_budget", budget=pd.concat([table, half]))
+    assert "visible in 1 of 2 tables, half the time in 0 of 2." in text
