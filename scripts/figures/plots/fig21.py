@@ -13,10 +13,7 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame) -> Figure:
     """Draw signals at two phases, and the distance between them."""
     figure = style.figure(style.PAGE, 116.0)
     panels = figure.subplots(3, 2, sharex=True, sharey="row")
-    signals = (
-        (euler, style.EULER, style.EULER_LABEL),
-        (converged, style.CONVERGED, style.CONVERGED_LABEL),
-    )
+    signals = ((euler, style.EULER, style.EULER_LABEL), (converged, style.CONVERGED, style.CONVERGED_LABEL))
     for column, (table, colour, title) in zip(panels.T, signals, strict=True):
         position, velocity, difference = column
         (low, reference), (high, perturbed) = table.groupby("psi0")
