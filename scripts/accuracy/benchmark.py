@@ -21,9 +21,7 @@ TABLES = {
     "benchmark": (
         fields.text("case", "name of the case"),
         fields.text("motion", "motion of the part in words"),
-        fields.text(
-            "chosen", "choice of the tolerance: default, or the loosest that keeps the error against the reference"
-        ),
+        fields.text("chosen", "tolerance: the default, or the loosest that keeps the error against the reference"),
         fields.number("tolerance", "1", "relative error of a step"),
         fields.number("acceleration", "m/s²", "amplitude of the excitation"),
         fields.number("z0", "m", "initial height"),

@@ -23,10 +23,7 @@ from pipeline import fields, grid
 
 RUN = (
     fields.text("method", "event, a fixed-step method, or another integrator"),
-    fields.text(
-        "treatment",
-        "treatment of impacts and slip reversals: exact (with or without reuse), fixed step, sign, events, modes",
-    ),
+    fields.text("treatment", "of impacts and slip: exact (with or without reuse), fixed step, sign, events or modes"),
     fields.number("tolerance", "1", "relative tolerance; null for fixed steps"),
     fields.number("step", "s", "time step; null for methods with a tolerance"),
 )
@@ -39,14 +36,8 @@ TABLES = {
         fields.number("mean_velocity", "m/s", "mean feeding velocity over the last quarter"),
         fields.number("velocity_error", "1", "relative error of the mean velocity"),
         fields.number("state_error", "1", "largest error of ẋ, z, ż at the end, in units of the plate's motion"),
-        fields.number(
-            "trajectory_error", "1", "root mean square error of x and z at fixed times, in units of the plate's motion"
-        ),
-        fields.number(
-            "event_error",
-            "1",
-            "largest error of a time of impact or separation, in cycles; null if their number is wrong or unknown",
-        ),
+        fields.number("trajectory_error", "1", "rms error of x and z at fixed times, in units of the plate's motion"),
+        fields.number("event_error", "1", "largest error of an event's time, in cycles; null if their number differs"),
         fields.text("outcome", "ok, or the failure, independent of the status that the method reports"),
     ),
     "precision_times": (

@@ -20,9 +20,7 @@ TABLES = {
         fields.text("quantity", "exponent, dimension or fit"),
         fields.text("estimator", "name of the estimator"),
         fields.number("work", "1", "simulated cycles, points or evaluations"),
-        fields.number(
-            "error", "1", "relative error of the exponent; error of the dimension; relative gap to the best fit"
-        ),
+        fields.number("error", "1", "relative error (exponent), error (dimension) or relative gap to the best fit"),
     ),
 }
 

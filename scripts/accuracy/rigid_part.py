@@ -31,9 +31,7 @@ from pipeline import fields, grid
 
 TABLES = {
     "rigid_part": (
-        fields.text(
-            "model", "contact, or a rigid part with a restitution that depends on the speed of approach or is constant"
-        ),
+        fields.text("model", "contact, or a rigid part whose restitution is e(u) or constant"),
         fields.text("kind", "velocity, fold or period doubling"),
         fields.count("number", "number of the bifurcation in ascending order; 0 for velocities"),
         fields.number("acceleration", "m/s²", "amplitude of the excitation"),

@@ -35,9 +35,7 @@ TABLES = {
         fields.number("steps", "1/s", "Taylor steps per second of the motion; null for the rigid part"),
         fields.number("sticks", "1", "share of the points whose part sticks at some time"),
         fields.number("known", "1", "share of the drawn values without a visible change by a tiny shift of the height"),
-        fields.number(
-            "changed", "1", "share of these values that differ visibly from the full model, for the worst column"
-        ),
+        fields.number("changed", "1", "share of values that differ visibly from the full model, for the worst column"),
         fields.flag("visible", "whether a reader would see the difference"),
         fields.flag("chosen", "whether the config chooses this variant"),
         fields.text("reason", "reason for a choice that is tighter than necessary; null for none"),

@@ -17,17 +17,10 @@ from pipeline import fields, grid
 
 TABLES = {
     "stability": (
-        fields.text(
-            "panel", "stiffness, damping, impact velocity, conveyor; edge of one of them; chatter; or hard and a case"
-        ),
+        fields.text("panel", "stiffness, damping, impact velocity, conveyor; edge of one; chatter; or hard and a case"),
         fields.text("method", "euler, semi_implicit_euler, rk4, event, or in hard cases another integrator"),
         fields.number("x", "see panel", "time step in s, null for event; hard: number of events"),
-        fields.number(
-            "y",
-            "see panel",
-            "stiffness in N/m, damping in N s/m, velocity in m/s, conveyor: amplitude in m/s²; chatter: slip in m/s; "
-            "hard: relative error of the height at the end",
-        ),
+        fields.number("y", "see panel", "varied quantity in SI units; chatter: slip in m/s; hard: relative error"),
         fields.text("outcome", "right, wrong state, energy grows or blow-up; or the failure of another integrator"),
         fields.number("theory", "s", "theoretical stability limit of the time step; null for none"),
     ),

@@ -18,12 +18,7 @@ TABLES = {
         fields.text("statement", "the statement in words"),
         fields.several("quantities", pa.string(), "", "names of its quantities, with units"),
         fields.several("paper", pa.float64(), "see quantities", "the paper's numbers; null where it gives none"),
-        fields.several(
-            "paper_method",
-            pa.float64(),
-            "see quantities",
-            "recomputed with the paper's method; empty if the statement does not concern it",
-        ),
+        fields.several("paper_method", pa.float64(), "see quantities", "by the paper's method; empty if not concerned"),
         fields.several("converged", pa.float64(), "see quantities", "converged; empty if the statement is about Euler"),
         fields.several("accepted_low", pa.float64(), "see quantities", "smallest accepted numbers; null for no bound"),
         fields.several("accepted_high", pa.float64(), "see quantities", "largest accepted numbers; null for no bound"),

@@ -9,16 +9,12 @@ from pipeline import fields
 
 TABLES = {
     "regressions": (
-        fields.text(
-            "fit", "pymoo, least_squares, paper (A, B and C of the paper) or valley (the best A and C for a given B)"
-        ),
+        fields.text("fit", "pymoo, least_squares, paper (its A, B and C) or valley (the best A and C for a given B)"),
         fields.number("A", "m²/s²", "parameter of Eq. 13"),
         fields.number("B", "m/s²", "parameter of Eq. 13"),
         fields.number("C", "m", "parameter of Eq. 13"),
         fields.number("error", "m²", "mean squared error of Eq. 13"),
-        fields.count(
-            "evaluations", "number of computed errors of triples, or of values of B; 0 for the paper's triple"
-        ),
+        fields.count("evaluations", "number of computed errors of triples or values of B; 0 for the paper's triple"),
     ),
 }
 

@@ -28,9 +28,7 @@ TABLES = {
         fields.count("number", "number of the doubling"),
         *fields.ORBIT,
         fields.number("multiplier", "1", "the multiplier at -1"),
-        fields.number(
-            "ratio", "1", "distance to the previous doubling over distance to the next one (Feigenbaum: 4.669…)"
-        ),
+        fields.number("ratio", "1", "distance to the previous doubling over distance to the next (Feigenbaum: 4.669…)"),
         fields.number("accumulation", "m/s²", "accumulation point of the doublings so far, by Aitken's process"),
         fields.number("accumulation_error", "m/s²", "change of the accumulation point by the last doubling"),
     ),

@@ -40,20 +40,14 @@ ARITHMETIC = (
 )
 TABLES = {
     "certificates": (
-        fields.count(
-            "branch", "number of the branch; higher than all stored branches for longer orbits of the cascade"
-        ),
+        fields.count("branch", "number of the branch; above all stored ones for longer orbits of the cascade"),
         fields.count("period", "excitation cycles; the least period, if the orbit is proved"),
         fields.number("acceleration", "m/s²", "amplitude of the excitation, exact as a decimal number"),
         fields.flag("contained", "whether exactly one orbit is proved in a box around the stored one"),
         fields.text("reason", "reason why the proof failed; null if it is proved"),
         fields.text("stability", "proved stability: stable or unstable; open if not proved"),
         fields.count("impacts", "impacts in a period, proved if the orbit is"),
-        fields.number(
-            "stored_delta",
-            "m",
-            "penetration at the phase ψ0 of the orbit in floating point, computed from the stored branches",
-        ),
+        fields.number("stored_delta", "m", "penetration at the phase ψ0 of the orbit in floating point"),
         fields.number("stored_v", "m/s", "speed of approach at the phase ψ0 of the orbit in floating point"),
         *bounds_fields("delta", "m", "penetration at the phase ψ0"),
         *bounds_fields("v", "m/s", "speed of approach at the phase ψ0"),
@@ -63,11 +57,7 @@ TABLES = {
         *bounds_fields("contact_time", "s", "time with contact force in a period"),
         *bounds_fields("trace", "1", "sum of the Floquet multipliers"),
         *bounds_fields("determinant", "1", "product of the Floquet multipliers, exp(-(d_c/m) contact_time)"),
-        *bounds_fields(
-            "multiplier_1_real",
-            "1",
-            "multiplier of larger modulus, real part; null if it is not known which one is larger",
-        ),
+        *bounds_fields("multiplier_1_real", "1", "multiplier of larger modulus, real part; null if unknown which"),
         *bounds_fields("multiplier_1_imag", "1", "multiplier of larger modulus, imaginary part"),
         *bounds_fields("multiplier_2_real", "1", "multiplier of smaller modulus, real part"),
         *bounds_fields("multiplier_2_imag", "1", "multiplier of smaller modulus, imaginary part"),
@@ -83,12 +73,8 @@ TABLES = {
         fields.text("reason", "reason why the proof failed; null if it is proved"),
         fields.number("stored_acceleration", "m/s²", "amplitude in floating point"),
         *bounds_fields("acceleration", "m/s²", "amplitude of the bifurcation"),
-        *bounds_fields(
-            "test_begin",
-            "1",
-            "(1 ∓ μ1)(1 ∓ μ2) of a fold (-) or doubling (+) at the lower amplitude or first end of the arc",
-        ),
-        *bounds_fields("test_end", "1", "the same test at the higher amplitude or last end of the arc"),
+        *bounds_fields("test_begin", "1", "(1 ∓ μ1)(1 ∓ μ2) of a fold (-) or doubling (+) at the bracket's first end"),
+        *bounds_fields("test_end", "1", "the same test at the bracket's last end"),
         *ARITHMETIC,
     ),
     "certified_chaos": (

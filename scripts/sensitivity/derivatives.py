@@ -40,23 +40,17 @@ TABLES = {
         fields.number("value", "see parameter_unit", "value of the parameter"),
         fields.number("derivative", "moved_unit per parameter_unit", "derivative by the implicit function theorem"),
         fields.number("difference", "moved_unit per parameter_unit", "finite difference between points solved again"),
-        fields.number(
-            "elasticity", "1", "relative change of the quantity over relative change of the parameter; null if one is 0"
-        ),
+        fields.number("elasticity", "1", "relative change of the quantity by that of the parameter; null if one is 0"),
         fields.text("status", "ok, or the reason for no result, or that both derivatives disagree"),
     ),
     "groups": (
         *POINT,
         fields.text("moved", "differentiated quantity: amplitude Γ = a_z/g, or height z0 ω²/g"),
         fields.number("moved_value", "1", "value of the quantity"),
-        fields.text(
-            "group", "damping: d_c/(m ω); stiffness: (k_c/m) g^(p-1)/ω^(2p); exponent; height; velocity: ż0 ω/g"
-        ),
+        fields.text("group", "damping d_c/(m ω), stiffness (k_c/m) g^(p-1)/ω^(2p), exponent, height, velocity ż0 ω/g"),
         fields.number("value", "1", "value of the group"),
         fields.number("derivative", "1", "derivative of the quantity by the group"),
-        fields.number(
-            "elasticity", "1", "relative change of the quantity over relative change of the group; null if one is 0"
-        ),
+        fields.number("elasticity", "1", "relative change of the quantity by that of the group; null if one is 0"),
         fields.text("status", "ok, or the reason for no result"),
     ),
 }

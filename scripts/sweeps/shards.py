@@ -15,11 +15,7 @@ TABLES = {
         *fields.RESULTS,
         *fields.STATE,
         *fields.FEATURES,
-        fields.number(
-            "longest_flight",
-            "1",
-            "longest flight of that motion in excitation cycles, which differs between motions of one state; else null",
-        ),
+        fields.number("longest_flight", "1", "longest flight of this motion in excitation cycles; null for none"),
     ),
 }
 
