@@ -8,17 +8,20 @@ Times differ between runs and machines. They have a table of their own, so that 
 """
 
 import math
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import NamedTuple
+from time import thread_time
+from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 
-from accuracy.timing import run_in_turns
 from conveyor.analysis.attractors import labels
 from conveyor.methods import fixed_step, peers
 from conveyor.simulation import Run, simulate
 from conveyor.solver.model import conveyor_motion, pack
 from conveyor.solver.polynomial import ORDER
+from conveyor.solver.progress import bar
 from pipeline import fields, grid
 
 RUN = (
@@ -48,6 +51,8 @@ TABLES = {
 }
 
 TRUTH = 1e-14  # tolerance of the reference
+# Shortest turn: a fast run is repeated within it, so that the first repetition with a cold cache does not matter.
+TURN = 0.01  # s
 SHORT = {"duration": 1e-3, "max_evaluations": 1000}  # of runs that only compile or load the code of a method
 # Treatments of the event-driven solver: with and without reuse of the steps of a periodic motion.
 EXACT, NO_REUSE = "exact", "exact, nothing repeated"
@@ -173,14 +178,30 @@ def judge_run(result: Result, error: float, settings: dict, state: str) -> str:
     return "ok"
 
 
-def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[str, dict[str, np.ndarray]]:
+def run_in_turns(
+    runs: Sequence[Callable[[], Any]], *, repeats: int, seconds: float, progress: str | None = None
+) -> tuple[list[Any], list[list[float]]]:
+    """The results of runs, and the processor times (s) of all their repetitions, in one thread.
+
+    In each of `repeats` rounds, every run has a turn unless `seconds` have been spent on it, so that a slow run is made
+    once. Runs take turns, so that other load affects all of them alike. All code must have been compiled before.
+    """
+    results: list[Any] = [None] * len(runs)
+    times: list[list[float]] = [[] for _ in runs]
+    for place in bar([*range(len(runs))] * repeats, label=progress, unit="turns"):
+        spent = times[place]
+        turn_ends = min(sum(spent) + TURN, seconds)
+        while sum(spent) < turn_ends:
+            begin = thread_time()
+            results[place] = runs[place]()
+            spent.append(thread_time() - begin)
+    return results, times
+
+
+def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[str, dict]:
     """The columns of the tables of work and precision and of processor times, rows by method, tolerance and step.
 
-    Parameters
-    ----------
-    settings : of one scene with its model
-    timing : `repeats` and `seconds` of `timing.run_in_turns`
-    progress : name of a progress bar, or None
+    timing : `repeats` and `seconds` of `run_in_turns`
     """
     reference_method = Method("event", NO_REUSE, TRUTH, None)
     truth = run_method(reference_method, settings)
@@ -201,12 +222,7 @@ def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[s
         trajectory_errors(method, reference, settings) if outcome == "ok" else (math.nan, math.nan)
         for method, outcome in zip(listed, outcomes, strict=True)
     ]
-    run = {
-        "method": np.array([method.method for method in listed]),
-        "treatment": np.array([method.treatment for method in listed]),
-        "tolerance": np.array([method.tolerance for method in listed], dtype=np.float64),
-        "step": np.array([method.step for method in listed], dtype=np.float64),
-    }
+    run = pd.DataFrame(listed)
     return {
         "precision": {
             **run,

@@ -160,7 +160,7 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
         sweep = partial(rigid_part.sweep, cycles=max(settings["settling"], 2 * rigid_part.MAX_PERIOD))
         sweep(settings | {"axes": observables.thin_axes(thinned, 1)})
         seconds, found = least_time(lambda: sweep(settings))
-        rows.append(row(RIGID, settings | {"rigid": True}, seconds, found))
+        rows.append(row(RIGID, dict(settings), seconds, found))
     return rows
 
 
@@ -174,13 +174,8 @@ def make(
 ) -> dict[str, dict[str, list]]:
     """The columns of the table of budgets, by figure, table and variant, and of the table of processor times.
 
-    Parameters
-    ----------
-    settings : the section `scene_budget` of the config
     entries : settings of the tables by name, SECTION/NAME
     drawn : names of the tables behind each figure
-    threads : number of threads, which share the tables
-    progress : name of a progress bar, or None
     """
     found: dict[str, list[dict]] = {}
     # The slowest tables come last in the config and are started first, so that all threads end together.

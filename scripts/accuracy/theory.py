@@ -214,12 +214,6 @@ def row(
 
 
 def make(settings: dict, cascade: pd.DataFrame) -> dict[str, list]:
-    """The columns of the table of theory.
-
-    Parameters
-    ----------
-    settings : the section `theory` of the config with the model
-    cascade : table of period doublings
-    """
+    """The columns of the table of theory, with the table of period doublings."""
     rows = [*rigid_rows(settings), cascade_row(settings, cascade), *impact_rows(settings)]
     return fields.columns(rows, TABLES["theory"])

@@ -132,14 +132,7 @@ def report(template: str, rows: pd.DataFrame) -> str:
 
 
 def make(settings: dict, references: list[str], template: str, read: list[pd.DataFrame]) -> dict:
-    """The columns of the table of claims, and its page.
-
-    Parameters
-    ----------
-    settings : `claims`, entries of the config
-    references, read : names of the tables, SECTION/NAME, and the tables
-    template : of the page
-    """
+    """The columns of the table of claims, and its page; `references` are the names of the tables, SECTION/NAME."""
     tables_by_name = dict(zip(references, read, strict=True))
     found = {name: evaluate(claim, tables_by_name) for name, claim in settings["claims"].items()}
     made = columns(settings["claims"], found)
