@@ -34,6 +34,11 @@ def single_quantity(
     return Finding({name: float(measure(euler))}, {name: float(measure(converged))})
 
 
+def lowest(values: pd.Series | pd.Index) -> float:
+    """The minimum; NaN for no values."""
+    return float(values.min()) if len(values) else NONE
+
+
 def onset(x: np.ndarray, holds: np.ndarray) -> float:
     """The x from which a property holds: the threshold with the fewest exceptions on both sides.
 
