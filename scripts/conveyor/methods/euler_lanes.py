@@ -104,7 +104,7 @@ def sine_and_cosine(phase: Vector) -> tuple[Vector, Vector]:
 
 
 def spring_length(depth: Vector, exponent: Vector, flying: Vector) -> Vector:
-    """δ^p in m^p from δ (m); arbitrary values in lanes in flight. The slow power function is called only where needed."""
+    """δ^p in m^p from δ (m); arbitrary values in lanes in flight. The slow power function is called only if needed."""
     hertz, hooke = exponent == 1.5, exponent == 1.0
     return power(depth, exponent, ~(flying | hertz | hooke), depth * where(hertz, call("sqrt", depth), 1.0))
 
