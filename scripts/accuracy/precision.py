@@ -106,14 +106,9 @@ def run_method(method: Method, settings: dict) -> Result:
     """The result of a run. A Taylor step of order n counts as n force evaluations, for n derivatives of the force."""
     conveyor, start = grid.conveyor_and_start(settings["model"])
     if method.treatment in peers.TREATMENTS:
-        run = peers.run(
-            pack(conveyor, start),
-            settings["duration"],
-            method.method,
-            method.treatment,
-            method.tolerance,
-            settings["max_evaluations"],
-        )
+        name, treatment, tolerance, _ = method
+        limit = settings["max_evaluations"]
+        run = peers.run(pack(conveyor, start), settings["duration"], name, treatment, tolerance, limit)
         return Result(run.mean_velocity, np.array([run.vx, run.z, run.vz]), run.evaluations, 0, run.status)
     run = simulate_method(method, settings)
     order = ORDER if method.method == "event" else 1
@@ -138,8 +133,8 @@ def sample_trajectory(method: Method, settings: dict) -> tuple[np.ndarray, np.nd
     if method.treatment in peers.TREATMENTS:
         # Twice as many, because interpolation may need evaluations.
         limit = 2 * settings["max_evaluations"]
-        parameters, duration = grid.packed(settings["model"]), settings["duration"]
-        run = peers.run(parameters, duration, method.method, method.treatment, method.tolerance, limit, times=times)
+        name, treatment, tolerance, _ = method
+        run = peers.run(grid.packed(settings["model"]), settings["duration"], name, treatment, tolerance, limit, times)
         return run.samples[:, [0, 2]], run.events
     run = simulate_method(method, settings)
     samples = run.sample(times)
@@ -211,9 +206,9 @@ def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[s
         run_method(method, settings | SHORT)
     runs = [partial(run_method, method, settings) for method in listed]
     results, times = run_in_turns(runs, **timing, progress=progress)
+    run, found = pd.DataFrame(listed), pd.DataFrame(results)
     state = find_state(settings, truth.end)
-    velocity = np.array([result.mean_velocity for result in results])
-    velocity_error = np.abs(velocity / truth.mean_velocity - 1.0)
+    velocity_error = (found.mean_velocity / truth.mean_velocity - 1.0).abs()
     outcomes = [
         judge_run(result, error, settings, state) for result, error in zip(results, velocity_error, strict=True)
     ]
@@ -222,22 +217,22 @@ def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[s
         trajectory_errors(method, reference, settings) if outcome == "ok" else (math.nan, math.nan)
         for method, outcome in zip(listed, outcomes, strict=True)
     ]
-    run = pd.DataFrame(listed)
+    trajectory_error, event_error = zip(*errors, strict=True)
     return {
         "precision": {
             **run,
-            "evaluations": np.array([result.evaluations for result in results]),
-            "repeated_evaluations": np.array([result.repeated for result in results]),
-            "mean_velocity": velocity,
+            "evaluations": found.evaluations,
+            "repeated_evaluations": found.repeated,
+            "mean_velocity": found.mean_velocity,
             "velocity_error": velocity_error,
-            "state_error": np.array([np.abs((result.end - truth.end) / scale).max() for result in results]),
-            "trajectory_error": np.array([error for error, _ in errors]),
-            "event_error": np.array([error for _, error in errors]),
-            "outcome": np.array(outcomes),
+            "state_error": [np.abs((result.end - truth.end) / scale).max() for result in results],
+            "trajectory_error": trajectory_error,
+            "event_error": event_error,
+            "outcome": outcomes,
         },
         "precision_times": {
             **run,
-            "seconds": np.array([np.median(spent) for spent in times]),
-            "repeats": np.array([len(spent) for spent in times]),
+            "seconds": [np.median(spent) for spent in times],
+            "repeats": [len(spent) for spent in times],
         },
     }

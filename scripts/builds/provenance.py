@@ -29,16 +29,13 @@ HEAD = """\
 MAY_DIFFER = "# may differ between builds, because it contains measured times: "
 
 
-def line(file: str, timed: bool) -> str:
-    """The line of a file; for a file that may differ between builds a comment, which sha256sum ignores."""
-    if timed:
-        return f"{MAY_DIFFER}{file}\n"
-    return f"{hashlib.sha256(Path(file).read_bytes()).hexdigest()}  {file}\n"
-
-
 def list_files(files: Iterable[str], timed: Collection[str]) -> str:
-    """The manifest of `files`; the files in `timed` contain measured times and may differ between builds."""
-    return HEAD + "".join(line(file, file in timed) for file in files)
+    """The manifest of `files`; those in `timed` contain measured times and get a comment, which sha256sum ignores."""
+
+    def line(file: str) -> str:
+        return MAY_DIFFER + file if file in timed else f"{hashlib.sha256(Path(file).read_bytes()).hexdigest()}  {file}"
+
+    return HEAD + "".join(f"{line(file)}\n" for file in files)
 
 
 def run_git(root: Path, *arguments: str) -> str | None:

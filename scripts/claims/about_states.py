@@ -152,13 +152,8 @@ def first_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd.
         f"The velocity rises by {high - low:.2f} cm/s. The paper's method deviates by {deviation:+.1f} % at the upper "
         f"end. The largest velocity at any amplitude, for each treatment of a tensile contact force: {found}"
     )
-    return Finding(
-        *(
-            dict(zip(("velocity_at_lower_end", "velocity_at_upper_end"), ends[method], strict=True))
-            for method in METHODS
-        ),
-        note,
-    )
+    quantities = ({"velocity_at_lower_end": lower, "velocity_at_upper_end": upper} for lower, upper in ends.values())
+    return Finding(*quantities, note)
 
 
 def second_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd.DataFrame) -> Finding:

@@ -26,8 +26,9 @@ def make(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
     low, high = settings.get("acceleration", (critical.acceleration.min(), critical.acceleration.max()))
     data = critical[critical.is_critical & critical.acceleration.between(low, high)]
     data = data.acceleration.to_numpy(), data.z0.to_numpy()
+    names = [column.name for column in TABLES["regressions"]]
     if len(np.unique(data[0])) <= len(Hyperbola._fields):
-        return {column.name: [] for column in TABLES["regressions"]}
+        return {name: [] for name in names}
     bounds = {name: tuple(limits) for name, limits in settings["bounds"].items()}
     valley = dict(settings["valley"])
     if "acceleration" not in settings:
@@ -44,6 +45,4 @@ def make(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
         paper = Hyperbola(**settings["paper"])
         rows.append(("paper", *paper, mean_squared_error(*data, paper), 0))
     rows += [("valley", *triple, error, 1) for triple, error in zip(valley, errors, strict=True)]
-    return {
-        column.name: list(values) for column, values in zip(TABLES["regressions"], zip(*rows, strict=True), strict=True)
-    }
+    return pd.DataFrame(rows, columns=names).to_dict("list")
