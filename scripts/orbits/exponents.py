@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor.analysis.chaos import lyapunov
-from orbits.strobes import parameters_on_attractors
+from orbits.attractor_states import parameters_on_attractors
 from pipeline import fields
 
 TABLES = {

@@ -1,7 +1,6 @@
 """Stroboscopic states of the attractors over the amplitude, swept up and down, with their states of motion."""
 
 import numpy as np
-import pandas as pd
 
 from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.attractors import labels
@@ -21,14 +20,6 @@ TABLES = {
 }
 
 BRANCHES = ("up", "down")
-
-
-def parameters_on_attractors(strobes: pd.DataFrame, settings: dict) -> tuple[pd.DataFrame, np.ndarray]:
-    """The last recorded state of each amplitude and branch, and parameter vectors with these states, shape (n, 16)."""
-    last = strobes[strobes.cycle == strobes.cycle.max()].reset_index(drop=True)
-    parameters = np.tile(grid.packed(settings["model"]), (len(last), 1))
-    parameters[:, 0] = last.acceleration
-    return last, stroboscopic_map.pack_states(parameters, last[["delta", "v"]].to_numpy(), settings["tolerance"])
 
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:

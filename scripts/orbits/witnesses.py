@@ -7,7 +7,7 @@ from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.attractors.convergence import MAX_PERIOD
 from conveyor.analysis.chaos.zero_one import zero_one
 from conveyor.solver.parallel import for_each_chunk
-from orbits.strobes import parameters_on_attractors
+from orbits.attractor_states import parameters_on_attractors
 from pipeline import fields
 
 TABLES = {
