@@ -146,7 +146,7 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
 def find_cascade(
     parameters: np.ndarray, branches: list[Branch], orbits: list[Orbit], settings: dict
 ) -> list[Bifurcation]:
-    """The doubling cascade of the last seed of the config, or of the first jumping orbit that has one; else empty."""
+    """The doubling cascade of the config's last seed or of the first jumping orbit; an empty list if there is none."""
     if "seeds" in settings:
         return doubling_cascade.doubling_cascade(parameters, *first_doublings(parameters, branches, orbits[-1]))
     jumps = [orbit for orbit in orbits if orbit.longest_flight >= LONG_FLIGHT]
