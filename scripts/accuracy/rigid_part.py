@@ -13,8 +13,7 @@ import pandas as pd
 from conveyor.analysis.attractors import labels
 from conveyor.methods import rigid_part_motion
 from conveyor.methods.rigid_part_orbits import RigidOrbit, rigid_orbit
-from conveyor.solver import model as packed
-from conveyor.solver.model import ACCELERATION, FREQUENCY, Conveyor, Start, pack
+from conveyor.solver.model import ACCELERATION, FREQUENCY, PARAMETERS, Conveyor, Start, pack
 from conveyor.solver.progress import bar
 from pipeline import fields, grid
 
@@ -36,7 +35,7 @@ LAST_CYCLE = 50  # samples of the last cycle, for the height of a jump
 CLOSE = 1e-2  # largest distance from an earlier state, relative to the height of a jump, that counts as a return
 CYCLES = 2000  # simulated cycles, after which a motion without a period is undecided
 # Parameters that determine the restitution.
-CONTACT_PARAMETERS = [packed.STIFFNESS, packed.DAMPING, packed.MASS, packed.EXPONENT, packed.TENSION]
+CONTACT_PARAMETERS = [PARAMETERS.index(name) for name in ("stiffness", "damping", "mass", "exponent", "tension")]
 CONTACT, RIGID, ONE_NUMBER = "contact", "rigid part, e(u)", "rigid part, one e"
 
 
