@@ -21,9 +21,7 @@ TABLES = {
     "benchmark": (
         fields.text("case", "name of the case"),
         fields.text("motion", "motion of the part in words"),
-        fields.text(
-            "chosen", "choice of the tolerance: default, or the loosest that keeps the error against the reference"
-        ),
+        fields.text("chosen", "tolerance: the default, or the loosest that keeps the error against the reference"),
         fields.number("tolerance", "1", "relative error of a step"),
         fields.number("acceleration", "m/s²", "amplitude of the excitation"),
         fields.number("z0", "m", "initial height"),
@@ -102,9 +100,8 @@ def columns(cases: dict[str, dict], tolerance: float, repeats: int, *, progress:
     euler = [time_run(case, case["compared"], "euler")[1].mean_velocity() for case in rows]
     seconds, without, euler_seconds = measure_times(rows, repeats, progress)
     return {
-        **{name: np.array([case[name] for case in rows]) for name in ("case", "motion", "chosen", "tolerance")},
-        **{name: np.array([case["model"][name] for case in rows]) for name in ("acceleration", "z0")},
-        **{name: np.array([case[name] for case in rows]) for name in ("duration", "compared")},
+        **pd.DataFrame(rows)[["case", "motion", "chosen", "tolerance", "duration", "compared"]],
+        **pd.DataFrame([case["model"] for case in rows])[["acceleration", "z0"]],
         "mean_velocity": truth,
         "error": np.abs(np.array(found) / truth - 1.0),
         "euler_error": np.abs(np.array(euler) / truth - 1.0),

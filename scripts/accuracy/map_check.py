@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
+from scipy.ndimage import generate_binary_structure, maximum_filter, minimum_filter
 
 from conveyor.analysis.attractors.convergence import MAX_PERIOD
 from conveyor.analysis.attractors.labels import CHAOS, FIRST, LONG_FLIGHT, SECOND, STATES, UNDECIDED
@@ -55,23 +56,16 @@ class Settled(NamedTuple):
 
 def is_near_boundary(labels: np.ndarray) -> np.ndarray:
     """Whether one of the four neighbours in a map of labels, shape (n, m), has another label."""
-    near = np.zeros(labels.shape, bool)
-    rows, columns = labels[1:] != labels[:-1], labels[:, 1:] != labels[:, :-1]
-    near[1:] |= rows
-    near[:-1] |= rows
-    near[:, 1:] |= columns
-    near[:, :-1] |= columns
-    return near
+    codes = np.unique(labels, return_inverse=True)[1].reshape(labels.shape)
+    cross = generate_binary_structure(2, 1)
+    # The filters continue the map with the labels of its edge, so that no boundary appears there.
+    return maximum_filter(codes, footprint=cross) != minimum_filter(codes, footprint=cross)
 
 
 def draw_rows(near: np.ndarray, points: int, share: float, random: np.random.Generator) -> np.ndarray:
-    """Random rows of a map, a share of them near a boundary; fewer if the map does not have enough.
+    """As many random rows of a map as `points`, a `share` of them near a boundary; fewer if the map has not enough.
 
-    Parameters
-    ----------
     near : whether each row is near a boundary, bool, shape (n,)
-    points : number of rows
-    share : share of rows near a boundary
     """
     close, far = np.flatnonzero(near), np.flatnonzero(~near)
     close_count = min(round(share * points), len(close))
@@ -162,14 +156,7 @@ def brute_force(rows: np.ndarray, settings: dict, *, threads: int = 1, progress:
 def make(
     settings: dict, maps: list[pd.DataFrame], *, threads: int = 1, progress: str | None = None
 ) -> dict[str, np.ndarray]:
-    """The columns of the table of checked points.
-
-    Parameters
-    ----------
-    settings : the section `map_check` of the config
-    maps : tables of its sweeps over two parameters, in order
-    threads, progress : as in conveyor.ensemble.run
-    """
+    """The columns of the table of checked points; `maps` are the tables of the sweeps of the config, in order."""
     random = np.random.default_rng(settings["seed"])
     chosen, parameters = [], []
     for name, table in zip(settings["maps"], maps, strict=True):

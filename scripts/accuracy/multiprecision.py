@@ -14,7 +14,7 @@ from mpmath import mp, mpf
 from conveyor.solver.model import Conveyor, Start
 
 ORDER = 24
-CLOSE = 1e-12  # m: above this depth, the spring changes the velocity by less than one part in 1e18
+CLOSE = 1e-12  # m: in contacts shallower than this, the spring changes the velocity by less than one part in 1e18
 INSIDE = 4  # checks for events in a step
 SCAN = 400  # checks for an impact in a cycle of flight
 

@@ -18,7 +18,7 @@ from sweeps import shards
 class Shown(NamedTuple):
     """The part of a kind of table that figures show."""
 
-    observe: Callable[[dict], pd.DataFrame]  # makes the table from the settings of its entry
+    make: Callable[[dict], Mapping[str, np.ndarray] | pd.DataFrame]  # from the settings of an entry
     keys: tuple[str, ...]  # columns besides the axes that identify a row
     drawn: tuple[str, ...]  # columns that a figure draws
     what: str  # the drawn columns in words
@@ -26,6 +26,10 @@ class Shown(NamedTuple):
     settled: bool = False  # whether the table describes attractors, not transients
     motion: tuple[str, ...] = ()  # columns besides the axes that identify a motion, if all its rows belong together
     each: bool = False  # whether every motion has a panel and a range of values of its own
+
+    def observe(self, settings: dict) -> pd.DataFrame:
+        """The table of an entry with these settings."""
+        return pd.DataFrame(self.make(settings))
 
 
 def make_critical_heights(settings: dict) -> pd.DataFrame:
@@ -46,33 +50,18 @@ def make_exponents(settings: dict) -> pd.DataFrame:
     return pd.DataFrame(exponents.make(found, settings))
 
 
-def table_of(make: Callable[[dict], Mapping[str, np.ndarray]]) -> Callable[[dict], pd.DataFrame]:
-    """The function that returns the columns of `make` as a table."""
-    return lambda settings: pd.DataFrame(make(settings))
-
-
 SHOWN = {
-    "sweeps": Shown(table_of(shards.columns), (), ("mean_velocity", "state"), "mean velocity, state"),
+    "sweeps": Shown(shards.columns, (), ("mean_velocity", "state"), "mean velocity, state"),
     "signals": Shown(
-        table_of(signals.make),
-        ("time",),
-        ("x", "vx", "z", "vz", "contact_force", "friction_force"),
-        "samples",
-        each=True,
+        signals.make, ("time",), ("x", "vx", "z", "vz", "contact_force", "friction_force"), "samples", each=True
     ),
-    "spectra": Shown(
-        table_of(spectra.make), ("signal", "frequency"), ("amplitude",), "spectrum", settled=True, each=True
-    ),
-    "estimates": Shown(table_of(estimates.make), (), ("lambda",), "exponent"),
+    "spectra": Shown(spectra.make, ("signal", "frequency"), ("amplitude",), "spectrum", settled=True, each=True),
+    "estimates": Shown(estimates.make, (), ("lambda",), "exponent"),
     "critical": Shown(make_critical_heights, (), ("z0",), "critical height", vertical=True, settled=True),
     "impacts": Shown(
-        table_of(impacts.make),
-        (),
-        ("impact_velocity", "impact_phase", "state"),
-        "first impact, state",
-        vertical=True,
+        impacts.make, (), ("impact_velocity", "impact_phase", "state"), "first impact, state", vertical=True
     ),
-    "dimensions": Shown(table_of(portraits.make), (), ("dimension",), "dimension", vertical=True, settled=True),
+    "dimensions": Shown(portraits.make, (), ("dimension",), "dimension", vertical=True, settled=True),
     "attractors": Shown(
         make_strobes, ("branch", "cycle"), ("v",), "strobes", vertical=True, settled=True, motion=("branch",)
     ),

@@ -8,25 +8,25 @@ Times differ between runs and machines. They have a table of their own, so that 
 """
 
 import math
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import NamedTuple
+from time import thread_time
+from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 
-from accuracy.timing import run_in_turns
 from conveyor.analysis.attractors import labels
 from conveyor.methods import fixed_step, peers
 from conveyor.simulation import Run, simulate
 from conveyor.solver.model import conveyor_motion, pack
 from conveyor.solver.polynomial import ORDER
+from conveyor.solver.progress import bar
 from pipeline import fields, grid
 
 RUN = (
     fields.text("method", "event, a fixed-step method, or another integrator"),
-    fields.text(
-        "treatment",
-        "treatment of impacts and slip reversals: exact (with or without reuse), fixed step, sign, events, modes",
-    ),
+    fields.text("treatment", "of impacts and slip: exact (with or without reuse), fixed step, sign, events or modes"),
     fields.number("tolerance", "1", "relative tolerance; null for fixed steps"),
     fields.number("step", "s", "time step; null for methods with a tolerance"),
 )
@@ -39,14 +39,8 @@ TABLES = {
         fields.number("mean_velocity", "m/s", "mean feeding velocity over the last quarter"),
         fields.number("velocity_error", "1", "relative error of the mean velocity"),
         fields.number("state_error", "1", "largest error of ẋ, z, ż at the end, in units of the plate's motion"),
-        fields.number(
-            "trajectory_error", "1", "root mean square error of x and z at fixed times, in units of the plate's motion"
-        ),
-        fields.number(
-            "event_error",
-            "1",
-            "largest error of a time of impact or separation, in cycles; null if their number is wrong or unknown",
-        ),
+        fields.number("trajectory_error", "1", "rms error of x and z at fixed times, in units of the plate's motion"),
+        fields.number("event_error", "1", "largest error of an event's time, in cycles; null if their number differs"),
         fields.text("outcome", "ok, or the failure, independent of the status that the method reports"),
     ),
     "precision_times": (
@@ -57,6 +51,8 @@ TABLES = {
 }
 
 TRUTH = 1e-14  # tolerance of the reference
+# Shortest turn: a fast run is repeated within it, so that the first repetition with a cold cache does not matter.
+TURN = 0.01  # s
 SHORT = {"duration": 1e-3, "max_evaluations": 1000}  # of runs that only compile or load the code of a method
 # Treatments of the event-driven solver: with and without reuse of the steps of a periodic motion.
 EXACT, NO_REUSE = "exact", "exact, nothing repeated"
@@ -110,14 +106,9 @@ def run_method(method: Method, settings: dict) -> Result:
     """The result of a run. A Taylor step of order n counts as n force evaluations, for n derivatives of the force."""
     conveyor, start = grid.conveyor_and_start(settings["model"])
     if method.treatment in peers.TREATMENTS:
-        run = peers.run(
-            pack(conveyor, start),
-            settings["duration"],
-            method.method,
-            method.treatment,
-            method.tolerance,
-            settings["max_evaluations"],
-        )
+        name, treatment, tolerance, _ = method
+        limit = settings["max_evaluations"]
+        run = peers.run(pack(conveyor, start), settings["duration"], name, treatment, tolerance, limit)
         return Result(run.mean_velocity, np.array([run.vx, run.z, run.vz]), run.evaluations, 0, run.status)
     run = simulate_method(method, settings)
     order = ORDER if method.method == "event" else 1
@@ -142,8 +133,8 @@ def sample_trajectory(method: Method, settings: dict) -> tuple[np.ndarray, np.nd
     if method.treatment in peers.TREATMENTS:
         # Twice as many, because interpolation may need evaluations.
         limit = 2 * settings["max_evaluations"]
-        parameters, duration = grid.packed(settings["model"]), settings["duration"]
-        run = peers.run(parameters, duration, method.method, method.treatment, method.tolerance, limit, times=times)
+        name, treatment, tolerance, _ = method
+        run = peers.run(grid.packed(settings["model"]), settings["duration"], name, treatment, tolerance, limit, times)
         return run.samples[:, [0, 2]], run.events
     run = simulate_method(method, settings)
     samples = run.sample(times)
@@ -182,14 +173,30 @@ def judge_run(result: Result, error: float, settings: dict, state: str) -> str:
     return "ok"
 
 
-def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[str, dict[str, np.ndarray]]:
+def run_in_turns(
+    runs: Sequence[Callable[[], Any]], *, repeats: int, seconds: float, progress: str | None = None
+) -> tuple[list[Any], list[list[float]]]:
+    """The results of runs, and the processor times (s) of all their repetitions, in one thread.
+
+    In each of `repeats` rounds, every run has a turn unless `seconds` have been spent on it, so that a slow run is made
+    once. Runs take turns, so that other load affects all of them alike. All code must have been compiled before.
+    """
+    results: list[Any] = [None] * len(runs)
+    times: list[list[float]] = [[] for _ in runs]
+    for place in bar([*range(len(runs))] * repeats, label=progress, unit="turns"):
+        spent = times[place]
+        turn_ends = min(sum(spent) + TURN, seconds)
+        while sum(spent) < turn_ends:
+            begin = thread_time()
+            results[place] = runs[place]()
+            spent.append(thread_time() - begin)
+    return results, times
+
+
+def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[str, dict]:
     """The columns of the tables of work and precision and of processor times, rows by method, tolerance and step.
 
-    Parameters
-    ----------
-    settings : of one scene with its model
-    timing : `repeats` and `seconds` of `timing.run_in_turns`
-    progress : name of a progress bar, or None
+    timing : `repeats` and `seconds` of `run_in_turns`
     """
     reference_method = Method("event", NO_REUSE, TRUTH, None)
     truth = run_method(reference_method, settings)
@@ -199,9 +206,9 @@ def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[s
         run_method(method, settings | SHORT)
     runs = [partial(run_method, method, settings) for method in listed]
     results, times = run_in_turns(runs, **timing, progress=progress)
+    run, found = pd.DataFrame(listed), pd.DataFrame(results)
     state = find_state(settings, truth.end)
-    velocity = np.array([result.mean_velocity for result in results])
-    velocity_error = np.abs(velocity / truth.mean_velocity - 1.0)
+    velocity_error = (found.mean_velocity / truth.mean_velocity - 1.0).abs()
     outcomes = [
         judge_run(result, error, settings, state) for result, error in zip(results, velocity_error, strict=True)
     ]
@@ -210,27 +217,22 @@ def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[s
         trajectory_errors(method, reference, settings) if outcome == "ok" else (math.nan, math.nan)
         for method, outcome in zip(listed, outcomes, strict=True)
     ]
-    run = {
-        "method": np.array([method.method for method in listed]),
-        "treatment": np.array([method.treatment for method in listed]),
-        "tolerance": np.array([method.tolerance for method in listed], dtype=np.float64),
-        "step": np.array([method.step for method in listed], dtype=np.float64),
-    }
+    trajectory_error, event_error = zip(*errors, strict=True)
     return {
         "precision": {
             **run,
-            "evaluations": np.array([result.evaluations for result in results]),
-            "repeated_evaluations": np.array([result.repeated for result in results]),
-            "mean_velocity": velocity,
+            "evaluations": found.evaluations,
+            "repeated_evaluations": found.repeated,
+            "mean_velocity": found.mean_velocity,
             "velocity_error": velocity_error,
-            "state_error": np.array([np.abs((result.end - truth.end) / scale).max() for result in results]),
-            "trajectory_error": np.array([error for error, _ in errors]),
-            "event_error": np.array([error for _, error in errors]),
-            "outcome": np.array(outcomes),
+            "state_error": [np.abs((result.end - truth.end) / scale).max() for result in results],
+            "trajectory_error": trajectory_error,
+            "event_error": event_error,
+            "outcome": outcomes,
         },
         "precision_times": {
             **run,
-            "seconds": np.array([np.median(spent) for spent in times]),
-            "repeats": np.array([len(spent) for spent in times]),
+            "seconds": [np.median(spent) for spent in times],
+            "repeats": [len(spent) for spent in times],
         },
     }

@@ -20,15 +20,12 @@ TABLES = {
         fields.text("quantity", "exponent, dimension or fit"),
         fields.text("estimator", "name of the estimator"),
         fields.number("work", "1", "simulated cycles, points or evaluations"),
-        fields.number(
-            "error", "1", "relative error of the exponent; error of the dimension; relative gap to the best fit"
-        ),
+        fields.number("error", "1", "relative error (exponent), error (dimension) or relative gap to the best fit"),
     ),
 }
 
 TOLERANCE = 1e-12
-# Share of the run over which a pair without renormalisation is compared: its end only.
-AT_END = 1e-9
+AT_END = 1e-9  # share of a run
 
 
 def exponent_rows(settings: dict, model: dict) -> list[dict]:
@@ -43,20 +40,15 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
     there = here.copy()
     unit = normal_gravity(model) / (2.0 * math.pi * model["frequency"]) ** 2
     there[:, Z0] += settings["epsilon"] * unit
+    # Without renormalisation, only the end of the run is compared.
+    pair = {"output": "z", "last": AT_END, "samples": 1, "tolerance": TOLERANCE}
     found = []
     for duration in settings["durations"]:
         cycles = round(duration / cycle)
         blocks = 2
         estimates = {
             "pair of trajectories": lyapunov.finite_difference_estimate(
-                here,
-                there,
-                settings["epsilon"] * unit,
-                output="z",
-                duration=duration,
-                last=AT_END,
-                samples=1,
-                tolerance=TOLERANCE,
+                here, there, settings["epsilon"] * unit, duration=duration, **pair
             )[0],
             "pair, set back each cycle": lyapunov.renormalised_pair(
                 here[0], orbit.state, distance=settings["epsilon"], transient=0, cycles=cycles, tolerance=TOLERANCE

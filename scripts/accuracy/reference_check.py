@@ -13,11 +13,7 @@ TABLES = {
         fields.text("quantity", "x, vx, z, vz at fixed times, or event for an impact or a separation"),
         fields.number("time", "s", "time; time of an event in the multiprecision solution"),
         fields.number("value", "m, m/s", "value in the multiprecision solution; null for events"),
-        fields.number(
-            "difference",
-            "1",
-            "difference of the solver at its tightest tolerance, in units of the plate's motion; in cycles for events",
-        ),
+        fields.number("difference", "1", "from the tightest tolerance, in units of the plate's motion; events: cycles"),
     ),
 }
 

@@ -5,7 +5,6 @@ doublings of the jumping motion. The rigid part has a coefficient of restitution
 as in the contact, or a constant one.
 """
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -14,26 +13,13 @@ import pandas as pd
 from conveyor.analysis.attractors import labels
 from conveyor.methods import rigid_part_motion
 from conveyor.methods.rigid_part_orbits import RigidOrbit, rigid_orbit
-from conveyor.solver.model import (
-    ACCELERATION,
-    DAMPING,
-    EXPONENT,
-    FREQUENCY,
-    MASS,
-    STIFFNESS,
-    TENSION,
-    Conveyor,
-    Start,
-    pack,
-)
+from conveyor.solver.model import ACCELERATION, FREQUENCY, PARAMETERS, Conveyor, Start, pack
 from conveyor.solver.progress import bar
 from pipeline import fields, grid
 
 TABLES = {
     "rigid_part": (
-        fields.text(
-            "model", "contact, or a rigid part with a restitution that depends on the speed of approach or is constant"
-        ),
+        fields.text("model", "contact, or a rigid part whose restitution is e(u) or constant"),
         fields.text("kind", "velocity, fold or period doubling"),
         fields.count("number", "number of the bifurcation in ascending order; 0 for velocities"),
         fields.number("acceleration", "m/s²", "amplitude of the excitation"),
@@ -46,9 +32,10 @@ TABLES = {
 SPEEDS = np.geomspace(1e-3, 1.0, 64)  # m/s, speeds of approach of the table of restitution
 MAX_PERIOD = 64  # excitation cycles, longest period of a periodic motion, as for the contact
 LAST_CYCLE = 50  # samples of the last cycle, for the height of a jump
-CLOSE = 1e-2  # distance from an earlier state, over the height of a jump, of a motion that repeats itself
+CLOSE = 1e-2  # largest distance from an earlier state, relative to the height of a jump, that counts as a return
 CYCLES = 2000  # simulated cycles, after which a motion without a period is undecided
-CONTACT_PARAMETERS = [STIFFNESS, DAMPING, MASS, EXPONENT, TENSION]  # parameters that determine the restitution
+# Parameters that determine the restitution.
+CONTACT_PARAMETERS = [PARAMETERS.index(name) for name in ("stiffness", "damping", "mass", "exponent", "tension")]
 CONTACT, RIGID, ONE_NUMBER = "contact", "rigid part, e(u)", "rigid part, one e"
 
 
@@ -138,10 +125,7 @@ def find_orbit(conveyor: Conveyor, restitution: tuple[np.ndarray, np.ndarray]) -
 def bifurcation_rows(model: str, conveyor: Conveyor, restitution, settings: dict) -> list[dict]:
     """The rows of the fold and the first period doublings of the jumping motion of a rigid part."""
     orbit = find_orbit(conveyor, restitution)
-    rows = [
-        bifurcation_row(model, "fold", 1, orbit.fold),
-        bifurcation_row(model, "period doubling", 1, orbit.doubling),
-    ]
+    rows = [bifurcation_row(model, "fold", 1, orbit.fold), bifurcation_row(model, "period doubling", 1, orbit.doubling)]
     low = orbit.doubling
     for number in range(2, settings["doublings"] + 1):
         low = find_doubling(conveyor, restitution, 2 ** (number - 1), low, settings)
@@ -151,15 +135,7 @@ def bifurcation_rows(model: str, conveyor: Conveyor, restitution, settings: dict
 
 def bifurcation_row(model: str, kind: str, number: int, acceleration: float) -> dict:
     """The row of a bifurcation at an amplitude (m/s²)."""
-    return {
-        "model": model,
-        "kind": kind,
-        "number": number,
-        "acceleration": acceleration,
-        "z0": math.nan,
-        "mean_velocity": math.nan,
-        "state": None,
-    }
+    return {"model": model, "kind": kind, "number": number, "acceleration": acceleration}
 
 
 def make(
@@ -170,13 +146,7 @@ def make(
     *,
     progress: str | None = None,
 ) -> dict[str, np.ndarray]:
-    """The columns of the table of the rigid part.
-
-    Parameters
-    ----------
-    settings : the section `rigid_part` of the config
-    amplitudes, folds_and_doublings, cascade : tables of the compliant contact
-    """
+    """The columns of the table of the rigid part, from the tables of the compliant contact."""
     conveyor, _ = grid.conveyor_and_start(amplitudes.attrs["model"])
     speed_dependent = tabulate_restitution(pack(conveyor, Start()))
     constant = SPEEDS, np.full(len(SPEEDS), find_orbit(conveyor, speed_dependent).restitution)
@@ -200,4 +170,5 @@ def make(
     models = {RIGID: speed_dependent, ONE_NUMBER: constant}
     for model, restitution in bar(models.items(), label=progress, unit="models"):
         rows += bifurcation_rows(model, conveyor, restitution, settings)
-    return fields.columns(rows, TABLES["rigid_part"])
+    # Columns of velocities only are null for bifurcations.
+    return pd.DataFrame(rows, columns=[column.name for column in TABLES["rigid_part"]]).to_dict("list")

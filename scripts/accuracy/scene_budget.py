@@ -35,9 +35,7 @@ TABLES = {
         fields.number("steps", "1/s", "Taylor steps per second of the motion; null for the rigid part"),
         fields.number("sticks", "1", "share of the points whose part sticks at some time"),
         fields.number("known", "1", "share of the drawn values without a visible change by a tiny shift of the height"),
-        fields.number(
-            "changed", "1", "share of these values that differ visibly from the full model, for the worst column"
-        ),
+        fields.number("changed", "1", "share of values that differ visibly from the full model, for the worst column"),
         fields.flag("visible", "whether a reader would see the difference"),
         fields.flag("chosen", "whether the config chooses this variant"),
         fields.text("reason", "reason for a choice that is tighter than necessary; null for none"),
@@ -162,7 +160,7 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
         sweep = partial(rigid_part.sweep, cycles=max(settings["settling"], 2 * rigid_part.MAX_PERIOD))
         sweep(settings | {"axes": observables.thin_axes(thinned, 1)})
         seconds, found = least_time(lambda: sweep(settings))
-        rows.append(row(RIGID, settings | {"rigid": True}, seconds, found))
+        rows.append(row(RIGID, dict(settings), seconds, found))
     return rows
 
 
@@ -176,13 +174,8 @@ def make(
 ) -> dict[str, dict[str, list]]:
     """The columns of the table of budgets, by figure, table and variant, and of the table of processor times.
 
-    Parameters
-    ----------
-    settings : the section `scene_budget` of the config
     entries : settings of the tables by name, SECTION/NAME
     drawn : names of the tables behind each figure
-    threads : number of threads, which share the tables
-    progress : name of a progress bar, or None
     """
     found: dict[str, list[dict]] = {}
     # The slowest tables come last in the config and are started first, so that all threads end together.

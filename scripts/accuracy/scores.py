@@ -133,14 +133,8 @@ def solve_by_events(scene: dict, tolerance: float) -> dict:
     """Solve a scene with this project's solver, without reuse of steps."""
     room = 2 * len(scene["events"])  # a loose tolerance may find more events than the reference has
     times, kinds = np.empty((1, room)), np.full((1, room), -1, np.int8)
-    samples, _ = trajectory.integrate(
-        pack_scene(scene)[None],
-        np.array([scene["times"]]),
-        tolerance=tolerance,
-        reuse=False,
-        event_times=times,
-        event_kinds=kinds,
-    )
+    options = {"tolerance": tolerance, "reuse": False, "event_times": times, "event_kinds": kinds}
+    samples, _ = trajectory.integrate(pack_scene(scene)[None], np.array([scene["times"]]), **options)
     # A generator, because the time of this function is measured.
     events = ((time, EVENTS[kind]) for time, kind in zip(times[0], kinds[0], strict=True) if kind >= 0)
     return {name: samples[0, :, SAMPLES.index(name)] for name in COMPARED} | {"events": events}

@@ -17,17 +17,10 @@ from pipeline import fields, grid
 
 TABLES = {
     "stability": (
-        fields.text(
-            "panel", "stiffness, damping, impact velocity, conveyor; edge of one of them; chatter; or hard and a case"
-        ),
+        fields.text("panel", "stiffness, damping, impact velocity, conveyor; edge of one; chatter; or hard and a case"),
         fields.text("method", "euler, semi_implicit_euler, rk4, event, or in hard cases another integrator"),
         fields.number("x", "see panel", "time step in s, null for event; hard: number of events"),
-        fields.number(
-            "y",
-            "see panel",
-            "stiffness in N/m, damping in N s/m, velocity in m/s, conveyor: amplitude in m/s²; chatter: slip in m/s; "
-            "hard: relative error of the height at the end",
-        ),
+        fields.number("y", "see panel", "varied quantity in SI units; chatter: slip in m/s; hard: relative error"),
         fields.text("outcome", "right, wrong state, energy grows or blow-up; or the failure of another integrator"),
         fields.number("theory", "s", "theoretical stability limit of the time step; null for none"),
     ),
@@ -57,11 +50,13 @@ def characteristic(stiffness: float, damping: float, mass: float) -> tuple[compl
 
 
 def stability_limit(method: str, stiffness: float, damping: float, mass: float) -> float:
-    """Largest stable step h (s) of a method in a linear contact with k (N/m), d (N s/m) and m (kg).
+    """Largest stable step h (s) of a method in a linear contact with k (N/m), d (N s/m) and m (kg); NaN for `event`.
 
     Semi-implicit Euler: h² k/m + 2 h d/m = 4, near 2/ω. Other methods: |R(hλ)| = 1 with the stability polynomial R;
     explicit Euler: h = d/k for an oscillation, RK4: near 2.78/ω.
     """
+    if method == "event":
+        return math.nan
     if method not in fixed_step.METHODS:
         raise ValueError(f"method = {method!r} is not one of {', '.join(fixed_step.METHODS)}")
     roots = characteristic(stiffness, damping, mass)
@@ -169,24 +164,17 @@ def penetration_on_conveyor(conveyor: Conveyor, start: Start, duration: float) -
     return (force / conveyor.stiffness) ** (1.0 / conveyor.exponent)
 
 
-def experiments(
-    panel: str, method: str, values: np.ndarray, settings: dict
-) -> list[tuple[Callable[[float], str], float]]:
-    """For each value, the outcome as a function of the step (s), and the theoretical stability limit (s)."""
-    if panel == "conveyor":
-        return conveyor_experiments(method, values, **{name: settings[panel][name] for name in ("z0", "duration")})
-    return [rest_experiment(panel, method, value, settings) for value in values]
+# The outcome as a function of the step (s), and the theoretical stability limit (s).
+Experiment = tuple[Callable[[float], str], float]
 
 
-def conveyor_experiments(
-    method: str, values: np.ndarray, z0: float, duration: float
-) -> list[tuple[Callable[[float], str], float]]:
-    """`experiments` on the vibrating plate; for each step, parts at all amplitudes are simulated side by side."""
+def conveyor_experiments(method: str, values: np.ndarray, z0: float, duration: float) -> list[Experiment]:
+    """Experiments on the vibrating plate; for each step, parts at all amplitudes are simulated side by side."""
     conveyors, start = [Conveyor(acceleration=value) for value in values], Start(z0)
     parameters = np.array([pack(conveyor, start) for conveyor in conveyors])
     runs = cache(lambda step: fixed_step.run_all(parameters, whole_steps(duration, step), step, method))
 
-    def experiment(place: int, conveyor: Conveyor) -> tuple[Callable[[float], str], float]:
+    def experiment(place: int, conveyor: Conveyor) -> Experiment:
         stiffness = 1.5 * conveyor.stiffness * math.sqrt(penetration_on_conveyor(conveyor, start, duration))
         theory = stability_limit(method, stiffness, conveyor.damping, conveyor.mass)
         return lambda step: outcome_on_conveyor(runs(step)[place], conveyor, start, whole_steps(duration, step)), theory
@@ -194,8 +182,8 @@ def conveyor_experiments(
     return [experiment(place, conveyor) for place, conveyor in enumerate(conveyors)]
 
 
-def rest_experiment(panel: str, method: str, value: float, settings: dict) -> tuple[Callable[[float], str], float]:
-    """One of the `experiments` with a plate at rest."""
+def rest_experiment(panel: str, method: str, value: float, settings: dict) -> Experiment:
+    """The experiment with one value of a panel's quantity on a plate at rest."""
     contact, mass = settings["contact"], Conveyor().mass
     if panel in ("stiffness", "damping"):
         stiffness, damping = (contact | {panel: value}).values()
@@ -204,11 +192,6 @@ def rest_experiment(panel: str, method: str, value: float, settings: dict) -> tu
     conveyor = Conveyor(acceleration=0.0, gravity=1e-3, damping=contact["damping"])
     theory = impact_limit(method, conveyor, value)
     return lambda step: outcome_of_impact(method, step, value, conveyor), theory
-
-
-def has_exact_limit(panel: str, method: str) -> bool:
-    """Whether the theoretical limit is exact, and not only an estimate."""
-    return panel in ("stiffness", "damping") or (panel == "impact velocity" and method == "euler")
 
 
 def measure_limit(outcome: Callable[[float], str], theory: float) -> float:
@@ -232,24 +215,25 @@ def region_rows(settings: dict, progress: str | None) -> list[dict]:
     for panel in PANELS:
         values = panel_values(panel, settings)
         for method in settings["methods"]:
-            found = experiments(panel, method, values, settings)
+            if panel == "conveyor":
+                found = conveyor_experiments(method, values, settings[panel]["z0"], settings[panel]["duration"])
+            else:
+                found = [rest_experiment(panel, method, value, settings) for value in values]
             lines += [(panel, method, value, *one) for value, one in zip(values, found, strict=True)]
     rows = []
     for panel, method, value, outcome, theory in bar(lines, label=progress, unit="lines"):
         rows += [row(panel, method, step, value, outcome(step), theory) for step in steps]
-        if has_exact_limit(panel, method):
+        # Elsewhere, the theoretical limit is only an estimate.
+        if panel in ("stiffness", "damping") or (panel, method) == ("impact velocity", "euler"):
             rows.append(row(f"edge: {panel}", method, measure_limit(outcome, theory), value, RIGHT, theory))
     return rows
 
 
 def outcome_of_solver(panel: str, value: float, settings: dict) -> str:
-    """Outcome by the solver at its default tolerance, with the criteria for methods with a step."""
-    contact = settings["contact"]
-    if panel in ("stiffness", "damping"):
-        return outcome_at_rest("event", math.nan, *(contact | {panel: value}).values())
-    if panel == "impact velocity":
-        conveyor = Conveyor(acceleration=0.0, gravity=1e-3, damping=contact["damping"])
-        return outcome_of_impact("event", math.nan, value, conveyor)
+    """Outcome of the solver at its default tolerance, with the criteria for methods with a step."""
+    if panel != "conveyor":
+        outcome, _ = rest_experiment(panel, "event", value, settings)
+        return outcome(math.nan)
     ride, conveyor = settings[panel], Conveyor(acceleration=value)
     run, truth = (
         simulate(conveyor, Start(ride["z0"]), duration=ride["duration"], tolerance=tolerance)
@@ -257,15 +241,6 @@ def outcome_of_solver(panel: str, value: float, settings: dict) -> str:
     )
     error = abs(run.mean_velocity() - truth.mean_velocity())
     return RIGHT if run.status == "ok" and error < VELOCITY * abs(truth.mean_velocity()) else WRONG
-
-
-def solver_rows(settings: dict) -> list[dict]:
-    """Outcomes of the solver, which has no step, over each quantity."""
-    return [
-        row(panel, "event", math.nan, value, outcome_of_solver(panel, value, settings))
-        for panel in PANELS
-        for value in panel_values(panel, settings)
-    ]
 
 
 def row(panel: str, method: str, x: float, y: float, outcome: str, theory: float = math.nan) -> dict:
@@ -288,7 +263,7 @@ def chatter_rows(settings: dict) -> list[dict]:
 
 
 def outcome_of_rival(run: peers.Summary, error: float, truth: Run) -> str:
-    """Outcome by another integrator in a hard case: its own status if it reports a failure."""
+    """Outcome of another integrator in a hard case: its own status if it reports a failure."""
     if run.status != "ok":
         return run.status
     if run.z < truth.z_end - SUNK:
@@ -330,6 +305,10 @@ def hard_rows(settings: dict, step: float, rivals: dict) -> list[dict]:
 
 def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table of stability."""
-    rows = region_rows(settings, progress) + solver_rows(settings) + chatter_rows(settings)
+    rows = region_rows(settings, progress)
+    for panel in PANELS:
+        for value in panel_values(panel, settings):
+            rows.append(row(panel, "event", math.nan, value, outcome_of_solver(panel, value, settings)))
+    rows += chatter_rows(settings)
     rows += hard_rows(settings["hard"], settings["paper_step"], settings["rivals"])
     return fields.columns(rows, TABLES["stability"])

@@ -31,9 +31,7 @@ TABLES = {
         fields.number("value", "1/s or 1", "estimate: exponent in 1/s, or dimension"),
         fields.number("error", "1", "half-width of the 95 % interval; null for exponents"),
         fields.number("truth", "1/s or 1", "true value; null if it is unknown"),
-        fields.number(
-            "bound", "1/s", "estimate when the separation has saturated at the signal's range; null for dimensions"
-        ),
+        fields.number("bound", "1/s", "estimate for a separation as large as the signal's range; null for dimensions"),
     ),
 }
 

@@ -12,15 +12,7 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import minimize_scalar
 
-from accuracy.closed_forms import (
-    compression,
-    damping_ratio,
-    light_loss,
-    reduced_restitution,
-    restitution_without_tension,
-    rigid_range,
-    undamped_duration,
-)
+from accuracy import closed_forms
 from conveyor import Conveyor, Start, continue_orbit, periodic_orbit
 from conveyor.parameters import normal_gravity
 from conveyor.solver import trajectory
@@ -67,9 +59,9 @@ def simulate_impact(conveyor: Conveyor, speed: float) -> Impact:
     ArithmeticError
         if the part has not separated after RUN durations of an undamped impact
     """
-    row = pack(conveyor, Start(z=compression(conveyor, speed), vz=-speed))
+    row = pack(conveyor, Start(z=closed_forms.compression(conveyor, speed), vz=-speed))
     row[ACCELERATION] = row[GRAVITY] = 0.0  # a Conveyor must have gravity, but the solver does not need it
-    end = RUN * undamped_duration(conveyor, speed)
+    end = RUN * closed_forms.undamped_duration(conveyor, speed)
     instants, kinds = np.empty((1, 8)), np.full((1, 8), -1, np.int8)
     options = {"tolerance": TOLERANCE, "reuse": False}
     samples, _ = trajectory.integrate(row[None], np.array([[end]]), event_times=instants, event_kinds=kinds, **options)
@@ -87,7 +79,7 @@ def simulate_impact(conveyor: Conveyor, speed: float) -> Impact:
 
 def linear_contact(model: dict, stiffness: float, restitution: float, **changes: float | str) -> Conveyor:
     """A conveyor with a linear contact of a given stiffness (N/m) and coefficient of restitution."""
-    damping = 2.0 * damping_ratio(restitution) * math.sqrt(stiffness * model["mass"])
+    damping = 2.0 * closed_forms.damping_ratio(restitution) * math.sqrt(stiffness * model["mass"])
     contact = {"exponent": 1.0, "stiffness": stiffness, "damping": damping, "tension": "allow"}
     return grid.conveyor_and_start({**model, **contact, **changes})[0]
 
@@ -102,7 +94,7 @@ def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[floa
     ArithmeticError
         if the orbit, its fold or its period doubling is not found
     """
-    low, high = rigid_range(restitution)
+    low, high = closed_forms.rigid_range(restitution)
     gravity, vertical = normal_gravity(model), math.sin(model["angle"])
     middle = 0.5 * (low + high)
     # On the rigid orbit, the part leaves with the velocity g T/2, and the plate has the velocity g T (1 - e)/(1 + e)/2.
@@ -135,7 +127,7 @@ def rigid_rows(settings: dict) -> Iterator[dict]:
     for restitution in settings["restitution"]:
         ranges = np.array([stiff_range(settings["model"], k, restitution) for k in stiffness])
         names = ("least a_z/g of one impact per cycle", "a_z/g of the first period doubling")
-        for name, theory, values in zip(names, rigid_range(restitution), ranges.T, strict=True):
+        for name, theory, values in zip(names, closed_forms.rigid_range(restitution), ranges.T, strict=True):
             computed, error = extrapolate_to_zero(stiffness**-0.5, values)
             case, source = f"rigid ball, e = {restitution:g}", "Luo and Han 1996"
             yield row(settings, "rigid", name, case, "1", theory, computed, source, error)
@@ -156,33 +148,34 @@ def impact_rows(settings: dict) -> Iterator[dict]:
     damped, _ = grid.conveyor_and_start(model)
     elastic, _ = grid.conveyor_and_start(model | {"damping": 0.0})
     for speed in settings["speed"]:
-        found, depth = simulate_impact(elastic, speed), compression(elastic, speed)
+        found, depth = simulate_impact(elastic, speed), closed_forms.compression(elastic, speed)
         case = f"undamped, {speed:g} m/s"
-        duration = undamped_duration(elastic, speed)
+        duration = closed_forms.undamped_duration(elastic, speed)
         force = elastic.stiffness * depth**elastic.exponent
         yield row(settings, "impact", "duration of an impact", case, "s", duration, found.duration, "Hertz 1882")
         yield row(settings, "impact", "peak force of an impact", case, "N", force, found.peak, "Hertz 1882")
     for speed in settings["speed"]:
-        beta = damped.damping / damped.mass * compression(damped, speed) / speed
-        theory, found = reduced_restitution(damped.exponent, beta), simulate_impact(damped, speed)
+        beta = damped.damping / damped.mass * closed_forms.compression(damped, speed) / speed
+        theory, found = closed_forms.reduced_restitution(damped.exponent, beta), simulate_impact(damped, speed)
         case, source = f"F = k δ^p + d δ̇, {speed:g} m/s", "reduced equation, SciPy"
         yield row(settings, "impact", "coefficient of restitution", case, "1", theory, found.restitution, source)
     speed = settings["speed"][0]
-    unit = elastic.mass * speed / compression(elastic, speed)  # damping with β = 1
+    unit = elastic.mass * speed / closed_forms.compression(elastic, speed)  # damping with β = 1
 
     def loss(beta: float) -> float:
         light, _ = grid.conveyor_and_start(model | {"damping": beta * unit})
         return (1.0 - simulate_impact(light, speed).restitution) / beta
 
     computed, error = extrapolate_to_zero(np.array([2.0 * LIGHT, LIGHT]), np.array([loss(2.0 * LIGHT), loss(LIGHT)]))
-    theory, source = light_loss(elastic.exponent), "work of the damper"
+    theory, source = closed_forms.light_loss(elastic.exponent), "work of the damper"
     name, case = "loss of speed (1 - e)/β", "F = k δ^p + d δ̇, β → 0"
     yield row(settings, "impact", name, case, "1", theory, computed, source, error)
     for restitution in settings["restitution"]:
-        for tension, theory in (("allow", restitution), ("clip", restitution_without_tension(restitution))):
+        clipped = closed_forms.restitution_without_tension(restitution)
+        for tension, theory in (("allow", restitution), ("clip", clipped)):
             contact = linear_contact(model, settings["stiffness"][0], restitution, tension=tension)
             found = simulate_impact(contact, speed)
-            case = f"F = k δ + d δ̇, ζ = {damping_ratio(restitution):.3g}, {tension}"
+            case = f"F = k δ + d δ̇, ζ = {closed_forms.damping_ratio(restitution):.3g}, {tension}"
             source = "Schwager and Pöschel 2007"
             yield row(settings, "impact", "coefficient of restitution", case, "1", theory, found.restitution, source)
 
@@ -214,12 +207,6 @@ def row(
 
 
 def make(settings: dict, cascade: pd.DataFrame) -> dict[str, list]:
-    """The columns of the table of theory.
-
-    Parameters
-    ----------
-    settings : the section `theory` of the config with the model
-    cascade : table of period doublings
-    """
+    """The columns of the table of theory, with the table of period doublings."""
     rows = [*rigid_rows(settings), cascade_row(settings, cascade), *impact_rows(settings)]
     return fields.columns(rows, TABLES["theory"])

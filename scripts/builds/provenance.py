@@ -1,24 +1,41 @@
 """The record of a build: a manifest of its files, and the sources, versions, machine and times behind them.
 
-The provenance differs from build to build; only the report shows it.
+All builds of a config have the same manifest, so that two builds can be compared by their manifests. The provenance
+differs from build to build; only the report shows it.
 """
 
+import hashlib
 import json
 import os
 import platform
 import re
 import subprocess
+from collections.abc import Collection, Iterable
 from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
 
 import pandas as pd
 
-from builds.manifest import list_files
 from conveyor.methods import rivals
 
 ROOT = Path(__file__).resolve().parents[2]
 UNKNOWN = "unknown"
+HEAD = """\
+# Results and figures with their SHA-256: equal on any number of cores, in any folder, time zone and locale.
+# Check that all files are unchanged: sha256sum --quiet --check MANIFEST
+# Compare two builds: diff MANIFEST OTHER_MANIFEST
+"""
+MAY_DIFFER = "# may differ between builds, because it contains measured times: "
+
+
+def list_files(files: Iterable[str], timed: Collection[str]) -> str:
+    """The manifest of `files`; those in `timed` contain measured times and get a comment, which sha256sum ignores."""
+
+    def line(file: str) -> str:
+        return MAY_DIFFER + file if file in timed else f"{hashlib.sha256(Path(file).read_bytes()).hexdigest()}  {file}"
+
+    return HEAD + "".join(f"{line(file)}\n" for file in files)
 
 
 def run_git(root: Path, *arguments: str) -> str | None:
@@ -62,13 +79,8 @@ def versions() -> list[str]:
 def make(files: list[str], timed: list[str], config: str, benchmarks: str, *, threads: int) -> dict[str, str]:
     """The manifest, and the provenance as JSON.
 
-    Parameters
-    ----------
-    files : all results and figures
-    timed : the files with measured times
     config : hash of the canonical config
     benchmarks : folder of the benchmark files
-    threads : cores available to Snakemake
     """
     provenance = {
         **sources(ROOT),

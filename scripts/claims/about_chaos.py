@@ -4,10 +4,10 @@ import numpy as np
 import pandas as pd
 
 from claims import about_proofs
-from claims.finding import METHODS, NONE, Finding, by_method, format_amplitude, lowest, onset, single_quantity
+from claims.finding import METHODS, NONE, Finding, by_method, format_amplitude, onset, single_quantity
 
 LONGEST_PERIOD = 64  # excitation cycles
-CLOSE = 0.05  # distance from an earlier state, over the largest position or velocity, of a motion that has returned
+CLOSE = 0.05  # largest distance from an earlier state, relative to the largest one, that counts as a return
 NAMES = {"euler": "by the paper's method", "converged": "by the converged solution"}
 
 
@@ -59,7 +59,7 @@ def height_estimate(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
     for table in (euler, converged):
         between = table[(table.acceleration >= 50.0) & (table.acceleration <= 60.0)]
         changes = float((np.diff(np.sign(between["lambda"])) != 0.0).sum())
-        found.append({"lowest_positive": lowest(table[table["lambda"] > 0.0].acceleration), "changes": changes})
+        found.append({"lowest_positive": table[table["lambda"] > 0.0].acceleration.min(), "changes": changes})
     return Finding(*found)
 
 

@@ -26,32 +26,28 @@ def lowest_fold(bifurcations: pd.DataFrame) -> float:
     return bifurcations.acceleration_low[(bifurcations.kind == "fold") & bifurcations.proved].min()
 
 
+def describe_amplitudes(proved: str, amplitudes: pd.Index) -> str:
+    """A sentence on what is proved at some amplitudes (m/s²); empty for none."""
+    if not len(amplitudes):
+        return ""
+    interval = f"from {amplitudes.min():g} to {amplitudes.max():g} m/s²"
+    return f". {proved} proved at {len(amplitudes)} amplitudes {interval} ({PAGE})"
+
+
 def describe_coexistence(certificates: pd.DataFrame | None) -> str:
     """The amplitudes at which two stable motions are proved."""
     if certificates is None:
         return ""
     counts = stable_motions(certificates)
-    amplitudes = counts.index[counts >= 2]
-    if not len(amplitudes):
-        return ""
-    return (
-        f". Two stable motions are proved at {len(amplitudes)} amplitudes from {amplitudes.min():g} to "
-        f"{amplitudes.max():g} m/s² ({PAGE})"
-    )
+    return describe_amplitudes("Two stable motions are", counts.index[counts >= 2])
 
 
 def describe_periodic(certificates: pd.DataFrame | None, begin: float) -> str:
     """The amplitudes from `begin` (m/s²) on at which a stable periodic motion is proved."""
     if certificates is None:
         return ""
-    counts = stable_motions(certificates)
-    amplitudes = counts.index[counts.index >= begin]
-    if not len(amplitudes):
-        return ""
-    return (
-        f". A stable periodic motion is proved at {len(amplitudes)} amplitudes from {amplitudes.min():g} to "
-        f"{amplitudes.max():g} m/s² ({PAGE})"
-    )
+    amplitudes = stable_motions(certificates).index
+    return describe_amplitudes("A stable periodic motion is", amplitudes[amplitudes >= begin])
 
 
 def describe_chaos(horseshoes: pd.DataFrame | None) -> str:

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from claims import about_proofs
-from claims.finding import METHODS, NONE, Finding, by_method, format_amplitude, highest, lowest, onset, single_quantity
+from claims.finding import METHODS, NONE, Finding, by_method, format_amplitude, onset, single_quantity
 
 MM = 1e3
 LINE = 0.02  # smallest visible line of a spectrum, over its largest amplitude
@@ -14,7 +14,7 @@ LINE = 0.02  # smallest visible line of a spectrum, over its largest amplitude
 
 def second_from_rest(table: pd.DataFrame) -> float:
     """Lowest amplitude (m/s²) at which the initial height z0 = 0 does not lead to the first state."""
-    return lowest(table[(table.z0 == 0.0) & (table.state != "first")].acceleration)
+    return table[(table.z0 == 0.0) & (table.state != "first")].acceleration.min()
 
 
 def critical_acceleration(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
@@ -26,7 +26,7 @@ def two_states(table: pd.DataFrame) -> tuple[float, float]:
     """Ends of the interval of amplitudes (m/s²) at which the first and the second state coexist."""
     kinds = table.groupby("acceleration").state.agg(set)
     both = pd.Series([x for x, states in kinds.items() if {"first", "second"} <= states], dtype=float)
-    return lowest(both), highest(both)
+    return both.min(), both.max()
 
 
 def describe_tensions(table: pd.DataFrame, describe: Callable[[pd.DataFrame], str]) -> str:
@@ -49,7 +49,7 @@ def interval(
     note = (
         f"With the initial heights of the config, both states exist from {format_amplitude(low)} to "
         f"{format_amplitude(high)}. At the upper end, {len(first)} of {len(at_end)} initial heights still lead to the "
-        f"first state; the largest of them is {MM * highest(first.z0):.3g} mm"
+        f"first state; the largest of them is {MM * first.z0.max():.3g} mm"
     )
     if tension is not None:
         found = describe_tensions(tension, lambda rows: "{:g} to {:g} m/s²".format(*two_states(rows)))
@@ -63,7 +63,7 @@ def scatter_onset(table: pd.DataFrame, spread: float = 0.05) -> float:
     jumping = table[table.state != "first"].groupby("acceleration").mean_velocity
     relative = (jumping.std() / jumping.mean())[jumping.count() > 1]
     quiet = relative.index[relative <= spread]
-    return lowest(relative.index[relative.index > (quiet.max() if len(quiet) else -np.inf)])
+    return relative.index[relative.index > (quiet.max() if len(quiet) else -np.inf)].min()
 
 
 def chaos_onset(table: pd.DataFrame) -> float:
@@ -125,7 +125,7 @@ def largest_critical_height(*, euler: pd.DataFrame, converged: pd.DataFrame, hei
             f"(converged). The state changes more than once over z0 at {repeated} of "
             f"{converged.acceleration.nunique()} amplitudes"
         )
-    return Finding(*({"largest_height": highest(found[method])} for method in METHODS), note)
+    return Finding(*({"largest_height": found[method].max()} for method in METHODS), note)
 
 
 def critical_height(*, euler: pd.DataFrame, converged: pd.DataFrame, acceleration: float) -> Finding:
@@ -144,7 +144,7 @@ def first_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd.
     """Velocity (cm/s) of the first state at both ends of the interval with two states."""
     ends = by_method(lambda table: velocities(table, "first"), euler, converged)
     found = describe_tensions(
-        tension, lambda rows: f"{100.0 * highest(rows[rows.state == 'first'].mean_velocity):.2f} cm/s"
+        tension, lambda rows: f"{100.0 * rows[rows.state == 'first'].mean_velocity.max():.2f} cm/s"
     )
     low, high = ends["converged"]
     deviation = 100.0 * (ends["euler"][1] / high - 1.0)
@@ -152,13 +152,8 @@ def first_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd.
         f"The velocity rises by {high - low:.2f} cm/s. The paper's method deviates by {deviation:+.1f} % at the upper "
         f"end. The largest velocity at any amplitude, for each treatment of a tensile contact force: {found}"
     )
-    return Finding(
-        *(
-            dict(zip(("velocity_at_lower_end", "velocity_at_upper_end"), ends[method], strict=True))
-            for method in METHODS
-        ),
-        note,
-    )
+    quantities = ({"velocity_at_lower_end": lower, "velocity_at_upper_end": upper} for lower, upper in ends.values())
+    return Finding(*quantities, note)
 
 
 def second_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd.DataFrame) -> Finding:

@@ -8,28 +8,18 @@ import sys
 
 
 def make(results: str, figures: dict, tests: str) -> str:
-    """The number of passed tests, in pytest's words.
-
-    Parameters
-    ----------
-    results : folder of the results
-    figures : the section `figures` of the config
-    tests : folder of the tests
+    """The number of passed tests, in pytest's words, of the folder `tests` on the folder `results`.
 
     Raises
     ------
     RuntimeError
         with pytest's output, if a test fails
     """
-    environment = {"CONVEYOR_RESULTS": results, "CONVEYOR_FIGURES": json.dumps(figures)}
+    environment = os.environ | {"CONVEYOR_RESULTS": results, "CONVEYOR_FIGURES": json.dumps(figures)}
+    # The interpreter of this process: PATH may have another one, or none.
+    command = [sys.executable, "-m", "pytest", tests, "--dist=worksteal"]
     run = subprocess.run(
-        # The interpreter of this process: PATH may have another one, or none.
-        [sys.executable, "-m", "pytest", tests, "--dist=worksteal"],
-        env={**os.environ, **environment},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        check=False,
+        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False
     )
     if run.returncode != 0:
         raise RuntimeError(f"tests of the results fail:\n{run.stdout}")

@@ -34,23 +34,11 @@ def single_quantity(
     return Finding({name: float(measure(euler))}, {name: float(measure(converged))})
 
 
-def lowest(values: pd.Series | pd.Index) -> float:
-    """The minimum; NaN for no values."""
-    return float(values.min()) if len(values) else NONE
-
-
-def highest(values: pd.Series) -> float:
-    """The maximum; NaN for no values."""
-    return float(values.max()) if len(values) else NONE
-
-
 def onset(x: np.ndarray, holds: np.ndarray) -> float:
     """The x from which a property holds: the threshold with the fewest exceptions on both sides.
 
-    NaN if "never" has as few exceptions.
+    NaN if assuming that the property never holds has no more exceptions.
 
-    Parameters
-    ----------
     x : ascending, shape (n,)
     holds : bool, shape (n,)
     """

@@ -17,12 +17,7 @@ TABLES = {
         fields.text("statement", "the statement in words"),
         fields.several("quantities", pa.string(), "", "names of its quantities, with units"),
         fields.several("paper", pa.float64(), "see quantities", "the paper's numbers; null where it gives none"),
-        fields.several(
-            "paper_method",
-            pa.float64(),
-            "see quantities",
-            "recomputed with the paper's method; empty if the statement does not concern it",
-        ),
+        fields.several("paper_method", pa.float64(), "see quantities", "by the paper's method; empty if not concerned"),
         fields.several("converged", pa.float64(), "see quantities", "converged; empty if the statement is about Euler"),
         fields.several("accepted_low", pa.float64(), "see quantities", "smallest accepted numbers; null for no bound"),
         fields.several("accepted_high", pa.float64(), "see quantities", "largest accepted numbers; null for no bound"),
@@ -150,14 +145,7 @@ def report(template: str, rows: pd.DataFrame) -> str:
 
 
 def make(settings: dict, references: list[str], template: str, read: list[pd.DataFrame]) -> dict:
-    """The columns of the table of claims, and its page.
-
-    Parameters
-    ----------
-    settings : `claims`, entries of the config
-    references, read : names of the tables, SECTION/NAME, and the tables
-    template : of the page
-    """
+    """The columns of the table of claims, and its page; `references` are the names of the tables, SECTION/NAME."""
     tables_by_name = dict(zip(references, read, strict=True))
     found = {name: evaluate(claim, tables_by_name) for name, claim in settings["claims"].items()}
     made = columns(settings["claims"], found)

@@ -43,7 +43,7 @@ def follow_by_events(parameters, durations, tolerance, feeding):
 
 def follow_by_steps(parameters, duration, step, method, feeding):
     """The columns of `run`, each of shape (n,), for `parameters`, shape (n, 16), with a fixed-step method."""
-    runs = fixed_step.run_all(parameters, duration, step, method, LAST)
+    runs = fixed_step.run_all(parameters, duration, step, method)
     fields = {"z_end": "z", "vz_end": "vz", "x_end": "x", "vx_end": "vx"}
     columns = {name: np.array([getattr(run, fields.get(name, name)) for run in runs]) for name in COLUMNS}
     if not feeding:

@@ -7,6 +7,7 @@ import numpy as np
 
 from .arguments import check_array, check_choice, check_flag, check_number, check_tolerance, check_type
 from .methods import fixed_step
+from .parameters import LAST
 from .solver import trajectory
 from .solver.horizontal import EVENTS, SAMPLES
 from .solver.model import Conveyor, Start, pack
@@ -14,7 +15,6 @@ from .solver.model import Conveyor, Start, pack
 METHODS = ("event", *fixed_step.METHODS)
 DEFAULT_TOLERANCE = 3e-10
 DEFAULT_STEP = 5e-7  # s, Sect. 3 of the paper
-LAST = 0.25  # share of the run over which the paper takes mean values (Sect. 3.1)
 LONGEST = 1e6  # s, of a run
 MOST_STEPS = 10**10  # fixed steps of a run, which take minutes
 
@@ -171,7 +171,7 @@ def simulate(
         status = trajectory.STATUS[int(code)]
         contact_fraction = contact_time / duration
     else:
-        found = fixed_step.run(parameters, duration, step, method, LAST)
+        found = fixed_step.run(parameters, duration, step, method)
         x_end, vx_end, z_end, vz_end = found.x, found.vx, found.z, found.vz
         x_last = x_end - found.mean_velocity * LAST * duration
         status, impacts, max_gap = found.status, found.impacts, found.max_gap

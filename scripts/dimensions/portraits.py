@@ -16,11 +16,7 @@ from pipeline import fields, grid
 
 TABLES = {
     "dimensions": (
-        fields.number(
-            "dimension",
-            "1",
-            "fractal dimension of the phase portrait ż_p over z_p (Eq. 25); null for no estimate",
-        ),
+        fields.number("dimension", "1", "dimension of the phase portrait ż_p over z_p (Eq. 25); null for no estimate"),
         fields.number("error", "1", "half-width of its 95 % interval; null if the points resolve too few scales"),
         fields.number("scale_low", "1", "smallest scale of the scaling region, in units of the portrait's extent"),
         fields.number("scale_high", "1", "largest scale of the scaling region, in units of the portrait's extent"),

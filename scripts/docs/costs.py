@@ -11,22 +11,8 @@ import pandas as pd
 def summary(targets: list[str], snakefile: str, configfiles: list[str]) -> pd.DataFrame:
     """Snakemake's detailed summary of all files behind some targets: output_file, log-file(s), input-file(s), …"""
     options = ["--configfile", *configfiles] if configfiles else []
-    run = subprocess.run(
-        [
-            sys.executable,
-            "-m",
-            "snakemake",
-            "--snakefile",
-            snakefile,
-            "--nolock",
-            "--detailed-summary",
-            *targets,
-            *options,
-        ],
-        stdout=subprocess.PIPE,
-        text=True,
-        check=True,
-    )
+    command = [sys.executable, "-m", "snakemake", "--snakefile", snakefile, "--nolock", "--detailed-summary"]
+    run = subprocess.run([*command, *targets, *options], stdout=subprocess.PIPE, text=True, check=True)
     return pd.read_csv(io.StringIO(run.stdout), sep="\t", dtype=str, keep_default_na=False)
 
 
@@ -56,21 +42,17 @@ def sum_costs(files: set[str]) -> dict[str, float | int]:
 def make(figures: dict[str, list[str]], claims: dict[str, list[str]], snakefile: str, configfiles: list[str]) -> str:
     """Seconds, MiB and number of jobs of each figure, of each claim, and of everything, as JSON.
 
-    Parameters
-    ----------
     figures, claims : the files behind each figure and claim, by name
-    snakefile, configfiles : of the workflow
     """
-    table = summary(
-        sorted({file for files in [*figures.values(), *claims.values()] for file in files}), snakefile, configfiles
-    )
+    everything = sorted({file for files in [*figures.values(), *claims.values()] for file in files})
+    table = summary(everything, snakefile, configfiles)
 
-    def jobs(files: list[str]) -> set[str]:
-        return set().union(*(jobs_of(file, table) for file in files))
+    def costs(files: list[str]) -> dict[str, float | int]:
+        return sum_costs(set().union(*(jobs_of(file, table) for file in files)))
 
-    groups = {"figures": figures, "claims": claims}
     found = {
-        group: {name: sum_costs(jobs(files)) for name, files in entries.items()} for group, entries in groups.items()
+        "figures": {name: costs(files) for name, files in figures.items()},
+        "claims": {name: costs(files) for name, files in claims.items()},
+        "everything": costs(everything),
     }
-    everything = jobs([file for entries in groups.values() for files in entries.values() for file in files])
-    return json.dumps({**found, "everything": sum_costs(everything)}, indent=1)
+    return json.dumps(found, indent=1)

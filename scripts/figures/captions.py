@@ -13,7 +13,6 @@ from accuracy.stability import PANELS, VELOCITY
 from claims.about_chaos import positive_onset
 from claims.about_proofs import lowest_fold
 from claims.about_states import find_runs, format_runs, second_from_rest
-from claims.finding import lowest
 from figures.plots.throw import proved_fold
 from identification import findings
 from operating import drive_page
@@ -98,7 +97,7 @@ def rigid_part(*, rigid: pd.DataFrame) -> dict[str, float]:
     return {
         "leaves": second_from_rest(compliant),
         "rigid_leaves": leaves,
-        "arrives": lowest(arrived.acceleration),
+        "arrives": arrived.acceleration.min(),
     }
 
 

@@ -117,6 +117,11 @@ def note(axes: Axes, text: str, place: tuple, offset: tuple[float, float] = (0.0
     axes.annotate(text, place, xytext=offset, textcoords="offset points", size=7.0, **options)
 
 
+def dots(axes: Axes, x: Iterable, y: Iterable, colour: str, size: float, **options) -> None:
+    """Draw dots of a size in points, without edges and lines; options of `Axes.plot`."""
+    axes.plot(x, y, ".", color=colour, markersize=size, markeredgewidth=0.0, **options)
+
+
 def mark(axes: Axes, x: float, label: str) -> None:
     """Draw a thin vertical line at x with a label at its upper end."""
     axes.axvline(x, color="black", linewidth=0.6, linestyle=":")

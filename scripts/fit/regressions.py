@@ -9,16 +9,12 @@ from pipeline import fields
 
 TABLES = {
     "regressions": (
-        fields.text(
-            "fit", "pymoo, least_squares, paper (A, B and C of the paper) or valley (the best A and C for a given B)"
-        ),
+        fields.text("fit", "pymoo, least_squares, paper (its A, B and C) or valley (the best A and C for a given B)"),
         fields.number("A", "m²/s²", "parameter of Eq. 13"),
         fields.number("B", "m/s²", "parameter of Eq. 13"),
         fields.number("C", "m", "parameter of Eq. 13"),
         fields.number("error", "m²", "mean squared error of Eq. 13"),
-        fields.count(
-            "evaluations", "number of computed errors of triples, or of values of B; 0 for the paper's triple"
-        ),
+        fields.count("evaluations", "number of computed errors of triples or values of B; 0 for the paper's triple"),
     ),
 }
 
@@ -30,8 +26,9 @@ def make(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
     low, high = settings.get("acceleration", (critical.acceleration.min(), critical.acceleration.max()))
     data = critical[critical.is_critical & critical.acceleration.between(low, high)]
     data = data.acceleration.to_numpy(), data.z0.to_numpy()
+    names = [column.name for column in TABLES["regressions"]]
     if len(np.unique(data[0])) <= len(Hyperbola._fields):
-        return {column.name: [] for column in TABLES["regressions"]}
+        return {name: [] for name in names}
     bounds = {name: tuple(limits) for name, limits in settings["bounds"].items()}
     valley = dict(settings["valley"])
     if "acceleration" not in settings:
@@ -48,6 +45,4 @@ def make(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
         paper = Hyperbola(**settings["paper"])
         rows.append(("paper", *paper, mean_squared_error(*data, paper), 0))
     rows += [("valley", *triple, error, 1) for triple, error in zip(valley, errors, strict=True)]
-    return {
-        column.name: list(values) for column, values in zip(TABLES["regressions"], zip(*rows, strict=True), strict=True)
-    }
+    return pd.DataFrame(rows, columns=names).to_dict("list")

@@ -8,17 +8,11 @@ from pipeline.motions import motions
 
 TABLES = {
     "impacts": (
-        fields.number(
-            "impact_time",
-            "s",
-            "time of the first impact (Eq. 16); null for an initial height below the plate's surface",
-        ),
+        fields.number("impact_time", "s", "time of the first impact (Eq. 16); null for a start below the plate"),
         fields.number("impact_velocity", "m/s", "vertical velocity of the part at the impact (Eq. 17)"),
         fields.number("impact_phase", "rad", "phase of the excitation at the impact (Eq. 18), not wrapped"),
         fields.text("state", "state of motion that the initial condition leads to"),
-        fields.text(
-            "mapped_state", "state that a part on the plate with this phase and velocity leads to; null without impact"
-        ),
+        fields.text("mapped_state", "state of a part that starts at this phase and velocity; null without impact"),
     ),
 }
 

@@ -21,12 +21,8 @@ SIGNALS = ("vx", "vz")
 def spectra_of_end(run: Run, period: int, last: float, samples_per_cycle: int) -> dict[str, Spectrum]:
     """Spectra of the velocities over the last period of a run, or over its last part if there is no period.
 
-    Parameters
-    ----------
-    run : of one part
-    period : period of its motion in excitation cycles; 0 for none
+    period : excitation cycles; 0 for none
     last : share of the run, for motions without a period
-    samples_per_cycle : number of samples in an excitation cycle
     """
     duration = period / run.conveyor.frequency if period else last * run.duration
     count = round(samples_per_cycle * run.conveyor.frequency * duration)

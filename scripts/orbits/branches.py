@@ -28,9 +28,7 @@ TABLES = {
         fields.count("number", "number of the doubling"),
         *fields.ORBIT,
         fields.number("multiplier", "1", "the multiplier at -1"),
-        fields.number(
-            "ratio", "1", "distance to the previous doubling over distance to the next one (Feigenbaum: 4.669…)"
-        ),
+        fields.number("ratio", "1", "distance to the previous doubling over distance to the next (Feigenbaum: 4.669…)"),
         fields.number("accumulation", "m/s²", "accumulation point of the doublings so far, by Aitken's process"),
         fields.number("accumulation_error", "m/s²", "change of the accumulation point by the last doubling"),
     ),
@@ -148,7 +146,7 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
 def find_cascade(
     parameters: np.ndarray, branches: list[Branch], orbits: list[Orbit], settings: dict
 ) -> list[Bifurcation]:
-    """The doubling cascade of the last seed of the config, or of the first jumping orbit that has one; else empty."""
+    """The doubling cascade of the config's last seed or of the first jumping orbit; an empty list if there is none."""
     if "seeds" in settings:
         return doubling_cascade.doubling_cascade(parameters, *first_doublings(parameters, branches, orbits[-1]))
     jumps = [orbit for orbit in orbits if orbit.longest_flight >= LONG_FLIGHT]

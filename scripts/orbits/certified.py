@@ -1,11 +1,9 @@
 """Computer-assisted proofs of periodic orbits, bifurcations and chaos that were found in floating point."""
 
 import time
-from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
 from multiprocessing import get_context
-from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
@@ -40,20 +38,14 @@ ARITHMETIC = (
 )
 TABLES = {
     "certificates": (
-        fields.count(
-            "branch", "number of the branch; higher than all stored branches for longer orbits of the cascade"
-        ),
+        fields.count("branch", "number of the branch; above all stored ones for longer orbits of the cascade"),
         fields.count("period", "excitation cycles; the least period, if the orbit is proved"),
         fields.number("acceleration", "m/s²", "amplitude of the excitation, exact as a decimal number"),
         fields.flag("contained", "whether exactly one orbit is proved in a box around the stored one"),
         fields.text("reason", "reason why the proof failed; null if it is proved"),
         fields.text("stability", "proved stability: stable or unstable; open if not proved"),
         fields.count("impacts", "impacts in a period, proved if the orbit is"),
-        fields.number(
-            "stored_delta",
-            "m",
-            "penetration at the phase ψ0 of the orbit in floating point, computed from the stored branches",
-        ),
+        fields.number("stored_delta", "m", "penetration at the phase ψ0 of the orbit in floating point"),
         fields.number("stored_v", "m/s", "speed of approach at the phase ψ0 of the orbit in floating point"),
         *bounds_fields("delta", "m", "penetration at the phase ψ0"),
         *bounds_fields("v", "m/s", "speed of approach at the phase ψ0"),
@@ -63,11 +55,7 @@ TABLES = {
         *bounds_fields("contact_time", "s", "time with contact force in a period"),
         *bounds_fields("trace", "1", "sum of the Floquet multipliers"),
         *bounds_fields("determinant", "1", "product of the Floquet multipliers, exp(-(d_c/m) contact_time)"),
-        *bounds_fields(
-            "multiplier_1_real",
-            "1",
-            "multiplier of larger modulus, real part; null if it is not known which one is larger",
-        ),
+        *bounds_fields("multiplier_1_real", "1", "multiplier of larger modulus, real part; null if unknown which"),
         *bounds_fields("multiplier_1_imag", "1", "multiplier of larger modulus, imaginary part"),
         *bounds_fields("multiplier_2_real", "1", "multiplier of smaller modulus, real part"),
         *bounds_fields("multiplier_2_imag", "1", "multiplier of smaller modulus, imaginary part"),
@@ -83,12 +71,8 @@ TABLES = {
         fields.text("reason", "reason why the proof failed; null if it is proved"),
         fields.number("stored_acceleration", "m/s²", "amplitude in floating point"),
         *bounds_fields("acceleration", "m/s²", "amplitude of the bifurcation"),
-        *bounds_fields(
-            "test_begin",
-            "1",
-            "(1 ∓ μ1)(1 ∓ μ2) of a fold (-) or doubling (+) at the lower amplitude or first end of the arc",
-        ),
-        *bounds_fields("test_end", "1", "the same test at the higher amplitude or last end of the arc"),
+        *bounds_fields("test_begin", "1", "(1 ∓ μ1)(1 ∓ μ2) of a fold (-) or doubling (+) at the bracket's first end"),
+        *bounds_fields("test_end", "1", "the same test at the bracket's last end"),
         *ARITHMETIC,
     ),
     "certified_chaos": (
@@ -127,9 +111,9 @@ class FloatOrbit(NamedTuple):
 
 
 class Task(NamedTuple):
-    """A proof: its function, and the arguments of the function besides the settings."""
+    """A proof: the kind of its table, and the arguments of the function in PROVERS besides the settings."""
 
-    prove: Callable[[dict, tuple], dict]
+    kind: str
     arguments: tuple
 
 
@@ -244,9 +228,8 @@ def certificate_columns(units: Law, orbit: ProvedOrbit | None) -> dict:
     return columns
 
 
-def prove_float_orbit(settings: dict, arguments: tuple) -> dict:
+def prove_float_orbit(settings: dict, found: FloatOrbit) -> dict:
     """The row of one orbit."""
-    (found,) = arguments
     stored, problem = found.orbit, shooting(settings, found.orbit.period)
     row = {
         "branch": found.branch,
@@ -277,21 +260,16 @@ def prove_float_orbit(settings: dict, arguments: tuple) -> dict:
     }
 
 
-def strobes_of(settings: dict, row) -> np.ndarray:
-    """(δ, Y) at the beginnings of the cycles of an orbit of a table, in units of the law."""
-    returns = ReturnMap(grid.packed(settings["model"]), int(row.period))
-    return float_orbit(0, returns, returns.scaled(row.acceleration, np.array([row.delta, row.v]))).strobes
-
-
-def prove_bifurcation(settings: dict, arguments: tuple) -> dict:
+def prove_bifurcation(settings: dict, kind: str, number: int, row: dict) -> dict:
     """The row of one fold or period doubling, given by its kind, number and row in a table."""
-    kind, number, row = arguments
-    problem, strobes = shooting(settings, int(row.period)), strobes_of(settings, row)
+    period, stored = row["period"], row["acceleration"]
+    problem, returns = shooting(settings, period), ReturnMap(grid.packed(settings["model"]), period)
+    strobes = float_orbit(0, returns, returns.scaled(stored, np.array([row["delta"], row["v"]]))).strobes
     try:
         if kind == "fold":
-            found = bracket_fold(problem, row.acceleration, strobes, settings["half_arc"])
+            found = bracket_fold(problem, stored, strobes, settings["half_arc"])
         else:
-            found = bracket_doubling(problem, row.acceleration, strobes, settings["half_width"])
+            found = bracket_doubling(problem, stored, strobes, settings["half_width"])
         acceleration, (begin, end), reason = found.acceleration, found.tests, None
     except Refused as refused:
         acceleration = begin = end = None
@@ -299,8 +277,8 @@ def prove_bifurcation(settings: dict, arguments: tuple) -> dict:
     return {
         "kind": kind,
         "number": number,
-        "period": int(row.period),
-        "stored_acceleration": row.acceleration,
+        "period": period,
+        "stored_acceleration": stored,
         "proved": reason is None,
         "reason": reason,
         **bounds_columns("acceleration", acceleration),
@@ -311,12 +289,11 @@ def prove_bifurcation(settings: dict, arguments: tuple) -> dict:
     }
 
 
-def prove_chaos(settings: dict, arguments: tuple) -> dict:
+def prove_chaos(settings: dict, acceleration: float, saddles: list[FloatOrbit]) -> dict:
     """The row of one amplitude: a horseshoe at an unstable orbit of one cycle.
 
     Orbits are tried in the order of their multipliers, the largest one first.
     """
-    acceleration, saddles = arguments
     chaos, parameters, units = settings["chaos"], grid.packed(settings["model"]), law(settings)
     system = System(units, units.gamma(exactly(acceleration)), Accuracy(chaos["order"], chaos["tolerance"]))
     row = {
@@ -350,12 +327,19 @@ def prove_chaos(settings: dict, arguments: tuple) -> dict:
     return row
 
 
+PROVERS = {
+    "certificates": prove_float_orbit,
+    "certified_bifurcations": prove_bifurcation,
+    "certified_chaos": prove_chaos,
+}
+
+
 def run_task(settings: dict, task: Task) -> tuple[dict, float]:
     """The row of a proof, and its processor time (s)."""
     begin = time.process_time()
-    accuracy = settings["chaos"] if task.prove is prove_chaos else settings
+    accuracy = settings["chaos"] if task.kind == "certified_chaos" else settings
     with precision(accuracy["bits"], accuracy["order"]):
-        row = task.prove(settings, task.arguments)
+        row = PROVERS[task.kind](settings, *task.arguments)
     return row, time.process_time() - begin
 
 
@@ -367,47 +351,26 @@ def run_tasks(settings: dict, tasks: list[Task], processes: int) -> list[tuple[d
         return [future.result() for future in bar(futures, label="certificates", unit="proofs")][::-1]
 
 
-def numbered(table: pd.DataFrame) -> Iterator[tuple[int, SimpleNamespace]]:
-    """The rows of a table, numbered from 1, as objects that can be sent to other processes."""
-    return enumerate((SimpleNamespace(**row) for row in table.to_dict("records")), start=1)
-
-
-def list_tasks(settings: dict, stored: dict[str, pd.DataFrame]) -> list[Task]:
+def list_tasks(settings: dict, branches: pd.DataFrame, bifurcations: pd.DataFrame, cascade: pd.DataFrame) -> list[Task]:
     """All proofs."""
-    orbits = orbits_to_prove(settings, stored["branches"], stored["cascade"])
-    first = stored["cascade"].iloc[0]
-    bifurcations = stored["folds_and_doublings"]
+    orbits = orbits_to_prove(settings, branches, cascade)
+    first = cascade.iloc[0]
     doublings = bifurcations[(bifurcations.kind == "period_doubling") & (bifurcations.period == first.period)]
     jumping = doublings.loc[(doublings.acceleration - first.acceleration).abs().idxmin()].branch
     folds = bifurcations[(bifurcations.kind == "fold") & (bifurcations.branch == jumping)]
     parameters = grid.packed(settings["model"])
-    singles = stored_lines(stored["branches"], 1)
-    chaotic = [
-        (
-            acceleration,
-            [
-                saddle
-                for number, line in singles.items()
-                for saddle in orbits_at(parameters, number, line, acceleration)
-                if abs(saddle.orbit.multipliers[0]) > 1.0
-            ],
-        )
-        for acceleration in settings["chaos"]["acceleration"]
-    ]
-    doubled = stored["cascade"].head(settings["doublings"])
-    return [
-        *(Task(prove_float_orbit, (orbit,)) for orbit in orbits),
-        *(Task(prove_bifurcation, ("fold", n, row)) for n, row in numbered(folds)),
-        *(Task(prove_bifurcation, ("period_doubling", n, row)) for n, row in numbered(doubled)),
-        *(Task(prove_chaos, arguments) for arguments in chaotic),
-    ]
-
-
-PROVERS = {
-    "certificates": prove_float_orbit,
-    "certified_bifurcations": prove_bifurcation,
-    "certified_chaos": prove_chaos,
-}
+    singles = stored_lines(branches, 1)
+    tasks = [Task("certificates", (orbit,)) for orbit in orbits]
+    for kind, rows in (("fold", folds), ("period_doubling", cascade.head(settings["doublings"]))):
+        for number, row in enumerate(rows.to_dict("records"), start=1):
+            tasks.append(Task("certified_bifurcations", (kind, number, row)))
+    for acceleration in settings["chaos"]["acceleration"]:
+        found = [
+            orbit for number, line in singles.items() for orbit in orbits_at(parameters, number, line, acceleration)
+        ]
+        saddles = [orbit for orbit in found if abs(orbit.orbit.multipliers[0]) > 1.0]
+        tasks.append(Task("certified_chaos", (acceleration, saddles)))
+    return tasks
 
 
 def make(
@@ -419,16 +382,13 @@ def make(
     threads: int = 1,
 ) -> dict[str, dict[str, np.ndarray]]:
     """The columns of the four tables, by their kinds, for the section `certificates` of the config."""
-    stored = {"branches": branches, "folds_and_doublings": folds_and_doublings, "cascade": cascade}
-    tasks = list_tasks(settings, stored)
-    kind_of = {prover: kind for kind, prover in PROVERS.items()}
+    tasks = list_tasks(settings, branches, folds_and_doublings, cascade)
     rows: dict[str, list[dict]] = {kind: [] for kind in TABLES}
     for task, (row, seconds) in zip(tasks, run_tasks(settings, tasks, threads), strict=True):
-        kind = kind_of[task.prove]
-        rows[kind].append(row)
+        rows[task.kind].append(row)
         rows["certificate_times"].append(
             {
-                "kind": kind,
+                "kind": task.kind,
                 "acceleration": row.get("acceleration", row.get("stored_acceleration")),
                 "period": row.get("period", 1),
                 "impacts": row.get("impacts", 0),

@@ -13,14 +13,8 @@ TABLES = {
         fields.text("branch", "up or down, as in the table of strobes"),
         fields.number("lambda_1", "1/s", "larger vertical Lyapunov exponent"),
         fields.number("lambda_2", "1/s", "smaller vertical Lyapunov exponent"),
-        fields.number(
-            "stderr",
-            "1/s",
-            "standard error of lambda_1, from means over blocks; 0 for multipliers of a periodic orbit",
-        ),
-        fields.number(
-            "contact_fraction", "1", "share of the time with contact force; λ1 + λ2 = -(d_c/m) contact_fraction"
-        ),
+        fields.number("stderr", "1/s", "standard error of lambda_1 from block means; 0 for a periodic orbit"),
+        fields.number("contact_fraction", "1", "time share with contact force; λ1 + λ2 = -(d_c/m) contact_fraction"),
         fields.text("status", "ok, or why there is no result"),
     ),
 }

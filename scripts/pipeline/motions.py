@@ -10,7 +10,7 @@ from conveyor.analysis.attractors.search import find_attractors
 from conveyor.simulation import DEFAULT_TOLERANCE
 from conveyor.solver.model import PARAMETERS, PSI0, VZ0, Z0
 from pipeline import grid
-from pipeline.shared_searches import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED
+from pipeline.sizes import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED
 
 INITIAL_CONDITIONS = {PARAMETERS[k] for k in (PSI0, Z0, VZ0)}
 # Conveyors per batch: the attractors of a conveyor take some 30 kB of memory.
@@ -50,17 +50,10 @@ def batches_by_conveyor(parameters: np.ndarray) -> list[np.ndarray]:
 
 
 def motions_of_starts(
-    parameters: np.ndarray,
-    settings: dict,
-    *,
-    starts: int,
-    threads: int = 1,
-    progress: str | None = None,
+    parameters: np.ndarray, settings: dict, *, starts: int, threads: int = 1, progress: str | None = None
 ) -> Labels:
     """The attractors that initial conditions lead to. Attractors that many of them share are found first.
 
-    Parameters
-    ----------
     parameters : float64, shape (n, 16)
     settings : `settling`, `tolerance` if it is not the default, and `exponents` if not as in labels.classify
     starts : number of initial conditions of each conveyor, in all batches and shards

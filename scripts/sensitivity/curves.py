@@ -35,9 +35,7 @@ TABLES = {
         fields.count("point", "number of the point along its curve"),
         *PLACE,
         fields.count("impacts", "impacts of the orbit in a period"),
-        fields.number(
-            "normal_form", "1", "coefficient whose zero is a cusp or a generalised doubling; null for a grazing"
-        ),
+        fields.number("normal_form", "1", "zero at a cusp or a generalised doubling; null for a grazing"),
         fields.text("status", "ok, or at the ends of a curve the reason why it ends"),
     ),
     "meetings": (

@@ -1,6 +1,7 @@
 """Derivatives of bifurcation amplitudes and critical heights by each parameter and by each dimensionless group."""
 
 from collections.abc import Callable, Iterator
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -40,23 +41,17 @@ TABLES = {
         fields.number("value", "see parameter_unit", "value of the parameter"),
         fields.number("derivative", "moved_unit per parameter_unit", "derivative by the implicit function theorem"),
         fields.number("difference", "moved_unit per parameter_unit", "finite difference between points solved again"),
-        fields.number(
-            "elasticity", "1", "relative change of the quantity over relative change of the parameter; null if one is 0"
-        ),
+        fields.number("elasticity", "1", "relative change of the quantity by that of the parameter; null if one is 0"),
         fields.text("status", "ok, or the reason for no result, or that both derivatives disagree"),
     ),
     "groups": (
         *POINT,
         fields.text("moved", "differentiated quantity: amplitude Γ = a_z/g, or height z0 ω²/g"),
         fields.number("moved_value", "1", "value of the quantity"),
-        fields.text(
-            "group", "damping: d_c/(m ω); stiffness: (k_c/m) g^(p-1)/ω^(2p); exponent; height; velocity: ż0 ω/g"
-        ),
+        fields.text("group", "damping d_c/(m ω), stiffness (k_c/m) g^(p-1)/ω^(2p), exponent, height, velocity ż0 ω/g"),
         fields.number("value", "1", "value of the group"),
         fields.number("derivative", "1", "derivative of the quantity by the group"),
-        fields.number(
-            "elasticity", "1", "relative change of the quantity over relative change of the group; null if one is 0"
-        ),
+        fields.number("elasticity", "1", "relative change of the quantity by that of the group; null if one is 0"),
         fields.text("status", "ok, or the reason for no result"),
     ),
 }
@@ -102,17 +97,17 @@ def differentiate_bifurcation(parameters: np.ndarray, bifurcation: Selected) -> 
         )
     derivatives = np.zeros(len(NAMES))
     derivatives[1:4] = moves[-1]
-    found: dict[tuple, float] = {}
+
+    @cache
+    def find_amplitude(groups):
+        guess = point.unknown + moves @ (np.array(groups[1:4]) - point.groups[1:4])
+        there = bifurcation_points.find_bifurcation(bifurcation.kind, bifurcation.period, guess, groups)
+        return np.nan if there is None else there.groups.amplitude
 
     def solve(row):
-        groups = groups_of(row)
-        if (key := groups[1:]) not in found:
-            change = np.array(key[:3]) - point.groups[1:4]
-            there = bifurcation_points.find_bifurcation(
-                bifurcation.kind, bifurcation.period, point.unknown + moves @ change, groups
-            )
-            found[key] = np.nan if there is None else there.groups.amplitude
-        return amplitude_of(row, found[key])
+        # The amplitude is an unknown: parameters with equal other groups share a solution.
+        groups = groups_of(row)._replace(amplitude=point.groups.amplitude)
+        return amplitude_of(row, find_amplitude(groups))
 
     here = at(parameters, amplitude_of(parameters, point.groups.amplitude))
     return CriticalPoint(
@@ -190,18 +185,6 @@ def point_columns(point: CriticalPoint) -> dict:
     }
 
 
-def has_influence(name: str, value: float, point: CriticalPoint) -> bool:
-    """Whether a parameter can have an influence on a point.
-
-    On a level track, the inclination has no influence to first order, because gravity normal to it is largest there.
-    """
-    return not (
-        name in (point.quantity, *EXCLUDED)
-        or (name in INITIAL_CONDITION and not point.is_boundary)
-        or (name == "inclination" and not value)
-    )
-
-
 def physical_rows(point: CriticalPoint, difference: float, agreement: float) -> Iterator[dict]:
     """The rows of the table `derivatives` of a point, one for each parameter."""
     exact = None
@@ -211,8 +194,10 @@ def physical_rows(point: CriticalPoint, difference: float, agreement: float) -> 
     for name, step in difference_steps(point.parameters, difference).items():
         place = PARAMETERS.index(name)
         value = point.parameters[place]
-        if not has_influence(name, value, point):
+        if name in (point.quantity, *EXCLUDED) or (name in INITIAL_CONDITION and not point.is_boundary):
             continue
+        if name == "inclination" and value == 0.0:
+            continue  # gravity normal to the track is largest there: no influence to first order
         row = {
             **point_columns(point),
             "moved_unit": UNITS[point.quantity],

@@ -15,11 +15,7 @@ TABLES = {
         *fields.RESULTS,
         *fields.STATE,
         *fields.FEATURES,
-        fields.number(
-            "longest_flight",
-            "1",
-            "longest flight of that motion in excitation cycles, which differs between motions of one state; else null",
-        ),
+        fields.number("longest_flight", "1", "longest flight of this motion in excitation cycles; null for none"),
     ),
 }
 
@@ -39,15 +35,10 @@ def columns(
 ) -> dict[str, np.ndarray]:
     """The columns of a table of sweeps for the resolved `settings` of an entry of the config.
 
-    Parameters
-    ----------
-    settings : of the entry
     rows : the first row and the row after the last one, in the order of the product of the axes; None for all
-    threads, progress : as in conveyor.ensemble.run
     """
-    options = {
-        name: settings[name] for name in ("duration", "method", "tolerance", "step", "needs") if name in settings
-    }
+    names = ("duration", "method", "tolerance", "step", "needs")
+    options = {name: settings[name] for name in names if name in settings}
     axes, parameters = grid.product(settings["axes"], settings["model"], rows)
     runs = ensemble.run(parameters, **options, threads=threads, progress=progress)
     ok = runs["status"] == "ok"

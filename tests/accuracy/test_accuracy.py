@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 from project import ROOT, merged, read_config
 
-from accuracy import benchmark, precision, precision_estimates, timing
+from accuracy import benchmark, precision, precision_estimates
 from conveyor.methods import rivals
 
 CONFIG = read_config()
@@ -99,10 +99,10 @@ def test_runs_take_turns_until_each_has_run_long_enough(monkeypatch):
 
         return run
 
-    monkeypatch.setattr(timing, "thread_time", lambda: clock)
-    monkeypatch.setattr(timing, "TURN", 0.25)
+    monkeypatch.setattr(precision, "thread_time", lambda: clock)
+    monkeypatch.setattr(precision, "TURN", 0.25)
     runs = [lasting("fast", 0.125), lasting("slow", 0.5), lasting("slowest", 2.0)]
-    found, times = timing.run_in_turns(runs, repeats=3, seconds=1.0)
+    found, times = precision.run_in_turns(runs, repeats=3, seconds=1.0)
     assert found == ["fast", "slow", "slowest"]
     fast = ["fast"] * 2
     assert made == [*fast, "slow", "slowest", *fast, "slow", *fast]

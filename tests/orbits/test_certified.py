@@ -18,7 +18,7 @@ def test_the_row_of_a_riding_part():
     orbit, _ = periodic_orbits.settled_orbit(row, 30.0, state, (1,), 1000)
     returns = periodic_orbits.ReturnMap(row, 1)
     about = certified.float_orbit(7, returns, returns.scaled(30.0, orbit.state))
-    found, _ = certified.run_task(SETTINGS, certified.Task(certified.prove_float_orbit, (about,)))
+    found, _ = certified.run_task(SETTINGS, certified.Task("certificates", (about,)))
     assert found["contained"]
     assert (found["branch"], found["period"], found["impacts"], found["stability"]) == (7, 1, 0, "stable")
     assert orbit.state[0] > 0.0

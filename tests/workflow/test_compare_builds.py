@@ -8,7 +8,7 @@ import pyarrow.parquet as pq
 import pytest
 from project import ROOT
 
-from builds.manifest import MAY_DIFFER
+from builds.provenance import MAY_DIFFER
 
 TABLE = {"x": [1.0, 2.0, None], "state": ["first", "second", None], "list": [[1.0], [], [2.0, None]]}
 

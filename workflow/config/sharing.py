@@ -9,8 +9,7 @@ import math
 from bisect import bisect_right
 from typing import NamedTuple
 
-from scripts.pipeline.shared_searches import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED
-from scripts.pipeline.sizes import BLOCK, ROW_GROUP
+from scripts.pipeline.sizes import BLOCK, CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED, ROW_GROUP
 
 from .entries import count_points, count_values, ends, values_of
 

@@ -1,8 +1,8 @@
 """CyRK's Runge-Kutta methods on the same model: compiled peers that need not be installed.
 
-`pysolve_ivp` gets what https://cyrk.readthedocs.io recommends: a right-hand side that numba has compiled and that fills
-an array, and terminal, directional events. (CyRK's fully compiled solver has no events.) Each event ends a solve, and
-`peers` chooses the next mode.
+`pysolve_ivp` is called as https://cyrk.readthedocs.io recommends: with a right-hand side that numba has compiled and
+that fills an array, and with terminal, directional events. (CyRK's fully compiled solver has no events.) Each event
+ends a solve, and `peers` chooses the next mode.
 """
 
 import numpy as np

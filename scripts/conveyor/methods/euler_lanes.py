@@ -1,11 +1,11 @@
 """Explicit Euler as the paper publishes it, one trajectory in each lane of the processor's vector registers.
 
 A register of 512 bits holds eight numbers, and one instruction works on all of them: eight trajectories cost little
-more than one if they take the same instructions. So nothing here branches on a trajectory's state, both outcomes are
-computed and one is selected, and sine and cosine are computed here as well: a library takes one phase at a time.
+more than one if they take the same instructions. The code has no branches on the state: both outcomes are computed and
+one is selected. It computes sine and cosine as well, because a library takes one phase at a time.
 
-Every operation is rounded as IEEE 754 defines it; none is merged with another or moved, and fma multiply-adds are asked
-for by name. What a trajectory gives depends neither on its neighbours nor on the lane nor on the number of lanes, and a
+Every operation is rounded as IEEE 754 defines it. The compiler may neither fuse nor reorder operations; multiply-adds
+are requested explicitly. A result depends neither on its neighbours nor on the lane nor on the number of lanes, and a
 single run is the same code in one lane. For the exponents 1 and 1.5 no library function is called, so that every
 machine gives the same digits; any other exponent takes the power of the C library, lane after lane.
 """
@@ -47,7 +47,7 @@ ROWS = 35
 
 TWO_OVER_PI = 0.6366197723675814
 HALF_PI = (1.5707963267948966, 6.123233995736766e-17, -1.4973849048591833e-33)  # their sum is π/2 to 161 bits
-# Numbers of this size have no binary places. To add it rounds to a whole number, which is in the last bits of the sum.
+# Doubles of this size have no fractional bits: adding ROUNDER rounds to an integer, which is then in the low bits.
 ROUNDER = 1.5 * 2.0**52
 # Coefficients of r³, r⁵, ..., r¹³ and r⁴, r⁶, ..., r¹⁴ on |r| ≤ π/4, the last one first: k_sin.c and k_cos.c of fdlibm
 # (Sun Microsystems 1993).
@@ -104,7 +104,7 @@ def sine_and_cosine(phase: Vector) -> tuple[Vector, Vector]:
 
 
 def spring_length(depth: Vector, exponent: Vector, flying: Vector) -> Vector:
-    """δ^p in m^p from δ (m), and anything in lanes that fly. The slow power function is called only where needed."""
+    """δ^p in m^p from δ (m); arbitrary values in lanes in flight. The slow power function is called only if needed."""
     hertz, hooke = exponent == 1.5, exponent == 1.0
     return power(depth, exponent, ~(flying | hertz | hooke), depth * where(hertz, call("sqrt", depth), 1.0))
 
@@ -143,7 +143,7 @@ def forces(typing_context, lanes, general, memory):
 
 @intrinsic(prefer_literal=True)
 def euler_step(typing_context, lanes, general, memory):
-    """Advance by one step with the forces in memory, and count what the step leaves behind."""
+    """Advance by one step with the forces in memory, and update the totals."""
 
     def code(context, builder, signature, arguments):
         at = Memory(context, builder, signature, arguments)
@@ -174,7 +174,7 @@ def sincos(typing_context, phase):
 
 @compiled
 def prepare(parameters, step, lane):
-    """Set a lane's memory, shape (ROWS,), zero before, to the start of a packed parameter vector."""
+    """Set a lane's memory, shape (ROWS,), zero before, to the initial condition of a packed parameter vector."""
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
     mass = parameters[model.MASS]
     tension = parameters[model.TENSION]
@@ -323,7 +323,7 @@ def integrate(parameters, step, n_steps, sample_indices, samples, events, result
     n_steps : number of steps
     sample_indices : int64, shape (k,), ascending step numbers in [0, n_steps] to be sampled
     samples : float64, shape (n, k, 6), filled with x, vx, z, vz (m, m/s), contact and friction force (N); rows behind
-        the check that finds a state not finite keep what they held
+        the check that finds a state not finite are left unchanged
     events : float64, shape (n, m, 2), filled with time (s) and kind of the first m events of each trajectory; an event
         has the time of the first step at which the other side of q = 0 is seen
     results : float64, shape (n, RESULTS), filled with x (m), vx (m/s), z (m), vz (m/s) at the last step; number of

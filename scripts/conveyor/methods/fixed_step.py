@@ -18,29 +18,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ..parameters import FIXED_STEP_METHODS as METHODS
+from ..parameters import LAST
 from ..solver import contact, friction, model
 from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_refcount
-from . import euler_lanes
-from .euler_lanes import (
-    CHECK,
-    CONTACT_TIME,
-    EVENT_KINDS,
-    EVENTS,
-    IMPACT,
-    IMPACT_SPEED,
-    IMPACTS,
-    MAX_GAP,
-    NOT_FINITE,
-    OK,
-    PEAK_FORCE,
-    SEPARATION,
-    STATUS,
-    STATUSES,
-    VX,
-    VZ,
-    X,
-    Z,
-)
+from . import euler_lanes as lanes
 from .force_law import contact_acceleration, friction_acceleration
 
 EULER, SEMI_IMPLICIT_EULER, RK4 = range(len(METHODS))
@@ -118,30 +99,30 @@ def rk4_step(c, state, rub1, push1, step, half_way, end):
 def begin_run(c, k, z0, vz0, in_contact, last_slip, results):
     """Set the state of trajectory number k to its initial condition (m, m/s)."""
     plate = -c.a_z / c.omega**2 * math.cos(c.psi0)
-    results[k, Z], results[k, VZ] = plate if math.isnan(z0) else z0, vz0
-    results[k, MAX_GAP] = results[k, Z] - plate
-    in_contact[k] = results[k, MAX_GAP] <= 0.0
+    results[k, lanes.Z], results[k, lanes.VZ] = plate if math.isnan(z0) else z0, vz0
+    results[k, lanes.MAX_GAP] = results[k, lanes.Z] - plate
+    in_contact[k] = results[k, lanes.MAX_GAP] <= 0.0
     last_slip[k] = slip_of(c, 0.0, math.sin(c.psi0), math.cos(c.psi0))
 
 
 @compiled_into_callers
 def count_step(c, k, time, sine, vz, gap, push, in_contact, events, results):
     """Count a step of trajectory number k that begins at a time (s): its gap, its force, an impact or a separation."""
-    results[k, MAX_GAP] = max(results[k, MAX_GAP], gap)
-    results[k, PEAK_FORCE] = max(results[k, PEAK_FORCE], push)
-    results[k, CONTACT_TIME] += push != 0.0
+    results[k, lanes.MAX_GAP] = max(results[k, lanes.MAX_GAP], gap)
+    results[k, lanes.PEAK_FORCE] = max(results[k, lanes.PEAK_FORCE], push)
+    results[k, lanes.CONTACT_TIME] += push != 0.0
     touching = gap <= 0.0
     if touching == in_contact[k]:
         return
     in_contact[k] = touching
-    n_events = int(results[k, EVENTS])
+    n_events = int(results[k, lanes.EVENTS])
     if n_events < events.shape[1]:
         events[k, n_events, 0] = time
-        events[k, n_events, 1] = IMPACT if touching else SEPARATION
-    results[k, EVENTS] += 1
-    results[k, IMPACTS] += touching
+        events[k, n_events, 1] = lanes.IMPACT if touching else lanes.SEPARATION
+    results[k, lanes.EVENTS] += 1
+    results[k, lanes.IMPACTS] += touching
     if touching:
-        results[k, IMPACT_SPEED] = max(results[k, IMPACT_SPEED], c.a_z / c.omega * sine - vz)
+        results[k, lanes.IMPACT_SPEED] = max(results[k, lanes.IMPACT_SPEED], c.a_z / c.omega * sine - vz)
 
 
 @compiled
@@ -174,8 +155,8 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
         while n_sampled < len(sample_indices) and sample_indices[n_sampled] == i:
             n_sampled += 1
         for k in range(n):
-            x, vx, z, vz = results[k, X], results[k, VX], results[k, Z], results[k, VZ]
-            if i % CHECK == 0:
+            x, vx, z, vz = results[k, lanes.X], results[k, lanes.VX], results[k, lanes.Z], results[k, lanes.VZ]
+            if i % lanes.CHECK == 0:
                 running[k] = math.isfinite(x + vx + z + vz)
             if not running[k]:
                 continue
@@ -185,26 +166,26 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
                 vx, rub, last_slip[k] = stick(c, vx, rub, push, gap, sine, cosine, last_slip[k])
             for number in range(first, n_sampled):
                 samples[k, number] = (x, vx, z, vz, c.mass * push, c.mass * rub + 0.0)  # no negative zero
-                results[k, IMPACT_SPEED] = results[k, PEAK_FORCE] = 0.0
+                results[k, lanes.IMPACT_SPEED] = results[k, lanes.PEAK_FORCE] = 0.0
             if i < n_steps:
                 count_step(c, k, i * step, sine, vz, gap, push, in_contact, events, results)
                 if method == SEMI_IMPLICIT_EULER:
                     x, vx, z, vz = semi_implicit_euler_step(c, (x, vx, z, vz), rub, push, step)
                 else:
                     x, vx, z, vz = rk4_step(c, (x, vx, z, vz), rub, push, step, half_way, end)
-                results[k, euler_lanes.EVALUATIONS] += EVALUATIONS[method]
-            results[k, X], results[k, VX], results[k, Z], results[k, VZ] = x, vx, z, vz
+                results[k, lanes.EVALUATIONS] += EVALUATIONS[method]
+            results[k, lanes.X], results[k, lanes.VX], results[k, lanes.Z], results[k, lanes.VZ] = x, vx, z, vz
     for k in range(n):
-        finite = math.isfinite(results[k, X] + results[k, VX] + results[k, Z] + results[k, VZ])
-        results[k, STATUS] = OK if finite else NOT_FINITE
-        results[k, CONTACT_TIME] *= step
-        results[k, PEAK_FORCE] *= constants[k].mass
+        finite = math.isfinite(results[k, lanes.X] + results[k, lanes.VX] + results[k, lanes.Z] + results[k, lanes.VZ])
+        results[k, lanes.STATUS] = lanes.OK if finite else lanes.NOT_FINITE
+        results[k, lanes.CONTACT_TIME] *= step
+        results[k, lanes.PEAK_FORCE] *= constants[k].mass
 
 
 def integrate_all(parameters, step, n_steps, method, sample_indices, samples, events, results):
     """Integrate n trajectories with one of METHODS, given as its number; the rest as in `euler_lanes.integrate`."""
     if method == EULER:
-        euler_lanes.integrate(parameters, step, n_steps, sample_indices, samples, events, results)
+        lanes.integrate(parameters, step, n_steps, sample_indices, samples, events, results)
         return
     phase = parameters[:, [model.FREQUENCY, model.PSI0]]
     ends = [*np.flatnonzero((phase[1:] != phase[:-1]).any(axis=1)) + 1, len(parameters)]
@@ -227,7 +208,7 @@ class Summary(NamedTuple):
     impact_speed: float  # m/s, largest speed of approach over the last part of the run
     peak_force: float  # N, largest contact force over the last part of the run
     evaluations: int  # of the force
-    status: str  # one of STATUSES
+    status: str  # one of lanes.STATUSES
 
 
 def check_positive(name: str, value: float) -> None:
@@ -264,19 +245,17 @@ def follow(parameters, step, n_steps, method, indices=(), n_events=0):
     n = len(parameters)
     samples = np.full((n, len(indices), len(SAMPLE_COLUMNS)), math.nan)
     events = np.empty((n, n_events, 2))
-    results = np.empty((n, euler_lanes.RESULTS))
+    results = np.empty((n, lanes.RESULTS))
     integrate_all(parameters, float(step), n_steps, METHODS.index(method), indices, samples, events, results)
     return results.tolist(), samples, events
 
 
-def run(parameters: np.ndarray, duration: float, step: float, method: str = "euler", last: float = 0.25) -> Summary:
+def run(parameters: np.ndarray, duration: float, step: float, method: str = "euler") -> Summary:
     """Integrate one trajectory from t = 0, packed as by `model.pack`, shape (16,); the rest as in `run_all`."""
-    return run_all(parameters[np.newaxis], duration, step, method, last)[0]
+    return run_all(parameters[np.newaxis], duration, step, method)[0]
 
 
-def run_all(
-    parameters: np.ndarray, duration: float, step: float, method: str = "euler", last: float = 0.25
-) -> list[Summary]:
+def run_all(parameters: np.ndarray, duration: float, step: float, method: str = "euler") -> list[Summary]:
     """Integrate trajectories from t = 0; together they take less time than one by one, with the same bits.
 
     Parameters
@@ -285,26 +264,23 @@ def run_all(
     duration : s, a whole number of steps
     step : Δt, s
     method : one of METHODS
-    last : share of the run, in (0, 1], over which the mean velocity (x(T) - x((1 - last) T)) / (last T) is taken
 
     Raises
     ------
     ValueError
-        for a duration or step that is not positive, a share outside (0, 1] or an unknown method
+        for a duration or step that is not positive, or an unknown method
     """
-    if not 0.0 < last <= 1.0:
-        raise ValueError(f"last = {last!r} is outside (0, 1]")
     n_steps = step_count(duration, step)
-    first = min(round((1.0 - last) * n_steps), n_steps - 1)
+    first = min(round((1.0 - LAST) * n_steps), n_steps - 1)
     results, samples, _ = follow(parameters, step, n_steps, method, [first])
     found = []
     for result, (sample_of_last,) in zip(results, samples.tolist(), strict=True):
         x, vx, z, vz, _, impacts, contact_time, max_gap, evaluations, status, *peaks = result
         mean_velocity = (x - sample_of_last[0]) / ((n_steps - first) * step)
         contact_fraction = contact_time / (n_steps * step)
-        peaks = peaks if status == OK else (math.nan, math.nan)
+        peaks = peaks if status == lanes.OK else (math.nan, math.nan)
         counts = int(impacts), contact_fraction, max_gap, *peaks, int(evaluations)
-        found.append(Summary(x, vx, z, vz, mean_velocity, *counts, STATUSES[int(status)]))
+        found.append(Summary(x, vx, z, vz, mean_velocity, *counts, lanes.STATUSES[int(status)]))
     return found
 
 
@@ -350,9 +326,9 @@ def events(parameters: np.ndarray, duration: float, step: float, method: str = "
     """
     n_steps = step_count(duration, step)
     (results,), _, _ = follow(parameters[np.newaxis], step, n_steps, method)
-    n_events = int(results[EVENTS])
+    n_events = int(results[lanes.EVENTS])
     _, _, (rows,) = follow(parameters[np.newaxis], step, n_steps, method, n_events=n_events)
     found = np.empty(n_events, dtype=EVENT_DTYPE)
     found["time"] = rows[:, 0]
-    found["kind"] = np.array(EVENT_KINDS)[rows[:, 1].astype(np.int64)]
+    found["kind"] = np.array(lanes.EVENT_KINDS)[rows[:, 1].astype(np.int64)]
     return found

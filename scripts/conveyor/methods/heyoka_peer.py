@@ -19,8 +19,8 @@ def quantities(state: tuple) -> tuple[dict[str, Any], Any, Any, Any, Any]:
 
     Returns
     -------
-    p, gap, rate, slip, forward : the parameters by their names; gap (m), its rate (m/s), velocity of the plate along x
-        against the part (m/s) and acceleration of the plate along x (m/s²)
+    p, gap, rate, slip, forward : the parameters by their names; gap (m), its rate (m/s), slip velocity (m/s) and
+        acceleration of the plate along x (m/s²)
     """
     import heyoka as hy
 

@@ -1,4 +1,4 @@
-"""Motion in one mode (flight, slip forward, slip backward, stick): what an integrator gets, and what it returns."""
+"""Input and output of an integrator that follows the motion in one mode: flight, slip forward or backward, stick."""
 
 from collections.abc import Callable, Sequence
 from typing import NamedTuple

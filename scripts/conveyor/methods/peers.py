@@ -1,4 +1,4 @@
-"""Other integrators on the same model, used as their users would: peers to compare the solver with.
+"""Integrators of other libraries on the same model.
 
 The integrators are the methods of scipy's `solve_ivp` and, if they are installed, CyRK, CVODE of SUNDIALS and heyoka.
 
@@ -14,10 +14,12 @@ The right-hand sides are compiled, so that methods are compared, not Python with
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..parameters import LAST
 from ..solver import model
 from ..solver.jit import compiled
 from . import cyrk_peer, heyoka_peer, scipy_peer, sundials_peer
@@ -184,19 +186,19 @@ class Stuck(Exception):
     """The same mode and state at the same time again: the run would not end."""
 
 
+@dataclass
 class Trajectory:
-    """The state of a run; `times` (s, ascending) are the times at which states are wanted."""
+    """The state of a run."""
 
-    def __init__(self, parameters: np.ndarray, integrator: str, limit: int, times: np.ndarray):
-        self.parameters = parameters
-        self.integrator = integrator
-        self.limit = limit
-        self.times = times
-        self.mode = SIGN
-        self.evaluations = 0
-        self.samples: list[np.ndarray] = []
-        self.events: list[float] = []
-        self.solvers: dict[int, Any] = {}  # of SUNDIALS, by mode
+    parameters: np.ndarray
+    integrator: str
+    limit: int  # of evaluations
+    times: np.ndarray  # s, ascending, at which states are wanted
+    mode: int = SIGN
+    evaluations: int = 0
+    samples: list[np.ndarray] = field(default_factory=list)
+    events: list[float] = field(default_factory=list)
+    solvers: dict[int, Any] = field(default_factory=dict)  # of SUNDIALS, by mode
 
 
 def leg_of(trajectory: Trajectory, task: Task) -> Leg:
@@ -266,7 +268,6 @@ def run(
     treatment: str,
     tolerance: float,
     max_evaluations: int,
-    last: float = 0.25,
     times: np.ndarray = NO_TIMES,
 ) -> Summary:
     """Integrate one trajectory from t = 0.
@@ -279,7 +280,6 @@ def run(
     treatment : one of TREATMENTS; heyoka knows "modes" only
     tolerance : relative tolerance; the absolute one is `tolerance` times `scales`
     max_evaluations : of the right-hand side, after which a run is given up
-    last : share of the run over which the mean velocity is taken
     times : s, ascending, above 0 and within the duration, at which states are wanted: they are interpolated (CVODE
         chooses the first step of a leg by the first of them)
 
@@ -301,7 +301,7 @@ def run(
         return lost(NOT_INSTALLED, 0)
     z0 = parameters[model.Z0]
     state = np.array([0.0, 0.0, plate_motion(parameters, 0.0)[0] if math.isnan(z0) else z0, parameters[model.VZ0]])
-    middle = (1.0 - last) * duration
+    middle = (1.0 - LAST) * duration
     try:
         before = advance(trajectory, 0.0, middle, state, treatment, tolerance)
         after = None if before is None else advance(trajectory, middle, duration, before, treatment, tolerance)
@@ -316,6 +316,6 @@ def run(
     if not np.isfinite(after).all():
         return lost(NOT_FINITE, trajectory.evaluations)
     x, vx, z, vz = map(float, after)
-    mean_velocity = (x - float(before[0])) / (last * duration)
+    mean_velocity = (x - float(before[0])) / (LAST * duration)
     found = np.array(trajectory.samples).reshape(-1, 4), np.array(trajectory.events)
     return Summary(x, vx, z, vz, mean_velocity, trajectory.evaluations, OK, *found)

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..parameters import LAST
 from ..solver import contact, friction, model
 from ..solver.flight import Flight, gap, highest_gap, next_impact
 from ..solver.horizontal import slide
@@ -39,8 +40,8 @@ FLYING, ARRIVING, RESTING = range(3)
 # and its rate (m/s) after a bounce; speed of approach (m/s) of a part that arrives; time (s) in which the plate, which
 # has just left the part, cannot catch it.
 Motion = namedtuple("Motion", "kind x vx z vz sigma q rate speed skip")
-# A time: the beginning of an excitation cycle (s), and the time in the cycle (s). The phase of long runs so keeps its
-# precision.
+# A time: the beginning of an excitation cycle (s), and the time in the cycle (s). This keeps the phase precise in long
+# runs.
 Clock = namedtuple("Clock", "base t")
 
 
@@ -267,7 +268,7 @@ def bounce(c, motion, theta, coefficient):
 def rest_duration(c, motion, theta, left):
     """How long (s) a part rests and slips one way or sticks, and whether the plate leaves it then.
 
-    left : s, after which nothing is wanted any more
+    left : remaining time of the run (s)
     """
     leave = rest_end(c, theta) / c.omega
     if motion.sigma == 0.0:
@@ -297,27 +298,19 @@ def end_rest(c, motion, theta, tau, leaves):
 
 
 @compiled_into_callers
-def sample_rest(c, motion, theta, clock, tau, record):
-    """Sample a part that rests for `tau` (s); the number of samples with them."""
+def sample_motion(c, motion, theta, clock, tau, record):
+    """Sample a part that rests or flies for `tau` (s). Returns the number of samples so far."""
     times, samples, sampled = record
     while sampled < len(times) and clock.base + clock.t + tau >= times[sampled]:
         ahead = times[sampled] - clock.base - clock.t
-        phase = theta + c.omega * ahead
-        x, vx = rest_motion(c, theta, motion.x, motion.vx, motion.sigma, ahead)
-        samples[sampled] = (x, vx, plate_height(c, phase), plate_rise(c, phase))
-        sampled += 1
-    return sampled
-
-
-@compiled_into_callers
-def sample_flight(c, motion, clock, tau, record):
-    """Sample a part that flies for `tau` (s); the number of samples with them."""
-    times, samples, sampled = record
-    while sampled < len(times) and clock.base + clock.t + tau >= times[sampled]:
-        ahead = times[sampled] - clock.base - clock.t
-        x, vx = slide(c, motion.x, motion.vx, ahead)
-        z = motion.z + (motion.vz - 0.5 * c.gravity * ahead) * ahead
-        samples[sampled] = (x, vx, z, motion.vz - c.gravity * ahead)
+        if motion.kind == RESTING:
+            phase = theta + c.omega * ahead
+            x, vx = rest_motion(c, theta, motion.x, motion.vx, motion.sigma, ahead)
+            samples[sampled] = (x, vx, plate_height(c, phase), plate_rise(c, phase))
+        else:
+            x, vx = slide(c, motion.x, motion.vx, ahead)
+            z = motion.z + (motion.vz - 0.5 * c.gravity * ahead) * ahead
+            samples[sampled] = (x, vx, z, motion.vz - c.gravity * ahead)
         sampled += 1
     return sampled
 
@@ -328,7 +321,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
 
     Parameters
     ----------
-    parameters : float64, shape (16,), packed as in `model.PARAMETERS`; a start below the plate is one on the plate
+    parameters : float64, shape (16,), as in `model.PARAMETERS`; an initial height below the plate is moved onto it
     speeds, coefficients : float64, shape (k,), ascending speeds of approach (m/s), their coefficients of restitution
     times : float64, shape (n,), s, ascending
     samples : float64, shape (n, 4), filled in the order of SAMPLE_COLUMNS (m, m/s)
@@ -364,7 +357,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
             motion = bounce(c, motion, theta, restitution_at(motion.speed, speeds, coefficients))
         elif motion.kind == RESTING:
             tau, leaves = rest_duration(c, motion, theta, left)
-            sampled = sample_rest(c, motion, theta, clock, tau, (times, samples, sampled))
+            sampled = sample_motion(c, motion, theta, clock, tau, (times, samples, sampled))
             motion = end_rest(c, motion, theta, tau, leaves)
             t += tau
         else:
@@ -387,7 +380,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
                 samples[sampled:] = math.nan
                 return n_impacts, max_gap, IMPACT_NOT_FOUND
             max_gap = max(max_gap, highest_gap(flight, min(tau, left)))
-            sampled = sample_flight(c, motion, clock, tau, (times, samples, sampled))
+            sampled = sample_motion(c, motion, theta, clock, tau, (times, samples, sampled))
             x, vx = slide(c, x, vx, tau)
             motion = Motion(ARRIVING, x, vx, z, vz, sigma, q, rate, speed, skip)
             t += tau
@@ -408,16 +401,14 @@ class Summary(NamedTuple):
 
 
 def restitution_coefficients(parameters: np.ndarray, speeds: np.ndarray) -> np.ndarray:
-    """Coefficients of restitution of the compliant contact, shape of `speeds` (speeds of approach, m/s, positive).
+    """Coefficients of restitution of the compliant contact for `speeds` of approach (m/s, positive), shape (k,).
 
     They belong to the contact alone, without gravity and excitation, and are accurate to about 1e-6. A speed that is
     not positive raises ValueError.
     """
-    speeds = np.asarray(speeds, dtype=np.float64)
     if not (np.isfinite(speeds) & (speeds > 0.0)).all():
         raise ValueError("speeds must be finite and positive")
-    found = [restitution_coefficient(parameters, speed) for speed in speeds.ravel()]
-    return np.array(found, dtype=np.float64).reshape(speeds.shape)
+    return np.array([restitution_coefficient(parameters, speed) for speed in speeds])
 
 
 def _follow(parameters, restitution, times, n_impacts=0):
@@ -436,7 +427,7 @@ def _follow(parameters, restitution, times, n_impacts=0):
     return result, samples, impacts
 
 
-def run(parameters: np.ndarray, duration: float, restitution, last: float = 0.25) -> Summary:
+def run(parameters: np.ndarray, duration: float, restitution) -> Summary:
     """Follow one rigid part from t = 0, at rest in x.
 
     Parameters
@@ -444,7 +435,6 @@ def run(parameters: np.ndarray, duration: float, restitution, last: float = 0.25
     parameters : float64, shape (16,), from `model.pack`; stiffness, damping, mass, exponent and tension have no effect
     duration : s
     restitution : coefficient of restitution in [0, 1], or a pair of arrays (speeds of approach in m/s, coefficients)
-    last : share of the run, in (0, 1], over which the mean velocity is taken
 
     Raises
     ------
@@ -453,12 +443,10 @@ def run(parameters: np.ndarray, duration: float, restitution, last: float = 0.25
     """
     if not 0.0 < duration < math.inf:
         raise ValueError(f"duration = {duration!r} s is not positive and finite")
-    if not 0.0 < last <= 1.0:
-        raise ValueError(f"last = {last!r} is outside (0, 1]")
-    times = np.array([(1.0 - last) * duration, duration])
+    times = np.array([(1.0 - LAST) * duration, duration])
     (n_impacts, max_gap, status), samples, _ = _follow(parameters, restitution, times)
     x, vx, z, vz = (float(value) for value in samples[1])
-    mean_velocity = (x - float(samples[0, 0])) / (last * duration)
+    mean_velocity = (x - float(samples[0, 0])) / (LAST * duration)
     return Summary(x, vx, z, vz, mean_velocity, n_impacts, max_gap, STATUSES[status])
 
 

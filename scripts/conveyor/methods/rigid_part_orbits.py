@@ -1,6 +1,6 @@
 """Closed forms of the rigid bouncing part's simplest orbit: one impact in each excitation cycle T.
 
-It leaves the plate with g T/2 and comes back with as much; with the plate's velocity V at the impact and the
+It leaves the plate with g T/2 and returns with the same speed; with the plate's velocity V at the impact and the
 coefficient of restitution e(u), the speed of approach u obeys u (1 + e(u)) = g T, and V = g T/2 - e u. The orbit exists
 where the plate reaches V (a fold). Its linearisation, whose determinant is e e' with e' = d(e u)/du, has the multiplier
 -1 where the plate's acceleration at the impact is -2 g (1 + e e') / ((1 + e') (1 + e)) (a period doubling).

@@ -55,10 +55,8 @@ def encode(table: pd.DataFrame) -> dict:
 def make(maps: list[pd.DataFrame], settings: dict) -> str:
     """The whole page.
 
-    Parameters
-    ----------
     maps : sweeps over two parameters, with the column `state`, in the order in which the page offers them
-    settings : the config's `model`, its `solver`, and its `companion`
+    settings : the config's `model`, `solver` and `companion`
 
     Raises
     ------
@@ -72,11 +70,7 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
         "ranges": RANGES,
         "tangential": TANGENTIAL,
         "solver": {name: settings["solver"][name] for name in ("duration", "step")},
-        "tolerance": own["tolerance"],
-        "cycles": own["cycles"],
-        "separation": own["separation"],
-        "presets": own["presets"],
-        "opening": own["opening"],
+        **{name: own[name] for name in ("tolerance", "cycles", "separation", "presets", "opening")},
         "last": LAST,
         "states": STATES,
         "colours": style.STATE_COLOURS,

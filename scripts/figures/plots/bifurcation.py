@@ -8,6 +8,7 @@ from figures import style
 
 DIRECTIONS = {"up": style.CONVERGED, "down": style.EULER}
 MARKERS = {"fold": ("s", "fold"), "period_doubling": ("o", "period doubling")}
+WHITE = {"markersize": 3.5, "markerfacecolor": "white", "markeredgecolor": "black", "markeredgewidth": 0.7}
 STABLE = {"color": "black", "linewidth": 0.7}
 UNSTABLE = {"color": "black", "linewidth": 0.5, "linestyle": (0, (3, 2))}
 
@@ -15,16 +16,8 @@ UNSTABLE = {"color": "black", "linewidth": 0.5, "linestyle": (0, (3, 2))}
 def draw_attractors(axes: Axes, strobes: pd.DataFrame) -> None:
     """Draw the strobes of the attractors of each sweep."""
     for branch, rows in strobes.groupby("branch", sort=False):
-        axes.plot(
-            rows.acceleration,
-            rows.v,
-            ".",
-            markersize=0.7,
-            markeredgewidth=0.0,
-            color=DIRECTIONS[branch],
-            rasterized=True,
-            zorder=1 if branch == "up" else 0,
-        )
+        order = {"zorder": 1 if branch == "up" else 0}
+        style.dots(axes, rows.acceleration, rows.v, DIRECTIONS[branch], 0.7, rasterized=True, **order)
 
 
 def draw_orbits(axes: Axes, branches: pd.DataFrame) -> None:
@@ -39,17 +32,7 @@ def draw_bifurcations(axes: Axes, bifurcations: pd.DataFrame) -> None:
     """Draw folds and period doublings."""
     for kind, (marker, label) in MARKERS.items():
         rows = bifurcations[bifurcations.kind == kind]
-        axes.plot(
-            rows.acceleration,
-            rows.v,
-            marker,
-            markersize=3.5,
-            markerfacecolor="white",
-            markeredgecolor="black",
-            markeredgewidth=0.7,
-            zorder=3,
-            label=label,
-        )
+        axes.plot(rows.acceleration, rows.v, marker, label=label, zorder=3, **WHITE)
 
 
 def draw_exponents(axes: Axes, spectrum: pd.DataFrame, lowest: float) -> None:

@@ -15,11 +15,6 @@ PROVED = {
 PERIODS = {1: "#56B4E9", 2: "#E69F00", 4: "#009E73", 8: "#CC79A7", 16: "#000000"}
 
 
-def bifurcation_label(row) -> str:
-    """ "fold", or the periods in cycles before and after a period doubling, "1 → 2"."""
-    return "fold" if row.kind == "fold" else f"{row.period} → {2 * row.period}"
-
-
 def plot(*, branches: pd.DataFrame, orbits: pd.DataFrame, bifurcations: pd.DataFrame, longest_period: int) -> Figure:
     """Draw the certified `orbits` and bifurcations on the branches of up to `longest_period` cycles."""
     figure = style.figure(style.PAGE, 130.0)
@@ -31,9 +26,7 @@ def plot(*, branches: pd.DataFrame, orbits: pd.DataFrame, bifurcations: pd.DataF
     for kind, look in PROVED.items():
         rows = orbits[orbits.stability == kind]
         if len(rows):
-            diagram.plot(
-                rows.acceleration, rows.stored_v, linestyle="none", markersize=2.8, markeredgewidth=0.7, **look
-            )
+            diagram.plot(rows.acceleration, rows.stored_v, linestyle="", markersize=2.8, markeredgewidth=0.7, **look)
     proved = bifurcations[bifurcations.proved]
     for row in proved.itertuples():
         diagram.axvline(row.acceleration_low, color="black", linewidth=0.5, linestyle=":", zorder=0)
@@ -55,7 +48,7 @@ def plot(*, branches: pd.DataFrame, orbits: pd.DataFrame, bifurcations: pd.DataF
     low, high = widths.get_ylim()
     widths.set_ylim(low, high * (high / low) ** 0.45)
 
-    names = [bifurcation_label(row) for row in proved.itertuples()]
+    names = ["fold" if row.kind == "fold" else f"{row.period} → {2 * row.period}" for row in proved.itertuples()]
     sizes = (proved.acceleration_high - proved.acceleration_low).to_numpy()
     brackets.plot(sizes, np.arange(len(names)), "o", color="black", markersize=3.0)
     for place, row in enumerate(proved.itertuples()):

@@ -13,46 +13,22 @@ def draw_checked(axes: Axes, checked: pd.DataFrame) -> None:
     """Mean velocity and largest impact speed of full operating runs, with the ranges of both."""
     velocity, impact = checked.checked_velocity, checked.impact_high
     below, above = velocity - checked.velocity_low, checked.velocity_high - velocity
-    axes.errorbar(
-        impact,
-        velocity,
-        xerr=[impact - checked.impact_low, 0.0 * impact],
-        # A mean of equal velocities may miss them by a rounding.
-        yerr=[below.clip(lower=0.0), above.clip(lower=0.0)],
-        color="black",
-        linestyle="none",
-        marker=".",
-        markersize=2.5,
-        linewidth=0.7,
-        capsize=1.5,
-        label="full operating runs with their ranges",
-    )
+    # A mean of equal velocities may miss them by a rounding.
+    velocities, impacts = [below.clip(lower=0.0), above.clip(lower=0.0)], [impact - checked.impact_low, 0.0 * impact]
+    look = {"color": "black", "fmt": ".", "markersize": 2.5, "linewidth": 0.7, "capsize": 1.5}
+    axes.errorbar(impact, velocity, velocities, impacts, label="full operating runs with their ranges", **look)
 
 
 def plot(*, front: pd.DataFrame, generations: pd.DataFrame) -> Figure:
     """Draw the front, and how its hypervolume grew."""
     figure = style.figure(style.PAGE, 80.0)
     pareto, growth = figure.subplots(1, 2, width_ratios=(1.7, 1.0))
-    points = pareto.scatter(
-        front.impact_speed,
-        front.velocity,
-        c=front.acceleration,
-        s=10.0,
-        linewidths=0.0,
-        cmap="cividis",
-        label="front of the search",
-    )
+    look = {"c": front.acceleration, "cmap": "cividis", "s": 10.0, "linewidths": 0.0}
+    points = pareto.scatter(front.impact_speed, front.velocity, label="front of the search", **look)
     draw_checked(pareto, front[front.checked])
     chosen = front[front.recommended]
-    pareto.scatter(
-        chosen.impact_high,
-        chosen.checked_velocity,
-        s=50.0,
-        facecolors="none",
-        edgecolors=style.EULER,
-        zorder=3,
-        label="recommended",
-    )
+    ring = {"s": 50.0, "facecolors": "none", "edgecolors": style.EULER, "zorder": 3}
+    pareto.scatter(chosen.impact_high, chosen.checked_velocity, label="recommended", **ring)
     pareto.set_xlabel("largest impact speed in m/s")
     pareto.set_ylabel("velocity in m/s")
     pareto.set_ylim(bottom=0.0)

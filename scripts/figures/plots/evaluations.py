@@ -27,12 +27,7 @@ def draw_estimates(axes: Axes, rows: pd.DataFrame, work: str, error: str) -> Non
 
 
 def plot(
-    *,
-    jumping: pd.DataFrame,
-    riding: pd.DataFrame,
-    bouncing: pd.DataFrame,
-    estimates: pd.DataFrame,
-    paper_step: float,
+    *, jumping: pd.DataFrame, riding: pd.DataFrame, bouncing: pd.DataFrame, estimates: pd.DataFrame, paper_step: float
 ) -> Figure:
     """Draw the errors over the work, with a ring around the published step, `paper_step` (s)."""
     figure = style.figure(style.PAGE, 150.0)

@@ -43,15 +43,8 @@ def pin(axes: Axes, x: float, y: float, z: tuple[float, float], radius: float, c
 
 
 def arrow(axes: Axes, tail: tuple[float, float], tip: tuple[float, float], look: str = "-|>", colour="black") -> None:
-    properties = {
-        "arrowstyle": look,
-        "mutation_scale": 7.0,
-        "linewidth": 0.9,
-        "color": colour,
-        "shrinkA": 0,
-        "shrinkB": 0,
-    }
-    axes.annotate("", tip, tail, arrowprops=properties)
+    line = {"linewidth": 0.9, "color": colour, "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", tip, tail, arrowprops={"arrowstyle": look, "mutation_scale": 7.0, **line})
 
 
 def plot() -> Figure:

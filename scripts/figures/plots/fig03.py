@@ -5,6 +5,11 @@ from matplotlib.figure import Figure
 
 from figures import style
 
+MARKERS = {
+    "euler": {"markersize": 3.2, "markerfacecolor": "none", "markeredgewidth": 0.6},
+    "converged": {"markersize": 1.6, "markeredgewidth": 0.0},
+}
+
 
 def plot(
     *, converged: pd.DataFrame, euler: pd.DataFrame | None = None, critical_acceleration: float | None = None
@@ -12,28 +17,10 @@ def plot(
     """Draw two sweeps over acceleration, and mark `critical_acceleration` (m/s²)."""
     figure = style.figure(style.COLUMN, 62.0)
     axes = figure.subplots()
-    converged = converged.query("z0 == 0")
-    if euler is not None:
-        euler = euler.query("z0 == 0")
-        axes.plot(
-            euler.acceleration,
-            euler.mean_velocity,
-            "o",
-            markersize=3.2,
-            markerfacecolor="none",
-            markeredgewidth=0.6,
-            color=style.EULER,
-            label=style.EULER_LABEL,
-        )
-    axes.plot(
-        converged.acceleration,
-        converged.mean_velocity,
-        "o",
-        markersize=1.6,
-        markeredgewidth=0.0,
-        color=style.CONVERGED,
-        label=style.CONVERGED_LABEL,
-    )
+    for role, sweep in style.drop_missing(euler=euler, converged=converged).items():
+        rows = sweep.query("z0 == 0")
+        look = {"color": style.CURVES[role]["color"], "label": style.PANELS[role], **MARKERS[role]}
+        axes.plot(rows.acceleration, rows.mean_velocity, "o", **look)
     if critical_acceleration is not None:
         style.mark(axes, critical_acceleration, f"{critical_acceleration:g} m/s²")
     axes.set_xlabel(style.AMPLITUDE)

@@ -12,17 +12,9 @@ def plot_signal(converged: pd.DataFrame, euler: pd.DataFrame, signal: str, symbo
     """Draw the spectra of one signal at two amplitudes up to the frequency `highest` (Hz)."""
     figure = style.figure(style.PAGE, 60.0)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    looks = {
-        "euler": {
-            "marker": "o",
-            "markerfacecolor": "none",
-            "color": style.EULER,
-            "label": style.EULER_LABEL,
-        },
-        "converged": {"marker": ".", "color": style.CONVERGED, "label": style.CONVERGED_LABEL},
-    }
+    markers = {"euler": {"marker": "o", "markerfacecolor": "none"}, "converged": {"marker": "."}}
     for role, table in {"euler": euler, "converged": converged}.items():
-        look = looks[role]
+        look = {"color": style.CURVES[role]["color"], "label": style.PANELS[role], **markers[role]}
         shown = table[(table.signal == signal) & (table.frequency <= highest)]
         for axes, place, (acceleration, rows) in zip(
             panels, ("below", "above"), shown.groupby("acceleration"), strict=True

@@ -49,7 +49,7 @@ def plot(
         axes.plot(*plate_velocity(sweep), color=style.PLATE, linewidth=0.8, linestyle="--")
         for state, colour in style.STATE_COLOURS.items():
             rows = sweep[sweep.state == state]
-            axes.plot(rows.acceleration, rows.mean_velocity, ".", markersize=2.0, markeredgewidth=0.0, color=colour)
+            style.dots(axes, rows.acceleration, rows.mean_velocity, colour, 2.0)
         if place := unsettled(sweep):
             axes.annotate(
                 f"not settled\nin {sweep.attrs['duration']:g} s",

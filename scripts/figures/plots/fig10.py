@@ -8,11 +8,6 @@ from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
 from figures import style
 
 
-def select_fit(fits: pd.DataFrame, fit: str) -> Hyperbola:
-    """A, B and C of one fit in a table of regressions."""
-    return Hyperbola(*fits.set_index("fit").loc[fit, ["A", "B", "C"]])
-
-
 def plot(
     *,
     converged: pd.DataFrame,
@@ -34,32 +29,18 @@ def plot(
             continue
         ends = fits.attrs.get("acceleration", (edge.acceleration.min(), edge.acceleration.max()))
         fitted = np.linspace(*ends, 200)
-        height = 1e3 * critical_height(fitted, select_fit(fits, name))
-        axes.plot(fitted, height, line, color=colour, linewidth=0.8, label=label)
-    hollow = {"markerfacecolor": "none", "markeredgewidth": 0.6, "linestyle": ""}
+        hyperbola = Hyperbola(*fits.set_index("fit").loc[name, ["A", "B", "C"]])
+        axes.plot(fitted, 1e3 * critical_height(fitted, hyperbola), line, color=colour, linewidth=0.8, label=label)
+    hollow = {"markerfacecolor": "none", "markeredgewidth": 0.6}
     if euler is not None:
-        euler = euler[euler.is_critical]
-        axes.plot(
-            euler.acceleration,
-            1e3 * euler.z0,
-            marker="o",
-            markersize=4.0,
-            color=style.EULER,
-            label=style.EULER_LABEL,
-            **hollow,
-        )
+        rows, look = euler[euler.is_critical], {"color": style.EULER, "markersize": 4.0, **hollow}
+        axes.plot(rows.acceleration, 1e3 * rows.z0, "o", label=style.EULER_LABEL, **look)
     axes.plot(edge.acceleration, 1e3 * edge.z0, ".", markersize=2.6, color=style.CONVERGED, label=style.CONVERGED_LABEL)
     back = converged[~converged.is_critical]
     if len(back):
-        axes.plot(
-            back.acceleration,
-            1e3 * back.z0,
-            marker="v",
-            markersize=3.0,
-            color=style.CONVERGED,
-            label="converged solution, return to the first state",
-            **hollow,
-        )
+        look = {"color": style.CONVERGED, "markersize": 3.0, **hollow}
+        label = "converged solution, return to the first state"
+        axes.plot(back.acceleration, 1e3 * back.z0, "v", label=label, **look)
     axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel("critical initial height $z_0$ in mm")
     axes.set_ylim(bottom=0.0)

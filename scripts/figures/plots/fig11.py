@@ -15,8 +15,7 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, two_states: list[float
     for axes, sweep in zip(panels, sweeps.values(), strict=True):
         axes.axvspan(*two_states, color="0.93", linewidth=0.0)
         for state, rows in sweep.groupby("state"):
-            colour = style.STATE_COLOURS[state]
-            axes.plot(rows.acceleration, rows.mean_velocity, ".", markersize=2.0, markeredgewidth=0.0, color=colour)
+            style.dots(axes, rows.acceleration, rows.mean_velocity, style.STATE_COLOURS[state], 2.0)
     panels[0].set_ylim(bottom=0.0)
     intended = Patch(color="0.93", label="two states intended (paper)")
     figure.legend(handles=[*style.state_handles(euler, converged), intended], loc="outside upper center", ncols=4)

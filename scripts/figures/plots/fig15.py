@@ -22,16 +22,9 @@ def plot(*, impacts: pd.DataFrame) -> Figure:
     curves = impacts.groupby("acceleration")
     for offset, (marker, colour, (acceleration, rows)) in enumerate(zip(MARKERS, COLOURS, curves, strict=True)):
         shown = rows.iloc[offset :: len(curves)]
-        axes.plot(
-            shown.impact_velocity,
-            shown.impact_phase,
-            marker,
-            markersize=3.5,
-            markerfacecolor="none",
-            markeredgewidth=0.7,
-            color=colour,
-            label=f"$\\hat{{a}}$ = {acceleration:g} m/s²",
-        )
+        look = {"color": colour, "markersize": 3.5, "markerfacecolor": "none", "markeredgewidth": 0.7}
+        label = f"$\\hat{{a}}$ = {acceleration:g} m/s²"
+        axes.plot(shown.impact_velocity, shown.impact_phase, marker, label=label, **look)
     axes.set_xlabel("velocity at the first impact $\\dot{z}_1$ in m/s")
     axes.set_ylabel("phase at the first impact $\\psi_1$ in rad")
     style.phase_axis(axes.yaxis)

@@ -13,23 +13,15 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame) -> Figure:
     """Draw signals at two phases, and the distance between them."""
     figure = style.figure(style.PAGE, 116.0)
     panels = figure.subplots(3, 2, sharex=True, sharey="row")
-    signals = (
-        (euler, style.EULER, style.EULER_LABEL),
-        (converged, style.CONVERGED, style.CONVERGED_LABEL),
-    )
+    signals = ((euler, style.EULER, style.EULER_LABEL), (converged, style.CONVERGED, style.CONVERGED_LABEL))
     for column, (table, colour, title) in zip(panels.T, signals, strict=True):
         position, velocity, difference = column
         (low, reference), (high, perturbed) = table.groupby("psi0")
         mantissa, exponent = f"{high - low:.0e}".split("e")
+        label = f"perturbed: $\\psi_0$ larger by ${mantissa}\\cdot 10^{{{int(exponent)}}}$ rad"
         for axes, name, scale in ((position, "x", 1e3), (velocity, "vx", 1.0)):
             axes.plot(reference.time, scale * reference[name], color=colour, linewidth=1.4, label="reference")
-            axes.plot(
-                perturbed.time,
-                scale * perturbed[name],
-                color="black",
-                linewidth=0.6,
-                label=f"perturbed: $\\psi_0$ larger by ${mantissa}\\cdot 10^{{{int(exponent)}}}$ rad",
-            )
+            axes.plot(perturbed.time, scale * perturbed[name], color="black", linewidth=0.6, label=label)
         distance = np.abs(perturbed.vx.to_numpy() - reference.vx.to_numpy())
         difference.semilogy(reference.time, distance, color=colour, linewidth=0.7)
         difference.set_ylim(bottom=LEAST)
@@ -37,11 +29,8 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame) -> Figure:
         position.legend(loc="upper left")
         difference.set_xlabel("time in s")
         difference.set_xlim(reference.time.min(), reference.time.max())
-    for axes, label in zip(
-        panels[:, 0],
-        ("position $x_p$ in mm", "feeding velocity $\\dot{x}_p$ in m/s", "distance $|\\Delta\\dot{x}_p|$ in m/s"),
-        strict=True,
-    ):
-        axes.set_ylabel(label)
+    panels[0, 0].set_ylabel("position $x_p$ in mm")
+    panels[1, 0].set_ylabel("feeding velocity $\\dot{x}_p$ in m/s")
+    panels[2, 0].set_ylabel("distance $|\\Delta\\dot{x}_p|$ in m/s")
     figure.align_ylabels(panels[:, 0])
     return figure

@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 from figures import style
 
 UNKNOWN = {"converged": 0.05, "correlation": 0.02}  # axes fraction of the marks of amplitudes without an estimate
+BARS = {"markersize": 2.0, "markeredgewidth": 0.6, "linewidth": 0.6, "elinewidth": 0.4}
 LOOKS = {
     "euler": ("o-", style.EULER, "paper's method: box counting, first second"),
     "converged": ("s", style.CONVERGED, "converged solution: box counting, settled motion"),
@@ -29,29 +30,12 @@ def plot(
     for role, table in tables.items():
         marker, colour, label = LOOKS[role]
         known = table[table.dimension.notna()]
-        axes.errorbar(
-            known.acceleration,
-            known.dimension,
-            yerr=known.error,
-            fmt=marker,
-            color=colour,
-            markersize=2.0,
-            markeredgewidth=0.6,
-            linewidth=0.6,
-            elinewidth=0.4,
-            label=label,
-        )
+        look = {"fmt": marker, "color": colour, "label": label, **BARS}
+        axes.errorbar(known.acceleration, known.dimension, known.error, **look)
         if role in UNKNOWN:
             unknown = table[table.dimension.isna()].acceleration
-            axes.plot(
-                unknown,
-                [UNKNOWN[role]] * len(unknown),
-                "|",
-                transform=axes.get_xaxis_transform(),
-                color=colour,
-                markersize=3.5,
-                markeredgewidth=0.8,
-            )
+            look = {"color": colour, "markersize": 3.5, "markeredgewidth": 0.8}
+            axes.plot(unknown, [UNKNOWN[role]] * len(unknown), "|", transform=axes.get_xaxis_transform(), **look)
     axes.plot([], [], "|", color="black", markersize=3.5, label="no estimate: confidence interval too wide")
     if critical_acceleration is not None:
         style.mark(axes, critical_acceleration, f"{critical_acceleration:g} m/s²")

@@ -76,8 +76,7 @@ def draw_heights(axes: Axes, converged: pd.DataFrame, flat: pd.DataFrame, accele
         colour = colormaps["viridis"](shade)
         axes.plot(amplitudes, 1e3 * curve, color=colour, linewidth=0.6, label=f"$B = {row.B:.1f}$ m/s²")
     edge = converged[converged.is_critical]
-    look = {"color": "black", "markersize": 2.0, "markeredgewidth": 0.0}
-    axes.plot(edge.acceleration, 1e3 * edge.z0, ".", **look, label="converged solution")
+    style.dots(axes, edge.acceleration, 1e3 * edge.z0, "black", 2.0, label="converged solution")
     axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel("critical initial height $z_0$ in mm")
     axes.legend()

@@ -82,18 +82,9 @@ def draw_valley(axes: Axes, profiles: pd.DataFrame, optima: pd.DataFrame, model:
     scale, degrees = UNITS["stiffness"][0], UNITS["angle"][0] * rows.angle
     for reading, of_reading in rows.groupby("tension", sort=False):
         marker, _, label = READINGS[reading]
-        points = axes.scatter(
-            scale * of_reading.stiffness,
-            of_reading.damping,
-            c=degrees[of_reading.index],
-            vmin=degrees.min(),
-            vmax=degrees.max(),
-            s=9.0,
-            marker=marker,
-            cmap="viridis",
-            linewidths=0.0,
-            label=label,
-        )
+        colours = {"c": degrees[of_reading.index], "cmap": "viridis", "vmin": degrees.min(), "vmax": degrees.max()}
+        look = {"marker": marker, "s": 9.0, "linewidths": 0.0, **colours}
+        points = axes.scatter(scale * of_reading.stiffness, of_reading.damping, label=label, **look)
     axes.plot(scale * model["stiffness"], model["damping"], "k+", markersize=7.0)
     axes.set_xscale("log")
     axes.set_yscale("log")

@@ -36,31 +36,18 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
     by_amplitude = shares.groupby("acceleration")
     best = best_of(shares, shares.attrs["same_velocity"])
     means = by_amplitude.apply(lambda rows: (rows.share * rows.mean_velocity).sum(skipna=False), include_groups=False)
-    velocities.fill_between(amplitudes, by_amplitude.mean_velocity.min(), best.best, color="0.88", linewidth=0.0)
+    slowest = by_amplitude.mean_velocity.min()
+    velocities.fill_between(amplitudes, slowest, best.best, color="0.88", linewidth=0.0)
     velocities.plot(best.acceleration, best.best, color="black", label="fastest motion")
-    velocities.plot(
-        means.index,
-        means,
-        color="black",
-        linewidth=0.8,
-        linestyle=(0, (3, 2)),
-        label="mean over all initial conditions",
-    )
-    velocities.plot(
-        amplitudes, by_amplitude.mean_velocity.min(), color="0.5", linewidth=0.8, linestyle=":", label="slowest motion"
-    )
+    look = {"color": "black", "linewidth": 0.8, "linestyle": (0, (3, 2))}
+    velocities.plot(means.index, means, label="mean over all initial conditions", **look)
+    velocities.plot(amplitudes, slowest, color="0.5", linewidth=0.8, linestyle=":", label="slowest motion")
     velocities.plot(amplitudes, throw_theory.mean_velocity(amplitudes, **shares.attrs["model"]), **style.TEXTBOOK)
     velocities.axhline(0.0, color="black", linewidth=0.4, zorder=0)
     velocities.set_ylabel(style.VELOCITY)
 
-    share.fill_between(
-        best.acceleration,
-        100.0 * (best.best_share - 2.0 * best.stderr).clip(0.0, 1.0),
-        100.0 * (best.best_share + 2.0 * best.stderr).clip(0.0, 1.0),
-        color="0.75",
-        linewidth=0.0,
-        step="mid",
-    )
+    low, high = (100.0 * (best.best_share + side * best.stderr).clip(0.0, 1.0) for side in (-2.0, 2.0))
+    share.fill_between(best.acceleration, low, high, color="0.75", linewidth=0.0, step="mid")
     share.plot(best.acceleration, 100.0 * best.best_share, color="black", drawstyle="steps-mid")
     share.set_ylim(0.0, 104.0)
     share.set_ylabel("initial conditions with\nthe fastest motion in %")

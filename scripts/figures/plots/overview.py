@@ -8,7 +8,6 @@ from figures import style
 
 MM = 1e3
 SHADE = "0.93"
-OF_AXES = ("data", "axes fraction")
 
 
 def draw_attractors(axes: Axes, strobes: pd.DataFrame) -> None:
@@ -16,15 +15,7 @@ def draw_attractors(axes: Axes, strobes: pd.DataFrame) -> None:
     for state in ("chaos", "undecided", "second", "first"):  # regular motion over chaos
         rows = strobes[strobes.state == state]
         size = 0.6 if state == "chaos" else 1.2
-        axes.plot(
-            rows.acceleration,
-            rows.v,
-            ".",
-            markersize=size,
-            markeredgewidth=0.0,
-            color=style.STATE_COLOURS[state],
-            rasterized=True,
-        )
+        style.dots(axes, rows.acceleration, rows.v, style.STATE_COLOURS[state], size, rasterized=True)
     axes.set_ylabel("speed of approach\nat $\\psi$ = $\\psi_0$ in m/s")
 
 
@@ -34,13 +25,8 @@ def draw_exponents(axes: Axes, spectrum: pd.DataFrame, estimate: pd.DataFrame) -
     for branch, rows in spectrum.groupby("branch", sort=False):
         label = "converged" if branch == "up" else None
         axes.plot(rows.acceleration, rows.lambda_1, color=style.CONVERGED, linewidth=0.6, label=label)
-    axes.plot(
-        estimate.acceleration,
-        estimate["lambda"],
-        color=style.EULER,
-        linewidth=0.9,
-        label="estimate of Fig. 22",
-    )
+    look = {"color": style.EULER, "linewidth": 0.9, "label": "estimate of Fig. 22"}
+    axes.plot(estimate.acceleration, estimate["lambda"], **look)
     axes.set_ylabel("Lyapunov\nexponent in 1/s")
     axes.legend(loc="lower left", bbox_to_anchor=(0.06, 0.56))
 
@@ -72,24 +58,11 @@ def plot(
         axes.axvspan(critical_acceleration, accumulation, color=SHADE, zorder=-1)
         axes.axvline(fold, color="black", linewidth=0.6, linestyle=":")
         axes.axvline(accumulation, color="black", linewidth=0.6, linestyle=":")
-    style.note(diagram, "two attractors coexist", (fold, 0.97), (2, 0), xycoords=OF_AXES, va="top")
-    style.note(
-        diagram,
-        "doublings\naccumulate:\nonset of chaos",
-        (accumulation, 0.97),
-        (-2, 0),
-        xycoords=OF_AXES,
-        ha="right",
-        va="top",
-    )
-    style.note(
-        below,
-        "chaos in\nthe paper",
-        (0.5 * (critical_acceleration + accumulation), 0.97),
-        xycoords=OF_AXES,
-        ha="center",
-        va="top",
-    )
+    top, middle = {"xycoords": ("data", "axes fraction"), "va": "top"}, 0.5 * (critical_acceleration + accumulation)
+    style.note(diagram, "two attractors coexist", (fold, 0.97), (2, 0), **top)
+    text = "doublings\naccumulate:\nonset of chaos"
+    style.note(diagram, text, (accumulation, 0.97), (-2, 0), ha="right", **top)
+    style.note(below, "chaos in\nthe paper", (middle, 0.97), ha="center", **top)
     diagram.tick_params(labelbottom=False)
     below.set_ylim(lowest_exponent, 1.5 * spectrum.lambda_1.max())
     below.set_xlim(strobes.acceleration.min(), strobes.acceleration.max())

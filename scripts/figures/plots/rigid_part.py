@@ -18,9 +18,8 @@ def draw_velocities(axes: Axes, rows: pd.DataFrame) -> None:
     """Draw mean velocities in both models. Points, not lines: neighbours may lie in different transients."""
     for model, (marker, colour, _) in MODELS.items():
         selected = rows[rows.model == model]
-        axes.plot(
-            selected.acceleration, selected.mean_velocity, marker, color=colour, markersize=1.8, markeredgewidth=0
-        )
+        look = {"color": colour, "markersize": 1.8, "markeredgewidth": 0.0}
+        axes.plot(selected.acceleration, selected.mean_velocity, marker, **look)
     axes.set_title(f"initial height $z_0$ = {1e3 * rows.z0.iloc[0]:g} mm")
     axes.set_xlabel(style.AMPLITUDE)
 
@@ -42,14 +41,10 @@ def plot(*, rigid: pd.DataFrame) -> Figure:
         places.plot(found.acceleration, [row] * len(found), marker, color=colour, markersize=4.0, label=label)
         if model == "contact":
             for bifurcation in found.itertuples():
-                fold = bifurcation.kind == "fold"
-                style.note(
-                    places,
-                    "fold" if fold else ORDINALS.get(bifurcation.number, str(bifurcation.number)),
-                    (bifurcation.acceleration, row),
-                    (0, 5),
-                    ha="left" if bifurcation.number == len(ORDINALS) else "right",
-                )
+                number = bifurcation.number
+                name = "fold" if bifurcation.kind == "fold" else ORDINALS.get(number, str(number))
+                align = "left" if number == len(ORDINALS) else "right"
+                style.note(places, name, (bifurcation.acceleration, row), (0, 5), ha=align)
     places.set_yticks([])
     places.set_ylim(len(MODELS) - 0.5, -0.8)
     places.set_xlabel(style.AMPLITUDE)

@@ -49,22 +49,12 @@ def plot(*, budget: pd.DataFrame, times: pd.DataFrame) -> Figure:
     cost, seen = figure.subplots(1, 2, sharey=True)
     full = rows[rows.variant == "full model"]
     cost.plot(1e3 * full.seconds, full.place, **FULL)
-    for row in rows[
-        (rows.variant != "full model") & (rows.tolerance.notna() | rows.variant.isin(VARIANTS))
-    ].itertuples():
+    cheaper = (rows.variant != "full model") & (rows.tolerance.notna() | rows.variant.isin(VARIANTS))
+    for row in rows[cheaper].itertuples():
         marker, colour = marker_and_colour(row)
-        face = "white" if row.visible else colour
+        look = {"color": colour, "markerfacecolor": "white" if row.visible else colour}
         for axes, x in ((cost, 1e3 * row.seconds), (seen, row.seen)):
-            axes.plot(
-                x,
-                row.place,
-                marker,
-                color=colour,
-                markerfacecolor=face,
-                markersize=3.5,
-                markeredgewidth=0.7,
-                linestyle="",
-            )
+            axes.plot(x, row.place, marker, markersize=3.5, markeredgewidth=0.7, **look)
     chosen = rows[rows.chosen]
     cost.plot(1e3 * chosen.seconds, chosen.place, markeredgewidth=0.8, **RING)
     seen.plot(chosen.seen, chosen.place, markeredgewidth=0.8, **RING)

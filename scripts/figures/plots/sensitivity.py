@@ -30,6 +30,7 @@ POINTS = {
     "second period doubling": {"marker": "D", "color": CHAOS, "markerfacecolor": "none"},
     "accumulation of doublings": {"marker": "*", "color": CHAOS, "markersize": 5.0},
 }
+HOLLOW = {"linestyle": "", "color": "black", "markerfacecolor": "none", "markeredgewidth": 0.6}
 MEETINGS = {
     "cusp": ("cusp of folds", {"marker": "D", "markersize": 2.8}),
     "generalised doubling": ("generalised period doubling", {"marker": "v", "markersize": 3.2}),
@@ -81,10 +82,9 @@ def label_and_look(curve: pd.DataFrame, first_fold: float) -> tuple[str, dict]:
     return "other period doublings", {"color": OTHER, "linewidth": 0.8, "linestyle": (0, (2, 1.5))}
 
 
-def draw_curves(
-    axes: Axes, curves: pd.DataFrame, meetings: pd.DataFrame, parameter: str, group: str, name: str
-) -> None:
-    """Draw bifurcation curves, Γ over a group, with the points of codimension two and the conveyor of the config."""
+def draw_curves(axes: Axes, curves: pd.DataFrame, meetings: pd.DataFrame, parameter: str, name: str) -> None:
+    """Draw bifurcation curves, Γ over a parameter's group, with points of codimension two and the config's conveyor."""
+    group = f"{parameter}_group"
     continued = curves[curves.parameter == parameter]
     folds = continued[continued.kind == "fold"]
     groups = [rows for _, rows in continued.groupby(["kind", "doubling", "begin"], sort=False)]
@@ -99,16 +99,7 @@ def draw_curves(
     for kind, (label, look) in MEETINGS.items():
         rows = shown[shown.meeting == kind]
         if len(rows):
-            axes.plot(
-                rows[group],
-                rows.amplitude_group,
-                linestyle="",
-                color="black",
-                markerfacecolor="none",
-                label=label,
-                markeredgewidth=0.6,
-                **look,
-            )
+            axes.plot(rows[group], rows.amplitude_group, label=label, **look, **HOLLOW)
     own = curves[curves.parameter == "angle"]
     if len(own):
         axes.axvline(own[group].iloc[0], color="black", linewidth=0.5, linestyle=":")
@@ -143,15 +134,8 @@ def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.Dat
     heights.set_xlabel("change of height in µm per % of the parameter")
     heights.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, columnspacing=0.7, handletextpad=0.0)
 
-    draw_curves(damping, continued, meetings, "damping", "damping_group", "damping group $D = d_c/(m\\omega)$")
-    draw_curves(
-        stiffness,
-        continued,
-        meetings,
-        "stiffness",
-        "stiffness_group",
-        "stiffness group $K = k_c g^{p-1}/(m\\omega^{2p})$",
-    )
+    draw_curves(damping, continued, meetings, "damping", "damping group $D = d_c/(m\\omega)$")
+    draw_curves(stiffness, continued, meetings, "stiffness", "stiffness group $K = k_c g^{p-1}/(m\\omega^{2p})$")
     handles: dict = {}
     for axes in (damping, stiffness):
         handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))

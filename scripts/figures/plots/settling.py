@@ -19,12 +19,11 @@ def plot(*, times: pd.DataFrame) -> Figure:
     for k, (colour, acceleration) in enumerate(zip(colours, amplitudes, strict=True)):
         rows = times[times.acceleration == acceleration]
         settled = np.sort(rows[rows.period > 0].cycles)
-        # A motion that settles in the last cycle of its search leaves the share at that cycle.
+        # A motion that settles exactly at the limit leaves the share there.
         cycles = np.concatenate([[1.0], settled, [most]])
         share = 1.0 - np.concatenate([[0.0], np.arange(1, len(settled) + 1), [len(settled)]]) / len(rows)
-        axes.step(
-            cycles, share, where="post", color=colour, linestyle=lines[k % len(lines)], label=f"{acceleration:g} m/s²"
-        )
+        look = {"color": colour, "linestyle": lines[k % len(lines)], "label": f"{acceleration:g} m/s²"}
+        axes.step(cycles, share, where="post", **look)
     style.mark(axes, times.attrs["settling"], "limit of\nthe config")
     axes.set_xscale("log")
     axes.set_xlim(8.0, most)

@@ -24,42 +24,24 @@ def draw_curve(axes: Axes, rows: pd.DataFrame, method: str, name: str, offset: t
     """Draw the errors of one method over its times, with its name at the accurate end."""
     colour, _ = style.METHODS[method]
     rows = rows.sort_values(["step", "tolerance"], ascending=False)
-    own = method == "event"
-    axes.plot(
-        rows.milliseconds,
-        rows.trajectory_error.clip(lower=SMALLEST),
-        "o-",
-        color=colour,
-        markersize=3.5 if own else 2.5,
-        linewidth=2.0 if own else 1.0,
-        zorder=3 if own else 2,
-    )
+    size, width, order, weight = (3.5, 2.0, 3, "bold") if method == "event" else (2.5, 1.0, 2, "normal")
+    look = {"color": colour, "markersize": size, "linewidth": width, "zorder": order}
+    axes.plot(rows.milliseconds, rows.trajectory_error.clip(lower=SMALLEST), "o-", **look)
     last = rows.iloc[-1]
     place = last.milliseconds, max(last.trajectory_error, SMALLEST)
-    style.note(axes, name, place, offset, color=colour, ha=align, va="center", weight="bold" if own else "normal")
+    style.note(axes, name, place, offset, color=colour, ha=align, va="center", weight=weight)
 
 
 def draw_factor(axes: Axes, factor: speed.Factor, text: str, below: bool) -> None:
     """Draw an arrow from another run to the solver at equal error, with the ratio of their times."""
-    axes.annotate(
-        "",
-        (factor.own_milliseconds, factor.error),
-        (factor.milliseconds, factor.error),
-        arrowprops={"arrowstyle": "-|>", "color": "black", "linewidth": 1.0, "shrinkA": 0.0, "shrinkB": 2.0},
-        zorder=4,
-    )
+    look = {"arrowstyle": "-|>", "color": "black", "linewidth": 1.0, "shrinkA": 0.0, "shrinkB": 2.0}
+    tip, tail = (factor.own_milliseconds, factor.error), (factor.milliseconds, factor.error)
+    axes.annotate("", tip, tail, arrowprops=look, zorder=4)
     # Nearer to the solver, because curves of rivals pass the other end.
     place = factor.own_milliseconds**0.7 * factor.milliseconds**0.3
     label = f"{float(f'{factor.ratio:.2g}'):g}× {text}"
-    style.note(
-        axes,
-        label,
-        (place, factor.error),
-        (0, -3 if below else 3),
-        ha="center",
-        va="top" if below else "bottom",
-        weight="bold",
-    )
+    offset, side = ((0, -3), "top") if below else ((0, 3), "bottom")
+    style.note(axes, label, (place, factor.error), offset, ha="center", va=side, weight="bold")
 
 
 def plot(*, jumping: pd.DataFrame, jumping_times: pd.DataFrame, paper_step: float, equal_error: float) -> Figure:
@@ -72,15 +54,9 @@ def plot(*, jumping: pd.DataFrame, jumping_times: pd.DataFrame, paper_step: floa
         if len(rows):
             draw_curve(axes, rows, method, *label)
     paper = speed.paper_run(runs, paper_step)
-    axes.plot(paper.milliseconds, paper.trajectory_error, "o", markersize=9.0, color=style.EULER, fillstyle="none")
-    style.note(
-        axes,
-        "paper's method and time step",
-        (paper.milliseconds, paper.trajectory_error),
-        (8, 3),
-        color=style.EULER,
-        va="bottom",
-    )
+    place = paper.milliseconds, paper.trajectory_error
+    axes.plot(*place, "o", markersize=9.0, color=style.EULER, fillstyle="none")
+    style.note(axes, "paper's method and time step", place, (8, 3), color=style.EULER, va="bottom")
     for factor in speed.factors(runs, paper_step, equal_error):
         is_paper = factor.error == paper.trajectory_error
         other = "the paper's method" if is_paper else "the best rival"

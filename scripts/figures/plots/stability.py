@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
 from figures import style
-from figures.plots.stability_details import AXES, OUTCOMES
+from figures.plots.stability_details import AXES, OUTCOMES, PAPER
 
 TITLES = {
     "stiffness": "linear contact",
@@ -78,9 +78,7 @@ def plot(*, stability: pd.DataFrame, acceleration: float) -> Figure:
     paper_step = stability.attrs["paper_step"]
     for axes, panel in zip(panels.flat, AXES, strict=True):
         draw_panel(axes, stability[stability.panel == panel], panel, methods, paper_step)
-    panels[1, 1].plot(
-        acceleration, paper_step, "*", color="white", markeredgecolor="black", markeredgewidth=0.6, markersize=9.0
-    )
+    panels[1, 1].plot(acceleration, paper_step, **PAPER | {"markersize": 9.0})
     for axes in panels[:, 0]:
         axes.set_ylabel("time step in s")
     figure.legend(handles=legend_handles(methods), loc="outside upper center", ncols=3)

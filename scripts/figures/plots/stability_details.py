@@ -58,15 +58,8 @@ def draw_edges(axes: Axes, table: pd.DataFrame) -> None:
     axes.set_ylim(0.7, 1.3)
     axes.set_xlabel("theoretical step limit in s")
     axes.set_ylabel("measured / theory")
-    axes.legend(
-        handles=[
-            Line2D([], [], linestyle="", marker=marker, color="0.4", label=name) for name, marker in EDGES.items()
-        ],
-        loc="lower right",
-        handletextpad=0.0,
-        labelspacing=0.2,
-        borderaxespad=0.0,
-    )
+    handles = [Line2D([], [], linestyle="", marker=marker, color="0.4", label=name) for name, marker in EDGES.items()]
+    axes.legend(handles=handles, loc="lower right", handletextpad=0.0, labelspacing=0.2, borderaxespad=0.0)
 
 
 def draw_chatter(axes: Axes, table: pd.DataFrame) -> None:
@@ -87,13 +80,8 @@ def draw_hard(axes: Axes, table: pd.DataFrame) -> None:
         for method, error in rows.y.items():
             size = 4.0 if method in ("euler", "event") else 2.5
             axes.semilogx(error, place, "o", color=style.METHODS[method][0], markersize=size)
-        style.note(
-            axes,
-            f"{case.removeprefix('hard: ')}; Euler: {rows.outcome['euler']}",
-            (0.02, place),
-            (0, 4),
-            xycoords=("axes fraction", "data"),
-        )
+        text = f"{case.removeprefix('hard: ')}; Euler: {rows.outcome['euler']}"
+        style.note(axes, text, (0.02, place), (0, 4), xycoords=("axes fraction", "data"))
     axes.set_ylim(len(cases) - 0.5, -0.9)
     axes.set_xlim(1e-15, 1e2)
     axes.set_xticks([1e-14, 1e-10, 1e-6, 1e-2])

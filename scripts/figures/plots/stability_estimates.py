@@ -1,4 +1,4 @@
-"""Accuracy of the published estimators: Lyapunov exponents by finite differences, dimensions by box counting."""
+"""Accuracy of the paper's estimates of Lyapunov exponents (finite differences) and dimensions (box counting)."""
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -50,26 +50,12 @@ def draw_dimensions(axes: Axes, rows: pd.DataFrame, column: str, label: str) -> 
     """Draw estimates with their 95 % intervals over one quantity, a line for each case and estimator."""
     for (case, estimator), line in rows.groupby(["case", "estimator"], sort=False):
         _, colour, marker = ESTIMATORS[estimator]
-        axes.errorbar(
-            line[column],
-            line.value,
-            line.error,
-            marker=marker,
-            color=colour,
-            markersize=2.5,
-            linewidth=0.7,
-            elinewidth=0.5,
-        )
+        look = {"color": colour, "markersize": 2.5, "linewidth": 0.7, "elinewidth": 0.5}
+        axes.errorbar(line[column], line.value, line.error, marker=marker, **look)
         if estimator == "boxes, as in the paper":
-            style.note(
-                axes,
-                NAMES.get(case, case),
-                (line[column].iloc[-1], line.value.iloc[-1]),
-                (4, 0),
-                va="top"
-                if line.value.iloc[-1] < line.truth.iloc[-1]
-                else "bottom",  # beside the line of the true value
-            )
+            last = line.iloc[-1]
+            side = "top" if last.value < last.truth else "bottom"  # beside the line of the true value
+            style.note(axes, NAMES.get(case, case), (last[column], last.value), (4, 0), va=side)
     for truth in rows.truth.dropna().unique():
         axes.axhline(truth, **TRUTH)
     axes.set_ylim(0.4, 2.4)

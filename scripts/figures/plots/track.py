@@ -19,9 +19,8 @@ def plot(*, track: pd.DataFrame) -> Figure:
     for axes, state in zip(panels, states, strict=False):
         own = track[track.state == state].pivot(index="inclination", columns="phase_shift", values="mean_velocity")
         x, y = own.columns.to_numpy(), np.degrees(own.index.to_numpy())
-        image = axes.pcolormesh(
-            x, y, own, cmap="PuOr_r", vmin=-largest, vmax=largest, shading="nearest", rasterized=True
-        )
+        colours = {"cmap": "PuOr_r", "vmin": -largest, "vmax": largest}
+        image = axes.pcolormesh(x, y, own, shading="nearest", rasterized=True, **colours)
         axes.set_facecolor("0.85")
         axes.contour(x, y, own, levels=[0.0], colors="black", linewidths=1.0)
         axes.axhline(0.0, color="black", linewidth=0.4, linestyle=":")

@@ -45,18 +45,11 @@ def draw_curve(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
     colour, _ = style.METHODS[method]
     marker, line, _ = TREATMENTS[treatment]
     good = rows[rows.outcome == "ok"]
-    ours = method == "event"
+    size, order = (3.0, 3) if method == "event" else (2.2, 2)
+    width, face = 1.4 if treatment == "exact" else 0.6, colour if treatment in ("exact", "fixed step") else "none"
+    markers = {"marker": marker, "markersize": size, "markeredgewidth": 0.6, "markerfacecolor": face}
     axes.plot(
-        good[x],
-        good[y].clip(lower=1e-16),
-        marker=marker,
-        linestyle=line,
-        color=colour,
-        markersize=3.0 if ours else 2.2,
-        markeredgewidth=0.6,
-        linewidth=1.4 if treatment == "exact" else 0.6,
-        markerfacecolor=colour if treatment in ("exact", "fixed step") else "none",
-        zorder=3 if ours else 2,
+        good[x], good[y].clip(lower=1e-16), color=colour, linestyle=line, linewidth=width, zorder=order, **markers
     )
 
 

@@ -195,8 +195,8 @@ def test_restitution_of_a_linear_contact(damping_ratio):
         mass, stiffness = 0.7e-3, 2e4
         damping = 2.0 * zeta * math.sqrt(stiffness * mass)
         conveyor = Conveyor(exponent=1.0, stiffness=stiffness, damping=damping, tension=tension)
-        found = rigid_part_motion.restitution_coefficients(pack(conveyor, Start()), np.array([[0.01], [1.0]]))
-        np.testing.assert_allclose(found, [[expected], [expected]], rtol=3e-6)
+        found = rigid_part_motion.restitution_coefficients(pack(conveyor, Start()), np.array([0.01, 1.0]))
+        np.testing.assert_allclose(found, expected, rtol=3e-6)
 
 
 def test_restitution_of_a_hertz_contact():
@@ -258,7 +258,6 @@ def test_too_many_events():
     ("call", "word"),
     [
         (lambda p: rigid_part_motion.run(p, 0.0, 0.5), "duration"),
-        (lambda p: rigid_part_motion.run(p, 1.0, 0.5, last=2.0), "last"),
         (lambda p: rigid_part_motion.run(p, 1.0, 1.5), "restitution"),
         (lambda p: rigid_part_motion.run(p, 1.0, math.nan), "restitution"),
         (lambda p: rigid_part_motion.run(p, 1.0, ([0.2, 0.1], [0.5, 0.6])), "ascending"),
