@@ -82,7 +82,7 @@ def expand(c, series, first, second, free, count):
     free : whether the contact force is left out
     count : number of quantities that are wanted, from the first one on
     """
-    series, first, second = no_refcount(series), no_refcount(first), no_refcount(second)
+    series, first, second = no_refcount((series, first, second))
     w, square = series[FIRST + contact.W], series[FIRST + contact.SQUARE]
     spring, cosine_w = series[FIRST + contact.SPRING], series[FIRST + contact.COSINE_W]
     damping = 0.0 if free else c.damping

@@ -182,12 +182,7 @@ def advance(c, series, state, phase, duration, tangent, features):
     -------
     status code of trajectory.STATUS
     """
-    series, state, tangent, features = (
-        no_refcount(series),
-        no_refcount(state),
-        no_refcount(tangent),
-        no_refcount(features),
-    )
+    series, state, tangent, features = no_refcount((series, state, tangent, features))
     # Numbers of both perturbations lie side by side, so that one instruction works on both.
     expansions = np.zeros((SIZE, 3, tangent.shape[0])).T
     features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = 0.0

@@ -198,13 +198,11 @@ def follow(parameters, options, records, results, room):
     loop over the runs is here for the same reason: as a function of its own, it would take 3 s more to compile.
     """
     tolerance, feeding, reuse = options
-    times, samples, event_times, event_kinds = records
-    series, kept_steps = room
-    kept = repeated_steps.KeptSteps(no_refcount(series), no_refcount(kept_steps))
+    times, samples, event_times, event_kinds = no_refcount(records)
+    series, kept_steps = no_refcount(room)
+    kept = repeated_steps.KeptSteps(series, kept_steps)
     for i in range(parameters.shape[0]):
-        record = Record(
-            no_refcount(times[i]), no_refcount(samples[i]), no_refcount(event_times[i]), no_refcount(event_kinds[i])
-        )
+        record = Record(times[i], samples[i], event_times[i], event_kinds[i])
         row, result = parameters[i], no_refcount(results[i])
         repeated_steps.clear(kept)
         c = contact.constants(row, tolerance)

@@ -205,10 +205,8 @@ def follow(parameters, tolerance, times, samples, results, left, work):
     work : the memory of contact_lanes, the state of each lane's run, shape (LANES, COUNTS), the row that each lane
         follows, a contact.workspace, and the kept steps of each lane
     """
-    parameters, times, samples = no_refcount(parameters), no_refcount(times), no_refcount(samples)
-    results, left = no_refcount(results), no_refcount(left)
-    steps, runs, rows = no_refcount(work[0]), no_refcount(work[1]), no_refcount(work[2])
-    series, kept_steps = no_refcount(work[3]), no_refcount(work[4])
+    parameters, times, samples, results, left = no_refcount((parameters, times, samples, results, left))
+    steps, runs, rows, series, kept_steps = no_refcount(work)
     constants = [contact.constants(parameters[0], tolerance)] * LANES
     motions = [motion_at(constants[0], 0.0, 0.0, 0.0, 0.0)] * LANES
     waiting = running = 0

@@ -53,7 +53,6 @@ from ...solver.vertical import (
 )
 from ..stroboscopic_map import delta_and_v
 from . import convergence
-from .attractor_table import AttractingOrbits, AttractorTable, ChaoticSets
 from .convergence import FOLLOWED, GOES_ON, Trajectories, check_convergence, new_searches, reset_search
 
 # Fewer trajectories are followed one after the other.
@@ -67,27 +66,6 @@ BEFORE_FIRST_CYCLE = -1
 
 # The arguments of `convergence.follow_all_to_attractors` that say when a search is over, and the array of strobes.
 Search = namedtuple("Search", "max_cycles attractors rows strobes")
-
-
-@compiled_into_callers
-def table_without_refcounts(attractors):
-    """The same table of attractors, see jit.no_refcount."""
-    orbits, chaotic = attractors.orbits, attractors.chaotic
-    return AttractorTable(
-        AttractingOrbits(
-            no_refcount(orbits.conveyors),
-            no_refcount(orbits.centres),
-            no_refcount(orbits.factors),
-            no_refcount(orbits.periods),
-            no_refcount(orbits.flights),
-        ),
-        ChaoticSets(
-            no_refcount(chaotic.conveyors),
-            no_refcount(chaotic.low),
-            no_refcount(chaotic.size),
-            no_refcount(chaotic.cells),
-        ),
-    )
 
 
 @compiled_into_callers
@@ -169,23 +147,8 @@ def follow(parameters, tolerance, search, found, left, work):
     work : the memory of contact_lanes, the state of each lane's cycle, shape (3, LANES), the trajectory of each lane,
         room for a state, a contact.workspace, and convergence.new_searches
     """
-    parameters, left = no_refcount(parameters), no_refcount(left)
-    attractors = table_without_refcounts(search.attractors)
-    search = Search(search.max_cycles, attractors, no_refcount(search.rows), no_refcount(search.strobes))
-    found = Trajectories(
-        no_refcount(found.states),
-        no_refcount(found.outcomes),
-        no_refcount(found.periods),
-        no_refcount(found.flights),
-        no_refcount(found.followed),
-    )
-    steps, cycle, trajectories, state = (
-        no_refcount(work[0]),
-        no_refcount(work[1]),
-        no_refcount(work[2]),
-        no_refcount(work[3]),
-    )
-    series, histories, counters = no_refcount(work[4]), no_refcount(work[5]), no_refcount(work[6])
+    parameters, search, found, left = no_refcount((parameters, search, found, left))
+    steps, cycle, trajectories, state, series, histories, counters = no_refcount(work)
     constants = [contact.constants(parameters[0], tolerance)] * LANES
     waiting = running = 0
     stopped = (1 << LANES) - 1  # a bit for each lane
