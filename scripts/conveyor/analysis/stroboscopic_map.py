@@ -27,7 +27,6 @@ from ..solver.trajectory import (
     NOT_FINITE,
     OK,
     TOO_STIFF,
-    longest_eventless,
     time_to_next_cycle,
 )
 from ..solver.vertical import (
@@ -189,8 +188,6 @@ def advance(c, series, state, phase, duration, tangent, features):
     motion = motion_at(c, -state[0], -state[1], 0.0, phase)
     if motion.pulled:
         switch_damping(c, tangent, True)
-    most = longest_eventless(c)
-    eventless = 0
     for _ in range(MAX_PIECES):
         piece = next_piece(c, series, FIRST, motion, duration - motion.t)
         piece = advance_tangent(c, series, tangent, expansions, motion, piece)
@@ -204,9 +201,6 @@ def advance(c, series, state, phase, duration, tangent, features):
                 features[AIRBORNE] = 0.0
         elif piece.kind == CONTACT and not (motion.pulled and c.tension == TENSION_CLIP):
             features[CONTACT_TIME] += piece.duration
-        eventless = eventless + 1 if piece.end == contact.NOTHING else 0
-        if eventless > most:
-            return TOO_STIFF
         motion = arrive(c, motion, piece, phase)
         if not is_finite(motion):
             return NOT_FINITE

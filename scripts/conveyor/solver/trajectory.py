@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from . import contact, peaks, repeated_steps
-from .contact import FORCE_SIGN, NOTHING, SEPARATION
+from .contact import FORCE_SIGN, SEPARATION
 from .flight import highest_gap
 from .horizontal import (
     CONTACT_FORCE,
@@ -69,22 +69,6 @@ STATUS = ("ok", "too many events", "contact too stiff", "impact not found", "not
 
 # Pieces in one excitation cycle after which a run ends with "contact too stiff".
 MAX_PIECES = 100_000
-# A contact whose own rates need this many times MAX_PIECES steps in a cycle ends a run sooner, after fewer steps in a
-# row without an event: MAX_PIECES steps would cover a fiftieth of the cycle at most.
-HOPELESS = 50.0
-LONGEST_EVENTLESS_IF_HOPELESS = 10_000
-
-
-@compiled
-def longest_eventless(c):
-    """Contact steps in a row without an event after which a run ends with "contact too stiff".
-
-    The contact's own rates are d_c/m and the frequency at the static penetration.
-    """
-    rate = max(c.damping, c.scale_v / (c.scale_w * c.scale_w))
-    return LONGEST_EVENTLESS_IF_HOPELESS if rate * c.period > HOPELESS * MAX_PIECES else MAX_PIECES
-
-
 # Columns of the results of runs: the status code, numbers of events and of impacts, the time with contact force (s),
 # the largest gap (m), numbers of computed and of repeated contact steps; the largest speed of approach at an impact
 # (m/s) and the largest contact force (N) between the last two times of a run, 0 where there is none.
@@ -206,7 +190,6 @@ def follow(parameters, options, records, results, room):
         row, result = parameters[i], no_refcount(results[i])
         repeated_steps.clear(kept)
         c = contact.constants(row, tolerance)
-        most = longest_eventless(c)
         end, since = record.times[-1], record.times[-2] if record.times.size > 1 else 0.0
         offset = time_into_cycle(c)
         cycle, base = 0, -offset
@@ -215,14 +198,14 @@ def follow(parameters, options, records, results, room):
         horizontal = Horizontal(0.0, 0.0, 0.0)
         if motion.touching:
             horizontal = touch_down(c, motion, horizontal)
-        sampled = events = impacts = steps = repeats = pieces = eventless = place = 0
+        sampled = events = impacts = steps = repeats = pieces = place = 0
         contact_time = impact_speed = peak_force = 0.0
         max_gap = max(q, 0.0)
         status = OK
 
         while sampled < record.times.size:
             pieces += 1
-            if pieces > MAX_PIECES or eventless > most:
+            if pieces > MAX_PIECES:
                 status = TOO_STIFF
                 break
             at = repeated_steps.first_row(kept, place)
@@ -235,7 +218,6 @@ def follow(parameters, options, records, results, room):
                 piece = next_piece(c, kept.series, at, motion, limit)
                 if piece.kind == CONTACT:
                     repeated_steps.keep(kept, place, motion, piece)
-            eventless = eventless + 1 if piece.end == NOTHING else 0
             ends = begins + piece.duration
             if piece.kind == FLIGHT:
                 if piece.end == LOST:

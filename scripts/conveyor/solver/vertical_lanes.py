@@ -20,6 +20,7 @@ from .contact_lanes import (
     LENGTH,
     NONE,
     SINE,
+    STEPS,
     V,
     W,
     copy_series,
@@ -33,7 +34,7 @@ from .flight import highest_gap
 from .horizontal import SAMPLES, Horizontal, Step, first_segment, sample_contact
 from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import VZ0, Z0
-from .trajectory import BEGIN_OF_CYCLE, MAX_PIECES, longest_eventless, next_cycle, sample_flight, time_into_cycle
+from .trajectory import BEGIN_OF_CYCLE, MAX_PIECES, next_cycle, sample_flight, time_into_cycle
 from .vertical import (
     CONTACT,
     FLIGHT,
@@ -57,8 +58,6 @@ DURATION, BASE, CYCLE, PIECES, PLACE, CONTACT_TIME, MAX_GAP, IMPACTS, SINCE, IMP
 COUNTS = 11
 # Steps that end this close to the end of a run, in cycles, are scalar, because the last sample may lie in them.
 MARGIN = 1e-6
-# contact_lanes need not count the steps of a lane: `count` does.
-ANY = 1e300
 
 # The piece of a lane that has had none.
 NO_PIECE = Piece(CONTACT, 0.0, 0.0, NOTHING, 0.0, 0.0, 0.0, 0.0)
@@ -70,7 +69,7 @@ GOES_ON, OVER, FAILED = range(3)
 def begin_cycle(c, run, steps, lane):
     """Begin a cycle of a lane: its steps must end with the cycle, or just before the run ends."""
     run[BASE] = run[CYCLE] * c.period - time_into_cycle(c)
-    run[PIECES] = run[PLACE] = 0.0
+    run[PIECES] = run[PLACE] = steps[STEPS, lane] = 0.0
     steps[END, lane] = min(c.period, run[DURATION] - run[BASE] - MARGIN * c.period)
 
 
@@ -78,7 +77,7 @@ def begin_cycle(c, run, steps, lane):
 def begin_run(c, parameters, times, run, steps, lane, kept):
     """The Motion at the initial condition of `parameters`, shape (16,); resets all that is known of the lane."""
     repeated_steps.forget(kept)
-    set_constants(steps, lane, c, ANY)
+    set_constants(steps, lane, c)
     q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)
     run[SINCE], run[DURATION] = times
     run[CYCLE] = run[CONTACT_TIME] = run[IMPACTS] = run[IMPACT_SPEED] = run[PEAK_FORCE] = 0.0
@@ -153,7 +152,7 @@ def count(c, kept, motion, piece, again, run, steps, lane, sample):
             return OVER
         run[PLACE] = min(run[PLACE] + 1.0, repeated_steps.PLACES - 1)
     # A run that scalar code may give up is left to scalar code.
-    return FAILED if 2.0 * run[PIECES] > min(MAX_PIECES, longest_eventless(c)) else GOES_ON
+    return FAILED if run[PIECES] >= MAX_PIECES else GOES_ON
 
 
 @compiled_into_callers

@@ -17,7 +17,6 @@ from ...solver.contact_lanes import (
     END,
     LANES,
     LENGTH,
-    MOST,
     NONE,
     SINE,
     STEPS,
@@ -33,7 +32,7 @@ from ...solver.contact_lanes import (
 )
 from ...solver.jit import compiled, compiled_into_callers, no_refcount
 from ...solver.model import VZ0, Z0
-from ...solver.trajectory import BEGIN_OF_CYCLE, longest_eventless, time_to_next_cycle
+from ...solver.trajectory import BEGIN_OF_CYCLE, MAX_PIECES, time_to_next_cycle
 from ...solver.vertical import (
     FLIGHT,
     GRAZE,
@@ -71,7 +70,7 @@ Search = namedtuple("Search", "max_cycles attractors rows strobes")
 @compiled_into_callers
 def begin_trajectory(c, parameters, lane, steps, cycle, past, counts):
     """The Motion at the initial condition of `parameters`, shape (16,); resets all that is known of the lane."""
-    set_constants(steps, lane, c, longest_eventless(c))
+    set_constants(steps, lane, c)
     reset_search(past, counts)
     counts[FOLLOWED] = BEFORE_FIRST_CYCLE
     # The first whole cycle begins within one cycle.
@@ -103,7 +102,7 @@ def count_piece(piece, lane, steps, cycle):
 @compiled_into_callers
 def may_fail(motion, piece, lane, steps):
     """Whether stroboscopic_map.advance may fail here; scalar code follows such a trajectory again, and decides."""
-    return piece.end == LOST or not is_finite(motion) or steps[STEPS, lane] > steps[MOST, lane]
+    return piece.end == LOST or not is_finite(motion) or steps[STEPS, lane] > MAX_PIECES
 
 
 @compiled_into_callers
