@@ -27,7 +27,6 @@ from ..solver.trajectory import (
     NOT_FINITE,
     OK,
     TOO_STIFF,
-    time_to_next_cycle,
 )
 from ..solver.vertical import (
     CONTACT,
@@ -210,19 +209,6 @@ def advance(c, series, state, phase, duration, tangent, features):
             state[0], state[1] = delta_and_v(motion)
             return OK
     return TOO_STIFF
-
-
-@compiled
-def to_begin_of_cycle(parameters, tolerance, states):
-    """Fill `states`, shape (n, 2), with the states when the plate is next at its top; NaN for a failure."""
-    series = contact.workspace()
-    no_tangent = np.empty((0, 2))
-    features = np.zeros(FEATURES)
-    for i in range(parameters.shape[0]):
-        c = contact.constants(parameters[i], tolerance)
-        initial_state(parameters[i], tolerance, states[i])
-        if advance(c, series, states[i], c.psi0, time_to_next_cycle(c), no_tangent, features) != OK:
-            states[i, :] = np.nan
 
 
 @compiled

@@ -110,8 +110,7 @@ def step(typing_context, lanes, memory):
     return types.int64(lanes, memory), code
 
 
-@compiled
-def new_memory(lanes):
+def new_memory(lanes: int) -> np.ndarray:
     """The memory of a number of lanes, aligned to LINE, all zero."""
     numbers = np.zeros(ROWS * lanes + LINE // 8)
     first = (-numbers.ctypes.data % LINE) // 8
@@ -125,23 +124,20 @@ def can_follow(c):
 
 
 @compiled_into_callers
-def refill(lane, trajectories, waiting, running, parameters, tolerance, left):
-    """Give a lane the next trajectory that lanes can follow, or NONE.
+def refill(lane, trajectories, waiting, running, count):
+    """Give a lane the next trajectory, or NONE.
 
     Parameters
     ----------
-    trajectories : int64, shape (lanes,), the row of `parameters` that each lane follows; changed
-    waiting, running : the first row that no lane has had yet; a bit for each lane with a trajectory
-    left : bool, shape (n,), set for rows that lanes cannot follow
+    trajectories : int64, shape (lanes,), the number of the trajectory that each lane follows; changed
+    waiting, running : the first trajectory that no lane has had yet; a bit for each lane with a trajectory
+    count : the number of trajectories
 
     Returns
     -------
     waiting, running : from now on
     """
-    while waiting < len(parameters) and not can_follow(contact.constants(parameters[waiting], tolerance)):
-        left[waiting] = True
-        waiting += 1
-    if waiting == len(parameters):
+    if waiting == count:
         trajectories[lane] = NONE
         return waiting, running & ~(1 << lane)
     trajectories[lane] = waiting

@@ -23,6 +23,7 @@ from .contact_lanes import (
     STEPS,
     V,
     W,
+    can_follow,
     copy_series,
     new_memory,
     refill,
@@ -226,13 +227,19 @@ def follow(parameters, tolerance, times, samples, results, left, work):
                         left[i] = True
                     elif answer == OVER:
                         write_result(c, run, results[i])
-                if answer != GOES_ON:
-                    waiting, running = refill(lane, rows, waiting, running, parameters, tolerance, left)
+                while answer != GOES_ON:
+                    waiting, running = refill(lane, rows, waiting, running, len(parameters))
                     i = rows[lane]
                     if i == NONE:
                         break
                     c = constants[lane] = contact.constants(parameters[i], tolerance)
-                    motion = begin_run(c, parameters[i], times[i], run, steps, lane, kept)
+                    if can_follow(c):
+                        motion = begin_run(c, parameters[i], times[i], run, steps, lane, kept)
+                        answer = GOES_ON
+                    else:
+                        left[i] = True
+                if i == NONE:
+                    break
                 place = int(run[PLACE])
                 again = motion.touching and repeated_steps.repeats(c, kept, place, motion)
                 if again:
