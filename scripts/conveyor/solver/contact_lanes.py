@@ -43,11 +43,12 @@ expand = FunctionType(unrolled.expand_hertz.__code__, {"fma": fma})
 
 
 def maximum(a: Vector, b: Vector) -> Vector:
+    """In each lane the larger number, or `a` if one is NaN."""
     return where(b > a, b, a)
 
 
 def step_length(at: Memory, series: dict[tuple[int, int], Vector]) -> Vector:
-    """Length in s at which the last two terms of the series are below the tolerance, see contact.step_length."""
+    """The length of the step in the variable s, see contact.step_length."""
     w, v = at[W], at[V]
     square = w * w
     energy = v * v + 2.0 * at[STIFFNESS] * (square * square * w) / 2.5

@@ -43,6 +43,7 @@ from .vertical import (
     begin,
     flight_from,
     in_cycle,
+    is_finite,
     motion_at,
     next_piece,
 )
@@ -90,7 +91,7 @@ def integrate(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 16), see model.PARAMETERS
+    parameters : float64, shape (n, 16), see parameters.PARAMETERS
     times : float64, shape (n, k), s, ascending, ≥ 0; a run ends at its last one
     tolerance : relative error per step of the contact
     feeding : whether the horizontal motion is wanted; without it its columns are NaN
@@ -137,12 +138,8 @@ def record_end(record, events, time, piece, pulled, motion):
 def peak_of_step(c, kept, place, at, motion, piece, first, last):
     """Largest F_c/m (m/s²) of the contact step in a place, from `first` to `last` (s) after its beginning."""
     is_whole = first <= 0.0 and last >= piece.duration
-    kept_peak = kept.steps[place, repeated_steps.PEAK] if is_whole else math.nan
-    if not math.isnan(kept_peak):
-        return kept_peak
-    if is_whole and peaks.is_monotonic(c, motion, piece):
-        found = peaks.largest_force_at_ends(c, motion, piece)
-    else:
+    found = repeated_steps.known_peak(c, kept, place, motion, piece) if is_whole else math.nan
+    if math.isnan(found):
         found = peaks.largest_force_between(c, kept.series, at, piece, first, last)
     if is_whole:
         kept.steps[place, repeated_steps.PEAK] = found
@@ -257,7 +254,7 @@ def follow(parameters, options, records, results, room):
                 horizontal = Horizontal(x, vx, horizontal.sigma)
             pulled = motion.pulled
             motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
-            if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
+            if not is_finite(motion):
                 status = NOT_FINITE
                 break
             events = record_end(record, events, ends, piece, pulled, motion)

@@ -47,6 +47,7 @@ from .vertical import (
     flight_from,
     fly,
     graze,
+    is_finite,
     is_grazing,
     motion_at,
     press,
@@ -102,17 +103,11 @@ def peak_of_step(c, kept, motion, piece, again, run, steps, lane):
     """Largest F_c/m (m/s²) of a lane's contact step within the times that count, see trajectory.peak_of_step."""
     begins, place = run[BASE] + motion.t, int(run[PLACE])
     first, last = run[SINCE] - begins, run[DURATION] - begins
-    is_whole = not (first > 0.0 or last < piece.duration)
-    if is_whole:
-        found = kept.steps[place, repeated_steps.PEAK]
-        if not math.isnan(found):
-            return found
-        if peaks.is_monotonic(c, motion, piece):
-            found = peaks.largest_force_at_ends(c, motion, piece)
-            kept.steps[place, repeated_steps.PEAK] = found
-            return found
-    find_series(c, kept, again, run, steps, lane)
-    found = peaks.largest_force_between(c, kept.series, FIRST, piece, first, last)
+    is_whole = first <= 0.0 and last >= piece.duration
+    found = repeated_steps.known_peak(c, kept, place, motion, piece) if is_whole else math.nan
+    if math.isnan(found):
+        find_series(c, kept, again, run, steps, lane)
+        found = peaks.largest_force_between(c, kept.series, FIRST, piece, first, last)
     if is_whole:
         kept.steps[place, repeated_steps.PEAK] = found
     return found
@@ -162,7 +157,7 @@ def advance(c, kept, motion, piece, again, run, steps, lane, sample):
     answer = count(c, kept, motion, piece, again, run, steps, lane, sample)
     if answer == GOES_ON:
         motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
-        if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
+        if not is_finite(motion):
             answer = FAILED
     if answer == GOES_ON:
         motion, cycles = next_cycle(c, motion, piece)
