@@ -29,42 +29,28 @@ DESCRIPTIONS = {
 }
 PARAMETERS = tuple(DESCRIPTIONS)
 
-UNITS = {
-    "acceleration": "m/s²",
-    "angle": "rad",
-    "frequency": "Hz",
-    "psi0": "rad",
-    "stiffness": "N/m^p",
-    "damping": "N s/m",
-    "friction": "1",
-    "mass": "kg",
-    "exponent": "1",
-    "gravity": "m/s²",
-    "inclination": "rad",
-    "phase_shift": "rad",
-    "static_friction": "1",
-    "tension": "",
-    "z0": "m",
-    "vz0": "m/s",
+# The unit of each parameter, and the closed interval of its admissible values. The intervals reject impossible values
+# and most angles in degrees, but not unusual conveyors. The tension is one of TENSION_MODES.
+UNITS_AND_RANGES = {
+    "acceleration": ("m/s²", (0.0, 1e4)),
+    "angle": ("rad", (0.0, 0.5 * math.pi)),
+    "frequency": ("Hz", (1e-2, 1e5)),
+    "psi0": ("rad", (-4.0 * math.pi, 4.0 * math.pi)),
+    "stiffness": ("N/m^p", (1.0, 1e15)),
+    "damping": ("N s/m", (0.0, 1e6)),
+    "friction": ("1", (0.0, 10.0)),
+    "mass": ("kg", (1e-12, 1e6)),
+    "exponent": ("1", (1.0, 3.0)),
+    "gravity": ("m/s²", (1e-3, 1e3)),
+    "inclination": ("rad", (-1.4, 1.4)),
+    "phase_shift": ("rad", (-4.0 * math.pi, 4.0 * math.pi)),
+    "static_friction": ("1", (0.0, 10.0)),
+    "tension": ("", None),
+    "z0": ("m", (-1.0, 10.0)),
+    "vz0": ("m/s", (-100.0, 100.0)),
 }
-# Admissible closed intervals. They reject impossible values and most angles in degrees, but not unusual conveyors.
-RANGES = {
-    "acceleration": (0.0, 1e4),
-    "angle": (0.0, 0.5 * math.pi),
-    "frequency": (1e-2, 1e5),
-    "psi0": (-4.0 * math.pi, 4.0 * math.pi),
-    "stiffness": (1.0, 1e15),
-    "damping": (0.0, 1e6),
-    "friction": (0.0, 10.0),
-    "mass": (1e-12, 1e6),
-    "exponent": (1.0, 3.0),
-    "gravity": (1e-3, 1e3),
-    "inclination": (-1.4, 1.4),
-    "phase_shift": (-4.0 * math.pi, 4.0 * math.pi),
-    "static_friction": (0.0, 10.0),
-    "z0": (-1.0, 10.0),
-    "vz0": (-100.0, 100.0),
-}
+UNITS = {name: unit for name, (unit, _) in UNITS_AND_RANGES.items()}
+RANGES = {name: interval for name, (_, interval) in UNITS_AND_RANGES.items() if interval is not None}
 
 # Parameters that leave the motion normal to the track as it is.
 TANGENTIAL = ("friction", "phase_shift", "static_friction")

@@ -19,7 +19,7 @@ from ..solver.contact import FIRST, FORCE_SIGN, SEPARATION
 from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from ..solver.model import TENSION_CLIP
 from ..solver.polynomial import ORDER, SIZE
-from ..solver.trajectory import IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF, longest_eventless
+from ..solver.trajectory import IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF
 from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, cut_step, is_finite, motion_at, next_piece
 from .stroboscopic_map import delta_and_v, tangent_length
 
@@ -82,7 +82,7 @@ def expand(c, series, first, second, free, count):
     free : whether the contact force is left out
     count : number of quantities that are wanted, from the first one on
     """
-    series, first, second = no_refcount(series), no_refcount(first), no_refcount(second)
+    series, first, second = no_refcount((series, first, second))
     w, square = series[FIRST + contact.W], series[FIRST + contact.SQUARE]
     spring, cosine_w = series[FIRST + contact.SPRING], series[FIRST + contact.COSINE_W]
     damping = 0.0 if free else c.damping
@@ -246,8 +246,7 @@ def cycle(parameters, tolerance, state, first, second, count):
     clip = c.tension == TENSION_CLIP
     if motion.pulled and clip:
         switch(c, first, second, state[0], True)
-    most = longest_eventless(c)
-    eventless = impacts = 0
+    impacts = 0
     for _ in range(MAX_PIECES):
         piece = next_piece(c, series, FIRST, motion, c.period - motion.t)
         if piece.kind == CONTACT:
@@ -270,9 +269,6 @@ def cycle(parameters, tolerance, state, first, second, count):
             cross_force(c, first, second, piece.w, piece.v, c.gravity + c.a_z * piece.cosine)
             if motion.pulled:
                 switch(c, first, second, delta, False)
-        eventless = eventless + 1 if piece.end == contact.NOTHING else 0
-        if eventless > 2 * most:
-            return TOO_STIFF, impacts
         motion = following
         if not is_finite(motion):
             return NOT_FINITE, impacts

@@ -27,8 +27,6 @@ from ..solver.trajectory import (
     NOT_FINITE,
     OK,
     TOO_STIFF,
-    longest_eventless,
-    time_to_next_cycle,
 )
 from ..solver.vertical import (
     CONTACT,
@@ -182,20 +180,13 @@ def advance(c, series, state, phase, duration, tangent, features):
     -------
     status code of trajectory.STATUS
     """
-    series, state, tangent, features = (
-        no_refcount(series),
-        no_refcount(state),
-        no_refcount(tangent),
-        no_refcount(features),
-    )
+    series, state, tangent, features = no_refcount((series, state, tangent, features))
     # Numbers of both perturbations lie side by side, so that one instruction works on both.
     expansions = np.zeros((SIZE, 3, tangent.shape[0])).T
     features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = 0.0
     motion = motion_at(c, -state[0], -state[1], 0.0, phase)
     if motion.pulled:
         switch_damping(c, tangent, True)
-    most = longest_eventless(c)
-    eventless = 0
     for _ in range(MAX_PIECES):
         piece = next_piece(c, series, FIRST, motion, duration - motion.t)
         piece = advance_tangent(c, series, tangent, expansions, motion, piece)
@@ -209,9 +200,6 @@ def advance(c, series, state, phase, duration, tangent, features):
                 features[AIRBORNE] = 0.0
         elif piece.kind == CONTACT and not (motion.pulled and c.tension == TENSION_CLIP):
             features[CONTACT_TIME] += piece.duration
-        eventless = eventless + 1 if piece.end == contact.NOTHING else 0
-        if eventless > most:
-            return TOO_STIFF
         motion = arrive(c, motion, piece, phase)
         if not is_finite(motion):
             return NOT_FINITE
@@ -221,19 +209,6 @@ def advance(c, series, state, phase, duration, tangent, features):
             state[0], state[1] = delta_and_v(motion)
             return OK
     return TOO_STIFF
-
-
-@compiled
-def to_begin_of_cycle(parameters, tolerance, states):
-    """Fill `states`, shape (n, 2), with the states when the plate is next at its top; NaN for a failure."""
-    series = contact.workspace()
-    no_tangent = np.empty((0, 2))
-    features = np.zeros(FEATURES)
-    for i in range(parameters.shape[0]):
-        c = contact.constants(parameters[i], tolerance)
-        initial_state(parameters[i], tolerance, states[i])
-        if advance(c, series, states[i], c.psi0, time_to_next_cycle(c), no_tangent, features) != OK:
-            states[i, :] = np.nan
 
 
 @compiled

@@ -46,7 +46,7 @@ FIRST = SCRATCH + 1
 
 @compiled
 def constants(parameters, tolerance):
-    """The Constants of a packed parameter vector (see model.PARAMETERS) at a relative tolerance per step."""
+    """The Constants of a packed parameter vector (see parameters.PARAMETERS) at a relative tolerance per step."""
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
     mass = parameters[model.MASS]
     gravity = parameters[model.GRAVITY] * math.cos(parameters[model.INCLINATION])
@@ -190,9 +190,10 @@ def expand_power(c, series, at, exponent):
 
 @compiled_inline
 def expand_force(c, series, at, scale, plate, slack):
-    """Fill the row SCRATCH with the series of w (scale F_c/m + plate cos(θ + ε) + slack), which has the bracket's sign.
+    """Fill the row SCRATCH with the series of w (scale F_c/m + plate cos(θ + ε) + slack).
 
-    The product of sin θ and w follows from (cos θ)' = -ω w sin θ.
+    The series has the sign of the expression in brackets. The product of sin θ and w follows from
+    (cos θ)' = -ω w sin θ.
     """
     plate, turned = plate * c.cos_shift, plate * c.sin_shift / c.omega
     for n in range(ORDER):
@@ -206,7 +207,7 @@ def expand_force(c, series, at, scale, plate, slack):
 
 @compiled_inline
 def step_length(c, series, at, w0, v0):
-    """Length in s up to which the last two terms of the series are below the tolerance.
+    """Length of the step in the variable s up to which the last two terms of the series are below the tolerance.
 
     The series of v and of the excitation's phase count; w = ∫ v/2 ds follows v. The scale of v is the speed of an
     impact with the present energy, but at least scale_v.
@@ -233,7 +234,7 @@ def step_length(c, series, at, w0, v0):
 
 @compiled_into_callers
 def begin_step(c, series, at, w0, v0, sine0, cosine0, pulled):
-    """Expand the motion from w0 ≥ 0, v0: the length in s up to which its series is good.
+    """Expand the motion from w0 ≥ 0, v0: the length in the variable s up to which its series is good.
 
     c, series, at : Constants, a workspace, and the first row of this step in it
     w0, v0 : √penetration (√m) and speed of approach (m/s)
@@ -250,8 +251,8 @@ def end_step(c, series, at, w0, v0, pulled, length):
 
     Returns
     -------
-    length, w, v, lapse, event : length of the step in s; w, v at its end; its duration (s); the event that ends it,
-        NOTHING, SEPARATION or FORCE_SIGN (the contact force passes zero)
+    length, w, v, lapse, event : length of the step in the variable s; w, v at its end; its duration (s); the event that
+        ends it, NOTHING, SEPARATION or FORCE_SIGN (the contact force passes zero)
     """
     event = NOTHING
     w, v = polynomial.value(series, at + W, length), polynomial.value(series, at + V, length)

@@ -16,6 +16,7 @@ from numba.extending import intrinsic
 from . import contact, model, unrolled
 from .jit import compiled, compiled_inline, compiled_into_callers
 from .polynomial import ORDER, SIZE
+from .trajectory import MAX_PIECES
 from .vectors import INTEGER, Memory, Vector, call, fma, power, where
 
 # Eight lanes take the contact steps in less time, but wait longer for lanes with an event. Measured, they gain nothing,
@@ -25,11 +26,11 @@ LANES = 4
 # The rows of the memory, which has a column for each lane. The first nine are the arguments of `expand`, in its order:
 # √penetration (√m), speed of approach (m/s), sine and cosine of the phase, and contact.Constants.
 W, V, SINE, COSINE, GRAVITY, A_Z, OMEGA, STIFFNESS, DAMPING = range(9)
-# Further constants; the time and the end of the motion (s); the number of steps taken and the largest allowed; the
-# length in s up to which the series holds, and the time (s) that a step of this length takes.
-TOLERANCE, SCALE_V, TIME, END, STEPS, MOST, LENGTH, LAPSE = range(9, 17)
+# Further constants; the time and the end of the motion (s); the number of steps taken, up to MAX_PIECES; the length of
+# the step in the variable s up to which the series holds, and the time (s) that a step of this length takes.
+TOLERANCE, SCALE_V, TIME, END, STEPS, LENGTH, LAPSE = range(9, 16)
 # Row SERIES + SIZE k + n holds coefficient n of row k of a workspace's step.
-SERIES = 17
+SERIES = 16
 KEPT = (contact.W, contact.T, contact.V, contact.SINE, contact.COSINE)
 ROWS = SERIES + SIZE * len(KEPT)
 
@@ -42,11 +43,12 @@ expand = FunctionType(unrolled.expand_hertz.__code__, {"fma": fma})
 
 
 def maximum(a: Vector, b: Vector) -> Vector:
+    """In each lane the larger number, or `a` if one is NaN."""
     return where(b > a, b, a)
 
 
 def step_length(at: Memory, series: dict[tuple[int, int], Vector]) -> Vector:
-    """Length in s at which the last two terms of the series are below the tolerance, see contact.step_length."""
+    """The length of the step in the variable s, see contact.step_length."""
     w, v = at[W], at[V]
     square = w * w
     energy = v * v + 2.0 * at[STIFFNESS] * (square * square * w) / 2.5
@@ -98,7 +100,7 @@ def step(typing_context, lanes, memory):
         )
         at[LAPSE] = lapse
         # Comparisons with NaN are false.
-        proper = (new_w < HUGE) & (abs(new_v) < HUGE) & (lapse <= at[END] - at[TIME]) & (at[STEPS] < at[MOST])
+        proper = (new_w < HUGE) & (abs(new_v) < HUGE) & (lapse <= at[END] - at[TIME]) & (at[STEPS] < MAX_PIECES)
         taken = proper & (new_w > 0.0) & ~((v < 0.0) & (new_v > 0.0))
         at[W], at[V] = where(taken, new_w, w), where(taken, new_v, v)
         at[SINE], at[COSINE] = where(taken, new_sine, sine), where(taken, new_cosine, cosine)
@@ -109,8 +111,7 @@ def step(typing_context, lanes, memory):
     return types.int64(lanes, memory), code
 
 
-@compiled
-def new_memory(lanes):
+def new_memory(lanes: int) -> np.ndarray:
     """The memory of a number of lanes, aligned to LINE, all zero."""
     numbers = np.zeros(ROWS * lanes + LINE // 8)
     first = (-numbers.ctypes.data % LINE) // 8
@@ -124,23 +125,20 @@ def can_follow(c):
 
 
 @compiled_into_callers
-def refill(lane, trajectories, waiting, running, parameters, tolerance, left):
-    """Give a lane the next trajectory that lanes can follow, or NONE.
+def refill(lane, trajectories, waiting, running, count):
+    """Give a lane the next trajectory, or NONE.
 
     Parameters
     ----------
-    trajectories : int64, shape (lanes,), the row of `parameters` that each lane follows; changed
-    waiting, running : the first row that no lane has had yet; a bit for each lane with a trajectory
-    left : bool, shape (n,), set for rows that lanes cannot follow
+    trajectories : int64, shape (lanes,), the number of the trajectory that each lane follows; changed
+    waiting, running : the first trajectory that no lane has had yet; a bit for each lane with a trajectory
+    count : the number of trajectories
 
     Returns
     -------
     waiting, running : from now on
     """
-    while waiting < len(parameters) and not can_follow(contact.constants(parameters[waiting], tolerance)):
-        left[waiting] = True
-        waiting += 1
-    if waiting == len(parameters):
+    if waiting == count:
         trajectories[lane] = NONE
         return waiting, running & ~(1 << lane)
     trajectories[lane] = waiting
@@ -148,8 +146,8 @@ def refill(lane, trajectories, waiting, running, parameters, tolerance, left):
 
 
 @compiled_inline
-def set_constants(memory, lane, c, most):
-    """Write the Constants of a lane, and the number of steps that it may take, into the memory."""
+def set_constants(memory, lane, c):
+    """Write the Constants of a lane into the memory."""
     memory[GRAVITY, lane] = c.gravity
     memory[A_Z, lane] = c.a_z
     memory[OMEGA, lane] = c.omega
@@ -157,7 +155,6 @@ def set_constants(memory, lane, c, most):
     memory[DAMPING, lane] = c.damping
     memory[TOLERANCE, lane] = c.tolerance
     memory[SCALE_V, lane] = c.scale_v
-    memory[MOST, lane] = most
 
 
 @compiled_inline

@@ -11,7 +11,7 @@ from collections import namedtuple
 from .jit import compiled, compiled_inline
 
 # A part stays below the plate's highest point for sqrt(a_z / g) / π cycles at most, which is a thousand within
-# model.RANGES, with about ten steps in each. A search of more steps has failed.
+# parameters.RANGES, with about ten steps in each. A search of more steps has failed.
 MAX_STEPS = 1_000_000
 EPSILON = 2.220446049250313e-16
 TURN = 2.0 * math.pi

@@ -22,7 +22,7 @@ from .polynomial import ORDER
 
 @compiled_inline
 def along(c, sine, cosine):
-    """Sine and cosine of the plate's phase along the track, θ + ε, from the sine and cosine of θ."""
+    """Sine and cosine of the plate's phase along the track, θ + ε, from the sine and cosine of the phase θ."""
     return sine * c.cos_shift + cosine * c.sin_shift, cosine * c.cos_shift - sine * c.sin_shift
 
 

@@ -81,7 +81,9 @@ def state_in_segment(c, segment, tau, sine, cosine, z, vz):
 
 @compiled_into_callers
 def segment_end(c, step, segment, released, fastest, leave):
-    """The s at which a segment ends, infinite if it lasts beyond the step, and whether the slip after it lasts so.
+    """The s at which a segment ends, and whether the slip that follows lasts beyond the step.
+
+    The s is infinite if the segment itself lasts beyond the step.
 
     released : whether the slip of this segment is known to last beyond the step
     fastest : m/s, as in contact.impulse_of_tension

@@ -56,19 +56,26 @@ def fma(typing_context, a, b, c):
 
 
 @intrinsic
-def no_refcount(typing_context, array):
-    """The same array without reference counting, for a function whose caller holds the array until it returns.
+def no_refcount(typing_context, value):
+    """The same array, or tuple of arrays, numbers and tuples, without reference counting.
 
-    Numba counts references atomically at each function that an array passes through; that would cost more than the
-    solver.
+    For a function whose caller holds the arrays until it returns. Numba counts references atomically at each function
+    that an array passes through; that would cost more than the solver.
     """
 
-    def code(context, builder, signature, arguments):
-        (view,) = arguments
-        fields = context.data_model_manager[signature.return_type]
-        for name in ("meminfo", "parent"):
-            place = fields.get_field_position(name)
-            view = builder.insert_value(view, view.type.elements[place](None), place)
-        return view
+    def without_refcount(context, builder, kind, value):
+        if isinstance(kind, types.BaseTuple):
+            for place, kind_of_part in enumerate(kind):
+                part = without_refcount(context, builder, kind_of_part, builder.extract_value(value, place))
+                value = builder.insert_value(value, part, place)
+        elif isinstance(kind, types.Array):
+            fields = context.data_model_manager[kind]
+            for name in ("meminfo", "parent"):
+                place = fields.get_field_position(name)
+                value = builder.insert_value(value, value.type.elements[place](None), place)
+        return value
 
-    return array(array), code
+    def code(context, builder, signature, arguments):
+        return without_refcount(context, builder, signature.return_type, *arguments)
+
+    return value(value), code

@@ -51,7 +51,7 @@ def for_each_chunk(
     ranges = list(ranges_of(count, threads, chunk))
     # Each thread takes its next range itself; a thread that hands out ranges would cost as much as a few points.
     waiting = iter(ranges)
-    at_a_time, failed = Lock(), 0
+    lock, failed = Lock(), 0
 
     with bar(total=count, label=progress) as shown:
 
@@ -59,9 +59,9 @@ def for_each_chunk(
             nonlocal failed
             try:
                 for begin, end in waiting:
-                    of_them = work(begin, end) or 0
-                    with at_a_time:
-                        failed += of_them
+                    failed_here = work(begin, end) or 0
+                    with lock:
+                        failed += failed_here
                         if failed:
                             shown.set_postfix_str(f"{failed} failed", refresh=False)
                         shown.update(end - begin)
@@ -69,12 +69,12 @@ def for_each_chunk(
                 ranges.clear()  # nothing is left for the others
                 raise
 
-        asked = [other_threads(threads - 1).submit(take) for _ in range(min(threads, len(ranges)) - 1)]
+        futures = [other_threads(threads - 1).submit(take) for _ in range(min(threads, len(ranges)) - 1)]
         try:
             # The calling thread works, too, so that its processor time is all of the time if it is the only thread.
             take()
         finally:
-            begun = [one for one in asked if not one.cancel()]
-            wait(begun)
-        for one in begun:
-            one.result()
+            running = [future for future in futures if not future.cancel()]
+            wait(running)
+        for future in running:
+            future.result()

@@ -9,6 +9,7 @@ from collections import namedtuple
 
 import numpy as np
 
+from . import peaks
 from .contact import FIRST, ROWS
 from .jit import compiled_inline
 from .polynomial import SIZE
@@ -99,3 +100,12 @@ def recall(kept, place):
     step = kept.steps[place]
     end = int(step[END])
     return Piece(CONTACT, step[DURATION], step[LENGTH], end, step[END_W], step[END_V], step[END_SINE], step[END_COSINE])
+
+
+@compiled_inline
+def known_peak(c, kept, place, motion, piece):
+    """Largest F_c/m (m/s²) of a whole contact step if it is kept, or is at an end of the step; NaN otherwise."""
+    peak = kept.steps[place, PEAK]
+    if np.isnan(peak) and peaks.is_monotonic(c, motion, piece):
+        return peaks.largest_force_at_ends(c, motion, piece)
+    return peak

@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from . import contact, peaks, repeated_steps
-from .contact import FORCE_SIGN, NOTHING, SEPARATION
+from .contact import FORCE_SIGN, SEPARATION
 from .flight import highest_gap
 from .horizontal import (
     CONTACT_FORCE,
@@ -43,6 +43,7 @@ from .vertical import (
     begin,
     flight_from,
     in_cycle,
+    is_finite,
     motion_at,
     next_piece,
 )
@@ -69,22 +70,6 @@ STATUS = ("ok", "too many events", "contact too stiff", "impact not found", "not
 
 # Pieces in one excitation cycle after which a run ends with "contact too stiff".
 MAX_PIECES = 100_000
-# A contact whose own rates need this many times MAX_PIECES steps in a cycle ends a run sooner, after fewer steps in a
-# row without an event: MAX_PIECES steps would cover a fiftieth of the cycle at most.
-HOPELESS = 50.0
-LONGEST_EVENTLESS_IF_HOPELESS = 10_000
-
-
-@compiled
-def longest_eventless(c):
-    """Contact steps in a row without an event after which a run ends with "contact too stiff".
-
-    The contact's own rates are d_c/m and the frequency at the static penetration.
-    """
-    rate = max(c.damping, c.scale_v / (c.scale_w * c.scale_w))
-    return LONGEST_EVENTLESS_IF_HOPELESS if rate * c.period > HOPELESS * MAX_PIECES else MAX_PIECES
-
-
 # Columns of the results of runs: the status code, numbers of events and of impacts, the time with contact force (s),
 # the largest gap (m), numbers of computed and of repeated contact steps; the largest speed of approach at an impact
 # (m/s) and the largest contact force (N) between the last two times of a run, 0 where there is none.
@@ -106,7 +91,7 @@ def integrate(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 16), see model.PARAMETERS
+    parameters : float64, shape (n, 16), see parameters.PARAMETERS
     times : float64, shape (n, k), s, ascending, ≥ 0; a run ends at its last one
     tolerance : relative error per step of the contact
     feeding : whether the horizontal motion is wanted; without it its columns are NaN
@@ -153,12 +138,8 @@ def record_end(record, events, time, piece, pulled, motion):
 def peak_of_step(c, kept, place, at, motion, piece, first, last):
     """Largest F_c/m (m/s²) of the contact step in a place, from `first` to `last` (s) after its beginning."""
     is_whole = first <= 0.0 and last >= piece.duration
-    kept_peak = kept.steps[place, repeated_steps.PEAK] if is_whole else math.nan
-    if not math.isnan(kept_peak):
-        return kept_peak
-    if is_whole and peaks.is_monotonic(c, motion, piece):
-        found = peaks.largest_force_at_ends(c, motion, piece)
-    else:
+    found = repeated_steps.known_peak(c, kept, place, motion, piece) if is_whole else math.nan
+    if math.isnan(found):
         found = peaks.largest_force_between(c, kept.series, at, piece, first, last)
     if is_whole:
         kept.steps[place, repeated_steps.PEAK] = found
@@ -198,17 +179,14 @@ def follow(parameters, options, records, results, room):
     loop over the runs is here for the same reason: as a function of its own, it would take 3 s more to compile.
     """
     tolerance, feeding, reuse = options
-    times, samples, event_times, event_kinds = records
-    series, kept_steps = room
-    kept = repeated_steps.KeptSteps(no_refcount(series), no_refcount(kept_steps))
+    times, samples, event_times, event_kinds = no_refcount(records)
+    series, kept_steps = no_refcount(room)
+    kept = repeated_steps.KeptSteps(series, kept_steps)
     for i in range(parameters.shape[0]):
-        record = Record(
-            no_refcount(times[i]), no_refcount(samples[i]), no_refcount(event_times[i]), no_refcount(event_kinds[i])
-        )
+        record = Record(times[i], samples[i], event_times[i], event_kinds[i])
         row, result = parameters[i], no_refcount(results[i])
         repeated_steps.clear(kept)
         c = contact.constants(row, tolerance)
-        most = longest_eventless(c)
         end, since = record.times[-1], record.times[-2] if record.times.size > 1 else 0.0
         offset = time_into_cycle(c)
         cycle, base = 0, -offset
@@ -217,14 +195,14 @@ def follow(parameters, options, records, results, room):
         horizontal = Horizontal(0.0, 0.0, 0.0)
         if motion.touching:
             horizontal = touch_down(c, motion, horizontal)
-        sampled = events = impacts = steps = repeats = pieces = eventless = place = 0
+        sampled = events = impacts = steps = repeats = pieces = place = 0
         contact_time = impact_speed = peak_force = 0.0
         max_gap = max(q, 0.0)
         status = OK
 
         while sampled < record.times.size:
             pieces += 1
-            if pieces > MAX_PIECES or eventless > most:
+            if pieces > MAX_PIECES:
                 status = TOO_STIFF
                 break
             at = repeated_steps.first_row(kept, place)
@@ -237,7 +215,6 @@ def follow(parameters, options, records, results, room):
                 piece = next_piece(c, kept.series, at, motion, limit)
                 if piece.kind == CONTACT:
                     repeated_steps.keep(kept, place, motion, piece)
-            eventless = eventless + 1 if piece.end == NOTHING else 0
             ends = begins + piece.duration
             if piece.kind == FLIGHT:
                 if piece.end == LOST:
@@ -277,7 +254,7 @@ def follow(parameters, options, records, results, room):
                 horizontal = Horizontal(x, vx, horizontal.sigma)
             pulled = motion.pulled
             motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
-            if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
+            if not is_finite(motion):
                 status = NOT_FINITE
                 break
             events = record_end(record, events, ends, piece, pulled, motion)

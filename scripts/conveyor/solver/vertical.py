@@ -21,9 +21,10 @@ IMPACT, LIMIT, LOST = range(3, 6)
 
 # The motion at a time t (s) of its cycle, at the phase theta (rad) with the given sine and cosine. On the plate: the
 # square root w of the penetration (√m), the speed of approach v (m/s), and whether the contact force is negative
-# (looked at for `frictionless` and `clip` only). In the air: height z, velocity vz, gap q and its rate (m, m/s).
+# (used only for `frictionless` and `clip`). In the air: height z, velocity vz, gap q and its rate (m, m/s).
 Motion = namedtuple("Motion", "t theta sine cosine touching w v pulled z vz q rate")
-# A piece: its kind, its duration (s), the length in s of a contact step, its end, and w, v, sine and cosine there.
+# A piece: its kind, its duration (s), the length of a contact step in the variable s, its end, and w, v, sine and
+# cosine there.
 Piece = namedtuple("Piece", "kind duration length end w v sine cosine")
 
 

@@ -20,8 +20,10 @@ from .contact_lanes import (
     LENGTH,
     NONE,
     SINE,
+    STEPS,
     V,
     W,
+    can_follow,
     copy_series,
     new_memory,
     refill,
@@ -33,7 +35,7 @@ from .flight import highest_gap
 from .horizontal import SAMPLES, Horizontal, Step, first_segment, sample_contact
 from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import VZ0, Z0
-from .trajectory import BEGIN_OF_CYCLE, MAX_PIECES, longest_eventless, next_cycle, sample_flight, time_into_cycle
+from .trajectory import BEGIN_OF_CYCLE, MAX_PIECES, next_cycle, sample_flight, time_into_cycle
 from .vertical import (
     CONTACT,
     FLIGHT,
@@ -45,6 +47,7 @@ from .vertical import (
     flight_from,
     fly,
     graze,
+    is_finite,
     is_grazing,
     motion_at,
     press,
@@ -57,8 +60,6 @@ DURATION, BASE, CYCLE, PIECES, PLACE, CONTACT_TIME, MAX_GAP, IMPACTS, SINCE, IMP
 COUNTS = 11
 # Steps that end this close to the end of a run, in cycles, are scalar, because the last sample may lie in them.
 MARGIN = 1e-6
-# contact_lanes need not count the steps of a lane: `count` does.
-ANY = 1e300
 
 # The piece of a lane that has had none.
 NO_PIECE = Piece(CONTACT, 0.0, 0.0, NOTHING, 0.0, 0.0, 0.0, 0.0)
@@ -70,7 +71,7 @@ GOES_ON, OVER, FAILED = range(3)
 def begin_cycle(c, run, steps, lane):
     """Begin a cycle of a lane: its steps must end with the cycle, or just before the run ends."""
     run[BASE] = run[CYCLE] * c.period - time_into_cycle(c)
-    run[PIECES] = run[PLACE] = 0.0
+    run[PIECES] = run[PLACE] = steps[STEPS, lane] = 0.0
     steps[END, lane] = min(c.period, run[DURATION] - run[BASE] - MARGIN * c.period)
 
 
@@ -78,7 +79,7 @@ def begin_cycle(c, run, steps, lane):
 def begin_run(c, parameters, times, run, steps, lane, kept):
     """The Motion at the initial condition of `parameters`, shape (16,); resets all that is known of the lane."""
     repeated_steps.forget(kept)
-    set_constants(steps, lane, c, ANY)
+    set_constants(steps, lane, c)
     q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)
     run[SINCE], run[DURATION] = times
     run[CYCLE] = run[CONTACT_TIME] = run[IMPACTS] = run[IMPACT_SPEED] = run[PEAK_FORCE] = 0.0
@@ -102,17 +103,11 @@ def peak_of_step(c, kept, motion, piece, again, run, steps, lane):
     """Largest F_c/m (m/s²) of a lane's contact step within the times that count, see trajectory.peak_of_step."""
     begins, place = run[BASE] + motion.t, int(run[PLACE])
     first, last = run[SINCE] - begins, run[DURATION] - begins
-    is_whole = not (first > 0.0 or last < piece.duration)
-    if is_whole:
-        found = kept.steps[place, repeated_steps.PEAK]
-        if not math.isnan(found):
-            return found
-        if peaks.is_monotonic(c, motion, piece):
-            found = peaks.largest_force_at_ends(c, motion, piece)
-            kept.steps[place, repeated_steps.PEAK] = found
-            return found
-    find_series(c, kept, again, run, steps, lane)
-    found = peaks.largest_force_between(c, kept.series, FIRST, piece, first, last)
+    is_whole = first <= 0.0 and last >= piece.duration
+    found = repeated_steps.known_peak(c, kept, place, motion, piece) if is_whole else math.nan
+    if math.isnan(found):
+        find_series(c, kept, again, run, steps, lane)
+        found = peaks.largest_force_between(c, kept.series, FIRST, piece, first, last)
     if is_whole:
         kept.steps[place, repeated_steps.PEAK] = found
     return found
@@ -153,7 +148,7 @@ def count(c, kept, motion, piece, again, run, steps, lane, sample):
             return OVER
         run[PLACE] = min(run[PLACE] + 1.0, repeated_steps.PLACES - 1)
     # A run that scalar code may give up is left to scalar code.
-    return FAILED if 2.0 * run[PIECES] > min(MAX_PIECES, longest_eventless(c)) else GOES_ON
+    return FAILED if run[PIECES] >= MAX_PIECES else GOES_ON
 
 
 @compiled_into_callers
@@ -162,7 +157,7 @@ def advance(c, kept, motion, piece, again, run, steps, lane, sample):
     answer = count(c, kept, motion, piece, again, run, steps, lane, sample)
     if answer == GOES_ON:
         motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
-        if not (math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.t)):
+        if not is_finite(motion):
             answer = FAILED
     if answer == GOES_ON:
         motion, cycles = next_cycle(c, motion, piece)
@@ -205,10 +200,8 @@ def follow(parameters, tolerance, times, samples, results, left, work):
     work : the memory of contact_lanes, the state of each lane's run, shape (LANES, COUNTS), the row that each lane
         follows, a contact.workspace, and the kept steps of each lane
     """
-    parameters, times, samples = no_refcount(parameters), no_refcount(times), no_refcount(samples)
-    results, left = no_refcount(results), no_refcount(left)
-    steps, runs, rows = no_refcount(work[0]), no_refcount(work[1]), no_refcount(work[2])
-    series, kept_steps = no_refcount(work[3]), no_refcount(work[4])
+    parameters, times, samples, results, left = no_refcount((parameters, times, samples, results, left))
+    steps, runs, rows, series, kept_steps = no_refcount(work)
     constants = [contact.constants(parameters[0], tolerance)] * LANES
     motions = [motion_at(constants[0], 0.0, 0.0, 0.0, 0.0)] * LANES
     waiting = running = 0
@@ -229,13 +222,19 @@ def follow(parameters, tolerance, times, samples, results, left, work):
                         left[i] = True
                     elif answer == OVER:
                         write_result(c, run, results[i])
-                if answer != GOES_ON:
-                    waiting, running = refill(lane, rows, waiting, running, parameters, tolerance, left)
+                while answer != GOES_ON:
+                    waiting, running = refill(lane, rows, waiting, running, len(parameters))
                     i = rows[lane]
                     if i == NONE:
                         break
                     c = constants[lane] = contact.constants(parameters[i], tolerance)
-                    motion = begin_run(c, parameters[i], times[i], run, steps, lane, kept)
+                    if can_follow(c):
+                        motion = begin_run(c, parameters[i], times[i], run, steps, lane, kept)
+                        answer = GOES_ON
+                    else:
+                        left[i] = True
+                if i == NONE:
+                    break
                 place = int(run[PLACE])
                 again = motion.touching and repeated_steps.repeats(c, kept, place, motion)
                 if again:

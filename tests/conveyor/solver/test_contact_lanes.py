@@ -9,6 +9,7 @@ import pytest
 from conveyor import Conveyor, Start
 from conveyor.solver import contact, contact_lanes, model, polynomial
 from conveyor.solver.contact_lanes import COSINE, END, LENGTH, ROWS, SERIES, SINE, STEPS, TIME, V, W
+from conveyor.solver.trajectory import MAX_PIECES
 
 TOLERANCES = (1e-6, 1e-8, 1e-12)
 
@@ -30,8 +31,8 @@ def take_one(c, series, w, v, sine, cosine):
 
 
 @numba.njit(error_model="numpy")
-def fill(memory, lane, c, most):
-    contact_lanes.set_constants(memory, lane, c, most)
+def fill(memory, lane, c):
+    contact_lanes.set_constants(memory, lane, c)
 
 
 def random_contacts(count, seed):
@@ -71,7 +72,7 @@ def test_steps_have_the_bits_of_single_ones(lanes):
         assert memory.shape == (ROWS, lanes)
         rows = range(first, first + lanes)
         for lane, k in enumerate(rows):
-            fill(memory, lane, constants[k], 10)
+            fill(memory, lane, constants[k])
             start = w[k], v[k], np.sin(phase[k]), np.cos(phase[k])
             memory[[W, V, SINE, COSINE], lane] = start
             memory[[TIME, END], lane] = 0.001, 1.0
@@ -97,10 +98,10 @@ def test_a_step_stays_where_no_time_or_no_step_is_left_or_what_is_not_a_number()
     c = constants[0]
     memory = contact_lanes.new_memory(4)
     for lane in range(4):
-        fill(memory, lane, c, 10)
+        fill(memory, lane, c)
         memory[[W, V, SINE, COSINE, TIME, END], lane] = c.scale_w, 0.0, 0.0, 1.0, 0.0, 1.0
     memory[END, 1] = 0.0
-    memory[STEPS, 2] = 10
+    memory[STEPS, 2] = MAX_PIECES
     memory[V, 3] = np.nan
     assert in_lanes(4)(memory) == 0b1110
 

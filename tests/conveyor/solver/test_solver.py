@@ -219,7 +219,7 @@ def test_a_contact_that_is_too_stiff_is_a_status():
     run = simulate(Conveyor(damping=1e6, mass=1e-3), Start("conveyor"), duration=0.1)
     assert run.status == "contact too stiff"
     assert math.isnan(run.z_end)
-    assert run.work <= trajectory_module.LONGEST_EVENTLESS_IF_HOPELESS + 1
+    assert run.work <= trajectory_module.MAX_PIECES
 
 
 @pytest.mark.parametrize(

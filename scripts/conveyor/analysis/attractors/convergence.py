@@ -1,14 +1,11 @@
-"""Follow a trajectory until it repeats itself, or until it reaches a known periodic orbit or chaotic set."""
+"""When a trajectory has converged: it repeats itself, or has reached a known periodic orbit or chaotic set."""
 
 import math
 from typing import NamedTuple
 
 import numpy as np
 
-from ...solver import contact
-from ...solver.jit import compiled, compiled_inline, compiled_into_callers
-from ...solver.trajectory import BEGIN_OF_CYCLE, OK
-from .. import stroboscopic_map
+from ...solver.jit import compiled, compiled_inline
 
 MAX_PERIOD = 64
 # A state repeats itself if it comes back to this distance, in units of the part at rest, for a whole period.
@@ -40,8 +37,14 @@ class Trajectories(NamedTuple):
 
 
 def new_trajectories(n: int) -> Trajectories:
-    """Room for n trajectories, to be filled."""
-    return Trajectories(np.empty((n, 2)), *(np.empty(n, kind) for kind in (np.int64, np.int64, np.float64, np.int64)))
+    """n trajectories that have failed before their first cycle, to be replaced by what is found."""
+    return Trajectories(
+        np.full((n, 2), math.nan),
+        np.full(n, FAILED),
+        np.zeros(n, np.int64),
+        np.full(n, math.nan),
+        np.zeros(n, np.int64),
+    )
 
 
 @compiled_inline
@@ -74,8 +77,7 @@ def is_in_chaotic_set(state, chaotic, first, behind):
     return False
 
 
-@compiled
-def new_searches(count):
+def new_searches(count: int) -> tuple[np.ndarray, np.ndarray]:
     """Histories and counters of a number of searches: float64, shape (count, 3, PAST), and int64, shape (count, 4)."""
     return np.empty((count, 3, PAST)), np.empty((count, 4), np.int64)
 
@@ -127,14 +129,18 @@ def check_convergence(c, state, flight, max_cycles, attractors, rows, past, coun
 
     Parameters
     ----------
-    c, max_cycles, attractors, rows : as in `follow_to_attractor`
+    c : contact.Constants
     state : δ (m) and v (m/s) at the end of the cycle
     flight : longest flight (s) that ended in the cycle or goes on
+    max_cycles : excitation cycles after which the search ends
+    attractors, rows : an AttractorTable, and the row of `AttractorTable.rows_of` for this conveyor
     past, counts : history and counters of the search
 
     Returns
     -------
-    outcome, period, longest_flight : as in `follow_to_attractor`, or GOES_ON
+    outcome : PERIODIC, IN_CHAOTIC_SET, NOT_CONVERGED or GOES_ON
+    period : excitation cycles, 0 for none
+    longest_flight : s, in one period, or in the last MAX_PERIOD cycles
     """
     n = counts[FOLLOWED]
     counts[FOLLOWED] += 1
@@ -158,64 +164,3 @@ def check_convergence(c, state, flight, max_cycles, attractors, rows, past, coun
     if n + 1 >= max_cycles:
         return NOT_CONVERGED, 0, longest_flight(past, n + 1, min(MAX_PERIOD, n + 1))
     return GOES_ON, 0, math.nan
-
-
-@compiled_into_callers
-def follow_to_attractor(c, series, state, max_cycles, attractors, rows, strobes):
-    """Follow a trajectory until it is periodic or has reached a known attractor.
-
-    Parameters
-    ----------
-    c, series : contact.Constants and a contact.workspace to work in
-    state : float64, shape (2,), δ (m) and v (m/s) at the phase BEGIN_OF_CYCLE; replaced by the last state
-    max_cycles : excitation cycles after which the search ends
-    attractors, rows : an AttractorTable, and the row of `AttractorTable.rows_of` for this conveyor
-    strobes : float64, shape (m, 2), filled with the states after each of the first m cycles
-
-    Returns
-    -------
-    outcome : PERIODIC, IN_CHAOTIC_SET, NOT_CONVERGED or FAILED
-    period : excitation cycles, 0 for none
-    longest_flight : s, in one period, or in the last MAX_PERIOD cycles
-    cycles : excitation cycles followed
-    """
-    no_tangent = np.empty((0, 2))
-    features = np.zeros(stroboscopic_map.FEATURES)
-    histories, counters = new_searches(1)
-    past, counts = histories[0], counters[0]
-    reset_search(past, counts)
-    for n in range(max_cycles):
-        if stroboscopic_map.advance(c, series, state, BEGIN_OF_CYCLE, c.period, no_tangent, features) != OK:
-            return FAILED, 0, math.nan, n
-        if n < strobes.shape[0]:
-            strobes[n, 0], strobes[n, 1] = state[0], state[1]
-        flight = max(features[stroboscopic_map.LONGEST_FLIGHT], features[stroboscopic_map.AIRBORNE])
-        outcome, period, longest = check_convergence(c, state, flight, max_cycles, attractors, rows, past, counts)
-        if outcome != GOES_ON:
-            return outcome, period, longest, n + 1
-    return NOT_CONVERGED, 0, 0.0, 0
-
-
-@compiled
-def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows, found, strobes):
-    """`follow_to_attractor` for trajectories from their initial conditions on.
-
-    Parameters
-    ----------
-    parameters : float64, shape (n, 16)
-    tolerance : of the contact steps
-    max_cycles : excitation cycles after which a search ends
-    attractors, rows : an AttractorTable, and its `rows_of` the parameters, shape (n, 4)
-    found : Trajectories, filled
-    strobes : float64, shape (n, m, 2), filled with the states after each of the first m cycles
-    """
-    states, outcomes, periods, flights, followed = found
-    series = contact.workspace()
-    stroboscopic_map.to_begin_of_cycle(parameters, tolerance, states)
-    for i in range(parameters.shape[0]):
-        outcomes[i], periods[i], flights[i], followed[i] = FAILED, 0, math.nan, 0
-        c = contact.constants(parameters[i], tolerance)
-        if math.isfinite(states[i, 0]) and math.isfinite(states[i, 1]):
-            outcomes[i], periods[i], flights[i], followed[i] = follow_to_attractor(
-                c, series, states[i], max_cycles, attractors, rows[i], strobes[i]
-            )

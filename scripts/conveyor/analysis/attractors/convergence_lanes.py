@@ -1,9 +1,9 @@
-"""`convergence.follow_all_to_attractors` for trajectories side by side, one in each lane of the vector registers.
+"""Follow trajectories to their attractors side by side, one in each lane of the vector registers.
 
-This twin of the scalar code exists because it labels maps 2.3 times faster. Lanes in contact take their steps together
-(see contact_lanes). A lane leaves them for scalar code at each event, at the end of a cycle, and when its trajectory
-ends and the next one takes its place. A trajectory gives the same bits as in scalar code, whatever its lane and its
-neighbours are.
+Lanes in contact take their steps together (see contact_lanes), because that labels maps 2.3 times faster. A lane leaves
+them for scalar code at each event, at the end of a cycle, and when its trajectory ends and the next one takes its
+place. Scalar code also follows the contacts that lanes cannot follow, and trajectories that are too few to fill the
+lanes. A trajectory gives the same bits either way, whatever its lane and its neighbours are.
 """
 
 from collections import namedtuple
@@ -17,13 +17,13 @@ from ...solver.contact_lanes import (
     END,
     LANES,
     LENGTH,
-    MOST,
     NONE,
     SINE,
     STEPS,
     TIME,
     V,
     W,
+    can_follow,
     copy_series,
     new_memory,
     refill,
@@ -33,7 +33,7 @@ from ...solver.contact_lanes import (
 )
 from ...solver.jit import compiled, compiled_into_callers, no_refcount
 from ...solver.model import VZ0, Z0
-from ...solver.trajectory import BEGIN_OF_CYCLE, longest_eventless, time_to_next_cycle
+from ...solver.trajectory import BEGIN_OF_CYCLE, MAX_PIECES, time_to_next_cycle
 from ...solver.vertical import (
     FLIGHT,
     GRAZE,
@@ -44,17 +44,14 @@ from ...solver.vertical import (
     Piece,
     arrive,
     begin,
-    fly,
-    graze,
     is_finite,
     is_grazing,
     motion_at,
+    next_piece,
     press,
 )
 from ..stroboscopic_map import delta_and_v
-from . import convergence
-from .attractor_table import AttractingOrbits, AttractorTable, ChaoticSets
-from .convergence import FOLLOWED, GOES_ON, Trajectories, check_convergence, new_searches, reset_search
+from .convergence import FOLLOWED, GOES_ON, check_convergence, new_searches, reset_search
 
 # Fewer trajectories are followed one after the other.
 SIDE_BY_SIDE = LANES
@@ -65,35 +62,14 @@ AIRBORNE, LONGEST, ORIGIN = range(3)
 # The cycles that a search has followed before its first whole cycle begins.
 BEFORE_FIRST_CYCLE = -1
 
-# The arguments of `convergence.follow_all_to_attractors` that say when a search is over, and the array of strobes.
+# The arguments of `follow_all_to_attractors` that say when a search is over, and the array of strobes.
 Search = namedtuple("Search", "max_cycles attractors rows strobes")
-
-
-@compiled_into_callers
-def table_without_refcounts(attractors):
-    """The same table of attractors, see jit.no_refcount."""
-    orbits, chaotic = attractors.orbits, attractors.chaotic
-    return AttractorTable(
-        AttractingOrbits(
-            no_refcount(orbits.conveyors),
-            no_refcount(orbits.centres),
-            no_refcount(orbits.factors),
-            no_refcount(orbits.periods),
-            no_refcount(orbits.flights),
-        ),
-        ChaoticSets(
-            no_refcount(chaotic.conveyors),
-            no_refcount(chaotic.low),
-            no_refcount(chaotic.size),
-            no_refcount(chaotic.cells),
-        ),
-    )
 
 
 @compiled_into_callers
 def begin_trajectory(c, parameters, lane, steps, cycle, past, counts):
     """The Motion at the initial condition of `parameters`, shape (16,); resets all that is known of the lane."""
-    set_constants(steps, lane, c, longest_eventless(c))
+    set_constants(steps, lane, c)
     reset_search(past, counts)
     counts[FOLLOWED] = BEFORE_FIRST_CYCLE
     # The first whole cycle begins within one cycle.
@@ -123,14 +99,16 @@ def count_piece(piece, lane, steps, cycle):
 
 
 @compiled_into_callers
-def may_fail(motion, piece, lane, steps):
-    """Whether stroboscopic_map.advance may fail here; scalar code follows such a trajectory again, and decides."""
-    return piece.end == LOST or not is_finite(motion) or steps[STEPS, lane] > steps[MOST, lane]
+def has_failed(motion, piece, lane, steps):
+    """Whether a trajectory cannot be followed beyond a piece, which ends with `motion`."""
+    return piece.end == LOST or not is_finite(motion) or steps[STEPS, lane] > MAX_PIECES
 
 
 @compiled_into_callers
-def end_cycle(c, i, lane, state, cycle, search, past, counts, found):
-    """Whether the search of trajectory i is over with the `state`, δ (m) and v (m/s), at the end of a cycle."""
+def end_cycle(c, i, lane, motion, cycle, search, past, counts, found):
+    """Whether the search of trajectory i is over with the `motion` at the end of a cycle."""
+    state = found.states[i]
+    state[0], state[1] = delta_and_v(motion)
     if counts[FOLLOWED] == BEFORE_FIRST_CYCLE:
         counts[FOLLOWED] = 0
         cycle[AIRBORNE, lane] = 0.0
@@ -142,11 +120,10 @@ def end_cycle(c, i, lane, state, cycle, search, past, counts, found):
     outcome, period, longest = check_convergence(
         c, state, flight, search.max_cycles, search.attractors, search.rows[i], past, counts
     )
+    found.followed[i] = counts[FOLLOWED]
     if outcome == GOES_ON:
         return False
-    found.states[i, 0], found.states[i, 1] = state[0], state[1]
     found.outcomes[i], found.periods[i], found.flights[i] = outcome, period, longest
-    found.followed[i] = counts[FOLLOWED]
     return True
 
 
@@ -160,32 +137,18 @@ def begin_cycle(c, state, lane, steps, cycle):
 
 
 @compiled
-def follow(parameters, tolerance, search, found, left, work):
-    """The compiled part of `follow_in_lanes`.
+def follow(parameters, tolerance, search, found, side_by_side, work):
+    """The compiled part of `follow_all_to_attractors`.
 
     Parameters
     ----------
     search : a Search
+    side_by_side : whether lanes take contact steps together; otherwise one trajectory follows the other
     work : the memory of contact_lanes, the state of each lane's cycle, shape (3, LANES), the trajectory of each lane,
-        room for a state, a contact.workspace, and convergence.new_searches
+        a contact.workspace, and convergence.new_searches
     """
-    parameters, left = no_refcount(parameters), no_refcount(left)
-    attractors = table_without_refcounts(search.attractors)
-    search = Search(search.max_cycles, attractors, no_refcount(search.rows), no_refcount(search.strobes))
-    found = Trajectories(
-        no_refcount(found.states),
-        no_refcount(found.outcomes),
-        no_refcount(found.periods),
-        no_refcount(found.flights),
-        no_refcount(found.followed),
-    )
-    steps, cycle, trajectories, state = (
-        no_refcount(work[0]),
-        no_refcount(work[1]),
-        no_refcount(work[2]),
-        no_refcount(work[3]),
-    )
-    series, histories, counters = no_refcount(work[4]), no_refcount(work[5]), no_refcount(work[6])
+    parameters, search, found = no_refcount((parameters, search, found))
+    steps, cycle, trajectories, series, histories, counters = no_refcount(work)
     constants = [contact.constants(parameters[0], tolerance)] * LANES
     waiting = running = 0
     stopped = (1 << LANES) - 1  # a bit for each lane
@@ -204,23 +167,21 @@ def follow(parameters, tolerance, search, found, left, work):
                 if not over:
                     count_piece(piece, lane, steps, cycle)
                     motion = arrive(c, motion, piece, cycle[ORIGIN, lane])
-                    if may_fail(motion, piece, lane, steps):
-                        left[i] = over = True
-                    elif piece.end == LIMIT:
-                        state[0], state[1] = delta_and_v(motion)
-                        over = end_cycle(c, i, lane, state, cycle, search, past, counts, found)
-                        motion = begin_cycle(c, state, lane, steps, cycle)
+                    over = has_failed(motion, piece, lane, steps)
+                    if piece.end == LIMIT and not over:
+                        over = end_cycle(c, i, lane, motion, cycle, search, past, counts, found)
+                        motion = begin_cycle(c, found.states[i], lane, steps, cycle)
                 if over:
-                    waiting, running = refill(lane, trajectories, waiting, running, parameters, tolerance, left)
+                    waiting, running = refill(lane, trajectories, waiting, running, len(parameters))
                     i = trajectories[lane]
                     if i == NONE:
                         break
                     c = constants[lane] = contact.constants(parameters[i], tolerance)
                     motion = begin_trajectory(c, parameters[i], lane, steps, cycle, past, counts)
-                if motion.touching and not is_grazing(c, motion):
+                if side_by_side and can_follow(c) and motion.touching and not is_grazing(c, motion):
                     set_motion(motion, lane, steps)
                     break
-                piece = graze(c, motion) if motion.touching else fly(c, motion, steps[END, lane] - motion.t)
+                piece = next_piece(c, series, FIRST, motion, steps[END, lane] - motion.t)
         if running == 0:
             return
         stopped = 0
@@ -228,28 +189,19 @@ def follow(parameters, tolerance, search, found, left, work):
             stopped = step(LANES, steps) & running
 
 
-def follow_in_lanes(parameters, tolerance, max_cycles, attractors, rows, found, strobes, left):
-    """`follow_all_to_attractors` in lanes, however few trajectories there are.
-
-    left : bool, shape (n,), filled: trajectories that lanes cannot follow, or not to the end; the other arrays say
-        nothing about them
-    """
-    left[:] = max_cycles < 1
-    if len(parameters) > 0 and max_cycles > 0:
-        trajectories, state = np.full(LANES, NONE), np.empty(2)
-        work = (new_memory(LANES), np.zeros((3, LANES)), trajectories, state, contact.workspace(), *new_searches(LANES))
-        follow(parameters, tolerance, Search(max_cycles, attractors, rows, strobes), found, left, work)
-
-
 def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows, found, strobes):
-    """`convergence.follow_all_to_attractors`, in lanes if there are enough trajectories to fill them."""
-    left = np.ones(len(parameters), dtype=np.bool_)
-    if len(parameters) >= SIDE_BY_SIDE:
-        follow_in_lanes(parameters, tolerance, max_cycles, attractors, rows, found, strobes, left)
-    if left.any():
-        alone, their_strobes = Trajectories(*(column[left] for column in found)), strobes[left]
-        convergence.follow_all_to_attractors(
-            parameters[left], tolerance, max_cycles, attractors, rows[left], alone, their_strobes
-        )
-        for column, values in zip((*found, strobes), (*alone, their_strobes), strict=True):
-            column[left] = values
+    """Follow trajectories from their initial conditions until they are periodic or have reached a known attractor.
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 16)
+    tolerance : of the contact steps
+    max_cycles : excitation cycles after which a search ends, at least one
+    attractors, rows : an AttractorTable, and its `rows_of` the parameters, shape (n, 4)
+    found : convergence.new_trajectories, filled
+    strobes : float64, shape (n, m, 2), filled with the states after each of the first m cycles
+    """
+    if len(parameters) > 0:
+        trajectories, side_by_side = np.full(LANES, NONE), len(parameters) >= SIDE_BY_SIDE
+        work = (new_memory(LANES), np.zeros((3, LANES)), trajectories, contact.workspace(), *new_searches(LANES))
+        follow(parameters, tolerance, Search(max_cycles, attractors, rows, strobes), found, side_by_side, work)

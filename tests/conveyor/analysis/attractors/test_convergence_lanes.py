@@ -1,4 +1,4 @@
-"""Convergence in lanes: bit for bit equal to single trajectories, for any neighbours."""
+"""Trajectories followed side by side: bit for bit equal to trajectories that are followed alone, for any neighbours."""
 
 import os
 import subprocess
@@ -15,30 +15,17 @@ from conveyor.solver.model import PSI0, STIFFNESS, TENSION_MODES, Z0, pack
 TOLERANCE = 1e-7
 
 
-def room(n):
-    """Trajectories to be filled."""
-    kinds = (np.int64, np.int64, np.float64, np.int64)
-    return convergence.Trajectories(np.full((n, 2), np.nan), *(np.zeros(n, kind) for kind in kinds))
-
-
-def no_strobes(parameters):
-    return np.empty((len(parameters), 0, 2))
-
-
-def one_by_one(parameters, cycles, attractors=NO_ATTRACTORS):
-    found, strobes = room(len(parameters)), no_strobes(parameters)
-    convergence.follow_all_to_attractors(
-        parameters, TOLERANCE, cycles, attractors, attractors.rows_of(parameters), found, strobes
-    )
+def together(parameters, cycles, attractors=NO_ATTRACTORS):
+    found, strobes = convergence.new_trajectories(len(parameters)), np.empty((len(parameters), 0, 2))
+    rows = attractors.rows_of(parameters)
+    convergence_lanes.follow_all_to_attractors(parameters, TOLERANCE, cycles, attractors, rows, found, strobes)
     return found
 
 
-def together(parameters, cycles, attractors=NO_ATTRACTORS):
-    found, left, strobes = room(len(parameters)), np.ones(len(parameters), dtype=np.bool_), no_strobes(parameters)
-    convergence_lanes.follow_in_lanes(
-        parameters, TOLERANCE, cycles, attractors, attractors.rows_of(parameters), found, strobes, left
-    )
-    return found, left
+def one_by_one(parameters, cycles, attractors=NO_ATTRACTORS):
+    """A single trajectory has no lane."""
+    alone = [together(row[None], cycles, attractors) for row in parameters]
+    return convergence.Trajectories(*map(np.concatenate, zip(*alone, strict=True)))
 
 
 def assert_same(found, wanted, rows=slice(None)):
@@ -76,11 +63,9 @@ def map_of(acceleration, count=40):
 
 def test_bits_of_random_starts():
     parameters = random_starts(60, seed=1)
-    wanted = one_by_one(parameters, 150)
-    found, left = together(parameters, 150)
-    assert left.tolist() == [k % 4 == 3 for k in range(60)]
-    assert_same(found, wanted, ~left)
-    assert {convergence.PERIODIC, convergence.NOT_CONVERGED} <= set(found[1])
+    found = together(parameters, 150)
+    assert_same(found, one_by_one(parameters, 150))
+    assert {convergence.PERIODIC, convergence.NOT_CONVERGED} <= set(found.outcomes)
 
 
 @pytest.mark.parametrize("acceleration", [40.0, 50.5, 53.0, 80.0])
@@ -88,18 +73,18 @@ def test_bits_of_maps_with_known_attractors(acceleration):
     parameters = map_of(acceleration)
     attractors = search.find_attractors(parameters, cycles=4000, tolerance=TOLERANCE)
     assert len(attractors.orbits.periods) + len(attractors.chaotic.low) > 0
-    found, left = together(parameters, 4000, attractors)
-    assert not left.any()
-    assert_same(found, one_by_one(parameters, 4000, attractors))
+    assert_same(together(parameters, 4000, attractors), one_by_one(parameters, 4000, attractors))
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 9])
-def test_lanes_may_be_more_than_starts_and_starts_in_any_order(count):
-    parameters = map_of(53.0, count)
-    wanted, _ = together(parameters, 300)
-    backwards, _ = together(parameters[::-1].copy(), 300)
-    assert_same([column[::-1] for column in backwards], wanted)
-    assert_same(wanted, one_by_one(parameters, 300))
+@pytest.mark.parametrize("count", [0, 1, 2, 3, 4, 5, 9])
+def test_lanes_may_be_more_than_starts_and_starts_in_any_order(monkeypatch, count):
+    parameters = map_of(53.0, 9)[:count]
+    wanted = one_by_one(map_of(53.0, 9), 300)
+    monkeypatch.setattr(convergence_lanes, "SIDE_BY_SIDE", 1)
+    found = together(parameters, 300)
+    backwards = together(parameters[::-1].copy(), 300)
+    assert_same([column[::-1] for column in backwards], found)
+    assert_same(found, [column[:count] for column in wanted])
 
 
 @pytest.mark.parametrize("side_by_side", [4, 1000])
@@ -108,31 +93,25 @@ def test_strobes_are_the_states_after_the_first_cycles(monkeypatch, side_by_side
     monkeypatch.setattr(convergence_lanes, "SIDE_BY_SIDE", side_by_side)
     parameters = map_of(56.0, 10)
     parameters[3] = random_starts(8, seed=3)[7]  # not for lanes
-    found, strobes = room(10), np.full((10, 70, 2), np.nan)
+    found, strobes = convergence.new_trajectories(10), np.full((10, 70, 2), np.nan)
     places = NO_ATTRACTORS.rows_of(parameters)
     convergence_lanes.follow_all_to_attractors(parameters, TOLERANCE, 90, NO_ATTRACTORS, places, found, strobes)
-    followed = found[4]
+    followed = found.followed
     assert followed.min() < 70 < followed.max()
     for k in range(10):
         assert np.isnan(strobes[k, followed[k] :]).all()
         for cycles in (1, 2, 40, 70):
             if cycles <= followed[k]:
                 shorter = one_by_one(parameters[k : k + 1], cycles)
-                np.testing.assert_array_equal(strobes[k, cycles - 1], shorter[0][0])
+                np.testing.assert_array_equal(strobes[k, cycles - 1], shorter.states[0])
 
 
 @pytest.mark.parametrize("cycles", [1, 2])
 def test_flights_count_from_the_first_whole_cycle_on(cycles):
     parameters = map_of(80.0)
-    found, left = together(parameters, cycles)
-    assert not left.any()
-    assert found[3].max() > 0.5 / 50.0
+    found = together(parameters, cycles)
+    assert found.flights.max() > 0.5 / 50.0
     assert_same(found, one_by_one(parameters, cycles))
-
-
-def test_no_start_or_no_cycle_is_left_to_others():
-    assert together(np.empty((0, 16)), 10)[1].tolist() == []
-    assert together(map_of(40.0, 3), 0)[1].tolist() == [True] * 3
 
 
 def test_failures_keep_their_row_and_disturb_nobody():
@@ -144,26 +123,23 @@ def test_failures_keep_their_row_and_disturb_nobody():
     parameters[9, Z0] = np.inf
     bad = [0, 5, 7, 8, 9, 23]
     good = np.setdiff1d(np.arange(24), bad)
-    found, left = together(parameters, 200)
-    assert set(np.flatnonzero(left)) <= set(bad)
-    assert_same(found, one_by_one(parameters, 200), ~left)
+    found, alone = together(parameters, 200), one_by_one(parameters, 200)
+    assert_same(found, alone)
     assert_same(found, one_by_one(calm, 200), good)
     found_labels = labels.classify(parameters, cycles=200, tolerance=TOLERANCE)
     assert set(found_labels.state[good]) <= {"first", "second"}
-    assert_same(
-        [found_labels.period, found_labels.cycles], [one_by_one(parameters, 200)[2], one_by_one(parameters, 200)[4]]
-    )
+    assert_same([found_labels.period, found_labels.cycles], [alone.periods, alone.followed])
 
 
-def test_a_contact_too_stiff_to_be_followed_ends(monkeypatch):
-    """A heavily damped contact takes too many steps in a cycle: the lane gives it up as the scalar code does."""
+def test_a_contact_too_stiff_to_be_followed_ends():
+    """A heavily damped contact takes too many steps in a cycle: its trajectory fails, in a lane and alone."""
     parameters = map_of(40.0, 8)
     parameters[3] = pack(Conveyor(damping=1e6, stiffness=1e15), Start())
-    found, left = together(parameters, 50)
-    wanted = one_by_one(parameters, 50)
-    assert wanted[1][3] == convergence.FAILED
-    assert left.tolist() == [k == 3 for k in range(8)]
-    assert_same(found, wanted, ~left)
+    found = together(parameters, 50)
+    assert np.flatnonzero(found.outcomes == convergence.FAILED).tolist() == [3]
+    assert (found.periods[3], found.followed[3]) == (0, 0)
+    assert np.isnan([*found.states[3], found.flights[3]]).all()
+    assert_same(found, one_by_one(parameters, 50))
 
 
 @pytest.mark.parametrize("threads", [1, 2])
