@@ -261,9 +261,8 @@ def periodic_orbit(
     period = check_count("period", period, 1, LARGEST_PERIOD)
     transient = check_count("transient", transient, 0, MOST_CYCLES)
     rows, _ = pack_all(conveyor, start, {})
-    state = stroboscopic_map.initial_states(rows, periodic_orbits.TOLERANCE)[0]
-    strobes, features = np.empty((transient, 2)), np.empty((transient, stroboscopic_map.FEATURES))
-    stroboscopic_map.follow(rows[0], periodic_orbits.TOLERANCE, state, transient, strobes, features)
+    (state,) = stroboscopic_map.initial_states(rows, periodic_orbits.TOLERANCE)
+    stroboscopic_map.follow(rows[0], periodic_orbits.TOLERANCE, state, transient)
     return periodic_orbits.orbit_near(rows[0], conveyor.acceleration, state, period)
 
 

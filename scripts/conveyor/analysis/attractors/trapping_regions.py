@@ -90,10 +90,10 @@ def find_trapping_region(
     """
     c = contact.constants(parameters, tolerance)
     unit = np.array([c.gravity / c.omega**2, c.gravity / c.omega])
-    matrices, features = np.empty((period, 2, 2)), np.empty((period, stroboscopic_map.FEATURES))
     at_top = parameters.copy()
     at_top[PSI0] = BEGIN_OF_CYCLE
-    if stroboscopic_map.monodromy(at_top, tolerance, state.copy(), matrices, features) != OK:
+    status, matrices, _ = stroboscopic_map.monodromy(at_top, tolerance, state.copy(), period)
+    if status != OK:
         return None
     matrix = reduce(lambda product, following: following @ product, matrices)
     norm = contracting_norm(matrix * unit / unit[:, None])
@@ -118,8 +118,8 @@ def find_attracting_orbits(parameters: np.ndarray, trajectories: Trajectories, t
         state, period = trajectories.states[k], int(trajectories.periods[k])
         if (np.abs((seen - state) / unit).max(axis=1) < SMALLEST).any():
             continue
-        strobes, features = np.empty((period, 2)), np.empty((period, stroboscopic_map.FEATURES))
-        if stroboscopic_map.follow(at_top, tolerance, state.copy(), period, strobes, features) != OK:
+        status, strobes, _ = stroboscopic_map.follow(at_top, tolerance, state.copy(), period)
+        if status != OK:
             continue
         seen = np.concatenate([seen, strobes])
         around = find_trapping_region(parameters, tolerance, state, period)

@@ -73,15 +73,14 @@ class ReturnMap:
 
     def strobes(self, unknown: np.ndarray) -> np.ndarray:
         """Unknowns after 1 … n cycles, shape (n, 3)."""
-        states, features = np.empty((self.period, 2)), np.empty((self.period, stroboscopic_map.FEATURES))
-        stroboscopic_map.follow(self.row(unknown), TOLERANCE, self.state(unknown), self.period, states, features)
+        _, states, _ = stroboscopic_map.follow(self.row(unknown), TOLERANCE, self.state(unknown), self.period)
         return np.array([self.scaled(unknown[2] * self.unit[2], state) for state in states])
 
     def linearised(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(δ, Y) after n cycles in their units, the matrices (SI units) and the features of all cycles."""
-        state, matrices = self.state(unknown), np.empty((self.period, 2, 2))
-        features = np.zeros((self.period, stroboscopic_map.FEATURES))
-        if stroboscopic_map.monodromy(self.row(unknown), TOLERANCE, state, matrices, features) != OK:
+        state = self.state(unknown)
+        status, matrices, features = stroboscopic_map.monodromy(self.row(unknown), TOLERANCE, state, self.period)
+        if status != OK:
             return np.full(2, np.nan), np.full((self.period, 2, 2), np.nan), features
         return self.scaled(unknown[2], state)[:2], matrices, features
 
@@ -192,8 +191,8 @@ def settled_orbit(
     row = parameters.copy()
     row[ACCELERATION] = acceleration
     end = np.array(state, dtype=np.float64)
-    strobes, features = np.empty((cycles, 2)), np.empty((cycles, stroboscopic_map.FEATURES))
-    if stroboscopic_map.follow(row, TOLERANCE, end, cycles, strobes, features) != OK:
+    status, strobes, _ = stroboscopic_map.follow(row, TOLERANCE, end, cycles)
+    if status != OK:
         return None, end
     unit = ReturnMap(parameters, 1).unit[:2]
     for period in periods:

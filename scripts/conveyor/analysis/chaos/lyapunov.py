@@ -172,37 +172,34 @@ def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threa
     return found
 
 
-@compiled
-def multipliers_of_points(parameters, states, tolerance, logarithms, contact_times, periods):
-    """The periods of motions from `states`, shape (n, 2), at ψ0 that repeat themselves bit for bit.
+def repeating_motion(
+    parameters: np.ndarray, state: np.ndarray, tolerance: float
+) -> tuple[int, tuple[float, float], float]:
+    """Period and Floquet multipliers of a motion that repeats itself bit for bit from `state` on, or soon after.
 
     Parameters
     ----------
-    logarithms : float64, shape (n, 2), filled with the logarithms of the moduli of the Floquet multipliers, the larger
-        one first
-    contact_times : float64, shape (n,), filled with the time with contact force in a period (s)
-    periods : int64, shape (n,), filled with the excitation cycles after which a motion repeats itself, or with 0; the
-        other arrays say nothing about such a motion
+    parameters : float64, shape (16,)
+    state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced
+    tolerance : of the contact steps
+
+    Returns
+    -------
+    period : excitation cycles after which the motion repeats itself; 0 if it does not
+    logarithms : of the moduli of the Floquet multipliers, the larger one first
+    contact_time : time with contact force in a period, s
     """
-    strobes, features = np.empty((REPEATS_WITHIN, 2)), np.empty((REPEATS_WITHIN, stroboscopic_map.FEATURES))
-    for i in range(parameters.shape[0]):
-        periods[i] = 0
-        if (
-            stroboscopic_map.follow(parameters[i], tolerance, states[i], REPEATS_WITHIN, strobes, features)
-            != trajectory.OK
-        ):
-            continue
-        period = stroboscopic_map.find_repetition(strobes)
-        matrices = np.empty((period, 2, 2))
-        if (
-            stroboscopic_map.monodromy(parameters[i], tolerance, states[i], matrices, features[:period])
-            != trajectory.OK
-        ):
-            continue
-        logarithms[i, 0], logarithms[i, 1] = stretching.log_multipliers(matrices)
-        contact_times[i] = features[:period, stroboscopic_map.CONTACT_TIME].sum()
-        if math.isfinite(logarithms[i, 0]):
-            periods[i] = period
+    nothing = 0, (math.nan, math.nan), math.nan
+    status, strobes, _ = stroboscopic_map.follow(parameters, tolerance, state, REPEATS_WITHIN)
+    same = np.flatnonzero((strobes[:-1] == strobes[-1]).all(axis=1))
+    if status != trajectory.OK or not len(same):
+        return nothing
+    period = REPEATS_WITHIN - 1 - int(same[-1])
+    status, matrices, features = stroboscopic_map.monodromy(parameters, tolerance, state, period)
+    logarithms = stretching.log_multipliers(matrices)
+    if status != trajectory.OK or not math.isfinite(logarithms[0]):
+        return nothing
+    return period, logarithms, float(features[:, stroboscopic_map.CONTACT_TIME].cumsum()[-1])
 
 
 def spectrum_on_attractors(
@@ -224,9 +221,8 @@ def spectrum_on_attractors(
     periods = np.zeros(len(parameters), dtype=np.int64)
 
     def work(begin, end):
-        rows = slice(begin, end)
-        found = logarithms[rows], contact_times[rows], periods[rows]
-        multipliers_of_points(parameters[rows], states[rows], tolerance, *found)
+        for i in range(begin, end):
+            periods[i], logarithms[i], contact_times[i] = repeating_motion(parameters[i], states[i], tolerance)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4)
     followed = spectrum(
@@ -263,13 +259,12 @@ def renormalised_pair(
     """
     c = contact.constants(parameters, tolerance)
     scale = np.array([c.scale_w**2, c.scale_v])
-    strobes, features = np.empty((1, 2)), np.empty((1, stroboscopic_map.FEATURES))
     here = np.array(state, dtype=np.float64)
     there = here + distance * scale / math.sqrt(2.0)
     total = 0.0
     for n in range(transient + cycles):
-        stroboscopic_map.follow(parameters, tolerance, here, 1, strobes, features)
-        stroboscopic_map.follow(parameters, tolerance, there, 1, strobes, features)
+        stroboscopic_map.follow(parameters, tolerance, here, 1)
+        stroboscopic_map.follow(parameters, tolerance, there, 1)
         separation = (there - here) / scale
         stretch = float(np.hypot(*separation)) / distance
         there = here + separation / stretch * scale

@@ -202,10 +202,8 @@ def test_longest_flight_covers_the_end_of_the_search():
     """A part that falls from a large height onto a weakly damped contact bounces higher at first than at the end."""
     parameters = pack(Conveyor(acceleration=5.0, damping=0.05, psi0=np.pi), Start(z=0.05))
     c, series = contact.constants(parameters, 1e-8), contact.workspace()
-    state, count = np.empty(2), 200
-    stroboscopic_map.initial_state(parameters, 1e-8, state)
-    strobes, features = np.empty((count, 2)), np.empty((count, stroboscopic_map.FEATURES))
-    stroboscopic_map.follow(parameters, 1e-8, state.copy(), count, strobes, features)
+    (state,), count = stroboscopic_map.initial_states(parameters[None], 1e-8), 200
+    _, _, features = stroboscopic_map.follow(parameters, 1e-8, state.copy(), count)
     flights = features[:, [stroboscopic_map.LONGEST_FLIGHT, stroboscopic_map.AIRBORNE]].max(axis=1)
     nowhere = np.zeros(4, dtype=np.int64)
     outcome, _, longest, _ = convergence.follow_to_attractor(
