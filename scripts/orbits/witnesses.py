@@ -38,7 +38,7 @@ def zero_one_values(parameters: np.ndarray, settings: dict, *, threads: int, pro
         for i in range(begin, end):
             (state,) = stroboscopic_map.initial_states(parameters[i : i + 1], settings["tolerance"])
             _, strobes, _ = stroboscopic_map.follow(parameters[i], settings["tolerance"], state, settings["strobes"])
-            found[i] = zero_one(strobes[:, 1], settings["seed"], RESOLUTION).value
+            found[i] = zero_one(strobes[:, 1], settings["seed"], RESOLUTION)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=8, progress=progress)
     return found
