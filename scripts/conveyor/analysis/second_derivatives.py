@@ -35,14 +35,6 @@ LOG_EDGE = 1e-5
 
 
 @compiled
-def power_series(c, series, exponent, out):
-    """Fill `out`, shape (SIZE,), with the Taylor coefficients of w^exponent, see contact.expand_power."""
-    contact.expand_power(c, series, FIRST, exponent)
-    for n in range(SIZE):  # a slice would take seconds to compile, with the error message for wrong shapes
-        out[n] = series[contact.SCRATCH, n]
-
-
-@compiled
 def log_series(c, series, out):
     """Fill `out`, shape (SIZE,), with the Taylor coefficients of 2 log w of a contact step, 0 where w is left out."""
     w = series[FIRST + contact.W]
@@ -94,8 +86,10 @@ def expand(c, series, first, second, free, count):
     elif c.exponent == 1.0:
         slope = w
     else:
-        power_series(c, series, 2.0 * c.exponent - 1.0, slope)
-        power_series(c, series, 2.0 * c.exponent - 3.0, bend)
+        contact.expand_power(c, series, FIRST, 2.0 * c.exponent - 1.0)
+        slope = series[contact.SCRATCH].copy()
+        contact.expand_power(c, series, FIRST, 2.0 * c.exponent - 3.0)
+        bend = series[contact.SCRATCH].copy()
     # log w² itself, and times the spring's slope: with 1/p times that slope the derivative of p w^(2p-1) by p, over p.
     log, slope_by_exponent = np.zeros(SIZE), np.zeros(SIZE)
     by_exponent = count > EXPONENT

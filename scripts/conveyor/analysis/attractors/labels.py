@@ -46,18 +46,13 @@ class Labels(NamedTuple):
     v: np.ndarray  # m/s, its rate there
 
 
-def continued(
-    parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, duration: float, *, out: np.ndarray | None = None
-) -> np.ndarray:
+def continued(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, duration: float) -> np.ndarray:
     """Packed parameters, shape (n, 16), of trajectories that continue runs of `parameters`.
 
     z_end, vz_end : where the runs ended, m and m/s, shape (n,)
     duration : of the runs, s, a number or of shape (n,)
-    out : the array to fill, which may be `parameters`; None for a new array
     """
-    later = np.empty(parameters.shape) if out is None else out
-    if later is not parameters:
-        later[:] = parameters
+    later = np.array(parameters, dtype=np.float64)
     cycles = parameters[:, FREQUENCY] * duration
     later[:, PSI0] = (parameters[:, PSI0] + 2.0 * math.pi * (cycles - np.floor(cycles))) % (2.0 * math.pi)
     later[:, Z0] = z_end
