@@ -105,8 +105,9 @@ def expand_tangents(c, series, expansions, free):
 
 @compiled
 def tangent_length(c, expansions):
-    """Length in s up to which the last two terms of η and ζ of all perturbations are below the tolerance.
+    """Length of the step in the variable s up to which the expansions of all perturbations are accurate.
 
+    The last two terms of η and ζ are below the tolerance there.
     A perturbation rings at the frequency of the contact, even if the motion itself is slow or at rest.
     """
     length = 1e300

@@ -3,7 +3,7 @@
 A trajectory is followed until it repeats itself with a period of up to 64 excitation cycles. The longest flight in a
 period distinguishes the first state from the second. A trajectory that does not repeat itself within a given number of
 cycles is chaos if its largest Lyapunov exponent is positive by more than three standard errors. It is a regular motion
-of a longer period if the exponent is negative by as much, and `undecided` otherwise.
+of a longer period if the exponent is negative by more than three standard errors, and `undecided` otherwise.
 
 A label depends only on the conveyor and the initial condition. Trajectories on one conveyor may share its known
 attractors (see `search`). A trajectory that has reached the trapping region of a periodic orbit, or stays in a chaotic

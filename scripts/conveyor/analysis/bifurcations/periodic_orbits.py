@@ -150,9 +150,16 @@ class ReturnMap:
 
 
 def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, period: int) -> Orbit | None:
-    """The orbit of `period` cycles that Newton's iteration finds from `state` (δ in m, v in m/s), or None.
+    """The orbit of `period` cycles that Newton's iteration finds from `state`, or None.
 
     An orbit whose period divides `period` is an orbit of `period` cycles, too.
+
+    Parameters
+    ----------
+    parameters : float64, shape (16,); its amplitude is ignored
+    acceleration : amplitude, m/s²
+    state : δ (m) and v (m/s) at the phase ψ0, shape (2,)
+    period : excitation cycles
 
     Raises
     ------
@@ -169,7 +176,7 @@ def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, p
 
 
 def orbit_near(parameters: np.ndarray, acceleration: float, state: np.ndarray, period: int) -> Orbit | None:
-    """`find_orbit` without checks: None, too, for arguments that are not finite."""
+    """`find_orbit` without checks of its arguments; None, too, for arguments that are not finite."""
     found = ReturnMap(parameters, period)
     unknown = found.newton(found.scaled(acceleration, state))
     return None if unknown is None else found.describe(unknown)

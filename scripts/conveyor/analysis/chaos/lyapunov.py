@@ -100,6 +100,15 @@ def spectrum(
     transient : excitation cycles that are followed and not counted
     cycles, blocks : `blocks` ≥ 2 blocks of `cycles` excitation cycles are counted
     tolerance, threads, progress : as in ensemble.run
+
+    Returns
+    -------
+    Spectrum of the n trajectories, exponents in 1/s; NaN for a failure
+
+    Raises
+    ------
+    ValueError
+        names the argument that cannot be used
     """
     parameters = check_packed(parameters)
     tolerance = check_tolerance(tolerance)
@@ -166,7 +175,8 @@ def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threa
     for cycles in LOOKS:
         rows = np.flatnonzero(found < 1)
         of_them = spectrum_from(parameters[rows], states[rows], cycles, tolerance=tolerance, threads=threads)
-        # A failed motion has NaN here and keeps the sign 0. A sign that is not positive is checked after more.
+        # A failed motion has NaN here and keeps the sign 0. A sign that is not positive is checked again
+        # after more cycles.
         different = np.abs(of_them.lambda_1) > SIGNIFICANT * of_them.stderr
         found[rows] = np.where(different, np.sign(of_them.lambda_1), 0.0)
     return found
@@ -214,7 +224,15 @@ def spectrum_on_attractors(
     """Both vertical Lyapunov exponents of motions that begin on their attractors, or close to them.
 
     A motion that repeats itself bit for bit within REPEATS_WITHIN cycles has the exponents of its Floquet multipliers,
-    with a standard error of 0. Any other motion is followed by `spectrum`, with the same arguments.
+    with a standard error of 0. Any other motion is followed by `spectrum`.
+
+    Parameters
+    ----------
+    parameters, cycles, blocks, tolerance, threads, progress : as in `spectrum`
+
+    Returns
+    -------
+    Spectrum of the n trajectories, exponents in 1/s
     """
     states = stroboscopic_map.initial_states(parameters, tolerance)
     logarithms, contact_times = np.empty((len(parameters), 2)), np.empty(len(parameters))
@@ -254,8 +272,15 @@ def renormalised_pair(
 ) -> float:
     """Largest exponent (1/s) of one trajectory, from a neighbour that is set back to a distance after each cycle.
 
-    It is independent of `spectrum`, because it uses no variational equation. `distance` is relative to the scales of
-    the part at rest; `state` is a stroboscopic state, shape (2,).
+    It is independent of `spectrum`, because it uses no variational equation.
+
+    Parameters
+    ----------
+    parameters : float64, shape (16,)
+    state : stroboscopic state at ψ0, δ (m) and v (m/s), shape (2,)
+    distance : of the neighbour, relative to the scales of the part at rest
+    transient, cycles : excitation cycles that are discarded, and counted
+    tolerance : of the contact steps
     """
     c = contact.constants(parameters, tolerance)
     scale = np.array([c.scale_w**2, c.scale_v])
