@@ -34,10 +34,9 @@ def linearised(values, tension):
 
 
 def expanded(values, tension, count=second_derivatives.QUANTITIES):
-    first, second = np.zeros((1, 2, count)), np.zeros((1, 2, 2, count))
-    states, impacts, state = np.empty((1, 2)), np.empty(1, dtype=np.int64), velocity(values)
-    found = second_derivatives.cycles(packed_of(values, tension), TOLERANCE, state, first, second, states, impacts)
-    assert found == OK
+    found = second_derivatives.cycles(packed_of(values, tension), TOLERANCE, velocity(values), 1, count)
+    status, first, second, _, _ = found
+    assert status == OK
     return first[0], second[0]
 
 

@@ -60,10 +60,10 @@ def derivatives(
     exponent : whether to compute the derivatives by p, which take several times as long
     """
     count = second_derivatives.QUANTITIES if exponent else second_derivatives.EXPONENT
-    first, second = np.empty((period, 2, count)), np.empty((period, 2, 2, count))
-    states, impacts = np.empty((period, 2)), np.empty(period, dtype=np.int64)
     begin = velocity_for_y(groups, np.array(state, dtype=np.float64))
-    if second_derivatives.cycles(packed(groups, psi0), TOLERANCE, begin, first, second, states, impacts) != OK:
+    found = second_derivatives.cycles(packed(groups, psi0), TOLERANCE, begin, period, count)
+    status, first, second, states, impacts = found
+    if status != OK:
         return None
     states[:, 1] += groups.damping * np.maximum(states[:, 0], 0.0)
     # The chain rule for the derivatives of (x, y, Γ, D, K, p) by their values at the beginning.

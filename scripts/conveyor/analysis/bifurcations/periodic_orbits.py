@@ -12,10 +12,10 @@ import numpy as np
 
 from ...arguments import LARGEST_COORDINATE, LONGEST_PERIOD, check_array, check_count, check_number, check_packed
 from ...parameters import RANGES
-from ...solver import contact
-from ...solver.model import ACCELERATION, DAMPING, MASS
+from ...solver.model import ACCELERATION, DAMPING, FREQUENCY, MASS
 from ...solver.trajectory import OK
 from .. import stroboscopic_map
+from ..dimensionless_groups import units
 from .newton import newton, solve
 
 TOLERANCE = 1e-13
@@ -49,12 +49,10 @@ class ReturnMap:
     """
 
     def __init__(self, parameters: np.ndarray, period: int):
-        c = contact.constants(parameters, TOLERANCE)
         self.parameters = parameters.copy()
         self.period = period
-        self.cycle = c.period
         self.damping = parameters[DAMPING] / parameters[MASS]
-        self.unit = np.array([c.gravity / c.omega**2, c.gravity / c.omega, 1.0])
+        self.unit = np.array([*units(parameters), 1.0])
 
     def scaled(self, acceleration: float, state: np.ndarray) -> np.ndarray:
         """The unknowns of a state (δ in m, v in m/s) at an amplitude."""
@@ -145,7 +143,7 @@ class ReturnMap:
             determinant=determinant,
             impacts=int(features[:, stroboscopic_map.IMPACTS].sum()),
             contact_time=float(features[:, stroboscopic_map.CONTACT_TIME].sum()),
-            longest_flight=float(flights.max() / self.cycle),
+            longest_flight=float(flights.max() / (1.0 / self.parameters[FREQUENCY])),
         )
 
 
@@ -201,7 +199,7 @@ def settled_orbit(
     status, strobes, _ = stroboscopic_map.follow(row, TOLERANCE, end, cycles)
     if status != OK:
         return None, end
-    unit = ReturnMap(parameters, 1).unit[:2]
+    unit = np.array(units(parameters))
     for period in periods:
         if np.abs((strobes[-1] - strobes[-1 - period]) / unit).max() < 1e-2:
             orbit = orbit_near(parameters, acceleration, end, period)

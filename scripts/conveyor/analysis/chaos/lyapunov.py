@@ -25,7 +25,7 @@ from ...simulation import DEFAULT_STEP, DEFAULT_TOLERANCE
 from ...solver import contact, trajectory
 from ...solver.horizontal import SAMPLES
 from ...solver.jit import compiled
-from ...solver.model import FREQUENCY
+from ...solver.model import FREQUENCY, PSI0
 from ...solver.parallel import for_each_chunk
 from .. import stroboscopic_map
 from . import stretching
@@ -49,32 +49,39 @@ class Spectrum(NamedTuple):
 
 
 @compiled
-def stretches_of_points(parameters, states, tolerance, begin_of_cycle, transient, stretches, contact_times, codes):
-    """Follow trajectories from `states`, shape (n, 2), and fill arrays with the stretching in each cycle.
+def stretches_of(parameters, state, tolerance, phase, transient, cycles):
+    """Follow a trajectory, and the stretching of its perturbations in each cycle.
 
-    begin_of_cycle : whether the states are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
-    stretches : float64, shape (n, cycles, 2), see stretching; NaN from a failure on
-    contact_times : float64, shape (n, cycles), s
-    codes : int64, shape (n,), status codes of trajectory.STATUS
+    Parameters
+    ----------
+    parameters : float64, shape (16,)
+    state : float64, shape (2,), δ (m) and v (m/s) at the `phase` (rad); replaced by the last state
+    tolerance : of the contact steps
+    transient, cycles : excitation cycles that are discarded, and counted
+
+    Returns
+    -------
+    status : code of trajectory.STATUS
+    stretches : float64, shape (cycles, 2), see stretching; NaN from a failure on
+    contact_times : float64, shape (cycles,), s; NaN from a failure on
     """
+    c = contact.constants(parameters, tolerance)
     series = contact.workspace()
     features = np.zeros(stroboscopic_map.FEATURES)
     discarded = np.empty(2)
-    stretches[:] = np.nan
-    for i in range(parameters.shape[0]):
-        c = contact.constants(parameters[i], tolerance)
-        phase = trajectory.BEGIN_OF_CYCLE if begin_of_cycle else c.psi0
-        # Velocities count in units of ω × length, which makes both directions comparable.
-        tangent = np.eye(2)
-        for n in range(-transient, stretches.shape[1]):
-            tangent[:, 1] *= c.omega
-            codes[i] = stroboscopic_map.advance(c, series, states[i], phase, c.period, tangent, features)
-            if codes[i] != trajectory.OK:
-                break
-            tangent[:, 1] /= c.omega
-            stretching.orthonormalise(tangent, stretches[i, n] if n >= 0 else discarded)
-            if n >= 0:
-                contact_times[i, n] = features[stroboscopic_map.CONTACT_TIME]
+    stretches, contact_times = np.full((cycles, 2), np.nan), np.full(cycles, np.nan)
+    # Velocities count in units of ω × length, which makes both directions comparable.
+    tangent = np.eye(2)
+    for n in range(-transient, cycles):
+        tangent[:, 1] *= c.omega
+        status = stroboscopic_map.advance(c, series, state, phase, c.period, tangent, features)
+        if status != trajectory.OK:
+            return status, stretches, contact_times
+        tangent[:, 1] /= c.omega
+        stretching.orthonormalise(tangent, stretches[n] if n >= 0 else discarded)
+        if n >= 0:
+            contact_times[n] = features[stroboscopic_map.CONTACT_TIME]
+    return trajectory.OK, stretches, contact_times
 
 
 def spectrum(
@@ -128,21 +135,14 @@ def spectrum(
         if (np.abs(states) > LARGEST_COORDINATE).any():  # NaN is the state of a motion that failed
             raise ValueError(f"states must lie in [{-LARGEST_COORDINATE:g}, {LARGEST_COORDINATE:g}]")
     stretches = np.empty((len(parameters), blocks * cycles, 2))
-    contact_times = np.full((len(parameters), blocks * cycles), np.nan)
+    contact_times = np.empty((len(parameters), blocks * cycles))
     codes = np.zeros(len(parameters), dtype=np.int64)
+    phases = np.full(len(parameters), trajectory.BEGIN_OF_CYCLE) if begin_of_cycle else parameters[:, PSI0]
 
     def work(begin, end):
-        rows = slice(begin, end)
-        stretches_of_points(
-            parameters[rows],
-            states[rows],
-            tolerance,
-            begin_of_cycle,
-            transient,
-            stretches[rows],
-            contact_times[rows],
-            codes[rows],
-        )
+        for i in range(begin, end):
+            found = stretches_of(parameters[i], states[i], tolerance, phases[i], transient, blocks * cycles)
+            codes[i], stretches[i], contact_times[i] = found
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4, progress=progress)
     period = 1.0 / parameters[:, FREQUENCY]
