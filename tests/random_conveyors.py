@@ -66,7 +66,7 @@ def around_the_paper(count: int, seed: int) -> np.ndarray:
 
 
 def whole_ranges(count: int, seed: int) -> np.ndarray:
-    """Packed parameters, shape (count, 13), over all of model.RANGES: log-uniform, or uniform for angles.
+    """Packed parameters, shape (count, 16), over all of parameters.RANGES: log-uniform, or uniform for angles.
 
     What may be zero reaches down to a millionth of its largest value, and is zero in every tenth point; so do heights
     and velocities of either sign, and every tenth start lies on the plate.

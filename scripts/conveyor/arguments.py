@@ -6,9 +6,9 @@ import numpy as np
 
 from .parameters import PARAMETERS, RANGES, TENSION_MODES, UNITS
 
-MOST_VALUES = 10**8  # of an array, or of arrays that are combined
+MOST_VALUES = 10**8  # values in one array, or in the product of several
 MOST_THREADS = 1024
-MOST_CYCLES = 10**6  # that one trajectory is followed for
+MOST_CYCLES = 10**6  # excitation cycles of one trajectory
 MOST_BLOCKS = 10**4
 LONGEST_PERIOD = 10**6  # excitation cycles
 LARGEST_COORDINATE = 1e100
@@ -22,20 +22,20 @@ MAY_BE_NAN = np.isin(PARAMETERS, STATES)
 
 
 def check_type(name: str, value: object, kind: type) -> None:
-    """TypeError unless `value` is of a `kind`."""
+    """TypeError unless `value` is a `kind`."""
     if not isinstance(value, kind):
         raise TypeError(f"{name} must be a {kind.__name__}, got {value!r}")
 
 
 def check_choice(name: str, value: object, choices: Collection[str]) -> str:
-    """`value`, which must be one of the `choices`."""
+    """`value`; ValueError unless it is one of the `choices`."""
     if not isinstance(value, str) or value not in choices:
         raise ValueError(f"{name} = {value!r} is not one of {', '.join(choices)}")
     return value
 
 
 def check_flag(name: str, value: object) -> bool:
-    """`value`, which must be True or False."""
+    """`value` as a bool; ValueError unless it is True or False."""
     if not isinstance(value, (bool, np.bool_)):
         raise ValueError(f"{name} = {value!r} is neither True nor False")
     return bool(value)
@@ -62,14 +62,14 @@ def check_number(name: str, value: object, low: float, high: float, unit: str = 
 
 
 def check_count(name: str, value: object, low: int, high: int) -> int:
-    """`value` as an int; it must be a whole number from `low` to `high`."""
+    """`value` as an int; ValueError unless it is a whole number from `low` to `high`."""
     if not is_real(value) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
         raise ValueError(f"{name} = {value!r} must be a whole number from {low} to {high}")
     return int(value)
 
 
 def check_numbers(name: str, values: object) -> np.ndarray:
-    """`values` as an array; they must be real numbers."""
+    """`values` as an array; ValueError unless they are real numbers."""
     try:
         array = np.asarray(values)
     except (TypeError, ValueError) as error:
@@ -80,13 +80,13 @@ def check_numbers(name: str, values: object) -> np.ndarray:
 
 
 def check_array(name: str, values: object, low: float, high: float, unit: str = "", *, least: int = 1) -> np.ndarray:
-    """`values` as a float64 array of `least` values or more, none of them NaN or outside [low, high]."""
+    """`values` as a float64 array; ValueError unless it has at least `least` values, all of them in [low, high]."""
     array = check_numbers(name, values)
     if not least <= array.size <= MOST_VALUES:
         raise ValueError(f"{name} must have {least} to {MOST_VALUES:g} values, got the shape {array.shape}")
     with np.errstate(over="ignore"):
         numbers = np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
-    # Not of the array: in float32, a large bound is infinite.
+    # Compare in float64: in float32 a large bound becomes infinite.
     outside = ~((numbers >= low) & (numbers <= high))
     if outside.any():
         raise ValueError(f"{name} = {array[outside].flat[0]!s} is outside [{low:g}, {high:g}] {unit}".rstrip())
@@ -94,7 +94,7 @@ def check_array(name: str, values: object, low: float, high: float, unit: str = 
 
 
 def check_packed(rows: object) -> np.ndarray:
-    """Packed `parameters` as a float64 array of the shape (n, 16), each parameter within its range.
+    """Packed `parameters` as a float64 array; ValueError unless it has the shape (n, 16) and values in range.
 
     z0 may be NaN, for a part that starts on the plate; z0 and vz0 may be NaN for a run that continues a failed one.
     """
@@ -111,12 +111,12 @@ def check_packed(rows: object) -> np.ndarray:
 
 
 def check_tolerance(tolerance: object) -> float:
-    """`tolerance`, a relative error per Taylor step."""
+    """`tolerance`, a relative error per Taylor step, as a float; ValueError outside [1e-14, 1e-2]."""
     return check_number("tolerance", tolerance, 1e-14, 1e-2)
 
 
 def check_threads(threads: object) -> int:
-    """`threads`, a number of threads."""
+    """`threads` as an int; ValueError unless it is a whole number from 1 to MOST_THREADS."""
     return check_count("threads", threads, 1, MOST_THREADS)
 
 
@@ -124,6 +124,13 @@ def check_parameters(values: dict[str, object], names: Collection[str]) -> dict[
     """`values` of parameters as float64 arrays, broadcast to one shape.
 
     names : the admissible names; `z` and `vz` have the ranges of z0 and vz0 in parameters.RANGES
+
+    Raises
+    ------
+    TypeError
+        for another name
+    ValueError
+        names the array that cannot be used, or the arrays whose shapes do not fit
     """
     for name in values:
         if name not in names:

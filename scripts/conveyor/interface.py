@@ -105,6 +105,10 @@ def sweep(
     threads : the results do not depend on it
     values : arrays by the names of Conveyor's and Start's numbers, in their units
 
+    Returns
+    -------
+    Runs, whose fields have the shape of the `values`
+
     Raises
     ------
     ValueError, TypeError
@@ -146,6 +150,11 @@ def classify(
     -------
     Labels, whose fields have the shape of the `values`; attractors.labels describes how a label is found
 
+    Raises
+    ------
+    ValueError, TypeError
+        name the argument that cannot be used
+
     Examples
     --------
     >>> found = classify(Conveyor(), acceleration=[40.0, 57.0, 80.0], z=3e-4)
@@ -173,8 +182,19 @@ def basin(
 
     Parameters
     ----------
-    z, vz : initial heights (m) and velocities (m/s), each of shape (n,) or a number; the grid is their product
+    conveyor : the conveyor of all initial conditions
+    z, vz : initial heights (m), of shape (n,) or a number, and velocities (m/s), of shape (m,) or a number; the grid is
+        their product
     cycles, tolerance, threads : as in `classify`
+
+    Returns
+    -------
+    Basin, with labels of shape (n, m)
+
+    Raises
+    ------
+    ValueError, TypeError
+        name the argument that cannot be used
 
     Examples
     --------
@@ -221,7 +241,12 @@ def lyapunov_spectrum(
 
     Returns
     -------
-    Spectrum, whose fields have the shape of the `values`
+    Spectrum, whose fields have the shape of the `values`; exponents in 1/s
+
+    Raises
+    ------
+    ValueError, TypeError
+        name the argument that cannot be used
 
     Examples
     --------
@@ -252,6 +277,11 @@ def periodic_orbit(
     -------
     Orbit with its Floquet multipliers, at the phase ψ0; None where the iteration finds none
 
+    Raises
+    ------
+    ValueError, TypeError
+        name the argument that cannot be used
+
     Examples
     --------
     >>> orbit = periodic_orbit(Conveyor(acceleration=40.0), Start(z=3e-4))
@@ -261,9 +291,8 @@ def periodic_orbit(
     period = check_count("period", period, 1, LARGEST_PERIOD)
     transient = check_count("transient", transient, 0, MOST_CYCLES)
     rows, _ = pack_all(conveyor, start, {})
-    state = stroboscopic_map.initial_states(rows, periodic_orbits.TOLERANCE)[0]
-    strobes, features = np.empty((transient, 2)), np.empty((transient, stroboscopic_map.FEATURES))
-    stroboscopic_map.follow(rows[0], periodic_orbits.TOLERANCE, state, transient, strobes, features)
+    (state,) = stroboscopic_map.initial_states(rows, periodic_orbits.TOLERANCE)
+    stroboscopic_map.follow(rows[0], periodic_orbits.TOLERANCE, state, transient)
     return periodic_orbits.orbit_near(rows[0], conveyor.acceleration, state, period)
 
 
@@ -275,6 +304,15 @@ def continue_orbit(conveyor: Conveyor, orbit: Orbit, *, low: float, high: float)
     conveyor : its amplitude does not matter, because the orbit has its own
     orbit : from `periodic_orbit`
     low, high : amplitudes in m/s² at which the branch ends, on either side of the orbit's amplitude
+
+    Returns
+    -------
+    Branch, with folds, period doublings and grazings located to about 1e-9 m/s²
+
+    Raises
+    ------
+    ValueError, TypeError
+        name the argument that cannot be used
 
     Examples
     --------
@@ -299,7 +337,16 @@ def continue_orbit(conveyor: Conveyor, orbit: Orbit, *, low: float, high: float)
 
 
 def box_dimension(points: ArrayLike) -> Dimension:
-    """The box-counting dimension of `points`, shape (n, 2), see fractals.box_counting.
+    """The box-counting dimension of `points`, shape (n, 2), in any units, see fractals.box_counting.
+
+    Returns
+    -------
+    Dimension; its value and error are NaN if the points resolve no three octaves
+
+    Raises
+    ------
+    ValueError
+        says why the points cannot be used
 
     Examples
     --------
@@ -312,9 +359,21 @@ def box_dimension(points: ArrayLike) -> Dimension:
 
 
 def correlation_dimension(points: ArrayLike, theiler: int = 0) -> Dimension:
-    """The correlation dimension of consecutive `points`, shape (n, 2), see fractals.correlation_sum.
+    """The correlation dimension of consecutive `points`, shape (n, 2), in any units, see fractals.correlation_sum.
 
+    Parameters
+    ----------
+    points : samples of one trajectory, in order
     theiler : pairs of points at most this number of samples apart do not count, 0 to n - 1
+
+    Returns
+    -------
+    Dimension; its value and error are NaN if the points resolve no three octaves
+
+    Raises
+    ------
+    ValueError
+        names the argument that cannot be used
 
     Examples
     --------
@@ -328,6 +387,7 @@ def correlation_dimension(points: ArrayLike, theiler: int = 0) -> Dimension:
 
 
 def check_points(points: ArrayLike) -> np.ndarray:
+    """`points` as a float64 array of the shape (n, 2); ValueError if they are none, or not finite."""
     points = check_array("points", points, -LARGEST_COORDINATE, LARGEST_COORDINATE)
     if points.ndim != 2 or points.shape[1] != 2:
         raise ValueError(f"points must have the shape (n, 2), got {points.shape}")

@@ -178,24 +178,9 @@ def simulate(
         contact_fraction, work, repeats, event_count = found.contact_fraction, found.evaluations, 0, 0
         peaks = found.impact_speed, found.peak_force
     return Run(
-        conveyor,
-        start,
-        duration,
-        method,
-        tolerance,
-        step,
-        reuse,
-        status,
-        float(x_last),
-        float(z_end),
-        float(vz_end),
-        float(x_end),
-        float(vx_end),
+        *(conveyor, start, duration, method, tolerance, step, reuse, status),
+        *map(float, (x_last, z_end, vz_end, x_end, vx_end)),
         int(impacts),
-        float(max_gap),
-        float(contact_fraction),
-        *map(float, peaks),
-        int(work),
-        int(repeats),
-        int(event_count),
+        *map(float, (max_gap, contact_fraction, *peaks)),
+        *map(int, (work, repeats, event_count)),
     )

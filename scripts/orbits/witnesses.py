@@ -35,13 +35,10 @@ def zero_one_values(parameters: np.ndarray, settings: dict, *, threads: int, pro
     found = np.empty(len(parameters))
 
     def work(begin, end):
-        strobes = np.empty((settings["strobes"], 2))
-        features = np.empty((settings["strobes"], stroboscopic_map.FEATURES))
         for i in range(begin, end):
-            state = np.empty(2)
-            stroboscopic_map.initial_state(parameters[i], settings["tolerance"], state)
-            stroboscopic_map.follow(parameters[i], settings["tolerance"], state, settings["strobes"], strobes, features)
-            found[i] = zero_one(strobes[:, 1], settings["seed"], RESOLUTION).value
+            (state,) = stroboscopic_map.initial_states(parameters[i : i + 1], settings["tolerance"])
+            _, strobes, _ = stroboscopic_map.follow(parameters[i], settings["tolerance"], state, settings["strobes"])
+            found[i] = zero_one(strobes[:, 1], settings["seed"], RESOLUTION)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=8, progress=progress)
     return found

@@ -30,7 +30,7 @@ def axis_values(name: str, axis: Axis) -> np.ndarray:
 
     Parameters
     ----------
-    name : one of model.PARAMETERS
+    name : one of parameters.PARAMETERS
     axis : the values themselves, or start, stop (included) and num
 
     Raises
@@ -60,7 +60,7 @@ def columns_of_axes(axes: Mapping[str, Axis], rows: tuple[int, int] | None = Non
 
 
 def conveyor_and_start(model: Mapping[str, float | str]) -> tuple[Conveyor, Start]:
-    """A conveyor and an initial condition from values of model.PARAMETERS; missing ones have their defaults."""
+    """A conveyor and an initial condition from values of parameters.PARAMETERS; missing ones have their defaults."""
     start = Start(model.get("z0", 0.0), model.get("vz0", 0.0))
     return Conveyor(**{name: value for name, value in model.items() if name not in ("z0", "vz0")}), start
 

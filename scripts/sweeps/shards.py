@@ -43,8 +43,8 @@ def columns(
     runs = ensemble.run(parameters, **options, threads=threads, progress=progress)
     ok = runs["status"] == "ok"
     selected = slice(None) if ok.all() else ok  # a slice makes no copy
-    parameters = parameters[selected]
-    continued(parameters, runs["z_end"][selected], runs["vz_end"][selected], settings["duration"], out=parameters)
+    ends = runs["z_end"][selected], runs["vz_end"][selected]
+    parameters = continued(parameters[selected], *ends, settings["duration"])
     found = motions(parameters, settings, threads=threads, progress=progress)
     state, period, flight = (
         fill_missing(ok, values, missing)

@@ -22,7 +22,8 @@ class Spectrum(NamedTuple):
 def harmonics(samples: np.ndarray, duration: float) -> Spectrum:
     """Spectrum of a settled orbit from n equidistant samples over whole periods, t = 0, T/n, … (T = `duration`, s).
 
-    No window and no leakage: every harmonic and subharmonic below n / (2T) falls on a bin.
+    No window and no leakage: every harmonic and subharmonic below n / (2T) falls on a bin. ValueError if the samples
+    are fewer than two, of another shape than (n,), or not finite.
     """
     samples = check(samples)
     return one_sided(samples, duration, len(samples))
@@ -32,7 +33,8 @@ def windowed(samples: np.ndarray, duration: float) -> Spectrum:
     """Spectrum of any other motion from n equidistant samples over `duration` (s), with a Hann window.
 
     Amplitudes are divided by the window's mean, so that a line on a bin has its true height; one half-way between
-    two bins is lower by the factor 8/(3π), 15 %. The mean value is taken out before the window is applied.
+    two bins is lower by the factor 8/(3π), 15 %. The mean value is taken out before the window is applied. ValueError
+    as for `harmonics`.
     """
     samples = check(samples)
     window = hann(len(samples), sym=False)

@@ -33,7 +33,7 @@ class Groups(NamedTuple):
     damping: float  # D = d_c/(m ω)
     stiffness: float  # K = (k_c/m) g^(p-1)/ω^(2p)
     exponent: float  # p
-    tension: int  # code of the treatment of tension, see model.TENSION_MODES
+    tension: int  # code of the treatment of tension, see parameters.TENSION_MODES
 
 
 def normal_gravity(parameters: np.ndarray) -> float:

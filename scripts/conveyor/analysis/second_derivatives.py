@@ -35,14 +35,6 @@ LOG_EDGE = 1e-5
 
 
 @compiled
-def power_series(c, series, exponent, out):
-    """Fill `out`, shape (SIZE,), with the Taylor coefficients of w^exponent, see contact.expand_power."""
-    contact.expand_power(c, series, FIRST, exponent)
-    for n in range(SIZE):  # a slice would take seconds to compile, with the error message for wrong shapes
-        out[n] = series[contact.SCRATCH, n]
-
-
-@compiled
 def log_series(c, series, out):
     """Fill `out`, shape (SIZE,), with the Taylor coefficients of 2 log w of a contact step, 0 where w is left out."""
     w = series[FIRST + contact.W]
@@ -94,8 +86,10 @@ def expand(c, series, first, second, free, count):
     elif c.exponent == 1.0:
         slope = w
     else:
-        power_series(c, series, 2.0 * c.exponent - 1.0, slope)
-        power_series(c, series, 2.0 * c.exponent - 3.0, bend)
+        contact.expand_power(c, series, FIRST, 2.0 * c.exponent - 1.0)
+        slope = series[contact.SCRATCH].copy()
+        contact.expand_power(c, series, FIRST, 2.0 * c.exponent - 3.0)
+        bend = series[contact.SCRATCH].copy()
     # log w² itself, and times the spring's slope: with 1/p times that slope the derivative of p w^(2p-1) by p, over p.
     log, slope_by_exponent = np.zeros(SIZE), np.zeros(SIZE)
     by_exponent = count > EXPONENT
@@ -280,31 +274,36 @@ def cycle(parameters, tolerance, state, first, second, count):
     return TOO_STIFF, impacts
 
 
-def cycles(parameters, tolerance, state, first, second, states, impacts):
-    """Advance `state` by n cycles, with the derivatives of each.
+def cycles(parameters, tolerance, state, number, count):
+    """Advance `state` by a number of cycles, with the derivatives of each.
 
     Parameters
     ----------
-    parameters : float64, shape (16,); tolerance per step
-    state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced
-    first : float64, shape (n, 2, k), k = 5 or 6, filled with ∂(δ, Y) at the end of each cycle by the first k
-        quantities at its beginning; the derivatives by p take several times as long as all others
-    second : float64, shape (n, 2, 2, k), filled with the derivatives of first[..., :2] by the same quantities
-    states : float64, shape (n, 2), filled with δ and v after each cycle
-    impacts : int64, shape (n,), filled with the number of impacts in each cycle
+    parameters : float64, shape (16,)
+    tolerance : of the contact steps
+    state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced by the last state
+    number : of cycles, n
+    count : number k of quantities, from the first one on; p, the last one, takes several times as long as the others
 
     Returns
     -------
-    status code of trajectory.STATUS
+    status : code of trajectory.STATUS; the other results are valid where it is OK
+    first : float64, shape (n, 2, k), ∂(δ, Y) at the end of each cycle by the quantities at its beginning
+    second : float64, shape (n, 2, 2, k), derivatives of first[..., :2] by the same quantities
+    states : float64, shape (n, 2), δ and v after each cycle
+    impacts : int64, shape (n,), impacts in each cycle
     """
     # Not compiled, because numba would compile all of `cycle` once more.
+    first, second = np.empty((number, 2, count)), np.empty((number, 2, 2, count))
+    states, impacts = np.empty((number, 2)), np.empty(number, dtype=np.int64)
     of_one = np.empty((QUANTITIES, 2, SIZE))
     of_two = np.empty((2, QUANTITIES, 2, SIZE))
-    for n in range(first.shape[0]):
-        status, impacts[n] = cycle(parameters, tolerance, state, of_one, of_two, first.shape[2])
+    status = OK
+    for n in range(number):
+        status, impacts[n] = cycle(parameters, tolerance, state, of_one, of_two, count)
         states[n] = state
-        first[n] = of_one[: first.shape[2], :, 0].T
-        second[n] = of_two[:, : first.shape[2], :, 0].transpose(2, 0, 1)
+        first[n] = of_one[:count, :, 0].T
+        second[n] = of_two[:, :count, :, 0].transpose(2, 0, 1)
         if status != OK:
-            return status
-    return OK
+            break
+    return status, first, second, states, impacts

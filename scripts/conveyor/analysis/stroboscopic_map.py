@@ -50,12 +50,14 @@ ETA, ZETA, RATE = range(3)
 
 
 @compiled
-def initial_state(parameters, tolerance, state):
-    """Fill `state`, shape (2,), with δ (m) and v (m/s) of the initial condition in a packed parameter vector."""
-    c = contact.constants(parameters, tolerance)
-    q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)
-    state[0] = -q
-    state[1] = -rate
+def initial_states(parameters, tolerance):
+    """States (δ in m, v in m/s), shape (n, 2), of the initial conditions in `parameters`, shape (n, 16)."""
+    states = np.empty((len(parameters), 2))
+    for i in range(len(parameters)):
+        c = contact.constants(parameters[i], tolerance)
+        q, rate = begin(c, parameters[i, Z0], parameters[i, VZ0], c.psi0)
+        states[i, 0], states[i, 1] = -q, -rate
+    return states
 
 
 @compiled
@@ -101,8 +103,9 @@ def expand_tangents(c, series, expansions, free):
 
 @compiled
 def tangent_length(c, expansions):
-    """Length in s up to which the last two terms of η and ζ of all perturbations are below the tolerance.
+    """Length of the step in the variable s up to which the expansions of all perturbations are accurate.
 
+    The last two terms of η and ζ are below the tolerance there.
     A perturbation rings at the frequency of the contact, even if the motion itself is slow or at rest.
     """
     length = 1e300
@@ -212,26 +215,34 @@ def advance(c, series, state, phase, duration, tangent, features):
 
 
 @compiled
-def follow(parameters, tolerance, state, cycles, strobes, features):
+def follow(parameters, tolerance, state, cycles):
     """Advance `state` by a number of cycles.
 
     A motion that returns to a state bit for bit repeats itself from then on, and is copied. Most settled motions do.
 
-    strobes : float64, shape (cycles, 2), filled with δ and v after each cycle
-    features : float64, shape (cycles, 4), filled with the features of each cycle
-    Returns the status code; rows behind a failure are NaN.
+    Parameters
+    ----------
+    parameters : float64, shape (16,)
+    tolerance : of the contact steps
+    state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced by the last state
+    cycles : excitation cycles
+
+    Returns
+    -------
+    status : code of trajectory.STATUS
+    strobes : float64, shape (cycles, 2), δ and v after each cycle; NaN from a failure on
+    features : float64, shape (cycles, 4), see `advance`; NaN from a failure on
     """
     c = contact.constants(parameters, tolerance)
     series = contact.workspace()
     no_tangent = np.empty((0, 2))
     found = np.zeros(FEATURES)
-    strobes[:] = np.nan
-    features[:] = np.nan
+    strobes, features = np.full((cycles, 2), np.nan), np.full((cycles, FEATURES), np.nan)
     mark = 0  # 0, 1, 3, 7, …: at last one is in the repeated part, a whole period before n (Brent 1980)
     for n in range(cycles):
         status = advance(c, series, state, c.psi0, c.period, no_tangent, found)
         if status != OK:
-            return status
+            return status, strobes, features
         strobes[n, :] = state
         features[n, :] = found
         if mark < n and repeats_bit_for_bit(strobes, features, n, mark):
@@ -242,10 +253,10 @@ def follow(parameters, tolerance, state, cycles, strobes, features):
                 for k in range(FEATURES):
                     features[later, k] = features[before, k]
             state[0], state[1] = strobes[cycles - 1, 0], strobes[cycles - 1, 1]
-            return OK
+            return OK, strobes, features
         if n == 2 * mark + 1:
             mark = n
-    return OK
+    return OK, strobes, features
 
 
 @compiled_inline
@@ -259,41 +270,34 @@ def repeats_bit_for_bit(strobes, features, n, mark):
 
 
 @compiled
-def find_repetition(strobes):
-    """The number of cycles after which the motion of `follow` was back at its last state, bit for bit; 0 for never."""
-    last = strobes.shape[0] - 1
-    for cycles in range(1, last + 1):
-        if strobes[last, 0] == strobes[last - cycles, 0] and strobes[last, 1] == strobes[last - cycles, 1]:
-            return cycles
-    return 0
+def monodromy(parameters, tolerance, state, cycles):
+    """Advance `state` by a number of cycles, with the linearisation of each cycle.
 
+    The monodromy matrix is the product of the matrices, the last one leftmost; its determinant is the product of their
+    determinants without loss of digits.
 
-@compiled
-def monodromy(parameters, tolerance, state, matrices, features):
-    """Advance `state` by n cycles and fill `matrices`, shape (n, 2, 2), with ∂(δ, Y)_end/∂(δ, Y)_start of each cycle.
+    Parameters
+    ----------
+    parameters, tolerance, state, cycles : as in `follow`
 
-    The monodromy matrix is their product; its determinant is the product of theirs without loss of digits.
-    features : float64, shape (n, 4), filled with the features of each cycle. Returns the status code.
+    Returns
+    -------
+    status : code of trajectory.STATUS
+    matrices : float64, shape (cycles, 2, 2), ∂(δ, Y)_end/∂(δ, Y)_start of each cycle; 0 behind a failure
+    features : float64, shape (cycles, 4), see `advance`; 0 behind a failure
     """
     c = contact.constants(parameters, tolerance)
     series = contact.workspace()
     found = np.zeros(FEATURES)
-    for n in range(matrices.shape[0]):
+    matrices, features = np.zeros((cycles, 2, 2)), np.zeros((cycles, FEATURES))
+    for n in range(cycles):
         tangent = np.eye(2)
         status = advance(c, series, state, c.psi0, c.period, tangent, found)
         features[n, :] = found
         matrices[n, :, :] = tangent.T
         if status != OK:
-            return status
-    return OK
-
-
-def initial_states(parameters: np.ndarray, tolerance: float) -> np.ndarray:
-    """States (δ in m, v in m/s), shape (n, 2), of the initial conditions in `parameters`, shape (n, 16)."""
-    states = np.empty((len(parameters), 2))
-    for row, state in zip(parameters, states, strict=True):
-        initial_state(row, tolerance, state)
-    return states
+            return status, matrices, features
+    return OK, matrices, features
 
 
 def pack_states(parameters: np.ndarray, states: np.ndarray, tolerance: float) -> np.ndarray:

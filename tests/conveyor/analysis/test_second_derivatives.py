@@ -27,16 +27,16 @@ def velocity(values):
 
 def linearised(values, tension):
     """(x, y) after a cycle and its derivatives by (x, y), from the module that knows no others."""
-    state, matrices, features = velocity(values), np.empty((1, 2, 2)), np.empty((1, stroboscopic_map.FEATURES))
-    assert stroboscopic_map.monodromy(packed_of(values, tension), TOLERANCE, state, matrices, features) == OK
+    state = velocity(values)
+    status, matrices, _ = stroboscopic_map.monodromy(packed_of(values, tension), TOLERANCE, state, 1)
+    assert status == OK
     return np.array([state[0], state[1] + values[3] * max(state[0], 0.0)]), matrices[0]
 
 
 def expanded(values, tension, count=second_derivatives.QUANTITIES):
-    first, second = np.zeros((1, 2, count)), np.zeros((1, 2, 2, count))
-    states, impacts, state = np.empty((1, 2)), np.empty(1, dtype=np.int64), velocity(values)
-    found = second_derivatives.cycles(packed_of(values, tension), TOLERANCE, state, first, second, states, impacts)
-    assert found == OK
+    found = second_derivatives.cycles(packed_of(values, tension), TOLERANCE, velocity(values), 1, count)
+    status, first, second, _, _ = found
+    assert status == OK
     return first[0], second[0]
 
 

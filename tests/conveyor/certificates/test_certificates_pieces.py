@@ -42,8 +42,8 @@ def after_a_cycle(conveyor: Conveyor, state: np.ndarray) -> tuple[np.ndarray, np
     row = pack(conveyor, Start())
     returns = ReturnMap(row, 1)
     unknown = np.append(state, conveyor.acceleration)
-    end, matrices, features = returns.state(unknown), np.empty((1, 2, 2)), np.empty((1, stroboscopic_map.FEATURES))
-    stroboscopic_map.monodromy(row, RUN, end, matrices, features)
+    end = returns.state(unknown)
+    _, matrices, features = stroboscopic_map.monodromy(row, RUN, end, 1)
     unit = returns.unit[:2]
     return returns.scaled(conveyor.acceleration, end)[:2], matrices[0] * unit / unit[:, None], features[0]
 

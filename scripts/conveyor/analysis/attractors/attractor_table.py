@@ -16,21 +16,19 @@ INITIAL_CONDITION = (PSI0, Z0, VZ0)
 CONVEYOR = [place for place in range(len(PARAMETERS)) if place not in INITIAL_CONDITION]
 
 
-def without_initial_conditions(parameters: np.ndarray) -> np.ndarray:
-    """The conveyors of rows, shape (n, 16): their phases and initial conditions are zero."""
-    conveyors = np.array(parameters, dtype=np.float64)
-    conveyors[:, INITIAL_CONDITION] = 0.0
-    return conveyors
-
-
 def distinct_conveyors(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The conveyors of rows, shape (n, 16), sorted, shape (m, 16), and the number of each row's, int64, shape (n,)."""
+    """The conveyors of rows, shape (n, 16), sorted, shape (m, 16), and the number of each row's, int64, shape (n,).
+
+    The phases and initial conditions of the conveyors are zero.
+    """
     # In most ensembles rows of one conveyor follow each other; rows are slow to sort, and to copy.
     follows = np.arange(len(parameters)) > 0
     for column in CONVEYOR:
         follows[1:] &= parameters[1:, column] == parameters[:-1, column]
     first = np.flatnonzero(~follows)
-    conveyors, index = np.unique(without_initial_conditions(parameters[first]), axis=0, return_inverse=True)
+    conveyors = np.array(parameters[first], dtype=np.float64)
+    conveyors[:, INITIAL_CONDITION] = 0.0
+    conveyors, index = np.unique(conveyors, axis=0, return_inverse=True)
     return conveyors, np.repeat(index, np.diff(np.append(first, len(parameters))))
 
 

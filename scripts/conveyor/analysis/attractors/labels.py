@@ -3,7 +3,7 @@
 A trajectory is followed until it repeats itself with a period of up to 64 excitation cycles. The longest flight in a
 period distinguishes the first state from the second. A trajectory that does not repeat itself within a given number of
 cycles is chaos if its largest Lyapunov exponent is positive by more than three standard errors. It is a regular motion
-of a longer period if the exponent is negative by as much, and `undecided` otherwise.
+of a longer period if the exponent is negative by more than three standard errors, and `undecided` otherwise.
 
 A label depends only on the conveyor and the initial condition. Trajectories on one conveyor may share its known
 attractors (see `search`). A trajectory that has reached the trapping region of a periodic orbit, or stays in a chaotic
@@ -46,18 +46,13 @@ class Labels(NamedTuple):
     v: np.ndarray  # m/s, its rate there
 
 
-def continued(
-    parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, duration: float, *, out: np.ndarray | None = None
-) -> np.ndarray:
+def continued(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, duration: float) -> np.ndarray:
     """Packed parameters, shape (n, 16), of trajectories that continue runs of `parameters`.
 
     z_end, vz_end : where the runs ended, m and m/s, shape (n,)
     duration : of the runs, s, a number or of shape (n,)
-    out : the array to fill, which may be `parameters`; None for a new array
     """
-    later = np.empty(parameters.shape) if out is None else out
-    if later is not parameters:
-        later[:] = parameters
+    later = np.array(parameters, dtype=np.float64)
     cycles = parameters[:, FREQUENCY] * duration
     later[:, PSI0] = (parameters[:, PSI0] + 2.0 * math.pi * (cycles - np.floor(cycles))) % (2.0 * math.pi)
     later[:, Z0] = z_end

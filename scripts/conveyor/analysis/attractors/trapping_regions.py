@@ -17,6 +17,7 @@ from ...solver.jit import compiled
 from ...solver.model import PSI0
 from ...solver.trajectory import BEGIN_OF_CYCLE, OK
 from .. import stroboscopic_map
+from ..dimensionless_groups import units
 from .attractor_table import AttractingOrbits, orbit_table
 from .convergence import PERIODIC, Trajectories, distance_components
 
@@ -31,12 +32,13 @@ LONGEST = 8  # excitation cycles, longest period of an orbit with a trapping reg
 
 @compiled
 def comes_inside(parameters, tolerance, centre, factor, period, radius):
-    """Whether an ellipse about a point of an orbit comes inside the ellipse of half its `radius`, all at one time.
+    """Whether an ellipse about a point of an orbit comes inside the ellipse of half its `radius`.
+
+    All points must be inside after the same number of periods. The curve is then inside if the distance between
+    neighbouring points is smaller than the distance of each point from the smaller ellipse.
 
     centre, factor : see AttractingOrbits
     period : excitation cycles, of the orbit
-
-    Then the distance of neighbouring points must be smaller than the distance of each point from that ellipse.
     """
     c, series = contact.constants(parameters, tolerance), contact.workspace()
     no_tangent, features = np.empty((0, 2)), np.zeros(stroboscopic_map.FEATURES)
@@ -86,14 +88,12 @@ def find_trapping_region(
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """Centre, shape (2,), and factor, shape (3,), of the largest trapping region of a point of an orbit; None for none.
 
+    parameters : float64, shape (16,), with the phase trajectory.BEGIN_OF_CYCLE
     state : δ (m), v (m/s), shape (2,), at trajectory.BEGIN_OF_CYCLE
     """
-    c = contact.constants(parameters, tolerance)
-    unit = np.array([c.gravity / c.omega**2, c.gravity / c.omega])
-    matrices, features = np.empty((period, 2, 2)), np.empty((period, stroboscopic_map.FEATURES))
-    at_top = parameters.copy()
-    at_top[PSI0] = BEGIN_OF_CYCLE
-    if stroboscopic_map.monodromy(at_top, tolerance, state.copy(), matrices, features) != OK:
+    c, unit = contact.constants(parameters, tolerance), np.array(units(parameters))
+    status, matrices, _ = stroboscopic_map.monodromy(parameters, tolerance, state.copy(), period)
+    if status != OK:
         return None
     matrix = reduce(lambda product, following: following @ product, matrices)
     norm = contracting_norm(matrix * unit / unit[:, None])
@@ -109,20 +109,18 @@ def find_trapping_region(
 
 def find_attracting_orbits(parameters: np.ndarray, trajectories: Trajectories, tolerance: float) -> AttractingOrbits:
     """The attracting orbits that trajectories on a conveyor, shape (16,), have reached, each with a trapping region."""
-    c = contact.constants(parameters, tolerance)
-    unit = np.array([c.gravity / c.omega**2, c.gravity / c.omega])
-    at_top = parameters.copy()
+    at_top, unit = parameters.copy(), np.array(units(parameters))
     at_top[PSI0] = BEGIN_OF_CYCLE
     seen, found = np.empty((0, 2)), []
     for k in np.flatnonzero((trajectories.outcomes == PERIODIC) & (trajectories.periods <= LONGEST)):
         state, period = trajectories.states[k], int(trajectories.periods[k])
         if (np.abs((seen - state) / unit).max(axis=1) < SMALLEST).any():
             continue
-        strobes, features = np.empty((period, 2)), np.empty((period, stroboscopic_map.FEATURES))
-        if stroboscopic_map.follow(at_top, tolerance, state.copy(), period, strobes, features) != OK:
+        status, strobes, _ = stroboscopic_map.follow(at_top, tolerance, state.copy(), period)
+        if status != OK:
             continue
         seen = np.concatenate([seen, strobes])
-        around = find_trapping_region(parameters, tolerance, state, period)
+        around = find_trapping_region(at_top, tolerance, state, period)
         if around is not None:
             found.append((*around, period, float(trajectories.flights[k])))
     return orbit_table(parameters, found)

@@ -83,7 +83,14 @@ def scaled_state(launch: InitialCondition, groups: Groups) -> tuple[np.ndarray, 
 
 
 def find_saddle(launch: InitialCondition, groups: Groups) -> tuple[int, np.ndarray, int] | None:
-    """The saddle that a trajectory comes nearest to: its period, (x, y), and after how many of its periods; or None."""
+    """The saddle that a trajectory comes nearest to, or None.
+
+    Returns
+    -------
+    period : of the saddle, excitation cycles
+    saddle : (x, y) at the phase ψ0, shape (2,)
+    turn : number of its periods after which the trajectory is nearest
+    """
     state, _, _ = scaled_state(launch, groups)
     found = derivatives(groups, state, SEARCHED, launch.psi0)
     if found is None:

@@ -35,6 +35,15 @@ def find_crossings(
     heights : z0 of the scan, m, ascending, shape (h,); the scan may miss stripes narrower than their distance
     decide : gives the state of motion, str, shape (m,), for parameters of shape (m, 16)
     resolution : width of the interval that encloses a change, m
+
+    Returns
+    -------
+    Crossings, sorted by conveyor and height
+
+    Raises
+    ------
+    ValueError
+        if the heights are not ascending, or the resolution is finer than double precision
     """
     heights = np.asarray(heights, dtype=np.float64)
     if heights.ndim != 1 or len(heights) < 2 or not (np.diff(heights) > 0.0).all():

@@ -26,9 +26,9 @@ class FirstImpact(NamedTuple):
 
 
 @compiled
-def fill_first_impacts(parameters, out):
-    """Fill the rows of `out`, shape (n, 3), for `parameters`, shape (n, 16)."""
-    out[:] = np.nan
+def find_first_impacts(parameters):
+    """Times, velocities and phases, float64, shape (n, 3), for `parameters`, shape (n, 16)."""
+    out = np.full((len(parameters), 3), np.nan)
     for i in range(parameters.shape[0]):
         c = contact.constants(parameters[i], 1e-10)
         height, theta, vz = c.a_z / (c.omega * c.omega), c.psi0, parameters[i, VZ0]
@@ -42,13 +42,12 @@ def fill_first_impacts(parameters, out):
             longest = 1.1 * (vz + math.sqrt(vz * vz + 2.0 * c.gravity * (z + height))) / c.gravity
             t1, _ = next_impact(Flight(z, vz, theta, c.gravity, c.a_z, c.omega), q, rate, longest)
         out[i, TIME], out[i, VELOCITY], out[i, PHASE] = t1, vz - c.gravity * t1, theta + c.omega * t1
+    return out
 
 
 def first_impacts(parameters: np.ndarray) -> FirstImpact:
     """First impacts of the initial conditions in `parameters`, float64, shape (n, 16), rows as from model.pack."""
-    out = np.empty((len(parameters), 3))
-    fill_first_impacts(np.ascontiguousarray(parameters, dtype=np.float64), out)
-    return FirstImpact(*out.T)
+    return FirstImpact(*find_first_impacts(np.ascontiguousarray(parameters, dtype=np.float64)).T)
 
 
 def on_conveyor(parameters: np.ndarray, impacts: FirstImpact) -> np.ndarray:

@@ -37,7 +37,17 @@ class Fit(NamedTuple):
 
 
 def profile(acceleration: np.ndarray, height: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The valley: best triple for each value of B (m/s², shape (k,)), shape (k, 3), and its error in m², shape (k,)."""
+    """The valley: the best triple for each value of B, and its error.
+
+    Parameters
+    ----------
+    acceleration, height : data, m/s² and m, shape (n,)
+    b : values of B, m/s², shape (k,)
+
+    Returns
+    -------
+    parameters, errors : float64, shape (k, 3), A (m²/s²), B (m/s²) and C (m); and mean squared errors, m², shape (k,)
+    """
     x = 1.0 / (np.asarray(b, dtype=np.float64)[:, None] + acceleration)
     centred = x - x.mean(axis=1, keepdims=True)
     a = centred @ (height - np.mean(height)) / np.sum(centred**2, axis=1)
@@ -109,7 +119,7 @@ def fit_pymoo(
         def _evaluate(self, x, out):
             out["F"] = mean_squared_error(acceleration, height, low + x * (high - low)) / unit
 
-    # The strategy draws from NumPy's global generator and takes seed 0 as a wish for the clock.
+    # The strategy draws from NumPy's global generator and takes seed 0 as a request to seed from the clock.
     history = History()
     result = minimize(
         Error(), CMAES(x0=np.full(3, 0.5), sigma=0.3), ("n_eval", evaluations), seed=seed + 1, callback=history

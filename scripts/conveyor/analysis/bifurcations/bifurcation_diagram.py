@@ -3,22 +3,7 @@
 import numpy as np
 
 from ...solver import trajectory
-from ...solver.jit import compiled
-from ...solver.trajectory import OK
 from .. import stroboscopic_map
-
-
-@compiled
-def follow_change(parameters, tolerance, state, transient, strobes, codes):
-    """See `follow_attractor`: fill `strobes`, shape (n, m, 2), and status `codes`, shape (n,); advance `state`."""
-    cycles = transient + strobes.shape[1]
-    visited, features = np.empty((cycles, 2)), np.empty((cycles, stroboscopic_map.FEATURES))
-    strobes[:] = np.nan
-    for i in range(parameters.shape[0]):
-        codes[i] = stroboscopic_map.follow(parameters[i], tolerance, state, cycles, visited, features)
-        strobes[i] = visited[transient:]
-        if codes[i] != OK:
-            return
 
 
 def follow_attractor(
@@ -38,8 +23,12 @@ def follow_attractor(
     states, status : δ (m) and v (m/s) at the phase ψ0, shape (n, strobes, 2), and str, shape (n,); behind a failure NaN
     """
     parameters = np.ascontiguousarray(parameters, dtype=np.float64)
-    states = np.empty((len(parameters), strobes, 2))
+    states = np.full((len(parameters), strobes, 2), np.nan)
     codes = np.full(len(parameters), trajectory.NOT_FINITE)
-    state = stroboscopic_map.initial_states(parameters[:1], tolerance)[0]
-    follow_change(parameters, tolerance, state, transient, states, codes)
+    (state,) = stroboscopic_map.initial_states(parameters[:1], tolerance)
+    for i, row in enumerate(parameters):
+        codes[i], visited, _ = stroboscopic_map.follow(row, tolerance, state, transient + strobes)
+        states[i] = visited[transient:]
+        if codes[i] != trajectory.OK:
+            break
     return states, np.array(trajectory.STATUS)[codes]

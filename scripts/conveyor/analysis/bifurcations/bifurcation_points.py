@@ -57,13 +57,13 @@ def derivatives(
 ) -> Derivatives | None:
     """The image of a scaled state (x, y) at the phase ψ0 and its derivatives, or None where the motion is lost.
 
-    exponent : whether those by p are wanted, which take several times as long
+    exponent : whether to compute the derivatives by p, which take several times as long
     """
     count = second_derivatives.QUANTITIES if exponent else second_derivatives.EXPONENT
-    first, second = np.empty((period, 2, count)), np.empty((period, 2, 2, count))
-    states, impacts = np.empty((period, 2)), np.empty(period, dtype=np.int64)
     begin = velocity_for_y(groups, np.array(state, dtype=np.float64))
-    if second_derivatives.cycles(packed(groups, psi0), TOLERANCE, begin, first, second, states, impacts) != OK:
+    found = second_derivatives.cycles(packed(groups, psi0), TOLERANCE, begin, period, count)
+    status, first, second, states, impacts = found
+    if status != OK:
         return None
     states[:, 1] += groups.damping * np.maximum(states[:, 0], 0.0)
     # The chain rule for the derivatives of (x, y, Γ, D, K, p) by their values at the beginning.
@@ -135,7 +135,15 @@ def touch_system(
 
 
 def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups) -> Point | None:
-    """The bifurcation that Newton's iteration finds from a guess of its unknowns, or None."""
+    """The bifurcation that Newton's iteration finds from a guess, or None.
+
+    Parameters
+    ----------
+    kind : fold, period_doubling or grazing
+    period : excitation cycles of the orbit
+    unknown : guess of the unknowns, see Point
+    groups : of the conveyor; Γ does not matter, because it is an unknown
+    """
 
     def step_at(here):
         found = system(kind, period, here, groups)
@@ -159,9 +167,13 @@ def differentiate_unknowns(point: Point) -> np.ndarray | None:
 def touch(groups: Groups, state: np.ndarray, period: int) -> np.ndarray | None:
     """The phase ψ at which an orbit comes closest to touching the plate with no speed, and Γ.
 
-    It is a guess for `find_bifurcation`.
+    It is a guess for `find_bifurcation`, shape (2,). None where the motion is lost, or never turns.
 
-    state : scaled (x, y) at the phase 0, at the amplitude of `groups`
+    Parameters
+    ----------
+    groups : of the conveyor, with Γ
+    state : scaled (x, y) of the orbit at the phase 0, shape (2,)
+    period : excitation cycles of the orbit
     """
     row = packed(groups)
     c = contact.constants(row, TOLERANCE)

@@ -140,7 +140,11 @@ def _zero(at: Callable[[float], Orbit | None], test: Callable[[Orbit], float]) -
 
 
 def find_doubled_orbit(parameters: np.ndarray, bifurcation: Bifurcation) -> Orbit | None:
-    """An orbit of twice the period at the distance DOUBLED from a period doubling, along the eigenvector of -1."""
+    """An orbit of twice the period at the distance DOUBLED from a period doubling, along the eigenvector of -1.
+
+    parameters : float64, shape (16,); its amplitude is ignored
+    Returns None where Newton's iteration finds no orbit.
+    """
     orbit = bifurcation.orbit
     single, double = ReturnMap(parameters, orbit.period), ReturnMap(parameters, 2 * orbit.period)
     unknown = single.scaled(orbit.acceleration, orbit.state)
@@ -152,7 +156,7 @@ def find_doubled_orbit(parameters: np.ndarray, bifurcation: Bifurcation) -> Orbi
 
 
 def on_branch(parameters: np.ndarray, branch: Branch, orbit: Orbit) -> bool:
-    """Whether an orbit, at any of its phases, lies on a branch."""
+    """Whether an orbit, at any of its phases, lies on a branch of `parameters`, shape (16,) (amplitude ignored)."""
     if branch.orbits[0].period != orbit.period:
         return False
     returns = ReturnMap(parameters, orbit.period)

@@ -16,6 +16,15 @@ def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurca
     The distance between doublings shrinks by Feigenbaum's ratio each time. Halfway to the next doubling the doubled
     orbit is about superstable, so that a trajectory reaches it at once. Newton's iteration follows it in â from there
     to the multiplier -1.
+
+    Parameters
+    ----------
+    parameters : float64, shape (16,); its amplitude is ignored
+    first, second : period doublings, the second one of the doubled orbit
+
+    Returns
+    -------
+    All doublings of the cascade in order, with both given ones
     """
     cascade = [first, second]
     while True:

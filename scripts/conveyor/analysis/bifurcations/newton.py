@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable, Iterator
-from typing import NamedTuple
 
 import numpy as np
 
@@ -55,16 +54,6 @@ def newton(
     return None
 
 
-class Step(NamedTuple):
-    """A step along a curve."""
-
-    here: np.ndarray
-    there: np.ndarray
-    tangent: np.ndarray  # unit vector along the curve at `here`
-    onwards: np.ndarray  # and at `there`
-    length: float
-
-
 def follow_curve(
     correct: Callable[[np.ndarray, np.ndarray], np.ndarray | None],
     tangent_at: Callable[[np.ndarray, np.ndarray], np.ndarray | None],
@@ -75,8 +64,10 @@ def follow_curve(
     smallest: float,
     largest: float,
     straight: float,
-) -> Iterator[Step]:
+) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, float]]:
     """Steps along a curve from one of its points, until no step is possible.
+
+    A step consists of its first and last point, the unit vectors along the curve at these points, and its length.
 
     Parameters
     ----------
@@ -94,6 +85,6 @@ def follow_curve(
             if length < smallest:
                 return
             continue
-        yield Step(here, there, tangent, following, length)
+        yield here, there, tangent, following, length
         here, tangent = there, following
         length = min(GROWTH * length, largest)

@@ -12,10 +12,10 @@ import numpy as np
 
 from ...arguments import LARGEST_COORDINATE, LONGEST_PERIOD, check_array, check_count, check_number, check_packed
 from ...parameters import RANGES
-from ...solver import contact
-from ...solver.model import ACCELERATION, DAMPING, MASS
+from ...solver.model import ACCELERATION, DAMPING, FREQUENCY, MASS
 from ...solver.trajectory import OK
 from .. import stroboscopic_map
+from ..dimensionless_groups import units
 from .newton import newton, solve
 
 TOLERANCE = 1e-13
@@ -49,12 +49,10 @@ class ReturnMap:
     """
 
     def __init__(self, parameters: np.ndarray, period: int):
-        c = contact.constants(parameters, TOLERANCE)
         self.parameters = parameters.copy()
         self.period = period
-        self.cycle = c.period
         self.damping = parameters[DAMPING] / parameters[MASS]
-        self.unit = np.array([c.gravity / c.omega**2, c.gravity / c.omega, 1.0])
+        self.unit = np.array([*units(parameters), 1.0])
 
     def scaled(self, acceleration: float, state: np.ndarray) -> np.ndarray:
         """The unknowns of a state (δ in m, v in m/s) at an amplitude."""
@@ -73,15 +71,14 @@ class ReturnMap:
 
     def strobes(self, unknown: np.ndarray) -> np.ndarray:
         """Unknowns after 1 … n cycles, shape (n, 3)."""
-        states, features = np.empty((self.period, 2)), np.empty((self.period, stroboscopic_map.FEATURES))
-        stroboscopic_map.follow(self.row(unknown), TOLERANCE, self.state(unknown), self.period, states, features)
+        _, states, _ = stroboscopic_map.follow(self.row(unknown), TOLERANCE, self.state(unknown), self.period)
         return np.array([self.scaled(unknown[2] * self.unit[2], state) for state in states])
 
     def linearised(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(δ, Y) after n cycles in their units, the matrices (SI units) and the features of all cycles."""
-        state, matrices = self.state(unknown), np.empty((self.period, 2, 2))
-        features = np.zeros((self.period, stroboscopic_map.FEATURES))
-        if stroboscopic_map.monodromy(self.row(unknown), TOLERANCE, state, matrices, features) != OK:
+        state = self.state(unknown)
+        status, matrices, features = stroboscopic_map.monodromy(self.row(unknown), TOLERANCE, state, self.period)
+        if status != OK:
             return np.full(2, np.nan), np.full((self.period, 2, 2), np.nan), features
         return self.scaled(unknown[2], state)[:2], matrices, features
 
@@ -146,14 +143,21 @@ class ReturnMap:
             determinant=determinant,
             impacts=int(features[:, stroboscopic_map.IMPACTS].sum()),
             contact_time=float(features[:, stroboscopic_map.CONTACT_TIME].sum()),
-            longest_flight=float(flights.max() / self.cycle),
+            longest_flight=float(flights.max() / (1.0 / self.parameters[FREQUENCY])),
         )
 
 
 def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, period: int) -> Orbit | None:
-    """The orbit of `period` cycles that Newton's iteration finds from `state` (δ in m, v in m/s), or None.
+    """The orbit of `period` cycles that Newton's iteration finds from `state`, or None.
 
     An orbit whose period divides `period` is an orbit of `period` cycles, too.
+
+    Parameters
+    ----------
+    parameters : float64, shape (16,); its amplitude is ignored
+    acceleration : amplitude, m/s²
+    state : δ (m) and v (m/s) at the phase ψ0, shape (2,)
+    period : excitation cycles
 
     Raises
     ------
@@ -170,7 +174,7 @@ def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, p
 
 
 def orbit_near(parameters: np.ndarray, acceleration: float, state: np.ndarray, period: int) -> Orbit | None:
-    """`find_orbit` without checks: None, too, for arguments that are not finite."""
+    """`find_orbit` without checks of its arguments; None, too, for arguments that are not finite."""
     found = ReturnMap(parameters, period)
     unknown = found.newton(found.scaled(acceleration, state))
     return None if unknown is None else found.describe(unknown)
@@ -192,10 +196,10 @@ def settled_orbit(
     row = parameters.copy()
     row[ACCELERATION] = acceleration
     end = np.array(state, dtype=np.float64)
-    strobes, features = np.empty((cycles, 2)), np.empty((cycles, stroboscopic_map.FEATURES))
-    if stroboscopic_map.follow(row, TOLERANCE, end, cycles, strobes, features) != OK:
+    status, strobes, _ = stroboscopic_map.follow(row, TOLERANCE, end, cycles)
+    if status != OK:
         return None, end
-    unit = ReturnMap(parameters, 1).unit[:2]
+    unit = np.array(units(parameters))
     for period in periods:
         if np.abs((strobes[-1] - strobes[-1 - period]) / unit).max() < 1e-2:
             orbit = orbit_near(parameters, acceleration, end, period)

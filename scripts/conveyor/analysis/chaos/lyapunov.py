@@ -25,7 +25,7 @@ from ...simulation import DEFAULT_STEP, DEFAULT_TOLERANCE
 from ...solver import contact, trajectory
 from ...solver.horizontal import SAMPLES
 from ...solver.jit import compiled
-from ...solver.model import FREQUENCY
+from ...solver.model import FREQUENCY, PSI0
 from ...solver.parallel import for_each_chunk
 from .. import stroboscopic_map
 from . import stretching
@@ -49,32 +49,39 @@ class Spectrum(NamedTuple):
 
 
 @compiled
-def stretches_of_points(parameters, states, tolerance, begin_of_cycle, transient, stretches, contact_times, codes):
-    """Follow trajectories from `states`, shape (n, 2), and fill arrays with the stretching in each cycle.
+def stretches_of(parameters, state, tolerance, phase, transient, cycles):
+    """Follow a trajectory, and the stretching of its perturbations in each cycle.
 
-    begin_of_cycle : whether the states are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
-    stretches : float64, shape (n, cycles, 2), see stretching; NaN from a failure on
-    contact_times : float64, shape (n, cycles), s
-    codes : int64, shape (n,), status codes of trajectory.STATUS
+    Parameters
+    ----------
+    parameters : float64, shape (16,)
+    state : float64, shape (2,), δ (m) and v (m/s) at the `phase` (rad); replaced by the last state
+    tolerance : of the contact steps
+    transient, cycles : excitation cycles that are discarded, and counted
+
+    Returns
+    -------
+    status : code of trajectory.STATUS
+    stretches : float64, shape (cycles, 2), see stretching; NaN from a failure on
+    contact_times : float64, shape (cycles,), s; NaN from a failure on
     """
+    c = contact.constants(parameters, tolerance)
     series = contact.workspace()
     features = np.zeros(stroboscopic_map.FEATURES)
     discarded = np.empty(2)
-    stretches[:] = np.nan
-    for i in range(parameters.shape[0]):
-        c = contact.constants(parameters[i], tolerance)
-        phase = trajectory.BEGIN_OF_CYCLE if begin_of_cycle else c.psi0
-        # Velocities count in units of ω × length, which makes both directions comparable.
-        tangent = np.eye(2)
-        for n in range(-transient, stretches.shape[1]):
-            tangent[:, 1] *= c.omega
-            codes[i] = stroboscopic_map.advance(c, series, states[i], phase, c.period, tangent, features)
-            if codes[i] != trajectory.OK:
-                break
-            tangent[:, 1] /= c.omega
-            stretching.orthonormalise(tangent, stretches[i, n] if n >= 0 else discarded)
-            if n >= 0:
-                contact_times[i, n] = features[stroboscopic_map.CONTACT_TIME]
+    stretches, contact_times = np.full((cycles, 2), np.nan), np.full(cycles, np.nan)
+    # Velocities count in units of ω × length, which makes both directions comparable.
+    tangent = np.eye(2)
+    for n in range(-transient, cycles):
+        tangent[:, 1] *= c.omega
+        status = stroboscopic_map.advance(c, series, state, phase, c.period, tangent, features)
+        if status != trajectory.OK:
+            return status, stretches, contact_times
+        tangent[:, 1] /= c.omega
+        stretching.orthonormalise(tangent, stretches[n] if n >= 0 else discarded)
+        if n >= 0:
+            contact_times[n] = features[stroboscopic_map.CONTACT_TIME]
+    return trajectory.OK, stretches, contact_times
 
 
 def spectrum(
@@ -100,6 +107,15 @@ def spectrum(
     transient : excitation cycles that are followed and not counted
     cycles, blocks : `blocks` ≥ 2 blocks of `cycles` excitation cycles are counted
     tolerance, threads, progress : as in ensemble.run
+
+    Returns
+    -------
+    Spectrum of the n trajectories, exponents in 1/s; NaN for a failure
+
+    Raises
+    ------
+    ValueError
+        names the argument that cannot be used
     """
     parameters = check_packed(parameters)
     tolerance = check_tolerance(tolerance)
@@ -119,21 +135,14 @@ def spectrum(
         if (np.abs(states) > LARGEST_COORDINATE).any():  # NaN is the state of a motion that failed
             raise ValueError(f"states must lie in [{-LARGEST_COORDINATE:g}, {LARGEST_COORDINATE:g}]")
     stretches = np.empty((len(parameters), blocks * cycles, 2))
-    contact_times = np.full((len(parameters), blocks * cycles), np.nan)
+    contact_times = np.empty((len(parameters), blocks * cycles))
     codes = np.zeros(len(parameters), dtype=np.int64)
+    phases = np.full(len(parameters), trajectory.BEGIN_OF_CYCLE) if begin_of_cycle else parameters[:, PSI0]
 
     def work(begin, end):
-        rows = slice(begin, end)
-        stretches_of_points(
-            parameters[rows],
-            states[rows],
-            tolerance,
-            begin_of_cycle,
-            transient,
-            stretches[rows],
-            contact_times[rows],
-            codes[rows],
-        )
+        for i in range(begin, end):
+            found = stretches_of(parameters[i], states[i], tolerance, phases[i], transient, blocks * cycles)
+            codes[i], stretches[i], contact_times[i] = found
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4, progress=progress)
     period = 1.0 / parameters[:, FREQUENCY]
@@ -166,43 +175,41 @@ def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threa
     for cycles in LOOKS:
         rows = np.flatnonzero(found < 1)
         of_them = spectrum_from(parameters[rows], states[rows], cycles, tolerance=tolerance, threads=threads)
-        # A failed motion has NaN here and keeps the sign 0. A sign that is not positive is checked after more.
+        # A failed motion has NaN here and keeps the sign 0. A sign that is not positive is checked again
+        # after more cycles.
         different = np.abs(of_them.lambda_1) > SIGNIFICANT * of_them.stderr
         found[rows] = np.where(different, np.sign(of_them.lambda_1), 0.0)
     return found
 
 
-@compiled
-def multipliers_of_points(parameters, states, tolerance, logarithms, contact_times, periods):
-    """The periods of motions from `states`, shape (n, 2), at ψ0 that repeat themselves bit for bit.
+def repeating_motion(
+    parameters: np.ndarray, state: np.ndarray, tolerance: float
+) -> tuple[int, tuple[float, float], float]:
+    """Period and Floquet multipliers of a motion that repeats itself bit for bit from `state` on, or soon after.
 
     Parameters
     ----------
-    logarithms : float64, shape (n, 2), filled with the logarithms of the moduli of the Floquet multipliers, the larger
-        one first
-    contact_times : float64, shape (n,), filled with the time with contact force in a period (s)
-    periods : int64, shape (n,), filled with the excitation cycles after which a motion repeats itself, or with 0; the
-        other arrays say nothing about such a motion
+    parameters : float64, shape (16,)
+    state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced
+    tolerance : of the contact steps
+
+    Returns
+    -------
+    period : excitation cycles after which the motion repeats itself; 0 if it does not
+    logarithms : of the moduli of the Floquet multipliers, the larger one first
+    contact_time : time with contact force in a period, s
     """
-    strobes, features = np.empty((REPEATS_WITHIN, 2)), np.empty((REPEATS_WITHIN, stroboscopic_map.FEATURES))
-    for i in range(parameters.shape[0]):
-        periods[i] = 0
-        if (
-            stroboscopic_map.follow(parameters[i], tolerance, states[i], REPEATS_WITHIN, strobes, features)
-            != trajectory.OK
-        ):
-            continue
-        period = stroboscopic_map.find_repetition(strobes)
-        matrices = np.empty((period, 2, 2))
-        if (
-            stroboscopic_map.monodromy(parameters[i], tolerance, states[i], matrices, features[:period])
-            != trajectory.OK
-        ):
-            continue
-        logarithms[i, 0], logarithms[i, 1] = stretching.log_multipliers(matrices)
-        contact_times[i] = features[:period, stroboscopic_map.CONTACT_TIME].sum()
-        if math.isfinite(logarithms[i, 0]):
-            periods[i] = period
+    nothing = 0, (math.nan, math.nan), math.nan
+    status, strobes, _ = stroboscopic_map.follow(parameters, tolerance, state, REPEATS_WITHIN)
+    same = np.flatnonzero((strobes[:-1] == strobes[-1]).all(axis=1))
+    if status != trajectory.OK or not len(same):
+        return nothing
+    period = REPEATS_WITHIN - 1 - int(same[-1])
+    status, matrices, features = stroboscopic_map.monodromy(parameters, tolerance, state, period)
+    logarithms = stretching.log_multipliers(matrices)
+    if status != trajectory.OK or not math.isfinite(logarithms[0]):
+        return nothing
+    return period, logarithms, float(features[:, stroboscopic_map.CONTACT_TIME].cumsum()[-1])
 
 
 def spectrum_on_attractors(
@@ -217,16 +224,23 @@ def spectrum_on_attractors(
     """Both vertical Lyapunov exponents of motions that begin on their attractors, or close to them.
 
     A motion that repeats itself bit for bit within REPEATS_WITHIN cycles has the exponents of its Floquet multipliers,
-    with a standard error of 0. Any other motion is followed by `spectrum`, with the same arguments.
+    with a standard error of 0. Any other motion is followed by `spectrum`.
+
+    Parameters
+    ----------
+    parameters, cycles, blocks, tolerance, threads, progress : as in `spectrum`
+
+    Returns
+    -------
+    Spectrum of the n trajectories, exponents in 1/s
     """
     states = stroboscopic_map.initial_states(parameters, tolerance)
     logarithms, contact_times = np.empty((len(parameters), 2)), np.empty(len(parameters))
     periods = np.zeros(len(parameters), dtype=np.int64)
 
     def work(begin, end):
-        rows = slice(begin, end)
-        found = logarithms[rows], contact_times[rows], periods[rows]
-        multipliers_of_points(parameters[rows], states[rows], tolerance, *found)
+        for i in range(begin, end):
+            periods[i], logarithms[i], contact_times[i] = repeating_motion(parameters[i], states[i], tolerance)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4)
     followed = spectrum(
@@ -258,18 +272,24 @@ def renormalised_pair(
 ) -> float:
     """Largest exponent (1/s) of one trajectory, from a neighbour that is set back to a distance after each cycle.
 
-    It is independent of `spectrum`, because it uses no variational equation. `distance` is relative to the scales of
-    the part at rest; `state` is a stroboscopic state, shape (2,).
+    It is independent of `spectrum`, because it uses no variational equation.
+
+    Parameters
+    ----------
+    parameters : float64, shape (16,)
+    state : stroboscopic state at ψ0, δ (m) and v (m/s), shape (2,)
+    distance : of the neighbour, relative to the scales of the part at rest
+    transient, cycles : excitation cycles that are discarded, and counted
+    tolerance : of the contact steps
     """
     c = contact.constants(parameters, tolerance)
     scale = np.array([c.scale_w**2, c.scale_v])
-    strobes, features = np.empty((1, 2)), np.empty((1, stroboscopic_map.FEATURES))
     here = np.array(state, dtype=np.float64)
     there = here + distance * scale / math.sqrt(2.0)
     total = 0.0
     for n in range(transient + cycles):
-        stroboscopic_map.follow(parameters, tolerance, here, 1, strobes, features)
-        stroboscopic_map.follow(parameters, tolerance, there, 1, strobes, features)
+        stroboscopic_map.follow(parameters, tolerance, here, 1)
+        stroboscopic_map.follow(parameters, tolerance, there, 1)
         separation = (there - here) / scale
         stretch = float(np.hypot(*separation)) / distance
         there = here + separation / stretch * scale

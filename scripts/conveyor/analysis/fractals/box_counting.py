@@ -1,7 +1,7 @@
 """Box counting (Minkowski-Bouligand, Sect. 4.2): the boxes of shifted grids that hold a point, for many scales.
 
-Four boxes make one box of twice the size. The grid of the next coarser scale is therefore filled from the boxes that
-hold a point, whose number shrinks, and not from the points.
+Four boxes make one box of twice the size. Along a Z-curve (Morton) they follow each other, so that points that are
+sorted along the curve at the finest scale are sorted at all coarser scales.
 """
 
 from collections.abc import Iterable
@@ -11,7 +11,6 @@ import numpy as np
 
 from ...solver.jit import compiled, compiled_inline
 from .scaling_region import (
-    FINEST_SCALE,
     SAMPLES_PER_BOX,
     SCALES,
     SCALES_PER_OCTAVE,
@@ -20,8 +19,6 @@ from .scaling_region import (
     scaling_region,
 )
 
-NEIGHBOURS = 64  # boxes along a Z-curve that lie side by side in a hash table
-FRESH = 1 << 30  # number of boxes after which a hash table is cleared, because their numbers have 32 bits
 # Nested parts of a set of points: all, half, a quarter. A point of h halvings belongs to the first h + 1 parts.
 PARTS = 3
 # Positions of each grid over which box counts are averaged, in boxes: a Fibonacci lattice. Because 13 is odd, doubling
@@ -38,14 +35,6 @@ class Samples(NamedTuple):
     step: int  # k if no scale is half of another one
 
 
-class Workspace(NamedTuple):
-    """Arrays that all chains of grids share; see `merge`."""
-
-    owners: np.ndarray  # int32
-    boxes: np.ndarray  # int64, shape (n,)
-    deepest: np.ndarray  # int8, shape (n,)
-
-
 @compiled_inline
 def spread(number):
     """The lower 32 bits of an integer, with a zero bit between neighbours."""
@@ -57,134 +46,74 @@ def spread(number):
 
 
 @compiled
-def boxes_of(points, size, across_shift, along_shift, boxes):
-    """Fill `boxes`, int64, with the numbers of the boxes of a shifted grid that the points lie in, along a Z-curve.
+def boxes_of(points, size, across_shift, along_shift):
+    """Numbers along a Z-curve of the boxes of a shifted grid that the points lie in: int64, shape (n,).
 
-    Four boxes that make one of twice the size follow each other (Morton).
+    A shift by two bits gives the number of the box of twice the size. `size` is at least 2^-30.
     """
+    boxes = np.empty(len(points), np.int64)
     inverse = 1.0 / size
     for i in range(len(points)):
         across, along = np.int64(points[i, 0] * inverse + across_shift), np.int64(points[i, 1] * inverse + along_shift)
         boxes[i] = spread(across) | (spread(along) << 1)
-
-
-def along_boxes(points: np.ndarray, size: float) -> np.ndarray:
-    """The order of points of the unit square, shape (n, 2), along a Z-curve (Morton): points in one box are adjacent.
-
-    `size` is the edge of the smallest boxes. The order does not change the counts, but it saves time, because boxes
-    that are looked up one after the other stay in the processor's cache.
-    """
-    boxes = np.empty(len(points), np.int64)
-    boxes_of(points, size, 0.0, 0.0, boxes)
-    return np.argsort(boxes, kind="stable")
+    return boxes
 
 
 @compiled
-def merge(boxes, deepest, n, owners, first):
-    """Keep each of the first n boxes once, with the most halvings of its points; return the number of kept boxes.
+def count_sorted(keys, finest, step, totals):
+    """Add the numbers of boxes that hold a point of each part to `totals`, int64, shape (PARTS, k).
 
-    Parameters
-    ----------
-    boxes, deepest : int64 and int8, replaced from their beginnings on
-    owners : int32, a hash table of a length 2^k ≥ 2 n: the number of a box that is kept, counted from `first`; a place
-        is free whose number is smaller
+    keys : int64, shape (n,), ascending: the box of a point in the grid of the scale number `finest`, times four, plus
+        the point's halvings
     """
-    # Only a part of the table that is long enough is used, so that it stays in the processor's cache.
-    length = NEIGHBOURS
-    while length < 2 * n:
-        length *= 2
-    mask = np.uint64(length - 1)
-    kept = number = 0
-    previous = np.int64(-1)
-    for i in range(n):
-        box, halvings = boxes[i], deepest[i]
-        if box != previous:
-            previous = box
-            mixed = np.uint64(box // NEIGHBOURS) * np.uint64(0x9E3779B97F4A7C15)
-            slot = ((mixed >> np.uint64(32)) * np.uint64(NEIGHBOURS) + np.uint64(box % NEIGHBOURS)) & mask
-            while owners[slot] >= first and boxes[owners[slot] - first] != box:
-                slot = (slot + np.uint64(1)) & mask
-            if owners[slot] < first:
-                owners[slot] = first + kept
-                boxes[kept], deepest[kept] = box, halvings
-                kept += 1
-            number = owners[slot] - first
-        deepest[number] = max(deepest[number], halvings)
-    return kept
+    previous = np.full(PARTS, -1)
+    for key in keys:
+        box = key >> 2
+        for part in range((key & 3) + 1):
+            # A box differs from the one before up to the scale at which both lie in one box.
+            different, k = box ^ previous[part], finest
+            while different != 0 and k >= 0:
+                totals[part, k] += 1
+                different >>= 2
+                k -= step
+            previous[part] = box
 
 
-@compiled
-def count_chain(samples, finest, shift, first, workspace, totals):
+def count_chain(samples: Samples, finest: int, shift: np.ndarray, totals: np.ndarray) -> None:
     """Add the numbers of boxes that hold a point of each part to `totals`, shape (PARTS, k), for a chain of grids.
 
     Its scales are number `finest`, the one `step` before it, of twice the size, and so on; of the last and largest one
-    the grid is shifted by `shift` boxes. What each grid holds is found from the boxes of the one before.
-
-    Parameters
-    ----------
-    samples, workspace : see Samples and Workspace
-    first : as in `merge`; that of the next chain is returned
+    the grid is shifted by `shift` boxes.
     """
-    owners, boxes, deepest = workspace.owners, workspace.boxes, workspace.deepest
-    n = len(samples.points)
-    # Loops, because slices compile slowly: their error messages need text functions.
-    if first > FRESH:
-        for i in range(len(owners)):
-            owners[i] = -1
-        first = 0
-    positions = 2.0 ** (finest // samples.step)
-    boxes_of(samples.points, samples.scales[finest], shift[0] * positions, shift[1] * positions, boxes)
-    for i in range(n):
-        deepest[i] = samples.halvings[i]
-    for k in range(finest, -1, -samples.step):
-        kept = merge(boxes, deepest, n, owners, first)
-        first += n
-        n = kept
-        for i in range(n):
-            for part in range(deepest[i] + 1):
-                totals[part, k] += 1
-            boxes[i] >>= 2
-    return first
+    across, along = shift * 2.0 ** (finest // samples.step)
+    boxes = boxes_of(samples.points, samples.scales[finest], across, along)
+    count_sorted(np.sort(boxes << 2 | samples.halvings), finest, samples.step, totals)
 
 
-@compiled
-def box_counts(samples, shifts, samples_per_box):
+def box_counts(samples: Samples, shifts: np.ndarray, samples_per_box: float) -> np.ndarray:
     """Mean numbers of occupied boxes over shifted grids for all points and their parts, shape (PARTS, k).
 
     Zero from the first scale on whose boxes hold fewer than `samples_per_box` samples that the finest scale tells
     apart; in a part as many fewer as it is smaller.
+
+    shifts : float64, shape (s, 2), in boxes
     """
-    n, scales, step = len(samples.points), samples.scales, samples.step
-    length = NEIGHBOURS
-    while length < 2 * n:
-        length *= 2
-    workspace = Workspace(np.empty(length, np.int32), np.empty(n, np.int64), np.empty(n, np.int8))
+    scales, step = samples.scales, samples.step
     # The first chain shows which scales may be resolved: up to an octave beyond its last resolved scale.
     totals = np.zeros((PARTS, len(scales)), np.int64)
     finest = len(scales) - 1
-    first = count_chain(samples, finest, shifts[0], FRESH + 1, workspace, totals)
-    distinct = np.zeros(PARTS, np.int64)
-    for part in range(PARTS):
-        distinct[part] = totals[part, finest]
+    count_chain(samples, finest, shifts[0], totals)
+    distinct = totals[:, -1:].copy()
     end = finest
     while end >= step and totals[0, end] * samples_per_box > distinct[0]:
         end -= step
     end = min(end + step, finest) + 1
-    totals = np.zeros((PARTS, len(scales)), np.int64)
-    for s in range(len(shifts)):
+    totals[:] = 0
+    for shift in shifts:
         for k in range(max(end - step, 0), end):
-            first = count_chain(samples, k, shifts[s], first, workspace, totals)
-    counts = np.zeros((PARTS, len(scales)))
-    resolved = np.ones(PARTS, np.bool_)
-    for k in range(end):
-        for part in range(PARTS):
-            enough = totals[part, k] * samples_per_box <= distinct[part] * len(shifts) * (1 << part)
-            resolved[part] = resolved[part] and enough
-            if resolved[part]:
-                counts[part, k] = totals[part, k] / len(shifts)
-        if not resolved[0]:
-            break
-    return counts
+            count_chain(samples, k, shift, totals)
+    enough = totals * samples_per_box <= distinct * len(shifts) * 2 ** np.arange(PARTS)[:, None]
+    return np.where(np.logical_and.accumulate(enough, axis=1), totals / len(shifts), 0.0)
 
 
 def box_dimension(points: np.ndarray) -> Dimension:
@@ -198,9 +127,9 @@ def box_dimension(points: np.ndarray) -> Dimension:
     Samples that repeat resolve nothing: sample a periodic orbit at times incommensurate with its period.
     """
     points = normalise(points)
-    points = points[np.random.default_rng(0).permutation(len(points))]
-    order = along_boxes(points, FINEST_SCALE)
-    halvings = np.sum([order < len(points) // part for part in (2, 4)], axis=0)
+    n = len(points)
+    order = np.random.default_rng(0).permutation(n)
+    halvings = np.sum([np.arange(n) < n // part for part in (2, 4)], axis=0)
     samples = Samples(points[order], halvings, SCALES, SCALES_PER_OCTAVE)
     counts, half, quarter = box_counts(samples, SHIFTS, SAMPLES_PER_BOX)
     resolved = (counts > 0.0) & (half > 0.0) & (quarter > 0.0)
@@ -217,8 +146,7 @@ def box_dimension_of_paper(points: np.ndarray, sizes: Iterable[float] = tuple(0.
 
     The error is twice the standard error of the slope, as if the counts scattered independently.
     """
-    # A copy lies in memory in its own order: `box_counts` would be compiled once more for a reversed view.
-    scales = np.sort(np.asarray(sizes, dtype=np.float64))[::-1].copy()
+    scales = np.sort(np.asarray(sizes, dtype=np.float64))[::-1]
     samples = Samples(normalise(points), np.zeros(len(points), np.int64), scales, len(scales))
     counts = box_counts(samples, np.zeros((1, 2)), 0.0)[0]
     (slope, _), covariance = np.polyfit(np.log(scales), np.log(counts), 1, cov=True)

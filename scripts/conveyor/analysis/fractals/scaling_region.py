@@ -41,7 +41,13 @@ class Dimension(NamedTuple):
 
 
 def normalise(points: np.ndarray) -> np.ndarray:
-    """The points, shape (n, 2), scaled axis by axis to the unit square; an axis without extent becomes zero."""
+    """The points, shape (n, 2), scaled axis by axis to the unit square; an axis without extent becomes zero.
+
+    Raises
+    ------
+    ValueError
+        if the points have another shape, are none, or are not finite
+    """
     points = np.asarray(points, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] != 2 or not len(points) or not np.isfinite(points).all():
         raise ValueError(f"points must be finite and of shape (n, 2) with n > 0, got shape {points.shape}")

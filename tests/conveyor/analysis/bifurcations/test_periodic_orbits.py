@@ -33,8 +33,7 @@ def branch(jumping):
 
 def test_orbit_repeats_itself(jumping):
     state = jumping.state.copy()
-    strobes, features = np.empty((5, 2)), np.empty((5, stroboscopic_map.FEATURES))
-    stroboscopic_map.follow(pack(Conveyor(), Start()), periodic_orbits.TOLERANCE, state, 5, strobes, features)
+    _, strobes, _ = stroboscopic_map.follow(pack(Conveyor(), Start()), periodic_orbits.TOLERANCE, state, 5)
     assert strobes == pytest.approx(np.tile(jumping.state, (5, 1)), rel=1e-8)
     assert jumping.stable
     assert jumping.period == 1
@@ -88,9 +87,8 @@ def test_jumping_exists_down_to_its_fold(branch):
     near = min(stable, key=lambda orbit: abs(orbit.acceleration - fold.orbit.acceleration - 0.05))
     for change, jumps in ((0.05, True), (-0.05, False)):
         state = near.state.copy()
-        strobes, features = np.empty((4000, 2)), np.empty((4000, stroboscopic_map.FEATURES))
         row = pack(Conveyor(acceleration=fold.orbit.acceleration + change), Start())
-        stroboscopic_map.follow(row, 1e-11, state, 4000, strobes, features)
+        _, _, features = stroboscopic_map.follow(row, 1e-11, state, 4000)
         assert (features[-1, stroboscopic_map.IMPACTS] > 0) == jumps
 
 

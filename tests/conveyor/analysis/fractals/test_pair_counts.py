@@ -21,12 +21,12 @@ def test_pair_counts_agree_with_all_distances(squares):
     points[::7] = points[0]
     distance = ((points[:, None] - points) ** 2).sum(axis=2)
     apart = np.abs(np.subtract.outer(np.arange(700), np.arange(700))) > 7
-    shells, pairs = pair_counts(points, np.arange(700), 7, squares)
+    closer, pairs = pair_counts(points, np.arange(700), 7, squares)
     assert pairs == np.count_nonzero(apart)
-    assert np.cumsum(shells[::-1])[::-1].tolist() == [np.count_nonzero(apart & (distance < one)) for one in squares]
+    assert closer.tolist() == [np.count_nonzero(apart & (distance < one)) for one in squares]
 
 
-def test_a_distance_at_a_limit_belongs_to_the_shell_outside():
+def test_a_distance_equal_to_a_radius_is_not_closer():
     points = np.array([[0.0, 0.0], [0.25, 0.0], [0.0, 0.5]])
-    shells, pairs = pair_counts(points, np.array([0]), 0, np.array([0.5**2, 0.25**2, 0.125**2]))
-    assert (shells.tolist(), pairs) == ([1, 0, 0], 2)
+    closer, pairs = pair_counts(points, np.array([0]), 0, np.array([0.5**2, 0.25**2, 0.125**2]))
+    assert (closer.tolist(), pairs) == ([1, 0, 0], 2)
