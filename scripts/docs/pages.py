@@ -6,7 +6,6 @@ A template is Markdown (or YAML) with Jinja fields. It can use the facts of docs
     step              time step of the paper's method, s
     tighter           factor between the usual tolerances and the tighter ones that give the uncertainty of the claims
     figures           titles, sections, captions and labels of all figures, by name
-    of_the_paper      names of the paper's figures; the remaining ones are this project's own
     statements        the claims as described by claims.verdicts, by name; quantities have a margin and an uncertainty
     tightened         number of claims evaluated with tighter tolerances
     same_verdicts     number of them whose verdict does not change
@@ -188,7 +187,6 @@ def make(
         **collect_facts(tables),
         **values,
         "figures": described,
-        "of_the_paper": [name for name in described if PAPER.fullmatch(name)],
         "statements": claims,
         "tightened": len(changes),
         "same_verdicts": sum(one["same_verdict"] for one in changes.values()),

@@ -13,7 +13,7 @@ from jinja2 import UndefinedError
 from project import ROOT, read_config
 from prose import typed
 
-from claims.verdicts import NOT_REPRODUCED, PAPER_METHOD_ONLY, REPRODUCED
+from claims.verdicts import NOT_REPRODUCED, PAPER_METHOD_ONLY, REPRODUCED, describe_claims
 from docs import article, facts, pages, site
 from docs.config_keys import parse_file
 from pipeline.templates import render
@@ -74,7 +74,7 @@ def test_kept_pages_are_their_templates_filled(name):
     """The kept page equals its template, except for the fields."""
     findings, template = ((TEMPLATES / file).read_text(encoding="utf-8") for file in ("findings.md", name))
     template = template.replace("{{ findings }}", findings)
-    parts = re.split(r"(\{\{.*?\}\}|\{%.*?%\})", template, flags=re.DOTALL)
+    parts = re.split(r"(\{% if.*?endif %\}|\{\{.*?\}\}|\{%.*?%\})", template, flags=re.DOTALL)
     pattern = "".join(
         ".*?" if part[:2] in ("{{", "{%") else r"\s*".join(map(re.escape, part.split())) for part in parts
     )
@@ -87,7 +87,7 @@ def test_kept_pages_are_their_templates_filled(name):
 # -- the facts ---------------------------------------------------------------------------------------------------------
 
 
-def claim(verdict: str, low: float | None, high: float | None, value: float) -> dict:
+def claim(verdict: str, low: float, high: float, value: float) -> dict:
     """A row of the table of claims with one quantity."""
     return {
         "id": "C07",
@@ -110,23 +110,40 @@ def claim(verdict: str, low: float | None, high: float | None, value: float) -> 
     [
         (0.065, 0.075, 0.072, "0.065 to 0.075", "0.003"),
         (0.065, 0.075, 0.08, "0.065 to 0.075", "-0.005"),
-        (None, 0.075, 0.07, "at most 0.075", "0.005"),
-        (2.0, None, 21.0, "at least 2", "19"),
+        (np.nan, 0.075, 0.07, "at most 0.075", "0.005"),
+        (2.0, np.nan, 21.0, "at least 2", "19"),
         (0.065, 0.075, np.nan, "0.065 to 0.075", "–"),
     ],
 )
 def test_a_margin_is_the_distance_to_the_nearer_end(low, high, value, accepted, margin):
-    found = facts.describe_claims(pd.DataFrame([claim(REPRODUCED, low, high, value)]))["C07"]
-    assert (found["accepted"], found["margin"], found["paper_method"]) == ([accepted], [margin], ["–"])
+    (row,) = describe_claims(pd.DataFrame([claim(REPRODUCED, low, high, value)]))
+    pages.add_uncertainty({"C07": row}, {})
+    template = "{{ interval(accepted_low, accepted_high) }}; {{ margin | number }}; {{ paper_method | number }}"
+    text = render(template, row["quantities"][0] | {"interval": facts.describe_interval})
+    assert text == f"{accepted}; {margin}; –"
 
 
 def test_verdicts_are_counted():
     table = pd.DataFrame(
         {"id": ["C01", "C02", "C03", "C04"], "verdict": [REPRODUCED, NOT_REPRODUCED, NOT_REPRODUCED, PAPER_METHOD_ONLY]}
     )
-    found = facts.describe_verdicts(table)
-    assert (found["claims"], found["reproduced"], found["by_paper"], found["not_reproduced"]) == ("4", "1", "1", "2")
-    assert (found["by_paper_names"], found["not_reproduced_names"]) == ("C04", "C02 and C03")
+    found = facts.names_by_verdict(table)
+    assert found == {"reproduced": ["C01"], "by_paper": ["C04"], "not_reproduced": ["C02", "C03"]}
+    assert render("{{ not_reproduced | length }} ({{ not_reproduced | listed }})", found) == "2 (C02 and C03)"
+
+
+def test_cases_that_miss_a_goal_are_named():
+    template = (TEMPLATES / "README.md").read_text(encoding="utf-8")
+    text = re.search(r"{% if missed -%}.*?{% endif %}", template, re.DOTALL)[0]
+    goals = dict.fromkeys("ABC", 200.0)
+    missed = [{"case": case, "motion": "jumping", "speed": 150.4} for case in goals]
+    reached = [f"case {case} (jumping) reached 150× (goal 200×)" for case in goals]
+    for rows, sentence in (
+        ([], "It reaches all 3 speed goals."),
+        (missed[:1], f"It misses 1 of its 3 speed goals: {reached[0]}."),
+        (missed, f"It misses 3 of its 3 speed goals: {reached[0]}, {reached[1]} and {reached[2]}."),
+    ):
+        assert render(text, {"missed": rows, "speed_goals": goals}) == sentence
 
 
 # -- the config, key by key --------------------------------------------------------------------------------------------

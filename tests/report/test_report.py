@@ -43,7 +43,7 @@ PAGES = [
     {"heading": "Section 3", "file": "a.html", "figures": [{"name": "fig03", "number": "Fig. 3", "title": "A"}]},
 ]
 FINDINGS = "- **Two exist**, &\n  low (`figures/fig03.pdf`, [C02](docs/claims.md)).\n- None (`figures/fig99.pdf`).\n"
-NOTICE = {"heading": "Made with my.yaml.", "text": "Coarse."}
+NOTICE = {"overlays": ["my.yaml", "b.yaml"], "points": 1000, "paper_points": 2000}
 
 
 def of_claims() -> pd.DataFrame:
@@ -81,10 +81,11 @@ def test_the_start_page_counts_the_verdicts_and_names_the_config(pages):
     start = pages["summary"]
     counted = "3 statements of the paper: 1 reproduced, 1 reproduced by the paper&#39;s method only, 1 not reproduced"
     assert counted in start
-    assert 0 < start.index("Made with my.yaml.") < start.index(counted) < start.index("Fig. 3: A")
+    made = "Made with my.yaml, b.yaml: coarse axes, 1,000 sweep points instead of 2,000."
+    assert 0 < start.index(made) < start.index(counted) < start.index("Fig. 3: A")
     assert "0.5 µs" in start
     for name in ("claims", "provenance"):
-        assert pages[name].index("Made with my.yaml.") < pages[name].index("<table")
+        assert pages[name].index(made) < pages[name].index("<table")
 
 
 def test_findings_link_to_their_figures_and_claims(pages):
