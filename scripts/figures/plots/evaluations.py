@@ -29,7 +29,7 @@ def draw_estimates(axes: Axes, rows: pd.DataFrame, work: str, error: str) -> Non
 def plot(
     *, jumping: pd.DataFrame, riding: pd.DataFrame, bouncing: pd.DataFrame, estimates: pd.DataFrame, paper_step: float
 ) -> Figure:
-    """Draw the errors over the work, with a ring around the published step, `paper_step` (s)."""
+    """Draw the errors over the work, with a ring around the paper's step, `paper_step` (s)."""
     figure = style.figure(style.PAGE, 150.0)
     upper, lower = figure.subfigures(2, 1, height_ratios=(1.5, 1.0))
     scenes = {"jumping": jumping, "riding": riding, "bouncing": bouncing}

@@ -20,7 +20,7 @@ def draw_attractors(axes: Axes, strobes: pd.DataFrame) -> None:
 
 
 def draw_exponents(axes: Axes, spectrum: pd.DataFrame, estimate: pd.DataFrame) -> None:
-    """Draw the Lyapunov exponents of the attractors swept up and down, and the published estimate."""
+    """Draw the Lyapunov exponents of the attractors swept up and down, and the paper's estimate."""
     axes.axhline(0.0, color="black", linewidth=0.6)
     for branch, rows in spectrum.groupby("branch", sort=False):
         label = "converged" if branch == "up" else None

@@ -66,12 +66,12 @@ def legend_handles(methods: list[str]) -> list[Patch | Line2D]:
     for line, method in zip(lines, methods, strict=True):
         line.set_label(f"limit of {style.METHODS[method][1]}")
     own = Line2D([], [], color=style.CONVERGED, linewidth=4.0, label="this solver: right state, no step limit")
-    step = Line2D([], [], color="black", linewidth=0.8, linestyle=(0, (4, 2)), label="published time step")
+    step = Line2D([], [], color="black", linewidth=0.8, linestyle=(0, (4, 2)), label="paper's time step")
     return [*areas, *lines, own, step]
 
 
 def plot(*, stability: pd.DataFrame, acceleration: float) -> Figure:
-    """Draw a panel for each quantity, with a star at the published step and the paper's `acceleration` (m/s²)."""
+    """Draw a panel for each quantity, with a star at the paper's step and the paper's `acceleration` (m/s²)."""
     figure = style.figure(style.PAGE, 130.0)
     panels = figure.subplots(2, 2, sharey=True)
     methods = [method for method in LIMITS if method in stability.attrs["methods"]]

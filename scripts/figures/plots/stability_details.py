@@ -32,7 +32,7 @@ def draw_map(axes: Axes, rows: pd.DataFrame, panel: str) -> None:
 
 
 def draw_maps(figure: SubFigure, table: pd.DataFrame, acceleration: float) -> None:
-    """Draw a row of maps for each quantity and a column for each method; star: published step and amplitude (m/s²)."""
+    """Draw a row of maps for each quantity and a column for each method; star: paper's step and amplitude (m/s²)."""
     methods = table.attrs["methods"]
     panels = figure.subplots(len(AXES), len(methods), sharex=True, sharey="row", squeeze=False)
     for row, panel in zip(panels, AXES, strict=True):
@@ -101,7 +101,7 @@ def plot(*, stability: pd.DataFrame, acceleration: float) -> Figure:
     draw_hard(hard, stability)
     handles = [Patch(color=colour, label=outcome) for outcome, colour in OUTCOMES.items()]
     handles.append(Line2D([], [], **LIMIT, label="theoretical limit"))
-    handles.append(Line2D([], [], linestyle="", **PAPER, label="published time step"))
+    handles.append(Line2D([], [], linestyle="", **PAPER, label="paper's time step"))
     above.legend(handles=handles, loc="outside upper center", ncols=6)
     in_hard_cases = stability[stability.panel.str.startswith("hard")]
     missing = set(in_hard_cases.method[in_hard_cases.outcome == "not installed"])

@@ -82,7 +82,7 @@ def legend_handles(scenes: list[pd.DataFrame]) -> list[Line2D]:
         if label
     ]
     paper = Line2D([], [], color=style.EULER, marker="o", linestyle="", markersize=6.0, markerfacecolor="none")
-    paper.set_label("published time step")
+    paper.set_label("paper's time step")
     return [*known, *treated, paper]
 
 
