@@ -10,15 +10,20 @@ from identification import findings
 from identification.misfits import OBJECTIVES
 from identification.printed import CONVERGED, EULER
 from identification.search_space import PARAMETERS
+from identification.settings import NUMBERS_OF_CLAIMS
 from pipeline.templates import render
 
 
 def number_rows(printed: pd.DataFrame, implied: pd.DataFrame) -> list[tuple[dict, ...]]:
-    """The rows of each number: by both methods at the printed parameters, and at the best parameters of each set."""
+    """The rows of each number: by both methods at the printed parameters, and at the best parameters of each set.
+
+    Numbers that the search does not use are left out.
+    """
     at_printed = printed[printed["set"] == "printed"]
     sets = [at_printed[at_printed.method == method] for method in (EULER, CONVERGED)]
     sets += [rows for _, rows in implied.groupby("set", sort=False)]
-    return list(zip(*(rows.to_dict("records") for rows in sets), strict=True))
+    used = (rows[rows.number.isin(NUMBERS_OF_CLAIMS)].to_dict("records") for rows in sets)
+    return list(zip(*used, strict=True))
 
 
 def friction_rows(printed: pd.DataFrame) -> list[dict]:
