@@ -227,6 +227,19 @@ def test_notes_name_what_is_proved():
     assert about_proofs.describe_periodic(proved, 60.0) == ""
 
 
+def test_the_lowest_fold_is_proved():
+    """Other bifurcations and folds without a proof do not count."""
+    bifurcations = pd.DataFrame(
+        {
+            "kind": ["period_doubling", "fold", "fold", "fold"],
+            "proved": [True, False, True, True],
+            "acceleration_low": [10.0, 20.0, 40.0, 30.0],
+        }
+    )
+    assert about_proofs.lowest_fold(bifurcations) == 30.0
+    assert np.isnan(about_proofs.lowest_fold(bifurcations[:2]))
+
+
 def test_notes_without_proofs_are_empty():
     assert about_proofs.describe_coexistence(None) == ""
     assert about_proofs.describe_periodic(None, 0.0) == ""

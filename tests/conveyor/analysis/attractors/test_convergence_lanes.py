@@ -182,3 +182,12 @@ def test_a_process_finds_what_another_one_compiled(tmp_path):
     )
     assert "follow" in first.stdout
     assert second.stdout.split() == []
+
+
+@pytest.mark.parametrize("follow", [one_by_one, together])
+def test_a_flight_counts_from_the_first_whole_cycle(follow):
+    """Parts that fall for five cycles and begin in the middle of one, followed for three whole cycles."""
+    conveyor = Conveyor(psi0=0.0)
+    found = follow(np.repeat(pack(conveyor, Start(z=0.05))[None], convergence_lanes.SIDE_BY_SIDE, axis=0), 3)
+    assert found.outcomes.tolist() == [convergence.NOT_CONVERGED] * convergence_lanes.SIDE_BY_SIDE
+    assert found.flights == pytest.approx(3.0 / conveyor.frequency)
