@@ -341,7 +341,7 @@ def box_dimension(points: ArrayLike) -> Dimension:
 
     Returns
     -------
-    Dimension; its value and error are NaN if the points resolve no three octaves
+    Dimension; its value and error are NaN if the points resolve fewer than three octaves
 
     Raises
     ------
@@ -368,7 +368,7 @@ def correlation_dimension(points: ArrayLike, theiler: int = 0) -> Dimension:
 
     Returns
     -------
-    Dimension; its value and error are NaN if the points resolve no three octaves
+    Dimension; its value and error are NaN if the points resolve fewer than three octaves
 
     Raises
     ------
@@ -387,7 +387,7 @@ def correlation_dimension(points: ArrayLike, theiler: int = 0) -> Dimension:
 
 
 def check_points(points: ArrayLike) -> np.ndarray:
-    """`points` as a float64 array of the shape (n, 2); ValueError if they are none, or not finite."""
+    """`points` as a float64 array of the shape (n, 2); ValueError for another shape or values not finite."""
     points = check_array("points", points, -LARGEST_COORDINATE, LARGEST_COORDINATE)
     if points.ndim != 2 or points.shape[1] != 2:
         raise ValueError(f"points must have the shape (n, 2), got {points.shape}")

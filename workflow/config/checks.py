@@ -143,11 +143,9 @@ def runs_with_step(config: dict) -> Iterator[tuple[str, float, float, float]]:
 
 def steps(config: dict, defaults: dict) -> Iterator[str]:
     for key, step, duration, frequency in runs_with_step(config):
-        given, largest, whole = (
-            f"{key} = {step!r} s",
-            1.0 / (STEPS_IN_A_CYCLE * frequency),
-            max(1, round(duration / step)),
-        )
+        given = f"{key} = {step!r} s"
+        largest = 1.0 / (STEPS_IN_A_CYCLE * frequency)
+        whole = max(1, round(duration / step))
         if step > duration:
             yield f"{given} is longer than its duration of {duration!r} s; take less"
         elif step > largest * (1.0 + 1e-9):

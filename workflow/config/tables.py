@@ -19,6 +19,8 @@ from .sharing import THREADS, plan, seconds_of
 def model_of(config: dict, section: str = "", *, normal: bool = False, without: Collection[str] = ()) -> dict:
     """The model with the overrides of a section, for tables that state their amplitudes.
 
+    It has no amplitude, so that another default amplitude does not rerun these tables.
+
     Parameters
     ----------
     normal : leave out what does not affect the motion normal to the track
@@ -47,6 +49,7 @@ def box_settings(section: str, config: dict) -> dict:
 
 
 def drive_settings(config: dict) -> dict:
+    """The search keeps its constraints within the error of the amplitude that the advice states."""
     return {**box_settings("drive", config), "margin": config["advice"]["margin"]}
 
 
