@@ -23,6 +23,7 @@ from typing import Any
 import pyarrow.parquet as pq
 
 from conveyor.analysis.attractors import convergence_lanes
+from conveyor.solver import vertical_lanes
 from conveyor.solver.progress import bar
 from pipeline import fields, tables
 from sweeps import shards
@@ -31,6 +32,8 @@ SCRIPTS = Path(__file__).resolve().parents[1]
 # Most rounds of computing the shards of a sweep, and seconds after which they are not computed again.
 ROUNDS, ENOUGH = 5, 30.0
 MOST_GATHERED = 3  # most copies of a shard that are joined
+# With fewer first points, the code for several initial conditions side by side would not be loaded.
+FIRST_POINTS = max(vertical_lanes.LANES, convergence_lanes.SIDE_BY_SIDE)
 
 TABLES = {
     "scaling": (
@@ -79,8 +82,7 @@ def run_job() -> None:
         tables.gather(task["path"], task["shards"], "sweeps", task["settings"], task["rows"], lambda rows: {})
     else:
         begin, end = task["rows"]
-        # With fewer points, the code for several initial conditions side by side would not be loaded.
-        first_points = task | {"rows": (begin, min(begin + convergence_lanes.SIDE_BY_SIDE, end))}
+        first_points = task | {"rows": (begin, min(begin + FIRST_POINTS, end))}
         times = {"loading": make_shard(**first_points)}
         os.unlink(task["path"])  # as in a real job, the file must not exist
         times["computing"] = make_shard(**task)
@@ -165,7 +167,7 @@ def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> d
     """The columns of the table, with one row per case. Code is compiled before the first measurement."""
     with tempfile.TemporaryDirectory() as folder:
         for one in cases:
-            rows = [0, min(convergence_lanes.SIDE_BY_SIDE, one["plan"]["points"])]
+            rows = [0, min(FIRST_POINTS, one["plan"]["points"])]
             measure_job(settings=one["settings"], threads=1, rows=rows, path=f"{folder}/one.parquet")
     times, gathering = [[] for _ in cases], {}
     for number, k in bar(list(product(range(ROUNDS), range(len(cases)))), label=progress, unit="sweeps"):

@@ -94,7 +94,7 @@ def test_each_case_is_a_row(monkeypatch):
     assert found["computed"] == [20, 2]
 
 
-@pytest.mark.parametrize(("end", "first"), [(9, 9), (40, 11)])
+@pytest.mark.parametrize(("end", "first"), [(9, 9), (40, 15)])
 def test_the_first_points_are_computed_alone_before_all(monkeypatch, tmp_path, end, first):
     path, made = tmp_path / "some.parquet", []
 

@@ -19,10 +19,6 @@ from .polynomial import ORDER, SIZE
 from .trajectory import MAX_PIECES
 from .vectors import INTEGER, Memory, Vector, call, fma, power, where
 
-# Eight lanes take the contact steps in less time, but wait longer for lanes with an event. Measured, they gain nothing,
-# and the last trajectories, which have most lanes for themselves, take twice the time.
-LANES = 4
-
 # The rows of the memory, which has a column for each lane. The first nine are the arguments of `expand`, in its order:
 # √penetration (√m), speed of approach (m/s), sine and cosine of the phase, and contact.Constants.
 W, V, SINE, COSINE, GRAVITY, A_Z, OMEGA, STIFFNESS, DAMPING = range(9)

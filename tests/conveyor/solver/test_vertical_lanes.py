@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start
-from conveyor.solver import trajectory, vertical_lanes
+from conveyor.solver import repeated_steps, trajectory, vertical_lanes
 from conveyor.solver.horizontal import CONTACT_FORCE, VZ, Z
 from conveyor.solver.model import PSI0, STIFFNESS, TENSION_MODES, Z0, pack
 
@@ -74,7 +74,17 @@ def test_bits_of_maps(acceleration):
     assert_same(together(*runs), one_by_one(*runs))
 
 
-@pytest.mark.parametrize("count", [0, 1, 3, 4, 5, 9])
+def test_bits_of_settled_cycles_with_more_steps_than_are_kept():
+    conveyor = Conveyor(acceleration=30.0, frequency=10.0, stiffness=3e6, damping=1.0)
+    parameters = np.array([pack(conveyor, Start(z0)) for z0 in np.linspace(0.0, 1e-4, 16)])
+    _, results = trajectory.integrate(parameters, np.ones((16, 1)), tolerance=TOLERANCE, feeding=False)
+    assert (results[:, trajectory.REPEATS] > 0).all()
+    assert (results[:, [trajectory.STEPS, trajectory.REPEATS]].sum(axis=1) > 10 * repeated_steps.PLACES).all()
+    runs = parameters, np.full(16, 1.0)
+    assert_same(together(*runs), one_by_one(*runs))
+
+
+@pytest.mark.parametrize("count", [0, 1, 7, 8, 9, 17])
 def test_runs_may_be_fewer_than_lanes_and_in_any_order(count):
     parameters, durations = random_runs(count, seed=2)
     wanted = together(parameters, durations)
