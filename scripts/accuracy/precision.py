@@ -78,6 +78,7 @@ class Result(NamedTuple):
     evaluations: int
     repeated: int  # evaluations saved by reusing the steps of a periodic motion
     status: str
+    run: Run | None  # None for another integrator
 
 
 def methods(settings: dict) -> list[Method]:
@@ -94,14 +95,6 @@ def methods(settings: dict) -> list[Method]:
     return listed
 
 
-def simulate_method(method: Method, settings: dict) -> Run:
-    """A run of the event-driven solver or of a fixed-step method."""
-    conveyor, start = grid.conveyor_and_start(settings["model"])
-    accuracy = {"tolerance": method.tolerance} if method.step is None else {"step": method.step}
-    reuse = method.treatment != NO_REUSE
-    return simulate(conveyor, start, duration=settings["duration"], method=method.method, reuse=reuse, **accuracy)
-
-
 def run_method(method: Method, settings: dict) -> Result:
     """The result of a run. A Taylor step of order n counts as n force evaluations, for n derivatives of the force."""
     conveyor, start = grid.conveyor_and_start(settings["model"])
@@ -109,11 +102,13 @@ def run_method(method: Method, settings: dict) -> Result:
         name, treatment, tolerance, _ = method
         limit = settings["max_evaluations"]
         run = peers.run(pack(conveyor, start), settings["duration"], name, treatment, tolerance, limit)
-        return Result(run.mean_velocity, np.array([run.vx, run.z, run.vz]), run.evaluations, 0, run.status)
-    run = simulate_method(method, settings)
+        return Result(run.mean_velocity, np.array([run.vx, run.z, run.vz]), run.evaluations, 0, run.status, None)
+    accuracy = {"tolerance": method.tolerance} if method.step is None else {"step": method.step}
+    reuse = method.treatment != NO_REUSE
+    run = simulate(conveyor, start, duration=settings["duration"], method=method.method, reuse=reuse, **accuracy)
     order = ORDER if method.method == "event" else 1
     end = np.array([run.vx_end, run.z_end, run.vz_end])
-    return Result(run.mean_velocity(), end, order * run.work, order * run.repeats, run.status)
+    return Result(run.mean_velocity(), end, order * run.work, order * run.repeats, run.status, run)
 
 
 def sample_times(settings: dict) -> np.ndarray:
@@ -127,23 +122,29 @@ def contact_changes(events: np.ndarray) -> np.ndarray:
     return events["time"][np.isin(events["kind"], ["impact", "separation"])]
 
 
-def sample_trajectory(method: Method, settings: dict) -> tuple[np.ndarray, np.ndarray]:
-    """x and z (m) at the fixed times, shape (n, 2), and the times (s) of impacts and separations."""
+def sample_trajectory(method: Method, run: Run | None, settings: dict) -> tuple[np.ndarray, np.ndarray]:
+    """x and z (m) at the fixed times, shape (n, 2), and the times (s) of impacts and separations.
+
+    run : of this method; None for another integrator, which then runs again
+    """
     times = sample_times(settings)
-    if method.treatment in peers.TREATMENTS:
+    if run is None:
         # Twice as many, because interpolation may need evaluations.
         limit = 2 * settings["max_evaluations"]
         name, treatment, tolerance, _ = method
-        run = peers.run(grid.packed(settings["model"]), settings["duration"], name, treatment, tolerance, limit, times)
-        return run.samples[:, [0, 2]], run.events
-    run = simulate_method(method, settings)
+        found = peers.run(
+            grid.packed(settings["model"]), settings["duration"], name, treatment, tolerance, limit, times
+        )
+        return found.samples[:, [0, 2]], found.events
     samples = run.sample(times)
     return np.stack([samples["x"], samples["z"]], axis=1), contact_changes(run.events)
 
 
-def trajectory_errors(method: Method, truth: tuple[np.ndarray, np.ndarray], settings: dict) -> tuple[float, float]:
+def trajectory_errors(
+    method: Method, run: Run | None, truth: tuple[np.ndarray, np.ndarray], settings: dict
+) -> tuple[float, float]:
     """RMS error of x and z in units of the plate's motion, and largest error of an event time in cycles."""
-    positions, events = sample_trajectory(method, settings)
+    positions, events = sample_trajectory(method, run, settings)
     scale = peers.scales(grid.packed(settings["model"]))[[0, 2]]
     error = math.sqrt(np.mean(((positions - truth[0]) / scale) ** 2))
     if len(events) != len(truth[1]):
@@ -212,10 +213,10 @@ def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[s
     outcomes = [
         judge_run(result, error, settings, state) for result, error in zip(results, velocity_error, strict=True)
     ]
-    reference = sample_trajectory(reference_method, settings)
+    reference = sample_trajectory(reference_method, truth.run, settings)
     errors = [
-        trajectory_errors(method, reference, settings) if outcome == "ok" else (math.nan, math.nan)
-        for method, outcome in zip(listed, outcomes, strict=True)
+        trajectory_errors(method, result.run, reference, settings) if outcome == "ok" else (math.nan, math.nan)
+        for method, result, outcome in zip(listed, results, outcomes, strict=True)
     ]
     trajectory_error, event_error = zip(*errors, strict=True)
     return {

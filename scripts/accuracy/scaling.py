@@ -22,8 +22,7 @@ from typing import Any
 
 import pyarrow.parquet as pq
 
-from conveyor.analysis.attractors import convergence_lanes
-from conveyor.solver import vertical_lanes
+from conveyor.solver import contact_lanes
 from conveyor.solver.progress import bar
 from pipeline import fields, tables
 from sweeps import shards
@@ -33,7 +32,7 @@ SCRIPTS = Path(__file__).resolve().parents[1]
 ROUNDS, ENOUGH = 5, 30.0
 MOST_GATHERED = 3  # most copies of a shard that are joined
 # With fewer first points, the code for several initial conditions side by side would not be loaded.
-FIRST_POINTS = max(vertical_lanes.LANES, convergence_lanes.SIDE_BY_SIDE)
+FIRST_POINTS = contact_lanes.LANES
 
 TABLES = {
     "scaling": (

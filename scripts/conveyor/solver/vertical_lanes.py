@@ -15,6 +15,7 @@ from .contact import FIRST, NOTHING
 from .contact_lanes import (
     COSINE,
     END,
+    LANES,
     LAPSE,
     LENGTH,
     NONE,
@@ -57,8 +58,6 @@ from .vertical import (
 # (s) from which speeds of impacts (m/s) and contact forces per mass (m/s²) count, and the largest of both.
 DURATION, BASE, CYCLE, PIECES, PLACE, CONTACT_TIME, MAX_GAP, IMPACTS, SINCE, IMPACT_SPEED, PEAK_FORCE = range(11)
 COUNTS = 11
-# Eight lanes take a tenth less time than four. Runs end at about the same time, so that no lane stays behind for long.
-LANES = 8
 # Steps that end this close to the end of a run, in cycles, are scalar, because the last sample may lie in them.
 MARGIN = 1e-6
 

@@ -86,6 +86,14 @@ def test_compiled_loop_agrees_with_the_plain_loop(method, tension, exponent, tra
     assert run.evaluations == n_steps * fixed_step.EVALUATIONS[fixed_step.METHODS.index(method)]
 
 
+def test_a_run_may_have_any_number_of_events(monkeypatch):
+    parameters = pack(Conveyor(), Start(z=3e-4))
+    wanted = fixed_step.events(parameters, 0.2, 1e-5)
+    assert len(wanted) > 10
+    monkeypatch.setattr(fixed_step, "LIKELY_EVENTS", 3)
+    np.testing.assert_array_equal(fixed_step.events(parameters, 0.2, 1e-5), wanted)
+
+
 def test_the_paper_s_numbers():
     """Mean feeding velocities of the paper's method at its step of 5e-7 s."""
     for acceleration, z, expected in ((30.0, 0.0, 0.00709042), (40.0, 3e-4, 0.0646877)):

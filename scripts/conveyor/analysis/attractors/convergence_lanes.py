@@ -2,8 +2,8 @@
 
 Lanes in contact take their steps together (see contact_lanes), because that labels maps 2.3 times faster. A lane leaves
 them for scalar code at each event, at the end of a cycle, and when its trajectory ends and the next one takes its
-place. Scalar code also follows the contacts that lanes cannot follow, and trajectories that are too few to fill the
-lanes. A trajectory gives the same bits either way, whatever its lane and its neighbours are.
+place. Scalar code also follows the contacts that lanes cannot follow, and single trajectories. A trajectory gives the
+same bits either way, whatever its lane and its neighbours are.
 """
 
 from collections import namedtuple
@@ -15,6 +15,7 @@ from ...solver.contact import FIRST
 from ...solver.contact_lanes import (
     COSINE,
     END,
+    LANES,
     LENGTH,
     NONE,
     SINE,
@@ -52,11 +53,8 @@ from ...solver.vertical import (
 from ..stroboscopic_map import delta_and_v
 from .convergence import FOLLOWED, GOES_ON, check_convergence, new_searches, reset_search
 
-# Eight lanes gain nothing here, because chaotic trajectories take many times longer than others: the last ones, which
-# have most lanes for themselves, take twice the time.
-LANES = 4
-# Fewer trajectories are followed one after the other.
-SIDE_BY_SIDE = LANES
+# Fewer trajectories take less time one after the other than in lanes, most of which would be empty.
+SIDE_BY_SIDE = 3
 
 # The state of a lane's present cycle: time since the last separation (s), longest flight that ended in the cycle (s),
 # phase of the excitation at its beginning (rad).
