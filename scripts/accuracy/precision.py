@@ -125,16 +125,15 @@ def contact_changes(events: np.ndarray) -> np.ndarray:
 def sample_trajectory(method: Method, run: Run | None, settings: dict) -> tuple[np.ndarray, np.ndarray]:
     """x and z (m) at the fixed times, shape (n, 2), and the times (s) of impacts and separations.
 
-    run : of this method; None for another integrator, which then runs again
+    run : the run of this method; None for another integrator, which then runs again
     """
     times = sample_times(settings)
     if run is None:
         # Twice as many, because interpolation may need evaluations.
         limit = 2 * settings["max_evaluations"]
         name, treatment, tolerance, _ = method
-        found = peers.run(
-            grid.packed(settings["model"]), settings["duration"], name, treatment, tolerance, limit, times
-        )
+        parameters = grid.packed(settings["model"])
+        found = peers.run(parameters, settings["duration"], name, treatment, tolerance, limit, times)
         return found.samples[:, [0, 2]], found.events
     samples = run.sample(times)
     return np.stack([samples["x"], samples["z"]], axis=1), contact_changes(run.events)

@@ -32,7 +32,7 @@ GROWTH = {"euler": (1.0, 1.0), "semi_implicit_euler": None, "rk4": (1.0, 1.0, 1.
 LAST_CODE = len(METHODS) - 1
 SAMPLE_COLUMNS = ("x", "vx", "z", "vz", "contact_force", "friction_force")
 EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U10")])
-LIKELY_EVENTS = 1000  # of a run; a run with more of them is made a second time to record them
+LIKELY_EVENTS = 1000  # of a run; a run with more events is repeated, with room for all of them
 WHOLE = 1e-9  # relative distance from a whole number of steps that counts as rounding of duration and step
 
 
@@ -325,12 +325,12 @@ def events(parameters: np.ndarray, duration: float, step: float, method: str = "
     Parameters and errors as in `run`. The array of EVENT_DTYPE has the fields time (s) and kind ("impact",
     "separation"), in order of time.
     """
-    n_steps, n_events = step_count(duration, step), LIKELY_EVENTS
-    (results,), _, (rows,) = follow(parameters[np.newaxis], step, n_steps, method, n_events=n_events)
-    if (n_events := int(results[lanes.EVENTS])) > LIKELY_EVENTS:
+    n_steps = step_count(duration, step)
+    (results,), _, (rows,) = follow(parameters[np.newaxis], step, n_steps, method, n_events=LIKELY_EVENTS)
+    n_events = int(results[lanes.EVENTS])
+    if n_events > LIKELY_EVENTS:
         _, _, (rows,) = follow(parameters[np.newaxis], step, n_steps, method, n_events=n_events)
-    rows = rows[:n_events]
     found = np.empty(n_events, dtype=EVENT_DTYPE)
-    found["time"] = rows[:, 0]
-    found["kind"] = np.array(lanes.EVENT_KINDS)[rows[:, 1].astype(np.int64)]
+    found["time"] = rows[:n_events, 0]
+    found["kind"] = np.array(lanes.EVENT_KINDS)[rows[:n_events, 1].astype(np.int64)]
     return found

@@ -19,7 +19,7 @@ from .polynomial import ORDER, SIZE
 from .trajectory import MAX_PIECES
 from .vectors import INTEGER, Memory, Vector, call, fma, power, where
 
-# Eight lanes take about a tenth less time than four, also on processors whose registers hold four numbers.
+# Eight lanes take about a tenth less time than four, also in code for registers of four numbers.
 LANES = 8
 
 # The rows of the memory, which has a column for each lane. The first nine are the arguments of `expand`, in its order:

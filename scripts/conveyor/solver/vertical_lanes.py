@@ -182,11 +182,11 @@ def step_of_lane(c, kept, motion, run, steps, lane, is_stopped):
 
 @compiled_into_callers
 def repeat_steps(c, kept, motion, run):
-    """The Motion after all kept steps that repeat one after the other and that have no event.
+    """The Motion after all kept steps that repeat one after the other and only need to be counted.
 
-    A settled motion takes most of its steps here, because `advance` needs three times as long for each. It handles the
-    steps that need more than counting: those that end with an event, with the cycle or with the run, and those whose
-    peak counts and is not known. A known peak has been counted.
+    Without this loop, `advance` would take these steps, and a map would take 8 % longer. The loop leaves a step to
+    `advance` if an event, the cycle or the run ends in it, or if its peak is not known yet. A known peak is already in
+    the run's largest force.
     """
     contact_time = run[CONTACT_TIME]
     first = place = int(run[PLACE])
@@ -259,12 +259,12 @@ def follow(parameters, tolerance, times, samples, results, left, work):
                         left[i] = True
                 if i == NONE:
                     break
-                again = motion.touching and repeated_steps.repeats(c, kept, int(run[PLACE]), motion)
-                if again:
+                if motion.touching:
                     motion = repeat_steps(c, kept, motion, run)
-                    again = repeated_steps.repeats(c, kept, int(run[PLACE]), motion)
+                place = int(run[PLACE])
+                again = motion.touching and repeated_steps.repeats(c, kept, place, motion)
                 if again:
-                    piece = repeated_steps.recall(kept, int(run[PLACE]))
+                    piece = repeated_steps.recall(kept, place)
                 elif not motion.touching:
                     piece = fly(c, motion, run[DURATION] - (run[BASE] + motion.t))
                 elif is_grazing(c, motion):

@@ -76,7 +76,7 @@ def test_bits_of_maps_with_known_attractors(acceleration):
     assert_same(together(parameters, 4000, attractors), one_by_one(parameters, 4000, attractors))
 
 
-@pytest.mark.parametrize("count", [0, 1, 2, 7, 8, 9, 17])
+@pytest.mark.parametrize("count", [0, 1, 2, 3, 7, 8, 9, 17])
 def test_lanes_may_be_more_than_starts_and_starts_in_any_order(monkeypatch, count):
     parameters = map_of(53.0, 17)[:count]
     wanted = one_by_one(map_of(53.0, 17), 300)
