@@ -25,7 +25,8 @@ rule benchmark:
         "../../scripts/make.py"
 
 
-# These jobs start first, because each scene keeps one core busy for a long time.
+# These jobs start early, because each scene keeps one core busy for a long time. Only one starts in the beginning: two would both
+# compile the same functions.
 rule precision:
     output:
         precision=table("precision/{name}"),

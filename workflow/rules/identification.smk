@@ -1,4 +1,5 @@
-# Which parameters the paper's numbers imply: the quantities of the claims over the parameters, and the best fits.
+# Which parameters the paper's numbers imply: the quantities of the claims over the parameters, and the best fits. These jobs run
+# one after the other and start first, next to a job of the rule `precision`, with which they share little compiled code.
 
 
 rule identification_edges:
@@ -8,7 +9,7 @@ rule identification_edges:
         log_file("identification/edges"),
     benchmark:
         benchmark_file("identification/edges")
-    priority: 2
+    priority: 3
     resources:
         cpus_per_task=JOB_THREADS,
     params:
@@ -28,7 +29,7 @@ rule identification_printed:
         log_file("identification/printed"),
     benchmark:
         benchmark_file("identification/printed")
-    priority: 2
+    priority: 3
     params:
         **stage("identification.printed", "identification/printed"),
     message:
@@ -46,7 +47,7 @@ rule identification_fronts:
         log_file("identification/fronts"),
     benchmark:
         benchmark_file("identification/fronts")
-    priority: 2
+    priority: 3
     params:
         **stage("identification.fronts", "identification/front"),
     message:
@@ -66,7 +67,7 @@ rule identification_profiles:
         log_file("identification/profiles"),
     benchmark:
         benchmark_file("identification/profiles")
-    priority: 2
+    priority: 3
     params:
         **stage("identification.profiles", "identification/profiles"),
     message:
