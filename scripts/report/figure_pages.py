@@ -53,7 +53,7 @@ def make(pages: dict[str, dict], notice: dict[str, str]) -> dict[str, str]:
     Parameters
     ----------
     pages : `heading` and `figures` of each page, by name; a figure has name, number, title, section, file, png and rst
-    notice : as from report.pages.notice
+    notice : REPORT_NOTICE of workflow/rules/report.smk
 
     Raises
     ------

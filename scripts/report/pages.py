@@ -40,21 +40,3 @@ def describe_page(section: str, figures: list[dict]) -> dict:
 def escape_label(text: str) -> str:
     """A label in which an invisible character keeps Snakemake from taking {name} for a wildcard."""
     return text.replace("{", "{\u2060")
-
-
-def notice(overlays: list[str], sweeps: dict, paper_sweeps: dict) -> dict:
-    """Overlays that change the paper's config, and the numbers of sweep points of both; empty without overlays."""
-    if not overlays:
-        return {}
-    return {"overlays": overlays, "points": count_points(sweeps), "paper_points": count_points(paper_sweeps)}
-
-
-def count_points(sweeps: dict[str, dict]) -> int:
-    """Number of points of all sweeps."""
-    total = 0
-    for entry in sweeps.values():
-        points = len(entry.get("methods", [None]))
-        for axis in entry["axes"].values():
-            points *= len(axis) if isinstance(axis, list) else int(axis["num"])
-        total += points
-    return total

@@ -54,7 +54,7 @@ def make(
     step : of the paper's method, s
     pages : the pages of figures in order, with `heading`, `file` and `figures`: name, number and title of each
     files : files of the other pages by name
-    notice : as from report.pages.notice
+    notice : REPORT_NOTICE of workflow/rules/report.smk
     findings : findings beyond the paper, a list in Markdown
     """
     shared = {

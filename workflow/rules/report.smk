@@ -1,6 +1,6 @@
 # Pages of `snakemake --report`: a start page, the figures of each section beside their captions, the claims, the provenance.
-from scripts.report.pages import escape_label, figure_pages, notice
-from workflow.config.entries import TIGHTER
+from scripts.report.pages import escape_label, figure_pages
+from workflow.config.entries import by_methods, count_points
 
 REPORT = result("report")
 REPORT_PAGES = figure_pages(
@@ -16,8 +16,13 @@ REPORT_PAGES = figure_pages(
     },
     folder=REPORT,
 )
-OWN_SWEEPS = {name: entry for name, entry in config["sweeps"].items() if not name.endswith(TIGHTER)}
-REPORT_NOTICE = notice(OVERLAYS, OWN_SWEEPS, PAPER["sweeps"])
+# The points of all sweeps that both this config and the paper's config have.
+PAPER_SWEEPS = by_methods(PAPER)["sweeps"]
+POINTS, PAPER_POINTS = (
+    sum(count_points(sweeps[name]["axes"]) for name in PAPER_SWEEPS.keys() & config["sweeps"].keys())
+    for sweeps in (config["sweeps"], PAPER_SWEEPS)
+)
+REPORT_NOTICE = {"overlays": OVERLAYS, "points": POINTS, "paper_points": PAPER_POINTS} if OVERLAYS else {}
 REPORT_SOURCES = [*sources("scripts/report/*.html"), source("scripts/report/page.css")]
 # The findings quote the claims of the paper.
 HAS_FINDINGS = config["claims"] and config["claims"].keys() >= PAPER["claims"].keys()
