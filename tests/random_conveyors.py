@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from conveyor.solver import model
-from conveyor.solver.model import RANGES, Conveyor
+from conveyor.solver.model import RANGES, TENSION_MODES, Conveyor, Start, pack
 
 # Shares of the random points with a usual exponent, a part that starts on the plate, a plate at rest, or no damping.
 SHARE = 0.1
@@ -62,6 +62,35 @@ def around_the_paper(count: int, seed: int) -> np.ndarray:
     tension_and_exponent(points, generator)
     points[:, model.Z0] = np.where(generator.random(count) < SHARE, np.nan, generator.uniform(-1e-4, 5e-3, count))
     points[:, model.VZ0] = generator.normal(0.0, 0.2, count)
+    return points
+
+
+def for_lanes(count: int, seed: int) -> np.ndarray:
+    """Packed parameters, shape (count, 16), of random conveyors; lanes cannot follow every fourth."""
+    generator = np.random.default_rng(seed)
+    points = []
+    for k in range(count):
+        conveyor = Conveyor(
+            acceleration=generator.uniform(0.0, 90.0) * (generator.random() < 0.9),
+            angle=generator.uniform(0.05, 0.5),
+            frequency=generator.uniform(20.0, 100.0),
+            psi0=generator.choice([generator.uniform(-12.0, 12.0), -np.pi, 0.0]),
+            stiffness=10.0 ** generator.uniform(4.0, 6.5),
+            damping=generator.uniform(0.0, 1.0),
+            exponent=1.0 if k % 8 == 3 else 1.5,
+            tension=TENSION_MODES[1 + generator.integers(2)] if k % 8 == 7 else "allow",
+        )
+        height = [generator.uniform(-1e-4, 0.0), generator.uniform(0.0, 1e-3), "conveyor"][generator.integers(3)]
+        points.append(pack(conveyor, Start(height, generator.uniform(-0.2, 0.2))))
+    return np.array(points)
+
+
+def on_map(acceleration: float, count: int) -> np.ndarray:
+    """Packed parameters, shape (count, 16): initial conditions of the paper's conveyor as on its maps."""
+    generator = np.random.default_rng(int(acceleration))
+    points = np.tile(pack(Conveyor(acceleration=acceleration), Start()), (count, 1))
+    points[:, model.Z0] = generator.uniform(0.0, 5e-4, count)
+    points[:, model.PSI0] = generator.uniform(0.0, 2.0 * np.pi, count)
     return points
 
 

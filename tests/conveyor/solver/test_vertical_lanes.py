@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from random_conveyors import for_lanes, on_map
 
 from conveyor import Conveyor, Start
 from conveyor.solver import repeated_steps, trajectory, vertical_lanes
 from conveyor.solver.horizontal import CONTACT_FORCE, VZ, Z
-from conveyor.solver.model import PSI0, STIFFNESS, TENSION_MODES, Z0, pack
+from conveyor.solver.model import STIFFNESS, pack
 
 TOLERANCE = 1e-8
 COUNTED = [trajectory.CODE, trajectory.IMPACTS, trajectory.CONTACT_TIME, trajectory.MAX_GAP]
@@ -35,31 +36,13 @@ def assert_same(found, wanted, rows=slice(None)):
 
 
 def random_runs(count, seed):
-    """Initial conditions on conveyors of all kinds, each its own, and durations (s); every fourth is not for lanes."""
-    rng = np.random.default_rng(seed)
-    rows = []
-    for k in range(count):
-        conveyor = Conveyor(
-            acceleration=rng.uniform(0.0, 90.0) * (rng.random() < 0.9),
-            angle=rng.uniform(0.05, 0.5),
-            frequency=rng.uniform(20.0, 100.0),
-            psi0=rng.choice([rng.uniform(-12.0, 12.0), -np.pi, 0.0]),
-            stiffness=10.0 ** rng.uniform(4.0, 6.5),
-            damping=rng.uniform(0.0, 1.0),
-            exponent=1.0 if k % 8 == 3 else 1.5,
-            tension=TENSION_MODES[1 + rng.integers(2)] if k % 8 == 7 else "allow",
-        )
-        height = [rng.uniform(-1e-4, 0.0), rng.uniform(0.0, 1e-3), "conveyor"][rng.integers(3)]
-        rows.append(pack(conveyor, Start(height, rng.uniform(-0.2, 0.2))))
-    return np.array(rows), 10.0 ** rng.uniform(-5.0, 0.0, count)
+    """Packed parameters and durations (s)."""
+    return for_lanes(count, seed), 10.0 ** np.random.default_rng(seed).uniform(-5.0, 0.0, count)
 
 
-def runs_of_map(acceleration, count=24):
-    """Initial conditions of one conveyor as on the maps; most of these runs settle."""
-    rng = np.random.default_rng(int(acceleration))
-    rows = np.tile(pack(Conveyor(acceleration=acceleration), Start()), (count, 1))
-    rows[:, Z0], rows[:, PSI0] = rng.uniform(0.0, 5e-4, count), rng.uniform(0.0, 2.0 * np.pi, count)
-    return rows, np.full(count, 1.0)
+def runs_of_map(acceleration):
+    """Initial conditions of one conveyor, and a duration (s) in which most of them settle."""
+    return on_map(acceleration, 24), np.full(24, 1.0)
 
 
 def test_bits_of_random_runs():

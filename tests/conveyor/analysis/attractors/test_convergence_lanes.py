@@ -6,11 +6,12 @@ import sys
 
 import numpy as np
 import pytest
+from random_conveyors import for_lanes, on_map
 
 from conveyor import Conveyor, Start
 from conveyor.analysis.attractors import convergence, convergence_lanes, labels, search
 from conveyor.analysis.attractors.attractor_table import NO_ATTRACTORS
-from conveyor.solver.model import PSI0, STIFFNESS, TENSION_MODES, Z0, pack
+from conveyor.solver.model import STIFFNESS, Z0, pack
 
 TOLERANCE = 1e-7
 
@@ -33,36 +34,8 @@ def assert_same(found, wanted, rows=slice(None)):
         np.testing.assert_array_equal(column[rows], expected[rows])
 
 
-def random_starts(count, seed):
-    """Starts on conveyors of all kinds, each its own: in the plate, on it, above it; every fourth not for lanes."""
-    rng = np.random.default_rng(seed)
-    rows = []
-    for k in range(count):
-        conveyor = Conveyor(
-            acceleration=rng.uniform(0.0, 90.0) * (rng.random() < 0.9),
-            angle=rng.uniform(0.05, 0.5),
-            frequency=rng.uniform(20.0, 100.0),
-            psi0=rng.choice([rng.uniform(-12.0, 12.0), -np.pi, 0.0]),
-            stiffness=10.0 ** rng.uniform(4.0, 6.5),
-            damping=rng.uniform(0.0, 1.0),
-            exponent=1.0 if k % 8 == 3 else 1.5,
-            tension=TENSION_MODES[1 + rng.integers(2)] if k % 8 == 7 else "allow",
-        )
-        height = [rng.uniform(-1e-4, 0.0), rng.uniform(0.0, 1e-3), "conveyor"][rng.integers(3)]
-        rows.append(pack(conveyor, Start(height, rng.uniform(-0.2, 0.2))))
-    return np.array(rows)
-
-
-def map_of(acceleration, count=40):
-    """Starts of one conveyor as on the maps."""
-    rng = np.random.default_rng(int(acceleration))
-    rows = np.tile(pack(Conveyor(acceleration=acceleration), Start()), (count, 1))
-    rows[:, Z0], rows[:, PSI0] = rng.uniform(0.0, 5e-4, count), rng.uniform(0.0, 2.0 * np.pi, count)
-    return rows
-
-
-def test_bits_of_random_starts():
-    parameters = random_starts(60, seed=1)
+def test_bits_of_random_initial_conditions():
+    parameters = for_lanes(60, seed=1)
     found = together(parameters, 150)
     assert_same(found, one_by_one(parameters, 150))
     assert {convergence.PERIODIC, convergence.NOT_CONVERGED} <= set(found.outcomes)
@@ -70,7 +43,7 @@ def test_bits_of_random_starts():
 
 @pytest.mark.parametrize("acceleration", [40.0, 50.5, 53.0, 80.0])
 def test_bits_of_maps_with_known_attractors(acceleration):
-    parameters = map_of(acceleration)
+    parameters = on_map(acceleration, 40)
     attractors = search.find_attractors(parameters, cycles=4000, tolerance=TOLERANCE)
     assert len(attractors.orbits.periods) + len(attractors.chaotic.low) > 0
     assert_same(together(parameters, 4000, attractors), one_by_one(parameters, 4000, attractors))
@@ -78,8 +51,8 @@ def test_bits_of_maps_with_known_attractors(acceleration):
 
 @pytest.mark.parametrize("count", [0, 1, 2, 3, 7, 8, 9, 17])
 def test_lanes_may_be_more_than_starts_and_starts_in_any_order(monkeypatch, count):
-    parameters = map_of(53.0, 17)[:count]
-    wanted = one_by_one(map_of(53.0, 17), 300)
+    parameters = on_map(53.0, 17)[:count]
+    wanted = one_by_one(on_map(53.0, 17), 300)
     monkeypatch.setattr(convergence_lanes, "SIDE_BY_SIDE", 1)
     found = together(parameters, 300)
     backwards = together(parameters[::-1].copy(), 300)
@@ -91,8 +64,8 @@ def test_lanes_may_be_more_than_starts_and_starts_in_any_order(monkeypatch, coun
 def test_strobes_are_the_states_after_the_first_cycles(monkeypatch, side_by_side):
     """At 56 m/s² some starts settle soon; what follows then stays as it was."""
     monkeypatch.setattr(convergence_lanes, "SIDE_BY_SIDE", side_by_side)
-    parameters = map_of(56.0, 10)
-    parameters[3] = random_starts(8, seed=3)[7]  # not for lanes
+    parameters = on_map(56.0, 10)
+    parameters[3] = for_lanes(8, seed=3)[7]  # not for lanes
     found, strobes = convergence.new_trajectories(10), np.full((10, 70, 2), np.nan)
     places = NO_ATTRACTORS.rows_of(parameters)
     convergence_lanes.follow_all_to_attractors(parameters, TOLERANCE, 90, NO_ATTRACTORS, places, found, strobes)
@@ -108,14 +81,14 @@ def test_strobes_are_the_states_after_the_first_cycles(monkeypatch, side_by_side
 
 @pytest.mark.parametrize("cycles", [1, 2])
 def test_flights_count_from_the_first_whole_cycle_on(cycles):
-    parameters = map_of(80.0)
+    parameters = on_map(80.0, 40)
     found = together(parameters, cycles)
     assert found.flights.max() > 0.5 / 50.0
     assert_same(found, one_by_one(parameters, cycles))
 
 
 def test_failures_keep_their_row_and_disturb_nobody():
-    calm = map_of(40.0, 24)
+    calm = on_map(40.0, 24)
     parameters = calm.copy()
     parameters[[0, 5, 23], 0] = np.nan
     parameters[7, STIFFNESS] = np.inf
@@ -133,7 +106,7 @@ def test_failures_keep_their_row_and_disturb_nobody():
 
 def test_a_contact_too_stiff_to_be_followed_ends():
     """A heavily damped contact takes too many steps in a cycle: its trajectory fails, in a lane and alone."""
-    parameters = map_of(40.0, 8)
+    parameters = on_map(40.0, 8)
     parameters[3] = pack(Conveyor(damping=1e6, stiffness=1e15), Start())
     found = together(parameters, 50)
     assert np.flatnonzero(found.outcomes == convergence.FAILED).tolist() == [3]
@@ -144,7 +117,7 @@ def test_a_contact_too_stiff_to_be_followed_ends():
 
 @pytest.mark.parametrize("threads", [1, 2])
 def test_labels_do_not_depend_on_threads_or_chunks(threads, monkeypatch):
-    parameters = np.concatenate([random_starts(70, seed=2), map_of(80.0, 30)])
+    parameters = np.concatenate([for_lanes(70, seed=2), on_map(80.0, 30)])
     monkeypatch.setattr(convergence_lanes, "SIDE_BY_SIDE", 1000)
     wanted = labels.classify(parameters, cycles=300, tolerance=TOLERANCE)
     monkeypatch.undo()
