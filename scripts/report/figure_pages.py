@@ -53,7 +53,7 @@ def make(pages: dict[str, dict], notice: dict[str, str]) -> dict[str, str]:
     Parameters
     ----------
     pages : `heading` and `figures` of each page, by name; a figure has name, number, title, section, file, png and rst
-    notice : REPORT_NOTICE of workflow/rules/report.smk
+    notice : `overlays`, sweep `points` of this config, and `paper_points` of the paper's config; {} without overlays
 
     Raises
     ------

@@ -54,7 +54,7 @@ def make(
     step : of the paper's method, s
     pages : the pages of figures in order, with `heading`, `file` and `figures`: name, number and title of each
     files : files of the other pages by name
-    notice : REPORT_NOTICE of workflow/rules/report.smk
+    notice : `overlays`, sweep `points` of this config, and `paper_points` of the paper's config; {} without overlays
     findings : findings beyond the paper, a list in Markdown
     """
     shared = {

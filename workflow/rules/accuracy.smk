@@ -25,8 +25,8 @@ rule benchmark:
         "../../scripts/make.py"
 
 
-# These jobs start early, because each scene keeps one core busy for a long time. Only one starts in the beginning: two would both
-# compile the same functions.
+# These jobs start early, because each scene keeps one core busy for a long time. Only one of them starts at the beginning, because
+# two would compile the same functions.
 rule precision:
     output:
         precision=table("precision/{name}"),

@@ -1,5 +1,5 @@
-# Which parameters the paper's numbers imply: the quantities of the claims over the parameters, and the best fits. These jobs run
-# one after the other and start first, next to a job of the rule `precision`, with which they share little compiled code.
+# Which parameters the paper's numbers imply: the quantities of the claims over the parameters, and the best fits. These jobs start
+# first, because they wait for each other. A job of the rule `precision` starts beside them, because both share little compiled code.
 
 
 rule identification_edges:

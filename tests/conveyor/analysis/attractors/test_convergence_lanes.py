@@ -50,7 +50,7 @@ def test_bits_of_maps_with_known_attractors(acceleration):
 
 
 @pytest.mark.parametrize("count", [0, 1, 2, 3, 7, 8, 9, 17])
-def test_lanes_may_be_more_than_starts_and_starts_in_any_order(monkeypatch, count):
+def test_trajectories_may_be_fewer_than_lanes_and_in_any_order(monkeypatch, count):
     parameters = on_map(53.0, 17)[:count]
     wanted = one_by_one(on_map(53.0, 17), 300)
     monkeypatch.setattr(convergence_lanes, "SIDE_BY_SIDE", 1)
@@ -62,7 +62,7 @@ def test_lanes_may_be_more_than_starts_and_starts_in_any_order(monkeypatch, coun
 
 @pytest.mark.parametrize("side_by_side", [4, 1000])
 def test_strobes_are_the_states_after_the_first_cycles(monkeypatch, side_by_side):
-    """At 56 m/s² some starts settle soon; what follows then stays as it was."""
+    """At 56 m/s² some trajectories settle soon; later strobes stay unchanged."""
     monkeypatch.setattr(convergence_lanes, "SIDE_BY_SIDE", side_by_side)
     parameters = on_map(56.0, 10)
     parameters[3] = for_lanes(8, seed=3)[7]  # not for lanes
