@@ -115,11 +115,11 @@ def find_saddle(launch: InitialCondition, groups: Groups) -> tuple[int, np.ndarr
 def find_fixed_point(groups: Groups, state: np.ndarray, period: int, psi0: float) -> np.ndarray | None:
     """The fixed point (x, y) of Pⁿ that Newton's iteration finds from a state, or None."""
 
-    def step_at(here):
+    def system(here):
         found = derivatives(groups, here, period, psi0)
-        return None if found is None else solve(found.first[:, :2] - np.eye(2), here - found.image)
+        return None if found is None else (found.image - here, found.first[:, :2] - np.eye(2))
 
-    return newton(step_at, state, converged=CONVERGED, iterations=ITERATIONS, largest=FARTHEST)
+    return newton(system, state, converged=CONVERGED, iterations=ITERATIONS, largest=FARTHEST)
 
 
 def find_boundary_point(launch: InitialCondition, groups: Groups, unknown: int) -> BoundaryPoint | str:

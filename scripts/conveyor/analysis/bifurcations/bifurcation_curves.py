@@ -24,7 +24,7 @@ from scipy.optimize import root
 
 from ..dimensionless_groups import Groups
 from .bifurcation_points import GRAZING, SIGNS, Point, derivatives, find_bifurcation, system, touch
-from .newton import follow_curve, newton, solve
+from .newton import follow_curve, newton
 
 CONVERGED, ITERATIONS = 1e-10, 12  # last correction of Newton's iteration, and number of corrections
 FARTHEST = 1.0  # distance over which a correction may move a point
@@ -115,14 +115,7 @@ class CurveEquations:
 
     def correct(self, guess: np.ndarray, direction: np.ndarray) -> np.ndarray | None:
         """The point of the curve in the plane through `guess` normal to `direction`, or None."""
-
-        def step_at(unknown):
-            found = self.system(unknown)
-            if found is None:
-                return None
-            return solve(np.vstack([found[1], direction]), -np.append(found[0], direction @ (unknown - guess)))
-
-        return newton(step_at, guess, converged=CONVERGED, iterations=ITERATIONS, farthest=FARTHEST)
+        return newton(self.system, guess, direction, converged=CONVERGED, iterations=ITERATIONS, farthest=FARTHEST)
 
     def halving(self, unknown: np.ndarray) -> np.ndarray:
         """(x, y) half a period later minus (x, y); the difference passes zero where the orbit's period halves."""

@@ -145,12 +145,12 @@ def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups
     groups : of the conveyor; Γ does not matter, because it is an unknown
     """
 
-    def step_at(here):
+    def by_unknowns(here):
         found = system(kind, period, here, groups)
-        return None if found is None else solve(found[1][:, : len(here)], -found[0])
+        return None if found is None else (found[0], found[1][:, : len(here)])
 
     limits = {"largest": FARTHEST, "stagnant": STAGNANT, "often": OFTEN}
-    here = newton(step_at, unknown, converged=CONVERGED, iterations=ITERATIONS, **limits)
+    here = newton(by_unknowns, unknown, converged=CONVERGED, iterations=ITERATIONS, **limits)
     return None if here is None else Point(kind, period, here, groups._replace(amplitude=float(here[-1])))
 
 

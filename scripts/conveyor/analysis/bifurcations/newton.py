@@ -19,8 +19,9 @@ def solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray | None:
 
 
 def newton(
-    step_at: Callable[[np.ndarray], np.ndarray | None],
+    system: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray] | None],
     guess: np.ndarray,
+    direction: np.ndarray | None = None,
     *,
     converged: float,
     iterations: int,
@@ -33,7 +34,8 @@ def newton(
 
     Parameters
     ----------
-    step_at : Newton's step from a point, shape (k,); None, or NaN in it, where there is none
+    system : functions at a point, and their derivatives; None where there are none
+    direction : of k - 1 functions, the zero in the plane through the guess that is normal to this unit vector
     converged : largest component of the last step
     iterations : after which the search gives up
     largest, farthest : the component of a step, and the distance from the guess, at which the search gives up
@@ -41,7 +43,13 @@ def newton(
     """
     here, size, stalls = np.array(guess, dtype=np.float64), math.inf, 0
     for _ in range(iterations):
-        step = step_at(here)
+        found = system(here)
+        if found is None:
+            return None
+        value, slope = found
+        if direction is not None:
+            value, slope = np.append(value, direction @ (here - guess)), np.vstack([slope, direction])
+        step = solve(slope, -value)
         if step is None:
             return None
         here = here + step

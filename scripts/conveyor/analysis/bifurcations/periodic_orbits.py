@@ -16,7 +16,7 @@ from ...solver.model import ACCELERATION, DAMPING, FREQUENCY, MASS
 from ...solver.trajectory import OK
 from .. import stroboscopic_map
 from ..dimensionless_groups import units
-from .newton import newton, solve
+from .newton import newton
 
 TOLERANCE = 1e-13
 AMPLITUDE_STEP = 1e-6  # m/s², of the central difference ∂P/∂â
@@ -93,32 +93,25 @@ class ReturnMap:
         ahead = np.array([0.0, 0.0, AMPLITUDE_STEP])
         return (self.strobes(unknown + ahead)[-1, :2] - self.strobes(unknown - ahead)[-1, :2]) / (2.0 * AMPLITUDE_STEP)
 
+    def system(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """P(X) - X, shape (2,), and its derivative by (δ, Y, â), shape (2, 3), scaled."""
+        residual, jacobian = self.residual(unknown)
+        return residual, np.column_stack([jacobian, self.slope(unknown)])
+
     def newton(self, guess: np.ndarray) -> np.ndarray | None:
         """The fixed point that Newton's iteration at constant â finds from a guess, or None."""
-
-        def step_at(unknown):
-            residual, jacobian = self.residual(unknown)
-            step = solve(jacobian, -residual)
-            return None if step is None else np.append(step, 0.0)
-
         # Steps of a long unstable orbit end in round-off, which it amplifies.
-        return newton(step_at, guess, converged=CONVERGED, iterations=30, largest=1e3, stagnant=STAGNANT)
+        limits = {"converged": CONVERGED, "iterations": 30, "largest": 1e3, "stagnant": STAGNANT}
+        found = newton(lambda state: self.residual(np.append(state, guess[2])), guess[:2], **limits)
+        return None if found is None else np.append(found, guess[2])
 
     def correct(self, guess: np.ndarray, direction: np.ndarray) -> np.ndarray | None:
         """The fixed point in the plane through `guess` normal to `direction`, a unit vector, or None."""
-
-        def step_at(unknown):
-            residual, jacobian = self.residual(unknown)
-            system = np.vstack([np.column_stack([jacobian, self.slope(unknown)]), direction])
-            return solve(system, -np.append(residual, direction @ (unknown - guess)))
-
-        return newton(step_at, guess, converged=CONVERGED, iterations=10, farthest=10.0)
+        return newton(self.system, guess, direction, converged=CONVERGED, iterations=10, farthest=10.0)
 
     def tangent(self, unknown: np.ndarray, previous: np.ndarray) -> np.ndarray:
         """Unit vector along the branch through a fixed point, pointing on from `previous`."""
-        _, jacobian = self.residual(unknown)
-        slope = self.slope(unknown)
-        vector = np.cross(np.append(jacobian[0], slope[0]), np.append(jacobian[1], slope[1]))
+        vector = np.cross(*self.system(unknown)[1])
         vector /= np.linalg.norm(vector)
         return vector if vector @ previous >= 0.0 else -vector
 
