@@ -33,7 +33,7 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
     axes = {name: [settings[name]] for name in ("acceleration", "z0")}
     _, rows = grid.product(axes, model)
     state = stroboscopic_map.initial_states(rows, TOLERANCE)[0]
-    orbit, _ = periodic_orbits.settled_orbit(rows[0], settings["acceleration"], state, (1, 2, 4), 1000)
+    orbit = periodic_orbits.settled_orbit(rows[0], settings["acceleration"], state, (1, 2, 4), 1000)
     cycle = 1.0 / model["frequency"]
     truth = math.log(abs(orbit.multipliers[0])) / (orbit.period * cycle)
     here = stroboscopic_map.pack_states(rows, orbit.state[None], TOLERANCE)

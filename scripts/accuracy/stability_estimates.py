@@ -54,7 +54,7 @@ def true_exponent(case: dict, parameters: np.ndarray, model: dict) -> float:
     perturbation follows the larger Floquet multiplier. In chaos, both follow the largest Lyapunov exponent.
     """
     state = stroboscopic_map.initial_states(parameters, DEFAULT_TOLERANCE)[0]
-    orbit, _ = periodic_orbits.settled_orbit(parameters[0], case["acceleration"], state, PERIODS, SETTLING)
+    orbit = periodic_orbits.settled_orbit(parameters[0], case["acceleration"], state, PERIODS, SETTLING)
     if orbit is None:
         return float(lyapunov.spectrum(parameters, state[None]).lambda_1[0])
     if case["perturb"] == "psi0":

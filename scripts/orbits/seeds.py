@@ -28,7 +28,7 @@ def follow_seeds(settings: dict) -> list[Orbit]:
     for seed in settings["seeds"]:
         row = grid.product({name: [value] for name, value in seed.items()}, settings["model"])[1]
         state = stroboscopic_map.initial_states(row, periodic_orbits.TOLERANCE)[0]
-        orbit, _ = periodic_orbits.settled_orbit(
+        orbit = periodic_orbits.settled_orbit(
             row[0], seed["acceleration"], state, range(1, settings["max_period"] + 1), settings["cycles"]
         )
         if orbit is None:
@@ -48,7 +48,7 @@ def search_seeds(parameters: np.ndarray, settings: dict) -> Iterator[Orbit]:
         at_rest = stroboscopic_map.initial_states(row[None], periodic_orbits.TOLERANCE)
         seen = set()
         for state in np.vstack([at_rest, sampling.initial_conditions(row)[:INITIAL_CONDITIONS]]):
-            orbit, _ = periodic_orbits.settled_orbit(
+            orbit = periodic_orbits.settled_orbit(
                 parameters, acceleration, state, range(1, settings["max_period"] + 1), settings["cycles"]
             )
             if orbit is not None and (key := (orbit.period, round(orbit.longest_flight, DIGITS))) not in seen:

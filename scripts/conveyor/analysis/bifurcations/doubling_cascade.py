@@ -31,7 +31,7 @@ def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurca
         last = cascade[-1].orbit
         gap = (last.acceleration - cascade[-2].orbit.acceleration) / FEIGENBAUM
         period = 2 * last.period
-        before, _ = settled_orbit(parameters, last.acceleration + 0.5 * gap, last.state, (period,), 30 * period)
+        before = settled_orbit(parameters, last.acceleration + 0.5 * gap, last.state, (period,), 30 * period)
         if before is None:
             return cascade
         here = orbit_near(parameters, last.acceleration + 0.6 * gap, before.state, period)

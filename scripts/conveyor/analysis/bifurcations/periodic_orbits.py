@@ -66,13 +66,13 @@ class ReturnMap:
     def row(self, unknown: np.ndarray) -> np.ndarray:
         """The packed parameters at the amplitude of unknowns."""
         row = self.parameters.copy()
-        row[ACCELERATION] = unknown[2] * self.unit[2]
+        row[ACCELERATION] = unknown[2]
         return row
 
     def strobes(self, unknown: np.ndarray) -> np.ndarray:
         """Unknowns after 1 … n cycles, shape (n, 3)."""
         _, states, _ = stroboscopic_map.follow(self.row(unknown), TOLERANCE, self.state(unknown), self.period)
-        return np.array([self.scaled(unknown[2] * self.unit[2], state) for state in states])
+        return np.array([self.scaled(unknown[2], state) for state in states])
 
     def linearised(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(δ, Y) after n cycles in their units, the matrices (SI units) and the features of all cycles."""
@@ -129,7 +129,7 @@ class ReturnMap:
         second = determinant / first if first != 0.0 else 0.0j
         flights = features[:, [stroboscopic_map.LONGEST_FLIGHT, stroboscopic_map.AIRBORNE]]
         return Orbit(
-            acceleration=float(unknown[2] * self.unit[2]),
+            acceleration=float(unknown[2]),
             state=self.state(unknown),
             period=self.period,
             multipliers=(first, second),
@@ -175,15 +175,15 @@ def orbit_near(parameters: np.ndarray, acceleration: float, state: np.ndarray, p
 
 def settled_orbit(
     parameters: np.ndarray, acceleration: float, state: np.ndarray, periods: Iterable[int], cycles: int
-) -> tuple[Orbit | None, np.ndarray]:
-    """The stable orbit that a trajectory from `state` ends in, and the state after `cycles` cycles.
+) -> Orbit | None:
+    """The stable orbit that a trajectory from `state` ends in, or None.
 
     Parameters
     ----------
     parameters : float64, shape (16,); its amplitude is ignored
     acceleration : amplitude, m/s²
     state : δ (m) and v (m/s)
-    periods : the periods to try, in this order; the orbit is None if no period fits
+    periods : the periods to try, in this order
     cycles : excitation cycles that bring the trajectory near its orbit; Newton's iteration does the rest
     """
     row = parameters.copy()
@@ -191,11 +191,11 @@ def settled_orbit(
     end = np.array(state, dtype=np.float64)
     status, strobes, _ = stroboscopic_map.follow(row, TOLERANCE, end, cycles)
     if status != OK:
-        return None, end
+        return None
     unit = np.array(units(parameters))
     for period in periods:
         if np.abs((strobes[-1] - strobes[-1 - period]) / unit).max() < 1e-2:
             orbit = orbit_near(parameters, acceleration, end, period)
             if orbit is not None and orbit.stable and np.abs((orbit.state - end) / unit).max() < 0.1:
-                return orbit, end
-    return None, end
+                return orbit
+    return None

@@ -126,7 +126,7 @@ def test_two_conveyors_with_the_same_groups_have_the_same_scaled_fold():
     other = alike(groups, frequency=100.0, angle=0.35, mass=5e-3, gravity=1.62, friction=0.4)
     assert groups_of(other)[1:] == pytest.approx(groups[1:])
     start = stroboscopic_map.initial_states(pack(Conveyor(), Start(3e-4))[None], 1e-13)[0]
-    jumping, _ = periodic_orbits.settled_orbit(PAPER, 40.0, start, (1,), 400)
+    jumping = periodic_orbits.settled_orbit(PAPER, 40.0, start, (1,), 400)
     ratios = []
     for parameters in (PAPER, other):
         state = jumping.state / units(PAPER) * units(parameters)

@@ -18,7 +18,7 @@ DECAY = CONVEYOR.damping / CONVEYOR.mass
 def settled(acceleration, z0, max_period=4, cycles=800):
     row = pack(Conveyor(acceleration=acceleration), Start(z0))
     state = stroboscopic_map.initial_states(row[None], periodic_orbits.TOLERANCE)[0]
-    return periodic_orbits.settled_orbit(row, acceleration, state, range(1, max_period + 1), cycles)[0]
+    return periodic_orbits.settled_orbit(row, acceleration, state, range(1, max_period + 1), cycles)
 
 
 @pytest.fixture(scope="module")

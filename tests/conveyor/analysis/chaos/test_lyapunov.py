@@ -77,8 +77,8 @@ def test_periodic_motions_have_the_exponents_of_their_multipliers():
     wanted = []
     for row, (acceleration, period) in zip(begun, zip(rows[:3, ACCELERATION], periods, strict=True), strict=False):
         start = stroboscopic_map.initial_states(row[None], 1e-12)[0]
-        orbit, end = periodic_orbits.settled_orbit(row, acceleration, start, (period,), 400)
-        row[:] = stroboscopic_map.pack_states(row[None], end[None], 1e-12)
+        orbit = periodic_orbits.settled_orbit(row, acceleration, start, (period,), 400)
+        row[:] = stroboscopic_map.pack_states(row[None], orbit.state[None], 1e-12)
         wanted.append(np.log(np.abs(orbit.multipliers)) * row[FREQUENCY] / period)
     options = {"cycles": 20, "blocks": 5, "tolerance": 1e-12}
     found = lyapunov.spectrum_on_attractors(begun, **options, threads=2)
