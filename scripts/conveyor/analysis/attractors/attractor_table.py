@@ -79,27 +79,19 @@ class AttractorTable(NamedTuple):
         return np.hstack([find_places(table.conveyors, conveyors) for table in self])[index]
 
 
-def orbit_table(conveyor: np.ndarray, found: list[tuple[np.ndarray, np.ndarray, int, float]]) -> AttractingOrbits:
-    """The table of orbits of one conveyor, shape (16,), from the centre, factor, period and flight of each."""
-    centres, factors, periods, flights = zip(*found, strict=True) if found else ((), (), (), ())
-    return AttractingOrbits(
-        np.tile(conveyor, (len(found), 1)),
-        np.array(centres, dtype=np.float64).reshape(-1, 2),
-        np.array(factors, dtype=np.float64).reshape(-1, 3),
-        np.array(periods, dtype=np.int64),
-        np.array(flights, dtype=np.float64),
-    )
+NO_ATTRACTORS = AttractorTable(
+    AttractingOrbits(
+        np.empty((0, len(PARAMETERS))), np.empty((0, 2)), np.empty((0, 3)), np.empty(0, np.int64), np.empty(0)
+    ),
+    ChaoticSets(
+        np.empty((0, len(PARAMETERS))), np.empty((0, 2)), np.empty((0, 2)), np.empty((0, BOXES, BOXES), np.bool_)
+    ),
+)
 
 
-def chaotic_set_table(conveyor: np.ndarray, found: list[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> ChaoticSets:
-    """The table of chaotic sets of one conveyor, shape (16,), from the `low`, `size` and `cells` of each."""
-    low, size, cells = zip(*found, strict=True) if found else ((), (), ())
-    return ChaoticSets(
-        np.tile(conveyor, (len(found), 1)),
-        np.array(low, dtype=np.float64).reshape(-1, 2),
-        np.array(size, dtype=np.float64).reshape(-1, 2),
-        np.array(cells, dtype=np.bool_).reshape(-1, BOXES, BOXES),
-    )
+def append_row(table: AttractingOrbits | ChaoticSets, *row: np.ndarray | float) -> AttractingOrbits | ChaoticSets:
+    """The table with one more row, from its values in the order of the fields."""
+    return type(table)(*(np.append(column, [value], axis=0) for column, value in zip(table, row, strict=True)))
 
 
 def concatenate(parts: list[AttractorTable]) -> AttractorTable:
@@ -109,7 +101,3 @@ def concatenate(parts: list[AttractorTable]) -> AttractorTable:
         AttractingOrbits(*map(np.concatenate, zip(*orbits, strict=True))),
         ChaoticSets(*map(np.concatenate, zip(*chaotic, strict=True))),
     )
-
-
-_NO_CONVEYOR = np.zeros(len(PARAMETERS))
-NO_ATTRACTORS = AttractorTable(orbit_table(_NO_CONVEYOR, []), chaotic_set_table(_NO_CONVEYOR, []))

@@ -8,7 +8,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from ..chaos import lyapunov
 from . import sampling
-from .attractor_table import BOXES, NO_ATTRACTORS, ChaoticSets, chaotic_set_table, concatenate
+from .attractor_table import BOXES, NO_ATTRACTORS, ChaoticSets, append_row, concatenate
 from .convergence import NOT_CONVERGED, PERIODIC, Trajectories
 
 LATE = 0.1  # share of the cycles; chaos is only a transient if a trajectory becomes periodic later
@@ -36,8 +36,7 @@ def find_chaotic_sets(
     of several conveyors side by side.
     """
     candidates = [list(trajectories.states[trajectories.outcomes == NOT_CONVERGED]) for trajectories in sampled]
-    nothing = [chaotic_set_table(row, []) for row in conveyors]
-    found = list(nothing)
+    found = [NO_ATTRACTORS.chaotic] * len(conveyors)
 
     def search(rows: list[int], states: np.ndarray, length: int, strobes: np.ndarray | None = None) -> Trajectories:
         attractors = concatenate([NO_ATTRACTORS, *(NO_ATTRACTORS._replace(chaotic=found[k]) for k in rows)])
@@ -56,13 +55,11 @@ def find_chaotic_sets(
             strobes = np.empty((len(rows), cycles, 2)) if record else None
             motions = search(rows, states, cycles, strobes)
             for k in rows[(motions.outcomes == PERIODIC) & (followed + motions.followed > LATE * cycles)]:
-                found[k], candidates[k] = nothing[k], []
+                found[k], candidates[k] = NO_ATTRACTORS.chaotic, []
             goes_on = motions.outcomes == NOT_CONVERGED
             rows, states, followed = rows[goes_on], motions.states[goes_on], cycles
         stretches = lyapunov.signs(conveyors[rows], states, tolerance=tolerance) > 0
         for k, visited in zip(rows[stretches], strobes[goes_on][stretches], strict=True):
-            known = found[k]
-            if len(known.low) < MOST:
-                sets = [*zip(known.low, known.size, known.cells, strict=True), cover_by_boxes(visited)]
-                found[k] = chaotic_set_table(conveyors[k], sets)
+            if len(found[k].low) < MOST:
+                found[k] = append_row(found[k], conveyors[k], *cover_by_boxes(visited))
     return found

@@ -18,7 +18,7 @@ from ...solver.model import PSI0
 from ...solver.trajectory import BEGIN_OF_CYCLE, OK
 from .. import stroboscopic_map
 from ..dimensionless_groups import units
-from .attractor_table import AttractingOrbits, orbit_table
+from .attractor_table import NO_ATTRACTORS, AttractingOrbits, append_row
 from .convergence import PERIODIC, Trajectories, distance_components
 
 POINTS = 32  # of a curve
@@ -111,7 +111,7 @@ def find_attracting_orbits(parameters: np.ndarray, trajectories: Trajectories, t
     """The attracting orbits that trajectories on a conveyor, shape (16,), have reached, each with a trapping region."""
     at_top, unit = parameters.copy(), np.array(units(parameters))
     at_top[PSI0] = BEGIN_OF_CYCLE
-    seen, found = np.empty((0, 2)), []
+    seen, found = np.empty((0, 2)), NO_ATTRACTORS.orbits
     for k in np.flatnonzero((trajectories.outcomes == PERIODIC) & (trajectories.periods <= LONGEST)):
         state, period = trajectories.states[k], int(trajectories.periods[k])
         if (np.abs((seen - state) / unit).max(axis=1) < SMALLEST).any():
@@ -122,5 +122,5 @@ def find_attracting_orbits(parameters: np.ndarray, trajectories: Trajectories, t
         seen = np.concatenate([seen, strobes])
         around = find_trapping_region(at_top, tolerance, state, period)
         if around is not None:
-            found.append((*around, period, float(trajectories.flights[k])))
-    return orbit_table(parameters, found)
+            found = append_row(found, parameters, *around, period, trajectories.flights[k])
+    return found

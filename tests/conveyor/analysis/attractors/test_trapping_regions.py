@@ -108,7 +108,9 @@ def test_places_of_conveyors_in_any_order():
     sorted_rows, numbers = attractor_table.distinct_conveyors(rows)
     assert sorted_rows[:, 0].tolist() == [30.0, 40.0, 50.0]
     np.testing.assert_array_equal(sorted_rows[numbers], at_zero(rows))
-    table = attractor_table.orbit_table(of_each[2], [(np.zeros(2), np.ones(3), 1, 0.0)] * 2)
+    table = attractor_table.NO_ATTRACTORS.orbits
+    for _ in range(2):
+        table = attractor_table.append_row(table, of_each[2], np.zeros(2), np.ones(3), 1, 0.0)
     places = attractor_table.find_places(np.concatenate([of_each[:1], table.conveyors]), sorted_rows)
     assert places.tolist() == [[0, 0], [1, 3], [0, 1]]
     places = attractor_table.AttractorTable(table, attractor_table.NO_ATTRACTORS.chaotic).rows_of(rows)
