@@ -51,7 +51,7 @@ from ...solver.vertical import (
     press,
 )
 from ..stroboscopic_map import delta_and_v
-from .convergence import FOLLOWED, GOES_ON, check_convergence, new_searches, reset_search
+from .convergence import FOLLOWED, GOES_ON, check_convergence, new_searches, new_trajectories, reset_search
 
 # The smallest number of trajectories in lanes: a single one takes about a tenth less time in scalar code.
 SIDE_BY_SIDE = 2
@@ -143,6 +143,7 @@ def follow(parameters, tolerance, search, found, side_by_side, work):
     Parameters
     ----------
     search : a Search
+    found : convergence.new_trajectories, filled
     side_by_side : whether lanes take contact steps together; otherwise one trajectory follows the other
     work : the memory of contact_lanes, the state of each lane's cycle, shape (3, LANES), the trajectory of each lane,
         a contact.workspace, and convergence.new_searches
@@ -189,8 +190,8 @@ def follow(parameters, tolerance, search, found, side_by_side, work):
             stopped = step(LANES, steps) & running
 
 
-def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows, found, strobes):
-    """Follow trajectories from their initial conditions until they are periodic or have reached a known attractor.
+def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows, strobes=None):
+    """The Trajectories from initial conditions until they are periodic or have reached a known attractor.
 
     Parameters
     ----------
@@ -198,10 +199,12 @@ def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows
     tolerance : of the contact steps
     max_cycles : excitation cycles after which a search ends, at least one
     attractors, rows : an AttractorTable, and its `rows_of` the parameters, shape (n, 4)
-    found : convergence.new_trajectories, filled
     strobes : float64, shape (n, m, 2), filled with the states after each of the first m cycles
     """
+    found = new_trajectories(len(parameters))
     if len(parameters) > 0:
+        strobes = np.empty((len(parameters), 0, 2)) if strobes is None else strobes
         trajectories, side_by_side = np.full(LANES, NONE), len(parameters) >= SIDE_BY_SIDE
         work = (new_memory(LANES), np.zeros((3, LANES)), trajectories, contact.workspace(), *new_searches(LANES))
         follow(parameters, tolerance, Search(max_cycles, attractors, rows, strobes), found, side_by_side, work)
+    return found

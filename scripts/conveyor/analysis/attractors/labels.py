@@ -22,7 +22,7 @@ from ...solver.parallel import for_each_chunk
 from ..chaos import lyapunov
 from . import convergence_lanes
 from .attractor_table import NO_ATTRACTORS, AttractorTable
-from .convergence import IN_CHAOTIC_SET, NOT_CONVERGED, PERIODIC, Trajectories, new_trajectories
+from .convergence import IN_CHAOTIC_SET, NOT_CONVERGED, PERIODIC, new_trajectories
 
 STATES = ("first", "second", "chaos", "undecided")
 FIRST, SECOND, CHAOS, UNDECIDED = range(len(STATES))
@@ -83,13 +83,15 @@ def classify(
     """
     parameters = np.ascontiguousarray(parameters, dtype=np.float64)
     n = len(parameters)
-    found, table_rows, no_strobes = new_trajectories(n), attractors.rows_of(parameters), np.empty((n, 0, 2))
+    found, table_rows = new_trajectories(n), attractors.rows_of(parameters)
 
     def work(begin, end):
         rows = slice(begin, end)
-        of_rows = Trajectories(*(column[rows] for column in found))
-        arguments = parameters[rows], tolerance, cycles, attractors, table_rows[rows], of_rows, no_strobes[rows]
-        convergence_lanes.follow_all_to_attractors(*arguments)
+        chunk = convergence_lanes.follow_all_to_attractors(
+            parameters[rows], tolerance, cycles, attractors, table_rows[rows]
+        )
+        for column, values in zip(found, chunk, strict=True):
+            column[rows] = values
 
     for_each_chunk(work, n, threads=threads, chunk=TOGETHER, progress=progress)
     outcomes = found.outcomes

@@ -13,7 +13,7 @@ from ...solver.trajectory import BEGIN_OF_CYCLE
 from .. import stroboscopic_map
 from . import convergence_lanes
 from .attractor_table import NO_ATTRACTORS, AttractorTable
-from .convergence import Trajectories, new_trajectories
+from .convergence import Trajectories
 
 SAMPLES = 32
 SHORT_SEARCH = 400  # cycles in which most trajectories become periodic that do not end in chaos
@@ -47,15 +47,11 @@ def follow(
     states : float64, shape (n, 2), δ (m), v (m/s) at trajectory.BEGIN_OF_CYCLE
     strobes : float64, shape (n, cycles, 2), filled with the states after each cycle
     """
-    n = len(states)
     at_top = np.array(parameters)
     at_top[:, PSI0] = BEGIN_OF_CYCLE
     rows = stroboscopic_map.pack_states(at_top, states, tolerance)
-    found = new_trajectories(n)
-    strobes = np.empty((n, 0, 2)) if strobes is None else strobes
     table_rows = attractors.rows_of(rows)
-    convergence_lanes.follow_all_to_attractors(rows, tolerance, cycles, attractors, table_rows, found, strobes)
-    return found
+    return convergence_lanes.follow_all_to_attractors(rows, tolerance, cycles, attractors, table_rows, strobes)
 
 
 def sample_conveyors(conveyors: np.ndarray, cycles: int, tolerance: float) -> list[Trajectories]:

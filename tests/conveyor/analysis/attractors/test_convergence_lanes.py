@@ -17,10 +17,8 @@ TOLERANCE = 1e-7
 
 
 def together(parameters, cycles, attractors=NO_ATTRACTORS):
-    found, strobes = convergence.new_trajectories(len(parameters)), np.empty((len(parameters), 0, 2))
     rows = attractors.rows_of(parameters)
-    convergence_lanes.follow_all_to_attractors(parameters, TOLERANCE, cycles, attractors, rows, found, strobes)
-    return found
+    return convergence_lanes.follow_all_to_attractors(parameters, TOLERANCE, cycles, attractors, rows)
 
 
 def one_by_one(parameters, cycles, attractors=NO_ATTRACTORS):
@@ -66,9 +64,8 @@ def test_strobes_are_the_states_after_the_first_cycles(monkeypatch, side_by_side
     monkeypatch.setattr(convergence_lanes, "SIDE_BY_SIDE", side_by_side)
     parameters = on_map(56.0, 10)
     parameters[3] = for_lanes(8, seed=3)[7]  # not for lanes
-    found, strobes = convergence.new_trajectories(10), np.full((10, 70, 2), np.nan)
-    places = NO_ATTRACTORS.rows_of(parameters)
-    convergence_lanes.follow_all_to_attractors(parameters, TOLERANCE, 90, NO_ATTRACTORS, places, found, strobes)
+    strobes, rows = np.full((10, 70, 2), np.nan), NO_ATTRACTORS.rows_of(parameters)
+    found = convergence_lanes.follow_all_to_attractors(parameters, TOLERANCE, 90, NO_ATTRACTORS, rows, strobes)
     followed = found.followed
     assert followed.min() < 70 < followed.max()
     for k in range(10):
