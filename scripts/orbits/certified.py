@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
+from flint import arb
 from pyarrow import Field
 
 from conveyor.analysis.bifurcations import continuation, periodic_orbits
@@ -199,33 +200,31 @@ def orbits_to_prove(settings: dict, branches: pd.DataFrame, cascade: pd.DataFram
     ]
 
 
-def bounds_columns(name: str, ball, unit=1) -> dict[str, float]:
-    """Columns NAME_low and NAME_high with the bounds of a ball in a unit, rounded outwards; NaN for None."""
-    low, high = (np.nan, np.nan) if ball is None else bounds(ball * unit)
-    return {f"{name}_low": low, f"{name}_high": high}
-
-
-def certificate_columns(units: Law, orbit: ProvedOrbit | None) -> dict:
-    """The columns with the bounds of a proved orbit; NaN for None."""
+def bounds_columns(balls: dict[str, arb]) -> dict[str, float]:
+    """Columns NAME_low and NAME_high with the bounds of balls by their names, rounded outwards."""
     columns = {}
-    delta = v = duration = contact = trace = determinant = phase = speed = None
-    multipliers = [(None, None)] * 2
-    if orbit is not None:
-        delta, y = orbit.strobe(0)
-        v = y - units.beta * delta if delta > 0 else y
-        duration, contact = orbit.duration / units.omega, orbit.contact / units.omega
-        trace, determinant = orbit.trace, orbit.determinant
-        with suppress(Refused):
-            multipliers = orbit.multipliers()
-        first = orbit.impacts[0] if orbit.impacts else None
-        phase, speed = (first.phase, first.speed) if first else (None, None)
-    columns |= bounds_columns("delta", delta, units.length) | bounds_columns("v", v, units.speed)
-    columns |= bounds_columns("duration", duration) | bounds_columns("contact_time", contact)
-    columns |= bounds_columns("impact_phase", phase) | bounds_columns("impact_speed", speed, units.speed)
-    columns |= bounds_columns("trace", trace) | bounds_columns("determinant", determinant)
-    for number, (real, imag) in enumerate(multipliers, start=1):
-        columns |= bounds_columns(f"multiplier_{number}_real", real) | bounds_columns(f"multiplier_{number}_imag", imag)
+    for name, ball in balls.items():
+        columns[f"{name}_low"], columns[f"{name}_high"] = bounds(ball)
     return columns
+
+
+def certificate_columns(units: Law, orbit: ProvedOrbit) -> dict[str, float]:
+    """The columns with the bounds of a proved orbit."""
+    delta, y = orbit.strobe(0)
+    balls = {
+        "delta": delta * units.length,
+        "v": (y - units.beta * delta if delta > 0 else y) * units.speed,
+        "duration": orbit.duration / units.omega,
+        "contact_time": orbit.contact / units.omega,
+        "trace": orbit.trace,
+        "determinant": orbit.determinant,
+    }
+    for phase, speed in orbit.impacts[:1]:
+        balls |= {"impact_phase": phase, "impact_speed": speed * units.speed}
+    with suppress(Refused):
+        for number, (real, imag) in enumerate(orbit.multipliers(), start=1):
+            balls |= {f"multiplier_{number}_real": real, f"multiplier_{number}_imag": imag}
+    return bounds_columns(balls)
 
 
 def prove_float_orbit(settings: dict, found: FloatOrbit) -> dict:
@@ -237,25 +236,23 @@ def prove_float_orbit(settings: dict, found: FloatOrbit) -> dict:
         "period": stored.period,
         "stored_delta": stored.state[0],
         "stored_v": stored.state[1],
-        "bits": settings["bits"],
-        "order": settings["order"],
+        "contained": False,
+        "impacts": stored.impacts,
+        "stability": "open",
     }
-    orbit, reason = None, None
     try:
         orbit = prove_orbit(problem, problem.law.gamma(exactly(stored.acceleration)), found.strobes)
         distance = check_near(orbit, found.strobes, settings["closeness"])
-        columns = certificate_columns(problem.law, orbit)
     except Refused as refused:
-        orbit, reason, distance = None, str(refused), np.nan
-        columns = certificate_columns(problem.law, None)
+        return row | {"reason": str(refused)}
     return {
         **row,
-        **columns,
-        "contained": orbit is not None,
-        "reason": reason,
-        "impacts": stored.impacts if orbit is None else len(orbit.impacts),
-        "stability": orbit.stability if orbit else "open",
-        "half_width": orbit.half_width if orbit else np.nan,
+        **certificate_columns(problem.law, orbit),
+        "contained": True,
+        "reason": None,
+        "impacts": len(orbit.impacts),
+        "stability": orbit.stability,
+        "half_width": orbit.half_width,
         "distance": distance,
     }
 
@@ -265,28 +262,17 @@ def prove_bifurcation(settings: dict, kind: str, number: int, row: dict) -> dict
     period, stored = row["period"], row["acceleration"]
     problem, returns = shooting(settings, period), ReturnMap(grid.packed(settings["model"]), period)
     strobes = float_orbit(0, returns, returns.scaled(stored, np.array([row["delta"], row["v"]]))).strobes
+    about = {"kind": kind, "number": number, "period": period, "stored_acceleration": stored}
     try:
         if kind == "fold":
             found = bracket_fold(problem, stored, strobes, settings["half_arc"])
         else:
             found = bracket_doubling(problem, stored, strobes, settings["half_width"])
-        acceleration, (begin, end), reason = found.acceleration, found.tests, None
     except Refused as refused:
-        acceleration = begin = end = None
-        reason = str(refused)
-    return {
-        "kind": kind,
-        "number": number,
-        "period": period,
-        "stored_acceleration": stored,
-        "proved": reason is None,
-        "reason": reason,
-        **bounds_columns("acceleration", acceleration),
-        **bounds_columns("test_begin", begin),
-        **bounds_columns("test_end", end),
-        "bits": settings["bits"],
-        "order": settings["order"],
-    }
+        return about | {"proved": False, "reason": str(refused)}
+    begin, end = found.tests
+    proved = bounds_columns({"acceleration": found.acceleration, "test_begin": begin, "test_end": end})
+    return about | {"proved": True, "reason": None} | proved
 
 
 def prove_chaos(settings: dict, acceleration: float, saddles: list[FloatOrbit]) -> dict:
@@ -301,11 +287,6 @@ def prove_chaos(settings: dict, acceleration: float, saddles: list[FloatOrbit]) 
         "proved": False,
         "reason": "there is no unstable orbit of one cycle",
         "sets": 0,
-        "entropy": np.nan,
-        "delta": np.nan,
-        "v": np.nan,
-        "bits": chaos["bits"],
-        "order": chaos["order"],
     }
     for saddle in sorted(saddles, key=lambda saddle: -abs(saddle.orbit.multipliers[0])):
         try:
@@ -315,14 +296,14 @@ def prove_chaos(settings: dict, acceleration: float, saddles: list[FloatOrbit]) 
         except Refused as refused:
             row["reason"] = str(refused)
             continue
-        state = dict(zip(("delta", "v"), saddle.orbit.state, strict=True))
         return {
             **row,
-            **state,
             "proved": True,
             "reason": None,
             "sets": len(horseshoe.sets),
             "entropy": bounds(horseshoe.entropy)[0],
+            "delta": saddle.orbit.state[0],
+            "v": saddle.orbit.state[1],
         }
     return row
 
@@ -335,11 +316,13 @@ PROVERS = {
 
 
 def run_task(settings: dict, task: Task) -> tuple[dict, float]:
-    """The row of a proof, and its processor time (s)."""
+    """The row of a proof, with NaN for what it does not prove, and its processor time (s)."""
     begin = time.process_time()
     accuracy = settings["chaos"] if task.kind == "certified_chaos" else settings
     with precision(accuracy["bits"], accuracy["order"]):
         row = PROVERS[task.kind](settings, *task.arguments)
+    unknown = dict.fromkeys((column.name for column in TABLES[task.kind]), np.nan)
+    row = {**unknown, **row, "bits": accuracy["bits"], "order": accuracy["order"]}
     return row, time.process_time() - begin
 
 
