@@ -51,11 +51,6 @@ def approach_root(test: Callable[[arb], arb], guess: arb, reach: float) -> arb:
     return guess
 
 
-def have_different_signs(one: arb, other: arb) -> bool:
-    """Whether two values are proved to have different signs."""
-    return one * other < 0
-
-
 def bracket_doubling(shooting: Shooting, acceleration: float, strobes: np.ndarray, half_width: float) -> Bracket:
     """A bracket of the amplitude at which a Floquet multiplier of an orbit passes -1 (a period doubling).
 
@@ -79,7 +74,7 @@ def bracket_doubling(shooting: Shooting, acceleration: float, strobes: np.ndarra
     bracket = exactly(centre - half_width), exactly(centre + half_width)
     ends = [orbit_at(amplitude) for amplitude in bracket]
     tests = ends[0].doubling_test, ends[1].doubling_test
-    if not have_different_signs(*tests):
+    if not tests[0] * tests[1] < 0:
         raise Refused("1 + trace + determinant has no two different signs at the ends")
     amplitudes = bracket[0].union(bracket[1])
     branch = orbit_at(amplitudes)
@@ -136,6 +131,6 @@ def bracket_fold(shooting: Shooting, acceleration: float, strobes: np.ndarray, h
     if not (at_top < at_first and at_top < at_last):
         raise Refused("the amplitude is not least within the arc")
     tests = fold_test(ends[0]), fold_test(ends[1])
-    if not have_different_signs(*tests):
+    if not tests[0] * tests[1] < 0:
         raise Refused("1 - trace + determinant has no two different signs at the ends of the arc")
     return Bracket(on_branch.lower().union(at_top.upper()) / shooting.law.slope, tests)

@@ -16,7 +16,6 @@ class ProvedOrbit(NamedTuple):
     """A box that contains exactly one orbit for each amplitude of a ball."""
 
     shooting: Shooting
-    gamma: arb
     zero: Zero
     trace: arb  # of the derivative of (δ, Y) over a period
     determinant: arb  # product of the multipliers, from the duration of contact
@@ -128,7 +127,7 @@ def prove_orbit(shooting: Shooting, gamma: arb, strobes: np.ndarray) -> ProvedOr
     equations = equations_at(shooting, gamma)
     near = correct(equations, launch(shooting, gamma, strobes), shooting.least)
     zero = prove_zero(equations, near, shooting.least)
-    orbit = ProvedOrbit(shooting, gamma, zero, *linearise(shooting, zero.evidence))
+    orbit = ProvedOrbit(shooting, zero, *linearise(shooting, zero.evidence))
     check_period(orbit)
     return orbit
 

@@ -43,11 +43,10 @@ def follow_to_next_node(system: System, node: int, delta: arb, y: arb, columns: 
     return follow(system, begin, begin + turn, delta, y, columns)
 
 
-def residual(states: arb_mat, arrivals: list[Arrival]) -> arb_mat:
-    """How far each motion misses the next node, shape (2 count, 1); states: (δ, Y) of all nodes below each other."""
+def residual(states: list[arb], arrivals: list[Arrival]) -> arb_mat:
+    """How far each motion misses the next node, shape (2 count, 1); states: δ and Y of the first node, the second, …"""
     reached = arb_mat([[value] for arrival in arrivals for value in (arrival.delta, arrival.y)])
-    wanted = states.entries()
-    return reached - arb_mat([[value] for value in wanted[2:] + wanted[:2]])
+    return reached - arb_mat([[value] for value in states[2:] + states[:2]])
 
 
 def residual_slope(arrivals: list[Arrival]) -> arb_mat:
@@ -73,11 +72,11 @@ def launch(shooting: Shooting, gamma: arb, strobes: np.ndarray) -> Approximation
             states += state
             state = [arrivals[-1].delta.mid(), arrivals[-1].y.mid()]
     centre = arb_mat([[value] for value in states])
-    return Approximation(centre, residual(centre, arrivals), approximate_inverse(residual_slope(arrivals)))
+    return Approximation(centre, residual(states, arrivals), approximate_inverse(residual_slope(arrivals)))
 
 
 def follow_all(system: System, states: list[arb], columns: int) -> list[Arrival]:
-    """The motions from all nodes to the next ones; states: δ and Y of the first node, of the second one, …"""
+    """The motions from all nodes to the next ones; states: as for `residual`."""
     return [
         follow_to_next_node(system, node, *state, columns)
         for node, state in enumerate(zip(states[::2], states[1::2], strict=True))
@@ -90,7 +89,8 @@ def equations_at(shooting: Shooting, gamma: arb) -> Equations:
 
     def evaluate(states: arb_mat, derivative: bool) -> tuple[arb_mat, arb_mat | None, list[Arrival]]:
         arrivals = follow_all(system, states.entries(), 2 if derivative else 0)
-        return residual(states, arrivals), residual_slope(arrivals) if derivative else None, arrivals
+        value = residual(states.entries(), arrivals)
+        return value, residual_slope(arrivals) if derivative else None, arrivals
 
     return evaluate
 
@@ -107,10 +107,9 @@ def equations_on_arc(shooting: Shooting, origin: arb_mat, direction: arb_mat, pl
     """
 
     def evaluate(unknown: arb_mat, derivative: bool) -> tuple[arb_mat, arb_mat | None, list[Arrival]]:
-        *entries, gamma = unknown.entries()
+        *states, gamma = unknown.entries()
         system = System(shooting.law, gamma, shooting.accuracy)
-        arrivals = follow_all(system, entries, 3 if derivative else 0)
-        states = arb_mat([[value] for value in entries])
+        arrivals = follow_all(system, states, 3 if derivative else 0)
         last = (direction * (unknown - origin))[0, 0] - place
         value = arb_mat([*residual(states, arrivals).tolist(), [last]])
         if not derivative:

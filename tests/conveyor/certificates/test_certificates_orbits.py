@@ -154,7 +154,7 @@ def test_stability_by_hand(multipliers, stability):
     """Both multipliers inside the unit circle, one outside, or undecided."""
     one, other = multipliers
     trace, determinant = (arb(complex(value).real) for value in (one + other, one * other))
-    orbit = ProvedOrbit(None, None, None, trace, determinant, arb(0))
+    orbit = ProvedOrbit(None, None, trace, determinant, arb(0))
     assert orbit.stability == stability
     found = {(float(real), float(imag)) for real, imag in orbit.multipliers()}
     assert found == {(complex(value).real, complex(value).imag) for value in multipliers}
