@@ -11,8 +11,7 @@ from conveyor.analysis.basins import boundary_point
 from conveyor.analysis.basins.boundary_point import InitialCondition
 from conveyor.analysis.bifurcations import bifurcation_points, doubling_cascade
 from conveyor.analysis.dimensionless_groups import (
-    AMPLITUDE,
-    HEIGHT,
+    GROUP_OF,
     NAMES,
     amplitude_of,
     derivatives_of,
@@ -68,12 +67,13 @@ class CriticalPoint(NamedTuple):
     kind: str
     period: int
     parameters: np.ndarray  # packed parameters of the point
-    doubling: int
-    rides: bool
     quantity: str  # acceleration or z0
-    derivatives: np.ndarray | None  # of the quantity's group by all groups, shape (7,); None without a result
-    solve: Callable[[np.ndarray], float]  # the quantity (m/s² or m) for other parameters; NaN if not found
-    status: str
+    status: str = "ok"
+    derivatives: np.ndarray | None = None  # of the quantity's group by all groups, shape (7,); None without a result
+    # The quantity (m/s² or m) for other parameters, NaN if not found; None without derivatives.
+    solve: Callable[[np.ndarray], float] | None = None
+    doubling: int = 0
+    rides: bool = False
 
     @property
     def is_boundary(self) -> bool:
@@ -91,8 +91,6 @@ def differentiate_bifurcation(parameters: np.ndarray, bifurcation: Selected) -> 
             **label,
             parameters=at(parameters, bifurcation.acceleration),
             quantity="acceleration",
-            derivatives=None,
-            solve=lambda row: np.nan,
             status="not found again" if point is None else "singular",
         )
     derivatives = np.zeros(len(NAMES))
@@ -110,9 +108,7 @@ def differentiate_bifurcation(parameters: np.ndarray, bifurcation: Selected) -> 
         return amplitude_of(row, find_amplitude(groups))
 
     here = at(parameters, amplitude_of(parameters, point.groups.amplitude))
-    return CriticalPoint(
-        **label, parameters=here, quantity="acceleration", derivatives=derivatives, solve=solve, status="ok"
-    )
+    return CriticalPoint(**label, parameters=here, quantity="acceleration", derivatives=derivatives, solve=solve)
 
 
 def aitken_weights(a: float, b: float, c: float) -> np.ndarray:
@@ -133,32 +129,31 @@ def differentiate_accumulation(parameters: np.ndarray, doublings: list[CriticalP
         return doubling_cascade.accumulation(np.array([doubling.solve(row) for doubling in last]))[0]
 
     here = at(parameters, doubling_cascade.accumulation(amplitudes)[0])
-    return CriticalPoint("accumulation", 0, here, 0, False, "acceleration", derivatives, solve, "ok")
+    return CriticalPoint("accumulation", 0, here, "acceleration", derivatives=derivatives, solve=solve)
 
 
-def differentiate_boundary(kind: str, parameters: np.ndarray, unknown: int) -> CriticalPoint:
+def differentiate_boundary(kind: str, parameters: np.ndarray, quantity: str) -> CriticalPoint:
     """A point of a basin boundary near an initial condition, with the derivatives of its amplitude or height."""
-    quantity = "acceleration" if unknown == AMPLITUDE else "z0"
 
     def find_point(row):
-        return boundary_point.find_boundary_point(InitialCondition(*start_of(row)), groups_of(row), unknown)
+        return boundary_point.find_boundary_point(InitialCondition(*start_of(row)), groups_of(row), GROUP_OF[quantity])
 
     point = find_point(parameters)
     if isinstance(point, str):
-        return CriticalPoint(kind, 0, parameters, 0, False, quantity, None, lambda row: np.nan, point)
+        return CriticalPoint(kind, 0, parameters, quantity, status=point)
     here = parameters.copy()
-    here[PARAMETERS.index(quantity)] = boundary_value(point, parameters, unknown)
+    here[PARAMETERS.index(quantity)] = boundary_value(point, parameters, quantity)
 
     def solve(row):
         there = find_point(row)
-        return np.nan if isinstance(there, str) else boundary_value(there, row, unknown)
+        return np.nan if isinstance(there, str) else boundary_value(there, row, quantity)
 
-    return CriticalPoint(kind, point.period, here, 0, False, quantity, point.moves, solve, "ok")
+    return CriticalPoint(kind, point.period, here, quantity, derivatives=point.moves, solve=solve)
 
 
-def boundary_value(point: boundary_point.BoundaryPoint, row: np.ndarray, unknown: int) -> float:
+def boundary_value(point: boundary_point.BoundaryPoint, row: np.ndarray, quantity: str) -> float:
     """The amplitude (m/s²) or the initial height (m) of a point of a basin boundary."""
-    if unknown == AMPLITUDE:
+    if quantity == "acceleration":
         return amplitude_of(row, point.groups.amplitude)
     return point.launch.height * units(row)[0]
 
@@ -227,7 +222,7 @@ def physical_rows(point: CriticalPoint, difference: float, agreement: float) -> 
 
 def group_rows(point: CriticalPoint) -> Iterator[dict]:
     """The rows of the table `groups` of a point, one for each group."""
-    own = AMPLITUDE if point.quantity == "acceleration" else HEIGHT
+    own = GROUP_OF[point.quantity]
     groups = np.array([*groups_of(point.parameters)[:4], *start_of(point.parameters)])
     for name in BOUNDARY_GROUPS if point.is_boundary else BIFURCATION_GROUPS:
         place = NAMES.index(name)
@@ -256,13 +251,13 @@ def boundary_points(critical: pd.DataFrame, settings: dict) -> Iterator[Critical
     if len(edges):
         # The amplitude whose critical height is closest to rest is the initial guess.
         rest = at(rest, edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - rest[Z0])))])
-    yield differentiate_boundary("critical_amplitude", rest, AMPLITUDE)
+    yield differentiate_boundary("critical_amplitude", rest, "acceleration")
     # Evenly spaced rows without the first and the last one.
     inner = np.linspace(0, len(edges) - 1, settings["heights"] + 2)[1:-1].round().astype(int)
     for edge in edges.iloc[np.unique(inner)].itertuples() if len(edges) else ():
         here = at(parameters, edge.acceleration)
         here[Z0] = edge.z0
-        yield differentiate_boundary("critical_height", here, HEIGHT)
+        yield differentiate_boundary("critical_height", here, "z0")
 
 
 def make(

@@ -22,6 +22,8 @@ from ..solver.model import PARAMETERS
 # The groups in the order of their derivatives. The last three, z0 ω²/g, ż0 ω/g and ψ0, are the initial condition.
 NAMES = ("amplitude", "damping", "stiffness", "exponent", "height", "velocity", "phase")
 AMPLITUDE, DAMPING, STIFFNESS, EXPONENT, HEIGHT, VELOCITY, PHASE = range(len(NAMES))
+# The parameters that an equation between the groups may determine, and their groups.
+GROUP_OF = {"acceleration": AMPLITUDE, "z0": HEIGHT}
 # A conveyor whose parameters equal its dimensionless groups: g = 1, ω = 1, m = 1, φ = 90°.
 FREQUENCY_OF_ONE = 0.5 / math.pi
 
@@ -134,7 +136,7 @@ def derivatives_of(moved: str, parameters: np.ndarray, by: np.ndarray) -> dict[s
 
     Parameters
     ----------
-    moved : "acceleration" or "z0"
+    moved : a name in GROUP_OF
     parameters : packed, shape (16,), at which the equation holds
     by : derivatives of the group of `moved`, Γ or z0 ω²/g, by all groups in the order of NAMES, shape (7,); its own 0
 
@@ -142,6 +144,5 @@ def derivatives_of(moved: str, parameters: np.ndarray, by: np.ndarray) -> dict[s
     -------
     by the names of the parameters, in units of `moved` per unit of the parameter
     """
-    of = slopes(parameters)
-    own = AMPLITUDE if moved == "acceleration" else HEIGHT
+    of, own = slopes(parameters), GROUP_OF[moved]
     return {name: float((by @ slope - slope[own]) / of[moved][own]) for name, slope in of.items() if name != moved}

@@ -136,14 +136,12 @@ def find_boundary_point(launch: InitialCondition, groups: Groups, unknown: int) 
     for _ in range(turn):
         images.append(derivatives(groups, images[-1], period, launch.psi0).image)
     while len(images) <= MOST:
-        images = [*images, *[saddle] * 4]
-        solution = _shoot(launch, groups, unknown, period, saddle, np.array(images))
+        solution = _shoot(launch, groups, unknown, period, saddle, np.array([*images, *[saddle] * 4]))
         if isinstance(solution, str):
             return solution
         launch, groups, saddle, images = solution
         if np.linalg.norm(images[-1] - saddle) < NEAR:
-            return _moved(launch, groups, unknown, period, saddle, np.array(images))
-        images = list(images)
+            return _moved(launch, groups, unknown, period, saddle, images)
     return "the start does not come close to the saddle"
 
 
