@@ -27,5 +27,4 @@ def make(
     last, parameters = parameters_on_attractors(strobes, settings)
     options = {name: settings[name] for name in ("cycles", "blocks", "tolerance")}
     vertical = lyapunov.spectrum_on_attractors(parameters, **options, threads=threads, progress=progress)
-    found = {name: getattr(vertical, name) for name in vertical._fields}
-    return {"acceleration": last.acceleration, "branch": last.branch, **found}
+    return {"acceleration": last.acceleration, "branch": last.branch, **vertical._asdict()}

@@ -245,28 +245,17 @@ def follow(parameters, tolerance, state, cycles):
             return status, strobes, features
         strobes[n, :] = state
         features[n, :] = found
-        if mark < n and repeats_bit_for_bit(strobes, features, n, mark):
+        same = strobes[n, 0] == strobes[mark, 0] and strobes[n, 1] == strobes[mark, 1]
+        # The times since the last separation are part of what repeats itself.
+        if mark < n and same and features[n, AIRBORNE] == features[mark, AIRBORNE]:
             for later in range(n + 1, cycles):
-                before = later - n + mark
-                for k in range(2):
-                    strobes[later, k] = strobes[before, k]
-                for k in range(FEATURES):
-                    features[later, k] = features[before, k]
-            state[0], state[1] = strobes[cycles - 1, 0], strobes[cycles - 1, 1]
+                strobes[later, :] = strobes[later - n + mark, :]
+                features[later, :] = features[later - n + mark, :]
+            state[:] = strobes[cycles - 1, :]
             return OK, strobes, features
         if n == 2 * mark + 1:
             mark = n
     return OK, strobes, features
-
-
-@compiled_inline
-def repeats_bit_for_bit(strobes, features, n, mark):
-    """Whether the cycles after two cycles are equal: the states and the times since the last separation are."""
-    return (
-        strobes[n, 0] == strobes[mark, 0]
-        and strobes[n, 1] == strobes[mark, 1]
-        and features[n, AIRBORNE] == features[mark, AIRBORNE]
-    )
 
 
 @compiled
