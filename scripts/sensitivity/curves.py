@@ -1,7 +1,5 @@
 """Curves of folds, period doublings and the lift-off of a riding part over the amplitude and a second parameter."""
 
-from collections.abc import Iterator
-
 import numpy as np
 import pandas as pd
 
@@ -62,19 +60,6 @@ ENDS = {
 STEEPEST = 0.49 * np.pi  # rad, largest angle of throw of a curve
 
 
-def curve_columns(bifurcation: Selected, parameter: str) -> dict:
-    """The columns that identify a curve."""
-    return {
-        "kind": bifurcation.kind,
-        "period": bifurcation.period,
-        "doubling": bifurcation.doubling,
-        "rides": bifurcation.rides,
-        "begin": bifurcation.acceleration,
-        "parameter": parameter,
-        "parameter_unit": UNITS[parameter],
-    }
-
-
 def place_columns(parameters: np.ndarray, point: Point, parameter: str, part: float) -> dict:
     """The columns with the parameters and groups of a point; `part` is the logarithm of the factor on `parameter`."""
     here = parameters.copy()
@@ -89,8 +74,20 @@ def place_columns(parameters: np.ndarray, point: Point, parameter: str, part: fl
     }
 
 
-def follow_curve(point: Point, parameter: str, settings: dict) -> Curve:
+def angle_curve(point: Point, angle: float, settings: dict) -> Curve:
+    """The curve over the angle of throw (rad), on which Γ is constant, so that â is proportional to 1/sin φ."""
+    reach = np.log(settings["factors"]["angle"])
+    highest = min(reach, np.log(STEEPEST / angle))
+    parts = np.linspace(-reach, highest, 2 * int(np.ceil(reach / settings["step"])) + 1)
+    count = len(parts)
+    ends = bifurcation_curves.LIMIT, bifurcation_curves.LIMIT
+    return Curve([point] * count, parts, np.full(count, np.nan), np.zeros(count, np.int64), [], ends)
+
+
+def follow_curve(parameters: np.ndarray, point: Point, parameter: str, settings: dict) -> Curve:
     """The curve of a bifurcation over a parameter."""
+    if parameter == "angle":
+        return angle_curve(point, parameters[ANGLE], settings)
     path = POWERS[parameter](point.groups.exponent)
     reach = np.log(settings["factors"][parameter])
     limits = tuple(settings["amplitude"]), (-reach, reach)
@@ -103,7 +100,15 @@ def curve_rows(
     parameters: np.ndarray, bifurcation: Selected, parameter: str, curve: Curve
 ) -> tuple[list[dict], list[dict]]:
     """The rows of the points and of the meetings of a curve."""
-    name = curve_columns(bifurcation, parameter)
+    name = {
+        "kind": bifurcation.kind,
+        "period": bifurcation.period,
+        "doubling": bifurcation.doubling,
+        "rides": bifurcation.rides,
+        "begin": bifurcation.acceleration,
+        "parameter": parameter,
+        "parameter_unit": UNITS[parameter],
+    }
     last = len(curve.points) - 1
     points = []
     for n, (point, part, form, impacts) in enumerate(
@@ -124,18 +129,6 @@ def curve_rows(
     return points, meetings
 
 
-def angle_rows(parameters: np.ndarray, bifurcation: Selected, settings: dict) -> Iterator[dict]:
-    """The rows of the curve over the angle of throw, on which Γ is constant, so that â is proportional to 1/sin φ."""
-    reach = np.log(settings["factors"]["angle"])
-    highest = min(reach, np.log(STEEPEST / parameters[ANGLE]))
-    parts = np.linspace(-reach, highest, 2 * int(np.ceil(reach / settings["step"])) + 1)
-    for n, part in enumerate(parts):
-        end = n in (0, len(parts) - 1)
-        columns = {"point": n, "impacts": 0, "normal_form": np.nan, "status": "limit of the config" if end else "ok"}
-        place = place_columns(parameters, bifurcation.point, "angle", part)
-        yield {**curve_columns(bifurcation, "angle"), **place, **columns}
-
-
 def make(
     folds_and_doublings: pd.DataFrame,
     cascade: pd.DataFrame,
@@ -152,18 +145,17 @@ def make(
     )
     chosen = [one for one in chosen if one.point is not None and (one.kind != GRAZING or one.rides)]
     tasks = [(bifurcation, parameter) for bifurcation in chosen for parameter in POWERS]
+    tasks += [(bifurcation, "angle") for bifurcation in chosen]
     found = [None] * len(tasks)
 
     def work(begin, end):
         for n in range(begin, end):
             bifurcation, parameter = tasks[n]
-            curve = follow_curve(bifurcation.point, parameter, options)
+            curve = follow_curve(parameters, bifurcation.point, parameter, options)
             found[n] = curve_rows(parameters, bifurcation, parameter, curve)
 
     for_each_chunk(work, len(tasks), threads=threads, chunk=1, progress=progress)
-    points = [row for rows, _ in found for row in rows]
-    points += [row for bifurcation in chosen for row in angle_rows(parameters, bifurcation, options)]
     return {
-        "continued": fields.columns(points, TABLES["continued"]),
+        "continued": fields.columns([row for rows, _ in found for row in rows], TABLES["continued"]),
         "meetings": fields.columns([row for _, rows in found for row in rows], TABLES["meetings"]),
     }
