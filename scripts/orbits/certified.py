@@ -180,14 +180,10 @@ def doubled_lines(
     return found
 
 
-def amplitudes(settings: dict) -> list[float]:
-    """All amplitudes at which orbits are proved, ascending, m/s²."""
-    return sorted({*grid.axis_values("acceleration", settings["acceleration"]).tolist(), *settings["also"]})
-
-
 def orbits_to_prove(settings: dict, branches: pd.DataFrame, cascade: pd.DataFrame) -> list[FloatOrbit]:
-    """All orbits up to the longest period at the amplitudes of the settings."""
-    parameters, chosen = grid.packed(settings["model"]), amplitudes(settings)
+    """All orbits up to the longest period at the amplitudes of the settings, by amplitude."""
+    parameters = grid.packed(settings["model"])
+    chosen = sorted({*grid.axis_values("acceleration", settings["acceleration"]).tolist(), *settings["also"]})
     lines = stored_lines(branches, settings["longest_period"])
     periods = int(branches.period.max()), settings["longest_period"]
     doubled = doubled_lines(parameters, cascade, periods, (chosen[0], settings["doubled_limit"]))

@@ -158,11 +158,6 @@ def normal_form(point: Point, along: np.ndarray) -> tuple[float, np.ndarray]:
     return float(left @ (third / 6.0 + 0.5 * found.second[:, :, :2] @ follow @ right)), right
 
 
-def impacts_of(point: Point) -> int:
-    """Impacts of the orbit per period."""
-    return derivatives(point.groups, point.unknown[:2], point.period).impacts
-
-
 def follow(
     point: Point,
     path: Path,
@@ -197,7 +192,7 @@ def follow(
         form, right = normal_form(one, rights[-1])
         forms.append(form)
         rights.append(right)
-    impacts = np.array([impacts_of(one) for one in points])
+    impacts = np.array([derivatives(one.groups, one.unknown[:2], one.period).impacts for one in points])
     meetings = list(_meetings(equations, unknowns, forms, rights[1:], impacts, (first, last)))
     return Curve(
         points, np.array([unknown[3] for unknown in unknowns]), np.array(forms), impacts, meetings, (first, last)
