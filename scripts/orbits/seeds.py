@@ -8,7 +8,6 @@ from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.attractors import sampling
 from conveyor.analysis.bifurcations import periodic_orbits
 from conveyor.analysis.bifurcations.periodic_orbits import Orbit
-from conveyor.solver.model import ACCELERATION
 from pipeline import grid
 
 # Size of the search: amplitudes between the limits, and initial conditions at each.
@@ -43,8 +42,7 @@ def follow_seeds(settings: dict) -> list[Orbit]:
 def search_seeds(parameters: np.ndarray, settings: dict) -> Iterator[Orbit]:
     """The different stable orbits that some initial conditions lead to, at amplitudes between the limits."""
     for acceleration in np.linspace(*settings["limits"], AMPLITUDES + 2)[1:-1]:
-        row = parameters.copy()
-        row[ACCELERATION] = acceleration
+        row = periodic_orbits.with_amplitude(parameters, acceleration)
         at_rest = stroboscopic_map.initial_states(row[None], periodic_orbits.TOLERANCE)
         seen = set()
         for state in np.vstack([at_rest, sampling.initial_conditions(row)[:INITIAL_CONDITIONS]]):

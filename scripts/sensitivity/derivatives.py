@@ -10,6 +10,7 @@ import pandas as pd
 from conveyor.analysis.basins import boundary_point
 from conveyor.analysis.basins.boundary_point import InitialCondition
 from conveyor.analysis.bifurcations import bifurcation_points, doubling_cascade
+from conveyor.analysis.bifurcations.periodic_orbits import with_amplitude
 from conveyor.analysis.dimensionless_groups import (
     GROUP_OF,
     NAMES,
@@ -21,7 +22,7 @@ from conveyor.analysis.dimensionless_groups import (
 )
 from conveyor.solver.model import ACCELERATION, PARAMETERS, UNITS, VZ0, Z0
 from pipeline import fields, grid
-from sensitivity.selection import COLUMNS, Selected, at, select_bifurcations
+from sensitivity.selection import COLUMNS, Selected, select_bifurcations
 
 POINT = (
     fields.text("kind", "fold, period_doubling, grazing, accumulation, critical_amplitude or critical_height"),
@@ -89,7 +90,7 @@ def differentiate_bifurcation(parameters: np.ndarray, bifurcation: Selected) -> 
     if moves is None:
         return CriticalPoint(
             **label,
-            parameters=at(parameters, bifurcation.acceleration),
+            parameters=with_amplitude(parameters, bifurcation.acceleration),
             quantity="acceleration",
             status="not found again" if point is None else "singular",
         )
@@ -107,7 +108,7 @@ def differentiate_bifurcation(parameters: np.ndarray, bifurcation: Selected) -> 
         groups = groups_of(row)._replace(amplitude=point.groups.amplitude)
         return amplitude_of(row, find_amplitude(groups))
 
-    here = at(parameters, amplitude_of(parameters, point.groups.amplitude))
+    here = with_amplitude(parameters, amplitude_of(parameters, point.groups.amplitude))
     return CriticalPoint(**label, parameters=here, quantity="acceleration", derivatives=derivatives, solve=solve)
 
 
@@ -128,7 +129,7 @@ def differentiate_accumulation(parameters: np.ndarray, doublings: list[CriticalP
     def solve(row):
         return doubling_cascade.accumulation(np.array([doubling.solve(row) for doubling in last]))[0]
 
-    here = at(parameters, doubling_cascade.accumulation(amplitudes)[0])
+    here = with_amplitude(parameters, doubling_cascade.accumulation(amplitudes)[0])
     return CriticalPoint("accumulation", 0, here, "acceleration", derivatives=derivatives, solve=solve)
 
 
@@ -250,12 +251,12 @@ def boundary_points(critical: pd.DataFrame, settings: dict) -> Iterator[Critical
     rest[Z0], rest[VZ0] = settings["rest"]["z0"], settings["rest"]["vz0"]
     if len(edges):
         # The amplitude whose critical height is closest to rest is the initial guess.
-        rest = at(rest, edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - rest[Z0])))])
+        rest = with_amplitude(rest, edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - rest[Z0])))])
     yield differentiate_boundary("critical_amplitude", rest, "acceleration")
     # Evenly spaced rows without the first and the last one.
     inner = np.linspace(0, len(edges) - 1, settings["heights"] + 2)[1:-1].round().astype(int)
     for edge in edges.iloc[np.unique(inner)].itertuples() if len(edges) else ():
-        here = at(parameters, edge.acceleration)
+        here = with_amplitude(parameters, edge.acceleration)
         here[Z0] = edge.z0
         yield differentiate_boundary("critical_height", here, "z0")
 

@@ -7,8 +7,8 @@ import pandas as pd
 
 from conveyor.analysis.bifurcations import bifurcation_points
 from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, Point
+from conveyor.analysis.bifurcations.periodic_orbits import with_amplitude
 from conveyor.analysis.dimensionless_groups import groups_of
-from conveyor.solver.model import ACCELERATION
 from pipeline import fields
 
 # Largest relative difference of the amplitudes of one bifurcation in two tables, or in a table and solved again.
@@ -30,17 +30,10 @@ class Selected(NamedTuple):
     rides: bool  # for a grazing: whether the part never leaves the plate at smaller amplitudes
 
 
-def at(parameters: np.ndarray, acceleration: float) -> np.ndarray:
-    """Parameters with another amplitude (m/s²)."""
-    row = parameters.copy()
-    row[ACCELERATION] = acceleration
-    return row
-
-
 def solve_again(parameters: np.ndarray, row: pd.Series) -> Point | None:
     """The bifurcation of a row of a table, solved in the groups; None if it is not found, or a different one is."""
     kind, period = row["kind"], int(row.period)
-    here = at(parameters, row.acceleration)
+    here = with_amplitude(parameters, row.acceleration)
     groups = groups_of(here)
     state = bifurcation_points.at_phase_zero(here, np.array([row.delta, row.v]))
     if state is None:

@@ -42,6 +42,13 @@ class Orbit(NamedTuple):
         return abs(self.multipliers[0]) < 1.0
 
 
+def with_amplitude(parameters: np.ndarray, acceleration: float) -> np.ndarray:
+    """Packed parameters, shape (16,), with another amplitude (m/s²)."""
+    row = parameters.copy()
+    row[ACCELERATION] = acceleration
+    return row
+
+
 class ReturnMap:
     """The n-th power of the stroboscopic map and its fixed points, in scaled unknowns u = (δ, Y, â).
 
@@ -63,21 +70,16 @@ class ReturnMap:
         delta, y, _ = unknown * self.unit
         return np.array([delta, y - self.damping * max(delta, 0.0)])
 
-    def row(self, unknown: np.ndarray) -> np.ndarray:
-        """The packed parameters at the amplitude of unknowns."""
-        row = self.parameters.copy()
-        row[ACCELERATION] = unknown[2]
-        return row
-
     def strobes(self, unknown: np.ndarray) -> np.ndarray:
         """Unknowns after 1 … n cycles, shape (n, 3)."""
-        _, states, _ = stroboscopic_map.follow(self.row(unknown), TOLERANCE, self.state(unknown), self.period)
+        row = with_amplitude(self.parameters, unknown[2])
+        _, states, _ = stroboscopic_map.follow(row, TOLERANCE, self.state(unknown), self.period)
         return np.array([self.scaled(unknown[2], state) for state in states])
 
     def linearised(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(δ, Y) after n cycles in their units, the matrices (SI units) and the features of all cycles."""
-        state = self.state(unknown)
-        status, matrices, features = stroboscopic_map.monodromy(self.row(unknown), TOLERANCE, state, self.period)
+        row, state = with_amplitude(self.parameters, unknown[2]), self.state(unknown)
+        status, matrices, features = stroboscopic_map.monodromy(row, TOLERANCE, state, self.period)
         if status != OK:
             return np.full(2, np.nan), np.full((self.period, 2, 2), np.nan), features
         return self.scaled(unknown[2], state)[:2], matrices, features
@@ -186,9 +188,7 @@ def settled_orbit(
     periods : the periods to try, in this order
     cycles : excitation cycles that bring the trajectory near its orbit; Newton's iteration does the rest
     """
-    row = parameters.copy()
-    row[ACCELERATION] = acceleration
-    end = np.array(state, dtype=np.float64)
+    row, end = with_amplitude(parameters, acceleration), np.array(state, dtype=np.float64)
     status, strobes, _ = stroboscopic_map.follow(row, TOLERANCE, end, cycles)
     if status != OK:
         return None
