@@ -116,8 +116,6 @@ def safe_flight(theta, omega):
 def one_wave(c, normal):
     """The amplitude R (m/s²) and the phase δ (rad) of ẍ_s + normal cos θ = R cos(θ + δ)."""
     cosine, sine = c.a_x * c.cos_shift + normal, c.a_x * c.sin_shift
-    if sine == 0.0:
-        return cosine, 0.0
     return math.hypot(cosine, sine), math.atan2(sine, cosine)
 
 
@@ -142,7 +140,7 @@ def stick_end(c, theta):
     # ẍ_s + g sin α exceeds μ_s N/m where R cos(θ + δ) rises above `needed`.
     amplitude, shift = one_wave(c, -lift)
     needed = grip - c.downhill
-    forward = 0.0 if needed < -abs(amplitude) else math.inf
+    forward = 0.0 if needed < -amplitude else math.inf
     if abs(needed) < amplitude:
         forward = advance_to((theta + shift) % TURN, TURN - math.acos(needed / amplitude), TURN)
     return min(backward, forward)
@@ -166,7 +164,7 @@ def slip_end(c, theta, slip, sigma, limit):
     """
     swing, shift = one_wave(c, -sigma * c.friction * c.a_z)
     fall = sigma * c.friction * c.gravity - c.downhill
-    edge = math.acos(fall / swing) if abs(fall) < abs(swing) else 0.5 * math.pi
+    edge = math.acos(fall / swing) if abs(fall) < swing else 0.5 * math.pi
     low = 0.0
     while low < limit:
         to_first = (edge - shift - theta - low) % TURN
