@@ -36,13 +36,9 @@ CREEPING = 20.0  # durations of an undamped impact; a contact that takes longer 
 
 # How a part moves.
 FLYING, ARRIVING, RESTING = range(3)
-# The motion at a time: x (m), ẋ (m/s); z (m) and ż (m/s) of a part that flies; sign of the slip, 0 for stick; gap (m)
-# and its rate (m/s) after a bounce; speed of approach (m/s) of a part that arrives; time (s) in which the plate, which
-# has just left the part, cannot catch it.
-Motion = namedtuple("Motion", "kind x vx z vz sigma q rate speed skip")
-# A time: the beginning of an excitation cycle (s), and the time in the cycle (s). This keeps the phase precise in long
-# runs.
-Clock = namedtuple("Clock", "base t")
+# The motion at a time: x (m), ẋ (m/s); sign of the slip, 0 for stick. Of a part that flies or arrives: z (m) and ż
+# (m/s); gap (m) and its rate (m/s); time (s) in which the plate, which has just left the part, cannot catch it.
+Motion = namedtuple("Motion", "kind x vx sigma z vz q rate skip")
 
 
 def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
@@ -239,15 +235,22 @@ def first_motion(c, z0, vz0, theta):
     q = max(z0 - z, 0.0) if z0 == z0 else 0.0  # z0 is NaN for a part that starts on the plate
     rate = vz0 - plate_rise(c, theta)
     kind = ARRIVING if q == 0.0 and rate <= 0.0 else FLYING
-    return Motion(kind, 0.0, 0.0, z + q, vz0, 0.0, q, rate, -rate, 0.0)
+    return Motion(kind, 0.0, 0.0, 0.0, z + q, vz0, q, rate, 0.0)
+
+
+@compiled_into_callers
+def rest(x, vx, sigma):
+    """The Motion of a part that begins to rest."""
+    return Motion(RESTING, x, vx, sigma, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @compiled_into_callers
 def bounce(c, motion, theta, coefficient):
     """The Motion just after an impact."""
-    rate = coefficient * motion.speed
+    speed = -motion.rate
+    rate = coefficient * speed
     vx = motion.vx
-    bound = c.friction * (1.0 + coefficient) * motion.speed
+    bound = c.friction * (1.0 + coefficient) * speed
     slip = plate_speed(c, theta) - vx
     if abs(slip) <= bound:
         vx += slip
@@ -255,11 +258,12 @@ def bounce(c, motion, theta, coefficient):
     else:
         vx += math.copysign(bound, slip)
     pressure = c.gravity + c.a_z * math.cos(theta)
-    kind = RESTING if pressure > 0.0 and 2.0 * c.omega * rate <= COLLAPSE * pressure else FLYING
-    skip = 0.0 if pressure > 0.0 else safe_flight(theta, c.omega)
     sigma = slip_direction(c, theta, slip)
+    if pressure > 0.0 and 2.0 * c.omega * rate <= COLLAPSE * pressure:
+        return rest(motion.x, vx, sigma)
+    skip = 0.0 if pressure > 0.0 else safe_flight(theta, c.omega)
     z, vz = plate_height(c, theta), plate_rise(c, theta) + rate
-    return Motion(kind, motion.x, vx, z, vz, sigma, 0.0, rate, motion.speed, skip)
+    return Motion(FLYING, motion.x, vx, sigma, z, vz, 0.0, rate, skip)
 
 
 @compiled_into_callers
@@ -280,27 +284,21 @@ def rest_duration(c, motion, theta, left):
 @compiled_into_callers
 def end_rest(c, motion, theta, tau, leaves):
     """The Motion after a rest of `tau` (s), which the plate ends if it `leaves` the part."""
-    _, _, _, z, vz, sigma, q, rate, speed, skip = motion
-    kind = RESTING
-    x, vx = rest_motion(c, theta, motion.x, motion.vx, sigma, tau)
+    x, vx = rest_motion(c, theta, motion.x, motion.vx, motion.sigma, tau)
     theta += c.omega * tau
     if leaves:
-        kind, skip = FLYING, safe_flight(theta, c.omega)
         z, vz = plate_height(c, theta), plate_rise(c, theta)
-    elif sigma == 0.0:
-        sigma = math.copysign(1.0, friction.pull(c, math.sin(theta), math.cos(theta)))
-    else:
-        vx = plate_speed(c, theta)
-        sigma = slip_direction(c, theta, 0.0)
-    return Motion(kind, x, vx, z, vz, sigma, q, rate, speed, skip)
+        return Motion(FLYING, x, vx, motion.sigma, z, vz, 0.0, 0.0, safe_flight(theta, c.omega))
+    if motion.sigma == 0.0:
+        return rest(x, vx, math.copysign(1.0, friction.pull(c, math.sin(theta), math.cos(theta))))
+    return rest(x, plate_speed(c, theta), slip_direction(c, theta, 0.0))
 
 
 @compiled_into_callers
-def sample_motion(c, motion, theta, clock, tau, record):
-    """Sample a part that rests or flies for `tau` (s). Returns the number of samples so far."""
-    times, samples, sampled = record
-    while sampled < len(times) and clock.base + clock.t + tau >= times[sampled]:
-        ahead = times[sampled] - clock.base - clock.t
+def sample_motion(c, motion, theta, base, t, tau, times, samples, sampled):
+    """Sample a part that rests or flies for `tau` (s), from `base` + `t` on. Returns the number of samples so far."""
+    while sampled < len(times) and base + t + tau >= times[sampled]:
+        ahead = times[sampled] - base - t
         if motion.kind == RESTING:
             phase = theta + c.omega * ahead
             x, vx = rest_motion(c, theta, motion.x, motion.vx, motion.sigma, ahead)
@@ -334,6 +332,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
     period, psi0, end = 1.0 / parameters[model.FREQUENCY], parameters[model.PSI0], times[-1]
     motion = first_motion(c, parameters[model.Z0], parameters[model.VZ0], psi0)
     max_gap = motion.q
+    # Whole cycles and a time in the cycle keep the phase precise in long runs.
     cycle, t = 0, 0.0
     sampled = n_impacts = n_events = 0
     while sampled < len(times):
@@ -341,32 +340,32 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
             t -= period
             cycle += 1
             n_events = 0
-        clock = Clock(cycle * period, t)
-        theta, left = psi0 + omega * t, end - clock.base - t
+        base = cycle * period
+        theta, left = psi0 + omega * t, end - base - t
         n_events += 1
         if n_events > MAX_EVENTS:
             samples[sampled:] = math.nan
             return n_impacts, max_gap, TOO_MANY_EVENTS
         if motion.kind == ARRIVING:
-            if motion.speed > 0.0:
+            if motion.rate < 0.0:
                 if n_impacts < len(impacts):
-                    impacts[n_impacts, 0], impacts[n_impacts, 1] = clock.base + t, motion.speed
+                    impacts[n_impacts, 0], impacts[n_impacts, 1] = base + t, -motion.rate
                 n_impacts += 1
-            motion = bounce(c, motion, theta, restitution_at(motion.speed, speeds, coefficients))
+            motion = bounce(c, motion, theta, restitution_at(-motion.rate, speeds, coefficients))
         elif motion.kind == RESTING:
             tau, leaves = rest_duration(c, motion, theta, left)
-            sampled = sample_motion(c, motion, theta, clock, tau, (times, samples, sampled))
+            sampled = sample_motion(c, motion, theta, base, t, tau, times, samples, sampled)
             motion = end_rest(c, motion, theta, tau, leaves)
             t += tau
         else:
-            _, x, vx, z, vz, sigma, q, rate, _, skip = motion
+            _, x, vx, sigma, z, vz, q, rate, skip = motion
             flight = Flight(z, vz, theta, gravity, a_z, omega)
             if skip > 0.0:
                 q, rate = gap(flight, skip)
                 if q <= 0.0:
                     # The plate is back before it has really left.
                     x, vx = rest_motion(c, theta, x, vx, sigma, skip)
-                    motion = Motion(RESTING, x, vx, z, vz, sigma, q, rate, motion.speed, skip)
+                    motion = rest(x, vx, sigma)
                     t += skip
                     continue
             ahead = Flight(
@@ -378,9 +377,9 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
                 samples[sampled:] = math.nan
                 return n_impacts, max_gap, IMPACT_NOT_FOUND
             max_gap = max(max_gap, highest_gap(flight, min(tau, left)))
-            sampled = sample_motion(c, motion, theta, clock, tau, (times, samples, sampled))
+            sampled = sample_motion(c, motion, theta, base, t, tau, times, samples, sampled)
             x, vx = slide(c, x, vx, tau)
-            motion = Motion(ARRIVING, x, vx, z, vz, sigma, q, rate, speed, skip)
+            motion = Motion(ARRIVING, x, vx, sigma, z, vz, 0.0, -speed, 0.0)
             t += tau
     return n_impacts, max_gap, OK
 
