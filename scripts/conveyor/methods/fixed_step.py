@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import LONGEST, check_array, check_choice, check_time
 from ..parameters import FIXED_STEP_METHODS as METHODS
 from ..parameters import LAST
 from ..solver import contact, friction, model
@@ -212,22 +213,15 @@ class Summary(NamedTuple):
     status: str  # one of lanes.STATUSES
 
 
-def check_positive(name: str, value: float) -> None:
-    """ValueError that names a time (s) which is not positive and finite."""
-    if not 0.0 < value < math.inf:
-        raise ValueError(f"{name} = {value!r} s is not positive and finite")
-
-
 def step_count(duration: float, step: float) -> int:
     """The number of steps (s) in `duration` (s).
 
     Raises
     ------
     ValueError
-        if either is not positive and finite, or if the duration is no whole number of steps
+        if either is not a time in (0, LONGEST], or if the duration is no whole number of steps
     """
-    check_positive("duration", duration)
-    check_positive("step", step)
+    duration, step = check_time("duration", duration), check_time("step", step)
     count = round(duration / step)
     if abs(duration / step - count) > WHOLE * max(count, 1) or count == 0:
         nearest = max(count, 1)
@@ -240,8 +234,7 @@ def step_count(duration: float, step: float) -> int:
 
 def follow(parameters, step, n_steps, method, indices=(), n_events=0):
     """Follow trajectories, shape (n, 16). Returns results as lists, samples (NaN where not reached) and events."""
-    if method not in METHODS:
-        raise ValueError(f"method = {method!r} is not one of {', '.join(METHODS)}")
+    check_choice("method", method, METHODS)
     indices = np.asarray(indices, dtype=np.int64)
     n = len(parameters)
     samples = np.full((n, len(indices), len(SAMPLE_COLUMNS)), math.nan)
@@ -306,17 +299,10 @@ def sample(parameters: np.ndarray, times: np.ndarray, step: float, method: str =
     ValueError
         for a negative time, a step that is not positive or an unknown method
     """
-    times = np.asarray(times, dtype=np.float64)
-    if not (np.isfinite(times) & (times >= 0.0)).all():
-        raise ValueError("times must be finite and not negative")
-    check_positive("step", step)
-    indices = np.rint(times.ravel() / step).astype(np.int64)
-    n_steps = int(indices.max(initial=1))
-    order = np.argsort(indices, kind="stable")
-    _, (samples,), _ = follow(parameters[np.newaxis], step, n_steps, method, indices[order])
-    values = np.empty_like(samples)
-    values[order] = samples
-    return {name: values[:, k].reshape(times.shape) for k, name in enumerate(SAMPLE_COLUMNS)}
+    times, step = check_array("times", times, 0.0, LONGEST, "s", least=0), check_time("step", step)
+    indices, place = np.unique(np.rint(times / step).astype(np.int64), return_inverse=True)
+    _, (samples,), _ = follow(parameters[np.newaxis], step, int(indices.max(initial=1)), method, indices)
+    return {name: samples[place, k].reshape(times.shape) for k, name in enumerate(SAMPLE_COLUMNS)}
 
 
 def events(parameters: np.ndarray, duration: float, step: float, method: str = "euler") -> np.ndarray:

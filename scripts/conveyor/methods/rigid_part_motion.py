@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import LARGEST_COORDINATE, LONGEST, check_array, check_time
 from ..parameters import LAST
 from ..solver import contact, friction, model
 from ..solver.flight import Flight, gap, highest_gap, next_impact
@@ -403,21 +404,17 @@ def restitution_coefficients(parameters: np.ndarray, speeds: np.ndarray) -> np.n
     They belong to the contact alone, without gravity and excitation, and are accurate to about 1e-6. A speed that is
     not positive raises ValueError.
     """
-    if not (np.isfinite(speeds) & (speeds > 0.0)).all():
-        raise ValueError("speeds must be finite and positive")
+    speeds = check_array("speeds", speeds, np.finfo(np.float64).tiny, LARGEST_COORDINATE, "m/s")
     return np.array([restitution_coefficient(parameters, speed) for speed in speeds])
 
 
 def _follow(parameters, restitution, times, n_impacts=0):
     """Call `follow` with new arrays. Returns its result, the samples (NaN after an early end) and the impacts."""
-    if np.isscalar(restitution):
-        speeds, coefficients = np.zeros(1), np.array([restitution], dtype=np.float64)
-    else:
-        speeds, coefficients = (np.asarray(column, dtype=np.float64) for column in restitution)
+    speeds, coefficients = ([0.0], [restitution]) if np.isscalar(restitution) else restitution
+    speeds = np.asarray(speeds, dtype=np.float64)
+    coefficients = check_array("restitution", coefficients, 0.0, 1.0)
     if speeds.shape != coefficients.shape or speeds.ndim != 1 or not (np.diff(speeds) > 0.0).all():
         raise ValueError("restitution must be a number or two columns of equal length, the speeds ascending")
-    if not ((coefficients >= 0.0) & (coefficients <= 1.0)).all():
-        raise ValueError("coefficients of restitution must lie in [0, 1]")
     samples = np.empty((len(times), len(SAMPLE_COLUMNS)))
     impacts = np.empty((n_impacts, 2))
     result = follow(parameters, speeds, coefficients, times, samples, impacts)
@@ -438,8 +435,7 @@ def run(parameters: np.ndarray, duration: float, restitution) -> Summary:
     ValueError
         names the argument that cannot be used
     """
-    if not 0.0 < duration < math.inf:
-        raise ValueError(f"duration = {duration!r} s is not positive and finite")
+    duration = check_time("duration", duration)
     times = np.array([(1.0 - LAST) * duration, duration])
     (n_impacts, max_gap, status), samples, _ = _follow(parameters, restitution, times)
     x, vx, z, vz = (float(value) for value in samples[1])
@@ -456,9 +452,7 @@ def samples_and_impacts(
     parameters: np.ndarray, times: np.ndarray, restitution
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """As `sample`, and the impacts up to the last of `times`: time (s) and speed of approach (m/s), of IMPACT_DTYPE."""
-    times = np.asarray(times, dtype=np.float64)
-    if not (np.isfinite(times) & (times >= 0.0)).all():
-        raise ValueError("times must be finite and not negative")
+    times = check_array("times", times, 0.0, LONGEST, "s", least=0)
     moments, place = np.unique(times, return_inverse=True)
     samples, hits = np.empty((0, len(SAMPLE_COLUMNS))), np.empty((0, 2))
     if moments.size:
