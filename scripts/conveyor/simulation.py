@@ -9,15 +9,13 @@ from .arguments import check_array, check_choice, check_flag, check_number, chec
 from .methods import fixed_step
 from .parameters import LAST
 from .solver import trajectory
-from .solver.horizontal import EVENTS, SAMPLES
+from .solver.horizontal import SAMPLES, name_events
 from .solver.model import Conveyor, Start, pack
 
 METHODS = ("event", *fixed_step.METHODS)
 DEFAULT_TOLERANCE = 3e-10
 DEFAULT_STEP = 5e-7  # s, Sect. 3 of the paper
 MOST_STEPS = 10**10  # fixed steps of a run, which take minutes
-
-EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U14")])
 
 
 @dataclass(frozen=True)
@@ -92,15 +90,12 @@ class Run:
         """Events in order of time: a structured array with the fields `time` (s) and `kind` (see horizontal.EVENTS)."""
         parameters = pack(self.conveyor, self.start)
         if self.method != "event":
-            return fixed_step.events(parameters, self.duration, self.step, self.method).astype(EVENT_DTYPE)
+            return fixed_step.events(parameters, self.duration, self.step, self.method)
         times, kinds = np.empty(self.event_count), np.empty(self.event_count, np.int8)
         options = {"tolerance": self.tolerance, "reuse": self.reuse}
         options |= {"event_times": times[None], "event_kinds": kinds[None]}
         trajectory.integrate(parameters[None], np.array([[self.duration]]), **options)
-        events = np.empty(self.event_count, dtype=EVENT_DTYPE)
-        events["time"] = times
-        events["kind"] = np.array(EVENTS)[kinds]
-        return events
+        return name_events(times, kinds)
 
 
 def check_run(duration: float, method: str, tolerance: float, step: float) -> tuple[float, float, float]:

@@ -19,9 +19,8 @@ from ..solver import contact, friction, model
 from ..solver.flight import Flight, gap, highest_gap, next_impact
 from ..solver.horizontal import slide
 from ..solver.jit import compiled, compiled_inline, compiled_into_callers
+from ..solver.trajectory import IMPACT_LOST, OK, STATUS, TOO_MANY_EVENTS
 
-STATUSES = ("ok", "too many events", "impact not found")
-OK, TOO_MANY_EVENTS, IMPACT_NOT_FOUND = range(len(STATUSES))
 SAMPLE_COLUMNS = ("x", "vx", "z", "vz")
 IMPACT_DTYPE = np.dtype([("time", np.float64), ("speed", np.float64)])
 
@@ -376,7 +375,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
             tau += skip
             if not tau <= math.inf:
                 samples[sampled:] = math.nan
-                return n_impacts, max_gap, IMPACT_NOT_FOUND
+                return n_impacts, max_gap, IMPACT_LOST
             max_gap = max(max_gap, highest_gap(flight, min(tau, left)))
             sampled = sample_motion(c, motion, theta, base, t, tau, times, samples, sampled)
             x, vx = slide(c, x, vx, tau)
@@ -395,7 +394,7 @@ class Summary(NamedTuple):
     mean_velocity: float  # m/s, over the last part of the run
     impacts: int
     max_gap: float  # m
-    status: str  # one of STATUSES
+    status: str  # one of trajectory.STATUS
 
 
 def restitution_coefficients(parameters: np.ndarray, speeds: np.ndarray) -> np.ndarray:
@@ -440,7 +439,7 @@ def run(parameters: np.ndarray, duration: float, restitution) -> Summary:
     (n_impacts, max_gap, status), samples, _ = _follow(parameters, restitution, times)
     x, vx, z, vz = (float(value) for value in samples[1])
     mean_velocity = (x - float(samples[0, 0])) / (LAST * duration)
-    return Summary(x, vx, z, vz, mean_velocity, n_impacts, max_gap, STATUSES[status])
+    return Summary(x, vx, z, vz, mean_velocity, n_impacts, max_gap, STATUS[status])
 
 
 def sample(parameters: np.ndarray, times: np.ndarray, restitution) -> dict[str, np.ndarray]:
