@@ -10,6 +10,7 @@ MOST_VALUES = 10**8  # values in one array, or in the product of several
 MOST_THREADS = 1024
 MOST_CYCLES = 10**6  # excitation cycles of one trajectory
 MOST_BLOCKS = 10**4
+LONGEST = 1e6  # s, of a run
 LONGEST_PERIOD = 10**6  # excitation cycles
 LARGEST_COORDINATE = 1e100
 
@@ -108,6 +109,11 @@ def check_packed(rows: object) -> np.ndarray:
         interval = f"[{LOW[column]:g}, {HIGH[column]:g}] {UNITS[name]}".rstrip()
         raise ValueError(f"parameters[{row}]: {name} = {array[row, column]!s} is outside {interval}")
     return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def check_time(name: str, value: object) -> float:
+    """`value`, a duration or a step (s), as a float; ValueError unless it is positive and at most LONGEST."""
+    return check_number(name, value, 0.0, LONGEST, "s", above=True)
 
 
 def check_tolerance(tolerance: object) -> float:

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from .arguments import check_array, check_choice, check_count, check_packed, check_threads
+from .arguments import LONGEST, check_array, check_choice, check_count, check_packed, check_threads
 from .methods import fixed_step
-from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, LONGEST, check_run
+from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, check_run
 from .solver import trajectory, vertical_lanes
 from .solver.horizontal import VX, VZ, X, Z
 from .solver.parallel import for_each_chunk

@@ -5,20 +5,17 @@ from functools import cached_property
 
 import numpy as np
 
-from .arguments import check_array, check_choice, check_flag, check_number, check_tolerance, check_type
+from .arguments import check_array, check_choice, check_flag, check_number, check_time, check_tolerance, check_type
 from .methods import fixed_step
 from .parameters import LAST
 from .solver import trajectory
-from .solver.horizontal import EVENTS, SAMPLES
+from .solver.horizontal import SAMPLES, name_events
 from .solver.model import Conveyor, Start, pack
 
 METHODS = ("event", *fixed_step.METHODS)
 DEFAULT_TOLERANCE = 3e-10
 DEFAULT_STEP = 5e-7  # s, Sect. 3 of the paper
-LONGEST = 1e6  # s, of a run
 MOST_STEPS = 10**10  # fixed steps of a run, which take minutes
-
-EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U14")])
 
 
 @dataclass(frozen=True)
@@ -93,15 +90,12 @@ class Run:
         """Events in order of time: a structured array with the fields `time` (s) and `kind` (see horizontal.EVENTS)."""
         parameters = pack(self.conveyor, self.start)
         if self.method != "event":
-            return fixed_step.events(parameters, self.duration, self.step, self.method).astype(EVENT_DTYPE)
+            return fixed_step.events(parameters, self.duration, self.step, self.method)
         times, kinds = np.empty(self.event_count), np.empty(self.event_count, np.int8)
         options = {"tolerance": self.tolerance, "reuse": self.reuse}
         options |= {"event_times": times[None], "event_kinds": kinds[None]}
         trajectory.integrate(parameters[None], np.array([[self.duration]]), **options)
-        events = np.empty(self.event_count, dtype=EVENT_DTYPE)
-        events["time"] = times
-        events["kind"] = np.array(EVENTS)[kinds]
-        return events
+        return name_events(times, kinds)
 
 
 def check_run(duration: float, method: str, tolerance: float, step: float) -> tuple[float, float, float]:
@@ -109,10 +103,10 @@ def check_run(duration: float, method: str, tolerance: float, step: float) -> tu
 
     Compiled functions would be compiled again for numbers of another type, such as np.float32.
     """
-    duration = check_number("duration", duration, 0.0, LONGEST, "s", above=True)
+    duration = check_time("duration", duration)
     check_choice("method", method, METHODS)
     tolerance = check_tolerance(tolerance)
-    step = check_number("step", step, 0.0, LONGEST, "s", above=True)
+    step = check_time("step", step)
     if method != "event" and duration / step > MOST_STEPS:
         raise ValueError(f"step = {step!r} s makes more than {MOST_STEPS:g} steps of the duration of {duration!r} s")
     return duration, tolerance, step

@@ -19,15 +19,13 @@ from numba.core import types
 from numba.extending import intrinsic
 
 from ..solver import model
+from ..solver.horizontal import IMPACT, SEPARATED
 from ..solver.jit import compiled, compiled_into_callers
+from ..solver.trajectory import NOT_FINITE, OK
 from ..solver.vectors import BIT, FLOAT, INTEGER, Memory, Vector, anywhere, call, fma, lanes_of_processor, power, where
 from .force_law import spring_and_damper
 
 CHECK = 256  # steps between checks that the state is finite
-STATUSES = ("ok", "not finite")
-OK, NOT_FINITE = range(len(STATUSES))
-EVENT_KINDS = ("impact", "separation")
-IMPACT, SEPARATION = range(len(EVENT_KINDS))
 
 # The columns of a trajectory's results, and the first rows of the memory, which has a column for each lane. In the
 # memory CONTACT_TIME is a number of steps, EVALUATIONS the number of the present step, and PEAK_FORCE is per mass.
@@ -258,7 +256,7 @@ def record_events(first, memory, running, events, time):
             n_events = int(memory[EVENTS, lane])
             if running[lane] and n_events < events.shape[1]:
                 events[first + lane, n_events, 0] = time
-                events[first + lane, n_events, 1] = IMPACT if touching else SEPARATION
+                events[first + lane, n_events, 1] = IMPACT if touching else SEPARATED
             memory[EVENTS, lane] += 1.0
             memory[IMPACTS, lane] += touching
             if touching:

@@ -17,10 +17,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import LONGEST, check_array, check_choice, check_time
 from ..parameters import FIXED_STEP_METHODS as METHODS
 from ..parameters import LAST
 from ..solver import contact, friction, model
+from ..solver.horizontal import IMPACT, SAMPLES, SEPARATED, name_events
 from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_refcount
+from ..solver.trajectory import NOT_FINITE, OK, STATUS
 from . import euler_lanes as lanes
 from .force_law import contact_acceleration, friction_acceleration
 
@@ -30,8 +33,6 @@ EVALUATIONS = (1, 1, 4)
 # The factor of a step h on a decay exp(λt), as coefficients of the powers of hλ; None for a step without such a factor.
 GROWTH = {"euler": (1.0, 1.0), "semi_implicit_euler": None, "rk4": (1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0)}
 LAST_CODE = len(METHODS) - 1
-SAMPLE_COLUMNS = ("x", "vx", "z", "vz", "contact_force", "friction_force")
-EVENT_DTYPE = np.dtype([("time", np.float64), ("kind", "U10")])
 LIKELY_EVENTS = 1000  # of a run; a run with more events is repeated, with room for all of them
 WHOLE = 1e-9  # relative distance from a whole number of steps that counts as rounding of duration and step
 
@@ -119,7 +120,7 @@ def count_step(c, k, time, sine, vz, gap, push, in_contact, events, results):
     n_events = int(results[k, lanes.EVENTS])
     if n_events < events.shape[1]:
         events[k, n_events, 0] = time
-        events[k, n_events, 1] = lanes.IMPACT if touching else lanes.SEPARATION
+        events[k, n_events, 1] = IMPACT if touching else SEPARATED
     results[k, lanes.EVENTS] += 1
     results[k, lanes.IMPACTS] += touching
     if touching:
@@ -178,7 +179,7 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
             results[k, lanes.X], results[k, lanes.VX], results[k, lanes.Z], results[k, lanes.VZ] = x, vx, z, vz
     for k in range(n):
         finite = math.isfinite(results[k, lanes.X] + results[k, lanes.VX] + results[k, lanes.Z] + results[k, lanes.VZ])
-        results[k, lanes.STATUS] = lanes.OK if finite else lanes.NOT_FINITE
+        results[k, lanes.STATUS] = OK if finite else NOT_FINITE
         results[k, lanes.CONTACT_TIME] *= step
         results[k, lanes.PEAK_FORCE] *= constants[k].mass
 
@@ -209,13 +210,7 @@ class Summary(NamedTuple):
     impact_speed: float  # m/s, largest speed of approach over the last part of the run
     peak_force: float  # N, largest contact force over the last part of the run
     evaluations: int  # of the force
-    status: str  # one of lanes.STATUSES
-
-
-def check_positive(name: str, value: float) -> None:
-    """ValueError that names a time (s) which is not positive and finite."""
-    if not 0.0 < value < math.inf:
-        raise ValueError(f"{name} = {value!r} s is not positive and finite")
+    status: str  # one of trajectory.STATUS
 
 
 def step_count(duration: float, step: float) -> int:
@@ -224,10 +219,9 @@ def step_count(duration: float, step: float) -> int:
     Raises
     ------
     ValueError
-        if either is not positive and finite, or if the duration is no whole number of steps
+        if either is not a time in (0, LONGEST], or if the duration is no whole number of steps
     """
-    check_positive("duration", duration)
-    check_positive("step", step)
+    duration, step = check_time("duration", duration), check_time("step", step)
     count = round(duration / step)
     if abs(duration / step - count) > WHOLE * max(count, 1) or count == 0:
         nearest = max(count, 1)
@@ -240,11 +234,10 @@ def step_count(duration: float, step: float) -> int:
 
 def follow(parameters, step, n_steps, method, indices=(), n_events=0):
     """Follow trajectories, shape (n, 16). Returns results as lists, samples (NaN where not reached) and events."""
-    if method not in METHODS:
-        raise ValueError(f"method = {method!r} is not one of {', '.join(METHODS)}")
+    check_choice("method", method, METHODS)
     indices = np.asarray(indices, dtype=np.int64)
     n = len(parameters)
-    samples = np.full((n, len(indices), len(SAMPLE_COLUMNS)), math.nan)
+    samples = np.full((n, len(indices), len(SAMPLES)), math.nan)
     events = np.empty((n, n_events, 2))
     results = np.empty((n, lanes.RESULTS))
     integrate_all(parameters, float(step), n_steps, METHODS.index(method), indices, samples, events, results)
@@ -279,9 +272,9 @@ def run_all(parameters: np.ndarray, duration: float, step: float, method: str = 
         x, vx, z, vz, _, impacts, contact_time, max_gap, evaluations, status, *peaks = result
         mean_velocity = (x - sample_of_last[0]) / ((n_steps - first) * step)
         contact_fraction = contact_time / (n_steps * step)
-        peaks = peaks if status == lanes.OK else (math.nan, math.nan)
+        peaks = peaks if status == OK else (math.nan, math.nan)
         counts = int(impacts), contact_fraction, max_gap, *peaks, int(evaluations)
-        found.append(Summary(x, vx, z, vz, mean_velocity, *counts, lanes.STATUSES[int(status)]))
+        found.append(Summary(x, vx, z, vz, mean_velocity, *counts, STATUS[int(status)]))
     return found
 
 
@@ -306,31 +299,21 @@ def sample(parameters: np.ndarray, times: np.ndarray, step: float, method: str =
     ValueError
         for a negative time, a step that is not positive or an unknown method
     """
-    times = np.asarray(times, dtype=np.float64)
-    if not (np.isfinite(times) & (times >= 0.0)).all():
-        raise ValueError("times must be finite and not negative")
-    check_positive("step", step)
-    indices = np.rint(times.ravel() / step).astype(np.int64)
-    n_steps = int(indices.max(initial=1))
-    order = np.argsort(indices, kind="stable")
-    _, (samples,), _ = follow(parameters[np.newaxis], step, n_steps, method, indices[order])
-    values = np.empty_like(samples)
-    values[order] = samples
-    return {name: values[:, k].reshape(times.shape) for k, name in enumerate(SAMPLE_COLUMNS)}
+    times, step = check_array("times", times, 0.0, LONGEST, "s", least=0), check_time("step", step)
+    indices, place = np.unique(np.rint(times / step).astype(np.int64), return_inverse=True)
+    _, (samples,), _ = follow(parameters[np.newaxis], step, int(indices.max(initial=1)), method, indices)
+    return {name: samples[place, k].reshape(times.shape) for k, name in enumerate(SAMPLES)}
 
 
 def events(parameters: np.ndarray, duration: float, step: float, method: str = "euler") -> np.ndarray:
     """Impacts and separations of one trajectory, as the fixed steps see them.
 
-    Parameters and errors as in `run`. The array of EVENT_DTYPE has the fields time (s) and kind ("impact",
-    "separation"), in order of time.
+    Parameters and errors as in `run`. The array has the fields time (s) and kind ("impact", "separation"), in order of
+    time.
     """
     n_steps = step_count(duration, step)
     (results,), _, (rows,) = follow(parameters[np.newaxis], step, n_steps, method, n_events=LIKELY_EVENTS)
     n_events = int(results[lanes.EVENTS])
     if n_events > LIKELY_EVENTS:
         _, _, (rows,) = follow(parameters[np.newaxis], step, n_steps, method, n_events=n_events)
-    found = np.empty(n_events, dtype=EVENT_DTYPE)
-    found["time"] = rows[:n_events, 0]
-    found["kind"] = np.array(lanes.EVENT_KINDS)[rows[:n_events, 1].astype(np.int64)]
-    return found
+    return name_events(rows[:n_events, 0], rows[:n_events, 1].astype(np.int64))

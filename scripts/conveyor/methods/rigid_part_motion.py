@@ -13,14 +13,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import LARGEST_COORDINATE, LONGEST, check_array, check_time
 from ..parameters import LAST
 from ..solver import contact, friction, model
 from ..solver.flight import Flight, gap, highest_gap, next_impact
 from ..solver.horizontal import slide
 from ..solver.jit import compiled, compiled_inline, compiled_into_callers
+from ..solver.trajectory import IMPACT_LOST, OK, STATUS, TOO_MANY_EVENTS
 
-STATUSES = ("ok", "too many events", "impact not found")
-OK, TOO_MANY_EVENTS, IMPACT_NOT_FOUND = range(len(STATUSES))
 SAMPLE_COLUMNS = ("x", "vx", "z", "vz")
 IMPACT_DTYPE = np.dtype([("time", np.float64), ("speed", np.float64)])
 
@@ -36,13 +36,9 @@ CREEPING = 20.0  # durations of an undamped impact; a contact that takes longer 
 
 # How a part moves.
 FLYING, ARRIVING, RESTING = range(3)
-# The motion at a time: x (m), ẋ (m/s); z (m) and ż (m/s) of a part that flies; sign of the slip, 0 for stick; gap (m)
-# and its rate (m/s) after a bounce; speed of approach (m/s) of a part that arrives; time (s) in which the plate, which
-# has just left the part, cannot catch it.
-Motion = namedtuple("Motion", "kind x vx z vz sigma q rate speed skip")
-# A time: the beginning of an excitation cycle (s), and the time in the cycle (s). This keeps the phase precise in long
-# runs.
-Clock = namedtuple("Clock", "base t")
+# The motion at a time: x (m), ẋ (m/s); sign of the slip, 0 for stick. Of a part that flies or arrives: z (m) and ż
+# (m/s); gap (m) and its rate (m/s); time (s) in which the plate, which has just left the part, cannot catch it.
+Motion = namedtuple("Motion", "kind x vx sigma z vz q rate skip")
 
 
 def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
@@ -116,8 +112,6 @@ def safe_flight(theta, omega):
 def one_wave(c, normal):
     """The amplitude R (m/s²) and the phase δ (rad) of ẍ_s + normal cos θ = R cos(θ + δ)."""
     cosine, sine = c.a_x * c.cos_shift + normal, c.a_x * c.sin_shift
-    if sine == 0.0:
-        return cosine, 0.0
     return math.hypot(cosine, sine), math.atan2(sine, cosine)
 
 
@@ -142,7 +136,7 @@ def stick_end(c, theta):
     # ẍ_s + g sin α exceeds μ_s N/m where R cos(θ + δ) rises above `needed`.
     amplitude, shift = one_wave(c, -lift)
     needed = grip - c.downhill
-    forward = 0.0 if needed < -abs(amplitude) else math.inf
+    forward = 0.0 if needed < -amplitude else math.inf
     if abs(needed) < amplitude:
         forward = advance_to((theta + shift) % TURN, TURN - math.acos(needed / amplitude), TURN)
     return min(backward, forward)
@@ -166,7 +160,7 @@ def slip_end(c, theta, slip, sigma, limit):
     """
     swing, shift = one_wave(c, -sigma * c.friction * c.a_z)
     fall = sigma * c.friction * c.gravity - c.downhill
-    edge = math.acos(fall / swing) if abs(fall) < abs(swing) else 0.5 * math.pi
+    edge = math.acos(fall / swing) if abs(fall) < swing else 0.5 * math.pi
     low = 0.0
     while low < limit:
         to_first = (edge - shift - theta - low) % TURN
@@ -241,15 +235,22 @@ def first_motion(c, z0, vz0, theta):
     q = max(z0 - z, 0.0) if z0 == z0 else 0.0  # z0 is NaN for a part that starts on the plate
     rate = vz0 - plate_rise(c, theta)
     kind = ARRIVING if q == 0.0 and rate <= 0.0 else FLYING
-    return Motion(kind, 0.0, 0.0, z + q, vz0, 0.0, q, rate, -rate, 0.0)
+    return Motion(kind, 0.0, 0.0, 0.0, z + q, vz0, q, rate, 0.0)
+
+
+@compiled_into_callers
+def rest(x, vx, sigma):
+    """The Motion of a part that begins to rest."""
+    return Motion(RESTING, x, vx, sigma, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @compiled_into_callers
 def bounce(c, motion, theta, coefficient):
     """The Motion just after an impact."""
-    rate = coefficient * motion.speed
+    speed = -motion.rate
+    rate = coefficient * speed
     vx = motion.vx
-    bound = c.friction * (1.0 + coefficient) * motion.speed
+    bound = c.friction * (1.0 + coefficient) * speed
     slip = plate_speed(c, theta) - vx
     if abs(slip) <= bound:
         vx += slip
@@ -257,11 +258,12 @@ def bounce(c, motion, theta, coefficient):
     else:
         vx += math.copysign(bound, slip)
     pressure = c.gravity + c.a_z * math.cos(theta)
-    kind = RESTING if pressure > 0.0 and 2.0 * c.omega * rate <= COLLAPSE * pressure else FLYING
-    skip = 0.0 if pressure > 0.0 else safe_flight(theta, c.omega)
     sigma = slip_direction(c, theta, slip)
+    if pressure > 0.0 and 2.0 * c.omega * rate <= COLLAPSE * pressure:
+        return rest(motion.x, vx, sigma)
+    skip = 0.0 if pressure > 0.0 else safe_flight(theta, c.omega)
     z, vz = plate_height(c, theta), plate_rise(c, theta) + rate
-    return Motion(kind, motion.x, vx, z, vz, sigma, 0.0, rate, motion.speed, skip)
+    return Motion(FLYING, motion.x, vx, sigma, z, vz, 0.0, rate, skip)
 
 
 @compiled_into_callers
@@ -282,27 +284,21 @@ def rest_duration(c, motion, theta, left):
 @compiled_into_callers
 def end_rest(c, motion, theta, tau, leaves):
     """The Motion after a rest of `tau` (s), which the plate ends if it `leaves` the part."""
-    _, _, _, z, vz, sigma, q, rate, speed, skip = motion
-    kind = RESTING
-    x, vx = rest_motion(c, theta, motion.x, motion.vx, sigma, tau)
+    x, vx = rest_motion(c, theta, motion.x, motion.vx, motion.sigma, tau)
     theta += c.omega * tau
     if leaves:
-        kind, skip = FLYING, safe_flight(theta, c.omega)
         z, vz = plate_height(c, theta), plate_rise(c, theta)
-    elif sigma == 0.0:
-        sigma = math.copysign(1.0, friction.pull(c, math.sin(theta), math.cos(theta)))
-    else:
-        vx = plate_speed(c, theta)
-        sigma = slip_direction(c, theta, 0.0)
-    return Motion(kind, x, vx, z, vz, sigma, q, rate, speed, skip)
+        return Motion(FLYING, x, vx, motion.sigma, z, vz, 0.0, 0.0, safe_flight(theta, c.omega))
+    if motion.sigma == 0.0:
+        return rest(x, vx, math.copysign(1.0, friction.pull(c, math.sin(theta), math.cos(theta))))
+    return rest(x, plate_speed(c, theta), slip_direction(c, theta, 0.0))
 
 
 @compiled_into_callers
-def sample_motion(c, motion, theta, clock, tau, record):
-    """Sample a part that rests or flies for `tau` (s). Returns the number of samples so far."""
-    times, samples, sampled = record
-    while sampled < len(times) and clock.base + clock.t + tau >= times[sampled]:
-        ahead = times[sampled] - clock.base - clock.t
+def sample_motion(c, motion, theta, base, t, tau, times, samples, sampled):
+    """Sample a part that rests or flies for `tau` (s), from `base` + `t` on. Returns the number of samples so far."""
+    while sampled < len(times) and base + t + tau >= times[sampled]:
+        ahead = times[sampled] - base - t
         if motion.kind == RESTING:
             phase = theta + c.omega * ahead
             x, vx = rest_motion(c, theta, motion.x, motion.vx, motion.sigma, ahead)
@@ -336,6 +332,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
     period, psi0, end = 1.0 / parameters[model.FREQUENCY], parameters[model.PSI0], times[-1]
     motion = first_motion(c, parameters[model.Z0], parameters[model.VZ0], psi0)
     max_gap = motion.q
+    # Whole cycles and a time in the cycle keep the phase precise in long runs.
     cycle, t = 0, 0.0
     sampled = n_impacts = n_events = 0
     while sampled < len(times):
@@ -343,32 +340,32 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
             t -= period
             cycle += 1
             n_events = 0
-        clock = Clock(cycle * period, t)
-        theta, left = psi0 + omega * t, end - clock.base - t
+        base = cycle * period
+        theta, left = psi0 + omega * t, end - base - t
         n_events += 1
         if n_events > MAX_EVENTS:
             samples[sampled:] = math.nan
             return n_impacts, max_gap, TOO_MANY_EVENTS
         if motion.kind == ARRIVING:
-            if motion.speed > 0.0:
+            if motion.rate < 0.0:
                 if n_impacts < len(impacts):
-                    impacts[n_impacts, 0], impacts[n_impacts, 1] = clock.base + t, motion.speed
+                    impacts[n_impacts, 0], impacts[n_impacts, 1] = base + t, -motion.rate
                 n_impacts += 1
-            motion = bounce(c, motion, theta, restitution_at(motion.speed, speeds, coefficients))
+            motion = bounce(c, motion, theta, restitution_at(-motion.rate, speeds, coefficients))
         elif motion.kind == RESTING:
             tau, leaves = rest_duration(c, motion, theta, left)
-            sampled = sample_motion(c, motion, theta, clock, tau, (times, samples, sampled))
+            sampled = sample_motion(c, motion, theta, base, t, tau, times, samples, sampled)
             motion = end_rest(c, motion, theta, tau, leaves)
             t += tau
         else:
-            _, x, vx, z, vz, sigma, q, rate, _, skip = motion
+            _, x, vx, sigma, z, vz, q, rate, skip = motion
             flight = Flight(z, vz, theta, gravity, a_z, omega)
             if skip > 0.0:
                 q, rate = gap(flight, skip)
                 if q <= 0.0:
                     # The plate is back before it has really left.
                     x, vx = rest_motion(c, theta, x, vx, sigma, skip)
-                    motion = Motion(RESTING, x, vx, z, vz, sigma, q, rate, motion.speed, skip)
+                    motion = rest(x, vx, sigma)
                     t += skip
                     continue
             ahead = Flight(
@@ -378,11 +375,11 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
             tau += skip
             if not tau <= math.inf:
                 samples[sampled:] = math.nan
-                return n_impacts, max_gap, IMPACT_NOT_FOUND
+                return n_impacts, max_gap, IMPACT_LOST
             max_gap = max(max_gap, highest_gap(flight, min(tau, left)))
-            sampled = sample_motion(c, motion, theta, clock, tau, (times, samples, sampled))
+            sampled = sample_motion(c, motion, theta, base, t, tau, times, samples, sampled)
             x, vx = slide(c, x, vx, tau)
-            motion = Motion(ARRIVING, x, vx, z, vz, sigma, q, rate, speed, skip)
+            motion = Motion(ARRIVING, x, vx, sigma, z, vz, 0.0, -speed, 0.0)
             t += tau
     return n_impacts, max_gap, OK
 
@@ -397,7 +394,7 @@ class Summary(NamedTuple):
     mean_velocity: float  # m/s, over the last part of the run
     impacts: int
     max_gap: float  # m
-    status: str  # one of STATUSES
+    status: str  # one of trajectory.STATUS
 
 
 def restitution_coefficients(parameters: np.ndarray, speeds: np.ndarray) -> np.ndarray:
@@ -406,21 +403,17 @@ def restitution_coefficients(parameters: np.ndarray, speeds: np.ndarray) -> np.n
     They belong to the contact alone, without gravity and excitation, and are accurate to about 1e-6. A speed that is
     not positive raises ValueError.
     """
-    if not (np.isfinite(speeds) & (speeds > 0.0)).all():
-        raise ValueError("speeds must be finite and positive")
+    speeds = check_array("speeds", speeds, np.finfo(np.float64).tiny, LARGEST_COORDINATE, "m/s")
     return np.array([restitution_coefficient(parameters, speed) for speed in speeds])
 
 
 def _follow(parameters, restitution, times, n_impacts=0):
     """Call `follow` with new arrays. Returns its result, the samples (NaN after an early end) and the impacts."""
-    if np.isscalar(restitution):
-        speeds, coefficients = np.zeros(1), np.array([restitution], dtype=np.float64)
-    else:
-        speeds, coefficients = (np.asarray(column, dtype=np.float64) for column in restitution)
+    speeds, coefficients = ([0.0], [restitution]) if np.isscalar(restitution) else restitution
+    speeds = np.asarray(speeds, dtype=np.float64)
+    coefficients = check_array("restitution", coefficients, 0.0, 1.0)
     if speeds.shape != coefficients.shape or speeds.ndim != 1 or not (np.diff(speeds) > 0.0).all():
         raise ValueError("restitution must be a number or two columns of equal length, the speeds ascending")
-    if not ((coefficients >= 0.0) & (coefficients <= 1.0)).all():
-        raise ValueError("coefficients of restitution must lie in [0, 1]")
     samples = np.empty((len(times), len(SAMPLE_COLUMNS)))
     impacts = np.empty((n_impacts, 2))
     result = follow(parameters, speeds, coefficients, times, samples, impacts)
@@ -441,13 +434,12 @@ def run(parameters: np.ndarray, duration: float, restitution) -> Summary:
     ValueError
         names the argument that cannot be used
     """
-    if not 0.0 < duration < math.inf:
-        raise ValueError(f"duration = {duration!r} s is not positive and finite")
+    duration = check_time("duration", duration)
     times = np.array([(1.0 - LAST) * duration, duration])
     (n_impacts, max_gap, status), samples, _ = _follow(parameters, restitution, times)
     x, vx, z, vz = (float(value) for value in samples[1])
     mean_velocity = (x - float(samples[0, 0])) / (LAST * duration)
-    return Summary(x, vx, z, vz, mean_velocity, n_impacts, max_gap, STATUSES[status])
+    return Summary(x, vx, z, vz, mean_velocity, n_impacts, max_gap, STATUS[status])
 
 
 def sample(parameters: np.ndarray, times: np.ndarray, restitution) -> dict[str, np.ndarray]:
@@ -459,9 +451,7 @@ def samples_and_impacts(
     parameters: np.ndarray, times: np.ndarray, restitution
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """As `sample`, and the impacts up to the last of `times`: time (s) and speed of approach (m/s), of IMPACT_DTYPE."""
-    times = np.asarray(times, dtype=np.float64)
-    if not (np.isfinite(times) & (times >= 0.0)).all():
-        raise ValueError("times must be finite and not negative")
+    times = check_array("times", times, 0.0, LONGEST, "s", least=0)
     moments, place = np.unique(times, return_inverse=True)
     samples, hits = np.empty((0, len(SAMPLE_COLUMNS))), np.empty((0, 2))
     if moments.size:

@@ -6,6 +6,8 @@ The module friction has the closed forms; nothing is integrated. A Segment holds
 import math
 from collections import namedtuple
 
+import numpy as np
+
 from . import contact, friction
 from .jit import compiled_inline, compiled_into_callers
 from .model import TENSION_CLIP
@@ -35,6 +37,13 @@ Record = namedtuple("Record", "times samples event_times event_kinds")
 # The beginning of a segment: sign of the slip (0 for stick) and the friction coefficient that acts; x (m), ẋ (m/s); its
 # place s in the step and the time t (s) since the step began; sine and cosine of the phase; z, ż, w and v.
 Segment = namedtuple("Segment", "sigma mu x vx s t sine cosine z vz w v")
+
+
+def name_events(times: np.ndarray, kinds: np.ndarray) -> np.ndarray:
+    """Events as a structured array with the fields `time` (s) and `kind` (one of EVENTS), from their numbers."""
+    events = np.empty(len(times), dtype=[("time", np.float64), ("kind", "U14")])
+    events["time"], events["kind"] = times, np.array(EVENTS)[kinds]
+    return events
 
 
 @compiled_inline

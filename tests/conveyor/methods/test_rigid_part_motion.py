@@ -271,17 +271,22 @@ def test_errors_name_the_argument(call, word):
         call(pack(Conveyor(), Start()))
 
 
-@pytest.mark.parametrize("track", [{}, {"inclination": 0.15}, {"inclination": -0.1, "phase_shift": 0.7}])
+# The last plate moves almost vertically, so that the part slips down the track where the plate hardly presses on it.
+STEEP = {"inclination": 0.2, "angle": 1.4, "acceleration": 9.0}
+
+
+@pytest.mark.parametrize("track", [{}, {"inclination": 0.15}, {"inclination": -0.1, "phase_shift": 0.7}, STEEP])
 def test_stick_ends_where_friction_no_longer_holds_the_part(track):
     """The first phase at which |ẍ_s + g sin α| exceeds μ_s (g cos α + a_z cos θ), against a scan of one cycle."""
-    conveyor = Conveyor(acceleration=6.0, angle=0.3, friction=0.1, static_friction=0.45, **track)
+    conveyor = Conveyor(**{"acceleration": 6.0, "angle": 0.3, "friction": 0.1, "static_friction": 0.45} | track)
     c = contact.constants(pack(conveyor, Start()), 0.0)
+    a_x, a_z = (conveyor.acceleration * shape(conveyor.angle) for shape in (math.cos, math.sin))
     ahead = np.linspace(0.0, 2.0 * math.pi, 100_001)
     found = []
     for theta in np.linspace(0.0, 6.2, 23):
         phase = theta + ahead
-        pull = 6.0 * math.cos(0.3) * np.cos(phase + conveyor.phase_shift) + G * math.sin(conveyor.inclination)
-        grip = 0.45 * (G * math.cos(conveyor.inclination) + 6.0 * math.sin(0.3) * np.cos(phase))
+        pull = a_x * np.cos(phase + conveyor.phase_shift) + G * math.sin(conveyor.inclination)
+        grip = 0.45 * (G * math.cos(conveyor.inclination) + a_z * np.cos(phase))
         slips = np.abs(pull) > grip
         assert slips.any()
         if not slips[0]:  # a part that slips does not stick
