@@ -35,7 +35,6 @@ NOT_REPRODUCED = "not reproduced"
 VERDICTS = (REPRODUCED, PAPER_METHOD_ONLY, NOT_REPRODUCED)
 # Columns of the table with one entry per quantity.
 PER_QUANTITY = ("paper", "paper_method", "converged", "accepted_low", "accepted_high", "because")
-NAMES = {"euler": "paper's method", "converged": "converged solution"}
 
 
 def evaluate(claim: dict, read: dict[str, pd.DataFrame]) -> Finding:
@@ -70,7 +69,7 @@ def describe_misses(finding: Finding, quantities: dict[str, dict]) -> str:
     for name, quantity in quantities.items():
         values = {method: getattr(finding, method)[name] for method in METHODS if getattr(finding, method)}
         misses = [
-            f"{value:.4g} by the {NAMES[method]}"
+            f"{value:.4g} by the {METHODS[method]}"
             for method, value in values.items()
             if not is_accepted(value, quantity["accepted"])
         ]
