@@ -43,10 +43,11 @@ def plot(
     figure = style.figure(style.PAGE, 72.0)
     sweeps = style.drop_missing(euler=euler, converged=converged)
     panels = style.method_panels(figure, sweeps, style.AMPLITUDE, style.VELOCITY)
+    plate = {"color": style.PLATE, "linewidth": 0.8, "linestyle": "--", "label": "largest velocity of the conveyor"}
     for axes, sweep in zip(panels, sweeps.values(), strict=True):
         if two_states is not None:
             axes.axvspan(*two_states, color="0.93", linewidth=0.0)
-        axes.plot(*plate_velocity(sweep), color=style.PLATE, linewidth=0.8, linestyle="--")
+        axes.plot(*plate_velocity(sweep), **plate)
         for state, colour in style.STATE_COLOURS.items():
             rows = sweep[sweep.state == state]
             style.dots(axes, rows.acceleration, rows.mean_velocity, colour, 2.0)
@@ -62,14 +63,12 @@ def plot(
             )
     for axes in panels:
         style.from_zero(axes)
-    present = {state for sweep in sweeps.values() for state in sweep.state}
-    handles = {
-        style.state_label(state): Line2D([], [], color=colour, marker="o", linestyle="")
-        for state, colour in style.STATE_COLOURS.items()
-        if state in present
-    }
-    handles["largest velocity of the conveyor"] = Line2D([], [], color=style.PLATE, linewidth=0.8, linestyle="--")
+    handles = [
+        Line2D([], [], color=area.get_facecolor(), marker="o", linestyle="", label=area.get_label())
+        for area in style.state_handles(*sweeps.values())
+    ]
+    handles.append(Line2D([], [], **plate))
     if two_states is not None:
-        handles["two states (paper)"] = Patch(color="0.93")
-    figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=len(handles))
+        handles.append(Patch(color="0.93", label="two states (paper)"))
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
     return figure
