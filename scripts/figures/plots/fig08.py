@@ -6,8 +6,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from conveyor.solver.model import Conveyor, conveyor_motion
+from conveyor.solver.model import conveyor_motion
 from figures import style
+from pipeline import grid
 
 # Interquartile range of the velocities of one motion, over the largest velocity, above which runs have not settled.
 WIDE = 0.05
@@ -15,11 +16,11 @@ WIDE = 0.05
 
 def plate_velocity(sweep: pd.DataFrame) -> tuple[list[float], list[float]]:
     """End points of the straight line of the plate's largest velocity (m/s) over the amplitude (m/s²)."""
-    model = {name: value for name, value in sweep.attrs["model"].items() if name not in ("z0", "vz0")}
+    model = sweep.attrs["model"]
     ends = [sweep.acceleration.min(), sweep.acceleration.max()]
     cycle = np.linspace(0.0, 1.0 / model["frequency"], 721)
-    motions = [conveyor_motion(Conveyor(acceleration=end, **model), cycle) for end in ends]
-    return ends, [motion["vx"].max() for motion in motions]
+    conveyors = [grid.conveyor_and_start(model | {"acceleration": end})[0] for end in ends]
+    return ends, [conveyor_motion(conveyor, cycle)["vx"].max() for conveyor in conveyors]
 
 
 def unsettled(sweep: pd.DataFrame) -> tuple[float, float] | None:
