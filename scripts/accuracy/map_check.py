@@ -21,9 +21,10 @@ from conveyor.analysis.attractors.convergence import MAX_PERIOD
 from conveyor.analysis.attractors.labels import CHAOS, FIRST, LONG_FLIGHT, SECOND, STATES, UNDECIDED
 from conveyor.analysis.chaos import lyapunov
 from conveyor.methods import peers
+from conveyor.simulation import simulate
 from conveyor.solver import trajectory
-from conveyor.solver.horizontal import IMPACT, SEPARATED, VZ, Z
-from conveyor.solver.model import FREQUENCY, VZ0, Z0
+from conveyor.solver.horizontal import VZ, Z
+from conveyor.solver.model import FREQUENCY, VZ0, Z0, unpack
 from conveyor.solver.parallel import for_each_chunk
 from pipeline import fields, grid
 
@@ -43,7 +44,6 @@ TABLES = {
 
 BLOCK = 256  # cycles per call of the solver
 EXPONENT = {"transient": 0, "cycles": 100, "blocks": 20}  # cycles in each block, and blocks, for the exponent
-MOST_EVENTS = 100  # most events in a cycle
 
 
 class Settled(NamedTuple):
@@ -106,19 +106,10 @@ def simulate_until_settled(row: np.ndarray, settings: dict) -> Settled:
 def longest_flight(row: np.ndarray, period: int, tolerance: float) -> float:
     """The longest flight (excitation cycles) of the periodic motion from a parameter vector on its orbit."""
     cycles = 2 * period + 1  # a flight may begin before the initial time and be longer than a cycle
-    room = MOST_EVENTS * cycles
-    times, kinds = np.full((1, room), np.inf), np.full((1, room), -1, np.int8)
-    end = np.array([[cycles / row[FREQUENCY]]])
-    trajectory.integrate(
-        row[None], end, tolerance=tolerance, feeding=False, reuse=False, event_times=times, event_kinds=kinds
-    )
-    flights, separation = [0.0], None
-    for time, kind in zip(times[0], kinds[0], strict=True):
-        if kind == SEPARATED:
-            separation = time
-        elif kind == IMPACT and separation is not None:
-            flights.append(time - separation)
-    return max(flights) * row[FREQUENCY]
+    run = simulate(*unpack(row), duration=cycles / row[FREQUENCY], tolerance=tolerance, reuse=False)
+    changes = run.events[np.isin(run.events["kind"], ["impact", "separation"])]
+    flights = np.diff(changes["time"])[changes["kind"][1:] == "impact"]
+    return flights.max(initial=0.0) * row[FREQUENCY]
 
 
 def brute_force(rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict:

@@ -7,6 +7,7 @@ motions with a flight in each cycle, as in the jumping scene.
 
 from collections.abc import Callable
 from dataclasses import asdict
+from itertools import pairwise
 
 import numpy as np
 from mpmath import mp, mpf
@@ -65,20 +66,17 @@ class Motion:
         """Taylor coefficients of the depth, its rate and F_c/m around the current time."""
         stiffness, damping = (self.p[name] / self.p["mass"] for name in ("stiffness", "damping"))
         exponent, phase = self.p["exponent"], self.omega * self.t + self.p["psi0"]
-        deep, fast, spring, force, turn = [depth], [speed], [], [], self.a_z
+        deep, fast, spring, force, turn = [depth], [speed], [depth**exponent], [], self.a_z
         cosine, sine = mp.cos_sin(phase)
         derivatives = (cosine, -sine, -cosine, sine)
         for n in range(ORDER):
-            if n == 0:
-                spring.append(depth**exponent)
-            else:
-                terms = [(k * exponent - (n - k)) * deep[k] * spring[n - k] for k in range(1, n + 1)]
-                spring.append(mp.fsum(terms) / (n * depth))
             force.append(stiffness * spring[n] + damping * fast[n])
             pull = turn * derivatives[n % 4] + (self.p["gravity"] if n == 0 else 0)
             deep.append(fast[n] / (n + 1))
             fast.append((pull - force[n]) / (n + 1))
             turn = turn * self.omega / (n + 1)
+            terms = [(k * exponent - (n + 1 - k)) * deep[k] * spring[n + 1 - k] for k in range(1, n + 2)]
+            spring.append(mp.fsum(terms) / ((n + 1) * depth))
         return deep, fast, force
 
     def step_in_contact(self, end: mpf) -> tuple[mpf, Callable, int | None]:
@@ -103,10 +101,8 @@ class Motion:
             tau = now - t
             z, vz, vx_s, _ = self.plate(now)
             if slip:
-                x_now, vx_now = (
-                    x + vx * tau + tau**2 * mp.polyval(path, tau, asc=True),
-                    vx + tau * mp.polyval(rate, tau, asc=True),
-                )
+                x_now = x + vx * tau + tau**2 * mp.polyval(path, tau, asc=True)
+                vx_now = vx + tau * mp.polyval(rate, tau, asc=True)
             else:
                 swing = mp.cos(self.omega * t + self.p["psi0"]) - mp.cos(self.omega * now + self.p["psi0"])
                 x_now, vx_now = x + self.a_x / self.omega**2 * swing, vx_s
@@ -120,17 +116,14 @@ class Motion:
             return friction * mp.polyval(force, now - t, asc=True) - abs(ax_s)
 
         step = min(mpf(step), end - t)
-        places = [t + step * k / INSIDE for k in range(1, INSIDE + 1)]
-        before = t
-        for place in places:
+        for before, place in pairwise(t + step * k / INSIDE for k in range(INSIDE + 1)):
             if margin(place) < 0:
                 now = mp.findroot(margin, (before, place), solver="anderson") if margin(before) > 0 else place
                 _, _, _, ax_s = self.plate(now)
                 away = 1 if ax_s > 0 else -1
                 held = friction * mp.polyval(force, now - t, asc=True) - abs(ax_s) >= 0
                 return now, state, (0 if slip and held else away)
-            before = place
-        return places[-1], state, None
+        return place, state, None
 
     def cross_surface(self) -> None:
         """Move between the surface and the depth CLOSE: inwards after an impact, outwards before a separation."""

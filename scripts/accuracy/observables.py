@@ -7,7 +7,6 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from conveyor.solver.model import Conveyor
 from dimensions import portraits
 from motion import critical, impacts, signals, spectra
 from orbits import estimates, exponents, strobes
@@ -96,7 +95,7 @@ def observe_shifted(shown: Shown, settings: dict, shifts: list[float]) -> list[p
     axes, model = settings["axes"], settings["model"]
     name, unit = "z0", 1.0
     if "z0" not in axes and model["z0"] == "conveyor":
-        name, unit = "vz0", 2.0 * math.pi * model.get("frequency", Conveyor().frequency)
+        name, unit = "vz0", 2.0 * math.pi * model["frequency"]
     if name not in axes:
         return [shown.observe(settings | {"model": model | {name: model[name] + unit * shift}}) for shift in shifts]
     originals = [{value + unit * shift: value for value in axes[name]} for shift in shifts]

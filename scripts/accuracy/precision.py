@@ -148,8 +148,7 @@ def trajectory_errors(
     error = math.sqrt(np.mean(((positions - truth[0]) / scale) ** 2))
     if len(events) != len(truth[1]):
         return error, math.nan
-    conveyor, _ = grid.conveyor_and_start(settings["model"])
-    return error, float(np.abs(events - truth[1]).max(initial=0.0) * conveyor.frequency)
+    return error, float(np.abs(events - truth[1]).max(initial=0.0) * settings["model"]["frequency"])
 
 
 def find_state(settings: dict, end: np.ndarray) -> str:

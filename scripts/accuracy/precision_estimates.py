@@ -30,13 +30,12 @@ AT_END = 1e-9  # share of a run
 
 def exponent_rows(settings: dict, model: dict) -> list[dict]:
     """Three estimates of the exponent of a periodic orbit, whose true value follows from its Floquet multiplier."""
-    axes = {name: [settings[name]] for name in ("acceleration", "z0")}
-    _, rows = grid.product(axes, model)
-    state = stroboscopic_map.initial_states(rows, TOLERANCE)[0]
-    orbit = periodic_orbits.settled_orbit(rows[0], settings["acceleration"], state, (1, 2, 4), 1000)
+    row = grid.packed(model | {name: settings[name] for name in ("acceleration", "z0")})
+    state = stroboscopic_map.initial_states(row[None], TOLERANCE)[0]
+    orbit = periodic_orbits.settled_orbit(row, settings["acceleration"], state, (1, 2, 4), 1000)
     cycle = 1.0 / model["frequency"]
     truth = math.log(abs(orbit.multipliers[0])) / (orbit.period * cycle)
-    here = stroboscopic_map.pack_states(rows, orbit.state[None], TOLERANCE)
+    here = stroboscopic_map.pack_states(row[None], orbit.state[None], TOLERANCE)
     there = here.copy()
     unit = normal_gravity(model) / (2.0 * math.pi * model["frequency"]) ** 2
     there[:, Z0] += settings["epsilon"] * unit
@@ -45,7 +44,6 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
     found = []
     for duration in settings["durations"]:
         cycles = round(duration / cycle)
-        blocks = 2
         estimates = {
             "pair of trajectories": lyapunov.finite_difference_estimate(
                 here, there, settings["epsilon"] * unit, duration=duration, **pair
@@ -54,7 +52,7 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
                 here[0], orbit.state, distance=settings["epsilon"], transient=0, cycles=cycles, tolerance=TOLERANCE
             ),
             "variational equation": lyapunov.spectrum(
-                here, orbit.state[None], transient=0, cycles=cycles // blocks, blocks=blocks, tolerance=TOLERANCE
+                here, orbit.state[None], transient=0, cycles=cycles // 2, blocks=2, tolerance=TOLERANCE
             ).lambda_1[0],
         }
         found += [

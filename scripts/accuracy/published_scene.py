@@ -7,7 +7,7 @@ import numpy as np
 from conveyor.methods import peers
 from conveyor.parameters import DESCRIPTIONS, PARAMETERS, UNITS
 from conveyor.simulation import Run, simulate
-from conveyor.solver.model import Conveyor, Start, pack
+from conveyor.solver.model import pack
 from pipeline import grid
 
 STATE = {"x": "m", "vx": "m/s", "z": "m", "vz": "m/s"}
@@ -31,12 +31,6 @@ def event_rows(run: Run, others: list[Run]) -> list[dict]:
     ]
 
 
-def initial_state(conveyor: Conveyor, start: Start) -> dict[str, float]:
-    """The initial state of the part, which is at rest along the track."""
-    state = simulate(conveyor, start, duration=1e-9).sample(np.zeros(1))
-    return {name: float(state[name][0]) for name in STATE}
-
-
 def describe_scene(settings: dict) -> dict:
     """The content of the file, from the settings of the scene in the config."""
     conveyor, start = grid.conveyor_and_start(settings["model"])
@@ -46,6 +40,7 @@ def describe_scene(settings: dict) -> dict:
         for tolerance in (settings["tolerance"], *settings["compared"])
     )
     times = np.linspace(0.0, settings["duration"], settings["samples"] + 1)[1:]
+    initial = run.sample(np.zeros(1))
     reference, *compared = (one.sample(times) for one in (run, *others))
     scales = dict(zip(STATE, peers.scales(pack(conveyor, start)).tolist(), strict=True))
     parameters = {name: getattr(conveyor, name) for name in PARAMETERS if name not in ("z0", "vz0")}
@@ -56,7 +51,7 @@ def describe_scene(settings: dict) -> dict:
             for name, value in parameters.items()
         },
         "units": {"times": "s", "events": "s", **STATE},
-        "initial": initial_state(conveyor, start),
+        "initial": {name: float(initial[name][0]) for name in STATE},
         "duration": settings["duration"],
         "scales": scales,
         "times": times.tolist(),

@@ -80,8 +80,8 @@ def sweep(settings: dict, cycles: int = CYCLES) -> pd.DataFrame:
     """Mean velocities (m/s) of rigid parts and states of motion after some cycles, for the settings of a sweep."""
     axes, parameters = grid.product(settings["axes"], settings["model"])
     # Rows with the same contact share a table of restitution.
-    contacts, contact = np.unique(parameters[:, CONTACT_PARAMETERS], axis=0, return_inverse=True)
-    contact_tables = [tabulate_restitution(parameters[np.argmax(contact == k)]) for k in range(len(contacts))]
+    _, first, contact = np.unique(parameters[:, CONTACT_PARAMETERS], axis=0, return_index=True, return_inverse=True)
+    contact_tables = [tabulate_restitution(row) for row in parameters[first]]
     restitution = [contact_tables[k] for k in contact]
     duration = settings["duration"]
     both = list(zip(parameters, restitution, strict=True))

@@ -19,27 +19,20 @@ TABLES = {
 }
 
 
-def draw_initial_conditions(acceleration: float, settings: dict, model: dict) -> np.ndarray:
-    """Parameter vectors with random heights and phases, shape (starts, 16), equal for every amplitude (m/s²)."""
-    _, parameters = grid.product({"acceleration": [acceleration]}, model)
-    rows = np.repeat(parameters, settings["starts"], axis=0)
-    generator = np.random.default_rng(settings["seed"])
-    rows[:, Z0] = generator.uniform(*settings["z0"], len(rows))
-    rows[:, PSI0] = generator.uniform(0.0, 2.0 * math.pi, len(rows))
-    return rows
-
-
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table of settling times, from the section of the config with model and tolerance."""
-    amplitudes = settings["acceleration"]
-    parameters = np.concatenate(
-        [draw_initial_conditions(acceleration, settings, settings["model"]) for acceleration in amplitudes]
-    )
+    amplitudes, starts = settings["acceleration"], settings["starts"]
+    _, conveyors = grid.product({"acceleration": amplitudes}, settings["model"])
+    parameters = np.repeat(conveyors, starts, axis=0)
+    # Random heights and phases, the same at every amplitude.
+    generator = np.random.default_rng(settings["seed"])
+    parameters[:, Z0] = np.tile(generator.uniform(*settings["z0"], starts), len(amplitudes))
+    parameters[:, PSI0] = np.tile(generator.uniform(0.0, 2.0 * math.pi, starts), len(amplitudes))
     found = labels.classify(
         parameters, cycles=settings["cycles"], tolerance=settings["tolerance"], threads=threads, progress=progress
     )
     return {
-        "acceleration": np.repeat(amplitudes, settings["starts"]),
+        "acceleration": np.repeat(amplitudes, starts),
         "z0": parameters[:, Z0],
         "psi0": parameters[:, PSI0],
         "state": found.state,

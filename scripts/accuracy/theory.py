@@ -113,12 +113,16 @@ def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[floa
     return ends["fold"], ends["period_doubling"]
 
 
-def extrapolate_to_zero(places: np.ndarray, values: np.ndarray) -> tuple[float, float]:
-    """Value at 0 of the polynomial through `values` at `places`, shape (n,), and its change without the first one."""
+def value_at_zero(places: np.ndarray, values: np.ndarray) -> float:
+    """Value at 0 of the polynomial through `values` at `places`, shape (n,)."""
     weights = [math.prod(other / (other - place) for other in places if other != place) for place in places]
-    fewer = [math.prod(other / (other - place) for other in places[1:] if other != place) for place in places[1:]]
-    value = float(np.dot(weights, values))
-    return value, abs(value - float(np.dot(fewer, values[1:])))
+    return float(np.dot(weights, values))
+
+
+def extrapolate_to_zero(places: np.ndarray, values: np.ndarray) -> tuple[float, float]:
+    """The value at 0 of the polynomial through all values, and its change without the first one."""
+    value = value_at_zero(places, values)
+    return value, abs(value - value_at_zero(places[1:], values[1:]))
 
 
 def rigid_rows(settings: dict) -> Iterator[dict]:

@@ -8,7 +8,6 @@ from claims.finding import METHODS, NONE, Finding, by_method, format_amplitude, 
 
 LONGEST_PERIOD = 64  # excitation cycles
 CLOSE = 0.05  # largest distance from an earlier state, relative to the largest one, that counts as a return
-NAMES = {"euler": "by the paper's method", "converged": "by the converged solution"}
 
 
 def closest_return(run: pd.DataFrame) -> tuple[float, int]:
@@ -35,7 +34,7 @@ def no_period(*, euler: pd.DataFrame, converged: pd.DataFrame, horseshoes: pd.Da
     note = (
         f"No motion repeats itself with a period of up to {LONGEST_PERIOD} cycles. The best period misses by "
         + " and ".join(
-            f"{100 * distance:.0f} % of the largest height or velocity ({period} cycles, {NAMES[method]})"
+            f"{100 * distance:.0f} % of the largest height or velocity ({period} cycles, by the {METHODS[method]})"
             for method, (distance, period) in closest.items()
         )
     )
@@ -57,7 +56,7 @@ def height_estimate(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
     """Lowest amplitude (m/s²) with a positive estimate, and changes of its sign between 50 and 60 m/s²."""
     found = []
     for table in (euler, converged):
-        between = table[(table.acceleration >= 50.0) & (table.acceleration <= 60.0)]
+        between = table[table.acceleration.between(50.0, 60.0)]
         changes = float((np.diff(np.sign(between["lambda"])) != 0.0).sum())
         found.append({"lowest_positive": table[table["lambda"] > 0.0].acceleration.min(), "changes": changes})
     return Finding(*found)
@@ -65,7 +64,7 @@ def height_estimate(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
 
 def positive_onset(table: pd.DataFrame) -> float:
     """Amplitude (m/s²) from which the estimated exponent is positive."""
-    return onset(table.acceleration.to_numpy(), (table["lambda"] > 0.0).to_numpy())
+    return onset(table.acceleration, table["lambda"] > 0.0)
 
 
 def phase_estimate(
@@ -77,24 +76,25 @@ def phase_estimate(
     certificates: pd.DataFrame | None = None,
 ) -> Finding:
     """Amplitude (m/s²) from which the estimate of Fig. 22 is positive."""
-    found = by_method(positive_onset, euler, converged)
-    settled = states[(states.acceleration >= found["euler"]) & (states.acceleration < found["converged"])]
+    begin, end = by_method(positive_onset, euler, converged).values()
+
+    def between(table: pd.DataFrame) -> pd.DataFrame:
+        return table[table.acceleration.between(begin, end, inclusive="left")]
+
+    settled = between(states)
     settled = settled[settled.z0 == settled.z0.min()]
-    between = {
-        method: table[(table.acceleration >= found["euler"]) & (table.acceleration < found["converged"])]["lambda"]
-        for method, table in (("euler", euler), ("converged", converged))
-    }
+    found = by_method(lambda table: between(table)["lambda"], euler, converged)
     texts = [
-        f"{100 * (values > 0.0).mean():.0f} % of the amplitudes {NAMES[method]} (median {values.median():+.2f} 1/s)"
-        for method, values in between.items()
+        f"{100 * (values > 0.0).mean():.0f} % of the amplitudes by the {METHODS[method]} (median "
+        f"{values.median():+.2f} 1/s)"
+        for method, values in found.items()
     ]
     note = (
-        f"Between {format_amplitude(found['euler'])} and {format_amplitude(found['converged'])}, the estimate is "
-        f"positive at {texts[0]} and at {texts[1]}, but {100 * (settled.period > 0).mean():.0f} % of the motions are "
-        f"periodic. {describe_perturbations(estimates)}"
+        f"Between {format_amplitude(begin)} and {format_amplitude(end)}, the estimate is positive at {texts[0]} and at "
+        f"{texts[1]}, but {100 * (settled.period > 0).mean():.0f} % of the motions are periodic. "
+        f"{describe_perturbations(estimates)}"
     )
-    proved = about_proofs.describe_periodic(certificates, found["euler"])
-    return Finding(*({"amplitude": found[method]} for method in METHODS), note + proved)
+    return Finding({"amplitude": begin}, {"amplitude": end}, note + about_proofs.describe_periodic(certificates, begin))
 
 
 def describe_perturbations(estimates: pd.DataFrame) -> str:
@@ -138,7 +138,7 @@ def dimension_onset(table: pd.DataFrame) -> float:
     rows = known_dimensions(table)
     tenth = max(1, len(rows) // 10)
     middle = 0.5 * (rows.dimension.head(tenth).median() + rows.dimension.tail(tenth).median())
-    return onset(rows.acceleration.to_numpy(), (rows.dimension > middle).to_numpy())
+    return onset(rows.acceleration, rows.dimension > middle)
 
 
 def predicted_onset(

@@ -1,12 +1,13 @@
 """Sect. 3 of the paper: states of motion, their velocities, critical heights, spectra and maps."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
+from numpy.typing import ArrayLike
 
 from claims import about_proofs
-from claims.finding import METHODS, NONE, Finding, by_method, format_amplitude, onset, single_quantity
+from claims.finding import NONE, Finding, by_method, format_amplitude, onset, single_quantity
 
 MM = 1e3
 LINE = 0.02  # smallest visible line of a spectrum, over its largest amplitude
@@ -69,7 +70,7 @@ def scatter_onset(table: pd.DataFrame, spread: float = 0.05) -> float:
 def chaos_onset(table: pd.DataFrame) -> float:
     """Amplitude (m/s²) from which most initial conditions lead to chaos."""
     share = (table.state == "chaos").groupby(table.acceleration).mean()
-    return onset(share.index.to_numpy(), (share > 0.5).to_numpy())
+    return onset(share.index, share > 0.5)
 
 
 def onset_of_chaos(
@@ -83,9 +84,7 @@ def onset_of_chaos(
         f"{format_amplitude(chaos['converged'])} on ({format_amplitude(chaos['euler'])} when continued from the "
         "paper's method)"
     )
-    between = converged[
-        (converged.acceleration >= scatter["converged"]) & (converged.acceleration < chaos["converged"])
-    ]
+    between = converged[converged.acceleration.between(scatter["converged"], chaos["converged"], inclusive="left")]
     if len(between):
         periods = ", ".join(
             f"period {period} for {100 * share:.0f} %"
@@ -96,7 +95,7 @@ def onset_of_chaos(
             f"periodic motion ({periods})"
         )
     proved = about_proofs.describe_periodic(certificates, scatter["converged"])
-    return Finding(*({"onset": scatter[method]} for method in METHODS), note + proved)
+    return Finding({"onset": scatter["euler"]}, {"onset": scatter["converged"]}, note + proved)
 
 
 def critical_at(table: pd.DataFrame, acceleration: float) -> float:
@@ -111,21 +110,21 @@ def largest_critical_height(*, euler: pd.DataFrame, converged: pd.DataFrame, hei
     found = by_method(
         lambda table: pd.Series([MM * critical_at(table, one) for one in amplitudes], amplitudes), euler, converged
     )
-    critical = converged[converged.is_critical]
-    top = critical.loc[critical.z0.idxmax()] if len(critical) else None
     where = found["converged"].idxmax() if found["converged"].notna().any() else NONE
     note = (
         f"The largest height occurs at {format_amplitude(where)}, where the critical height depends strongly on the "
         "amplitude"
     )
-    if top is not None:
+    critical = converged[converged.is_critical]
+    if len(critical):
+        top = critical.loc[critical.z0.idxmax()]
         repeated = converged[converged.crossing > 1].acceleration.nunique()
         note += (
             f". At {top.acceleration:g} m/s², the lowest amplitude with a second state, it is {MM * top.z0:.4g} mm "
             f"(converged). The state changes more than once over z0 at {repeated} of "
             f"{converged.acceleration.nunique()} amplitudes"
         )
-    return Finding(*({"largest_height": found[method].max()} for method in METHODS), note)
+    return Finding(*({"largest_height": by_amplitude.max()} for by_amplitude in found.values()), note)
 
 
 def critical_height(*, euler: pd.DataFrame, converged: pd.DataFrame, acceleration: float) -> Finding:
@@ -166,7 +165,7 @@ def second_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd
         f"The velocity falls from {ends['converged'][0]:.2f} to {ends['converged'][1]:.2f} cm/s. {least}"
         f"For each treatment of a tensile contact force, over its own interval: {found}"
     )
-    return Finding(*({"fall": ends[method][0] - ends[method][1]} for method in METHODS), note)
+    return Finding(*({"fall": lower - upper} for lower, upper in ends.values()), note)
 
 
 def fit(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
@@ -187,10 +186,10 @@ def fit(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
     return Finding(found["euler"], found["converged"], note)
 
 
-def find_runs(x: Iterable[float], chosen: Iterable[bool]) -> list[tuple[float, float]]:
+def find_runs(x: ArrayLike, chosen: ArrayLike) -> list[tuple[float, float]]:
     """First and last x of each run of consecutive chosen values; x is ascending."""
-    x, flags = np.asarray(list(x)), np.concatenate([[False], np.asarray(list(chosen), dtype=bool), [False]])
-    edges = np.flatnonzero(flags[1:] != flags[:-1])
+    x = np.asarray(x)
+    edges = np.flatnonzero(np.diff(np.pad(np.asarray(chosen, dtype=bool), 1)))
     return [(float(x[begin]), float(x[end - 1])) for begin, end in zip(edges[::2], edges[1::2], strict=True)]
 
 
@@ -207,7 +206,7 @@ def one_onset(*, converged: pd.DataFrame) -> Finding:
     There is no number by the paper's method, because the converged solution determines the states of both methods.
     """
     heights = converged.groupby("z0")
-    onsets = np.array([onset(rows.acceleration.to_numpy(), rows.state == "chaos") for _, rows in heights])
+    onsets = np.array([onset(rows.acceleration, rows.state == "chaos") for _, rows in heights])
     share = (converged.state == "chaos").groupby(converged.acceleration).mean()
     coexisting = find_runs(share.index, (share > 0.0) & (share < 1.0))
     note = f"The onsets lie between {format_amplitude(onsets.min())} and {format_amplitude(onsets.max())}"

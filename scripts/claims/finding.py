@@ -5,9 +5,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
+from numpy.typing import ArrayLike
 
 NONE = float("nan")
-METHODS = ("euler", "converged")
+# The methods of a Finding, and their names in sentences.
+METHODS = {"euler": "paper's method", "converged": "converged solution"}
 
 
 class Finding(NamedTuple):
@@ -34,7 +36,7 @@ def single_quantity(
     return Finding({name: float(measure(euler))}, {name: float(measure(converged))})
 
 
-def onset(x: np.ndarray, holds: np.ndarray) -> float:
+def onset(x: ArrayLike, holds: ArrayLike) -> float:
     """The x from which a property holds: the threshold with the fewest exceptions on both sides.
 
     NaN if assuming that the property never holds has no more exceptions.

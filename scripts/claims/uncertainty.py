@@ -26,8 +26,8 @@ def make(settings: dict, references: list[str], read: list[pd.DataFrame], claims
     found = {}
     for name, claim in settings["claims"].items():
         finding = verdicts.evaluate(claim, tables)
-        now = before.loc[name, "converged"]
-        tighter = [finding.converged[quantity] for quantity in claim["quantities"]] if finding.converged else []
-        verdict = verdicts.verdict(finding, claim["quantities"])
-        found[name] = {"changes": differences(now, tighter), "same_verdict": verdict == before.verdict[name]}
+        tighter = verdicts.numbers(finding.converged, claim["quantities"])
+        changes = differences(before.converged[name], tighter)
+        same_verdict = verdicts.verdict(finding, claim["quantities"]) == before.verdict[name]
+        found[name] = {"changes": changes, "same_verdict": same_verdict}
     return json.dumps(found, indent=1)

@@ -35,7 +35,6 @@ NOT_REPRODUCED = "not reproduced"
 VERDICTS = (REPRODUCED, PAPER_METHOD_ONLY, NOT_REPRODUCED)
 # Columns of the table with one entry per quantity.
 PER_QUANTITY = ("paper", "paper_method", "converged", "accepted_low", "accepted_high", "because")
-NAMES = {"euler": "paper's method", "converged": "converged solution"}
 
 
 def evaluate(claim: dict, read: dict[str, pd.DataFrame]) -> Finding:
@@ -70,7 +69,7 @@ def describe_misses(finding: Finding, quantities: dict[str, dict]) -> str:
     for name, quantity in quantities.items():
         values = {method: getattr(finding, method)[name] for method in METHODS if getattr(finding, method)}
         misses = [
-            f"{value:.4g} by the {NAMES[method]}"
+            f"{value:.4g} by the {METHODS[method]}"
             for method, value in values.items()
             if not is_accepted(value, quantity["accepted"])
         ]
@@ -81,38 +80,35 @@ def describe_misses(finding: Finding, quantities: dict[str, dict]) -> str:
     return "; ".join(texts)
 
 
+def numbers(values: dict[str, float], quantities: dict[str, dict]) -> list[float]:
+    """The numbers by one method in the order of the quantities; empty if the statement does not concern the method."""
+    return [values[name] for name in quantities] if values else []
+
+
+def row(name: str, claim: dict, finding: Finding) -> dict:
+    """The row of a claim of the config."""
+    quantities = claim["quantities"]
+    result = verdict(finding, quantities)
+    misses = "" if result == REPRODUCED else describe_misses(finding, quantities)
+    return {
+        "id": name,
+        "where": claim["where"],
+        "statement": claim["statement"],
+        "quantities": [quantity["is"] for quantity in quantities.values()],
+        "paper": [quantity["paper"] for quantity in quantities.values()],
+        "paper_method": numbers(finding.euler, quantities),
+        "converged": numbers(finding.converged, quantities),
+        "accepted_low": [quantity["accepted"][0] for quantity in quantities.values()],
+        "accepted_high": [quantity["accepted"][1] for quantity in quantities.values()],
+        "because": [quantity["because"] for quantity in quantities.values()],
+        "verdict": result,
+        "reason": ". ".join(filter(None, (misses, finding.note))) or None,
+    }
+
+
 def columns(claims: dict[str, dict], found: dict[str, Finding]) -> dict[str, list]:
     """The columns of the table of claims."""
-    quantities = [claim["quantities"] for claim in claims.values()]
-    verdicts = [verdict(found[name], claim["quantities"]) for name, claim in claims.items()]
-    reasons = [
-        ". ".join(filter(None, ("" if result == REPRODUCED else describe_misses(found[name], one), found[name].note)))
-        or None
-        for result, name, one in zip(verdicts, claims, quantities, strict=True)
-    ]
-
-    def collect(get) -> list[list]:
-        return [[get(quantity) for quantity in one.values()] for one in quantities]
-
-    def numbers_by(method: str) -> list[list[float]]:
-        values = [getattr(found[name], method) for name in claims]
-        return [
-            [by_name[name] for name in one] if by_name else [] for by_name, one in zip(values, quantities, strict=True)
-        ]
-
-    return {
-        "id": list(claims),
-        **{name: [claim[name] for claim in claims.values()] for name in ("where", "statement")},
-        "quantities": collect(lambda quantity: quantity["is"]),
-        "paper": collect(lambda quantity: quantity["paper"]),
-        "paper_method": numbers_by("euler"),
-        "converged": numbers_by("converged"),
-        "accepted_low": collect(lambda quantity: quantity["accepted"][0]),
-        "accepted_high": collect(lambda quantity: quantity["accepted"][1]),
-        "because": collect(lambda quantity: quantity["because"]),
-        "verdict": verdicts,
-        "reason": reasons,
-    }
+    return fields.columns([row(name, claim, found[name]) for name, claim in claims.items()], TABLES["claims"])
 
 
 def describe_claims(claims: pd.DataFrame) -> list[dict]:

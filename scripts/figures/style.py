@@ -24,9 +24,6 @@ STATE_COLOURS = {"first": "#0072B2", "second": "#E69F00", "chaos": "#009E73", "u
 CONVERGED = "#0072B2"
 EULER = "#D55E00"
 SECOND_ESTIMATE = "#CC79A7"  # next to CONVERGED; not green, which means chaos
-CONVERGED_LABEL = "converged solution"
-EULER_LABEL = "paper's method (explicit Euler)"
-PANELS = {"euler": EULER_LABEL, "converged": CONVERGED_LABEL}  # titles by role, from left to right
 PLATE = "#555555"
 AMPLITUDE = "acceleration amplitude $\\hat{a}$ in m/s²"
 THROW_NUMBER = "throw number $\\Gamma = a_z / (g\\,\\cos\\alpha)$"
@@ -47,10 +44,15 @@ METHODS = {
     "CVODE BDF": ("#9CCC65", "CVODE BDF"),
     "heyoka": ("#7A4FBF", "heyoka"),
 }
+# Colour and label of the paper's method and of the converged solution, by role of their tables.
+LOOKS = {
+    "euler": {"color": EULER, "label": "paper's method (explicit Euler)"},
+    "converged": {"color": CONVERGED, "label": "converged solution"},
+}
 # Curves of both methods in one panel: dashes over a solid line, so that both are visible where they coincide.
 CURVES = {
-    "converged": {"color": CONVERGED, "linewidth": 1.4, "label": CONVERGED_LABEL},
-    "euler": {"color": EULER, "linewidth": 0.8, "linestyle": (0, (3, 3)), "label": EULER_LABEL},
+    "converged": LOOKS["converged"] | {"linewidth": 1.4},
+    "euler": LOOKS["euler"] | {"linewidth": 0.8, "linestyle": (0, (3, 3))},
 }
 TEXTBOOK = {"color": "#D55E00", "linewidth": 1.0, "linestyle": (0, (5, 1, 1, 1)), "label": "textbook theory"}
 # Wide and pale, because it is drawn behind the curves of the part.
@@ -99,7 +101,7 @@ def method_panels(figure: Figure, tables: dict[str, pd.DataFrame], xlabel: str, 
     """Panels side by side, one per method, with common scales, titles and axis labels; `tables` are keyed by role."""
     panels = figure.subplots(1, len(tables), sharex=True, sharey=True, squeeze=False)[0]
     for axes, role in zip(panels, tables, strict=True):
-        axes.set_title(PANELS[role])
+        axes.set_title(LOOKS[role]["label"])
         axes.set_xlabel(xlabel)
     panels[0].set_ylabel(ylabel)
     return list(panels)

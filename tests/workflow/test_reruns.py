@@ -21,8 +21,8 @@ def test_nothing_after_a_touch(built):
     assert built.planned(*TARGETS) == {}
 
 
-def test_one_plot_after_a_colour(edited):
-    project = edited("scripts/figures/plots/fig22.py", 'style.CURVES[role]["color"]', '"#123456"')
+def test_one_plot_after_a_line_width(edited):
+    project = edited("scripts/figures/plots/fig22.py", "linewidth=width", "linewidth=1.0")
     assert project.planned(*TARGETS) == {"plot": 1}
 
 
@@ -110,7 +110,7 @@ def test_a_title_may_have_braces_and_reruns_nothing(built):
 
 
 def test_only_a_changed_figure_is_drawn(edited):
-    project = edited("scripts/figures/plots/fig22.py", 'style.CURVES[role]["color"]', '"#123456"')
+    project = edited("scripts/figures/plots/fig22.py", "linewidth=width", "linewidth=1.0")
     run = project.snakemake("--dry-run", *TARGETS)
     assert "Draw fig22" in run.stdout
     assert "Draw fig08" not in run.stdout

@@ -19,8 +19,7 @@ def plot(
     axes = figure.subplots()
     for role, sweep in style.drop_missing(euler=euler, converged=converged).items():
         rows = sweep.query("z0 == 0")
-        look = {"color": style.CURVES[role]["color"], "label": style.PANELS[role], **MARKERS[role]}
-        axes.plot(rows.acceleration, rows.mean_velocity, "o", **look)
+        axes.plot(rows.acceleration, rows.mean_velocity, "o", **style.LOOKS[role], **MARKERS[role])
     if critical_acceleration is not None:
         style.mark(axes, critical_acceleration, f"{critical_acceleration:g} m/s²")
     axes.set_xlabel(style.AMPLITUDE)

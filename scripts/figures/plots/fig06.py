@@ -14,7 +14,7 @@ def plot_signal(converged: pd.DataFrame, euler: pd.DataFrame, signal: str, symbo
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
     markers = {"euler": {"marker": "o", "markerfacecolor": "none"}, "converged": {"marker": "."}}
     for role, table in {"euler": euler, "converged": converged}.items():
-        look = {"color": style.CURVES[role]["color"], "label": style.PANELS[role], **markers[role]}
+        look = style.LOOKS[role] | markers[role]
         shown = table[(table.signal == signal) & (table.frequency <= highest)]
         for axes, place, (acceleration, rows) in zip(
             panels, ("below", "above"), shown.groupby("acceleration"), strict=True

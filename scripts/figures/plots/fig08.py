@@ -6,8 +6,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from conveyor.solver.model import Conveyor, conveyor_motion
+from conveyor.solver.model import conveyor_motion
 from figures import style
+from pipeline import grid
 
 # Interquartile range of the velocities of one motion, over the largest velocity, above which runs have not settled.
 WIDE = 0.05
@@ -15,11 +16,11 @@ WIDE = 0.05
 
 def plate_velocity(sweep: pd.DataFrame) -> tuple[list[float], list[float]]:
     """End points of the straight line of the plate's largest velocity (m/s) over the amplitude (m/s²)."""
-    model = {name: value for name, value in sweep.attrs["model"].items() if name not in ("z0", "vz0")}
+    model = sweep.attrs["model"]
     ends = [sweep.acceleration.min(), sweep.acceleration.max()]
     cycle = np.linspace(0.0, 1.0 / model["frequency"], 721)
-    motions = [conveyor_motion(Conveyor(acceleration=end, **model), cycle) for end in ends]
-    return ends, [motion["vx"].max() for motion in motions]
+    conveyors = [grid.conveyor_and_start(model | {"acceleration": end})[0] for end in ends]
+    return ends, [conveyor_motion(conveyor, cycle)["vx"].max() for conveyor in conveyors]
 
 
 def unsettled(sweep: pd.DataFrame) -> tuple[float, float] | None:
@@ -43,10 +44,11 @@ def plot(
     figure = style.figure(style.PAGE, 72.0)
     sweeps = style.drop_missing(euler=euler, converged=converged)
     panels = style.method_panels(figure, sweeps, style.AMPLITUDE, style.VELOCITY)
+    plate = {"color": style.PLATE, "linewidth": 0.8, "linestyle": "--", "label": "largest velocity of the conveyor"}
     for axes, sweep in zip(panels, sweeps.values(), strict=True):
         if two_states is not None:
             axes.axvspan(*two_states, color="0.93", linewidth=0.0)
-        axes.plot(*plate_velocity(sweep), color=style.PLATE, linewidth=0.8, linestyle="--")
+        axes.plot(*plate_velocity(sweep), **plate)
         for state, colour in style.STATE_COLOURS.items():
             rows = sweep[sweep.state == state]
             style.dots(axes, rows.acceleration, rows.mean_velocity, colour, 2.0)
@@ -62,14 +64,12 @@ def plot(
             )
     for axes in panels:
         style.from_zero(axes)
-    present = {state for sweep in sweeps.values() for state in sweep.state}
-    handles = {
-        style.state_label(state): Line2D([], [], color=colour, marker="o", linestyle="")
-        for state, colour in style.STATE_COLOURS.items()
-        if state in present
-    }
-    handles["largest velocity of the conveyor"] = Line2D([], [], color=style.PLATE, linewidth=0.8, linestyle="--")
+    handles = [
+        Line2D([], [], color=area.get_facecolor(), marker="o", linestyle="", label=area.get_label())
+        for area in style.state_handles(*sweeps.values())
+    ]
+    handles.append(Line2D([], [], **plate))
     if two_states is not None:
-        handles["two states (paper)"] = Patch(color="0.93")
-    figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=len(handles))
+        handles.append(Patch(color="0.93", label="two states (paper)"))
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
     return figure

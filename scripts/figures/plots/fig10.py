@@ -33,9 +33,9 @@ def plot(
         axes.plot(fitted, 1e3 * critical_height(fitted, hyperbola), line, color=colour, linewidth=0.8, label=label)
     hollow = {"markerfacecolor": "none", "markeredgewidth": 0.6}
     if euler is not None:
-        rows, look = euler[euler.is_critical], {"color": style.EULER, "markersize": 4.0, **hollow}
-        axes.plot(rows.acceleration, 1e3 * rows.z0, "o", label=style.EULER_LABEL, **look)
-    axes.plot(edge.acceleration, 1e3 * edge.z0, ".", markersize=2.6, color=style.CONVERGED, label=style.CONVERGED_LABEL)
+        rows = euler[euler.is_critical]
+        axes.plot(rows.acceleration, 1e3 * rows.z0, "o", markersize=4.0, **style.LOOKS["euler"], **hollow)
+    axes.plot(edge.acceleration, 1e3 * edge.z0, ".", markersize=2.6, **style.LOOKS["converged"])
     back = converged[~converged.is_critical]
     if len(back):
         look = {"color": style.CONVERGED, "markersize": 3.0, **hollow}

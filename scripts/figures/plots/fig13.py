@@ -5,8 +5,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from conveyor.solver.model import Conveyor, conveyor_motion
+from conveyor.solver.model import conveyor_motion
 from figures import style
+from pipeline import grid
 
 
 def draw_phase_map(table: pd.DataFrame, name: str, label: str, fixed: str) -> tuple[Figure, Axes]:
@@ -26,9 +27,9 @@ def draw_phase_map(table: pd.DataFrame, name: str, label: str, fixed: str) -> tu
 def plot(*, map: pd.DataFrame) -> Figure:
     """Draw a sweep over psi0 and z0; a line shows the height of the plate."""
     figure, axes = draw_phase_map(map.assign(z0=1e3 * map.z0), "z0", "initial height $z_0$ in mm", "$\\dot{z}_0$ = 0")
-    model = {name: value for name, value in map.attrs["model"].items() if name != "vz0"}
+    conveyor, _ = grid.conveyor_and_start(map.attrs["model"])
     phases = np.linspace(map.psi0.min(), map.psi0.max(), 200)
-    plate = conveyor_motion(Conveyor(**model), phases / (2.0 * np.pi * model["frequency"]))["z"]
+    plate = conveyor_motion(conveyor, phases / (2.0 * np.pi * conveyor.frequency))["z"]
     axes.plot(1e3 * plate[plate >= 0.0], phases[plate >= 0.0], color="white", linewidth=1.0)
     top = plate.argmax()
     style.note(axes, "plate", (1e3 * plate[top], phases[top]), (3, 0), color="white", va="center")

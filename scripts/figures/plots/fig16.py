@@ -10,12 +10,8 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, acceleration: float, z
     """Draw the signals at one `acceleration` (m/s²) and one `z0` (m)."""
     figure = style.figure(style.PAGE, 100.0)
     (velocity, contact), (height, friction) = figure.subplots(2, 2, sharex=True)
-    looks = (
-        (euler, {"color": style.EULER, "label": style.EULER_LABEL}),
-        (converged, {"color": style.CONVERGED, "label": style.CONVERGED_LABEL}),
-    )
-    for table, look in looks:
-        rows = table[(table.acceleration == acceleration) & (table.z0 == z0)]
+    for role, table in {"euler": euler, "converged": converged}.items():
+        rows, look = table[(table.acceleration == acceleration) & (table.z0 == z0)], style.LOOKS[role]
         velocity.plot(rows.time, rows.vx, linewidth=0.7, **look)
         height.plot(rows.time, 1e3 * rows.z, linewidth=0.7, **look)
         contact.plot(rows.time, 1e3 * rows.contact_force, linewidth=0.7, **look)

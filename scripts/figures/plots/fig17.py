@@ -12,8 +12,8 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame | None = None) -> Figur
     sweeps = style.drop_missing(euler=euler, converged=converged)
     panels = style.method_panels(figure, sweeps, "initial height $z_0$ in mm", style.VELOCITY)
     for axes, (role, rows) in zip(panels, sweeps.items(), strict=True):
-        colour = style.CURVES[role]["color"]
+        colour = style.LOOKS[role]["color"]
         axes.plot(1e3 * rows.z0, rows.mean_velocity, ".-", color=colour, linewidth=0.4, markersize=2.5)
-        axes.set_title(f"{style.PANELS[role]}, $\\hat{{a}}$ = {rows.attrs['model']['acceleration']:g} m/s²")
+        axes.set_title(f"{style.LOOKS[role]['label']}, $\\hat{{a}}$ = {rows.attrs['model']['acceleration']:g} m/s²")
         style.from_zero(axes)
     return figure

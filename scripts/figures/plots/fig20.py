@@ -21,7 +21,7 @@ def plot(
     figure = style.figure(style.COLUMN, 16.0 + 34.0 * len(estimates))
     panels = figure.subplots(len(estimates), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     for axes, (role, table) in zip(panels, estimates.items(), strict=True):
-        colour = style.CURVES[role]["color"]
+        colour = style.LOOKS[role]["color"]
         between = edge.acceleration[edge.is_critical & (edge.z0 < table.attrs["epsilon"])]
         axes.axhline(0.0, color="black", linewidth=0.6)
         axes.plot(table.acceleration, table["lambda"], color=colour, linewidth=0.8)
@@ -32,7 +32,7 @@ def plot(
         if first_positive is not None:
             axes.axvline(first_positive, color="black", linewidth=0.6, linestyle=":")
             style.note(axes, f"{first_positive:g} m/s²", (first_positive, 0.0), (-3, -9), ha="right")
-        axes.set_title(style.PANELS[role], color=colour)
+        axes.set_title(style.LOOKS[role]["label"], color=colour)
         axes.set_ylabel("exponent of $z_p$ in 1/s")
     panels[-1].set_xlabel(style.AMPLITUDE)
     return figure

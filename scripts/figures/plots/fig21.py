@@ -13,9 +13,9 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame) -> Figure:
     """Draw signals at two phases, and the distance between them."""
     figure = style.figure(style.PAGE, 116.0)
     panels = figure.subplots(3, 2, sharex=True, sharey="row")
-    signals = ((euler, style.EULER, style.EULER_LABEL), (converged, style.CONVERGED, style.CONVERGED_LABEL))
-    for column, (table, colour, title) in zip(panels.T, signals, strict=True):
-        position, velocity, difference = column
+    signals = {"euler": euler, "converged": converged}
+    for (position, velocity, difference), (role, table) in zip(panels.T, signals.items(), strict=True):
+        colour = style.LOOKS[role]["color"]
         (low, reference), (high, perturbed) = table.groupby("psi0")
         mantissa, exponent = f"{high - low:.0e}".split("e")
         label = f"perturbed: $\\psi_0$ larger by ${mantissa}\\cdot 10^{{{int(exponent)}}}$ rad"
@@ -25,7 +25,7 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame) -> Figure:
         distance = np.abs(perturbed.vx.to_numpy() - reference.vx.to_numpy())
         difference.semilogy(reference.time, distance, color=colour, linewidth=0.7)
         difference.set_ylim(bottom=LEAST)
-        position.set_title(title)
+        position.set_title(style.LOOKS[role]["label"])
         position.legend(loc="upper left")
         difference.set_xlabel("time in s")
         difference.set_xlim(reference.time.min(), reference.time.max())

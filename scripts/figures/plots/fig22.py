@@ -14,8 +14,8 @@ def plot(
     axes = figure.subplots()
     axes.axhline(0.0, color="black", linewidth=0.6)
     for role, table in style.drop_missing(euler=euler, converged=converged).items():
-        look = {"color": style.CURVES[role]["color"], "linewidth": 1.6 if role == "euler" else 0.8}
-        axes.plot(table.acceleration, table["lambda"], label=style.PANELS[role], **look)
+        width = 1.6 if role == "euler" else 0.8
+        axes.plot(table.acceleration, table["lambda"], linewidth=width, **style.LOOKS[role])
     if critical_acceleration is not None:
         style.mark(axes, critical_acceleration, f"{critical_acceleration:g} m/s²")
     axes.set_xlabel(style.AMPLITUDE)

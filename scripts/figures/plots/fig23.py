@@ -25,6 +25,6 @@ def plot(
             if axes in panels[-1]:
                 axes.set_xlabel("height $z_p$ in mm")
             axes.set_ylabel("vertical velocity $\\dot{z}_p$ in m/s")
-        line[0].set_ylabel(f"{style.PANELS[role]}\nvertical velocity $\\dot{{z}}_p$ in m/s")
+        line[0].set_ylabel(f"{style.LOOKS[role]['label']}\nvertical velocity $\\dot{{z}}_p$ in m/s")
     figure.align_ylabels(panels[:, 0])
     return figure

@@ -4,9 +4,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from claims.about_proofs import lowest_fold
 from figures import style
 
-MM = 1e3
 SHADE = "0.93"
 
 
@@ -50,7 +50,7 @@ def plot(
     below = figure.add_subplot(left[1], sharex=diagram)
     states = figure.add_subplot(grid[1])
 
-    fold = bifurcations.query("kind == 'fold' and proved").acceleration_low.min()
+    fold = lowest_fold(bifurcations)
     accumulation = cascade.accumulation.dropna().iloc[-1]
     draw_attractors(diagram, strobes)
     draw_exponents(below, spectrum, estimate)
@@ -68,7 +68,7 @@ def plot(
     below.set_xlim(strobes.acceleration.min(), strobes.acceleration.max())
     below.set_xlabel(style.AMPLITUDE)
 
-    style.state_map(states, map.assign(z0=MM * map.z0), "z0", "psi0")
+    style.state_map(states, map.assign(z0=1e3 * map.z0), "z0", "psi0")
     style.phase_axis(states.yaxis)
     states.set_xlabel("initial height $z_0$ in mm")
     states.set_ylabel("initial phase $\\psi_0$ in rad")

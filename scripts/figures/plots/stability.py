@@ -17,7 +17,6 @@ TITLES = {
     "impact velocity": "single Hertz impact",
     "conveyor": "vibrating plate",
 }
-LIMITS = ("euler", "semi_implicit_euler", "rk4")  # methods with a line, if the table has them
 OWN_ROW = 2.5  # place of the solver's line, in units of the largest step
 
 
@@ -38,8 +37,7 @@ def draw_panel(axes: Axes, rows: pd.DataFrame, panel: str, methods: list[str], p
     style.class_map(axes, euler.pivot(index="x", columns="y", values="outcome"), OUTCOMES)
     for method in methods:
         limits = largest_right_step(rows[rows.method == method])
-        wide = method == "euler"
-        width = 2.0 if wide else 1.0
+        width = 2.0 if method == "euler" else 1.0
         edge = withStroke(linewidth=width + 1.0, foreground="white")
         axes.plot(limits.index, limits, color=style.METHODS[method][0], linewidth=width, path_effects=[edge])
     own = rows[rows.method == "event"].sort_values("y")
@@ -59,12 +57,11 @@ def legend_handles(methods: list[str]) -> list[Patch | Line2D]:
     """Legend handles of the outcomes of the paper's method, the limits of all methods, and the solver."""
     names = {"right": "paper's method: right state"}
     areas = [Patch(color=colour, label=names.get(outcome, outcome)) for outcome, colour in OUTCOMES.items()]
-    lines = [
-        Line2D([], [], color=style.METHODS[method][0], linewidth=2.0 if method == "euler" else 1.0)
-        for method in methods
-    ]
-    for line, method in zip(lines, methods, strict=True):
-        line.set_label(f"limit of {style.METHODS[method][1]}")
+    lines = []
+    for method in methods:
+        colour, name = style.METHODS[method]
+        width = 2.0 if method == "euler" else 1.0
+        lines.append(Line2D([], [], color=colour, linewidth=width, label=f"limit of {name}"))
     own = Line2D([], [], color=style.CONVERGED, linewidth=4.0, label="this solver: right state, no step limit")
     step = Line2D([], [], color="black", linewidth=0.8, linestyle=(0, (4, 2)), label="paper's time step")
     return [*areas, *lines, own, step]
@@ -74,8 +71,7 @@ def plot(*, stability: pd.DataFrame, acceleration: float) -> Figure:
     """Draw a panel for each quantity, with a star at the paper's step and the paper's `acceleration` (m/s²)."""
     figure = style.figure(style.PAGE, 130.0)
     panels = figure.subplots(2, 2, sharey=True)
-    methods = [method for method in LIMITS if method in stability.attrs["methods"]]
-    paper_step = stability.attrs["paper_step"]
+    methods, paper_step = stability.attrs["methods"], stability.attrs["paper_step"]
     for axes, panel in zip(panels.flat, AXES, strict=True):
         draw_panel(axes, stability[stability.panel == panel], panel, methods, paper_step)
     panels[1, 1].plot(acceleration, paper_step, **PAPER | {"markersize": 9.0})

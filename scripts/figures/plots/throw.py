@@ -4,15 +4,15 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from claims.about_proofs import lowest_fold
 from figures import style
 from figures.plots.basin_stability import draw_motions, share_handles
 
 
 def proved_fold(throws: pd.DataFrame, bifurcations: pd.DataFrame) -> float:
     """Throw number of the lowest proved fold of the paper's conveyor, NaN if none is proved."""
-    folds = bifurcations[(bifurcations.kind == "fold") & bifurcations.proved]
     paper = throws[throws.conveyor == "paper"].iloc[0]
-    return folds.acceleration_low.min() * paper.vertical / paper.acceleration
+    return lowest_fold(bifurcations) * paper.vertical / paper.acceleration
 
 
 def plot(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> Figure:

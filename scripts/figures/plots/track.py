@@ -25,7 +25,7 @@ def plot(*, track: pd.DataFrame) -> Figure:
         axes.contour(x, y, own, levels=[0.0], colors="black", linewidths=1.0)
         axes.axhline(0.0, color="black", linewidth=0.4, linestyle=":")
         axes.axvline(0.0, color="black", linewidth=0.4, linestyle=":")
-        axes.set_title(f"{state} state", color=style.STATE_COLOURS[state])
+        axes.set_title(style.state_label(state), color=style.STATE_COLOURS[state])
         axes.set_xlabel("phase shift $\\varepsilon$ in rad")
         axes.set_xticks(list(PHASES.values()), PHASES)
         axes.set_xlim(x[0], x[-1])
