@@ -8,6 +8,7 @@ import pytest
 from project import ROOT, read_config
 
 from operating import drive, drive_page, shares
+from pipeline import pareto
 from workflow.config.tables import TABLES
 
 SETTINGS = {
@@ -154,16 +155,6 @@ def test_designs_that_violate_a_constraint_are_dropped_early(monkeypatch):
     assert objectives[2].tolist() == [-0.1, 0.1, 30.0]
 
 
-def test_the_front_keeps_the_non_dominated_designs():
-    objectives = np.array([[1.0, 2.0, 3.0], [1.0, 2.0, 4.0], [0.0, 3.0, 3.0], [1.0, 2.0, 3.0]])
-    designs = np.arange(16.0).reshape(4, 4)
-    kept, best = drive.best_of_designs(designs, objectives)
-    assert best.tolist() == [[0.0, 3.0, 3.0], [1.0, 2.0, 3.0]]
-    assert kept.tolist() == designs[[2, 0]].tolist()
-    assert drive.hypervolume(best[1:], np.array([2.0, 4.0, 6.0])) == pytest.approx(1.0 * 2.0 * 3.0)
-    assert drive.hypervolume(np.empty((0, 3)), np.ones(3)) == 0.0
-
-
 def test_settings_differ_as_much_as_they_can():
     """The fastest, then the gentlest, then the one farthest from both; units do not matter."""
     objectives = np.array([[-5.0, 9.0, 7.0], [-4.9, 8.9, 7.0], [-1.0, 0.0, 7.0], [-3.0, 4.0, 2.0], [-1.1, 0.1, 7.0]])
@@ -224,13 +215,9 @@ def growing(*volumes: float) -> pd.DataFrame:
 
 def test_seeds_search_on_their_own_whatever_the_number_of_threads(monkeypatch):
     def search(settings, seed, count):
-        front = drive.Front(settings, count)
-        front.designs, front.objectives = (
-            np.array([[30.0 + seed, 50.0, 0.3, 0.0]]),
-            np.array([[-0.1, 0.1, 30.0 + seed]]),
-        )
-        front.volumes = [float(seed)]
-        return front
+        amplitude = 30.0 + seed
+        design, objectives = np.array([[amplitude, 50.0, 0.3, 0.0]]), np.array([[-0.1, 0.1, amplitude]])
+        return pareto.Front(design, objectives, [float(seed)])
 
     monkeypatch.setattr(drive, "search", search)
     monkeypatch.setattr(drive, "check", lambda front, settings, threads: front)
