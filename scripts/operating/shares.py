@@ -17,7 +17,7 @@ from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
 from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, GRAVITY, INCLINATION, PSI0, VZ0, Z0
 from conveyor.solver.parallel import for_each_chunk
-from operating.regimes import regimes_of
+from operating.regimes import summarize_amplitudes
 from pipeline import fields, grid
 from pipeline.motions import motions_of_starts
 
@@ -272,7 +272,8 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> pd
     amplitudes = np.unique(grid.axis_values("acceleration", settings["acceleration"]))
     table = motions_at(amplitudes, settings, threads=threads, progress=progress)
     while True:
-        places, regimes = regimes_of(table, settings["same_velocity"])
+        amplitudes = summarize_amplitudes(table, settings["same_velocity"])
+        places, regimes = amplitudes.acceleration.to_numpy(), amplitudes.regime.to_numpy()
         wide = (regimes[1:] != regimes[:-1]) & (np.diff(places) > settings["resolution"])
         if not wide.any():
             return table
