@@ -47,7 +47,7 @@ def test_initial_conditions_fill_the_box_and_depend_on_the_seed():
     assert (starts != shares.starts_of_box({**BOX, "starts": 1000, "seed": 2})).all()
 
 
-def test_motions_differ_by_state_period_and_flight():
+def test_motions_differ_by_conveyor_state_period_and_flight():
     found = Labels(
         state=np.array(["second", "first", "second", "chaos", "second", "second", "chaos"]),
         period=np.array([1, 1, 2, 0, 1, 1, 0]),
@@ -56,10 +56,13 @@ def test_motions_differ_by_state_period_and_flight():
         delta=np.zeros(7),
         v=np.zeros(7),
     )
-    number = shares.groups(found)
+    number = shares.groups(found, np.zeros(7, dtype=np.int64))
     assert number[0] == number[5]
     assert number[3] == number[6]
     assert len(set(number)) == 5
+    number = shares.groups(found, np.arange(7) // 4)
+    assert len(set(number)) == 7
+    assert number[:4].max() < number[4:].min()
 
 
 @pytest.fixture(scope="module")
