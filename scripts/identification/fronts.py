@@ -9,7 +9,7 @@ from pymoo.util.ref_dirs import get_reference_directions
 
 from identification import measures
 from identification.fits import fit
-from identification.misfits import OBJECTIVES, numbers_of, root_mean_square
+from identification.misfits import OBJECTIVES, misfits, root_mean_square
 from identification.search_space import PARAMETERS, SEARCHED, bounds_of, values_of
 from pipeline import fields, pareto
 
@@ -97,16 +97,17 @@ def distance(one: np.ndarray, other: np.ndarray) -> float:
     return 0.5 * float(distances.min(axis=0).mean() + distances.min(axis=1).mean())
 
 
-def status(fronts: list[np.ndarray], volumes: list[list[float]], settings: dict) -> str:
+def status(fronts: list[pareto.Front], settings: dict) -> str:
     """Whether all searches of one tension mode have converged, and to the same front."""
-    for shares in volumes:
-        earlier = shares[3 * len(shares) // 4 - 1]
-        if not abs(shares[-1] - earlier) <= settings["settled"] * shares[-1]:
+    for front in fronts:
+        earlier, last = front.volumes[3 * len(front.volumes) // 4 - 1], front.volumes[-1]
+        if not abs(last - earlier) <= settings["settled"] * last:
             return "not converged: the hypervolume still grows"
-    for shares, front in zip(volumes[1:], fronts[1:], strict=True):
-        if not abs(shares[-1] - volumes[0][-1]) <= settings["settled"] * volumes[0][-1]:
+    first = fronts[0]
+    for front in fronts[1:]:
+        if not abs(front.volumes[-1] - first.volumes[-1]) <= settings["settled"] * first.volumes[-1]:
             return "not converged: the seeds' hypervolumes differ"
-        inside = [one[(one <= settings["worst"]).all(axis=1)] for one in (front, fronts[0])]
+        inside = [one.objectives[(one.objectives <= settings["worst"]).all(axis=1)] for one in (front, first)]
         if not distance(*inside) <= settings["distance"]:
             return "not converged: the seeds' fronts are apart"
     return "converged"
@@ -115,26 +116,24 @@ def status(fronts: list[np.ndarray], volumes: list[list[float]], settings: dict)
 def make(edges: pd.DataFrame, settings: dict) -> dict[str, dict]:
     """The columns of the tables of fronts and of generations."""
     model, options = settings["model"], settings["search"]
-    interpolated = measures.interpolate_edges(edges, model)
+    interpolated = measures.interpolate_edges(edges)
     bounds = bounds_of(settings)
     groups = [settings["objectives"][name] for name in OBJECTIVES]
-    numbers = numbers_of(settings, [name for group in groups for name in group])
+    numbers = {name: settings["numbers"][name] for group in groups for name in group}
     sizes = [len(group) for group in groups]
     drawn = np.random.default_rng(options["seeds"][0]).uniform(*bounds, (options["drawn"], len(SEARCHED)))
     members, history = [], []
     for tension in settings["readings"]:
 
-        def misfits(x, tension=tension):
-            found = measures.quantities_at(
-                interpolated, values_of(x, model), tension, settings, measures.converged_velocities
-            )
-            return numbers.misfits(found)
+        def misfits_at(x, tension=tension):
+            return misfits(measures.quantities_at(interpolated, values_of(x, model), tension, settings), numbers, {})
 
-        first = fit_compromises(misfits, sizes, drawn, bounds, options)
+        first = fit_compromises(misfits_at, sizes, drawn, bounds, options)
         found = [
-            search(lambda x: objectives(misfits(x), sizes), first, bounds, options, seed) for seed in options["seeds"]
+            search(lambda x: objectives(misfits_at(x), sizes), first, bounds, options, seed)
+            for seed in options["seeds"]
         ]
-        verdict = status([one.objectives for one in found], [one.volumes for one in found], options)
+        verdict = status(found, options)
         for seed, one in zip(options["seeds"], found, strict=True):
             label = {"tension": tension, "seed": seed}
             columns = dict(zip(PARAMETERS, values_of(one.points, model).T, strict=True))
