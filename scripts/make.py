@@ -7,7 +7,7 @@ are
 - the params of the rule, except for NOT_FOR_THE_STAGE,
 - `threads` and `progress`, if it has these arguments.
 
-It returns the content of the output: the columns of a table, an iterator over the columns of blocks of its rows, a
+It returns the content of the output: a table or its columns, an iterator over the columns of blocks of its rows, a
 text, bytes, or a picture. For several outputs, it returns a mapping by name, or a list if the outputs have no names.
 """
 

@@ -113,8 +113,8 @@ def status(fronts: list[pareto.Front], settings: dict) -> str:
     return "converged"
 
 
-def make(edges: pd.DataFrame, settings: dict) -> dict[str, dict]:
-    """The columns of the tables of fronts and of generations."""
+def make(edges: pd.DataFrame, settings: dict) -> dict[str, pd.DataFrame]:
+    """The tables of fronts and of generations."""
     model, options = settings["model"], settings["search"]
     interpolated = measures.interpolate_edges(edges)
     bounds = bounds_of(settings)
@@ -144,4 +144,4 @@ def make(edges: pd.DataFrame, settings: dict) -> dict[str, dict]:
     front = pd.concat(members, ignore_index=True)
     best = pareto.non_dominated(front[list(OBJECTIVES)].to_numpy())
     front["on_front"] = np.isin(np.arange(len(front)), best)
-    return {"front": front.to_dict("list"), "generations": pd.concat(history).to_dict("list")}
+    return {"front": front, "generations": pd.concat(history)}

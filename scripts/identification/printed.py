@@ -97,8 +97,8 @@ def number_rows(
     return table.assign(set=name, method=method, tension=tension, **dict(zip(PARAMETERS, values, strict=True)))
 
 
-def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, list]:
-    """The columns of the table of numbers at the printed parameters and at their variants."""
+def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFrame:
+    """The table of numbers at the printed parameters and at their variants."""
     model = settings["model"]
     interpolated = measures.interpolate_edges(edges)
     found = []
@@ -106,4 +106,4 @@ def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, 
         values = np.array([(model | variant)[parameter] for parameter in PARAMETERS])
         for method in (CONVERGED, EULER) if not variant else (CONVERGED,):
             found.append(number_rows(name, values, model["tension"], method, interpolated, settings, threads))
-    return pd.concat(found).to_dict("list")
+    return pd.concat(found)

@@ -186,19 +186,19 @@ def shifts_of(numbers: pd.DataFrame) -> dict[str, float]:
     return (one - other).to_dict()
 
 
-def vary_friction(edges: measures.Edges, values: np.ndarray, settings: dict) -> dict:
-    """The columns of the table of frictions: velocities over friction, with the other `values`, shape (4,)."""
+def vary_friction(edges: measures.Edges, values: np.ndarray, settings: dict) -> pd.DataFrame:
+    """The table of frictions: velocities over friction, with the other `values`, shape (4,)."""
     grid = np.tile(values, (FRICTIONS, 1))
     column = list(PARAMETERS).index("friction")
     grid[:, column] = np.linspace(*settings["bounds"]["friction"], FRICTIONS)
     found = measures.quantities_at(edges, grid, settings["model"]["tension"], settings)
-    return {"friction": grid[:, column], **{name: found[number] for name, number in VELOCITIES.items()}}
+    return pd.DataFrame({"friction": grid[:, column]} | {name: found[number] for name, number in VELOCITIES.items()})
 
 
 def make(
     edges: pd.DataFrame, front: pd.DataFrame, printed: pd.DataFrame, settings: dict, *, threads: int = 1
-) -> dict[str, dict]:
-    """The columns of the tables of profiles, optima, frictions, and of the numbers at the optima."""
+) -> dict[str, pd.DataFrame]:
+    """The tables of profiles, optima, frictions, and of the numbers at the optima."""
     model, bounds, options = settings["model"], bounds_of(settings), settings["profiles"]
     interpolated, shifts = measures.interpolate_edges(edges), shifts_of(printed)
     names = [name for group in settings["objectives"].values() for name in group]
@@ -248,10 +248,10 @@ def make(
             )
     optima = add_rises(pd.DataFrame(optimum_rows), options["confidence"])
     return {
-        "profiles": pd.DataFrame(profile_rows).to_dict("list"),
-        "optima": optima.to_dict("list"),
+        "profiles": pd.DataFrame(profile_rows),
+        "optima": optima,
         "frictions": vary_friction(interpolated, printed_values, settings),
-        "implied": implied_numbers(optima, interpolated, settings, threads).to_dict("list"),
+        "implied": implied_numbers(optima, interpolated, settings, threads),
     }
 
 

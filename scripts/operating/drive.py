@@ -230,8 +230,8 @@ def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFr
     return front
 
 
-def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, dict]:
-    """The columns of the tables of the front and of the generations."""
+def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, pd.DataFrame]:
+    """The tables of the front and of the generations."""
     # Designs with unsettled motions are refused, chaotic or not.
     few = {**settings, **settings["search"], "followed": 1, "exponents": False}
     # One thread for each seed: the designs of one generation are too few for several threads.
@@ -251,7 +251,4 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
         for seed, found in fronts.items()
         for number, volume in enumerate(found.volumes, start=1)
     ]
-    return {
-        "drive_front": check(front, settings, threads=threads).to_dict("list"),
-        "drive_generations": fields.columns(history, TABLES["drive_generations"]),
-    }
+    return {"drive_front": check(front, settings, threads=threads), "drive_generations": pd.DataFrame(history)}

@@ -76,8 +76,8 @@ def summarize_amplitudes(shares: pd.DataFrame, share: float) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def make(shares: pd.DataFrame) -> dict[str, np.ndarray]:
-    """The columns of the table of regimes: one row for each interval of amplitudes with one regime."""
+def make(shares: pd.DataFrame) -> pd.DataFrame:
+    """The table of regimes: one row for each interval of amplitudes with one regime."""
     amplitudes = summarize_amplitudes(shares, shares.attrs["same_velocity"])
     numbers = (amplitudes.regime != amplitudes.regime.shift()).cumsum()
     rows = []
@@ -102,4 +102,4 @@ def make(shares: pd.DataFrame) -> dict[str, np.ndarray]:
                 "best_share_stderr": part.stderr.max(),
             }
         )
-    return fields.columns(rows, TABLES["regimes"])
+    return pd.DataFrame(rows)

@@ -182,8 +182,7 @@ def made(monkeypatch) -> dict[str, pd.DataFrame]:
         return pd.DataFrame(found | {"displacement": drive.displacement(x)})
 
     monkeypatch.setattr(drive, "evaluate", evaluate)
-    found = drive.make({**SETTINGS, "population": 40, "generations": 40})
-    tables = {name: pd.DataFrame(columns) for name, columns in found.items()}
+    tables = drive.make({**SETTINGS, "population": 40, "generations": 40})
     tables["drive_front"].attrs = SETTINGS
     return tables
 
@@ -223,10 +222,10 @@ def test_seeds_search_on_their_own_whatever_the_number_of_threads(monkeypatch):
     monkeypatch.setattr(drive, "check", lambda front, settings, threads: front)
     for threads in (1, 2):
         found = drive.make({**SETTINGS, "seeds": [5, 3]}, threads=threads)
-        generations = pd.DataFrame(found["drive_generations"])
+        generations = found["drive_generations"]
         assert list(generations.seed) == [5, 3]
         assert generations.hypervolume[0] / generations.hypervolume[1] == pytest.approx(5.0 / 3.0)
-        assert found["drive_front"]["acceleration"] == [33.0]
+        assert found["drive_front"].acceleration.tolist() == [33.0]
 
 
 def test_growth_covers_the_last_quarter_of_the_worst_seed():
@@ -266,7 +265,7 @@ def test_a_search_that_finds_nothing_says_so(monkeypatch):
 
     monkeypatch.setattr(drive, "evaluate", evaluate)
     found = drive.make({**SETTINGS, "drawn": 8, "population": 4, "generations": 4})
-    front, generations = (pd.DataFrame(found[name]) for name in ("drive_front", "drive_generations"))
+    front, generations = found["drive_front"], found["drive_generations"]
     assert len(front) == 0
     assert set(front) == {column.name for column in drive.TABLES["drive_front"]}
     front = front.astype(dict.fromkeys(("checked", "confirmed", "recommended"), bool))

@@ -68,7 +68,7 @@ def test_motions_differ_by_conveyor_state_period_and_flight():
 @pytest.fixture(scope="module")
 def table():
     """Shares at two amplitudes with one and with two motions."""
-    return pd.DataFrame(shares.motions_at(np.array([22.0, 40.0]), BOX))
+    return shares.motions_at(np.array([22.0, 40.0]), BOX)
 
 
 def test_labels_agree_with_sweeps(table):
@@ -194,7 +194,7 @@ def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, want
     monkeypatch.setattr(shares, "motions_of_starts", motions_found)
     velocities = np.array([1.0, 3.0]), np.array([[0.1, 2.0], [0.2, 1.0]]), np.array(statuses, dtype=object)
     monkeypatch.setattr(shares, "velocities", lambda *_, **__: velocities)
-    row = pd.DataFrame(shares.motions_at(np.array([40.0]), BOX)).iloc[0]
+    row = shares.motions_at(np.array([40.0]), BOX).iloc[0]
     assert (row.mean_velocity, row.velocity_stderr, row.status) == pytest.approx(wanted, nan_ok=True)
     assert row.starts == BOX["starts"]
     peaks = (0.2, 2.0) if row.status == "ok" else (np.nan, np.nan)
@@ -203,8 +203,7 @@ def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, want
 
 def test_the_standard_error_agrees_with_repeated_draws():
     drawn = [
-        pd.DataFrame(shares.motions_at(np.array([40.0]), {**BOX, "seed": seed})).set_index("state").loc["first"]
-        for seed in range(30)
+        shares.motions_at(np.array([40.0]), {**BOX, "seed": seed}).set_index("state").loc["first"] for seed in range(30)
     ]
     share = np.array([row.share for row in drawn])
     # A standard deviation from thirty draws is known to an eighth.
@@ -224,7 +223,7 @@ def test_machines_with_equal_dimensionless_groups_have_equal_shares(table):
         "stiffness": mass * gravity / length**paper.exponent * paper.stiffness,
     }
     box = {"height": [length * end for end in BOX["height"]], "vz0": [velocity * end for end in BOX["vz0"]]}
-    other = pd.DataFrame(shares.motions_at(gravity * np.array([22.0, 40.0]), {**BOX, **box, "model": model}))
+    other = shares.motions_at(gravity * np.array([22.0, 40.0]), {**BOX, **box, "model": model})
     for name in ("state", "period", "starts", "share", "stderr", "motion"):
         assert (other[name] == table[name]).all(), name
     assert np.allclose(other.vertical, table.vertical, rtol=1e-12)
@@ -261,7 +260,7 @@ SETTINGS = {**BOX, "acceleration": {"start": 20.0, "stop": 60.0, "num": 9}, "res
 @pytest.fixture
 def refined(monkeypatch) -> pd.DataFrame:
     monkeypatch.setattr(shares, "motions_at", made_up)
-    found = pd.DataFrame(shares.make(SETTINGS))
+    found = shares.make(SETTINGS)
     found.attrs = SETTINGS | {"model": {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0}}
     return found
 
@@ -322,7 +321,7 @@ def test_the_page_begins_with_the_advice(refined):
     page = chart.make(
         (ROOT / "workflow/templates/operating_chart.md").read_text(),
         refined,
-        pd.DataFrame(regimes.make(refined)),
+        regimes.make(refined),
         *advised(),
     )
     assert page.startswith("# Operating chart\n\n## Recommended amplitudes\n")
@@ -418,7 +417,7 @@ def test_changes_of_a_parameter_keep_the_static_friction_above_the_friction():
 
 
 def test_regimes_and_their_words(refined):
-    found = pd.DataFrame(regimes.make(refined))
+    found = regimes.make(refined)
     assert list(found.regime) == [regimes.ONE, regimes.SEVERAL, regimes.BESIDE, regimes.CHAOS]
     assert list(found.best_share_low) == pytest.approx([1.0, 0.3, 0.2, 1.0])
     assert list(found.best_share_high) == pytest.approx([1.0, 0.34, 0.2, 1.0])
@@ -462,7 +461,7 @@ def test_a_table_without_known_amplitudes_gives_no_advice(refined):
     page = chart.make(
         (ROOT / "workflow/templates/operating_chart.md").read_text(),
         alone,
-        pd.DataFrame(regimes.make(alone)),
+        regimes.make(alone),
         *(table.iloc[:0] for table in advised()),
     )
     assert "There is no amplitude at which every part reaches the same velocity with an amplitude error of 1 %." in page
