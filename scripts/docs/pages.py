@@ -157,8 +157,8 @@ def make(
     schema: str = "",
     library: list[str] = (),
     **tables: pd.DataFrame,
-) -> list[str] | str:
-    """The pages from templates, in order; the page itself if there is one template.
+) -> list[str]:
+    """The pages from templates, in order.
 
     Parameters
     ----------
@@ -203,5 +203,4 @@ def make(
         "interval": describe_interval,
         "medium": medium,
     }
-    pages = [render(template, fields) for template in templates]
-    return pages if len(pages) > 1 else pages[0]
+    return [render(template, fields) for template in templates]
