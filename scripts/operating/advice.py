@@ -94,7 +94,7 @@ def smallest_knock(
     kicked[:, VZ0] += np.tile(kicks, len(rows))
     found = motions_of_starts(kicked, settings, starts=len(kicked), threads=threads)
     ended = np.abs(np.tile(kicks, len(rows)))[~is_motion(found, motion)]
-    return ended.min(initial=np.inf) if len(ended) else np.nan
+    return ended.min() if len(ended) else np.nan
 
 
 def with_parameter(model: dict, parameter: str, value: float) -> dict:
