@@ -8,6 +8,7 @@ the best parameters miss by more than these errors allow, all errors are scaled 
 
 from collections.abc import Callable
 from functools import cache, partial
+from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -226,16 +227,17 @@ def make(
             pool = Pool(points, compare(at_points))
             best = fit(misfits_at, pool.best(settings["search"]["starts"]), bounds)
             label = {"evidence": evidence, "tension": tension}
-            held = []
+            found = []
             for name, grid in grids.items():
-                found = find_profile(misfits_at, name, grid, best.x, pool, bounds, model)
-                for value, (x, total, status) in zip(grid, found, strict=True):
-                    held.append((x, float(value), {**label, "parameter": name, "total": total, "status": status}))
+                profile = find_profile(misfits_at, name, grid, best.x, pool, bounds, model)
+                found += profile
+                for value, (x, total, status) in zip(grid, profile, strict=True):
+                    row = {"parameter": name, "total": total, "status": status} | parameters_by_name(x, model)
+                    profile_rows.append(label | row | {name: value})
             # A profile may find a better fit than the search before it.
-            x, _, lowest = min(held, key=lambda row: row[2]["total"])
-            if lowest["total"] < best.total:
+            x, lowest, _ = min(found, key=itemgetter(1))
+            if lowest < best.total:
                 best = fit(misfits_at, np.array([x, best.x]), bounds)
-            profile_rows += [row | parameters_by_name(x, model) | {row["parameter"]: value} for x, value, row in held]
             optimum_rows.append(
                 {
                     **label,
