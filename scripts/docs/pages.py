@@ -163,13 +163,10 @@ def make(
     Parameters
     ----------
     figures : entries of the config, with title and section
-    values : values of the config, by the names that templates use
+    values, proved, findings, columns : for templates, as above
     captions : of all figures, in order
     costs : costs of figures and claims, as JSON
     uncertainty : changes of the claims with tighter tolerances, as JSON
-    proved : the page of what is proved
-    findings : the list of findings beyond the paper
-    columns : the page of all tables and their columns
     medium : print or site
     folder : folder of the figures, relative to the page
     config : texts of the default config files

@@ -15,6 +15,7 @@ SETTINGS = {
     **TABLES["operating/drive_front"](read_config()),
     **{"settling": 2000, "starts": 33, "followed": 2, "cycles": 50},
 }
+TEMPLATE = (ROOT / "workflow/templates/drive.md").read_text()
 PAPER = [50.0, math.radians(12.0), 0.0]
 EXACTLY = np.zeros(1)  # no error of the amplitude
 
@@ -236,8 +237,7 @@ def test_growth_covers_the_last_quarter_of_the_worst_seed():
 
 
 def test_the_page_lists_the_recommended_settings(made):
-    template = (ROOT / "workflow/templates/drive.md").read_text()
-    page = drive_page.make(template, made["drive_front"], growing(0.1, 0.9, 0.995, 1.0))
+    page = drive_page.make(TEMPLATE, made["drive_front"], growing(0.1, 0.9, 0.995, 1.0))
     front = made["drive_front"]
     slowest = front[front.recommended].sort_values("velocity").iloc[0]
     line = next(line for line in page.splitlines() if line.startswith(f"| {slowest.acceleration:.3g} |"))
@@ -249,10 +249,9 @@ def test_the_page_lists_the_recommended_settings(made):
 
 
 def test_the_page_says_that_nothing_was_found(made):
-    template = (ROOT / "workflow/templates/drive.md").read_text()
     none = made["drive_front"].assign(recommended=False, confirmed=False)
     none.attrs = SETTINGS
-    page = drive_page.make(template, none, growing(0.1, 0.5, 0.9, 1.0))
+    page = drive_page.make(TEMPLATE, none, growing(0.1, 0.5, 0.9, 1.0))
     assert "No design of the search was confirmed" in page
     assert "**The search has not settled.**" in page
     assert "grew by up to 11 % (limit: 2 %)" in page
@@ -270,6 +269,6 @@ def test_a_search_that_finds_nothing_says_so(monkeypatch):
     assert set(front) == {column.name for column in drive.TABLES["drive_front"]}
     front = front.astype(dict.fromkeys(("checked", "confirmed", "recommended"), bool))
     front.attrs = SETTINGS
-    page = drive_page.make((ROOT / "workflow/templates/drive.md").read_text(), front, generations)
+    page = drive_page.make(TEMPLATE, front, generations)
     assert "found no design within the constraints." in page
     assert "inf" not in page

@@ -16,6 +16,7 @@ from pipeline.motions import motions
 from pipeline.templates import format_range
 from workflow.config.tables import TABLES
 
+TEMPLATE = (ROOT / "workflow/templates/operating_chart.md").read_text()
 BOX = {
     **read_config("operating")["operating"],
     "starts": 64,
@@ -318,12 +319,7 @@ def advised() -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def test_the_page_begins_with_the_advice(refined):
-    page = chart.make(
-        (ROOT / "workflow/templates/operating_chart.md").read_text(),
-        refined,
-        regimes.make(refined),
-        *advised(),
-    )
+    page = chart.make(TEMPLATE, refined, regimes.make(refined), *advised())
     assert page.startswith("# Operating chart\n\n## Recommended amplitudes\n")
     assert (
         "- **Amplitude 31 m/s²** (peak acceleration along the direction of vibration), throw number Γ = 0.66\n" in page
@@ -426,8 +422,7 @@ def test_regimes_and_their_words(refined):
     assert found.best_share_stderr[1] == pytest.approx(math.sqrt(0.34 * 0.66 / 100))
     # The amplitudes of the config are 5 m/s² apart; closer ones were added where the answer changes.
     assert list(found.step[:2]) == [5.0, 5.0]
-    template = (ROOT / "workflow/templates/operating_chart.md").read_text()
-    page = chart.make(template, refined, found, *advised())
+    page = chart.make(TEMPLATE, refined, found, *advised())
     assert "All initial conditions reach one velocity at 20.0 to 31.2 m/s² (first state, 0.01 m/s)." in page
     assert "Several velocities exist side by side, without chaos, at 31.4 to 50.0 m/s²" in page
     assert "\n30 to 34 % of the initial conditions reach it." in page
@@ -458,12 +453,7 @@ def test_regime_of_an_amplitude(states, velocities, regime):
 def test_a_table_without_known_amplitudes_gives_no_advice(refined):
     """The table has a single amplitude, whose regime is not known."""
     alone = refined[refined.acceleration == 20.0].assign(state="undecided", mean_velocity=np.nan)
-    page = chart.make(
-        (ROOT / "workflow/templates/operating_chart.md").read_text(),
-        alone,
-        regimes.make(alone),
-        *(table.iloc[:0] for table in advised()),
-    )
+    page = chart.make(TEMPLATE, alone, regimes.make(alone), *(table.iloc[:0] for table in advised()))
     assert "There is no amplitude at which every part reaches the same velocity with an amplitude error of 1 %." in page
     assert "At no amplitude do all initial conditions reach one velocity" in page
     assert "No initial condition ends in chaos" in page
