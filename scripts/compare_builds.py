@@ -73,10 +73,10 @@ def compare(one: Path, other: Path, tolerance: float) -> Iterator[tuple[str, str
         folders = [folder for folder, names in zip((one, other), tables, strict=True) if name in names]
         if len(folders) == 1:
             yield name, DIFFERENT, [f"only in {folders[0]}"]
-            continue
-        verdict, lines = compare_tables(*(pq.read_table(folder / name) for folder in folders), tolerance)
-        is_timed = any(file.endswith(f"/{name}") for file in timed)
-        yield (name, TIMES, []) if is_timed else (name, verdict, lines)
+        elif any(file.endswith(f"/{name}") for file in timed):
+            yield name, TIMES, []
+        else:
+            yield name, *compare_tables(*(pq.read_table(folder / name) for folder in folders), tolerance)
 
 
 def main(arguments: list[str]) -> int:

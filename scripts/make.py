@@ -4,10 +4,10 @@ The module of a stage has the function `make`, and TABLES, the schemas of its ta
 are
 
 - the named inputs of the rule: tables, texts, or paths of pictures; lists where the rule has lists,
-- the params of the rule, except for NOT_FOR_THE_STAGE,
+- the params of the rule, except for those that the function `stage` in workflow/rules/common.smk gives to this script,
 - `threads` and `progress`, if it has these arguments.
 
-It returns the content of the output: the columns of a table, an iterator over the columns of blocks of its rows, a
+It returns the content of the output: a table or its columns, an iterator over the columns of blocks of its rows, a
 text, bytes, or a picture. For several outputs, it returns a mapping by name, or a list if the outputs have no names.
 """
 
@@ -20,9 +20,6 @@ from typing import Any
 
 from pipeline import fields, tables
 from pipeline.rule_log import logged
-
-# Params for this script: module of the stage, hash of its sources, and expected kind and settings of each input table.
-NOT_FOR_THE_STAGE = STAGE, CODE, EXPECTED = "stage", "code", "expected"
 
 
 def read(path: str, expected: dict[str, list]) -> Any:
@@ -41,13 +38,13 @@ def read_inputs(paths: dict[str, Any], expected: dict[str, list]) -> dict[str, A
 
 
 def contents(outputs: Any, results: Any) -> Iterator[tuple[str, str, Any]]:
-    """Name, path and content of each output, from what `make` returned."""
-    names = dict(outputs.items())
+    """Name ("" for a single output or a list), path and content of each output, from what `make` returned."""
     if isinstance(results, list):
         yield from (("", path, content) for path, content in zip(outputs, results, strict=True))
     elif len(outputs) == 1:
-        yield next(iter(names), ""), outputs[0], results
+        yield "", outputs[0], results
     else:
+        names = dict(outputs.items())
         if set(names) != set(results):
             raise ValueError(f"the rule has outputs {', '.join(names)}, but its stage returns {', '.join(results)}")
         yield from ((name, path, results[name]) for name, path in names.items())
@@ -56,7 +53,7 @@ def contents(outputs: Any, results: Any) -> Iterator[tuple[str, str, Any]]:
 def write(stage: ModuleType, name: str, path: str, content: Any, settings: dict) -> None:
     """Write one output of a stage."""
     if path.endswith(".parquet"):
-        kind = name if name in stage.TABLES else next(iter(stage.TABLES))
+        kind = name or next(iter(stage.TABLES))
         schema = [*(fields.AXES[axis] for axis in settings.get("axes", ())), *stage.TABLES[kind]]
         if isinstance(content, Iterator):
             tables.write_blocks(path, (tables.make(kind, schema, block, settings) for block in content))
@@ -73,9 +70,9 @@ def write(stage: ModuleType, name: str, path: str, content: Any, settings: dict)
 def run(job: Any) -> None:
     """Run one job of Snakemake."""
     params = dict(job.params.items())
-    stage = importlib.import_module(params[STAGE])
-    arguments = read_inputs(dict(job.input.items()), params.get(EXPECTED, {}))
-    arguments |= {name: value for name, value in params.items() if name not in NOT_FOR_THE_STAGE}
+    del params["code"]  # only for Snakemake, which reruns the job if the code behind it has changed
+    stage = importlib.import_module(params.pop("stage"))
+    arguments = read_inputs(dict(job.input.items()), params.pop("expected")) | params
     threads = job.resources.get("cpus_per_task", job.threads)
     optional = {"threads": threads, "progress": " ".join([job.rule, *job.wildcards])}
     parameters = inspect.signature(stage.make).parameters

@@ -157,19 +157,16 @@ def make(
     schema: str = "",
     library: list[str] = (),
     **tables: pd.DataFrame,
-) -> list[str] | str:
-    """The pages from templates, in order; the page itself if there is one template.
+) -> list[str]:
+    """The pages from templates, in order.
 
     Parameters
     ----------
     figures : entries of the config, with title and section
-    values : values of the config, by the names that templates use
+    values, proved, findings, columns : for templates, as above
     captions : of all figures, in order
     costs : costs of figures and claims, as JSON
     uncertainty : changes of the claims with tighter tolerances, as JSON
-    proved : the page of what is proved
-    findings : the list of findings beyond the paper
-    columns : the page of all tables and their columns
     medium : print or site
     folder : folder of the figures, relative to the page
     config : texts of the default config files
@@ -203,5 +200,4 @@ def make(
         "interval": describe_interval,
         "medium": medium,
     }
-    pages = [render(template, fields) for template in templates]
-    return pages if len(pages) > 1 else pages[0]
+    return [render(template, fields) for template in templates]

@@ -8,14 +8,9 @@ SCREEN = 220  # dpi
 COLOURS = 256
 
 
-def for_screens(path: str) -> Image.Image:
-    """The picture from a PNG file."""
-    with Image.open(path) as image:
+def make(png: str) -> Image.Image:
+    """The picture of a figure from its PNG file."""
+    with Image.open(png) as image:
         size = [max(1, round(extent * SCREEN / RESOLUTION)) for extent in image.size]
         small = image.convert("RGB").resize(size, Image.Resampling.BICUBIC, reducing_gap=2.0)
     return small.quantize(COLOURS, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
-
-
-def make(png: str) -> Image.Image:
-    """The picture of a figure from its PNG file."""
-    return for_screens(png)

@@ -8,7 +8,7 @@ from pathlib import Path
 from sphinx.application import Sphinx
 from sphinx.util.docutils import docutils_namespace, patch_docutils
 
-from docs.pictures import for_screens
+from docs import pictures
 
 SETTINGS = {
     "project": "Dynamics of a vibratory conveyor",
@@ -37,7 +37,7 @@ SETTINGS = {
 
 
 def gather(
-    folder: str, pages: Iterable[str], style: str, pictures: Iterable[str], extra: dict[str, Iterable[str]]
+    folder: str, pages: Iterable[str], style: str, figures: Iterable[str], extra: dict[str, Iterable[str]]
 ) -> None:
     """Copy the sources of the site into a folder.
 
@@ -45,7 +45,7 @@ def gather(
     ----------
     folder : of the sources
     pages, style : Markdown pages and the style sheet
-    pictures : PNG files, scaled down into figures/
+    figures : PNG files, scaled down into figures/
     extra : files that are copied unchanged, by target folder
     """
     source = Path(folder)
@@ -54,8 +54,8 @@ def gather(
     for page in pages:
         shutil.copyfile(page, source / Path(page).name)
     (source / "figures").mkdir()
-    for picture in pictures:
-        for_screens(picture).save(source / "figures" / Path(picture).name)
+    for figure in figures:
+        pictures.make(figure).save(source / "figures" / Path(figure).name)
     for place, files in extra.items():
         (source / "extra" / place).mkdir(parents=True, exist_ok=True)
         for file in files:

@@ -1,8 +1,5 @@
 """The page of all tables: columns, units and meanings, from the schemas of the stages."""
 
-from collections.abc import Sequence
-from types import ModuleType
-
 import pyarrow as pa
 
 from accuracy import (
@@ -32,47 +29,22 @@ from sensitivity import curves, derivatives
 from sweeps import shards
 from workflow.config.tables import TABLES
 
-# All modules that make tables, in the order of the stages.
-MODULES = (
-    shards,
-    signals,
-    spectra,
-    impacts,
-    critical,
-    branches,
-    strobes,
-    exponents,
-    estimates,
-    witnesses,
-    certified,
-    portraits,
-    regressions,
-    derivatives,
-    curves,
-    shares,
-    regimes,
-    advice,
-    throws,
-    track,
-    drive,
-    benchmark,
-    precision,
-    reference_check,
-    precision_estimates,
-    stability,
-    stability_estimates,
-    scene_budget,
-    rigid_part,
-    theory,
-    map_check,
-    settling_times,
-    scaling,
-    verdicts,
-    edges,
-    printed,
-    fronts,
-    profiles,
-)
+# All modules that make tables, by stage.
+MODULES = {
+    "sweeps": [shards],
+    "motion": [signals, spectra, impacts, critical],
+    "orbits": [branches, strobes, exponents, estimates, witnesses, certified],
+    "dimensions": [portraits],
+    "fit": [regressions],
+    "sensitivity": [derivatives, curves],
+    "operating": [shares, regimes, advice, throws, track, drive],
+    "accuracy": [
+        *(benchmark, precision, reference_check, precision_estimates, stability, stability_estimates),
+        *(scene_budget, rigid_part, theory, map_check, settling_times, scaling),
+    ],
+    "claims": [verdicts],
+    "identification": [edges, printed, fronts, profiles],
+}
 
 
 def file_of(kind: str) -> str:
@@ -90,19 +62,15 @@ def describe(column: pa.Field) -> dict[str, str]:
     return {"name": column.name, "unit": unit, "meaning": f"list: {meaning}" if is_list else meaning}
 
 
-def tables_of_stages(modules: Sequence[ModuleType]) -> dict[str, list[dict]]:
-    """Files and columns of all tables, by stage."""
-    found = {}
-    for module in modules:
-        tables = found.setdefault(module.__name__.split(".")[0], [])
-        tables += [
-            {"kind": kind, "file": file_of(kind), "columns": [describe(column) for column in schema]}
-            for kind, schema in module.TABLES.items()
-        ]
-    return found
-
-
 def make(template: str) -> str:
     """The page from its template."""
+    stages = {
+        stage: [
+            {"kind": kind, "file": file_of(kind), "columns": [describe(column) for column in schema]}
+            for module in modules
+            for kind, schema in module.TABLES.items()
+        ]
+        for stage, modules in MODULES.items()
+    }
     axes = [describe(column) for column in fields.AXES.values()]
-    return render(template, {"stages": tables_of_stages(MODULES), "axes": axes})
+    return render(template, {"stages": stages, "axes": axes})

@@ -11,7 +11,7 @@ import numpy as np
 
 from conveyor.analysis.attractors.labels import classify
 from conveyor.parameters import normal_gravity
-from conveyor.solver.model import ACCELERATION, PARAMETERS, TENSION, TENSION_MODES
+from conveyor.solver.model import ACCELERATION, TENSION, TENSION_MODES, set_columns
 from pipeline import fields, grid
 
 TABLES = {
@@ -120,13 +120,9 @@ def conveyors(settings: dict) -> tuple[dict[str, np.ndarray], np.ndarray]:
     axes |= {"tension": np.array(VERTICAL), "z0": np.array(settings["heights"], dtype=np.float64)}
     columns = dict(zip(axes, map(np.ravel, np.meshgrid(*axes.values(), indexing="ij")), strict=True))
     columns["damping"] = columns["loss"] / duration_over_mass(columns["stiffness"], model)
-    _, one = grid.product(
-        {"angle": [0.5 * np.pi]}, {name: model[name] for name in model if name not in ("angle", "z0")}
-    )
-    parameters = np.tile(one, (len(columns["loss"]), 1))
+    parameters = np.tile(grid.packed(model | {"angle": 0.5 * np.pi}), (len(columns["loss"]), 1))
     parameters[:, TENSION] = [TENSION_MODES.index(mode) for mode in columns["tension"]]
-    for name in ("stiffness", "damping", "z0"):
-        parameters[:, PARAMETERS.index(name)] = columns[name]
+    set_columns(parameters, {name: columns[name] for name in ("stiffness", "damping", "z0")})
     return columns, parameters
 
 

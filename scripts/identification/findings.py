@@ -5,7 +5,6 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from identification.misfits import number, smallest_widening
 from identification.search_space import PARAMETERS
 
 UP_ALONE, DOWN_ALONE = "C01.critical_amplitude", "C02.upper_end"
@@ -100,7 +99,9 @@ def contradiction(numbers: dict[str, dict]) -> float:
 
     In the model, both are one quantity: the amplitude up to which the initial height z0 = 0 leads to the first state.
     """
-    return smallest_widening(number(numbers[UP_ALONE]), number(numbers[DOWN_ALONE]))
+    one, other = numbers[UP_ALONE], numbers[DOWN_ALONE]
+    between = abs(one["low"] + one["high"] - other["low"] - other["high"])
+    return between / (one["high"] - one["low"] + other["high"] - other["low"])
 
 
 def summarize_search(front: pd.DataFrame, generations: pd.DataFrame) -> list[dict]:

@@ -1,23 +1,17 @@
-"""Pareto fronts of the misfits of the paper's numbers, which cannot all be fitted at once, by NSGA-II (pymoo)."""
+"""Pareto fronts of the misfits of the paper's numbers, which cannot all be fitted at once."""
 
 from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
-from pymoo.algorithms.moo.nsga2 import NSGA2
-from pymoo.core.callback import Callback
-from pymoo.core.problem import Problem
-from pymoo.indicators.hv import HV
 from pymoo.operators.crossover.pcx import PCX
-from pymoo.optimize import minimize
-from pymoo.util.nds.non_dominated_sorting import NonDominatedSorting
 from pymoo.util.ref_dirs import get_reference_directions
 
 from identification import measures
 from identification.fits import fit
-from identification.misfits import OBJECTIVES, numbers_of, root_mean_square
+from identification.misfits import OBJECTIVES, misfits, root_mean_square
 from identification.search_space import PARAMETERS, SEARCHED, bounds_of, values_of
-from pipeline import fields
+from pipeline import fields, pareto
 
 SEARCH = (
     fields.text("tension", "mode of a tensile contact force"),
@@ -70,38 +64,8 @@ def fit_compromises(
     return np.array(found)
 
 
-class Archive(Callback):
-    """All non-dominated members so far, and their hypervolume as a share of the cube [0, worst]³.
-
-    A generation drops some of them, because its size is limited, so that its own hypervolume may fall.
-    """
-
-    def __init__(self, worst: float):
-        super().__init__()
-        self.indicator = HV(ref_point=np.full(len(OBJECTIVES), worst))
-        self.cube = worst ** len(OBJECTIVES)
-        self.x, self.values = np.empty((0, len(SEARCHED))), np.empty((0, len(OBJECTIVES)))
-        self.shares = []
-
-    def update(self, algorithm):
-        x = np.vstack([self.x, algorithm.pop.get("X")])
-        values = np.vstack([self.values, algorithm.pop.get("F")])
-        # Sorts by the objectives and drops duplicates, so that the result does not depend on the order of discovery.
-        values, rows = np.unique(values, axis=0, return_index=True)
-        best = np.sort(non_dominated(values))
-        self.x, self.values = x[rows][best], values[best]
-        self.shares.append(float(self.indicator(self.values)) / self.cube)
-
-
-def non_dominated(values: np.ndarray) -> np.ndarray:
-    """Indices of the non-dominated rows of objectives, shape (n, 3)."""
-    return NonDominatedSorting().do(values, only_non_dominated_front=True)
-
-
-def search(
-    evaluate: Evaluate, first: np.ndarray, bounds: np.ndarray, settings: dict, seed: int
-) -> tuple[np.ndarray, np.ndarray, list[float]]:
-    """Front of one tension mode: searched parameters, shape (n, 4), objectives, shape (n, 3), and hypervolumes.
+def search(evaluate: Evaluate, first: np.ndarray, bounds: np.ndarray, settings: dict, seed: int) -> pareto.Front:
+    """Front of one tension mode; its hypervolumes are shares of the cube [0, worst]³.
 
     Parents are recombined along the directions in which they differ (PCX), because the valley of equally good contacts
     and angles is not aligned with any parameter.
@@ -113,24 +77,18 @@ def search(
     bounds : shape (2, 4)
     settings : population, generations, worst
     """
-
-    class Misfits(Problem):
-        def __init__(self):
-            super().__init__(n_var=len(SEARCHED), n_obj=len(OBJECTIVES), xl=bounds[0], xu=bounds[1])
-
-        def _evaluate(self, x, out):
-            out["F"] = evaluate(x)
-
     drawn = np.random.default_rng(seed).uniform(*bounds, (max(settings["population"] - len(first), 0), len(SEARCHED)))
-    archive = Archive(settings["worst"])
-    minimize(
-        Misfits(),
-        NSGA2(pop_size=settings["population"], sampling=np.vstack([first, drawn]), crossover=PCX()),
-        ("n_gen", settings["generations"]),
-        seed=seed,
-        callback=archive,
+    reference = np.full(len(OBJECTIVES), settings["worst"])
+    front = pareto.search(
+        lambda x: (evaluate(x), np.empty((len(x), 0))),
+        np.vstack([first, drawn]),
+        bounds,
+        reference,
+        settings,
+        seed,
+        crossover=PCX(),
     )
-    return archive.x, archive.values, archive.shares
+    return front._replace(volumes=[volume / reference.prod() for volume in front.volumes])
 
 
 def distance(one: np.ndarray, other: np.ndarray) -> float:
@@ -139,52 +97,51 @@ def distance(one: np.ndarray, other: np.ndarray) -> float:
     return 0.5 * float(distances.min(axis=0).mean() + distances.min(axis=1).mean())
 
 
-def status(fronts: list[np.ndarray], volumes: list[list[float]], settings: dict) -> str:
+def status(fronts: list[pareto.Front], settings: dict) -> str:
     """Whether all searches of one tension mode have converged, and to the same front."""
-    for shares in volumes:
-        earlier = shares[3 * len(shares) // 4 - 1]
-        if not abs(shares[-1] - earlier) <= settings["settled"] * shares[-1]:
+    for front in fronts:
+        earlier, last = front.volumes[3 * len(front.volumes) // 4 - 1], front.volumes[-1]
+        if not abs(last - earlier) <= settings["settled"] * last:
             return "not converged: the hypervolume still grows"
-    for shares, front in zip(volumes[1:], fronts[1:], strict=True):
-        if not abs(shares[-1] - volumes[0][-1]) <= settings["settled"] * volumes[0][-1]:
+    first = fronts[0]
+    for front in fronts[1:]:
+        if not abs(front.volumes[-1] - first.volumes[-1]) <= settings["settled"] * first.volumes[-1]:
             return "not converged: the seeds' hypervolumes differ"
-        inside = [one[(one <= settings["worst"]).all(axis=1)] for one in (front, fronts[0])]
+        inside = [one.objectives[(one.objectives <= settings["worst"]).all(axis=1)] for one in (front, first)]
         if not distance(*inside) <= settings["distance"]:
             return "not converged: the seeds' fronts are apart"
     return "converged"
 
 
-def make(edges: pd.DataFrame, settings: dict) -> dict[str, dict]:
-    """The columns of the tables of fronts and of generations."""
+def make(edges: pd.DataFrame, settings: dict) -> dict[str, pd.DataFrame]:
+    """The tables of fronts and of generations."""
     model, options = settings["model"], settings["search"]
-    interpolated = measures.interpolate_edges(edges, model)
+    interpolated = measures.interpolate_edges(edges)
     bounds = bounds_of(settings)
     groups = [settings["objectives"][name] for name in OBJECTIVES]
-    numbers = numbers_of(settings, [name for group in groups for name in group])
+    numbers = {name: settings["numbers"][name] for group in groups for name in group}
     sizes = [len(group) for group in groups]
     drawn = np.random.default_rng(options["seeds"][0]).uniform(*bounds, (options["drawn"], len(SEARCHED)))
     members, history = [], []
     for tension in settings["readings"]:
 
-        def misfits(x, tension=tension):
-            found = measures.quantities_at(
-                interpolated, values_of(x, model), tension, settings, measures.converged_velocities
-            )
-            return numbers.misfits(found)
+        def misfits_at(x, tension=tension):
+            return misfits(measures.quantities_at(interpolated, values_of(x, model), tension, settings), numbers, {})
 
-        first = fit_compromises(misfits, sizes, drawn, bounds, options)
+        first = fit_compromises(misfits_at, sizes, drawn, bounds, options)
         found = [
-            search(lambda x: objectives(misfits(x), sizes), first, bounds, options, seed) for seed in options["seeds"]
+            search(lambda x: objectives(misfits_at(x), sizes), first, bounds, options, seed)
+            for seed in options["seeds"]
         ]
-        verdict = status([values for _, values, _ in found], [shares for *_, shares in found], options)
-        for seed, (x, values, shares) in zip(options["seeds"], found, strict=True):
+        verdict = status(found, options)
+        for seed, one in zip(options["seeds"], found, strict=True):
             label = {"tension": tension, "seed": seed}
-            columns = dict(zip(PARAMETERS, values_of(x, model).T, strict=True))
-            columns |= dict(zip(OBJECTIVES, values.T, strict=True))
+            columns = dict(zip(PARAMETERS, values_of(one.points, model).T, strict=True))
+            columns |= dict(zip(OBJECTIVES, one.objectives.T, strict=True))
             members.append(pd.DataFrame(columns).assign(**label, status=verdict))
-            growth = {"generation": np.arange(1, len(shares) + 1), "hypervolume": shares}
+            growth = {"generation": np.arange(1, len(one.volumes) + 1), "hypervolume": one.volumes}
             history.append(pd.DataFrame(growth).assign(**label))
     front = pd.concat(members, ignore_index=True)
-    best = non_dominated(front[list(OBJECTIVES)].to_numpy())
+    best = pareto.non_dominated(front[list(OBJECTIVES)].to_numpy())
     front["on_front"] = np.isin(np.arange(len(front)), best)
-    return {"front": front.to_dict("list"), "generations": pd.concat(history).to_dict("list")}
+    return {"front": front, "generations": pd.concat(history)}

@@ -33,10 +33,9 @@ class Edges(NamedTuple):
 
     heights: np.ndarray
     splines: dict[str, NdBSpline]
-    model: dict
 
 
-def interpolate_edges(table: pd.DataFrame, model: dict) -> Edges:
+def interpolate_edges(table: pd.DataFrame) -> Edges:
     """Splines through the table of edges over the logarithms of loss and stiffness.
 
     Raises
@@ -57,14 +56,14 @@ def interpolate_edges(table: pd.DataFrame, model: dict) -> Edges:
         values = rows.vertical_acceleration.to_numpy().reshape([len(axis) for axis in axes])
         along_loss = make_interp_spline(np.log(axes[0]), values, axis=0)
         along_stiffness = make_interp_spline(np.log(axes[1]), along_loss.c, axis=1)
-        coefficients = np.moveaxis(along_stiffness.c, 0, 1) if along_stiffness.axis else along_stiffness.c
+        coefficients = np.moveaxis(along_stiffness.c, 0, 1)  # SciPy puts the interpolated axis first
         splines[tension] = NdBSpline((along_loss.t, along_stiffness.t), coefficients, 3)
-    return Edges(axes[2], splines, model)
+    return Edges(axes[2], splines)
 
 
-def vertical_edges(edges: Edges, parameters: np.ndarray, tension: str) -> np.ndarray:
+def vertical_edges(edges: Edges, parameters: np.ndarray, tension: str, model: dict) -> np.ndarray:
     """Vertical amplitudes (m/s²) of the edges, shape (n, h), of conveyors, shape (n, 16), in a tension mode."""
-    loss = impact_loss(parameters[:, DAMPING], parameters[:, STIFFNESS], edges.model)
+    loss = impact_loss(parameters[:, DAMPING], parameters[:, STIFFNESS], model)
     return edges.splines[VERTICAL_OF[tension]](np.log(np.stack([loss, parameters[:, STIFFNESS]], axis=1)))
 
 
@@ -188,10 +187,10 @@ def quantities(
     return changes_of_state(found, measured) | velocities(parameters, found, measured, follow)
 
 
-def quantities_at(
-    edges: Edges, values: np.ndarray, tension: str, settings: dict, follow: Follow
-) -> dict[str, np.ndarray]:
-    """The quantities at values of the parameters, shape (n, 4), in a tension mode, with interpolated edges."""
+def quantities_at(edges: Edges, values: np.ndarray, tension: str, settings: dict) -> dict[str, np.ndarray]:
+    """The quantities at values of the parameters, shape (n, 4), in a tension mode, with interpolated edges and by the
+    converged solution.
+    """
     parameters = packed(values, tension, settings["model"])
-    vertical = vertical_edges(edges, parameters, tension)
-    return quantities(parameters, edges.heights, vertical, settings["measured"], follow)
+    vertical = vertical_edges(edges, parameters, tension, settings["model"])
+    return quantities(parameters, edges.heights, vertical, settings["measured"], converged_velocities)

@@ -9,7 +9,7 @@ from conveyor.analysis.basins.hyperbola_fit import fit_least_squares
 from conveyor.solver.model import ANGLE, Z0
 from identification import edges as edge_search
 from identification import measures
-from identification.misfits import misfit, number
+from identification.misfits import misfit
 from identification.search_space import PARAMETERS, packed
 from motion.critical import find_states
 from pipeline import fields
@@ -82,7 +82,7 @@ def number_rows(
     direct = measure(values, tension, method, settings, threads)
     interpolated = {}
     if method == CONVERGED:
-        interpolated = measures.quantities_at(edges, values[None], tension, settings, measures.converged_velocities)
+        interpolated = measures.quantities_at(edges, values[None], tension, settings)
     numbers = settings["numbers"]
     table = pd.DataFrame(
         {
@@ -91,19 +91,19 @@ def number_rows(
             **{part: [one[part] for one in numbers.values()] for part in ("paper", "low", "high")},
             "value": [direct[one] for one in numbers],
             "interpolated": [float(interpolated[one][0]) if one in interpolated else np.nan for one in numbers],
-            "misfit": [float(misfit(direct[name], number(one))) for name, one in numbers.items()],
+            "misfit": [float(misfit(direct[name], one)) for name, one in numbers.items()],
         }
     )
     return table.assign(set=name, method=method, tension=tension, **dict(zip(PARAMETERS, values, strict=True)))
 
 
-def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, list]:
-    """The columns of the table of numbers at the printed parameters and at their variants."""
+def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFrame:
+    """The table of numbers at the printed parameters and at their variants."""
     model = settings["model"]
-    interpolated = measures.interpolate_edges(edges, model)
+    interpolated = measures.interpolate_edges(edges)
     found = []
     for name, variant in settings["reported"].items():
         values = np.array([(model | variant)[parameter] for parameter in PARAMETERS])
         for method in (CONVERGED, EULER) if not variant else (CONVERGED,):
             found.append(number_rows(name, values, model["tension"], method, interpolated, settings, threads))
-    return pd.concat(found).to_dict("list")
+    return pd.concat(found)

@@ -7,7 +7,8 @@ the best parameters miss by more than these errors allow, all errors are scaled 
 """
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
+from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -18,7 +19,7 @@ from identification import measures
 from identification.edges import VERTICAL
 from identification.findings import VELOCITIES
 from identification.fits import Fit, fit
-from identification.misfits import numbers_of
+from identification.misfits import misfits
 from identification.printed import CONVERGED, EULER, NUMBERS, number_rows
 from identification.search_space import LOSS, PARAMETERS, SEARCHED, STIFFNESS, bounds_of, searched, values_of
 from pipeline import fields
@@ -65,35 +66,33 @@ class Space(NamedTuple):
     ----------
     bounds : shape (2, 3)
     whole : function from the remaining parameters, shape (n, 3), to all searched parameters, shape (n, 4)
-    rest : function from all searched parameters, shape (n, 4), to the remaining ones, shape (n, 3)
     """
 
     bounds: np.ndarray
     whole: Callable[[np.ndarray], np.ndarray]
-    rest: Callable[[np.ndarray], np.ndarray]
 
 
 def hold_parameter(parameter: str, value: float, bounds: np.ndarray, model: dict) -> Space:
     """The Space with one parameter held at a value. With damping held, the loss follows from the stiffness."""
     column = list(PARAMETERS).index(parameter)
-    others = [place for place in range(len(SEARCHED)) if place != column]
-    left = bounds[:, others].copy()
+    left = np.delete(bounds, column, axis=1)
 
     def whole(rest: np.ndarray) -> np.ndarray:
         x = np.insert(rest, column, np.log(value), axis=1)
-        if parameter == "damping":
-            held = np.full(len(x), value)
-            x = searched(np.column_stack([np.exp(x[:, 0]), held, np.exp(x[:, STIFFNESS]), np.exp(x[:, 3])]), model)
-        return x
+        if parameter != "damping":
+            return x
+        values = np.exp(x)
+        values[:, column] = value
+        return searched(values, model)
 
     if parameter == "damping":
         # The loss is a power of the stiffness, so that bounds of the loss are bounds of the stiffness.
         ends = whole(left)[:, LOSS]
         slope = (ends[1] - ends[0]) / np.ptp(bounds[:, STIFFNESS])
         low, high = np.sort(bounds[0, STIFFNESS] + (bounds[:, LOSS] - ends[0]) / slope)
-        place = others.index(STIFFNESS)
+        place = STIFFNESS - 1  # without the loss
         left[:, place] = max(left[0, place], low), min(left[1, place], high)
-    return Space(left, whole, lambda x: x[:, others])
+    return Space(left, whole)
 
 
 def fit_status(result: Fit, bounds: np.ndarray) -> str:
@@ -146,7 +145,7 @@ def find_profile(
         return fit(lambda rest: misfits(space.whole(rest)), np.array([guess]), space.bounds)
 
     def improve(place: int, guesses: np.ndarray) -> None:
-        fits = [fit_from(place, *guess) for guess in spaces[place].rest(guesses)]
+        fits = [fit_from(place, *guess) for guess in np.delete(guesses, column, axis=1)]
         found[place] = min([found[place], *fits] if place in found else fits, key=lambda result: result.total)
 
     def whole(place: int) -> np.ndarray:
@@ -188,29 +187,22 @@ def shifts_of(numbers: pd.DataFrame) -> dict[str, float]:
     return (one - other).to_dict()
 
 
-def vary_friction(edges: measures.Edges, values: np.ndarray, settings: dict, follow: measures.Follow) -> dict:
-    """The columns of the table of frictions: velocities over friction, with the other `values`, shape (4,)."""
+def vary_friction(edges: measures.Edges, values: np.ndarray, settings: dict) -> pd.DataFrame:
+    """The table of frictions: velocities over friction, with the other `values`, shape (4,)."""
     grid = np.tile(values, (FRICTIONS, 1))
     column = list(PARAMETERS).index("friction")
     grid[:, column] = np.linspace(*settings["bounds"]["friction"], FRICTIONS)
-    found = measures.quantities_at(edges, grid, settings["model"]["tension"], settings, follow)
-    return {"friction": grid[:, column], **{name: found[number] for name, number in VELOCITIES.items()}}
+    found = measures.quantities_at(edges, grid, settings["model"]["tension"], settings)
+    return pd.DataFrame({"friction": grid[:, column]} | {name: found[number] for name, number in VELOCITIES.items()})
 
 
 def make(
     edges: pd.DataFrame, front: pd.DataFrame, printed: pd.DataFrame, settings: dict, *, threads: int = 1
-) -> dict[str, dict]:
-    """The columns of the tables of profiles, optima, frictions, and of the numbers at the optima."""
+) -> dict[str, pd.DataFrame]:
+    """The tables of profiles, optima, frictions, and of the numbers at the optima."""
     model, bounds, options = settings["model"], bounds_of(settings), settings["profiles"]
-    interpolated, follow = measures.interpolate_edges(edges, model), measures.converged_velocities
+    interpolated, shifts = measures.interpolate_edges(edges), shifts_of(printed)
     names = [name for group in settings["objectives"].values() for name in group]
-    shifts = shifts_of(printed)
-    sets = {
-        evidence: numbers_of(
-            settings, [name for name in names if name not in one["without"]], shifts if one["shifted"] else None
-        )
-        for evidence, one in settings["evidence"].items()
-    }
     printed_values = np.array([model[name] for name in PARAMETERS])
     grids = {name: grid_of(name, options["points"], bounds, model) for name in PARAMETERS}
     drawn = np.random.default_rng(settings["search"]["seeds"][0]).uniform(
@@ -222,43 +214,46 @@ def make(
         points = np.vstack([searched(members, model), drawn])
 
         def quantities(x, tension=tension):
-            return measures.quantities_at(interpolated, values_of(x, model), tension, settings, follow)
+            return measures.quantities_at(interpolated, values_of(x, model), tension, settings)
 
         at_points, at_printed = quantities(points), quantities(searched(printed_values[None], model))
-        for evidence, numbers in sets.items():
+        for evidence, one in settings["evidence"].items():
+            numbers = {name: settings["numbers"][name] for name in names if name not in one["without"]}
+            compare = partial(misfits, numbers=numbers, shifts=shifts if one["shifted"] else {})
 
-            def misfits(x, numbers=numbers, quantities=quantities):
-                return numbers.misfits(quantities(x))
+            def misfits_at(x, compare=compare, quantities=quantities):
+                return compare(quantities(x))
 
-            pool = Pool(points, numbers.misfits(at_points))
-            best = fit(misfits, pool.best(settings["search"]["starts"]), bounds)
+            pool = Pool(points, compare(at_points))
+            best = fit(misfits_at, pool.best(settings["search"]["starts"]), bounds)
             label = {"evidence": evidence, "tension": tension}
-            held = []
+            found = []
             for name, grid in grids.items():
-                found = find_profile(misfits, name, grid, best.x, pool, bounds, model)
-                for value, (x, total, status) in zip(grid, found, strict=True):
-                    held.append((x, float(value), {**label, "parameter": name, "total": total, "status": status}))
+                profile = find_profile(misfits_at, name, grid, best.x, pool, bounds, model)
+                found += profile
+                for value, (x, total, status) in zip(grid, profile, strict=True):
+                    row = {"parameter": name, "total": total, "status": status} | parameters_by_name(x, model)
+                    profile_rows.append(label | row | {name: value})
             # A profile may find a better fit than the search before it.
-            x, _, lowest = min(held, key=lambda row: row[2]["total"])
-            if lowest["total"] < best.total:
-                best = fit(misfits, np.array([x, best.x]), bounds)
-            profile_rows += [row | parameters_by_name(x, model) | {row["parameter"]: value} for x, value, row in held]
+            x, lowest, _ = min(found, key=itemgetter(1))
+            if lowest < best.total:
+                best = fit(misfits_at, np.array([x, best.x]), bounds)
             optimum_rows.append(
                 {
                     **label,
                     **parameters_by_name(best.x, model),
                     "total": best.total,
-                    "printed_total": float(np.sum(numbers.misfits(at_printed) ** 2)),
-                    "numbers": len(numbers.of_paper),
+                    "printed_total": float(np.sum(compare(at_printed) ** 2)),
+                    "numbers": len(numbers),
                     "status": fit_status(best, bounds),
                 }
             )
     optima = add_rises(pd.DataFrame(optimum_rows), options["confidence"])
     return {
-        "profiles": pd.DataFrame(profile_rows).to_dict("list"),
-        "optima": optima.to_dict("list"),
-        "frictions": vary_friction(interpolated, printed_values, settings, follow),
-        "implied": implied_numbers(optima, interpolated, settings, threads).to_dict("list"),
+        "profiles": pd.DataFrame(profile_rows),
+        "optima": optima,
+        "frictions": vary_friction(interpolated, printed_values, settings),
+        "implied": implied_numbers(optima, interpolated, settings, threads),
     }
 
 

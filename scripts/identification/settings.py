@@ -30,7 +30,7 @@ def identification_settings(config: dict, table: str, model: dict) -> dict:
     """The parts of a config that a table of the section `identification` needs, with the model."""
     own = config["identification"]
     computed = {"numbers": paper_numbers, "measured": measured_quantities, "euler": published_method}
-    parts = dict.fromkeys(IDENTIFICATION[table])
+    parts = IDENTIFICATION[table]
     settings = {name: computed[name](config) if name in computed else own[name] for name in parts}
     return {**settings, "model": model}
 

@@ -12,7 +12,7 @@ import pandas as pd
 from conveyor.analysis import throw_theory
 from conveyor.analysis.attractors.labels import Labels
 from conveyor.solver.model import VZ0
-from operating.regimes import CERTAIN, FAST, REGIMES_OF_AIMS, best_of, regimes_of
+from operating.regimes import CERTAIN, FAST, REGIMES_OF_AIMS, summarize_amplitudes
 from operating.shares import APART, FORGOTTEN, continue_normal, motions_at, parameters_of, starts_of_box
 from pipeline import fields
 from pipeline.motions import motions_of_starts
@@ -55,11 +55,11 @@ def worst_within(places: np.ndarray, scores: np.ndarray, margin: float) -> np.nd
 
 def recommended(shares: pd.DataFrame, margin: float) -> dict[str, float]:
     """The recommended amplitude (m/s²) of each aim that can be met."""
-    places, regimes = regimes_of(shares, shares.attrs["same_velocity"])
-    best = best_of(shares, shares.attrs["same_velocity"])
-    scores = {CERTAIN: best.best, FAST: best.best * best.best_share}
+    amplitudes = summarize_amplitudes(shares, shares.attrs["same_velocity"])
+    places = amplitudes.acceleration.to_numpy()
+    scores = {CERTAIN: amplitudes.best, FAST: amplitudes.best * amplitudes.best_share}
     worst = {
-        aim: worst_within(places, np.where(np.isin(regimes, REGIMES_OF_AIMS[aim]), score, -np.inf), margin)
+        aim: worst_within(places, np.where(amplitudes.regime.isin(REGIMES_OF_AIMS[aim]), score, -np.inf), margin)
         for aim, score in scores.items()
     }
     return {aim: float(places[score.argmax()]) for aim, score in worst.items() if np.isfinite(score.max())}
@@ -94,11 +94,7 @@ def smallest_knock(
     kicked[:, VZ0] += np.tile(kicks, len(rows))
     found = motions_of_starts(kicked, settings, starts=len(kicked), threads=threads)
     ended = np.abs(np.tile(kicks, len(rows)))[~is_motion(found, motion)]
-    return ended.min(initial=np.inf) if len(ended) else np.nan
-
-
-def mean_over_initial_conditions(table: pd.DataFrame) -> float:
-    return float((table.share * table.mean_velocity).sum(skipna=False))
+    return ended.min() if len(ended) else np.nan
 
 
 def with_parameter(model: dict, parameter: str, value: float) -> dict:
@@ -111,18 +107,19 @@ def with_parameter(model: dict, parameter: str, value: float) -> dict:
 
 def changes_at(acceleration: float, settings: dict, changes: dict[str, float], *, threads: int = 1) -> list[dict]:
     """Regime and mean velocity if one parameter at a time is increased or decreased."""
-    before = mean_over_initial_conditions(motions_at(np.array([acceleration]), settings, threads=threads))
+
+    def summary_with(model: dict) -> pd.Series:
+        table = motions_at(np.array([acceleration]), {**settings, "model": model}, threads=threads)
+        return summarize_amplitudes(table, settings["same_velocity"]).iloc[0]
+
+    model = settings["model"]
+    before = summary_with(model)
     rows = []
     for parameter, change in changes.items():
-        for value in (settings["model"][parameter] - change, settings["model"][parameter] + change):
-            changed = {**settings, "model": with_parameter(settings["model"], parameter, value)}
-            table = motions_at(np.array([acceleration]), changed, threads=threads)
-            _, (regime,) = regimes_of(table, settings["same_velocity"])
-            after = mean_over_initial_conditions(table)
-            gain = after / before - 1.0
-            rows.append(
-                {"parameter": parameter, "value": value, "regime": regime, "mean_velocity": after, "gain": gain}
-            )
+        for value in (model[parameter] - change, model[parameter] + change):
+            after = summary_with(with_parameter(model, parameter, value))
+            row = {"parameter": parameter, "value": value, "regime": after.regime, "mean_velocity": after["mean"]}
+            rows.append(row | {"gain": after["mean"] / before["mean"] - 1.0})
     return rows
 
 
@@ -131,7 +128,7 @@ def make(shares: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str,
     box = shares.attrs
     largest = max(map(abs, box["vz0"]))
     sizes = np.geomspace(settings["smallest_kick"] * largest, largest, settings["kicks"])
-    best = best_of(shares, box["same_velocity"]).set_index("acceleration")
+    amplitudes = summarize_amplitudes(shares, box["same_velocity"]).set_index("acceleration")
     advice, changes = [], []
     for aim, acceleration in recommended(shares, settings["margin"]).items():
         motion = shares[shares.acceleration == acceleration].iloc[0]
@@ -144,8 +141,8 @@ def make(shares: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str,
                 "state": motion.state,
                 "period": motion.period,
                 "mean_velocity": motion.mean_velocity,
-                "share": best.best_share[acceleration],
-                "stderr": best.stderr[acceleration],
+                "share": amplitudes.best_share[acceleration],
+                "stderr": amplitudes.stderr[acceleration],
                 "knock": smallest_knock(rows, motion, sizes, box, threads=threads),
                 "largest_kick": largest,
                 "impact_speed": motion.impact_speed,

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor.parameters import UNITS
-from operating.regimes import AIMS, CHAOS, ONE, REGIMES_OF_AIMS, SEVERAL, UNKNOWN, best_of
+from operating.regimes import AIMS, CHAOS, ONE, REGIMES_OF_AIMS, SEVERAL, UNKNOWN, summarize_amplitudes
 from pipeline.templates import render
 
 # If none of n independent initial conditions does something, then with 95 % confidence at most a share of 3/n does it:
@@ -40,13 +40,6 @@ def summarize_regimes(regimes: pd.DataFrame) -> dict[str, list[dict]]:
     return {name: rows.to_dict("records") for name, rows in parts.items()}
 
 
-def find_largest_share(shares: pd.DataFrame, several: list[dict]) -> dict:
-    """The row of `best_of` with the largest share of initial conditions in some intervals of amplitudes."""
-    best = best_of(shares, shares.attrs["same_velocity"])
-    within = [best.acceleration.between(row["begin"], row["end"]) for row in several]
-    return best.loc[best[np.logical_or.reduce(within)].best_share.idxmax()].to_dict()
-
-
 def select_changes(aim: str, changes: pd.DataFrame) -> list[dict]:
     """The changes of one parameter that raise the velocity most and keep a regime of the aim."""
     faster = changes[(changes.aim == aim) & (changes.gain > WORTH_CHANGING)]
@@ -60,7 +53,9 @@ def make(
     """The page from its template and the tables of shares, regimes, advice and changes."""
     values = summarize_shares(shares) | summarize_regimes(regimes)
     if values["several"]:
-        values["most"] = find_largest_share(shares, values["several"])
+        amplitudes = summarize_amplitudes(shares, shares.attrs["same_velocity"])
+        several = amplitudes[amplitudes.regime == SEVERAL]
+        values["most"] = several.loc[several.best_share.idxmax()].to_dict()
     recommended = {
         row["aim"]: row | {"changes": select_changes(row["aim"], changes)}
         for row in advice.replace({np.nan: None}).to_dict("records")

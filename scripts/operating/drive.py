@@ -12,17 +12,11 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pandas as pd
-from pymoo.algorithms.moo.nsga2 import NSGA2
-from pymoo.core.callback import Callback
-from pymoo.core.problem import Problem
-from pymoo.indicators.hv import HV
-from pymoo.optimize import minimize
-from pymoo.util.nds.non_dominated_sorting import NonDominatedSorting
 
 from conveyor.solver.progress import bar
 from operating.regimes import same
 from operating.shares import brief_velocities, motions_of_conveyors, parameters_of, starts_of_box, velocities
-from pipeline import fields
+from pipeline import fields, pareto
 from pipeline.fields import AXES
 
 SEARCHED = ("acceleration", "frequency", "angle", "phase_shift")
@@ -179,59 +173,22 @@ def reference_point(settings: dict) -> np.ndarray:
     return np.array([-settings["velocity"], settings["impact_speed"], settings["bounds"]["acceleration"][1]])
 
 
-class Front(Callback):
-    """Keeps the non-dominated designs within the constraints, and the hypervolume after each generation."""
-
-    def __init__(self, settings: dict, count: Callable[[], object]):
-        super().__init__()
-        self.count = count  # called after each generation
-        self.bounds, self.reference, self.volumes = settings["bounds"], reference_point(settings), []
-        self.designs, self.objectives = np.empty((0, len(SEARCHED))), np.empty((0, len(self.reference)))
-
-    def update(self, algorithm):
-        within = algorithm.pop.get("CV")[:, 0] <= 0.0
-        designs = np.vstack([self.designs, designs_of(algorithm.pop.get("X")[within], self.bounds)])
-        objectives = np.vstack([self.objectives, algorithm.pop.get("F")[within]])
-        self.designs, self.objectives = best_of_designs(designs, objectives)
-        self.volumes.append(hypervolume(self.objectives, self.reference))
-        self.count()
-
-
-def best_of_designs(designs: np.ndarray, objectives: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The non-dominated designs, each once, sorted by their objectives."""
-    if len(designs) == 0:
-        return designs, objectives
-    objectives, places = np.unique(objectives, axis=0, return_index=True)
-    best = np.sort(NonDominatedSorting().do(objectives, only_non_dominated_front=True))
-    return designs[places][best], objectives[best]
-
-
-def hypervolume(objectives: np.ndarray, reference: np.ndarray) -> float:
-    """Volume that objectives, shape (k, 3), dominate up to a reference point."""
-    return float(HV(ref_point=reference)(objectives)) if len(objectives) else 0.0
-
-
-def search(settings: dict, seed: int, count: Callable[[], object]) -> Front:
-    """The Pareto front of one seed; objectives are to be minimised: -velocity, impact speed, acceleration.
+def search(settings: dict, seed: int, count: Callable[[], object]) -> pareto.Front:
+    """The designs on the Pareto front of one seed, with their objectives: -velocity, impact speed and acceleration.
 
     count : called after each generation
     """
     bounds = bounds_of_points(settings["bounds"])
 
-    class Designs(Problem):
-        def __init__(self):
-            super().__init__(n_var=len(SEARCHED), n_obj=3, n_ieq_constr=5, xl=bounds[0], xu=bounds[1])
+    def evaluate(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        found = search_outcomes(designs_of(points, settings["bounds"]), settings)
+        count()
+        return found
 
-        def _evaluate(self, x, out):
-            designs = designs_of(x, settings["bounds"])
-            out["F"], out["G"] = search_outcomes(designs, settings)
-
-    front = Front(settings, count)
     # Many random designs find the narrow ranges with one velocity; the best ones go on.
     drawn = np.random.default_rng(seed).uniform(*bounds, (settings["drawn"], len(SEARCHED)))
-    algorithm = NSGA2(pop_size=settings["population"], sampling=drawn)
-    minimize(Designs(), algorithm, ("n_gen", settings["generations"]), seed=seed, callback=front)
-    return front
+    front = pareto.search(evaluate, drawn, bounds, reference_point(settings), settings, seed, constraints=5)
+    return front._replace(points=designs_of(front.points, settings["bounds"]))
 
 
 def spread(objectives: np.ndarray, count: int) -> np.ndarray:
@@ -273,8 +230,8 @@ def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFr
     return front
 
 
-def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, dict]:
-    """The columns of the tables of the front and of the generations."""
+def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, pd.DataFrame]:
+    """The tables of the front and of the generations."""
     # Designs with unsettled motions are refused, chaotic or not.
     few = {**settings, **settings["search"], "followed": 1, "exponents": False}
     # One thread for each seed: the designs of one generation are too few for several threads.
@@ -282,11 +239,11 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     with bar(total=total, label=progress, unit="generations") as shown, ThreadPoolExecutor(threads) as pool:
         searches = {seed: pool.submit(search, few, seed, shown.update) for seed in settings["seeds"]}
     fronts = {seed: one.result() for seed, one in searches.items()}
-    designs, objectives = best_of_designs(
-        np.vstack([front.designs for front in fronts.values()]),
+    designs, objectives = pareto.best_of(
+        np.vstack([front.points for front in fronts.values()]),
         np.vstack([front.objectives for front in fronts.values()]),
     )
-    whole = hypervolume(objectives, reference_point(settings))
+    whole = pareto.hypervolume(objectives, reference_point(settings))
     front = pd.DataFrame(designs, columns=SEARCHED)
     front = front.assign(displacement=displacement(designs), velocity=-objectives[:, 0], impact_speed=objectives[:, 1])
     history = [
@@ -294,7 +251,4 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
         for seed, found in fronts.items()
         for number, volume in enumerate(found.volumes, start=1)
     ]
-    return {
-        "drive_front": check(front, settings, threads=threads).to_dict("list"),
-        "drive_generations": fields.columns(history, TABLES["drive_generations"]),
-    }
+    return {"drive_front": check(front, settings, threads=threads), "drive_generations": pd.DataFrame(history)}

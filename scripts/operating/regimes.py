@@ -53,56 +53,53 @@ def regime_of(state: np.ndarray, velocity: np.ndarray, share: float) -> str:
     return ONE if same(velocity, velocity.max(), share).all() else SEVERAL
 
 
-def regimes_of(table: pd.DataFrame, share: float) -> tuple[np.ndarray, np.ndarray]:
-    """Amplitudes of a table of shares, ascending, and the regime at each, both of shape (m,)."""
-    found = {
-        acceleration: regime_of(motions.state.to_numpy(), motions.mean_velocity.to_numpy(), share)
-        for acceleration, motions in table.groupby("acceleration")
-    }
-    return np.array(list(found)), np.array(list(found.values()))
-
-
-def best_of(shares: pd.DataFrame, share: float) -> pd.DataFrame:
-    """At each amplitude, the velocity of the fastest motion (`best`), the share of initial conditions that reach it
-    (`best_share`), and the standard error of this share (`stderr`); NaN where no velocity is known.
+def summarize_amplitudes(shares: pd.DataFrame, share: float) -> pd.DataFrame:
+    """At each amplitude of a table of shares, ascending: its regime, the velocity of the fastest motion (`best`), the
+    share of initial conditions that reach it (`best_share`) with its standard error (`stderr`), and the mean velocity
+    over all initial conditions (`mean`). `mean` is NaN if any velocity is not known, the others if none is known.
     """
     rows = []
     for acceleration, motions in shares.groupby("acceleration"):
-        best = motions.mean_velocity.max()
-        reach_it = float(motions.share[same(motions.mean_velocity.to_numpy(), best, share)].sum())
-        reach_it = np.nan if np.isnan(best) else reach_it
-        # Rounding may make the sum of shares slightly larger than 1.
-        error = np.sqrt(max(reach_it * (1.0 - reach_it), 0.0) / motions.starts.sum())
-        rows.append((acceleration, best, reach_it, error))
-    return pd.DataFrame(rows, columns=["acceleration", "best", "best_share", "stderr"])
+        velocity, best = motions.mean_velocity.to_numpy(), motions.mean_velocity.max()
+        reach_it = np.nan if np.isnan(best) else float(motions.share[same(velocity, best, share)].sum())
+        rows.append(
+            {
+                "acceleration": acceleration,
+                "regime": regime_of(motions.state.to_numpy(), velocity, share),
+                "best": best,
+                "best_share": reach_it,
+                # Rounding may make the sum of shares slightly larger than 1.
+                "stderr": np.sqrt(max(reach_it * (1.0 - reach_it), 0.0) / motions.starts.sum()),
+                "mean": (motions.share * motions.mean_velocity).sum(skipna=False),
+            }
+        )
+    return pd.DataFrame(rows)
 
 
-def make(shares: pd.DataFrame) -> dict[str, np.ndarray]:
-    """The columns of the table of regimes: one row for each interval of amplitudes with one regime."""
-    limit = shares.attrs["same_velocity"]
-    places, regimes = regimes_of(shares, limit)
-    best = best_of(shares, limit)
-    changes = np.flatnonzero(regimes[1:] != regimes[:-1]) + 1
+def make(shares: pd.DataFrame) -> pd.DataFrame:
+    """The table of regimes: one row for each interval of amplitudes with one regime."""
+    amplitudes = summarize_amplitudes(shares, shares.attrs["same_velocity"])
+    numbers = (amplitudes.regime != amplitudes.regime.shift()).cumsum()
     rows = []
-    for number, part in enumerate(np.split(np.arange(len(places)), changes), start=1):
-        inside = shares[shares.acceleration.between(places[part[0]], places[part[-1]])]
-        own = best.iloc[part]
+    for number, part in amplitudes.groupby(numbers):
+        begin, end = part.acceleration.min(), part.acceleration.max()
+        inside = shares[shares.acceleration.between(begin, end)]
         states = inside.groupby("state").starts.sum().sort_values(ascending=False, kind="stable")
         rows.append(
             {
                 "number": number,
-                "regime": regimes[part[0]],
-                "begin": places[part[0]],
-                "end": places[part[-1]],
-                "step": np.diff(places[part]).max() if len(part) > 1 else np.nan,
+                "regime": part.regime.iloc[0],
+                "begin": begin,
+                "end": end,
+                "step": part.acceleration.diff().max(),
                 "amplitudes": len(part),
                 "states": ", ".join(states.index),
                 "velocity_low": inside.mean_velocity.min(),
-                "best_low": own.best.min(),
-                "best_high": own.best.max(),
-                "best_share_low": own.best_share.min(),
-                "best_share_high": own.best_share.max(),
-                "best_share_stderr": own.stderr.max(),
+                "best_low": part.best.min(),
+                "best_high": part.best.max(),
+                "best_share_low": part.best_share.min(),
+                "best_share_high": part.best_share.max(),
+                "best_share_stderr": part.stderr.max(),
             }
         )
-    return fields.columns(rows, TABLES["regimes"])
+    return pd.DataFrame(rows)

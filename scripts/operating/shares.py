@@ -17,7 +17,7 @@ from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
 from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, GRAVITY, INCLINATION, PSI0, VZ0, Z0
 from conveyor.solver.parallel import for_each_chunk
-from operating.regimes import regimes_of
+from operating.regimes import summarize_amplitudes
 from pipeline import fields, grid
 from pipeline.motions import motions_of_starts
 
@@ -66,26 +66,21 @@ def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np
     return rows
 
 
-def groups(found: Labels) -> np.ndarray:
-    """The number of the motion that each label belongs to, int64, shape (n,).
+def groups(found: Labels, conveyor: np.ndarray) -> np.ndarray:
+    """The number of the motion that each label belongs to, int64, shape (n,); it ascends with the conveyor.
 
-    Labels of one motion have one state and one period, and their longest flights are neighbours.
+    Labels of one motion have one conveyor, one state and one period, and their longest flights are neighbours.
+
+    conveyor : number of the conveyor of each label, shape (n,)
     """
     flights = np.nan_to_num(found.longest_flight, nan=-1.0)
-    order = np.lexsort((flights, found.period, found.state))
-    same = (
-        (found.state[order][1:] == found.state[order][:-1])
-        & (found.period[order][1:] == found.period[order][:-1])
-        & (np.diff(flights[order]) <= APART)
-    )
+    order = np.lexsort((flights, found.period, found.state, conveyor))
+    same = np.diff(flights[order]) <= APART
+    for column in (conveyor, found.state, found.period):
+        same &= column[order][1:] == column[order][:-1]
     number = np.empty(len(order), dtype=np.int64)
     number[order] = np.concatenate([[0], np.cumsum(~same)])
     return number
-
-
-def select(found: Labels, places: slice | np.ndarray) -> Labels:
-    """The labels at some places."""
-    return Labels(*(column[places] for column in found))
 
 
 def continue_normal(rows: np.ndarray, cycles: np.ndarray, settings: dict, *, threads: int = 1) -> np.ndarray:
@@ -208,35 +203,30 @@ def motions_of_conveyors(
     Returns the columns of the table and `conveyor`, its number.
     """
     found = motions_of_starts(parameters, settings, starts=starts, threads=threads, progress=progress)
-    rows, followed = [], []
-    for k in range(len(parameters) // starts):
-        own = slice(k * starts, (k + 1) * starts)
-        number = groups(select(found, own))
-        for motion in range(number.max() + 1):
-            members = own.start + np.flatnonzero(number == motion)
-            rows.append((k, members[0], len(members)))
-            most = settings["followed"] if found.state[members[0]] != "undecided" else 0
-            followed.append(members[np.argsort(found.cycles[members], kind="stable")][:most])
-    conveyor, first, count = np.array(rows).T
-    chosen = np.concatenate(followed)
-    each, each_peaks, each_status = measure(parameters[chosen], select(found, chosen), settings, threads=threads)
-    velocity, error = np.full(len(rows), np.nan), np.full(len(rows), np.nan)
-    peaks, status = np.full((len(rows), 2), np.nan), np.full(len(rows), "ok", dtype=object)
-    end = 0
-    for row, size in enumerate(map(len, followed)):
-        own, end = slice(end, end + size), end + size
+    number = groups(found, np.arange(len(parameters)) // starts)
+    _, first, count = np.unique(number, return_index=True, return_counts=True)
+    # The trajectories of each motion that have settled first are followed further.
+    most = np.where(found.state[first] == "undecided", 0, settings["followed"])
+    order = np.lexsort((found.cycles, number))
+    rank = np.arange(len(order)) - np.repeat(np.cumsum(count) - count, count)
+    chosen = order[rank < np.repeat(most, count)]
+    of_chosen = Labels(*(column[chosen] for column in found))
+    each, each_peaks, each_status = measure(parameters[chosen], of_chosen, settings, threads=threads)
+    velocity, error, peaks = np.full(len(first), np.nan), np.full(len(first), np.nan), np.full((len(first), 2), np.nan)
+    status = np.where(most > 0, "ok", "state not decided").astype(object)
+    for row, own in enumerate(np.split(np.arange(len(chosen)), np.cumsum(np.minimum(count, most))[:-1])):
         failed = each_status[own] != "ok"
-        if size == 0 or failed.any():
-            status[row] = each_status[own][failed][0] if size else "state not decided"
-            continue
-        velocity[row], peaks[row] = each[own].mean(), each_peaks[own].max(axis=0)
-        error[row] = each[own].std(ddof=1) / math.sqrt(size) if size > 1 else np.nan
+        if failed.any():
+            status[row] = each_status[own][failed][0]
+        elif len(own):
+            velocity[row], peaks[row] = each[own].mean(), each_peaks[own].max(axis=0)
+            error[row] = each[own].std(ddof=1) / math.sqrt(len(own)) if len(own) > 1 else np.nan
     share = count / starts
     acceleration = parameters[first, ACCELERATION]
     normal_gravity = parameters[first, GRAVITY] * np.cos(parameters[first, INCLINATION])
     return pd.DataFrame(
         {
-            "conveyor": conveyor,
+            "conveyor": first // starts,
             "acceleration": acceleration,
             "vertical": acceleration * np.sin(parameters[first, ANGLE]) / normal_gravity,
             "state": found.state[first],
@@ -272,7 +262,8 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> pd
     amplitudes = np.unique(grid.axis_values("acceleration", settings["acceleration"]))
     table = motions_at(amplitudes, settings, threads=threads, progress=progress)
     while True:
-        places, regimes = regimes_of(table, settings["same_velocity"])
+        amplitudes = summarize_amplitudes(table, settings["same_velocity"])
+        places, regimes = amplitudes.acceleration.to_numpy(), amplitudes.regime.to_numpy()
         wide = (regimes[1:] != regimes[:-1]) & (np.diff(places) > settings["resolution"])
         if not wide.any():
             return table

@@ -1,8 +1,7 @@
 """The modules of this project that a module imports, found in its source without running it.
 
-Snakemake notices a changed script, but not a changed module that the script imports. Python's modulefinder would take
-3 s for all scripts at every start, this module takes 0.5 s; modulefinder also counts each package on the way to a
-module as imported.
+Python's modulefinder would take 3 s for all scripts at every start, this module takes 0.5 s; modulefinder also counts
+each package on the way to a module as imported.
 """
 
 import ast

@@ -17,11 +17,6 @@ INITIAL_CONDITIONS = {PARAMETERS[k] for k in (PSI0, Z0, VZ0)}
 CONVEYORS = 2000
 
 
-def initial_conditions_per_conveyor(axes: dict) -> int:
-    """Number of initial conditions of each conveyor in the product of some axes."""
-    return math.prod(grid.count_values(axis) for name, axis in axes.items() if name in INITIAL_CONDITIONS)
-
-
 def search_tolerance(settings: dict) -> float:
     """Tolerance of the contact steps in the search; the default for entries of fixed-step methods, which have none."""
     return settings.get("tolerance", DEFAULT_TOLERANCE)
@@ -75,7 +70,8 @@ def motions(parameters: np.ndarray, settings: dict, **options) -> Labels:
 
     options : `threads` and `progress`, as in motions_of_starts
     """
-    starts = initial_conditions_per_conveyor(settings["axes"])
+    axes = settings["axes"].items()
+    starts = math.prod(grid.count_values(axis) for name, axis in axes if name in INITIAL_CONDITIONS)
     return motions_of_starts(parameters, settings, starts=starts, **options)
 
 

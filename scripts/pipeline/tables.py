@@ -62,7 +62,7 @@ def make(kind: str, schema: Sequence[pa.Field], columns: Mapping[str, Sequence],
             arrays.append(pa.array(values, type=column.type, from_pandas=True))
         except (ValueError, TypeError) as error:
             raise ValueError(f"column {column.name} of a table of {kind} is not {column.type}: {error}") from error
-    units = {column.name: (column.metadata or {}).get(UNIT, b"").decode() for column in expected}
+    units = {column.name: column.metadata[UNIT].decode() for column in expected}
     metadata = {KIND: kind, UNITS: json.dumps(units, ensure_ascii=False), SETTINGS: json.dumps(settings)}
     return pa.Table.from_arrays(arrays, schema=expected.with_metadata(metadata))
 

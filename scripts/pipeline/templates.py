@@ -45,11 +45,6 @@ def round_up(value: float) -> str:
     return format_plain(math.ceil(value / unit) * unit, 2)
 
 
-def separate_thousands(value: int) -> str:
-    """ "1,000,000"."""
-    return f"{value:,}"
-
-
 def join_list(values: Iterable) -> str:
     """Texts or numbers as a list in a sentence, "a, b and c"."""
     texts = [str(format_field(value)) for value in values]
@@ -64,7 +59,7 @@ ENVIRONMENT.filters |= {
     "significant": format_significant,
     "range": format_range,
     "round_up": round_up,
-    "thousands": separate_thousands,
+    "thousands": "{:,}".format,
     "listed": join_list,
 }
 

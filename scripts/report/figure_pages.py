@@ -47,12 +47,12 @@ def describe_figure(figure: dict[str, str]) -> dict:
     return figure | {"picture": Markup(uri), "width": width, "caption": caption}
 
 
-def make(pages: dict[str, dict], notice: dict[str, str]) -> dict[str, str]:
-    """The pages by name.
+def make(pages: list[dict], notice: dict[str, str]) -> list[str]:
+    """The pages, in order.
 
     Parameters
     ----------
-    pages : `heading` and `figures` of each page, by name; a figure has name, number, title, section, file, png and rst
+    pages : `heading` and `figures` of each page; a figure has name, number, title, section, file, png and rst
     notice : `overlays`, sweep `points` of this config, and `paper_points` of the paper's config; {} without overlays
 
     Raises
@@ -60,11 +60,11 @@ def make(pages: dict[str, dict], notice: dict[str, str]) -> dict[str, str]:
     ValueError
         names a page that is too large for a browser
     """
-    made = {}
-    for name, page in pages.items():
+    made = []
+    for page in pages:
         figures = [describe_figure(figure) for figure in page["figures"]]
-        made[name] = render("figures.html", title=page["heading"], notice=notice, figures=figures)
-        size = len(made[name].encode())
+        made.append(render("figures.html", title=page["heading"], notice=notice, figures=figures))
+        size = len(made[-1].encode())
         if size > LARGEST:
             raise ValueError(
                 f"{page['heading']}: its page of the report has {size / 1e6:.2f} MB, but browsers show at most "

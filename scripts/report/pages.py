@@ -7,8 +7,8 @@ BEYOND = "beyond the paper"
 FIGURES_ON_PAGE = 5
 
 
-def figure_pages(figures: dict[str, dict], folder: str) -> dict[str, dict]:
-    """File, heading, section, label and figures of each page in a folder, by name.
+def figure_pages(figures: dict[str, dict], folder: str) -> list[dict]:
+    """File, heading, section, label and figures of each page in a folder.
 
     Each section of the paper has a page, in the order of the paper. The figures beyond the paper come last, on several
     pages.
@@ -21,9 +21,8 @@ def figure_pages(figures: dict[str, dict], folder: str) -> dict[str, dict]:
     beyond = sections.pop(BEYOND, [])
     parts = [beyond[first : first + FIGURES_ON_PAGE] for first in range(0, len(beyond), FIGURES_ON_PAGE)]
     sections |= {f"{BEYOND}, {place} of {len(parts)}": part for place, part in enumerate(parts, start=1)}
-    names = [f"figures_{place}" for place in range(1, len(sections) + 1)]
-    pages = zip(names, sections.items(), strict=True)
-    return {name: {"file": f"{folder}/{name}.html"} | describe_page(*part) for name, part in pages}
+    pages = enumerate(sections.items(), start=1)
+    return [{"file": f"{folder}/figures_{place}.html"} | describe_page(*part) for place, part in pages]
 
 
 def describe_page(section: str, figures: list[dict]) -> dict:

@@ -13,7 +13,8 @@ SCRIPTS = ROOT / "scripts"
 def test_every_module_with_tables_is_listed():
     files = [file for file in SCRIPTS.rglob("*.py") if re.search(r"^TABLES = \{", file.read_text(), re.MULTILINE)]
     found = {".".join(file.relative_to(SCRIPTS).with_suffix("").parts) for file in files}
-    assert {module.__name__ for module in tables_page.MODULES} == found
+    listed = tables_page.MODULES.items()
+    assert {f"{stage}.{module.__name__.rpartition('.')[2]}" for stage, modules in listed for module in modules} == found
 
 
 def test_paths_are_the_paths_of_the_workflow():

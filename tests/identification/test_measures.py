@@ -122,11 +122,11 @@ def test_velocities_agree_with_the_claims(direct):
 
 @pytest.fixture(scope="module")
 def interpolated() -> measures.Edges:
-    return measures.interpolate_edges(pd.DataFrame(edges.make(NEAR)), MODEL)
+    return measures.interpolate_edges(pd.DataFrame(edges.make(NEAR)))
 
 
 def test_interpolated_edges_agree_with_the_search(interpolated, direct):
-    found = measures.quantities_at(interpolated, PRINTED[None], "allow", NEAR, measures.converged_velocities)
+    found = measures.quantities_at(interpolated, PRINTED[None], "allow", NEAR)
     for name, value in found.items():
         assert value[0] == pytest.approx(direct[name], rel=2e-3), name
 
@@ -138,7 +138,7 @@ def test_the_config_lists_the_measured_quantities(direct):
 def test_friction_changes_only_velocities(interpolated):
     values = np.tile(PRINTED, (3, 1))
     values[:, 0] = 0.15, 0.20, 0.25
-    found = measures.quantities_at(interpolated, values, "allow", NEAR, measures.converged_velocities)
+    found = measures.quantities_at(interpolated, values, "allow", NEAR)
     for name, value in found.items():
         if name[:3] in ("C05", "C06"):
             assert (np.diff(value) > 0.05).all(), name
@@ -172,10 +172,10 @@ def test_tension_modes_have_different_edges():
         names=["loss", "stiffness", "tension", "z0"],
     ).to_frame(index=False)
     table = columns.assign(vertical_acceleration=np.where(columns.tension == "clip", 9.0, 8.0) + 1e4 * columns.z0)
-    found = measures.interpolate_edges(table, MODEL)
+    found = measures.interpolate_edges(table)
     rows = packed(PRINTED[None], "allow", MODEL)
     for reading, lowest in (("allow", 8.0), ("frictionless", 8.0), ("clip", 9.0)):
-        assert measures.vertical_edges(found, rows, reading)[0] == pytest.approx([lowest, lowest + 1.0])
+        assert measures.vertical_edges(found, rows, reading, MODEL)[0] == pytest.approx([lowest, lowest + 1.0])
 
 
 def test_the_critical_height_is_the_lowest_that_leaves_the_first_state():
@@ -203,4 +203,4 @@ def test_a_table_with_a_missing_edge_is_an_error(interpolated):
         {"loss": [0.2], "stiffness": [5e5], "tension": ["allow"], "z0": [0.0], "vertical_acceleration": [np.nan]}
     )
     with pytest.raises(ValueError, match=r"no edge was found at the loss 0\.2"):
-        measures.interpolate_edges(table, MODEL)
+        measures.interpolate_edges(table)

@@ -6,41 +6,36 @@ import pytest
 
 from identification import findings
 from identification.fronts import distance
-from identification.misfits import Number, Numbers, misfit, root_mean_square, smallest_widening
+from identification.misfits import misfit, misfits, root_mean_square
 from identification.profiles import shifts_of
 from identification.search_space import PARAMETERS
 
 
 def test_the_ends_of_the_accepted_interval_are_one_apart_from_its_middle():
-    number = Number(49.0, 51.0)
+    number = {"low": 49.0, "high": 51.0}
     assert misfit(np.array([49.0, 50.0, 51.0, 53.0]), number).tolist() == [-1.0, 0.0, 1.0, 3.0]
 
 
 def test_a_mean_squared_error_counts_by_its_root():
-    number = Number(None, 4e-11)
+    number = {"low": None, "high": 4e-11}
     assert misfit(np.array([0.0, 1e-11, 4e-11, 16e-11]), number) == pytest.approx([0.0, 0.5, 1.0, 2.0])
 
 
 def test_shifts_are_added_before_numbers_are_compared():
-    numbers = Numbers({"a": Number(1.0, 3.0), "b": Number(0.0, 4.0)}, {"b": 2.0})
-    found = numbers.misfits({"a": np.array([2.0, 3.0]), "b": np.array([0.0, 2.0]), "unused": np.array([9.0, 9.0])})
-    assert found.tolist() == [[0.0, 0.0], [1.0, 1.0]]
+    numbers = {"a": {"low": 1.0, "high": 3.0}, "b": {"low": 0.0, "high": 4.0}}
+    found = {"a": np.array([2.0, 3.0]), "b": np.array([0.0, 2.0]), "unused": np.array([9.0, 9.0])}
+    assert misfits(found, numbers, {"b": 2.0}).tolist() == [[0.0, 0.0], [1.0, 1.0]]
     assert root_mean_square(np.array([[3.0, 4.0]])) == pytest.approx(np.sqrt(12.5))
 
 
 def test_two_numbers_of_one_quantity():
     """50 ± 1 and 47 ± 0.5 touch at 48 if both are twice as wide."""
-    one, other = Number(49.0, 51.0), Number(46.5, 47.5)
-    factor = smallest_widening(one, other)
+    one, other = {"low": 49.0, "high": 51.0}, {"low": 46.5, "high": 47.5}
+    factor = findings.contradiction({findings.UP_ALONE: one, findings.DOWN_ALONE: other})
     assert factor == pytest.approx(2.0)
     x = np.linspace(45.0, 52.0, 7001)
     worst = np.maximum(np.abs(misfit(x, one)), np.abs(misfit(x, other)))
     assert worst.min() == pytest.approx(factor)
-    numbers = {
-        findings.UP_ALONE: {"low": one.low, "high": one.high},
-        findings.DOWN_ALONE: {"low": other.low, "high": other.high},
-    }
-    assert findings.contradiction(numbers) == factor
 
 
 def test_intervals_end_where_the_lowest_profile_has_risen():

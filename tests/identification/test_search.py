@@ -10,6 +10,7 @@ from conveyor import parameters
 from identification import findings, fronts, profiles
 from identification.fits import fit
 from identification.search_space import LOSS, PARAMETERS, SEARCHED, bounds_of, packed, searched, values_of
+from pipeline import pareto
 
 CONFIG = read_config()
 MODEL = CONFIG["model"]
@@ -80,12 +81,13 @@ def test_the_values_of_a_profile_ascend_within_the_bounds(parameter):
 
 @pytest.mark.parametrize("parameter", PARAMETERS)
 def test_a_held_parameter_is_held(parameter):
-    value = float(values_of(CENTRE[None], MODEL)[0, list(PARAMETERS).index(parameter)])
+    column = list(PARAMETERS).index(parameter)
+    value = float(values_of(CENTRE[None], MODEL)[0, column])
     space = profiles.hold_parameter(parameter, value, BOUNDS, MODEL)
     corners = np.stack(np.meshgrid(*space.bounds.T), axis=-1).reshape(-1, 3)
     whole = space.whole(corners)
-    assert values_of(whole, MODEL)[:, list(PARAMETERS).index(parameter)] == pytest.approx(value)
-    assert space.rest(whole) == pytest.approx(corners)
+    assert values_of(whole, MODEL)[:, column] == pytest.approx(value)
+    assert np.delete(whole, column, axis=1) == pytest.approx(corners)
     assert (whole[:, LOSS] > BOUNDS[0, LOSS] - 1e-9).all() and (whole[:, LOSS] < BOUNDS[1, LOSS] + 1e-9).all()
 
 
@@ -204,8 +206,12 @@ def test_the_front_of_two_parabolas():
 def test_a_search_that_has_not_converged_says_so():
     front = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
     still, grows = [0.5] * 20, [0.01 * n for n in range(1, 21)]
-    assert fronts.status([front, front], [still, still], OWN["search"]) == "converged"
-    assert "still grows" in fronts.status([front, front], [grows, grows], OWN["search"])
-    assert "hypervolumes differ" in fronts.status([front, front], [still, [0.6] * 20], OWN["search"])
-    assert "apart" in fronts.status([front, front + 0.5], [still, still], OWN["search"])
+
+    def status(*found):
+        return fronts.status([pareto.Front(front, *one) for one in found], OWN["search"])
+
+    assert status((front, still), (front, still)) == "converged"
+    assert "still grows" in status((front, grows), (front, grows))
+    assert "hypervolumes differ" in status((front, still), (front, [0.6] * 20))
+    assert "apart" in status((front, still), (front + 0.5, still))
     assert fronts.distance(front, front + 0.5) == pytest.approx(0.5)

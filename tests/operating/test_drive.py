@@ -8,12 +8,14 @@ import pytest
 from project import ROOT, read_config
 
 from operating import drive, drive_page, shares
+from pipeline import pareto
 from workflow.config.tables import TABLES
 
 SETTINGS = {
     **TABLES["operating/drive_front"](read_config()),
     **{"settling": 2000, "starts": 33, "followed": 2, "cycles": 50},
 }
+TEMPLATE = (ROOT / "workflow/templates/drive.md").read_text()
 PAPER = [50.0, math.radians(12.0), 0.0]
 EXACTLY = np.zeros(1)  # no error of the amplitude
 
@@ -154,16 +156,6 @@ def test_designs_that_violate_a_constraint_are_dropped_early(monkeypatch):
     assert objectives[2].tolist() == [-0.1, 0.1, 30.0]
 
 
-def test_the_front_keeps_the_non_dominated_designs():
-    objectives = np.array([[1.0, 2.0, 3.0], [1.0, 2.0, 4.0], [0.0, 3.0, 3.0], [1.0, 2.0, 3.0]])
-    designs = np.arange(16.0).reshape(4, 4)
-    kept, best = drive.best_of_designs(designs, objectives)
-    assert best.tolist() == [[0.0, 3.0, 3.0], [1.0, 2.0, 3.0]]
-    assert kept.tolist() == designs[[2, 0]].tolist()
-    assert drive.hypervolume(best[1:], np.array([2.0, 4.0, 6.0])) == pytest.approx(1.0 * 2.0 * 3.0)
-    assert drive.hypervolume(np.empty((0, 3)), np.ones(3)) == 0.0
-
-
 def test_settings_differ_as_much_as_they_can():
     """The fastest, then the gentlest, then the one farthest from both; units do not matter."""
     objectives = np.array([[-5.0, 9.0, 7.0], [-4.9, 8.9, 7.0], [-1.0, 0.0, 7.0], [-3.0, 4.0, 2.0], [-1.1, 0.1, 7.0]])
@@ -191,8 +183,7 @@ def made(monkeypatch) -> dict[str, pd.DataFrame]:
         return pd.DataFrame(found | {"displacement": drive.displacement(x)})
 
     monkeypatch.setattr(drive, "evaluate", evaluate)
-    found = drive.make({**SETTINGS, "population": 40, "generations": 40})
-    tables = {name: pd.DataFrame(columns) for name, columns in found.items()}
+    tables = drive.make({**SETTINGS, "population": 40, "generations": 40})
     tables["drive_front"].attrs = SETTINGS
     return tables
 
@@ -224,22 +215,18 @@ def growing(*volumes: float) -> pd.DataFrame:
 
 def test_seeds_search_on_their_own_whatever_the_number_of_threads(monkeypatch):
     def search(settings, seed, count):
-        front = drive.Front(settings, count)
-        front.designs, front.objectives = (
-            np.array([[30.0 + seed, 50.0, 0.3, 0.0]]),
-            np.array([[-0.1, 0.1, 30.0 + seed]]),
-        )
-        front.volumes = [float(seed)]
-        return front
+        amplitude = 30.0 + seed
+        design, objectives = np.array([[amplitude, 50.0, 0.3, 0.0]]), np.array([[-0.1, 0.1, amplitude]])
+        return pareto.Front(design, objectives, [float(seed)])
 
     monkeypatch.setattr(drive, "search", search)
     monkeypatch.setattr(drive, "check", lambda front, settings, threads: front)
     for threads in (1, 2):
         found = drive.make({**SETTINGS, "seeds": [5, 3]}, threads=threads)
-        generations = pd.DataFrame(found["drive_generations"])
+        generations = found["drive_generations"]
         assert list(generations.seed) == [5, 3]
         assert generations.hypervolume[0] / generations.hypervolume[1] == pytest.approx(5.0 / 3.0)
-        assert found["drive_front"]["acceleration"] == [33.0]
+        assert found["drive_front"].acceleration.tolist() == [33.0]
 
 
 def test_growth_covers_the_last_quarter_of_the_worst_seed():
@@ -250,8 +237,7 @@ def test_growth_covers_the_last_quarter_of_the_worst_seed():
 
 
 def test_the_page_lists_the_recommended_settings(made):
-    template = (ROOT / "workflow/templates/drive.md").read_text()
-    page = drive_page.make(template, made["drive_front"], growing(0.1, 0.9, 0.995, 1.0))
+    page = drive_page.make(TEMPLATE, made["drive_front"], growing(0.1, 0.9, 0.995, 1.0))
     front = made["drive_front"]
     slowest = front[front.recommended].sort_values("velocity").iloc[0]
     line = next(line for line in page.splitlines() if line.startswith(f"| {slowest.acceleration:.3g} |"))
@@ -263,10 +249,9 @@ def test_the_page_lists_the_recommended_settings(made):
 
 
 def test_the_page_says_that_nothing_was_found(made):
-    template = (ROOT / "workflow/templates/drive.md").read_text()
     none = made["drive_front"].assign(recommended=False, confirmed=False)
     none.attrs = SETTINGS
-    page = drive_page.make(template, none, growing(0.1, 0.5, 0.9, 1.0))
+    page = drive_page.make(TEMPLATE, none, growing(0.1, 0.5, 0.9, 1.0))
     assert "No design of the search was confirmed" in page
     assert "**The search has not settled.**" in page
     assert "grew by up to 11 % (limit: 2 %)" in page
@@ -279,11 +264,11 @@ def test_a_search_that_finds_nothing_says_so(monkeypatch):
 
     monkeypatch.setattr(drive, "evaluate", evaluate)
     found = drive.make({**SETTINGS, "drawn": 8, "population": 4, "generations": 4})
-    front, generations = (pd.DataFrame(found[name]) for name in ("drive_front", "drive_generations"))
+    front, generations = found["drive_front"], found["drive_generations"]
     assert len(front) == 0
     assert set(front) == {column.name for column in drive.TABLES["drive_front"]}
     front = front.astype(dict.fromkeys(("checked", "confirmed", "recommended"), bool))
     front.attrs = SETTINGS
-    page = drive_page.make((ROOT / "workflow/templates/drive.md").read_text(), front, generations)
+    page = drive_page.make(TEMPLATE, front, generations)
     assert "found no design within the constraints." in page
     assert "inf" not in page

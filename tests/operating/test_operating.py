@@ -16,6 +16,7 @@ from pipeline.motions import motions
 from pipeline.templates import format_range
 from workflow.config.tables import TABLES
 
+TEMPLATE = (ROOT / "workflow/templates/operating_chart.md").read_text()
 BOX = {
     **read_config("operating")["operating"],
     "starts": 64,
@@ -47,7 +48,7 @@ def test_initial_conditions_fill_the_box_and_depend_on_the_seed():
     assert (starts != shares.starts_of_box({**BOX, "starts": 1000, "seed": 2})).all()
 
 
-def test_motions_differ_by_state_period_and_flight():
+def test_motions_differ_by_conveyor_state_period_and_flight():
     found = Labels(
         state=np.array(["second", "first", "second", "chaos", "second", "second", "chaos"]),
         period=np.array([1, 1, 2, 0, 1, 1, 0]),
@@ -56,16 +57,19 @@ def test_motions_differ_by_state_period_and_flight():
         delta=np.zeros(7),
         v=np.zeros(7),
     )
-    number = shares.groups(found)
+    number = shares.groups(found, np.zeros(7, dtype=np.int64))
     assert number[0] == number[5]
     assert number[3] == number[6]
     assert len(set(number)) == 5
+    number = shares.groups(found, np.arange(7) // 4)
+    assert len(set(number)) == 7
+    assert number[:4].max() < number[4:].min()
 
 
 @pytest.fixture(scope="module")
 def table():
     """Shares at two amplitudes with one and with two motions."""
-    return pd.DataFrame(shares.motions_at(np.array([22.0, 40.0]), BOX))
+    return shares.motions_at(np.array([22.0, 40.0]), BOX)
 
 
 def test_labels_agree_with_sweeps(table):
@@ -191,7 +195,7 @@ def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, want
     monkeypatch.setattr(shares, "motions_of_starts", motions_found)
     velocities = np.array([1.0, 3.0]), np.array([[0.1, 2.0], [0.2, 1.0]]), np.array(statuses, dtype=object)
     monkeypatch.setattr(shares, "velocities", lambda *_, **__: velocities)
-    row = pd.DataFrame(shares.motions_at(np.array([40.0]), BOX)).iloc[0]
+    row = shares.motions_at(np.array([40.0]), BOX).iloc[0]
     assert (row.mean_velocity, row.velocity_stderr, row.status) == pytest.approx(wanted, nan_ok=True)
     assert row.starts == BOX["starts"]
     peaks = (0.2, 2.0) if row.status == "ok" else (np.nan, np.nan)
@@ -200,8 +204,7 @@ def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, want
 
 def test_the_standard_error_agrees_with_repeated_draws():
     drawn = [
-        pd.DataFrame(shares.motions_at(np.array([40.0]), {**BOX, "seed": seed})).set_index("state").loc["first"]
-        for seed in range(30)
+        shares.motions_at(np.array([40.0]), {**BOX, "seed": seed}).set_index("state").loc["first"] for seed in range(30)
     ]
     share = np.array([row.share for row in drawn])
     # A standard deviation from thirty draws is known to an eighth.
@@ -221,7 +224,7 @@ def test_machines_with_equal_dimensionless_groups_have_equal_shares(table):
         "stiffness": mass * gravity / length**paper.exponent * paper.stiffness,
     }
     box = {"height": [length * end for end in BOX["height"]], "vz0": [velocity * end for end in BOX["vz0"]]}
-    other = pd.DataFrame(shares.motions_at(gravity * np.array([22.0, 40.0]), {**BOX, **box, "model": model}))
+    other = shares.motions_at(gravity * np.array([22.0, 40.0]), {**BOX, **box, "model": model})
     for name in ("state", "period", "starts", "share", "stderr", "motion"):
         assert (other[name] == table[name]).all(), name
     assert np.allclose(other.vertical, table.vertical, rtol=1e-12)
@@ -258,7 +261,7 @@ SETTINGS = {**BOX, "acceleration": {"start": 20.0, "stop": 60.0, "num": 9}, "res
 @pytest.fixture
 def refined(monkeypatch) -> pd.DataFrame:
     monkeypatch.setattr(shares, "motions_at", made_up)
-    found = pd.DataFrame(shares.make(SETTINGS))
+    found = shares.make(SETTINGS)
     found.attrs = SETTINGS | {"model": {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0}}
     return found
 
@@ -316,12 +319,7 @@ def advised() -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def test_the_page_begins_with_the_advice(refined):
-    page = chart.make(
-        (ROOT / "workflow/templates/operating_chart.md").read_text(),
-        refined,
-        pd.DataFrame(regimes.make(refined)),
-        *advised(),
-    )
+    page = chart.make(TEMPLATE, refined, regimes.make(refined), *advised())
     assert page.startswith("# Operating chart\n\n## Recommended amplitudes\n")
     assert (
         "- **Amplitude 31 m/s²** (peak acceleration along the direction of vibration), throw number Γ = 0.66\n" in page
@@ -415,7 +413,7 @@ def test_changes_of_a_parameter_keep_the_static_friction_above_the_friction():
 
 
 def test_regimes_and_their_words(refined):
-    found = pd.DataFrame(regimes.make(refined))
+    found = regimes.make(refined)
     assert list(found.regime) == [regimes.ONE, regimes.SEVERAL, regimes.BESIDE, regimes.CHAOS]
     assert list(found.best_share_low) == pytest.approx([1.0, 0.3, 0.2, 1.0])
     assert list(found.best_share_high) == pytest.approx([1.0, 0.34, 0.2, 1.0])
@@ -424,8 +422,7 @@ def test_regimes_and_their_words(refined):
     assert found.best_share_stderr[1] == pytest.approx(math.sqrt(0.34 * 0.66 / 100))
     # The amplitudes of the config are 5 m/s² apart; closer ones were added where the answer changes.
     assert list(found.step[:2]) == [5.0, 5.0]
-    template = (ROOT / "workflow/templates/operating_chart.md").read_text()
-    page = chart.make(template, refined, found, *advised())
+    page = chart.make(TEMPLATE, refined, found, *advised())
     assert "All initial conditions reach one velocity at 20.0 to 31.2 m/s² (first state, 0.01 m/s)." in page
     assert "Several velocities exist side by side, without chaos, at 31.4 to 50.0 m/s²" in page
     assert "\n30 to 34 % of the initial conditions reach it." in page
@@ -456,12 +453,7 @@ def test_regime_of_an_amplitude(states, velocities, regime):
 def test_a_table_without_known_amplitudes_gives_no_advice(refined):
     """The table has a single amplitude, whose regime is not known."""
     alone = refined[refined.acceleration == 20.0].assign(state="undecided", mean_velocity=np.nan)
-    page = chart.make(
-        (ROOT / "workflow/templates/operating_chart.md").read_text(),
-        alone,
-        pd.DataFrame(regimes.make(alone)),
-        *(table.iloc[:0] for table in advised()),
-    )
+    page = chart.make(TEMPLATE, alone, regimes.make(alone), *(table.iloc[:0] for table in advised()))
     assert "There is no amplitude at which every part reaches the same velocity with an amplitude error of 1 %." in page
     assert "At no amplitude do all initial conditions reach one velocity" in page
     assert "No initial condition ends in chaos" in page

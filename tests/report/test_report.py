@@ -135,9 +135,9 @@ def test_a_page_too_large_for_browsers_is_refused(tmp_path):
     noise = {"name": "noise", "number": "noise", "title": "N", "section": "", "file": "noise.pdf"}
     noise |= {kind: str(tmp_path / f"noise.{kind}") for kind in ("png", "rst")}
     one = {"heading": "Noise", "figures": [noise]}
-    assert figure_pages.make({"one": one}, {})["one"].count("<figure") == 1
+    assert figure_pages.make([one], {})[0].count("<figure") == 1
     with pytest.raises(ValueError, match=r"Noise: its page of the report has \d\.\d\d MB"):
-        figure_pages.make({"two": one | {"figures": [noise, noise]}}, {})
+        figure_pages.make([one | {"figures": [noise, noise]}], {})
 
 
 def test_a_caption_with_a_mistake_is_an_error():

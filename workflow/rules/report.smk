@@ -30,17 +30,17 @@ HAS_FINDINGS = config["claims"] and config["claims"].keys() >= PAPER["claims"].k
 
 rule report_figures:
     input:
-        [figure[kind] for page in REPORT_PAGES.values() for figure in page["figures"] for kind in ("png", "rst")],
+        [figure[kind] for page in REPORT_PAGES for figure in page["figures"] for kind in ("png", "rst")],
         REPORT_SOURCES,
     output:
-        **{
-            name: report(
+        [
+            report(
                 page["file"],
                 category="Figures",
                 labels={"section": escape_label(page["section"]), "figures": escape_label(page["label"])},
             )
-            for name, page in REPORT_PAGES.items()
-        },
+            for page in REPORT_PAGES
+        ],
     log:
         log_file("report/figures"),
     benchmark:
@@ -74,7 +74,7 @@ rule report_summary:
     params:
         **stage("report.summary"),
         step=config["solver"]["step"],
-        pages=list(REPORT_PAGES.values()),
+        pages=REPORT_PAGES,
         files={name: f"{REPORT}/{name}.html" for name in ("claims", "provenance")},
         notice=REPORT_NOTICE,
     message:

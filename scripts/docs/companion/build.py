@@ -45,9 +45,8 @@ def encode(table: pd.DataFrame) -> dict:
         if len(values) < 2 or not np.allclose(values, even, rtol=0.0, atol=1e-6 * (even[1] - even[0])):
             raise ValueError(f"the values of {name} must be evenly spaced for a map of the interactive page")
         axes[place] = {"name": name, "start": float(values[0]), "stop": float(values[-1]), "num": len(values)}
-    flat = codes.to_numpy().astype(np.uint8).ravel()
-    fours = np.pad(flat, (0, -len(flat) % 4)).reshape(-1, 4)
-    packed = fours[:, 0] | fours[:, 1] << 2 | fours[:, 2] << 4 | fours[:, 3] << 6
+    bits = np.unpackbits(codes.to_numpy().astype(np.uint8).reshape(-1, 1), axis=1, count=2, bitorder="little")
+    packed = np.packbits(bits, bitorder="little")
     model = {name: value for name, value in table.attrs["model"].items() if name not in names}
     return {**axes, "model": model, "states": base64.b64encode(packed.tobytes()).decode()}
 

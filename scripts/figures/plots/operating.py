@@ -8,7 +8,7 @@ from matplotlib.patches import Patch
 from conveyor.analysis import throw_theory
 from figures import style
 from figures.plots.basin_stability import ends_of, throw_axis
-from operating.regimes import BESIDE, CHAOS, ONE, SEVERAL, UNKNOWN, best_of
+from operating.regimes import BESIDE, CHAOS, ONE, SEVERAL, UNKNOWN, summarize_amplitudes
 
 LOOKS = {
     ONE: {"facecolor": "#56B4E9"},
@@ -33,14 +33,12 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
     strip.tick_params(bottom=False)
     throw_axis(strip, shares)
 
-    by_amplitude = shares.groupby("acceleration")
-    best = best_of(shares, shares.attrs["same_velocity"])
-    means = by_amplitude.apply(lambda rows: (rows.share * rows.mean_velocity).sum(skipna=False), include_groups=False)
-    slowest = by_amplitude.mean_velocity.min()
+    best = summarize_amplitudes(shares, shares.attrs["same_velocity"])
+    slowest = shares.groupby("acceleration").mean_velocity.min()
     velocities.fill_between(amplitudes, slowest, best.best, color="0.88", linewidth=0.0)
     velocities.plot(best.acceleration, best.best, color="black", label="fastest motion")
     look = {"color": "black", "linewidth": 0.8, "linestyle": (0, (3, 2))}
-    velocities.plot(means.index, means, label="mean over all initial conditions", **look)
+    velocities.plot(best.acceleration, best["mean"], label="mean over all initial conditions", **look)
     velocities.plot(amplitudes, slowest, color="0.5", linewidth=0.8, linestyle=":", label="slowest motion")
     velocities.plot(amplitudes, throw_theory.mean_velocity(amplitudes, **shares.attrs["model"]), **style.TEXTBOOK)
     velocities.axhline(0.0, color="black", linewidth=0.4, zorder=0)
