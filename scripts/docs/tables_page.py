@@ -24,7 +24,7 @@ from dimensions import portraits
 from fit import regressions
 from identification import edges, fronts, printed, profiles
 from motion import critical, impacts, signals, spectra
-from operating import advice, drive, regimes, shares, throws, track
+from operating import advice, drive, shares, throws, track
 from orbits import branches, certified, estimates, exponents, strobes, witnesses
 from pipeline import fields
 from pipeline.templates import render
@@ -50,7 +50,6 @@ MODULES = (
     derivatives,
     curves,
     shares,
-    regimes,
     advice,
     throws,
     track,

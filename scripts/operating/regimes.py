@@ -18,23 +18,22 @@ REGIMES_OF_AIMS = {CERTAIN: (ONE,), FAST: (ONE, SEVERAL)}
 # The status of a motion on a track that is too steep, see `track`.
 SLIDES_AWAY = "slides away"
 
-TABLES = {
-    "regimes": (
-        fields.count("number", "number of the interval of amplitudes, in ascending order"),
-        fields.text("regime", f"{', '.join(REGIMES)} (a state is undecided, or a velocity is not known)"),
-        fields.number("begin", "m/s²", "smallest computed amplitude of the interval"),
-        fields.number("end", "m/s²", "largest computed amplitude of the interval"),
-        fields.number("step", "m/s²", "largest distance between neighbouring computed amplitudes"),
-        fields.count("amplitudes", "number of computed amplitudes in the interval"),
-        fields.text("states", "states of motion that occur, the most frequent one first"),
-        fields.number("velocity_low", "m/s", "smallest mean velocity of any motion"),
-        fields.number("best_low", "m/s", "smallest velocity, over the amplitudes, of the fastest motion"),
-        fields.number("best_high", "m/s", "largest velocity of the fastest motion"),
-        fields.number("best_share_low", "1", "smallest share of initial conditions that reach the largest velocity"),
-        fields.number("best_share_high", "1", "largest share of initial conditions that reach the largest velocity"),
-        fields.number("best_share_stderr", "1", "largest standard error of these shares"),
-    ),
-}
+# Columns of the table `regimes`.
+COLUMNS = (
+    fields.count("number", "number of the interval of amplitudes, in ascending order"),
+    fields.text("regime", f"{', '.join(REGIMES)} (a state is undecided, or a velocity is not known)"),
+    fields.number("begin", "m/s²", "smallest computed amplitude of the interval"),
+    fields.number("end", "m/s²", "largest computed amplitude of the interval"),
+    fields.number("step", "m/s²", "largest distance between neighbouring computed amplitudes"),
+    fields.count("amplitudes", "number of computed amplitudes in the interval"),
+    fields.text("states", "states of motion that occur, the most frequent one first"),
+    fields.number("velocity_low", "m/s", "smallest mean velocity of any motion"),
+    fields.number("best_low", "m/s", "smallest velocity, over the amplitudes, of the fastest motion"),
+    fields.number("best_high", "m/s", "largest velocity of the fastest motion"),
+    fields.number("best_share_low", "1", "smallest share of initial conditions that reach the largest velocity"),
+    fields.number("best_share_high", "1", "largest share of initial conditions that reach the largest velocity"),
+    fields.number("best_share_stderr", "1", "largest standard error of these shares"),
+)
 
 
 def same(velocity: np.ndarray, other: float, share: float) -> np.ndarray:
@@ -77,11 +76,10 @@ def best_of(shares: pd.DataFrame, share: float) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["acceleration", "best", "best_share", "stderr"])
 
 
-def make(shares: pd.DataFrame) -> dict[str, np.ndarray]:
+def intervals_of(shares: pd.DataFrame, share: float) -> dict[str, np.ndarray]:
     """The columns of the table of regimes: one row for each interval of amplitudes with one regime."""
-    limit = shares.attrs["same_velocity"]
-    places, regimes = regimes_of(shares, limit)
-    best = best_of(shares, limit)
+    places, regimes = regimes_of(shares, share)
+    best = best_of(shares, share)
     changes = np.flatnonzero(regimes[1:] != regimes[:-1]) + 1
     rows = []
     for number, part in enumerate(np.split(np.arange(len(places)), changes), start=1):
@@ -105,4 +103,4 @@ def make(shares: pd.DataFrame) -> dict[str, np.ndarray]:
                 "best_share_stderr": own.stderr.max(),
             }
         )
-    return fields.columns(rows, TABLES["regimes"])
+    return fields.columns(rows, COLUMNS)

@@ -258,7 +258,7 @@ SETTINGS = {**BOX, "acceleration": {"start": 20.0, "stop": 60.0, "num": 9}, "res
 @pytest.fixture
 def refined(monkeypatch) -> pd.DataFrame:
     monkeypatch.setattr(shares, "motions_at", made_up)
-    found = pd.DataFrame(shares.make(SETTINGS))
+    found = shares.make(SETTINGS)["shares"]
     found.attrs = SETTINGS | {"model": {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0}}
     return found
 
@@ -319,7 +319,7 @@ def test_the_page_begins_with_the_advice(refined):
     page = chart.make(
         (ROOT / "workflow/templates/operating_chart.md").read_text(),
         refined,
-        pd.DataFrame(regimes.make(refined)),
+        pd.DataFrame(regimes.intervals_of(refined, SETTINGS["same_velocity"])),
         *advised(),
     )
     assert page.startswith("# Operating chart\n\n## Recommended amplitudes\n")
@@ -415,7 +415,7 @@ def test_changes_of_a_parameter_keep_the_static_friction_above_the_friction():
 
 
 def test_regimes_and_their_words(refined):
-    found = pd.DataFrame(regimes.make(refined))
+    found = pd.DataFrame(regimes.intervals_of(refined, SETTINGS["same_velocity"]))
     assert list(found.regime) == [regimes.ONE, regimes.SEVERAL, regimes.BESIDE, regimes.CHAOS]
     assert list(found.best_share_low) == pytest.approx([1.0, 0.3, 0.2, 1.0])
     assert list(found.best_share_high) == pytest.approx([1.0, 0.34, 0.2, 1.0])
@@ -459,7 +459,7 @@ def test_a_table_without_known_amplitudes_gives_no_advice(refined):
     page = chart.make(
         (ROOT / "workflow/templates/operating_chart.md").read_text(),
         alone,
-        pd.DataFrame(regimes.make(alone)),
+        pd.DataFrame(regimes.intervals_of(alone, SETTINGS["same_velocity"])),
         *(table.iloc[:0] for table in advised()),
     )
     assert "There is no amplitude at which every part reaches the same velocity with an amplitude error of 1 %." in page

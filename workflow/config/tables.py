@@ -179,7 +179,7 @@ TABLES = {
     "sensitivity/continued": curves_settings,
     "sensitivity/meetings": curves_settings,
     "operating/shares": partial(box_settings, "operating"),
-    "operating/regimes": lambda config: None,  # made from other tables only
+    "operating/regimes": partial(box_settings, "operating"),
     "operating/advice": itemgetter("advice"),
     "operating/changes": itemgetter("advice"),
     "operating/throws": partial(box_settings, "throws"),
@@ -224,8 +224,8 @@ def entry_of(config: dict, reference: str) -> dict:
     return config[section].get(name, {}) if section in ENTRIES else {}
 
 
-def settings_of(config: dict, reference: str) -> dict | None:
-    """The settings of the table SECTION/NAME, or None for a table that is made from other tables only."""
+def settings_of(config: dict, reference: str) -> dict:
+    """The settings of the table SECTION/NAME."""
     section, name = reference.split("/")
     if reference in TABLES:
         return TABLES[reference](config)
