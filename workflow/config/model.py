@@ -311,9 +311,6 @@ class PublishedScene(TypedDict):
 
 
 class PublishedScenes(TypedDict):
-    samples: whole("reference states of each scene", 2, 10**5)
-    tolerance: Tolerance
-    compared: many(Tolerance, "tolerances of the solutions that give the error bars")
     further: Annotated[dict[Name, PublishedScene], Field(description="scenes in addition to the scenes of `precision`")]
 
 
