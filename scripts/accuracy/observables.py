@@ -1,7 +1,7 @@
 """Quantities that figures show of each kind of table, and visible differences between two tables of the same points."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -86,7 +86,7 @@ def thin_axes(axes: dict, points: int) -> dict:
     return values
 
 
-def observe_shifted(shown: Shown, settings: dict, shifts: list[float]) -> list[pd.DataFrame]:
+def observe_shifted(shown: Shown, settings: dict, shifts: Sequence[float]) -> list[pd.DataFrame]:
     """The tables with the initial height shifted by each of `shifts` (m).
 
     If the part starts on the conveyor, its velocity is shifted by ω times as much. If the shifted quantity is an axis,

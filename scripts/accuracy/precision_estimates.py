@@ -26,6 +26,8 @@ TABLES = {
 
 TOLERANCE = 1e-12
 AT_END = 1e-9  # share of a run
+EPSILON = 1e-8  # distance of two trajectories, in units of the part at rest
+EVALUATIONS = 1000  # largest number of evaluations of a fit
 
 
 def exponent_rows(settings: dict, model: dict) -> list[dict]:
@@ -38,7 +40,7 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
     here = stroboscopic_map.pack_states(row[None], orbit.state[None], TOLERANCE)
     there = here.copy()
     unit = normal_gravity(model) / (2.0 * math.pi * model["frequency"]) ** 2
-    there[:, Z0] += settings["epsilon"] * unit
+    there[:, Z0] += EPSILON * unit
     # Without renormalisation, only the end of the run is compared.
     pair = {"output": "z", "last": AT_END, "samples": 1, "tolerance": TOLERANCE}
     found = []
@@ -46,10 +48,10 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
         cycles = round(duration / cycle)
         estimates = {
             "pair of trajectories": lyapunov.finite_difference_estimate(
-                here, there, settings["epsilon"] * unit, duration=duration, **pair
+                here, there, EPSILON * unit, duration=duration, **pair
             )[0],
             "pair, set back each cycle": lyapunov.renormalised_pair(
-                here[0], orbit.state, distance=settings["epsilon"], transient=0, cycles=cycles, tolerance=TOLERANCE
+                here[0], orbit.state, distance=EPSILON, transient=0, cycles=cycles, tolerance=TOLERANCE
             ),
             "variational equation": lyapunov.spectrum(
                 here, orbit.state[None], transient=0, cycles=cycles // 2, blocks=2, tolerance=TOLERANCE
@@ -82,14 +84,14 @@ def dimension_rows(settings: dict, seed: int) -> list[dict]:
     return found
 
 
-def fit_rows(settings: dict, data: pd.DataFrame, regression: dict, seed: int) -> list[dict]:
+def fit_rows(data: pd.DataFrame, regression: dict, seed: int) -> list[dict]:
     """Relative gap of the mean squared error to the best fit, over the number of evaluated triples."""
     low, high = regression["acceleration"]
     rows = data[data.is_critical & data.acceleration.between(low, high)]
     values = rows.acceleration.to_numpy(), rows.z0.to_numpy()
     bounds = {name: tuple(interval) for name, interval in regression["bounds"].items()}
     found = {
-        "CMA-ES (pymoo)": hyperbola_fit.fit_pymoo(*values, bounds, seed, settings["evaluations"]),
+        "CMA-ES (pymoo)": hyperbola_fit.fit_pymoo(*values, bounds, seed, EVALUATIONS),
         "least squares": hyperbola_fit.fit_least_squares(*values, bounds["B"]),
     }
     best = min(one.error for one in found.values())
@@ -105,5 +107,5 @@ def make(settings: dict, critical: pd.DataFrame | None = None) -> dict:
     rows = exponent_rows(settings["exponent"], settings["model"])
     rows += dimension_rows(settings["dimension"], settings["seed"])
     if critical is not None:
-        rows += fit_rows(settings["fit"], critical, settings["regression"], settings["seed"])
+        rows += fit_rows(critical, settings["regression"], settings["seed"])
     return fields.columns(rows, TABLES["precision_estimates"])

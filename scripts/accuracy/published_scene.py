@@ -11,6 +11,9 @@ from conveyor.solver.model import pack
 from pipeline import grid
 
 STATE = {"x": "m", "vx": "m/s", "z": "m", "vz": "m/s"}
+SAMPLES = 100  # reference states of a scene, evenly spaced in time
+REFERENCE = 1e-14  # tolerance of the reference solution
+COMPARED = (1e-13, 1e-12)  # tolerances of two more solutions, whose difference from the reference is the error bar
 ROUNDING = 4.0 * np.finfo(np.float64).eps  # smallest error bar, over the largest value
 
 
@@ -35,11 +38,8 @@ def describe_scene(settings: dict) -> dict:
     """The content of the file, from the settings of the scene in the config."""
     conveyor, start = grid.conveyor_and_start(settings["model"])
     options = {"duration": settings["duration"], "reuse": False}
-    run, *others = (
-        simulate(conveyor, start, tolerance=tolerance, **options)
-        for tolerance in (settings["tolerance"], *settings["compared"])
-    )
-    times = np.linspace(0.0, settings["duration"], settings["samples"] + 1)[1:]
+    run, *others = (simulate(conveyor, start, tolerance=tolerance, **options) for tolerance in (REFERENCE, *COMPARED))
+    times = np.linspace(0.0, settings["duration"], SAMPLES + 1)[1:]
     initial = run.sample(np.zeros(1))
     reference, *compared = (one.sample(times) for one in (run, *others))
     scales = dict(zip(STATE, peers.scales(pack(conveyor, start)).tolist(), strict=True))

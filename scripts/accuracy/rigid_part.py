@@ -32,7 +32,9 @@ TABLES = {
 SPEEDS = np.geomspace(1e-3, 1.0, 64)  # m/s, speeds of approach of the table of restitution
 MAX_PERIOD = 64  # excitation cycles, longest period of a periodic motion, as for the contact
 LAST_CYCLE = 50  # samples of the last cycle, for the height of a jump
-CLOSE = 1e-2  # largest distance from an earlier state, relative to the height of a jump, that counts as a return
+# Largest distance from an earlier state, in heights of a jump, that counts as a return: of a sweep, and at a doubling.
+CLOSE, CLOSE_AT_DOUBLING = 1e-2, 1e-3
+DOUBLINGS = 3  # first period doublings that are compared
 CYCLES = 2000  # simulated cycles, after which a motion without a period is undecided
 # Parameters that determine the restitution.
 CONTACT_PARAMETERS = [PARAMETERS.index(name) for name in ("stiffness", "damping", "mass", "exponent", "tension")]
@@ -105,7 +107,7 @@ def find_doubling(conveyor: Conveyor, restitution, period: int, low: float, sett
         row[ACCELERATION] = acceleration
         times = sample_times(row, settings["duration"], period)
         height = rigid_part_motion.sample(row, times, restitution)["z"]
-        return find_period(height, (period,), settings["close"]) > 0
+        return find_period(height, (period,), CLOSE_AT_DOUBLING) > 0
 
     low += settings["margin"]
     high = low
@@ -127,7 +129,7 @@ def bifurcation_rows(model: str, conveyor: Conveyor, restitution, settings: dict
     orbit = find_orbit(conveyor, restitution)
     rows = [bifurcation_row(model, "fold", 1, orbit.fold), bifurcation_row(model, "period doubling", 1, orbit.doubling)]
     low = orbit.doubling
-    for number in range(2, settings["doublings"] + 1):
+    for number in range(2, DOUBLINGS + 1):
         low = find_doubling(conveyor, restitution, 2 ** (number - 1), low, settings)
         rows.append(bifurcation_row(model, "period doubling", number, low))
     return rows
@@ -162,7 +164,7 @@ def make(
 
     folds = folds_and_doublings.query("kind == 'fold' and period == 1 and longest_flight > 0.5")
     rows.append(bifurcation_row(CONTACT, "fold", 1, float(folds.acceleration.min())))
-    doublings = cascade.sort_values("number").head(settings["doublings"])
+    doublings = cascade.sort_values("number").head(DOUBLINGS)
     rows += [
         bifurcation_row(CONTACT, "period doubling", int(row.number), float(row.acceleration))
         for row in doublings.itertuples()

@@ -37,6 +37,10 @@ TABLES = {
 
 LAST, SAMPLES = 0.25, 501  # share of a run and samples in it, as in Fig. 22
 PERIODS, SETTLING = (1, 2, 4), 1000  # excitation cycles
+# Excitation cycles between the samples of a portrait: the golden ratio, which spreads the samples of a periodic motion
+# evenly over its orbit, and ten time steps of the paper's method.
+INTERVAL, PAPER_INTERVAL = 0.6180339887498949, 2.5e-4
+THEILER = 20  # samples; pairs that are closer in time are left out of a correlation sum
 # A periodic orbit is a closed curve; the dimension of the chaotic attractor is unknown.
 CURVE = {"second": 1.0, "chaos": math.nan}
 NONE = {"epsilon": math.nan, "duration": math.nan, "step": math.nan, "samples": math.nan, "bound": math.nan}
@@ -102,18 +106,13 @@ def portrait(parameters: np.ndarray, times: np.ndarray, method: str) -> np.ndarr
     return np.stack([motion["z"], motion["vz"]], axis=1)
 
 
-def published_dimension(points: np.ndarray, settings: dict) -> Dimension:
-    """The dimension by box counting as in the paper."""
-    return box_counting.box_dimension_of_paper(points, 0.5 ** np.arange(1, settings["octaves"] + 1))
-
-
-def estimate_dimensions(points: np.ndarray, theiler: int, settings: dict) -> dict[str, Dimension]:
-    """The dimension of points by all estimators; the correlation sum only if there are not too many points."""
+def estimate_dimensions(points: np.ndarray, theiler: int, most: int) -> dict[str, Dimension]:
+    """The dimension of points by all estimators; the correlation sum only of at most `most` points."""
     found = {
         "boxes": box_counting.box_dimension(points),
-        "boxes, as in the paper": published_dimension(points, settings),
+        "boxes, as in the paper": box_counting.box_dimension_of_paper(points),
     }
-    if len(points) <= settings["correlated"]:
+    if len(points) <= most:
         found["correlation sum"] = correlation_sum.correlation_dimension(points, theiler)
     return found
 
@@ -132,18 +131,19 @@ def dimension_rows(settings: dict, model: dict, seed: int, progress: str | None)
     for count in bar(settings["samples"], label=progress and f"{progress}: points", unit="sizes"):
         rng = np.random.default_rng(seed)
         for draw, truth in DIMENSIONS.items():
-            add("known set", draw.__name__, estimate_dimensions(draw(rng, count), 0, settings), truth, samples=count)
+            found = estimate_dimensions(draw(rng, count), 0, settings["correlated"])
+            add("known set", draw.__name__, found, truth, samples=count)
         for name, case in settings["portraits"].items():
-            times = settings["begin"] + settings["interval"] / model["frequency"] * np.arange(count)
+            times = settings["begin"] + INTERVAL / model["frequency"] * np.arange(count)
             points = portrait(parameters_of(case, model)[0], times, "event")
-            found = estimate_dimensions(points, settings["theiler"], settings)
+            found = estimate_dimensions(points, THEILER, settings["correlated"])
             add("samples", name, found, CURVE[name], samples=count)
     for name, case in settings["portraits"].items():
         for duration in settings["durations"]:
-            count = round(duration * model["frequency"] / settings["paper_interval"]) + 1
+            count = round(duration * model["frequency"] / PAPER_INTERVAL) + 1
             times = np.linspace(0.0, duration, count)
             points = portrait(parameters_of(case, model)[0], times, "euler")
-            found = {"boxes, as in the paper": published_dimension(points, settings)}
+            found = {"boxes, as in the paper": box_counting.box_dimension_of_paper(points)}
             add("run time", name, found, CURVE[name], samples=count, duration=duration)
     return rows
 

@@ -1,16 +1,19 @@
-"""The article as a PDF: pandoc converts its text to Typst, and Typst typesets it."""
+"""The article: its text in Markdown, which pandoc converts to Typst, and the PDF, which Typst typesets."""
 
 import tempfile
 from pathlib import Path
+from typing import Any
 
 import pypandoc
 import typst
+
+from docs import pages
 
 # Shifts headings, because the first heading of the text is the title.
 OPTIONS = ("--standalone", "--shift-heading-level-by=-1", "--wrap=preserve")
 
 
-def make(text: str, frame: str) -> bytes:
+def typeset(text: str, frame: str) -> bytes:
     """The PDF of a text in Markdown; `frame` is a pandoc template for Typst.
 
     Paths of figures begin with a slash, which stands for the current folder. The same text and figures give equal
@@ -23,3 +26,9 @@ def make(text: str, frame: str) -> bytes:
         page = Path(folder, "article.typ")
         page.write_text(source, encoding="utf-8")
         return typst.compile(page, root=".", ignore_system_fonts=True, timestamp=0)
+
+
+def make(frame: str, **arguments: Any) -> dict[str, str | bytes]:
+    """The text of the article, for which `arguments` are those of docs.pages.make, and its PDF."""
+    text = pages.make(**arguments)
+    return {"text": text, "pdf": typeset(text, frame)}

@@ -34,6 +34,13 @@ TABLES = {
     ),
 }
 
+# An objective with the weight zero could take any value.
+LEAST_WEIGHT = 0.01
+# A search has converged if the hypervolume changes at most by the first number in the last quarter of the generations
+# and between seeds, and if a member of one seed's front has on average at most the second number as its distance (in
+# misfits) from the nearest member of the other front.
+SETTLED, APART = 0.01, 0.15
+
 Evaluate = Callable[[np.ndarray], np.ndarray]
 
 
@@ -53,12 +60,11 @@ def fit_compromises(
     misfits : function from searched parameters, shape (n, 4), to misfits in the order of the groups, shape (n, m)
     sizes : number of misfits in each group
     drawn, bounds : random points, shape (s, 4), the best of which are guesses, and bounds, shape (2, 4)
-    settings : `weights`, number of partitions of the weights; `least`, smallest weight, because an objective without
-        weight could take any value; `starts`, number of guesses
+    settings : `weights`, number of partitions of the weights; `starts`, number of guesses
     """
     found, drawn_misfits = [], misfits(drawn)
     for weights in get_reference_directions("das-dennis", len(sizes), n_partitions=settings["weights"]):
-        factors = np.repeat(np.sqrt(np.maximum(weights, settings["least"]) / sizes), sizes)
+        factors = np.repeat(np.sqrt(np.maximum(weights, LEAST_WEIGHT) / sizes), sizes)
         best = np.argsort(np.sum((factors * drawn_misfits) ** 2, axis=1), kind="stable")[: settings["starts"]]
         found.append(fit(lambda x, factors=factors: factors * misfits(x), drawn[best], bounds).x)
     return np.array(found)
@@ -101,14 +107,14 @@ def status(fronts: list[pareto.Front], settings: dict) -> str:
     """Whether all searches of one tension mode have converged, and to the same front."""
     for front in fronts:
         earlier, last = front.volumes[3 * len(front.volumes) // 4 - 1], front.volumes[-1]
-        if not abs(last - earlier) <= settings["settled"] * last:
+        if not abs(last - earlier) <= SETTLED * last:
             return "not converged: the hypervolume still grows"
     first = fronts[0]
     for front in fronts[1:]:
-        if not abs(front.volumes[-1] - first.volumes[-1]) <= settings["settled"] * first.volumes[-1]:
+        if not abs(front.volumes[-1] - first.volumes[-1]) <= SETTLED * first.volumes[-1]:
             return "not converged: the seeds' hypervolumes differ"
         inside = [one.objectives[(one.objectives <= settings["worst"]).all(axis=1)] for one in (front, first)]
-        if not distance(*inside) <= settings["distance"]:
+        if not distance(*inside) <= APART:
             return "not converged: the seeds' fronts are apart"
     return "converged"
 

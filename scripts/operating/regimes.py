@@ -18,23 +18,22 @@ REGIMES_OF_AIMS = {CERTAIN: (ONE,), FAST: (ONE, SEVERAL)}
 # The status of a motion on a track that is too steep, see `track`.
 SLIDES_AWAY = "slides away"
 
-TABLES = {
-    "regimes": (
-        fields.count("number", "number of the interval of amplitudes, in ascending order"),
-        fields.text("regime", f"{', '.join(REGIMES)} (a state is undecided, or a velocity is not known)"),
-        fields.number("begin", "m/s²", "smallest computed amplitude of the interval"),
-        fields.number("end", "m/s²", "largest computed amplitude of the interval"),
-        fields.number("step", "m/s²", "largest distance between neighbouring computed amplitudes"),
-        fields.count("amplitudes", "number of computed amplitudes in the interval"),
-        fields.text("states", "states of motion that occur, the most frequent one first"),
-        fields.number("velocity_low", "m/s", "smallest mean velocity of any motion"),
-        fields.number("best_low", "m/s", "smallest velocity, over the amplitudes, of the fastest motion"),
-        fields.number("best_high", "m/s", "largest velocity of the fastest motion"),
-        fields.number("best_share_low", "1", "smallest share of initial conditions that reach the largest velocity"),
-        fields.number("best_share_high", "1", "largest share of initial conditions that reach the largest velocity"),
-        fields.number("best_share_stderr", "1", "largest standard error of these shares"),
-    ),
-}
+# Columns of the table `regimes`.
+COLUMNS = (
+    fields.count("number", "number of the interval of amplitudes, in ascending order"),
+    fields.text("regime", f"{', '.join(REGIMES)} (a state is undecided, or a velocity is not known)"),
+    fields.number("begin", "m/s²", "smallest computed amplitude of the interval"),
+    fields.number("end", "m/s²", "largest computed amplitude of the interval"),
+    fields.number("step", "m/s²", "largest distance between neighbouring computed amplitudes"),
+    fields.count("amplitudes", "number of computed amplitudes in the interval"),
+    fields.text("states", "states of motion that occur, the most frequent one first"),
+    fields.number("velocity_low", "m/s", "smallest mean velocity of any motion"),
+    fields.number("best_low", "m/s", "smallest velocity, over the amplitudes, of the fastest motion"),
+    fields.number("best_high", "m/s", "largest velocity of the fastest motion"),
+    fields.number("best_share_low", "1", "smallest share of initial conditions that reach the largest velocity"),
+    fields.number("best_share_high", "1", "largest share of initial conditions that reach the largest velocity"),
+    fields.number("best_share_stderr", "1", "largest standard error of these shares"),
+)
 
 
 def same(velocity: np.ndarray, other: float, share: float) -> np.ndarray:
@@ -76,9 +75,8 @@ def summarize_amplitudes(shares: pd.DataFrame, share: float) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def make(shares: pd.DataFrame) -> pd.DataFrame:
-    """The table of regimes: one row for each interval of amplitudes with one regime."""
-    amplitudes = summarize_amplitudes(shares, shares.attrs["same_velocity"])
+def intervals_of(amplitudes: pd.DataFrame, shares: pd.DataFrame) -> pd.DataFrame:
+    """The table of regimes from `summarize_amplitudes`: one row for each interval of amplitudes with one regime."""
     numbers = (amplitudes.regime != amplitudes.regime.shift()).cumsum()
     rows = []
     for number, part in amplitudes.groupby(numbers):

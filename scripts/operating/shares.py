@@ -17,7 +17,7 @@ from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
 from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, GRAVITY, INCLINATION, PSI0, VZ0, Z0
 from conveyor.solver.parallel import for_each_chunk
-from operating.regimes import summarize_amplitudes
+from operating import regimes
 from pipeline import fields, grid
 from pipeline.motions import motions_of_starts
 
@@ -37,6 +37,7 @@ TABLES = {
         fields.number("peak_force", "N", "largest contact force; null if unknown"),
         fields.text("status", "ok, or why there is no velocity"),
     ),
+    "regimes": regimes.COLUMNS,
 }
 
 # Two motions of one state and period are different if their longest flights differ by more, in excitation cycles.
@@ -257,16 +258,16 @@ def motions_at(
     return table.assign(motion=table.groupby("acceleration").cumcount() + 1)
 
 
-def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
-    """The table for the settings of the config."""
+def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, pd.DataFrame]:
+    """The tables of shares and of regimes for the settings of the config."""
     amplitudes = np.unique(grid.axis_values("acceleration", settings["acceleration"]))
     table = motions_at(amplitudes, settings, threads=threads, progress=progress)
     while True:
-        amplitudes = summarize_amplitudes(table, settings["same_velocity"])
-        places, regimes = amplitudes.acceleration.to_numpy(), amplitudes.regime.to_numpy()
-        wide = (regimes[1:] != regimes[:-1]) & (np.diff(places) > settings["resolution"])
+        summary = regimes.summarize_amplitudes(table, settings["same_velocity"])
+        places, found = summary.acceleration.to_numpy(), summary.regime.to_numpy()
+        wide = (found[1:] != found[:-1]) & (np.diff(places) > settings["resolution"])
         if not wide.any():
-            return table
+            return {"shares": table, "regimes": regimes.intervals_of(summary, table)}
         between = 0.5 * (places[1:] + places[:-1])[wide]
         label = progress and f"{progress}, {len(between)} amplitudes between"
         new = motions_at(between, settings, threads=threads, progress=label)

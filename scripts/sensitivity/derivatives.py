@@ -60,6 +60,9 @@ BIFURCATION_GROUPS, BOUNDARY_GROUPS = ("damping", "stiffness", "exponent"), NAME
 INITIAL_CONDITION = ("z0", "vz0")
 # The tension mode, which is not a number, and parameters of the motion along the track.
 EXCLUDED = ("tension", "phase_shift", "static_friction")
+DIFFERENCE = 3e-5  # relative change of a parameter in the finite differences that check the derivatives
+# Largest relative difference of both results; absolute for elasticities below 1.
+AGREEMENT = 1e-5
 
 
 class CriticalPoint(NamedTuple):
@@ -159,12 +162,12 @@ def boundary_value(point: boundary_point.BoundaryPoint, row: np.ndarray, quantit
     return point.launch.height * units(row)[0]
 
 
-def difference_steps(parameters: np.ndarray, difference: float) -> dict[str, float]:
-    """Step of the finite differences by each parameter: `difference` times its value, or its scale if it may be 0."""
+def difference_steps(parameters: np.ndarray) -> dict[str, float]:
+    """Step of the finite differences by each parameter: DIFFERENCE times its value, or its scale if it may be 0."""
     length, velocity = units(parameters)
     scales = dict(zip(PARAMETERS, np.abs(parameters), strict=True)) | {"psi0": 1.0, "z0": length, "vz0": velocity}
     scales = {name: scale if scale > 0.0 else 1.0 for name, scale in scales.items()}
-    return {name: difference * float(scale) for name, scale in scales.items()}
+    return {name: DIFFERENCE * float(scale) for name, scale in scales.items()}
 
 
 def point_columns(point: CriticalPoint) -> dict:
@@ -181,13 +184,13 @@ def point_columns(point: CriticalPoint) -> dict:
     }
 
 
-def physical_rows(point: CriticalPoint, difference: float, agreement: float) -> Iterator[dict]:
+def physical_rows(point: CriticalPoint) -> Iterator[dict]:
     """The rows of the table `derivatives` of a point, one for each parameter."""
     exact = None
     if point.derivatives is not None:
         exact = derivatives_of(point.quantity, point.parameters, point.derivatives)
     moved = point.parameters[PARAMETERS.index(point.quantity)]
-    for name, step in difference_steps(point.parameters, difference).items():
+    for name, step in difference_steps(point.parameters).items():
         place = PARAMETERS.index(name)
         value = point.parameters[place]
         if name in (point.quantity, *EXCLUDED) or (name in INITIAL_CONDITION and not point.is_boundary):
@@ -214,9 +217,9 @@ def physical_rows(point: CriticalPoint, difference: float, agreement: float) -> 
             row["derivative"], row["difference"] = exact[name], (ends[0] - ends[1]) / (2.0 * step)
             row["elasticity"] = exact[name] * value / moved if value != 0.0 and moved != 0.0 else np.nan
             # Makes derivatives dimensionless: scale of the parameter over scale of the quantity.
-            scale = step / difference / (abs(moved) if point.quantity == "acceleration" else units(point.parameters)[0])
+            scale = step / DIFFERENCE / (abs(moved) if point.quantity == "acceleration" else units(point.parameters)[0])
             error = scale * abs(row["derivative"] - row["difference"])
-            if not error <= agreement * max(1.0, scale * abs(row["derivative"])):
+            if not error <= AGREEMENT * max(1.0, scale * abs(row["derivative"])):
                 row["status"] = "differences disagree" if np.isfinite(error) else "not found again beside it"
         yield row
 
@@ -272,7 +275,7 @@ def make(
     bifurcations = [differentiate_bifurcation(parameters, bifurcation) for bifurcation in chosen]
     accumulation = differentiate_accumulation(parameters, [point for point in bifurcations if point.doubling])
     points = [*bifurcations, *([accumulation] if accumulation else []), *boundary_points(critical, settings)]
-    physical = [row for point in points for row in physical_rows(point, settings["difference"], settings["agreement"])]
+    physical = [row for point in points for row in physical_rows(point)]
     groups = [row for point in points for row in group_rows(point)]
     return {
         "derivatives": fields.columns(physical, TABLES["derivatives"]),

@@ -14,12 +14,10 @@ SETTINGS = {
 }
 BUDGET = {
     "points": {"sweeps": 6},
-    "shifts": [1.0e-11, -1.0e-11],
     "tolerances": [1.0e-4],
     "pixels": 0.01,
     "line": 0.005,
     "reasons": {},
-    "shortened": {},
 }
 
 

@@ -12,7 +12,7 @@ from accuracy import published_scene, scores
 from conveyor.methods import peers
 
 MODEL = {"acceleration": 40.0, "z0": 3e-4}
-SETTINGS = {"scene": "short", "model": MODEL, "duration": 0.06, "samples": 12, "tolerance": 1e-14, "compared": [1e-12]}
+SETTINGS = {"scene": "short", "model": MODEL, "duration": 0.06}
 HALF_STROKE = '''
 def solve(scene, tolerance):
     """Wrong by `tolerance` amplitudes of the plate in x, and exact in z; it has half of the impacts."""
@@ -50,7 +50,7 @@ def test_the_scene_is_complete(scene):
     assert scene["times"][-1] == scene["duration"] == 0.06
     assert scene["events"][0]["kind"] == "impact"
     for name, bars in scene["error"].items():
-        assert len(bars) == len(scene["reference"][name]) == 12
+        assert len(bars) == len(scene["reference"][name]) == published_scene.SAMPLES
         assert min(bars) > 0.0
         assert np.all(np.diff(bars) >= 0.0)
     assert scores.error_bar(scene) < 1e-9
@@ -102,7 +102,7 @@ def test_numbers_from_a_file_get_the_scores_of_the_function(folder, scene, tmp_p
     ("change", "message"),
     [
         ({"scene": "long"}, "no scene 'long'; there are short"),
-        ({"time": np.linspace(0.0, 1.0, 12)}, "the times differ from the times of the scene"),
+        ({"time": np.linspace(0.0, 1.0, published_scene.SAMPLES)}, "the times differ from the times of the scene"),
     ],
 )
 def test_wrong_numbers_are_refused(scene, change, message):
@@ -113,7 +113,7 @@ def test_wrong_numbers_are_refused(scene, change, message):
 def test_missing_parts_of_a_file_are_named(scene, tmp_path):
     with pytest.raises(ValueError, match="lacks the columns x"):
         list(scores.score_numbers({"short": scene}, "other", numbers(scene).drop(columns="x")))
-    with pytest.raises(ValueError, match=r"z must have one number for each of the 12 times of the scene short"):
+    with pytest.raises(ValueError, match=r"z must have one number for each of the 100 times of the scene short"):
         scores.trajectory_error(scene, {"x": scene["reference"]["x"], "z": [0.0]})
     (tmp_path / "empty.py").write_text("")
     with pytest.raises(ValueError, match="has no function solve"):

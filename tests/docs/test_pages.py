@@ -180,7 +180,7 @@ def test_a_caption_has_its_subscripts_in_both_media():
 
 def test_the_article_is_equal_bytes():
     text = "# A title\n\n## One\n\nWith $\\ddot z_p = -g$ and\n\n| a | b |\n|:--|:--|\n| `model.gravity` | c |\n"
-    first, second = (article.make(text, FRAME) for _ in range(2))
+    first, second = (article.typeset(text, FRAME) for _ in range(2))
     assert first == second
     assert first.startswith(b"%PDF-")
 
@@ -188,7 +188,7 @@ def test_the_article_is_equal_bytes():
 def test_an_article_without_its_figure_is_an_error(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(Exception, match=r"fig99\.pdf"):
-        article.make("# A title\n\n![a figure](/figures/fig99.pdf)\n", FRAME)
+        article.typeset("# A title\n\n![a figure](/figures/fig99.pdf)\n", FRAME)
 
 
 @pytest.fixture

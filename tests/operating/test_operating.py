@@ -261,7 +261,7 @@ SETTINGS = {**BOX, "acceleration": {"start": 20.0, "stop": 60.0, "num": 9}, "res
 @pytest.fixture
 def refined(monkeypatch) -> pd.DataFrame:
     monkeypatch.setattr(shares, "motions_at", made_up)
-    found = shares.make(SETTINGS)
+    found = shares.make(SETTINGS)["shares"]
     found.attrs = SETTINGS | {"model": {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0}}
     return found
 
@@ -318,8 +318,12 @@ def advised() -> tuple[pd.DataFrame, pd.DataFrame]:
     return tables
 
 
+def intervals_of(table: pd.DataFrame) -> pd.DataFrame:
+    return regimes.intervals_of(regimes.summarize_amplitudes(table, SETTINGS["same_velocity"]), table)
+
+
 def test_the_page_begins_with_the_advice(refined):
-    page = chart.make(TEMPLATE, refined, regimes.make(refined), *advised())
+    page = chart.make(TEMPLATE, refined, intervals_of(refined), *advised())
     assert page.startswith("# Operating chart\n\n## Recommended amplitudes\n")
     assert (
         "- **Amplitude 31 m/s²** (peak acceleration along the direction of vibration), throw number Γ = 0.66\n" in page
@@ -413,7 +417,7 @@ def test_changes_of_a_parameter_keep_the_static_friction_above_the_friction():
 
 
 def test_regimes_and_their_words(refined):
-    found = regimes.make(refined)
+    found = intervals_of(refined)
     assert list(found.regime) == [regimes.ONE, regimes.SEVERAL, regimes.BESIDE, regimes.CHAOS]
     assert list(found.best_share_low) == pytest.approx([1.0, 0.3, 0.2, 1.0])
     assert list(found.best_share_high) == pytest.approx([1.0, 0.34, 0.2, 1.0])
@@ -453,7 +457,7 @@ def test_regime_of_an_amplitude(states, velocities, regime):
 def test_a_table_without_known_amplitudes_gives_no_advice(refined):
     """The table has a single amplitude, whose regime is not known."""
     alone = refined[refined.acceleration == 20.0].assign(state="undecided", mean_velocity=np.nan)
-    page = chart.make(TEMPLATE, alone, regimes.make(alone), *(table.iloc[:0] for table in advised()))
+    page = chart.make(TEMPLATE, alone, intervals_of(alone), *(table.iloc[:0] for table in advised()))
     assert "There is no amplitude at which every part reaches the same velocity with an amplitude error of 1 %." in page
     assert "At no amplitude do all initial conditions reach one velocity" in page
     assert "No initial condition ends in chaos" in page

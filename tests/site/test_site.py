@@ -97,7 +97,7 @@ def test_the_article_is_made_from_its_text(monkeypatch):
     monkeypatch.chdir(ROOT)
     frame = (ROOT / "workflow/templates/article.typ").read_text(encoding="utf-8")
     text = (RESULTS / "article/article.md").read_text(encoding="utf-8")
-    assert (RESULTS / "article.pdf").read_bytes() == article.make(text, frame)
+    assert (RESULTS / "article.pdf").read_bytes() == article.typeset(text, frame)
 
 
 @pytest.fixture(scope="module")

@@ -263,12 +263,6 @@ def figures(config: dict, defaults: dict) -> Iterator[str]:
                     yield f"{section}.{figure} needs feeding, but {reference} has needs: vertical; remove it there"
 
 
-def default_claim(name: str, claim: dict, defaults: dict) -> dict:
-    """The claim of the default config with the same finding, if possible with the same name; {} if there is none."""
-    claims = ({name: {}} | defaults["claims"]).values()
-    return next((one for one in claims if one.get("finding") == claim["finding"]), {})
-
-
 def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
     """Tables and settings that the default config does not have: no plot script and no finding uses them."""
     parts = [
@@ -278,7 +272,9 @@ def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
         if name in defaults[section]
     ]
     for name, claim in config["claims"].items():
-        if default := default_claim(name, claim, defaults):
+        # The default claim with the same finding, if possible with the same name.
+        claims = ({name: {}} | defaults["claims"]).values()
+        if default := next((one for one in claims if one.get("finding") == claim["finding"]), None):
             parts.append((f"claims.{name}", claim, default, ("tables", "quantities", "settings")))
         else:
             remedy = suggest_name(claim["finding"], [one["finding"] for one in defaults["claims"].values()])

@@ -47,16 +47,9 @@ Tolerances = many(Tolerance, "relative tolerances")
 Step = number("time step of the fixed-step methods", "s", ge=1e-12, le=1e-1)
 Steps = many(Step, "time steps of the fixed-step methods")
 Epsilon = number("size of the perturbation, in units of the perturbed parameter", ge=1e-15, le=1)
-Interval = number("time between samples", "excitation cycles", gt=0, le=1e3)
 Seed = whole("seed of the random numbers", 0, 2**32 - 1)
 Cycles = whole("length of a run", 256, 10**9, "excitation cycles")
-Samples = whole("number of samples", 8, 10**8)
 ManySamples = many(whole("number of samples", 100, 10**8), "numbers of samples")
-Theiler = whole("pairs of samples closer in time than this are left out", 0, 10**8, "samples")
-Transient = whole("excitation cycles before recording", 0, 10**9, "excitation cycles")
-Strobes = whole("stroboscopic samples, one per excitation cycle", 1, 10**9)
-BlockCycles = whole("cycles per block", 1, 10**9, "excitation cycles")
-Blocks = whole("number of blocks", 2, 10**6)
 Period = whole("longest period considered", 1, 64, "excitation cycles")
 Repeats = whole("repetitions", 1, 10**9)
 MaxEvaluations = whole("force evaluations after which a peer method is stopped", 1, 10**9)
@@ -149,11 +142,11 @@ class Regression(TypedDict):
 
 class Dimension(Followed):
     begin: number("time of the first sample", "s", ge=0, le=1e6)
-    interval: Interval
-    samples: Samples
+    interval: number("time between samples", "excitation cycles", gt=0, le=1e3)
+    samples: whole("number of samples", 8, 10**8)
     estimator: word("estimator of the dimension", "paper", "box", "correlation")
     octaves: NotRequired[whole("box sizes are 1/2 to 1/2^octaves of the extent", 3, 30)]
-    theiler: NotRequired[Theiler]
+    theiler: NotRequired[whole("pairs of samples closer in time than this are left out", 0, 10**8, "samples")]
     largest_error: NotRequired[number("estimates with a larger error are left out", gt=0, le=2)]
 
 
@@ -218,15 +211,15 @@ class Certificates(TypedDict):
 
 class Attractors(TypedDict):
     acceleration: Accelerations
-    transient: Transient
-    strobes: Strobes
+    transient: whole("excitation cycles before recording", 0, 10**9, "excitation cycles")
+    strobes: whole("stroboscopic samples, one per excitation cycle", 1, 10**9)
     model: NotRequired[Model]
     tolerance: NotRequired[Tolerance]
 
 
 class Lyapunov(TypedDict):
-    cycles: BlockCycles
-    blocks: Blocks
+    cycles: whole("cycles per block", 1, 10**9, "excitation cycles")
+    blocks: whole("number of blocks", 2, 10**6)
     tolerance: NotRequired[Tolerance]
 
 
@@ -318,9 +311,6 @@ class PublishedScene(TypedDict):
 
 
 class PublishedScenes(TypedDict):
-    samples: whole("reference states of each scene", 2, 10**5)
-    tolerance: Tolerance
-    compared: many(Tolerance, "tolerances of the solutions that give the error bars")
     further: Annotated[dict[Name, PublishedScene], Field(description="scenes in addition to the scenes of `precision`")]
 
 
@@ -328,13 +318,11 @@ class ExponentPairs(TypedDict):
     acceleration: Acceleration
     z0: Height
     durations: Durations
-    epsilon: Epsilon
 
 
 class PrecisionEstimates(TypedDict):
     exponent: Annotated[ExponentPairs, Field(description="largest Lyapunov exponent by finite differences")]
     dimension: mapping("fractal dimension", {"points": ManySamples, "repeats": Repeats})
-    fit: mapping("fit of Eq. 13", {"evaluations": whole("largest number of evaluations", 4, 10**9)})
     seed: Seed
 
 
@@ -400,13 +388,9 @@ class PaperExponent(TypedDict):
 class PaperDimension(TypedDict):
     samples: ManySamples
     correlated: whole("largest number of samples of a correlation sum", 100, 10**8)
-    theiler: Theiler
     portraits: mapping("conveyors of the phase portraits", {"second": Model, "chaos": Model})
     begin: number("time of the first sample", "s", gt=0, le=1e6)
-    interval: Interval
-    paper_interval: Interval
     durations: Durations
-    octaves: whole("box sizes are 1/2 to 1/2^octaves of the extent", 2, 30)
 
 
 class StabilityEstimates(TypedDict):
@@ -415,27 +399,12 @@ class StabilityEstimates(TypedDict):
     seed: Seed
 
 
-class Shortened(TypedDict, total=False):
-    """Settings of a shortened variant."""
-
-    settling: Cycles
-    duration: Duration
-    begin: number("time of the first sample", "s", ge=0, le=1e6)
-    samples: Samples
-    transient: Transient
-    strobes: Strobes
-    cycles: BlockCycles
-    blocks: Blocks
-
-
 BUDGETED = ("sweeps", "signals", "spectra", "estimates", "critical", "impacts", "dimensions", "attractors", "lyapunov")
 Points = whole("number of points", 1, MOST_POINTS)
 
 
 class SceneBudget(TypedDict):
-    shortened: mapping("settings that every variant shortens", dict.fromkeys(BUDGETED, Shortened), total=False)
     points: mapping("points of each table that are compared", dict.fromkeys(BUDGETED, Points))
-    shifts: many(number("shift of the initial height", "m", ge=-1, le=1), "shifts of the initial height")
     tolerances: Tolerances
     pixels: number("share of visibly changed values that is accepted", ge=0, le=1)
     line: number("visible change of a line, as a share of the axis", ge=0, le=1)
@@ -443,10 +412,8 @@ class SceneBudget(TypedDict):
 
 
 class RigidPart(TypedDict):
-    doublings: whole("period doublings that are followed", 1, 16)
     z0: Height
     duration: Duration
-    close: number("distance at which a motion repeats itself, in parts of the jump height", gt=0, le=1)
     margin: number("amplitude steps in which a period is followed", "m/s²", gt=0, le=1e4)
     resolution: Resolution
 
@@ -499,8 +466,6 @@ class Sensitivity(TypedDict):
     rest: mapping("initial condition of Fig. 3", {"z0": HeightNumber, "vz0": Velocity})
     critical: Annotated[Name, Field(description="entry of `critical` over the amplitude alone")]
     heights: whole("number of amplitudes of this entry", 1, 1000)
-    difference: number("relative change of a parameter in the check by finite differences", ge=1e-7, le=1e-2)
-    agreement: number("accepted difference between both derivatives", gt=0, le=1)
     curves: Annotated[Curves, Field(description="bifurcation curves in two parameters")]
 
 
@@ -604,15 +569,12 @@ class Evidence(TypedDict):
 
 class Front(TypedDict):
     weights: whole("parts into which the weights divide one", 1, 50)
-    least: number("weight in place of zero", gt=0, le=1)
     drawn: whole("random points in the bounds", 10, 10**6)
     starts: whole("random points that start a least-squares fit", 1, 100)
     population: whole("population of NSGA-II", 20, 10**4)
     generations: whole("generations of NSGA-II", 4, 10**5)
     seeds: many(Seed, "seeds of the random numbers", least=2)
     worst: number("misfit from which a member does not count", gt=0, le=1e3)
-    settled: number("relative change of the hypervolume that counts as settled", gt=0, le=1)
-    distance: number("accepted mean distance between the fronts of two seeds", gt=0, le=1e3)
 
 
 class Edges(TypedDict):

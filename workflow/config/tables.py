@@ -13,7 +13,7 @@ from operator import itemgetter
 from scripts.identification.settings import IDENTIFICATION, identification_settings
 
 from .entries import ENTRIES, TIGHTER, fill_defaults, resolve, without_tangential
-from .sharing import THREADS, plan, seconds_of
+from .sharing import THREADS, conveyors_of, plan, seconds_of
 
 
 def model_of(config: dict, section: str = "", *, normal: bool = False, without: Collection[str] = ()) -> dict:
@@ -70,11 +70,10 @@ def precision_settings(config: dict, scene: str) -> dict:
 
 def published_scenes(config: dict) -> dict[str, dict]:
     """The settings of each scene that is published for other solvers."""
-    shared = {name: config["published_scenes"][name] for name in ("samples", "tolerance", "compared")}
     precision = config["precision"]
     scenes = {name: {"model": model, "duration": precision["duration"]} for name, model in precision["scenes"].items()}
     return {
-        name: {"scene": name, **shared, **scene, "model": {**config["model"], **scene["model"]}}
+        name: {"scene": name, **scene, "model": {**config["model"], **scene["model"]}}
         for name, scene in {**scenes, **config["published_scenes"]["further"]}.items()
     }
 
@@ -100,12 +99,10 @@ def benchmark_settings(config: dict) -> dict:
     }
 
 
-def scaling_case(config: dict, varied: str, axes: dict, *, shards=None, threads=THREADS, conveyors=1) -> dict:
+def scaling_case(config: dict, varied: str, axes: dict, *, shards=None, threads=THREADS) -> dict:
     """A sweep of the chart of scaling, in the planned number of shards unless `shards` is given."""
     own = {"axes": axes, "needs": "vertical", "duration": 0.02, "tolerance": 1.0e-6}
     entry = fill_defaults(config, "sweeps", own)
-    if conveyors > 1:
-        entry["model"] |= {"z0": 0.0}
     shared = plan(config["sharing"], entry)
     if shards:
         rows = math.ceil(shared.points / shards)
@@ -117,7 +114,7 @@ def scaling_case(config: dict, varied: str, axes: dict, *, shards=None, threads=
         "settings": entry,
         "plan": shared._asdict(),
         "threads": threads,
-        "conveyors": conveyors,
+        "conveyors": conveyors_of(axes, shared.points),
         "measured": shared.shards if is_whole else 1,
     }
 
@@ -136,7 +133,7 @@ def scaling_cases(config: dict) -> list[dict]:
     amplitudes = [{"start": 20.0, "stop": 45.0, "num": number} for number in scaling["conveyors"]]
     return [
         *(scaling_case(config, "points", map_axes(points)) for points in scaling["points"]),
-        *(scaling_case(config, "conveyors", {"acceleration": axis}, conveyors=axis["num"]) for axis in amplitudes),
+        *(scaling_case(config, "conveyors", {"acceleration": axis}) for axis in amplitudes),
         *(scaling_case(config, "threads", few, shards=1, threads=threads) for threads in scaling["threads"]),
         *(scaling_case(config, "shards", few, shards=shards) for shards in scaling["shards"]),
     ]
@@ -179,7 +176,7 @@ TABLES = {
     "sensitivity/continued": curves_settings,
     "sensitivity/meetings": curves_settings,
     "operating/shares": partial(box_settings, "operating"),
-    "operating/regimes": lambda config: None,  # made from other tables only
+    "operating/regimes": partial(box_settings, "operating"),
     "operating/advice": itemgetter("advice"),
     "operating/changes": itemgetter("advice"),
     "operating/throws": partial(box_settings, "throws"),
@@ -224,8 +221,8 @@ def entry_of(config: dict, reference: str) -> dict:
     return config[section].get(name, {}) if section in ENTRIES else {}
 
 
-def settings_of(config: dict, reference: str) -> dict | None:
-    """The settings of the table SECTION/NAME, or None for a table that is made from other tables only."""
+def settings_of(config: dict, reference: str) -> dict:
+    """The settings of the table SECTION/NAME."""
     section, name = reference.split("/")
     if reference in TABLES:
         return TABLES[reference](config)

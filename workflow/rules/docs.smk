@@ -163,22 +163,26 @@ use rule findings as kept_pages with:
         "README and metadata"
 
 
-use rule findings as article_text with:
+use rule findings as article with:
     input:
+        figure_files(),
         **FACTS,
         **ARTICLE_PARTS,
         templates=[ARTICLE],
+        frame=source("workflow/templates/article.typ"),
     output:
-        result("article/article.md"),
+        text=result("article/article.md"),
+        pdf=result("article.pdf"),
     log:
-        log_file("docs/article_text"),
+        log_file("docs/article"),
     benchmark:
-        benchmark_file("docs/article_text")
+        benchmark_file("docs/article")
     params:
+        **stage("docs.article"),
         medium="print",
-        folder=f"figures/{PREFIX}",
+        folder=lambda wildcards, input: f"{os.path.dirname(input[0])}/",
     message:
-        "The text of the article"
+        "The article"
 
 
 use rule findings as site_pages with:
@@ -214,25 +218,6 @@ rule diagrams:
         **stage("docs.diagrams"),
     message:
         "The diagrams of the site"
-    script:
-        "../../scripts/make.py"
-
-
-rule article:
-    input:
-        figure_files(),
-        text=result("article/article.md"),
-        frame=source("workflow/templates/article.typ"),
-    output:
-        result("article.pdf"),
-    log:
-        log_file("docs/article"),
-    benchmark:
-        benchmark_file("docs/article")
-    params:
-        **stage("docs.article"),
-    message:
-        "The article"
     script:
         "../../scripts/make.py"
 

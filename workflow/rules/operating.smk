@@ -3,7 +3,7 @@
 
 rule operating:
     output:
-        **tables_of("operating/shares"),
+        **tables_of("operating/shares", "operating/regimes"),
     log:
         log_file("operating/shares"),
     benchmark:
@@ -13,24 +13,7 @@ rule operating:
     params:
         **stage("operating.shares", "operating/shares"),
     message:
-        "Share of initial conditions that reach each attractor"
-    script:
-        "../../scripts/make.py"
-
-
-rule regimes:
-    input:
-        **tables_of("operating/shares"),
-    output:
-        **tables_of("operating/regimes"),
-    log:
-        log_file("operating/regimes"),
-    benchmark:
-        benchmark_file("operating/regimes")
-    params:
-        **stage("operating.regimes"),
-    message:
-        "Amplitudes with one velocity, with several velocities, and with chaos"
+        "Share of initial conditions that reach each attractor, and regimes over the amplitude"
     script:
         "../../scripts/make.py"
 
