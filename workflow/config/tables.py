@@ -6,7 +6,6 @@ table expects the same settings, so a table that was made from other settings is
 
 import itertools
 import math
-from collections.abc import Collection
 from functools import partial
 from operator import itemgetter
 
@@ -16,17 +15,13 @@ from .entries import ENTRIES, TIGHTER, fill_defaults, resolve, without_tangentia
 from .sharing import THREADS, conveyors_of, plan, seconds_of
 
 
-def model_of(config: dict, section: str = "", *, normal: bool = False, without: Collection[str] = ()) -> dict:
+def model_of(config: dict, section: str = "", *, normal: bool = False) -> dict:
     """The model with the overrides of a section, for tables that state their amplitudes.
 
-    It has no amplitude, so that another default amplitude does not rerun these tables.
-
-    Parameters
-    ----------
-    normal : leave out what does not affect the motion normal to the track
-    without : further parameters that the table states itself
+    It has no amplitude, so that another default amplitude does not rerun these tables. With `normal`, it has only what
+    affects the motion normal to the track.
     """
-    model = {name: value for name, value in config["model"].items() if name not in ("acceleration", *without)}
+    model = {name: value for name, value in config["model"].items() if name != "acceleration"}
     if section:
         model |= config[section].get("model", {})
     return without_tangential(model) if normal else model
@@ -45,7 +40,7 @@ def box_settings(section: str, config: dict) -> dict:
     box = {key: value for key, value in config["operating"].items() if key not in ("acceleration", "resolution")}
     own = {**box, **config[section], "settling": config["solver"]["settling"]}
     stated = ("psi0", "z0", "vz0", *config[section], *own.get("bounds", ()))
-    return {**own, "model": model_of(config, without=stated)}
+    return {**own, "model": {name: value for name, value in model_of(config).items() if name not in stated}}
 
 
 def drive_settings(config: dict) -> dict:
