@@ -196,31 +196,27 @@ def orbits_to_prove(settings: dict, branches: pd.DataFrame, cascade: pd.DataFram
     ]
 
 
-def bounds_columns(balls: dict[str, arb]) -> dict[str, float]:
-    """Columns NAME_low and NAME_high with the bounds of balls by their names, rounded outwards."""
-    columns = {}
-    for name, ball in balls.items():
-        columns[f"{name}_low"], columns[f"{name}_high"] = bounds(ball)
-    return columns
+def bounds_columns(name: str, ball: arb, unit: arb | int = 1) -> dict[str, float]:
+    """Columns NAME_low and NAME_high with the bounds of a ball in a unit, rounded outwards."""
+    low, high = bounds(ball * unit)
+    return {f"{name}_low": low, f"{name}_high": high}
 
 
 def certificate_columns(units: Law, orbit: ProvedOrbit) -> dict[str, float]:
     """The columns with the bounds of a proved orbit."""
     delta, y = orbit.strobe(0)
-    balls = {
-        "delta": delta * units.length,
-        "v": (y - units.beta * delta if delta > 0 else y) * units.speed,
-        "duration": orbit.duration / units.omega,
-        "contact_time": orbit.contact / units.omega,
-        "trace": orbit.trace,
-        "determinant": orbit.determinant,
-    }
+    v = y - units.beta * delta if delta > 0 else y
+    columns = bounds_columns("delta", delta, units.length) | bounds_columns("v", v, units.speed)
+    columns |= bounds_columns("duration", orbit.duration / units.omega)
+    columns |= bounds_columns("contact_time", orbit.contact / units.omega)
+    columns |= bounds_columns("trace", orbit.trace) | bounds_columns("determinant", orbit.determinant)
     for phase, speed in orbit.impacts[:1]:
-        balls |= {"impact_phase": phase, "impact_speed": speed * units.speed}
+        columns |= bounds_columns("impact_phase", phase) | bounds_columns("impact_speed", speed, units.speed)
     with suppress(Refused):
         for number, (real, imag) in enumerate(orbit.multipliers(), start=1):
-            balls |= {f"multiplier_{number}_real": real, f"multiplier_{number}_imag": imag}
-    return bounds_columns(balls)
+            columns |= bounds_columns(f"multiplier_{number}_real", real)
+            columns |= bounds_columns(f"multiplier_{number}_imag", imag)
+    return columns
 
 
 def prove_float_orbit(settings: dict, found: FloatOrbit) -> dict:
@@ -267,8 +263,14 @@ def prove_bifurcation(settings: dict, kind: str, number: int, row: dict) -> dict
     except Refused as refused:
         return about | {"proved": False, "reason": str(refused)}
     begin, end = found.tests
-    proved = bounds_columns({"acceleration": found.acceleration, "test_begin": begin, "test_end": end})
-    return about | {"proved": True, "reason": None} | proved
+    return {
+        **about,
+        "proved": True,
+        "reason": None,
+        **bounds_columns("acceleration", found.acceleration),
+        **bounds_columns("test_begin", begin),
+        **bounds_columns("test_end", end),
+    }
 
 
 def prove_chaos(settings: dict, acceleration: float, saddles: list[FloatOrbit]) -> dict:
