@@ -51,9 +51,8 @@ TABLES = {
 }
 
 TIGHT, TIGHTER = 1e-13, 3e-14
-# All variants are followed for 1000 excitation cycles only. Portraits begin after 20 s, as many cycles of the paper's
-# conveyor, and have fewer samples.
-SHORTENED, SHORTENED_PORTRAIT = {"settling": 1000}, {"begin": 20.0, "samples": 20000}
+# Excitation cycles of each variant and before the first sample of a portrait; number of samples of a portrait.
+CYCLES, SAMPLES = 1000, 20000
 SHIFTS = (1e-11, -1e-11, 2e-11)  # of the initial height, m: a tenth of an atom
 ROUNDS, ENOUGH = 3, 0.2  # most rounds of a timed run, and seconds after which it is not repeated
 FULL, HALF, RIGID, DRAWING = "full model", "half the time", "rigid part", "drawing"
@@ -120,7 +119,8 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     if section == "sweeps" and needs == "vertical":
         shown = shown._replace(drawn=("state",), what="state", settled=True)
     thinned = observables.thin_axes(settings["axes"], budget["points"][section])
-    settings = settings | {"axes": thinned} | (SHORTENED_PORTRAIT if section == "dimensions" else SHORTENED)
+    portrait = {"begin": CYCLES / settings["model"]["frequency"], "samples": SAMPLES}
+    settings = settings | {"axes": thinned} | (portrait if section == "dimensions" else {"settling": CYCLES})
     _, parameters = grid.product(settings["axes"], settings["model"])
     full_settings = settings | {"needs": "feeding", "tolerance": TIGHT}
     # Runs without timing come first, because they compile or load all code that the variants use.
