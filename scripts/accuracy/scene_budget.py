@@ -17,7 +17,7 @@ import pandas as pd
 from accuracy import observables, rigid_part
 from accuracy.observables import SHOWN
 from conveyor.simulation import simulate
-from conveyor.solver.model import unpack
+from conveyor.solver.model import FREQUENCY, unpack
 from conveyor.solver.parallel import for_each_chunk
 from pipeline import fields, grid
 
@@ -119,9 +119,9 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     if section == "sweeps" and needs == "vertical":
         shown = shown._replace(drawn=("state",), what="state", settled=True)
     thinned = observables.thin_axes(settings["axes"], budget["points"][section])
-    portrait = {"begin": CYCLES / settings["model"]["frequency"], "samples": SAMPLES}
+    _, parameters = grid.product(thinned, settings["model"])
+    portrait = {"begin": CYCLES / float(parameters[0, FREQUENCY]), "samples": SAMPLES}
     settings = settings | {"axes": thinned} | (portrait if section == "dimensions" else {"settling": CYCLES})
-    _, parameters = grid.product(settings["axes"], settings["model"])
     full_settings = settings | {"needs": "feeding", "tolerance": TIGHT}
     # Runs without timing come first, because they compile or load all code that the variants use.
     shown.observe(settings)

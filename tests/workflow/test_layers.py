@@ -7,7 +7,7 @@ from scripts.pipeline import source_hash
 from scripts.pipeline.imports import direct_imports
 
 # Packages of the library, lowest first; `conveyor` itself has the functions on top of solver and methods.
-# The module `parameters` imports nothing and is below all of them.
+# The module `parameters` imports nothing, and `arguments` imports `parameters` only: both are below all packages.
 ROOMS = (
     "conveyor.solver",
     "conveyor.methods",
@@ -16,7 +16,7 @@ ROOMS = (
     "conveyor.certificates",
     "conveyor.interface",
 )
-FLOORS = ("conveyor.parameters", *ROOMS, "pipeline", *STAGES, "builds", "report", "")
+FLOORS = ("conveyor.parameters", "conveyor.arguments", *ROOMS, "pipeline", *STAGES, "builds", "report", "")
 
 
 def layer_of(module: str) -> int:

@@ -121,7 +121,7 @@ def test_checks_of_the_config_rerun_nothing():
     scripts = {str(path.relative_to(source_hash.SCRIPTS).with_suffix("")) for path in source_hash.SCRIPTS.rglob("*.py")}
     # Pages show the comments of the config files and where the workflow puts its tables; a stage reads the examples.
     _, packages = source_hash.closure(
-        *scripts - {"docs/config_keys", "docs/pages", "docs/tables_page", "operating/throws"}
+        *scripts - {"docs/article", "docs/config_keys", "docs/pages", "docs/tables_page", "operating/throws"}
     )
     assert "numpy" in packages
     assert not {"pydantic", "pydantic_core", "yaml", "snakemake", "workflow"} & set(packages)
