@@ -115,6 +115,7 @@ def draw_states() -> Figure:
 def to_picture(figure: Figure) -> Image.Image:
     """A figure as an image with the resolution of all PNG files."""
     buffer = io.BytesIO()
+    style.lay_out(figure)
     figure.savefig(buffer, format="png", dpi=style.RESOLUTION)
     return Image.open(buffer).convert("RGB")
 

@@ -9,6 +9,7 @@ import pandas as pd
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
@@ -59,6 +60,7 @@ TEXTBOOK = {"color": "#D55E00", "linewidth": 1.0, "linestyle": (0, (5, 1, 1, 1))
 PLATE_CURVE = {"color": "0.8", "linewidth": 2.5, "label": "conveyor"}
 
 RESOLUTION = 600  # dpi of rasterised parts and of PNG files
+DIGITS = 9  # of positions, in units of the figure's width and height
 PARAMETERS = {
     "font.family": "DejaVu Sans",
     "font.size": 7.5,
@@ -107,11 +109,11 @@ def method_panels(figure: Figure, tables: dict[str, pd.DataFrame], xlabel: str, 
     return list(panels)
 
 
-def from_zero(axes: Axes) -> None:
-    """Start the vertical axis at zero if no value is negative."""
-    low = min((np.nanmin(line.get_ydata()) for line in axes.lines if len(line.get_ydata())), default=0.0)
-    if low >= 0.0:
-        axes.set_ylim(bottom=0.0)
+def from_zero(*panels: Axes) -> None:
+    """Start the vertical axis, which all panels share, at zero if no value is negative."""
+    curves = [line.get_ydata() for axes in panels for line in axes.lines]
+    if min((np.nanmin(values) for values in curves if len(values)), default=0.0) >= 0.0:
+        panels[0].set_ylim(bottom=0.0)
 
 
 def note(axes: Axes, text: str, place: tuple, offset: tuple[float, float] = (0.0, 0.0), **options) -> None:
@@ -172,13 +174,25 @@ def legend_above(figure: Figure, axes: Axes, **options) -> None:
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", **options)
 
 
-def save(figure: Figure, paths: Iterable[str]) -> None:
-    """Write a figure to PDF or PNG files without dates, so that equal figures have equal bytes.
+def lay_out(figure: Figure) -> None:
+    """Lay a figure out for a PDF page, and keep this layout in all files.
 
-    All files have the layout of the first one.
+    Positions are rounded, because their last digits depend on the order of objects in memory, which differs between
+    runs.
     """
+    FigureCanvasPdf(figure)
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    for part in figure.subfigs:
+        part.bbox_relative.set_points(part.bbox_relative.get_points().round(DIGITS))
+    for axes in figure.axes:
+        axes.set_position([round(number, DIGITS) for number in axes.get_position(original=True).bounds])
+
+
+def save(figure: Figure, paths: Iterable[str]) -> None:
+    """Write a figure to PDF or PNG files without dates, so that equal figures have equal bytes."""
     with applied():
+        lay_out(figure)
         for path in paths:
             metadata = {"CreationDate": None} if path.endswith(".pdf") else None
             figure.savefig(path, dpi=RESOLUTION, metadata=metadata)
-            figure.set_layout_engine("none")

@@ -14,7 +14,6 @@ import pytest
 from project import FIGURES, Project
 
 from pipeline import fields
-from redraw import are_equal
 
 
 @pytest.fixture(scope="module")
@@ -67,16 +66,6 @@ def test_a_figure_that_differs_is_named(copy):
     run = redraw(copy)
     assert run.returncode == 1
     assert "1 of 3 figures differ from the archive: figures/fig03.pdf" in run.stderr
-
-
-@pytest.mark.parametrize(
-    ("page", "equal"), [(b"1.000000001 2 l", True), (b"1.001 2 l", False), (b"1 2 m", False), (b"1 l", False)]
-)
-def test_only_the_last_digits_of_the_layout_may_differ(tmp_path, page, equal):
-    files = [tmp_path / "one.pdf", tmp_path / "other.pdf"]
-    for file, content in zip(files, (b"1 2 l", page), strict=True):
-        file.write_bytes(b"stream\n" + content + b"\nendstream")
-    assert are_equal(*files) is equal
 
 
 def test_a_large_archive_is_refused(built, tmp_path):

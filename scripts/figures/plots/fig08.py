@@ -62,8 +62,7 @@ def plot(
                 size=7.0,
                 arrowprops={"arrowstyle": "->", "linewidth": 0.6, "shrinkB": 3.0},
             )
-    for axes in panels:
-        style.from_zero(axes)
+    style.from_zero(*panels)
     handles = [
         Line2D([], [], color=area.get_facecolor(), marker="o", linestyle="", label=area.get_label())
         for area in style.state_handles(*sweeps.values())

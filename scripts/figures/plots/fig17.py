@@ -15,5 +15,5 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame | None = None) -> Figur
         colour = style.LOOKS[role]["color"]
         axes.plot(1e3 * rows.z0, rows.mean_velocity, ".-", color=colour, linewidth=0.4, markersize=2.5)
         axes.set_title(f"{style.LOOKS[role]['label']}, $\\hat{{a}}$ = {rows.attrs['model']['acceleration']:g} m/s²")
-        style.from_zero(axes)
+    style.from_zero(*panels)
     return figure
