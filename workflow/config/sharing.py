@@ -79,14 +79,20 @@ def seconds_of(entry: dict, costs: dict, rows: int) -> float:
     return rows * (run + start) + conveyors * conveyor
 
 
-def plan(sharing: dict, entry: dict) -> Plan:
-    """The division of a sweep into jobs of the requested duration, or longer jobs if there were too many."""
+def plan(sharing: dict, entry: dict, shards: int | None = None) -> Plan:
+    """The division of a sweep into `shards` jobs, or into jobs of the requested duration if it is None.
+
+    They last longer if there would be too many.
+    """
     costs, memory = sharing["seconds"], sharing["megabytes"]
     points = count_points(entry["axes"])
-    # The largest number of rows that take at most this time.
-    limit = THREADS * sharing["job_seconds"]
-    rows = bisect_right(range(1, points + 1), limit, key=lambda rows: seconds_of(entry, costs, rows))
-    rows = max(1, rows, math.ceil(points / sharing["most_jobs"]))
+    if shards:
+        rows = math.ceil(points / shards)
+    else:
+        # The largest number of rows that take at most this time.
+        limit = THREADS * sharing["job_seconds"]
+        rows = bisect_right(range(1, points + 1), limit, key=lambda rows: seconds_of(entry, costs, rows))
+        rows = max(1, rows, math.ceil(points / sharing["most_jobs"]))
     computed, written = memory["row"] * min(rows, BLOCK), memory["written_row"] * min(rows, ROW_GROUP + BLOCK)
     return Plan(
         points,

@@ -12,7 +12,7 @@ from operator import itemgetter
 from scripts.identification.settings import IDENTIFICATION, identification_settings
 
 from .entries import ENTRIES, TIGHTER, fill_defaults, resolve, without_tangential
-from .sharing import THREADS, conveyors_of, plan, seconds_of
+from .sharing import THREADS, conveyors_of, plan
 
 
 def model_of(config: dict, section: str = "", *, normal: bool = False) -> dict:
@@ -48,9 +48,14 @@ def drive_settings(config: dict) -> dict:
     return {**box_settings("drive", config), "margin": config["advice"]["margin"]}
 
 
+def paper_fit(config: dict) -> dict | None:
+    """The fit of Eq. 13 over the paper's amplitudes; None for a conveyor whose config has no such fit."""
+    fit = config["regressions"].get("height", {})
+    return fit if "acceleration" in fit else None
+
+
 def precision_estimates_settings(config: dict) -> dict:
-    """The section with the model, and the fit of Eq. 13 as in the paper (None if the config has no such entry)."""
-    return {**with_model(config, "precision_estimates"), "regression": config["regressions"].get("height")}
+    return {**with_model(config, "precision_estimates"), "regression": paper_fit(config)}
 
 
 def precision_settings(config: dict, scene: str) -> dict:
@@ -98,11 +103,7 @@ def scaling_case(config: dict, varied: str, axes: dict, *, shards=None, threads=
     """A sweep of the chart of scaling, in the planned number of shards unless `shards` is given."""
     own = {"axes": axes, "needs": "vertical", "duration": 0.02, "tolerance": 1.0e-6}
     entry = fill_defaults(config, "sweeps", own)
-    shared = plan(config["sharing"], entry)
-    if shards:
-        rows = math.ceil(shared.points / shards)
-        seconds = seconds_of(entry, config["sharing"]["seconds"], rows)
-        shared = shared._replace(rows=rows, shards=math.ceil(shared.points / rows), seconds=seconds)
+    shared = plan(config["sharing"], entry, shards)
     is_whole = shards or shared.points <= config["scaling"]["made_whole"]
     return {
         "varied": varied,

@@ -1,6 +1,6 @@
 # How accurate, fast and robust the solver is, compared with other methods. Jobs that measure wall times run alone: they take
 # all cores here, and a node of their own on a cluster.
-from workflow.config.tables import budgeted_entries, budgeted_tables, scaling_cases
+from workflow.config.tables import budgeted_entries, budgeted_tables, paper_fit, scaling_cases
 
 
 rule benchmark:
@@ -47,8 +47,7 @@ rule precision:
         "../../scripts/make.py"
 
 
-# The fit of Eq. 13 as in the paper; None for a conveyor whose config has no such entry.
-PAPER_FIT = config["regressions"].get("height")
+PAPER_FIT = paper_fit(config)
 # The tables that each table of the rule `accuracy` is made from; most are made from the config alone.
 COMPARED_TABLES = {
     **dict.fromkeys(("stability", "stability_estimates", "settling_times", "reference_check"), {}),

@@ -23,6 +23,8 @@ CORES = workflow.cores or 1
 # Threads of a job that computes in parallel. Snakemake reserves one core for it, so that two jobs run on two cores at a
 # time: each has serial parts, and together they finish sooner than one after the other.
 JOB_THREADS = min(THREADS, CORES)
+# The findings and the identification need all claims of the paper.
+HAS_ALL_CLAIMS = config["claims"] and config["claims"].keys() >= PAPER["claims"].keys()
 
 
 # -- names of files ----------------------------------------------------------------------------------------------------
@@ -100,6 +102,10 @@ def stage(module, reference=None):
         section, name = reference.format(**wildcards).split("/")
         if section in ENTRIES and name not in config[section]:
             raise WorkflowError(f"the config has no entry {section}.{name}; add it, or name another entry")
+        if section == "identification" and name != "edges" and not HAS_ALL_CLAIMS:
+            raise WorkflowError(
+                f"{table(f'{section}/{name}')} is made from the paper's claims, which this config lacks"
+            )
         return settings_of(config, f"{section}/{name}")
 
     params = {"stage": module, "code": code, "expected": expected}

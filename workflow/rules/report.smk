@@ -24,8 +24,6 @@ POINTS, PAPER_POINTS = (
 )
 REPORT_NOTICE = {"overlays": OVERLAYS, "points": POINTS, "paper_points": PAPER_POINTS} if OVERLAYS else {}
 REPORT_SOURCES = [*sources("scripts/report/*.html"), source("scripts/report/page.css")]
-# The findings quote the claims of the paper.
-HAS_FINDINGS = config["claims"] and config["claims"].keys() >= PAPER["claims"].keys()
 
 
 rule report_figures:
@@ -58,7 +56,7 @@ rule report_figures:
 rule report_summary:
     input:
         REPORT_SOURCES,
-        **({"findings": result("findings.md")} if HAS_FINDINGS else {}),
+        **({"findings": result("findings.md")} if HAS_ALL_CLAIMS else {}),
         claims=table("results/claims"),
         provenance=result("provenance.json"),
     output:
