@@ -12,6 +12,7 @@ import pandas as pd
 
 from conveyor.analysis.attractors import labels
 from conveyor.methods import rigid_part_motion
+from conveyor.methods.restitution import restitution_coefficients
 from conveyor.methods.rigid_part_orbits import RigidOrbit, rigid_orbit
 from conveyor.solver.model import ACCELERATION, FREQUENCY, PARAMETERS, Conveyor, Start, pack
 from conveyor.solver.progress import bar
@@ -43,7 +44,7 @@ CONTACT, RIGID, ONE_NUMBER = "contact", "rigid part, e(u)", "rigid part, one e"
 
 def tabulate_restitution(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Speeds of approach (m/s) and coefficients of restitution of the contact of a parameter vector, shape (16,)."""
-    return SPEEDS, rigid_part_motion.restitution_coefficients(parameters, SPEEDS)
+    return SPEEDS, restitution_coefficients(parameters, SPEEDS)
 
 
 def find_state(row: np.ndarray, restitution: tuple[np.ndarray, np.ndarray], cycles: int) -> str:

@@ -4,7 +4,7 @@ An impact takes no time. The part leaves with e times its speed of approach u, a
 velocity towards the plate's velocity, by at most μ (1 + e) u. When the bounces have shrunk to nothing, the part rests
 on the plate with the normal force N/m = g cos α + a_z cos θ, and slips or sticks until the plate falls away faster
 than g cos α. Between impacts everything has a closed form. The coefficient is a number, or a table over u, for example
-the one of the compliant contact (`restitution_coefficients`).
+the one of the compliant contact (`restitution.restitution_coefficients`).
 """
 
 import math
@@ -13,89 +13,37 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arguments import LARGEST_COORDINATE, LONGEST, check_array, check_time
+from ..arguments import LONGEST, check_array, check_time
 from ..parameters import LAST
 from ..solver import contact, friction, model
 from ..solver.flight import Flight, gap, highest_gap, next_impact
 from ..solver.horizontal import slide
-from ..solver.jit import compiled, compiled_inline, compiled_into_callers
+from ..solver.jit import compiled, compiled_into_callers
 from ..solver.trajectory import IMPACT_LOST, OK, STATUS, TOO_MANY_EVENTS
+from .restitution import restitution_at
+from .rigid_part_rest import (
+    plate_height,
+    plate_rise,
+    plate_speed,
+    rest_end,
+    rest_motion,
+    slip_direction,
+    slip_end,
+    stick_end,
+)
 
 SAMPLE_COLUMNS = ("x", "vx", "z", "vz")
 IMPACT_DTYPE = np.dtype([("time", np.float64), ("speed", np.float64)])
 
-TURN = 2.0 * math.pi
 COLLAPSE = 1e-6  # rad; a bounce shorter than this is the last one
 MAX_EVENTS = 100_000  # within one excitation cycle
 IMPACTS_OF_CYCLE = 100  # on average, for which there is room at first; one jump ends in some dozens of bounces
-CONTACT_TOLERANCE = 1e-14  # of the contact steps that follow an impact
-MAX_CONTACT_STEPS = 10_000  # of one impact; an undamped one takes about ten
-OVERDAMPED = 40.0  # d_c/m times the duration of an undamped impact; over six times critical for a linear contact
-CREEPING = 20.0  # durations of an undamped impact; a contact that takes longer creeps back without a separation
-
 
 # How a part moves.
 FLYING, ARRIVING, RESTING = range(3)
 # The motion at a time: x (m), ẋ (m/s); sign of the slip, 0 for stick. Of a part that flies or arrives: z (m) and ż
 # (m/s); gap (m) and its rate (m/s); time (s) in which the plate, which has just left the part, cannot catch it.
 Motion = namedtuple("Motion", "kind x vx sigma z vz q rate skip")
-
-
-def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
-    """Speed of separation over `speed` of approach (m/s) in the compliant contact, without gravity and excitation.
-
-    The solver's contact steps follow the impact. The coefficient is 0 if the contact is so damped that it creeps back
-    without a separation.
-
-    Raises
-    ------
-    ArithmeticError
-        if the impact does not end within MAX_CONTACT_STEPS
-    """
-    alone = contact.constants(parameters, CONTACT_TOLERANCE)._replace(gravity=0.0, a_z=0.0, scale_v=speed)
-    share = 1.0 / (alone.exponent + 1.0)
-    duration = 3.0 * (speed * speed / (2.0 * share * alone.stiffness)) ** share / speed
-    if alone.damping * duration > OVERDAMPED:
-        return 0.0
-    series = contact.workspace()
-    w, v, time, pulled = 0.0, speed, 0.0, False
-    for _ in range(MAX_CONTACT_STEPS):
-        length = contact.begin_step(alone, series, contact.FIRST, w, v, 0.0, 1.0, pulled)
-        _, w, v, lapse, end = contact.end_step(alone, series, contact.FIRST, w, v, pulled, length)
-        if end == contact.SEPARATION:
-            return -v / speed
-        if end == contact.FORCE_SIGN:
-            pulled = not pulled
-        time += lapse
-        if time > CREEPING * duration:
-            return 0.0
-    raise ArithmeticError(f"an impact at {speed:g} m/s does not end within {MAX_CONTACT_STEPS} contact steps")
-
-
-@compiled
-def restitution_at(speed, speeds, coefficients):
-    """Linear interpolation in a table over ascending `speeds` (m/s), constant beyond its ends."""
-    k = np.searchsorted(speeds, speed)
-    if k == 0:
-        return coefficients[0]
-    if k == len(speeds):
-        return coefficients[-1]
-    share = (speed - speeds[k - 1]) / (speeds[k] - speeds[k - 1])
-    return coefficients[k - 1] + share * (coefficients[k] - coefficients[k - 1])
-
-
-@compiled
-def rest_end(c, theta):
-    """Advance of the phase (rad) from `theta` until the plate falls away from a resting part, a_z cos θ < -g cos α."""
-    if c.a_z <= c.gravity:
-        return math.inf
-    edge = math.acos(-c.gravity / c.a_z)
-    angle = theta % TURN
-    if angle <= edge:
-        return edge - angle
-    if angle < TURN - edge:
-        return 0.0
-    return TURN + edge - angle
 
 
 @compiled
@@ -106,126 +54,6 @@ def safe_flight(theta, omega):
     Half of that time is skipped, because a search that begins at q = 0 begins with rounding errors.
     """
     return max(2.0 * math.sin(theta), 0.0) / omega
-
-
-@compiled
-def one_wave(c, normal):
-    """The amplitude R (m/s²) and the phase δ (rad) of ẍ_s + normal cos θ = R cos(θ + δ)."""
-    cosine, sine = c.a_x * c.cos_shift + normal, c.a_x * c.sin_shift
-    return math.hypot(cosine, sine), math.atan2(sine, cosine)
-
-
-@compiled
-def advance_to(angle, entry, centre):
-    """Advance (rad) from an angle in [0, 2π) to the `entry` of an interval, whose first half ends at its `centre`."""
-    if entry <= angle < centre:
-        return 0.0
-    return (entry if angle < entry else TURN + entry) - angle
-
-
-@compiled
-def stick_end(c, theta):
-    """Advance of the phase (rad) from `theta` until a sticking part begins to slip, |ẍ_s + g sin α| > μ_s N/m."""
-    grip, lift = c.static_friction * c.gravity, c.static_friction * c.a_z
-    # -(ẍ_s + g sin α) exceeds μ_s N/m where R cos(θ + δ) falls below -needed.
-    amplitude, shift = one_wave(c, lift)
-    needed = grip + c.downhill
-    backward = 0.0 if needed < -amplitude else math.inf
-    if abs(needed) < amplitude:
-        backward = advance_to((theta + shift) % TURN, math.acos(-needed / amplitude), math.pi)
-    # ẍ_s + g sin α exceeds μ_s N/m where R cos(θ + δ) rises above `needed`.
-    amplitude, shift = one_wave(c, -lift)
-    needed = grip - c.downhill
-    forward = 0.0 if needed < -amplitude else math.inf
-    if abs(needed) < amplitude:
-        forward = advance_to((theta + shift) % TURN, TURN - math.acos(needed / amplitude), TURN)
-    return min(backward, forward)
-
-
-@compiled
-def slip_after(c, theta, slip, sigma, advance):
-    """Slip velocity ẋ_s - ẋ_p (m/s) of a resting part after an advance of the phase (rad)."""
-    swing = (c.a_x * c.cos_shift - sigma * c.friction * c.a_z) / c.omega
-    turned = c.a_x * c.sin_shift / c.omega * (math.cos(theta + advance) - math.cos(theta))
-    fall = (sigma * c.friction * c.gravity - c.downhill) / c.omega
-    return slip + swing * (math.sin(theta + advance) - math.sin(theta)) - fall * advance + turned
-
-
-@compiled
-def slip_end(c, theta, slip, sigma, limit):
-    """Advance of the phase (rad), up to `limit`, at which the slip velocity of a resting part is back at zero.
-
-    The advance is infinite if there is no zero. The slip velocity is monotonic between known angles, so that no zero is
-    missed.
-    """
-    swing, shift = one_wave(c, -sigma * c.friction * c.a_z)
-    fall = sigma * c.friction * c.gravity - c.downhill
-    edge = math.acos(fall / swing) if abs(fall) < swing else 0.5 * math.pi
-    low = 0.0
-    while low < limit:
-        to_first = (edge - shift - theta - low) % TURN
-        to_second = (-edge - shift - theta - low) % TURN
-        # A part that has just begun to slip starts at such an angle, up to rounding.
-        to_first += TURN if to_first < 1e-9 else 0.0
-        to_second += TURN if to_second < 1e-9 else 0.0
-        high = low + min(to_first, to_second)
-        if sigma * slip_after(c, theta, slip, sigma, high) <= 0.0:
-            while high - low > 1e-15 * (1.0 + high):
-                middle = 0.5 * (low + high)
-                if sigma * slip_after(c, theta, slip, sigma, middle) > 0.0:
-                    low = middle
-                else:
-                    high = middle
-            return high
-        low = high
-    return math.inf
-
-
-@compiled
-def plate_speed(c, theta):
-    """ẋ_s (m/s) at the phase `theta` (rad)."""
-    return c.a_x / c.omega * friction.along(c, math.sin(theta), math.cos(theta))[0]
-
-
-@compiled
-def rest_motion(c, theta, x, vx, sigma, tau):
-    """x (m) and ẋ (m/s) of a resting part after the time `tau` (s); `sigma` is the sign of the slip, 0 for stick."""
-    phase = theta + c.omega * tau
-    sine = (math.sin(phase) - math.sin(theta)) / c.omega
-    cosine = (math.cos(theta) - math.cos(phase)) / c.omega**2
-    if sigma == 0.0:
-        _, begin = friction.along(c, math.sin(theta), math.cos(theta))
-        speed, end = friction.along(c, math.sin(phase), math.cos(phase))
-        return x + c.a_x * ((begin - end) / c.omega**2), c.a_x / c.omega * speed
-    fall = 0.5 * c.gravity * tau * tau
-    lift = c.a_z * (cosine - math.sin(theta) / c.omega * tau)
-    rub = sigma * c.friction
-    x, vx = slide(c, x, vx, tau)
-    return x + rub * (fall + lift), vx + rub * (c.gravity * tau + c.a_z * sine)
-
-
-@compiled
-def slip_direction(c, theta, slip):
-    """Sign of the slip of a resting part, 0 for stick (Filippov's condition)."""
-    if slip != 0.0:
-        return math.copysign(1.0, slip)
-    sine, cosine = math.sin(theta), math.cos(theta)
-    pull = friction.pull(c, sine, cosine)
-    if abs(pull) <= c.static_friction * (c.gravity + c.a_z * cosine):
-        return 0.0
-    return math.copysign(1.0, pull)
-
-
-@compiled_inline
-def plate_height(c, theta):
-    """z_s (m) at the phase `theta` (rad)."""
-    return -c.a_z / c.omega**2 * math.cos(theta)
-
-
-@compiled_inline
-def plate_rise(c, theta):
-    """ż_s (m/s) at the phase `theta` (rad)."""
-    return c.a_z / c.omega * math.sin(theta)
 
 
 @compiled_into_callers
@@ -395,16 +223,6 @@ class Summary(NamedTuple):
     impacts: int
     max_gap: float  # m
     status: str  # one of trajectory.STATUS
-
-
-def restitution_coefficients(parameters: np.ndarray, speeds: np.ndarray) -> np.ndarray:
-    """Coefficients of restitution of the compliant contact for `speeds` of approach (m/s, positive), shape (k,).
-
-    They belong to the contact alone, without gravity and excitation, and are accurate to about 1e-6. A speed that is
-    not positive raises ValueError.
-    """
-    speeds = check_array("speeds", speeds, np.finfo(np.float64).tiny, LARGEST_COORDINATE, "m/s")
-    return np.array([restitution_coefficient(parameters, speed) for speed in speeds])
 
 
 def _follow(parameters, restitution, times, n_impacts=0):

@@ -7,7 +7,8 @@ import pytest
 from scipy.optimize import brentq
 
 from conveyor import Conveyor, Start, simulate
-from conveyor.methods import rigid_part_motion
+from conveyor.methods import rigid_part_motion, rigid_part_rest
+from conveyor.methods.restitution import restitution_coefficients
 from conveyor.solver import contact
 from conveyor.solver.model import conveyor_motion, pack
 
@@ -195,7 +196,7 @@ def test_restitution_of_a_linear_contact(damping_ratio):
         mass, stiffness = 0.7e-3, 2e4
         damping = 2.0 * zeta * math.sqrt(stiffness * mass)
         conveyor = Conveyor(exponent=1.0, stiffness=stiffness, damping=damping, tension=tension)
-        found = rigid_part_motion.restitution_coefficients(pack(conveyor, Start()), np.array([0.01, 1.0]))
+        found = restitution_coefficients(pack(conveyor, Start()), np.array([0.01, 1.0]))
         np.testing.assert_allclose(found, expected, rtol=3e-6)
 
 
@@ -204,7 +205,7 @@ def test_restitution_of_a_hertz_contact():
     speeds = np.array([0.05, 0.35])
 
     def coefficients(damping, speeds=speeds):
-        return rigid_part_motion.restitution_coefficients(pack(Conveyor(damping=damping), Start()), speeds)
+        return restitution_coefficients(pack(Conveyor(damping=damping), Start()), speeds)
 
     np.testing.assert_allclose(coefficients(0.0), 1.0, rtol=1e-6)
     np.testing.assert_allclose(coefficients(0.3), coefficients(0.6, 32.0 * speeds), rtol=1e-6)
@@ -218,7 +219,7 @@ def test_restitution_agrees_with_the_event_driven_solver():
     """An impact at 20 m/s is so short that gravity has no effect."""
     conveyor = Conveyor(acceleration=0.0, gravity=1e-3)
     run = simulate(conveyor, Start(z="conveyor", vz=-20.0), duration=1e-3, tolerance=1e-12)
-    found = rigid_part_motion.restitution_coefficients(pack(conveyor, Start()), np.array([20.0]))
+    found = restitution_coefficients(pack(conveyor, Start()), np.array([20.0]))
     assert run.z_end > 0.0
     assert found[0] == pytest.approx(run.vz_end / 20.0, rel=1e-6)
 
@@ -231,7 +232,7 @@ def test_a_stiff_contact_tends_to_the_rigid_part():
         damping = 2.0 * damping_ratio * math.sqrt(stiffness * mass)
         conveyor = Conveyor(exponent=1.0, stiffness=stiffness, damping=damping, tension="clip")
         parameters = pack(conveyor, start)
-        (e,) = rigid_part_motion.restitution_coefficients(parameters, np.array([0.1]))
+        (e,) = restitution_coefficients(parameters, np.array([0.1]))
         rigid = rigid_part_motion.run(parameters, duration, e)
         compliant = simulate(conveyor, start, duration=duration)
         assert rigid.impacts == compliant.impacts
@@ -263,7 +264,7 @@ def test_too_many_events():
         (lambda p: rigid_part_motion.run(p, 1.0, ([0.2, 0.1], [0.5, 0.6])), "ascending"),
         (lambda p: rigid_part_motion.run(p, 1.0, ([0.2, 0.1, 0.3], [0.5, 0.6])), "equal length"),
         (lambda p: rigid_part_motion.sample(p, np.array([-1.0]), 0.5), "times"),
-        (lambda p: rigid_part_motion.restitution_coefficients(p, np.array([0.0])), "speeds"),
+        (lambda p: restitution_coefficients(p, np.array([0.0])), "speeds"),
     ],
 )
 def test_errors_name_the_argument(call, word):
@@ -290,6 +291,6 @@ def test_stick_ends_where_friction_no_longer_holds_the_part(track):
         slips = np.abs(pull) > grip
         assert slips.any()
         if not slips[0]:  # a part that slips does not stick
-            found.append(rigid_part_motion.stick_end(c, theta))
+            found.append(rigid_part_rest.stick_end(c, theta))
             assert found[-1] == pytest.approx(ahead[slips.argmax()], abs=1e-4)
     assert len(found) > 5
