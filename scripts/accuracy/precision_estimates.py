@@ -8,7 +8,7 @@ import pandas as pd
 from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.basins import hyperbola_fit
 from conveyor.analysis.bifurcations import periodic_orbits
-from conveyor.analysis.chaos import lyapunov
+from conveyor.analysis.chaos import lyapunov, pairs
 from conveyor.analysis.fractals import box_counting, correlation_sum
 from conveyor.analysis.fractals.reference_sets import DIMENSIONS
 from conveyor.parameters import normal_gravity
@@ -47,10 +47,10 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
     for duration in settings["durations"]:
         cycles = round(duration / cycle)
         estimates = {
-            "pair of trajectories": lyapunov.finite_difference_estimate(
+            "pair of trajectories": pairs.finite_difference_estimate(
                 here, there, EPSILON * unit, duration=duration, **pair
             )[0],
-            "pair, set back each cycle": lyapunov.renormalised_pair(
+            "pair, set back each cycle": pairs.renormalised_estimate(
                 here[0], orbit.state, distance=EPSILON, transient=0, cycles=cycles, tolerance=TOLERANCE
             ),
             "variational equation": lyapunov.spectrum(

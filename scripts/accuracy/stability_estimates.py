@@ -10,7 +10,7 @@ import numpy as np
 
 from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.bifurcations import periodic_orbits
-from conveyor.analysis.chaos import lyapunov
+from conveyor.analysis.chaos import lyapunov, pairs
 from conveyor.analysis.fractals import box_counting, correlation_sum
 from conveyor.analysis.fractals.reference_sets import DIMENSIONS
 from conveyor.analysis.fractals.scaling_region import Dimension
@@ -91,7 +91,7 @@ def exponent_rows(settings: dict, model: dict, progress: str | None) -> list[dic
                 there[:, PARAMETERS.index(case["perturb"])] += run["epsilon"]
                 bound = saturated_estimate(here, case["output"], run["epsilon"], run["duration"])
                 for method in ("event", "euler"):
-                    value = lyapunov.finite_difference_estimate(
+                    value = pairs.finite_difference_estimate(
                         here, there, **run, output=case["output"], last=LAST, samples=SAMPLES, method=method
                     )[0]
                     found = run | {"value": float(value), "error": math.nan, "truth": truth, "bound": bound}

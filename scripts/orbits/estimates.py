@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from conveyor.analysis.chaos import lyapunov
+from conveyor.analysis.chaos import pairs
 from conveyor.solver.model import PARAMETERS
 from pipeline import fields, grid
 
@@ -18,7 +18,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     axes, parameters = grid.product(settings["axes"], settings["model"])
     perturbed = parameters.copy()
     perturbed[:, PARAMETERS.index(settings["perturb"])] += settings["epsilon"]
-    exponents = lyapunov.finite_difference_estimate(
+    exponents = pairs.finite_difference_estimate(
         parameters, perturbed, settings["epsilon"], **options, threads=threads, progress=progress
     )
     return {**axes, "lambda": exponents}

@@ -1,6 +1,6 @@
-"""Lyapunov exponents: from the variational equation, from pairs of trajectories, and as in the paper.
+"""Lyapunov exponents from the variational equation.
 
-The variational exponents multiply the exact linearisation of the stroboscopic map. They satisfy
+They multiply the exact linearisation of the stroboscopic map, and satisfy
 λ1 + λ2 = -(d_c/m) × (share of time with contact force) identically.
 """
 
@@ -20,10 +20,8 @@ from ...arguments import (
     check_threads,
     check_tolerance,
 )
-from ...methods import fixed_step
-from ...simulation import DEFAULT_STEP, DEFAULT_TOLERANCE
+from ...simulation import DEFAULT_TOLERANCE
 from ...solver import contact, trajectory
-from ...solver.horizontal import SAMPLES
 from ...solver.jit import compiled
 from ...solver.model import FREQUENCY, PSI0
 from ...solver.parallel import for_each_chunk
@@ -259,97 +257,3 @@ def spectrum_on_attractors(
     for column, values in zip(found, followed, strict=True):
         column[periods == 0] = values
     return found
-
-
-def renormalised_pair(
-    parameters: np.ndarray,
-    state: np.ndarray,
-    *,
-    distance: float = 1e-9,
-    transient: int = 200,
-    cycles: int = 2000,
-    tolerance: float = 1e-12,
-) -> float:
-    """Largest exponent (1/s) of one trajectory, from a neighbour that is set back to a distance after each cycle.
-
-    It is independent of `spectrum`, because it uses no variational equation.
-
-    Parameters
-    ----------
-    parameters : float64, shape (16,)
-    state : stroboscopic state at ψ0, δ (m) and v (m/s), shape (2,)
-    distance : of the neighbour, relative to the scales of the part at rest
-    transient, cycles : excitation cycles that are discarded, and counted
-    tolerance : of the contact steps
-    """
-    c = contact.constants(parameters, tolerance)
-    scale = np.array([c.scale_w**2, c.scale_v])
-    here = np.array(state, dtype=np.float64)
-    there = here + distance * scale / math.sqrt(2.0)
-    total = 0.0
-    for n in range(transient + cycles):
-        stroboscopic_map.follow(parameters, tolerance, here, 1)
-        stroboscopic_map.follow(parameters, tolerance, there, 1)
-        separation = (there - here) / scale
-        stretch = float(np.hypot(*separation)) / distance
-        there = here + separation / stretch * scale
-        if n >= transient:
-            total += math.log(stretch)
-    return total / (cycles * c.period)
-
-
-def finite_difference_estimate(
-    parameters: np.ndarray,
-    perturbed: np.ndarray,
-    epsilon: float,
-    *,
-    output: str = "vx",
-    duration: float = 1.0,
-    last: float = 0.25,
-    samples: int = 501,
-    method: str = "event",
-    tolerance: float = DEFAULT_TOLERANCE,
-    step: float = DEFAULT_STEP,
-    threads: int = 1,
-    progress: str | None = None,
-) -> np.ndarray:
-    """The paper's estimate of the Lyapunov exponent, (1/t) log(|Δ output| / ε) (Eq. 23), averaged over a run's end.
-
-    Parameters
-    ----------
-    parameters, perturbed : float64, shape (n, 16): the trajectories and their neighbours
-    epsilon : size of the perturbation, in the unit of the perturbed parameter
-    output : the signal that is compared, one of horizontal.SAMPLES
-    last, samples : the mean is taken over `samples` equidistant times in the last part of the run
-    duration, method, tolerance, step, threads, progress : as in ensemble.run
-
-    Returns
-    -------
-    float64, shape (n,), 1/s. A difference below the resolution of the signal counts as that resolution.
-    """
-    if not 0.0 < last < 1.0:
-        raise ValueError(f"last = {last!r} must be a share of the run in (0, 1): at its beginning Eq. 23 has no value")
-    column = SAMPLES.index(output)
-    feeding = output not in ("z", "vz", "contact_force")
-    times = np.linspace((1.0 - last) * duration, duration, samples)
-    if method != "event":
-        indices = np.rint(times / step).astype(np.int64)
-        times = indices * step
-    both = np.ascontiguousarray(np.stack([parameters, perturbed], axis=1).reshape(-1, parameters.shape[1]))
-    signals = np.empty((len(both), len(times)))
-
-    def work(begin, end):
-        rows = both[begin:end]
-        if method == "event":
-            moments = np.tile(times, (len(rows), 1))
-            samples, _ = trajectory.integrate(rows, moments, tolerance=tolerance, feeding=feeding)
-        else:
-            _, samples, _ = fixed_step.follow(rows, step, indices[-1], method, indices)
-        signals[begin:end] = samples[:, :, column]
-
-    # Chunks of fixed-step runs fill the lanes of a register.
-    for_each_chunk(work, len(both), threads=threads, chunk=2 if method == "event" else 8, progress=progress)
-    here, there = signals[0::2], signals[1::2]
-    resolution = np.finfo(np.float64).eps * np.maximum(np.abs(here), np.abs(there)).max(axis=1, keepdims=True)
-    difference = np.maximum(np.abs(there - here), resolution)
-    return np.mean(np.log(difference / epsilon) / times, axis=1)

@@ -6,7 +6,7 @@ import pytest
 from conveyor import Conveyor, Start
 from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.bifurcations import periodic_orbits
-from conveyor.analysis.chaos import lyapunov
+from conveyor.analysis.chaos import lyapunov, pairs
 from conveyor.solver.model import ACCELERATION, FREQUENCY, VZ0, pack
 
 DECAY = Conveyor().damping / Conveyor().mass
@@ -33,7 +33,7 @@ def test_chaos_regular_motion_and_a_pair_of_trajectories():
     found = lyapunov.spectrum(rows, transient=300, cycles=200)
     states = stroboscopic_map.initial_states(rows, 1e-12)
     pair = [
-        lyapunov.renormalised_pair(row, state, transient=300, cycles=4000)
+        pairs.renormalised_estimate(row, state, transient=300, cycles=4000)
         for row, state in zip(rows, states, strict=True)
     ]
     assert pair[0] == pytest.approx(found.lambda_1[0], abs=0.2)
@@ -113,7 +113,7 @@ def test_the_papers_estimate_of_a_flight(method):
     pushed = here.copy()
     pushed[:, VZ0] += 1e-3
     for output, wanted in (("vz", 0.0), ("z", np.mean(np.log(times) / times))):
-        found = lyapunov.finite_difference_estimate(here, pushed, 1e-3, output=output, method=method, step=5e-4)
+        found = pairs.finite_difference_estimate(here, pushed, 1e-3, output=output, method=method, step=5e-4)
         assert found == pytest.approx([wanted], abs=1e-9)
 
 
