@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from accuracy import precision
-from conveyor.methods import peers
+from conveyor.methods import leg
 from figures.plots import fig08, fig15, work_precision
 
 
@@ -63,7 +63,7 @@ def test_failures_are_listed_in_order_and_missing_peers_are_named():
 
 
 def test_every_outcome_has_a_marker():
-    outcomes = {*peers.STATUSES, precision.WRONG, precision.THROUGH} - {peers.NOT_INSTALLED}
+    outcomes = {*leg.STATUSES, precision.WRONG, precision.THROUGH} - {leg.NOT_INSTALLED}
     assert set(work_precision.OUTCOMES) == outcomes
 
 

@@ -9,12 +9,12 @@ import numpy as np
 SIGN, FLIGHT, FORWARD, BACKWARD, STICK = range(5)
 
 
-class GaveUp(Exception):
-    """More evaluations than allowed."""
+STATUSES = ("ok", "gave up", "stuck at an event", "step too small", "event lost", "not finite", "not installed")
+OK, GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST, NOT_FINITE, NOT_INSTALLED = STATUSES
 
 
-class EventLost(Exception):
-    """The search for an event finds no change of sign; the argument is the number of evaluations of the leg."""
+class Failed(Exception):
+    """A run does not reach its end; the arguments are its status and the evaluations of the leg that has not ended."""
 
 
 class Mode(NamedTuple):

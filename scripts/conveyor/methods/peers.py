@@ -24,15 +24,29 @@ from ..solver import model
 from ..solver.jit import compiled
 from . import cyrk_peer, heyoka_peer, scipy_peer, sundials_peer
 from .force_law import contact_acceleration, friction_acceleration
-from .leg import BACKWARD, FLIGHT, FORWARD, SIGN, STICK, EventLost, GaveUp, Leg, Mode, Task
+from .leg import (
+    BACKWARD,
+    FLIGHT,
+    FORWARD,
+    GAVE_UP,
+    NOT_FINITE,
+    NOT_INSTALLED,
+    OK,
+    SIGN,
+    STEP_TOO_SMALL,
+    STICK,
+    STUCK,
+    Failed,
+    Leg,
+    Mode,
+    Task,
+)
 from .rivals import RIVALS, installed_version
 
 HEYOKA = "heyoka"
 INTEGRATORS = tuple(RIVALS)
 TREATMENTS = ("sign", "events", "modes")
 NO_TIMES = np.empty(0)
-STATUSES = ("ok", "gave up", "stuck at an event", "step too small", "event lost", "not finite", "not installed")
-OK, GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST, NOT_FINITE, NOT_INSTALLED = STATUSES
 
 # Where "modes" puts the variable of an event, in units of the plate's motion: a few rounding errors beside zero. At
 # zero or on the wrong side the integrator finds the same event again, or never again, and the part falls through.
@@ -52,7 +66,7 @@ class Summary(NamedTuple):
     vz: float  # m/s
     mean_velocity: float  # m/s, over the last part of the run
     evaluations: int  # of the right-hand side, those for Jacobians included
-    status: str  # one of STATUSES
+    status: str  # one of leg.STATUSES
     samples: np.ndarray  # x, ẋ, z, ż at the wanted times, shape (k, 4)
     events: np.ndarray  # s, the times of impacts and separations, as far as the treatment finds them
 
@@ -182,10 +196,6 @@ def put_beside(
         state[1] = vx + beside_vx
 
 
-class Stuck(Exception):
-    """The same mode and state at the same time again: the run would not end."""
-
-
 @dataclass
 class Trajectory:
     """The state of a run."""
@@ -218,7 +228,7 @@ def leg_of(trajectory: Trajectory, task: Task) -> Leg:
 
 
 def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, treatment: str, rtol: float):
-    """State at the time `end` (s), or None where the integrator fails; absolute tolerances are `rtol` of `scales`."""
+    """State at the time `end` (s), else an error Failed; absolute tolerances are `rtol` of `scales`."""
     parameters = trajectory.parameters
     atol = rtol * np.maximum(scales(parameters), SMALLEST_SCALE)
     t, state = begin, state.copy()
@@ -233,9 +243,9 @@ def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray,
         trajectory.evaluations += leg.evaluations
         trajectory.samples.extend(leg.samples)
         if trajectory.evaluations >= trajectory.limit:
-            raise GaveUp
+            raise Failed(GAVE_UP, 0)
         if leg.ended is None and leg.t < end:
-            return None
+            raise Failed(STEP_TOO_SMALL, 0)
         if leg.t > t:
             met.clear()
         t, state = leg.t, leg.state
@@ -247,8 +257,8 @@ def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray,
             if treatment == "modes":
                 put_beside(parameters, t, state, ended, trajectory.mode, beside)
         here = trajectory.mode, state.tobytes()
-        if here in met:
-            raise Stuck
+        if here in met:  # The run would not end.
+            raise Failed(STUCK, 0)
         met.add(here)
     return state
 
@@ -304,15 +314,10 @@ def run(
     middle = (1.0 - LAST) * duration
     try:
         before = advance(trajectory, 0.0, middle, state, treatment, tolerance)
-        after = None if before is None else advance(trajectory, middle, duration, before, treatment, tolerance)
-    except GaveUp:
-        return lost(GAVE_UP, max_evaluations)
-    except Stuck:
-        return lost(STUCK, trajectory.evaluations)
-    except EventLost as error:
-        return lost(EVENT_LOST, trajectory.evaluations + error.args[0])
-    if after is None:
-        return lost(STEP_TOO_SMALL, trajectory.evaluations)
+        after = advance(trajectory, middle, duration, before, treatment, tolerance)
+    except Failed as failure:
+        status, evaluations = failure.args
+        return lost(status, min(trajectory.evaluations + evaluations, max_evaluations))
     if not np.isfinite(after).all():
         return lost(NOT_FINITE, trajectory.evaluations)
     x, vx, z, vz = map(float, after)

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from .leg import EventLost, GaveUp, Leg, Mode, Task
+from .leg import EVENT_LOST, GAVE_UP, Failed, Leg, Mode, Task
 
 
 def follow(method: str, mode: Mode, task: Task) -> Leg:
@@ -11,17 +11,15 @@ def follow(method: str, mode: Mode, task: Task) -> Leg:
 
     Raises
     ------
-    GaveUp
-        at the limit of evaluations
-    EventLost
-        if the interpolant of LSODA does not meet its own steps
+    Failed
+        at the limit of evaluations, or if the interpolant of LSODA does not meet its own steps
     """
     parameters = mode.counting_parameters()
     derivatives = np.empty(4)
 
     def right_side(t, state):
         if parameters[-1] >= task.limit:
-            raise GaveUp
+            raise Failed(GAVE_UP, task.limit)
         mode.counted_rates(derivatives, t, state, parameters, mode.number)
         return derivatives.copy()
 
@@ -31,7 +29,7 @@ def follow(method: str, mode: Mode, task: Task) -> Leg:
         with np.errstate(over="ignore", invalid="ignore"):
             found = solve_ivp(right_side, (task.t, task.end), task.state, events=mode.terminal_events(), **options)
     except ValueError as error:
-        raise EventLost(int(parameters[-1])) from error
+        raise Failed(EVENT_LOST, int(parameters[-1])) from error
     ended = None
     if found.status == 1:
         ended = next(place for place, times in enumerate(found.t_events) if len(times))

@@ -5,8 +5,8 @@ import pytest
 from project import read_config
 
 from conveyor import simulate
-from conveyor.methods import peers, rivals
-from conveyor.methods.leg import GaveUp, Leg, Mode, Task
+from conveyor.methods import leg, peers, rivals
+from conveyor.methods.leg import Failed, Leg, Mode, Task
 from pipeline import grid
 
 CONFIG = read_config()
@@ -25,7 +25,7 @@ def test_a_run_that_finds_the_same_event_for_ever_says_so(monkeypatch):
 
     monkeypatch.setattr(peers.scipy_peer, "follow", same_event)
     run = peers.run(scene("riding"), 1.0, "DOP853", "events", 1e-8, 200_000)
-    assert run.status == peers.STUCK
+    assert run.status == leg.STUCK
     assert np.isnan(run.mean_velocity)
 
 
@@ -39,7 +39,7 @@ def test_a_run_whose_event_is_not_found_says_so_and_counts_its_evaluations(monke
 
     monkeypatch.setattr(peers.scipy_peer, "solve_ivp", lose)
     run = peers.run(scene("riding"), 1.0, "LSODA", "events", 1e-8, 1000)
-    assert (run.status, run.evaluations) == (peers.EVENT_LOST, 7)
+    assert (run.status, run.evaluations) == (leg.EVENT_LOST, 7)
 
 
 def test_scipy_makes_as_many_evaluations_as_allowed():
@@ -52,7 +52,7 @@ def test_scipy_makes_as_many_evaluations_as_allowed():
 
     mode = Mode(counted_rates, scene("riding"), peers.SIGN, ())
     task = Task(0.0, 1.0, np.ones(4), np.empty(0), 1e-12, np.full(4, 1e-12), 100)
-    with pytest.raises(GaveUp):
+    with pytest.raises(Failed, match=leg.GAVE_UP):
         peers.scipy_peer.follow("RK45", mode, task)
     assert len(calls) == 100
 
@@ -76,12 +76,12 @@ def test_a_mode_begins_on_its_own_side_of_the_event(mode):
 
 @pytest.mark.parametrize("tolerance", [1e-6, 1e-8])
 def test_a_run_with_modes_meets_no_event_twice(tolerance):
-    assert peers.run(scene("riding"), 1.0, "DOP853", "modes", tolerance, 200_000).status == peers.OK
+    assert peers.run(scene("riding"), 1.0, "DOP853", "modes", tolerance, 200_000).status == leg.OK
 
 
 def test_a_run_that_takes_too_many_steps_gives_up():
     run = peers.run(scene("jumping"), 1.0, "DOP853", "sign", 1e-8, 2000)
-    assert (run.status, run.evaluations) == (peers.GAVE_UP, 2000)
+    assert (run.status, run.evaluations) == (leg.GAVE_UP, 2000)
 
 
 OPTIONAL = [name for name, rival in rivals.RIVALS.items() if rival.distribution != "scipy"]
@@ -96,7 +96,7 @@ def test_a_rival_meets_the_reference(integrator):
     truth = simulate(conveyor, start, duration=0.3, tolerance=1e-13)
     times = np.arange(1, 43) * 7e-3
     run = peers.run(scene("jumping"), 0.3, integrator, "modes", 1e-9, 200_000, times=times)
-    assert run.status == peers.OK
+    assert run.status == leg.OK
     assert run.mean_velocity == pytest.approx(truth.mean_velocity(), rel=1e-3)
     wanted = truth.sample(times)
     np.testing.assert_allclose(run.samples[:, 0], wanted["x"], atol=1e-6)
@@ -112,4 +112,4 @@ def test_a_rival_meets_the_reference(integrator):
 
 def test_a_rival_that_is_not_installed_says_so(monkeypatch):
     monkeypatch.setattr(peers, "installed_version", lambda integrator: None)
-    assert peers.run(scene("jumping"), 0.1, "CyRK DOP853", "modes", 1e-9, 1000).status == peers.NOT_INSTALLED
+    assert peers.run(scene("jumping"), 0.1, "CyRK DOP853", "modes", 1e-9, 1000).status == leg.NOT_INSTALLED
