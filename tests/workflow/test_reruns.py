@@ -39,7 +39,12 @@ def test_simulations_after_the_contact(edited):
 
 def test_labels_after_the_exponents(edited):
     project = edited("scripts/conveyor/analysis/chaos/lyapunov.py", *REMARK)
-    assert project.planned(*TARGETS) == {"shards": 2, "sweeps": 2, "estimates": 2, **PLOTS}
+    assert project.planned(*TARGETS) == {"shards": 2, "sweeps": 2, "plot": 2}
+
+
+def test_no_labels_after_the_pairs_of_trajectories(edited):
+    project = edited("scripts/conveyor/analysis/chaos/pairs.py", *REMARK)
+    assert project.planned(*TARGETS) == {"estimates": 2, "plot": 1}
 
 
 def test_no_exponent_after_the_states(edited):
