@@ -20,7 +20,7 @@ from scipy.ndimage import generate_binary_structure, maximum_filter, minimum_fil
 from conveyor.analysis.attractors.convergence import MAX_PERIOD
 from conveyor.analysis.attractors.labels import CHAOS, FIRST, LONG_FLIGHT, SECOND, STATES, UNDECIDED
 from conveyor.analysis.chaos import lyapunov
-from conveyor.methods import peers
+from conveyor.methods import modes
 from conveyor.simulation import simulate
 from conveyor.solver import trajectory
 from conveyor.solver.horizontal import VZ, Z
@@ -88,7 +88,7 @@ def repeated_period(strobes: np.ndarray, scale: np.ndarray, close: float, repeat
 def simulate_until_settled(row: np.ndarray, settings: dict) -> Settled:
     """Simulate the motion of a parameter vector, shape (16,), until it repeats itself."""
     row = row.copy()
-    scale = peers.scales(row)[2:]
+    scale = modes.scales(row)[2:]
     times = np.arange(1, BLOCK + 1)[None] / row[FREQUENCY]
     options = {"tolerance": settings["tolerance"], "feeding": False, "reuse": False}
     period = cycles = 0

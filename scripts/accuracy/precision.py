@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor.analysis.attractors import labels
-from conveyor.methods import fixed_step, peers
+from conveyor.methods import fixed_step, modes, peers
 from conveyor.simulation import Run, simulate
 from conveyor.solver.model import conveyor_motion, pack
 from conveyor.solver.polynomial import ORDER
@@ -144,7 +144,7 @@ def trajectory_errors(
 ) -> tuple[float, float]:
     """RMS error of x and z in units of the plate's motion, and largest error of an event time in cycles."""
     positions, events = sample_trajectory(method, run, settings)
-    scale = peers.scales(grid.packed(settings["model"]))[[0, 2]]
+    scale = modes.scales(grid.packed(settings["model"]))[[0, 2]]
     error = math.sqrt(np.mean(((positions - truth[0]) / scale) ** 2))
     if len(events) != len(truth[1]):
         return error, math.nan
@@ -199,7 +199,7 @@ def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[s
     """
     reference_method = Method("event", NO_REUSE, TRUTH, None)
     truth = run_method(reference_method, settings)
-    _, *scale = peers.scales(grid.packed(settings["model"]))
+    _, *scale = modes.scales(grid.packed(settings["model"]))
     listed = methods(settings)
     for method in listed:
         run_method(method, settings | SHORT)

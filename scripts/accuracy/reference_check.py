@@ -4,7 +4,7 @@ import numpy as np
 
 from accuracy import multiprecision
 from accuracy.precision import TRUTH, contact_changes, sample_times
-from conveyor.methods import peers
+from conveyor.methods import modes
 from conveyor.simulation import simulate
 from pipeline import fields, grid
 
@@ -31,7 +31,7 @@ def make(settings: dict) -> dict[str, np.ndarray]:
     states, events = multiprecision.simulate(conveyor, start, times, settings["digits"])
     run = simulate(conveyor, start, duration=settings["duration"], tolerance=TRUTH)
     own = run.sample(times)
-    scales = peers.scales(grid.packed(settings["model"]))
+    scales = modes.scales(grid.packed(settings["model"]))
     rows = [
         {"quantity": name, "time": time, "value": value, "difference": (there - value) / scale}
         for name, scale, column in zip(("x", "vx", "z", "vz"), scales, states.T, strict=True)

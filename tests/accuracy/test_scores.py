@@ -9,7 +9,7 @@ from project import ROOT
 
 import score
 from accuracy import published_scene, scores
-from conveyor.methods import peers
+from conveyor.methods import modes, peers
 
 MODEL = {"acceleration": 40.0, "z0": 3e-4}
 SETTINGS = {"scene": "short", "model": MODEL, "duration": 0.06}
@@ -41,7 +41,7 @@ def test_the_reference_agrees_with_an_independent_integrator(scene):
     row = scores.pack_scene(scene)
     run = peers.run(row, scene["duration"], "DOP853", "modes", 1e-13, 10**6)
     end = [scene["reference"][name][-1] for name in ("x", "vx", "z", "vz")]
-    assert np.abs((np.array([run.x, run.vx, run.z, run.vz]) - end) / peers.scales(row)).max() < 1e-10
+    assert np.abs((np.array([run.x, run.vx, run.z, run.vz]) - end) / modes.scales(row)).max() < 1e-10
 
 
 def test_the_scene_is_complete(scene):

@@ -5,7 +5,7 @@ import pytest
 from project import read_config
 
 from conveyor import simulate
-from conveyor.methods import leg, peers, rivals
+from conveyor.methods import leg, modes, peers, rivals
 from conveyor.methods.leg import Failed, Leg, Mode, Task
 from pipeline import grid
 
@@ -50,27 +50,27 @@ def test_scipy_makes_as_many_evaluations_as_allowed():
         parameters[-1] += 1.0
         derivatives[:] = state
 
-    mode = Mode(counted_rates, scene("riding"), peers.SIGN, ())
+    mode = Mode(counted_rates, scene("riding"), leg.SIGN, ())
     task = Task(0.0, 1.0, np.ones(4), np.empty(0), 1e-12, np.full(4, 1e-12), 100)
     with pytest.raises(Failed, match=leg.GAVE_UP):
         peers.scipy_peer.follow("RK45", mode, task)
     assert len(calls) == 100
 
 
-@pytest.mark.parametrize("mode", [peers.FLIGHT, peers.FORWARD, peers.BACKWARD, peers.STICK])
+@pytest.mark.parametrize("mode", [leg.FLIGHT, leg.FORWARD, leg.BACKWARD, leg.STICK])
 def test_a_mode_begins_on_its_own_side_of_the_event(mode):
     """A part that leaves or meets the plate has a gap of the right sign, a part that begins to slip has such a slip."""
     parameters, t = scene("riding"), 0.0123
-    for ended in (peers.gap_of, peers.slip_of):
-        z, _, vx, _ = peers.plate_motion(parameters, t)
+    for ended in (modes.gap_of, modes.slip_of):
+        z, _, vx, _ = modes.plate_motion(parameters, t)
         state = np.array([0.0, vx, z, 0.0])
-        peers.put_beside(parameters, t, state, ended, mode)
-        if ended is peers.gap_of:
-            assert np.sign(peers.gap_of(t, state, parameters)) == (1.0 if mode == peers.FLIGHT else -1.0)
+        modes.put_beside(parameters, t, state, ended, mode, peers.BESIDE)
+        if ended is modes.gap_of:
+            assert np.sign(modes.gap_of(t, state, parameters)) == (1.0 if mode == leg.FLIGHT else -1.0)
             assert state[1] == vx
         else:
-            wanted = {peers.FORWARD: 1.0, peers.BACKWARD: -1.0}.get(mode, 0.0)
-            assert np.sign(peers.slip_of(t, state, parameters)) == wanted
+            wanted = {leg.FORWARD: 1.0, leg.BACKWARD: -1.0}.get(mode, 0.0)
+            assert np.sign(modes.slip_of(t, state, parameters)) == wanted
             assert state[2] == z
 
 

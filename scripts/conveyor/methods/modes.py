@@ -1,0 +1,145 @@
+"""The model for integrators of other libraries: right-hand side, events that end a mode, and the mode that follows."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from ..solver import model
+from ..solver.jit import compiled
+from .force_law import contact_acceleration, friction_acceleration
+from .leg import BACKWARD, FLIGHT, FORWARD, SIGN, STICK
+
+
+@compiled
+def plate_motion(parameters, t):
+    """z_s (m), ż_s, ẋ_s (m/s) and ẍ_s (m/s²) at the time t (s) (Eqs. 3, 4, 10)."""
+    omega = 2.0 * math.pi * parameters[model.FREQUENCY]
+    phase = omega * t + parameters[model.PSI0]
+    a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
+    a_x = parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE])
+    sine, cosine = math.sin(phase), math.cos(phase)
+    ahead, straight = math.sin(parameters[model.PHASE_SHIFT]), math.cos(parameters[model.PHASE_SHIFT])
+    sine_x, cosine_x = sine * straight + cosine * ahead, cosine * straight - sine * ahead
+    return -a_z / omega**2 * cosine, a_z / omega * sine, a_x / omega * sine_x, a_x * cosine_x
+
+
+@compiled
+def gravity_of(parameters):
+    """The components of gravity normal to the track and down along it, m/s²."""
+    gravity, inclination = parameters[model.GRAVITY], parameters[model.INCLINATION]
+    return gravity * math.cos(inclination), gravity * math.sin(inclination)
+
+
+@compiled
+def normal_force(parameters, t, state):
+    """Gap (m) and F_c/m (m/s²) as if in contact, of the state (x, ẋ, z, ż)."""
+    z, vz, _, _ = plate_motion(parameters, t)
+    gap = state[2] - z
+    mass = parameters[model.MASS]
+    push = contact_acceleration(
+        min(gap, 0.0),
+        state[3] - vz,
+        parameters[model.STIFFNESS] / mass,
+        parameters[model.DAMPING] / mass,
+        parameters[model.EXPONENT],
+        parameters[model.TENSION],
+    )
+    return gap, push
+
+
+@compiled
+def rates(t, state, parameters, mode):
+    """Derivative of the state (x, ẋ, z, ż), shape (4,)."""
+    gap, push = normal_force(parameters, t, state)
+    if mode == FLIGHT or (mode == SIGN and gap > 0.0):
+        push = 0.0
+    _, _, vx, ax = plate_motion(parameters, t)
+    normal, downhill = gravity_of(parameters)
+    if mode == STICK:
+        forward = ax
+    else:
+        slip = vx - state[1]
+        if mode == FORWARD:
+            slip = 1.0
+        elif mode == BACKWARD:
+            slip = -1.0
+        rub = friction_acceleration(push, slip, parameters[model.FRICTION], parameters[model.TENSION])
+        forward = rub - downhill
+    return np.array([state[1], forward, state[3], push - normal])
+
+
+@compiled
+def counted_rates(derivatives, t, state, parameters, mode):
+    """Fill in `rates`; an additional last parameter counts the calls."""
+    parameters[-1] += 1.0
+    derivatives[:] = rates(t, state, parameters, mode)
+
+
+@compiled
+def gap_of(t, state, parameters):
+    """The gap (m)."""
+    return state[2] - plate_motion(parameters, t)[0]
+
+
+@compiled
+def slip_of(t, state, parameters):
+    """The slip velocity ẋ_s - ẋ_p (m/s)."""
+    return plate_motion(parameters, t)[2] - state[1]
+
+
+@compiled
+def pull_of(parameters, t):
+    """The friction per mass that a part needs to stick, m/s²."""
+    return plate_motion(parameters, t)[3] + gravity_of(parameters)[1]
+
+
+@compiled
+def grip_of(t, state, parameters):
+    """The friction per mass that is available beyond what a part needs to stick, m/s²."""
+    _, push = normal_force(parameters, t, state)
+    return parameters[model.STATIC_FRICTION] * push - abs(pull_of(parameters, t))
+
+
+# The event functions that end each mode, and the direction of their zeros.
+ENDS: dict[int, tuple[tuple[Callable, float], ...]] = {
+    SIGN: (),
+    FLIGHT: ((gap_of, -1.0),),
+    FORWARD: ((gap_of, 1.0), (slip_of, -1.0)),
+    BACKWARD: ((gap_of, 1.0), (slip_of, 1.0)),
+    STICK: ((gap_of, 1.0), (grip_of, -1.0)),
+}
+
+
+def next_mode(parameters: np.ndarray, t: float, state: np.ndarray, ended: Callable | None, mode: int) -> int:
+    """The mode that follows `mode` after the event `ended`; None for both at the start."""
+    z, _, vx, _ = plate_motion(parameters, t)
+    if state[2] > z if ended is None else ended is gap_of and mode != FLIGHT:
+        return FLIGHT
+    slips = ended not in (slip_of, grip_of) and state[1] != vx
+    if not slips and ended is not grip_of and grip_of(t, state, parameters) >= 0.0:
+        return STICK
+    return FORWARD if (vx - state[1] if slips else pull_of(parameters, t)) > 0.0 else BACKWARD
+
+
+def scales(parameters: np.ndarray) -> np.ndarray:
+    """The scales of x, ẋ, z, ż (m, m/s) for absolute tolerances: amplitudes of the plate's motion, shape (4,)."""
+    omega = 2.0 * math.pi * parameters[model.FREQUENCY]
+    a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
+    a_x = parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE])
+    return np.array([a_x / omega**2, a_x / omega, a_z / omega**2, a_z / omega])
+
+
+def put_beside(parameters: np.ndarray, t: float, state: np.ndarray, ended: Callable, mode: int, beside: float) -> None:
+    """Change `state` after the event `ended` to be just on the side of the zero that belongs to the next `mode`.
+
+    beside : distance from the zero, in units of `scales`
+    """
+    z, _, vx, _ = plate_motion(parameters, t)
+    _, beside_vx, beside_z, _ = beside * scales(parameters)
+    if ended is gap_of:
+        state[2] = z + (beside_z if mode == FLIGHT else -beside_z)
+    elif mode == FORWARD:
+        state[1] = vx - beside_vx
+    elif mode == BACKWARD:
+        state[1] = vx + beside_vx
