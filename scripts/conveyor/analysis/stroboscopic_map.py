@@ -18,7 +18,7 @@ import numpy as np
 
 from ..solver import contact, polynomial
 from ..solver.contact import FIRST
-from ..solver.jit import compiled, compiled_inline, no_refcount
+from ..solver.jit import compiled, compiled_inline, copy, no_refcount
 from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
 from ..solver.polynomial import ORDER, SIZE
 from ..solver.trajectory import (
@@ -243,15 +243,15 @@ def follow(parameters, tolerance, state, cycles):
         status = advance(c, series, state, c.psi0, c.period, no_tangent, found)
         if status != OK:
             return status, strobes, features
-        strobes[n, :] = state
-        features[n, :] = found
+        copy(strobes[n], state)
+        copy(features[n], found)
         same = strobes[n, 0] == strobes[mark, 0] and strobes[n, 1] == strobes[mark, 1]
         # The times since the last separation are part of what repeats itself.
         if mark < n and same and features[n, AIRBORNE] == features[mark, AIRBORNE]:
             for later in range(n + 1, cycles):
-                strobes[later, :] = strobes[later - n + mark, :]
-                features[later, :] = features[later - n + mark, :]
-            state[:] = strobes[cycles - 1, :]
+                copy(strobes[later], strobes[later - n + mark])
+                copy(features[later], features[later - n + mark])
+            copy(state, strobes[cycles - 1])
             return OK, strobes, features
         if n == 2 * mark + 1:
             mark = n
@@ -282,8 +282,9 @@ def monodromy(parameters, tolerance, state, cycles):
     for n in range(cycles):
         tangent = np.eye(2)
         status = advance(c, series, state, c.psi0, c.period, tangent, found)
-        features[n, :] = found
-        matrices[n, :, :] = tangent.T
+        copy(features[n], found)
+        for k in range(2):
+            copy(matrices[n, k], tangent[:, k])
         if status != OK:
             return status, matrices, features
     return OK, matrices, features

@@ -22,7 +22,7 @@ from ..parameters import FIXED_STEP_METHODS as METHODS
 from ..parameters import LAST
 from ..solver import contact, friction, model
 from ..solver.horizontal import IMPACT, SAMPLES, SEPARATED, name_events
-from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_refcount
+from ..solver.jit import compiled, compiled_inline, compiled_into_callers, copy, no_refcount
 from ..solver.trajectory import NOT_FINITE, OK, STATUS
 from . import euler_lanes as lanes
 from .force_law import contact_acceleration, friction_acceleration
@@ -167,7 +167,7 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
             if c.static_friction > c.friction:
                 vx, rub, last_slip[k] = stick(c, vx, rub, push, gap, sine, cosine, last_slip[k])
             for number in range(first, n_sampled):
-                samples[k, number] = (x, vx, z, vz, c.mass * push, c.mass * rub + 0.0)  # no negative zero
+                copy(samples[k, number], (x, vx, z, vz, c.mass * push, c.mass * rub + 0.0))  # no negative zero
                 results[k, lanes.IMPACT_SPEED] = results[k, lanes.PEAK_FORCE] = 0.0
             if i < n_steps:
                 count_step(c, k, i * step, sine, vz, gap, push, in_contact, events, results)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ..solver import model
-from ..solver.jit import compiled
+from ..solver.jit import compiled, copy
 from .force_law import contact_acceleration, friction_acceleration
 from .leg import BACKWARD, FLIGHT, FORWARD, SIGN, STICK
 
@@ -73,7 +73,7 @@ def rates(t, state, parameters, mode):
 def counted_rates(derivatives, t, state, parameters, mode):
     """Fill in `rates`; an additional last parameter counts the calls."""
     parameters[-1] += 1.0
-    derivatives[:] = rates(t, state, parameters, mode)
+    copy(derivatives, rates(t, state, parameters, mode))
 
 
 @compiled

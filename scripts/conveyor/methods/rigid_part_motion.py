@@ -18,7 +18,7 @@ from ..parameters import LAST
 from ..solver import contact, friction, model
 from ..solver.flight import Flight, gap, highest_gap, next_impact
 from ..solver.horizontal import slide
-from ..solver.jit import compiled, compiled_into_callers
+from ..solver.jit import compiled, compiled_into_callers, copy
 from ..solver.trajectory import IMPACT_LOST, OK, STATUS, TOO_MANY_EVENTS
 from .restitution import restitution_at
 from .rigid_part_rest import (
@@ -130,11 +130,11 @@ def sample_motion(c, motion, theta, base, t, tau, times, samples, sampled):
         if motion.kind == RESTING:
             phase = theta + c.omega * ahead
             x, vx = rest_motion(c, theta, motion.x, motion.vx, motion.sigma, ahead)
-            samples[sampled] = (x, vx, plate_height(c, phase), plate_rise(c, phase))
+            copy(samples[sampled], (x, vx, plate_height(c, phase), plate_rise(c, phase)))
         else:
             x, vx = slide(c, motion.x, motion.vx, ahead)
             z = motion.z + (motion.vz - 0.5 * c.gravity * ahead) * ahead
-            samples[sampled] = (x, vx, z, motion.vz - c.gravity * ahead)
+            copy(samples[sampled], (x, vx, z, motion.vz - c.gravity * ahead))
         sampled += 1
     return sampled
 

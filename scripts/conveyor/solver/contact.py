@@ -98,7 +98,7 @@ def force(c, w, v):
     return c.stiffness * max(w, 0.0) ** (2.0 * c.exponent) + c.damping * v
 
 
-@compiled_inline
+@compiled_into_callers
 def impulse_of_tension(c, fastest, lapse):
     """Bound on the impulse per mass (m/s) of a force that pulls during a time `lapse` (s).
 
@@ -116,7 +116,7 @@ def is_hertz(c):
 expand_hertz = compiled(unrolled.expand_hertz)
 
 
-@compiled
+@compiled_into_callers
 def power_term(series, w, power, exponent, n):
     """Coefficient n ≥ 1 of w^exponent (row `power`) from the lower coefficients, for w_0 > 0."""
     total = 0.0

@@ -8,7 +8,7 @@ the lower bound reaches the plate before the part does, so that a step to its ro
 import math
 from collections import namedtuple
 
-from .jit import compiled, compiled_inline
+from .jit import compiled, compiled_inline, compiled_into_callers
 
 # A part stays below the plate's highest point for sqrt(a_z / g) / π cycles at most, which is a thousand within
 # parameters.RANGES, with about ten steps in each. A search of more steps has failed.
@@ -122,7 +122,7 @@ def highest_gap(flight, duration):
     return highest
 
 
-@compiled_inline
+@compiled_into_callers
 def summit(flight, low, high):
     """Largest gap (m) between two times of a flight by safeguarded Newton steps; the rate is positive at the first."""
     tau = 0.5 * (low + high)

@@ -34,7 +34,7 @@ def pull(c, sine, cosine):
     return acceleration + c.downhill if c.downhill != 0.0 else acceleration
 
 
-@compiled_inline
+@compiled_into_callers
 def keeps_slipping(c, segment, piece, slip, plate, gain, fastest):
     """Whether bounds alone show that the slip velocity does not vanish until a contact step ends.
 

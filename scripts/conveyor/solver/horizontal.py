@@ -133,7 +133,7 @@ def sample_contact(c, step, segment, tau, sample):
     sample[FRICTION_FORCE] = c.mass * rub
 
 
-@compiled_inline
+@compiled_into_callers
 def first_segment(c, motion, horizontal):
     """The Segment that begins with a contact step."""
     speed_z = c.a_z / c.omega

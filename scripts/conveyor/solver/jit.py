@@ -1,9 +1,9 @@
-"""The decorators of compiled functions, and two operations that Python has no word for.
+"""The decorators of compiled functions, and operations that numba compiles badly or has no word for.
 
 `compiled` is for a function that is called from Python, or rarely. Numba compiles it by itself; a caller jumps to it.
 `compiled_inline` is for a small function that runs several times in each step. Numba compiles it by itself, and LLVM
 copies its machine code into every caller, because passing a conveyor's constants would take longer than the function.
-`compiled_into_callers` is for a long function with one or two callers. Numba copies its source into them and never
+`compiled_into_callers` is for any other function with one or two callers. Numba copies its source into them and never
 compiles it alone, which saves about a third of the time to compile.
 """
 
@@ -43,6 +43,16 @@ def compiled_inline(function):
 def compiled_into_callers(function):
     """`compiled`, with its source copied into every compiled caller."""
     return compiled(function, inline="always")
+
+
+@compiled_inline
+def copy(target, source):
+    """Copy the numbers of a tuple, or of an array of one dimension, to an array of the same length.
+
+    Numba takes a second and a half to compile `target[:] = source`, because of the message for unequal lengths.
+    """
+    for k in range(len(source)):
+        target[k] = source[k]
 
 
 @intrinsic

@@ -34,7 +34,7 @@ def force_and_rate(c, series, at, s):
     return contact.force(c, w, v), force_rate(c, w, v, value(series, at + contact.COSINE, s))
 
 
-@compiled_inline
+@compiled_into_callers
 def is_monotonic(c, motion, piece):
     """Whether the force of a whole contact step, from `motion` to the end of its `piece`, is largest at an end."""
     if force_rate(c, piece.w, piece.v, piece.cosine) >= 0.0:
@@ -82,7 +82,7 @@ def largest_force(c, series, at, low, high):
     return largest
 
 
-@compiled_inline
+@compiled_into_callers
 def largest_force_at_ends(c, motion, piece):
     """The larger F_c/m (m/s²) at the ends of a whole contact step."""
     return max(contact.force(c, motion.w, motion.v), contact.force(c, piece.w, piece.v))

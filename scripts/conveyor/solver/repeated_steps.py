@@ -11,7 +11,7 @@ import numpy as np
 
 from . import peaks
 from .contact import FIRST, ROWS
-from .jit import compiled_inline
+from .jit import compiled_into_callers
 from .polynomial import SIZE
 from .vertical import CONTACT, Piece
 
@@ -36,14 +36,14 @@ def new_arrays() -> tuple[np.ndarray, np.ndarray]:
     return np.empty((FIRST + PLACES * ROWS, SIZE)), np.empty((PLACES, COLUMNS))
 
 
-@compiled_inline
+@compiled_into_callers
 def forget(kept):
     """Forget all steps."""
     for place in range(PLACES):
         kept.steps[place, BEGIN_T] = np.inf
 
 
-@compiled_inline
+@compiled_into_callers
 def clear(kept):
     """Forget all steps, and zero the rows that all steps share."""
     for row in range(FIRST):
@@ -52,7 +52,7 @@ def clear(kept):
     forget(kept)
 
 
-@compiled_inline
+@compiled_into_callers
 def first_row(kept, place):
     """The first row of a step's series. A place is zeroed when it is first used, because most places never are."""
     row = FIRST + place * ROWS
@@ -63,7 +63,7 @@ def first_row(kept, place):
     return row
 
 
-@compiled_inline
+@compiled_into_callers
 def repeats(c, kept, place, motion):
     """Whether the contact step that begins with a Motion begins where the kept step began."""
     step = kept.steps[place]
@@ -76,7 +76,7 @@ def repeats(c, kept, place, motion):
     )
 
 
-@compiled_inline
+@compiled_into_callers
 def keep(kept, place, motion, piece):
     """Keep the contact step `piece` that begins with `motion`."""
     step = kept.steps[place]
@@ -87,14 +87,14 @@ def keep(kept, place, motion, piece):
     step[PEAK] = np.nan
 
 
-@compiled_inline
+@compiled_into_callers
 def beginning(kept, place):
     """w, v, sine and cosine from which the series of a kept step is expanded."""
     step = kept.steps[place]
     return step[BEGIN_W], step[BEGIN_V], step[BEGIN_SINE], step[BEGIN_COSINE]
 
 
-@compiled_inline
+@compiled_into_callers
 def recall(kept, place):
     """The Piece of a kept step."""
     step = kept.steps[place]
@@ -102,7 +102,7 @@ def recall(kept, place):
     return Piece(CONTACT, step[DURATION], step[LENGTH], end, step[END_W], step[END_V], step[END_SINE], step[END_COSINE])
 
 
-@compiled_inline
+@compiled_into_callers
 def known_peak(c, kept, place, motion, piece):
     """Largest F_c/m (m/s²) of a whole contact step if it is kept, or is at an end of the step; NaN otherwise."""
     peak = kept.steps[place, PEAK]

@@ -52,7 +52,7 @@ from .vertical import (
 BEGIN_OF_CYCLE = -math.pi
 
 
-@compiled_inline
+@compiled_into_callers
 def time_into_cycle(c):
     """The time (s) in its cycle of the initial phase ψ0."""
     return ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega

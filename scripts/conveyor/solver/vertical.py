@@ -56,7 +56,7 @@ def motion_at(c, q, rate, t, theta):
     return Motion(t, theta, sine, cosine, touching, w, v, pulled, z, vz, q, rate)
 
 
-@compiled
+@compiled_into_callers
 def press_on(c, cosine):
     """√penetration, speed of approach and elapsed time just after a part at relative rest begins to sink in.
 
@@ -191,7 +191,7 @@ def is_finite(motion):
     return math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)
 
 
-@compiled_inline
+@compiled_into_callers
 def in_cycle(c, motion, t, origin):
     """The same Motion at the time t (s) of another cycle, which begins at the phase `origin` (rad)."""
     theta = origin + c.omega * t

@@ -71,11 +71,13 @@ def stretches_of(parameters, state, tolerance, phase, transient, cycles):
     # Velocities count in units of ω × length, which makes both directions comparable.
     tangent = np.eye(2)
     for n in range(-transient, cycles):
-        tangent[:, 1] *= c.omega
+        for k in range(2):
+            tangent[k, 1] *= c.omega
         status = stroboscopic_map.advance(c, series, state, phase, c.period, tangent, features)
         if status != trajectory.OK:
             return status, stretches, contact_times
-        tangent[:, 1] /= c.omega
+        for k in range(2):
+            tangent[k, 1] /= c.omega
         stretching.orthonormalise(tangent, stretches[n] if n >= 0 else discarded)
         if n >= 0:
             contact_times[n] = features[stroboscopic_map.CONTACT_TIME]
