@@ -233,3 +233,15 @@ def test_the_reduced_config_serves_other_conveyors_too(name):
     found = load_config(DEFAULT_FILES, [], merged(read_config("reduced"), example(name)))
     assert found.config["uncertainty"]["claims"] == []
     assert found.config["operating"]["starts"] == read_config("reduced")["operating"]["starts"]
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_no_fit_over_the_amplitudes_of_the_paper(name):
+    assert settings_of(config_of(example(name)), "results/precision_estimates")["regression"] is None
+    assert settings_of(by_methods(CONFIG), "results/precision_estimates")["regression"]["paper"]
+
+
+def test_tables_made_from_the_claims_of_the_paper_say_so(built):
+    run = built.snakemake("results/identification/printed.parquet", "--dry-run")
+    assert run.returncode == 1
+    assert "printed.parquet needs the paper's claims, which this config lacks; use the paper's config" in run.stdout

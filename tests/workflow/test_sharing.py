@@ -92,3 +92,11 @@ def test_an_expensive_sweep_is_refused_with_its_cost_and_the_key():
     assert line.endswith(f"or raise sharing.core_hours = {SHARING['core_hours']:g}")
     enough = {"sharing": {"core_hours": 1.01 * shared.core_hours}, "sweeps": {"mine": huge}}
     assert problems(merged(CONFIG, enough)) == []
+
+
+def test_a_number_of_shards_can_be_given():
+    entry = resolve(merged(CONFIG, {"sweeps": {"mine": sweep(z0=span(5e-4, 10))}}), "sweeps", "mine")
+    one, three = plan(SHARING, entry, 1), plan(SHARING, entry, 3)
+    assert (one.rows, one.shards, three.rows, three.shards) == (10, 1, 4, 3)
+    assert one.seconds > three.seconds
+    assert one.memory > three.memory

@@ -80,9 +80,9 @@ def seconds_of(entry: dict, costs: dict, rows: int) -> float:
 
 
 def plan(sharing: dict, entry: dict, shards: int | None = None) -> Plan:
-    """The division of a sweep into `shards` jobs, or into jobs of the requested duration if it is None.
+    """The division of a sweep into `shards` jobs, or, if `shards` is None, into jobs of the requested duration.
 
-    They last longer if there would be too many.
+    Jobs last longer if there would be too many of them.
     """
     costs, memory = sharing["seconds"], sharing["megabytes"]
     points = count_points(entry["axes"])

@@ -104,7 +104,7 @@ def stage(module, reference=None):
             raise WorkflowError(f"the config has no entry {section}.{name}; add it, or name another entry")
         if section == "identification" and name != "edges" and not HAS_ALL_CLAIMS:
             raise WorkflowError(
-                f"{table(f'{section}/{name}')} is made from the paper's claims, which this config lacks"
+                f"{table(f'{section}/{name}')} needs the paper's claims, which this config lacks; use the paper's config"
             )
         return settings_of(config, f"{section}/{name}")
 
