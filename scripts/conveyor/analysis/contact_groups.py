@@ -1,0 +1,49 @@
+"""Dimensionless groups of a contact, whose ranges fit any conveyor.
+
+With ω = 2πf and the gravity g normal to the track, the stiffness is the group K = (k_c/m) g^(p-1)/ω^(2p), as in
+`dimensionless_groups`. By dimensional analysis of m z̈ = k z^p, an impact at the speed g/ω lasts about K^(-1/(p+1))/ω.
+The damper takes about the share
+
+    L = D K^(-1/(p+1)),   D = d_c/(m ω),
+
+of the speed in such an impact: to first order in the damping, and up to a factor of order one. Contacts with equal loss
+L have nearly the same coefficient of restitution. For a Hooke contact (p = 1), L is twice the damping ratio.
+
+Searches over contacts go over K and L instead of k_c and d_c. The amplitudes at which states of motion change vary
+least along lines of equal loss, and a rectangle of K and L has no corner in which all parts jump, or none.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..solver import model
+
+
+def units(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Stiffness (N/m^p) of a contact with K = 1, damping (N s/m) with D = 1, and the exponent: each of shape (...)."""
+    mass, exponent = parameters[..., model.MASS], parameters[..., model.EXPONENT]
+    omega = 2.0 * np.pi * parameters[..., model.FREQUENCY]
+    gravity = parameters[..., model.GRAVITY] * np.cos(parameters[..., model.INCLINATION])
+    return mass * omega ** (2.0 * exponent) / gravity ** (exponent - 1.0), mass * omega, exponent
+
+
+def groups_of_contact(
+    stiffness: ArrayLike, damping: ArrayLike, parameters: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """The groups K and L of contacts.
+
+    Parameters
+    ----------
+    stiffness, damping : k_c (N/m^p) and d_c (N s/m), arrays of equal shape, or numbers
+    parameters : packed parameters of the conveyor, shape (16,), or one row for each contact; its contact is not used
+    """
+    unit, unit_of_damping, exponent = units(parameters)
+    group = np.asarray(stiffness) / unit
+    return group, np.asarray(damping) / unit_of_damping * group ** (-1.0 / (exponent + 1.0))
+
+
+def contact_of_groups(group: ArrayLike, loss: ArrayLike, parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Stiffness k_c (N/m^p) and damping d_c (N s/m) from K and L: the inverse of `groups_of_contact`."""
+    unit, unit_of_damping, exponent = units(parameters)
+    group = np.asarray(group)
+    return unit * group, unit_of_damping * np.asarray(loss) * group ** (1.0 / (exponent + 1.0))
