@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .arguments import LONGEST, check_array, check_choice, check_count, check_packed, check_threads
+from .arguments import LONGEST, check_array, check_choice, check_count, check_packed, check_threads, check_tolerance
 from .methods import fixed_step
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, check_run
 from .solver import trajectory, vertical_lanes
@@ -114,3 +114,70 @@ def run(
     columns["impacts"] = columns["impacts"].astype(np.int64)
     columns["status"] = np.array(STATUS, dtype=object)[columns["status"].astype(np.int64)]
     return columns
+
+
+def transits(
+    parameters: np.ndarray,
+    lengths: np.ndarray,
+    longest: np.ndarray,
+    *,
+    begin: np.ndarray,
+    tolerance: float = DEFAULT_TOLERANCE,
+    threads: int = 1,
+    progress: str | None = None,
+) -> dict[str, np.ndarray]:
+    """Follow every part along tracks of several lengths, on each until it arrives or its longest time has passed.
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 16), rows as from model.pack
+    lengths : of the tracks, m, ascending, shape (k,)
+    longest : longest time on each track, s, ascending, shape (k,)
+    begin : time (s), at most the first of `longest`, from which impacts and forces count on a single track, shape (n,)
+    tolerance, threads, progress : as in `run`
+
+    Returns
+    -------
+    dict of arrays: `arrival`, the time (s) at which a part has travelled each length for the first time, NaN if it is
+    late, shape (n, k); `velocity` (m/s), of late parts what they have travelled over the longest time, shape (n, k);
+    `impact_speed` (m/s) and `peak_force` (N), the largest ones from `begin` on, NaN for parts that arrive earlier,
+    shape (n,); `status`, shape (n,): "ok", or why the run ended early. Numbers of failed runs are NaN.
+
+    Raises
+    ------
+    ValueError
+        names the argument that cannot be used
+    """
+    lengths = check_array("lengths", lengths, np.finfo(np.float64).tiny, np.inf, "m")
+    longest = check_array("longest", longest, np.finfo(np.float64).tiny, LONGEST, "s")
+    if lengths.ndim != 1 or lengths.shape != longest.shape:
+        raise ValueError(f"longest has the shape {longest.shape}, but lengths has the shape {lengths.shape}")
+    for name, values in (("lengths", lengths), ("longest", longest)):
+        if (np.diff(values) <= 0.0).any():
+            raise ValueError(f"{name} must ascend")
+    parameters, threads, tolerance = check_packed(parameters), check_threads(threads), check_tolerance(tolerance)
+    begin = np.broadcast_to(check_array("begin", begin, 0.0, longest[0], "s", least=0), len(parameters))
+    times = np.column_stack([begin, np.tile(longest, (len(parameters), 1))])
+    arrival, travelled = np.empty((2, len(parameters), len(lengths)))
+    peaks, codes = np.empty((len(parameters), 2)), np.empty(len(parameters), dtype=np.int64)
+
+    def work(first, behind):
+        rows = slice(first, behind)
+        targets = {"distances": lengths, "arrivals": arrival[rows]}
+        samples, results = trajectory.integrate(parameters[rows], times[rows], tolerance=tolerance, **targets)
+        travelled[rows] = samples[:, 1:, X]
+        peaks[rows] = results[:, [trajectory.IMPACT_SPEED, trajectory.PEAK_FORCE]]
+        codes[rows] = results[:, trajectory.CODE]
+        return np.count_nonzero(codes[rows] != trajectory.OK)
+
+    for_each_chunk(work, len(parameters), threads=threads, chunk=64, progress=progress)
+    arrival[arrival > longest] = np.nan
+    velocity = np.where(np.isnan(arrival), travelled / longest, lengths / arrival)
+    arrival[codes != trajectory.OK] = velocity[codes != trajectory.OK] = np.nan
+    peaks[arrival[:, -1] <= begin] = np.nan
+    impact_speed, peak_force = peaks.T
+    status = np.array(STATUS, dtype=object)[codes]
+    return {
+        **{"arrival": arrival, "velocity": velocity, "status": status},
+        **{"impact_speed": impact_speed, "peak_force": peak_force},
+    }

@@ -56,14 +56,19 @@ def starts_of_box(settings: dict) -> np.ndarray:
     return low + (high - low) * np.random.default_rng(settings["seed"]).random((settings["starts"], 3))
 
 
+def set_starts(rows: np.ndarray, starts: np.ndarray) -> None:
+    """Write initial conditions, shape (n, 3), into packed parameters, shape (n, 16)."""
+    height, velocity, phase = starts.T
+    stroke = rows[:, ACCELERATION] * np.sin(rows[:, ANGLE]) / (2.0 * math.pi * rows[:, FREQUENCY]) ** 2
+    rows[:, PSI0], rows[:, VZ0] = phase, velocity
+    rows[:, Z0] = height - stroke * np.cos(phase)  # Eq. 4
+
+
 def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:
     """Packed parameters, shape (m n, 16), of n initial conditions, shape (n, 3), at each of m amplitudes."""
     _, conveyors = grid.product({"acceleration": list(amplitudes)}, model)
     rows = np.repeat(conveyors, len(starts), axis=0)
-    height, velocity, phase = np.tile(starts, (len(amplitudes), 1)).T
-    stroke = rows[:, ACCELERATION] * np.sin(rows[:, ANGLE]) / (2.0 * math.pi * rows[:, FREQUENCY]) ** 2
-    rows[:, PSI0], rows[:, VZ0] = phase, velocity
-    rows[:, Z0] = height - stroke * np.cos(phase)  # Eq. 4
+    set_starts(rows, np.tile(starts, (len(amplitudes), 1)))
     return rows
 
 

@@ -86,8 +86,12 @@ def integrate(
     reuse: bool = True,
     event_times: np.ndarray | None = None,
     event_kinds: np.ndarray | None = None,
+    distances: np.ndarray | None = None,
+    arrivals: np.ndarray | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Follow parts until the last of their `times` and sample them there.
+
+    With `distances`, a part is followed no further than the last of them.
 
     Parameters
     ----------
@@ -97,6 +101,9 @@ def integrate(
     feeding : whether the horizontal motion is wanted; without it its columns are NaN
     reuse : whether steps of a settled motion are repeated instead of computed (see repeated_steps)
     event_times, event_kinds : float64 (s) and int8, shape (n, m), filled with the first m events of each
+    distances : float64, shape (d,), m along the track, ascending, > 0
+    arrivals : float64, shape (n, d), filled with the first times (s) at which a part is at each distance, to a small
+        part of a cycle; NaN for distances that it does not reach
 
     Returns
     -------
@@ -107,9 +114,11 @@ def integrate(
     samples, results = np.empty((n, k, len(SAMPLES))), np.empty((n, RESULTS))
     if event_times is None or event_kinds is None:
         event_times, event_kinds = np.empty((n, 0)), np.empty((n, 0), np.int8)
+    if distances is None or arrivals is None:
+        distances, arrivals = np.empty(0), np.empty((n, 0))
     # Plain tuples, because numba takes several microseconds per call to find the type of a named tuple.
-    records = (times, samples, event_times, event_kinds)
-    follow(parameters, (tolerance, feeding, reuse), records, results, repeated_steps.new_arrays())
+    records = (times, samples, event_times, event_kinds, arrivals)
+    follow(parameters, (tolerance, feeding, reuse), records, results, repeated_steps.new_arrays(), distances)
     return samples, results
 
 
@@ -165,26 +174,27 @@ def touch_down(c, motion, horizontal):
 
 
 @compiled
-def follow(parameters, options, records, results, room):
+def follow(parameters, options, records, results, room, distances):
     """The compiled part of `integrate`.
 
     Parameters
     ----------
     options : tolerance, feeding and reuse, see `integrate`
-    records : the fields of a Record with one more axis in front, that of the runs
+    records : the fields of a Record and `arrivals`, each with one more axis in front, that of the runs
     results : filled, see `integrate`
     room : repeated_steps.new_arrays
+    distances : see `integrate`
 
     Only Python calls this function, because numba would compile the whole solver again into each compiled caller. The
     loop over the runs is here for the same reason: as a function of its own, it would take 3 s more to compile.
     """
     tolerance, feeding, reuse = options
-    times, samples, event_times, event_kinds = no_refcount(records)
+    times, samples, event_times, event_kinds, arrivals = no_refcount(records)
     series, kept_steps = no_refcount(room)
     kept = repeated_steps.KeptSteps(series, kept_steps)
     for i in range(parameters.shape[0]):
         record = Record(times[i], samples[i], event_times[i], event_kinds[i])
-        row, result = parameters[i], no_refcount(results[i])
+        row, result, arrival = parameters[i], no_refcount(results[i]), no_refcount(arrivals[i])
         repeated_steps.clear(kept)
         c = contact.constants(row, tolerance)
         end, since = record.times[-1], record.times[-2] if record.times.size > 1 else 0.0
@@ -195,7 +205,7 @@ def follow(parameters, options, records, results, room):
         horizontal = Horizontal(0.0, 0.0, 0.0)
         if motion.touching:
             horizontal = touch_down(c, motion, horizontal)
-        sampled = events = impacts = steps = repeats = pieces = place = 0
+        sampled = events = impacts = steps = repeats = pieces = place = arrived = 0
         contact_time = impact_speed = peak_force = 0.0
         max_gap = max(q, 0.0)
         status = OK
@@ -206,7 +216,7 @@ def follow(parameters, options, records, results, room):
                 status = TOO_STIFF
                 break
             at = repeated_steps.first_row(kept, place)
-            begins = base + motion.t
+            begins, x_before = base + motion.t, horizontal.x
             is_kept = reuse and motion.touching and repeated_steps.repeats(c, kept, place, motion)
             if is_kept:
                 piece = repeated_steps.recall(kept, place)
@@ -252,6 +262,12 @@ def follow(parameters, options, records, results, room):
             if piece.kind != CONTACT:
                 x, vx = slide(c, horizontal.x, horizontal.vx, piece.duration)
                 horizontal = Horizontal(x, vx, horizontal.sigma)
+            # A flight is uniform along the track, and a contact step is short.
+            while arrived < arrival.size and horizontal.x >= distances[arrived]:
+                arrival[arrived] = begins + piece.duration * (distances[arrived] - x_before) / (horizontal.x - x_before)
+                arrived += 1
+            if arrived > 0 and arrived == arrival.size:
+                break
             pulled = motion.pulled
             motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
             if not is_finite(motion):
@@ -269,6 +285,7 @@ def follow(parameters, options, records, results, room):
         if not feeding:
             record.samples[:, X] = record.samples[:, VX] = record.samples[:, FRICTION_FORCE] = np.nan
         record.samples[sampled:] = np.nan
+        arrival[arrived:] = np.nan
         result[CODE], result[EVENTS], result[IMPACTS] = status, events, impacts
         result[CONTACT_TIME], result[MAX_GAP] = contact_time, max_gap
         result[STEPS], result[REPEATS] = steps, repeats

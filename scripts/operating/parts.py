@@ -1,0 +1,42 @@
+"""A population of parts: random initial conditions, and parameters that differ from part to part.
+
+The random numbers of a part do not depend on the conveyor, so that amplitudes and conveyors are compared with the same
+parts.
+"""
+
+import numpy as np
+
+from conveyor.solver.model import ACCELERATION, DAMPING, FRICTION, MASS, STATIC_FRICTION, STIFFNESS
+from operating.shares import set_starts, starts_of_box
+from pipeline import grid
+
+# The parameters that differ, in the order of their random numbers.
+COLUMNS = {"friction": FRICTION, "damping": DAMPING, "stiffness": STIFFNESS, "mass": MASS, "acceleration": ACCELERATION}
+IDENTICAL, VARIED = POPULATIONS = ("identical", "varied")
+
+
+def factors(spread: dict, count: int) -> np.ndarray:
+    """Factors of the parameters in COLUMNS for each of `count` parts, shape (count, 5).
+
+    They are lognormal with the median 1. `spread` has the relative standard deviation of each, and the `seed`.
+    """
+    deviations = np.array([spread[name] for name in COLUMNS])
+    normal = np.random.default_rng(spread["seed"]).standard_normal((count, len(COLUMNS)))
+    return np.exp(np.sqrt(np.log1p(deviations**2)) * normal)
+
+
+def population(amplitudes: np.ndarray, settings: dict, kind: str = VARIED) -> np.ndarray:
+    """Packed parameters of n parts at each of m amplitudes (m/s²), shape (m n, 16).
+
+    settings : `model`; `starts` (n), `seed` and the ends of the box of initial conditions; `spread`, see `factors`
+    kind : one of POPULATIONS
+    """
+    starts = starts_of_box(settings)
+    _, conveyors = grid.product({"acceleration": list(amplitudes)}, settings["model"])
+    rows = np.repeat(conveyors, len(starts), axis=0)
+    if kind == VARIED:
+        own = np.tile(factors(settings["spread"], len(starts)), (len(amplitudes), 1))
+        rows[:, list(COLUMNS.values())] *= own
+        rows[:, STATIC_FRICTION] *= own[:, list(COLUMNS).index("friction")]
+    set_starts(rows, np.tile(starts, (len(amplitudes), 1)))
+    return rows

@@ -1,0 +1,130 @@
+"""Transit: how fast parts with random initial conditions travel along a track, over the amplitude.
+
+The transit velocity of a part is the length of the track over the time in which the part travels it. A part that has
+not arrived after the longest time is late. Its velocity is the distance that it has travelled over this time, and
+negative if it has moved back.
+"""
+
+import math
+
+import numpy as np
+import pandas as pd
+from scipy.stats.mstats import mjci
+
+from conveyor import ensemble
+from conveyor.solver.model import FREQUENCY
+from operating.parts import IDENTICAL, POPULATIONS, population
+from pipeline import fields, grid
+
+PROBABILITIES = (0.05, 0.25, 0.5, 0.75, 0.95)
+QUANTILES = tuple(f"velocity_{round(100 * probability):02d}" for probability in PROBABILITIES)
+# Excitation cycles after which impacts and forces count, so that the drop onto the track does not.
+DROP = 20
+
+
+def quantile_fields() -> list:
+    """The columns of the quantiles of the transit velocity and of their standard errors."""
+    columns = []
+    for name, probability in zip(QUANTILES, PROBABILITIES, strict=True):
+        share = f"{100 * probability:g} % quantile of the transit velocity"
+        columns += [fields.number(name, "m/s", share), fields.number(f"{name}_stderr", "m/s", "its standard error")]
+    return columns
+
+
+# What `summarize` returns.
+MEASURES = (
+    *quantile_fields(),
+    fields.number("mean_velocity", "m/s", "mean of the transit velocity over all parts"),
+    fields.number("spread", "1", "relative spread: 95 % quantile minus 5 % quantile, over the size of the median"),
+    fields.number("late", "1", "share of the parts that have not arrived after the longest time"),
+    fields.number("back", "1", "share of the parts that have moved back after the longest time"),
+    fields.number("impact_speed", "m/s", "95 % quantile of the largest speed of approach of a part; 0 for no impacts"),
+    fields.number("peak_force", "N", "95 % quantile of the largest contact force of a part"),
+    fields.count("failed", "parts whose run failed; the other columns do not contain them"),
+)
+TABLES = {
+    "transit": (
+        fields.number("acceleration", "m/s²", "amplitude of the excitation"),
+        fields.text("population", f"{', '.join(POPULATIONS)}: parts with equal or with different parameters"),
+        *MEASURES,
+    )
+}
+
+
+def follow(
+    rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None, **track: np.ndarray
+) -> dict[str, np.ndarray]:
+    """What `ensemble.transits` returns for packed parameters, shape (n, 16).
+
+    track : `lengths` (m) and `longest` (s), shape (k,), if they are not those of the settings
+    """
+    track = {"lengths": np.array([settings["length"]]), "longest": np.array([settings["longest"]])} | track
+    begin = np.minimum(DROP / rows[:, FREQUENCY], 0.5 * track["longest"][0])
+    options = {"tolerance": settings["tolerance"], "threads": threads, "progress": progress}
+    return ensemble.transits(rows, begin=begin, **track, **options)
+
+
+def quantiles(velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The quantiles of velocities, shape (n,), and their standard errors (Maritz and Jarrett 1978), shape (5,)."""
+    found = np.quantile(velocity, PROBABILITIES)
+    # Without the offset, equal velocities have the error 0 in spite of rounding.
+    return found, mjci(velocity - found[2], PROBABILITIES)
+
+
+def relative_spread(found: np.ndarray) -> float:
+    """95 % quantile minus 5 % quantile, over the size of the median; NaN for a median of 0."""
+    return (found[-1] - found[0]) / abs(found[2]) if found[2] else math.nan
+
+
+def upper(peaks: np.ndarray) -> float:
+    """The 95 % quantile of the known numbers; NaN if there are none."""
+    known = peaks[np.isfinite(peaks)]
+    return float(np.quantile(known, PROBABILITIES[-1])) if len(known) else math.nan
+
+
+def summarize(run: dict[str, np.ndarray], part: slice = slice(None)) -> dict[str, float]:
+    """The measures of a population from a range of rows of `follow` on a single track."""
+    right = run["status"][part] == "ok"
+    velocity, arrival = run["velocity"][part][right, 0], run["arrival"][part][right, 0]
+    if not right.any():
+        return dict.fromkeys((column.name for column in MEASURES), math.nan) | {"failed": len(right)}
+    found, errors = quantiles(velocity)
+    return {
+        **dict(zip(QUANTILES, found, strict=True)),
+        **{f"{name}_stderr": error for name, error in zip(QUANTILES, errors, strict=True)},
+        "mean_velocity": velocity.mean(),
+        "spread": relative_spread(found),
+        "late": np.isnan(arrival).mean(),
+        "back": (velocity < 0.0).mean(),
+        **{name: upper(run[name][part][right]) for name in ("impact_speed", "peak_force")},
+        "failed": np.count_nonzero(~right),
+    }
+
+
+def measure(
+    amplitudes: np.ndarray, settings: dict, kinds: tuple[str, ...] = POPULATIONS, **options
+) -> pd.DataFrame:
+    """The table for some amplitudes (m/s²), shape (m,), and kinds of populations.
+
+    settings : as in `population`; `length`, `longest` and `tolerance`
+    options : `threads` and `progress`
+    """
+    # Parts without a spread are followed once.
+    is_spread = any(settings["spread"][name] for name in settings["spread"] if name != "seed")
+    distinct = kinds if is_spread else kinds[:1]
+    rows = np.concatenate([population(amplitudes, settings, kind if is_spread else IDENTICAL) for kind in distinct])
+    run = follow(rows, settings, **options)
+    parts = settings["starts"]
+    measures = [summarize(run, slice(begin, begin + parts)) for begin in range(0, len(rows), parts)]
+    tables = [
+        pd.DataFrame(measures[begin : begin + len(amplitudes)]).assign(acceleration=amplitudes)
+        for begin in range(0, len(measures), len(amplitudes))
+    ]
+    tables = [(tables[place] if is_spread else tables[0]).assign(population=kind) for place, kind in enumerate(kinds)]
+    return pd.concat(tables, ignore_index=True).sort_values("acceleration", kind="stable", ignore_index=True)
+
+
+def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
+    """The table for the settings of the config."""
+    amplitudes = np.unique(grid.axis_values("acceleration", settings["acceleration"]))
+    return measure(amplitudes, settings, threads=threads, progress=progress)
