@@ -1,0 +1,102 @@
+"""Drift and diffusion of the displacement along the track.
+
+Over many cycles, the displacement of a chaotic motion is a random walk with a drift. Its variance grows as 2 D t, where
+the diffusion coefficient D is half the integral of the autocorrelation of the velocity (Green 1954, Kubo 1957). Here
+the integral is a sum over excitation cycles: the variance of the displacement in a window of w cycles is
+w (C_0 + 2 Σ (1 - k/w) C_k), with the autocovariance C_k of the displacements in single cycles.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+# Largest correlation of the displacements in neighbouring windows that counts as none, besides two standard errors.
+DECAYED = 0.05
+# The window is this many times longer than the shortest one without correlations, because they decay with its length.
+LONGER = 4
+LEAST_WINDOWS = 8  # of one run
+DEFAULT_WINDOW = 2  # cycles, the shortest window: a motion that alternates between two bands has none in one cycle
+OK, CORRELATED, AT_REST = STATUS = ("ok", "correlations do not decay", "no fluctuations")
+
+
+class Drift(NamedTuple):
+    """Drift of a random walk along the track and its diffusion coefficient, with standard errors, from several runs.
+
+    The numbers of the diffusion are NaN unless the status is "ok".
+    """
+
+    velocity: float  # m/s
+    velocity_stderr: float  # m/s
+    diffusion: float  # m²/s
+    diffusion_stderr: float  # m²/s
+    window: int  # cycles after which displacements are uncorrelated; 0 for none
+    status: str  # one of STATUS
+
+
+def sums_over(displacements: np.ndarray, window: int) -> np.ndarray:
+    """Displacements in windows of so many cycles, shape (n, k // window), of runs, shape (n, k)."""
+    count = displacements.shape[1] // window
+    return displacements[:, : count * window].reshape(len(displacements), count, window).sum(axis=2)
+
+
+def standard_error(values: np.ndarray) -> float:
+    """The standard error of the mean of independent values, shape (n,)."""
+    return float(values.std(ddof=1) / np.sqrt(len(values)))
+
+
+def uncorrelated_window(fluctuations: np.ndarray) -> int:
+    """The shortest window, a power of two times DEFAULT_WINDOW, without correlations; 0 if there is none.
+
+    fluctuations : displacements in single cycles without their mean, shape (n, k)
+    """
+    window = DEFAULT_WINDOW
+    while fluctuations.shape[1] // (LONGER * window) >= LEAST_WINDOWS:
+        sums = sums_over(fluctuations, window)
+        neighbours = sums[:, 1:] * sums[:, :-1]
+        if abs(neighbours.mean()) <= (DECAYED + 2.0 / np.sqrt(neighbours.size)) * (sums**2).mean():
+            return window
+        window *= 2
+    return 0
+
+
+def drift(displacements: np.ndarray, period: float) -> Drift:
+    """The drift and the diffusion coefficient of a motion.
+
+    Parameters
+    ----------
+    displacements : along the track in each excitation cycle, m, of n independent runs over k cycles, shape (n, k)
+    period : of the excitation, s
+
+    Raises
+    ------
+    ValueError
+        for fewer than two runs
+    """
+    displacements = np.asarray(displacements, dtype=np.float64)
+    if displacements.ndim != 2 or len(displacements) < 2:
+        raise ValueError(f"displacements must have the shape (n, k) with n >= 2, got {displacements.shape}")
+    of_run = displacements.mean(axis=1) / period
+    mean = displacements.mean()
+    found = Drift(mean / period, standard_error(of_run), np.nan, np.nan, 0, CORRELATED)
+    fluctuations = displacements - mean
+    # Displacements are differences of positions, which rounding leaves with an error.
+    if np.abs(fluctuations).max() <= 1e-9 * np.abs(displacements).max():
+        return found._replace(status=AT_REST)
+    window = uncorrelated_window(fluctuations)
+    if window == 0:
+        return found
+    window *= LONGER
+    variance = (sums_over(fluctuations, window) ** 2).mean(axis=1)
+    diffusion = variance / (2.0 * window * period)
+    return found._replace(
+        diffusion=float(diffusion.mean()), diffusion_stderr=standard_error(diffusion), window=window, status=OK
+    )
+
+
+def relative_spread(velocity: float, diffusion: float, length: float, deviations: float) -> float:
+    """Spread of transit velocities over a length (m), over their mean, between the quantiles of a normal distribution
+    that lie `deviations` standard deviations below and above the mean.
+
+    The time of a random walk with the drift v to the length L has the variance 2 D L/v³.
+    """
+    return 2.0 * deviations * np.sqrt(2.0 * diffusion / (np.abs(velocity) * length))
