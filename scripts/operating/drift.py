@@ -1,4 +1,4 @@
-"""Why chaos feeds evenly: drift and diffusion of chaotic motions, and the spread of transit over the length of the track.
+"""Why chaos feeds evenly: drift and diffusion of chaotic motions, and the spread of transit over the length of a track.
 
 In chaos, the displacement is a random walk with a drift, so that the relative spread of the transit velocity falls with
 the square root of the length. Where regular motions coexist, each part keeps its velocity, and the spread stays.
@@ -9,14 +9,14 @@ from statistics import NormalDist
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis.chaos.drift import STATUS, drift, relative_spread
+from conveyor.analysis.chaos.random_walk import STATUS, random_walk, relative_spread
 from conveyor.solver import horizontal, trajectory
-from conveyor.solver.model import FREQUENCY, Z0
+from conveyor.solver.model import FREQUENCY
 from conveyor.solver.parallel import for_each_chunk
-from operating.parts import IDENTICAL, population
+from operating.parts import IDENTICAL, population, starts_of_box
 from operating.regimes import CHAOS, SEVERAL
-from operating.shares import FORGOTTEN, starts_of_box
-from operating.transit import PROBABILITIES, follow, quantiles, relative_spread as spread_of
+from operating.transit import PROBABILITIES, follow, quantiles
+from operating.transit import relative_spread as spread_of
 from pipeline import fields, grid
 
 RUN_FAILED = "a run failed"
@@ -62,7 +62,7 @@ def spaced(amplitudes: np.ndarray, count: int) -> np.ndarray:
 
 def positions(rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> np.ndarray:
     """Positions x (m) of parts, shape (n, cycles + 1), once per excitation cycle; NaN where a run failed."""
-    cycles = FORGOTTEN + np.arange(settings["cycles"] + 1)
+    cycles = settings["forgotten"] + np.arange(settings["cycles"] + 1)
     times = cycles / rows[:, FREQUENCY, None]
     found = np.empty(times.shape)
 
@@ -86,7 +86,7 @@ def drift_at(acceleration: float, x: np.ndarray, is_low: np.ndarray, period: flo
     if not known.all():
         return row
     displacements = np.diff(x, axis=1)
-    whole, *sets = (drift(displacements[of], period) for of in (known, is_low, ~is_low))
+    whole, *sets = (random_walk(displacements[of], period) for of in (known, is_low, ~is_low))
     row |= {"velocity": whole.velocity, "velocity_stderr": whole.velocity_stderr, "status": whole.status}
     row |= {"diffusion": whole.diffusion, "diffusion_stderr": whole.diffusion_stderr, "window": whole.window}
     for number, found in enumerate(sets, start=1):

@@ -1,18 +1,53 @@
-"""A population of parts: random initial conditions, and parameters that differ from part to part.
+"""Populations of parts: random initial conditions from a box, and parameters that differ from part to part.
 
 The random numbers of a part do not depend on the conveyor, so that amplitudes and conveyors are compared with the same
 parts.
 """
 
+import math
+
 import numpy as np
 
-from conveyor.solver.model import ACCELERATION, DAMPING, FRICTION, MASS, STATIC_FRICTION, STIFFNESS
-from operating.shares import set_starts, starts_of_box
+from conveyor.solver.model import (
+    ACCELERATION,
+    ANGLE,
+    DAMPING,
+    FREQUENCY,
+    FRICTION,
+    MASS,
+    PSI0,
+    STATIC_FRICTION,
+    STIFFNESS,
+    VZ0,
+    Z0,
+)
 from pipeline import grid
 
 # The parameters that differ, in the order of their random numbers.
 COLUMNS = {"friction": FRICTION, "damping": DAMPING, "stiffness": STIFFNESS, "mass": MASS, "acceleration": ACCELERATION}
 IDENTICAL, VARIED = POPULATIONS = ("identical", "varied")
+
+
+def starts_of_box(settings: dict) -> np.ndarray:
+    """Initial heights above the plate (m), velocities normal to it (m/s) and phases (rad), shape (n, 3)."""
+    low, high = np.array([settings[name] for name in ("height", "vz0", "psi0")], dtype=np.float64).T
+    return low + (high - low) * np.random.default_rng(settings["seed"]).random((settings["starts"], 3))
+
+
+def set_starts(rows: np.ndarray, starts: np.ndarray) -> None:
+    """Write initial conditions, shape (n, 3), into packed parameters, shape (n, 16)."""
+    height, velocity, phase = starts.T
+    stroke = rows[:, ACCELERATION] * np.sin(rows[:, ANGLE]) / (2.0 * math.pi * rows[:, FREQUENCY]) ** 2
+    rows[:, PSI0], rows[:, VZ0] = phase, velocity
+    rows[:, Z0] = height - stroke * np.cos(phase)  # Eq. 4
+
+
+def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:
+    """Packed parameters, shape (m n, 16), of n initial conditions, shape (n, 3), at each of m amplitudes."""
+    _, conveyors = grid.product({"acceleration": list(amplitudes)}, model)
+    rows = np.repeat(conveyors, len(starts), axis=0)
+    set_starts(rows, np.tile(starts, (len(amplitudes), 1)))
+    return rows
 
 
 def factors(spread: dict, count: int) -> np.ndarray:

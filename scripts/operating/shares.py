@@ -15,9 +15,10 @@ from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.attractors.labels import Labels, continued
 from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
-from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, GRAVITY, INCLINATION, PSI0, VZ0, Z0
+from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, GRAVITY, INCLINATION, PSI0
 from conveyor.solver.parallel import for_each_chunk
 from operating import regimes
+from operating.parts import parameters_of, starts_of_box
 from pipeline import fields, grid
 from pipeline.motions import motions_of_starts
 
@@ -48,28 +49,6 @@ SETTLED = 1e-3
 RUNS = 6  # each twice as long as the one before
 MOST_CYCLES = 4000  # upper limit of cycles of a brief run
 FORGOTTEN = 200  # excitation cycles, at least, for the transient of the feeding motion
-
-
-def starts_of_box(settings: dict) -> np.ndarray:
-    """Initial heights above the plate (m), velocities normal to it (m/s) and phases (rad), shape (n, 3)."""
-    low, high = np.array([settings[name] for name in ("height", "vz0", "psi0")], dtype=np.float64).T
-    return low + (high - low) * np.random.default_rng(settings["seed"]).random((settings["starts"], 3))
-
-
-def set_starts(rows: np.ndarray, starts: np.ndarray) -> None:
-    """Write initial conditions, shape (n, 3), into packed parameters, shape (n, 16)."""
-    height, velocity, phase = starts.T
-    stroke = rows[:, ACCELERATION] * np.sin(rows[:, ANGLE]) / (2.0 * math.pi * rows[:, FREQUENCY]) ** 2
-    rows[:, PSI0], rows[:, VZ0] = phase, velocity
-    rows[:, Z0] = height - stroke * np.cos(phase)  # Eq. 4
-
-
-def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:
-    """Packed parameters, shape (m n, 16), of n initial conditions, shape (n, 3), at each of m amplitudes."""
-    _, conveyors = grid.product({"acceleration": list(amplitudes)}, model)
-    rows = np.repeat(conveyors, len(starts), axis=0)
-    set_starts(rows, np.tile(starts, (len(amplitudes), 1)))
-    return rows
 
 
 def groups(found: Labels, conveyor: np.ndarray) -> np.ndarray:

@@ -11,8 +11,9 @@ import numpy as np
 
 from conveyor import ensemble
 from conveyor.solver.model import PHASE_SHIFT
+from operating.parts import parameters_of, starts_of_box
 from operating.regimes import SLIDES_AWAY
-from operating.shares import FORGOTTEN, brief_durations, continue_normal, parameters_of, starts_of_box
+from operating.shares import FORGOTTEN, brief_durations, continue_normal
 from pipeline import fields, grid
 from pipeline.motions import motions_of_starts
 

@@ -101,9 +101,7 @@ def summarize(run: dict[str, np.ndarray], part: slice = slice(None)) -> dict[str
     }
 
 
-def measure(
-    amplitudes: np.ndarray, settings: dict, kinds: tuple[str, ...] = POPULATIONS, **options
-) -> pd.DataFrame:
+def measure(amplitudes: np.ndarray, settings: dict, kinds: tuple[str, ...] = POPULATIONS, **options) -> pd.DataFrame:
     """The table for some amplitudes (m/s²), shape (m,), and kinds of populations.
 
     settings : as in `population`; `length`, `longest` and `tolerance`

@@ -11,7 +11,7 @@ from project import ROOT, read_config
 from conveyor import Start, ensemble, simulate
 from conveyor.analysis.attractors.labels import Labels, classify
 from conveyor.solver.model import PSI0, VZ0, Z0, Conveyor, conveyor_motion, pack
-from operating import advice, chart, regimes, shares, throws
+from operating import advice, chart, parts, regimes, shares, throws
 from pipeline.motions import motions
 from pipeline.templates import format_range
 from workflow.config.tables import TABLES
@@ -28,7 +28,7 @@ BOX = {
 
 def test_heights_are_above_the_plate_at_the_initial_phase():
     starts = np.array([[1e-4, 0.1, 0.0], [0.0, -0.2, 1.0], [3e-4, 0.0, 4.0]])
-    rows = shares.parameters_of(np.array([30.0, 50.0]), starts, {"angle": 0.3})
+    rows = parts.parameters_of(np.array([30.0, 50.0]), starts, {"angle": 0.3})
     assert rows.shape == (6, 16)
     for row, acceleration, (height, velocity, phase) in zip(
         rows, np.repeat([30.0, 50.0], 3), np.tile(starts, (2, 1)), strict=True
@@ -39,13 +39,13 @@ def test_heights_are_above_the_plate_at_the_initial_phase():
 
 
 def test_initial_conditions_fill_the_box_and_depend_on_the_seed():
-    starts = shares.starts_of_box({**BOX, "starts": 1000})
+    starts = parts.starts_of_box({**BOX, "starts": 1000})
     for column, name in zip(starts.T, ("height", "vz0", "psi0"), strict=True):
         low, high = BOX[name]
         assert low <= column.min() < low + 0.02 * (high - low)
         assert high - 0.02 * (high - low) < column.max() <= high
-    assert (starts == shares.starts_of_box({**BOX, "starts": 1000})).all()
-    assert (starts != shares.starts_of_box({**BOX, "starts": 1000, "seed": 2})).all()
+    assert (starts == parts.starts_of_box({**BOX, "starts": 1000})).all()
+    assert (starts != parts.starts_of_box({**BOX, "starts": 1000, "seed": 2})).all()
 
 
 def test_motions_differ_by_conveyor_state_period_and_flight():
@@ -74,7 +74,7 @@ def table():
 
 def test_labels_agree_with_sweeps(table):
     """The same initial conditions as rows of a sweep, without shared chaotic sets."""
-    parameters = shares.parameters_of(np.array([40.0]), shares.starts_of_box(BOX), {})
+    parameters = parts.parameters_of(np.array([40.0]), parts.starts_of_box(BOX), {})
     found = motions(parameters, {**BOX, "axes": {"acceleration": [40.0]}})
     own = table[table.acceleration == 40.0].set_index("state").starts
     assert own.to_dict() == pd.Series(found.state).value_counts().to_dict()

@@ -23,6 +23,7 @@ CALLS = {
     "accuracy/scaling": {"sweeps/shards"},
     "operating/shares": {"operating/regimes"},
     "operating/advice": {"operating/regimes", "operating/shares"},
+    "operating/drift": {"operating/regimes", "operating/transit"},
     "operating/track": {"operating/regimes", "operating/shares"},
     "operating/drive": {"operating/regimes", "operating/shares"},
     "operating/throws": {"operating/regimes", "operating/shares"},

@@ -1,4 +1,4 @@
-"""Drift and diffusion of the displacement along the track.
+"""The displacement along the track as a random walk: its drift and its diffusion coefficient.
 
 Over many cycles, the displacement of a chaotic motion is a random walk with a drift. Its variance grows as 2 D t, where
 the diffusion coefficient D is half the integral of the autocorrelation of the velocity (Green 1954, Kubo 1957). Here
@@ -19,8 +19,8 @@ DEFAULT_WINDOW = 2  # cycles, the shortest window: a motion that alternates betw
 OK, CORRELATED, AT_REST = STATUS = ("ok", "correlations do not decay", "no fluctuations")
 
 
-class Drift(NamedTuple):
-    """Drift of a random walk along the track and its diffusion coefficient, with standard errors, from several runs.
+class RandomWalk(NamedTuple):
+    """Drift of a random walk and its diffusion coefficient, with standard errors, from several runs.
 
     The numbers of the diffusion are NaN unless the status is "ok".
     """
@@ -59,7 +59,7 @@ def uncorrelated_window(fluctuations: np.ndarray) -> int:
     return 0
 
 
-def drift(displacements: np.ndarray, period: float) -> Drift:
+def random_walk(displacements: np.ndarray, period: float) -> RandomWalk:
     """The drift and the diffusion coefficient of a motion.
 
     Parameters
@@ -77,7 +77,7 @@ def drift(displacements: np.ndarray, period: float) -> Drift:
         raise ValueError(f"displacements must have the shape (n, k) with n >= 2, got {displacements.shape}")
     of_run = displacements.mean(axis=1) / period
     mean = displacements.mean()
-    found = Drift(mean / period, standard_error(of_run), np.nan, np.nan, 0, CORRELATED)
+    found = RandomWalk(mean / period, standard_error(of_run), np.nan, np.nan, 0, CORRELATED)
     fluctuations = displacements - mean
     # Displacements are differences of positions, which rounding leaves with an error.
     if np.abs(fluctuations).max() <= 1e-9 * np.abs(displacements).max():
