@@ -15,8 +15,8 @@ from scipy.stats import gaussian_kde, qmc
 
 # Effective points for a kernel density estimate, for each parameter. Fewer points get a flatter density.
 ENOUGH = 10.0
-# Points below this share of the largest weight do not count in the estimate; their logarithms would underflow.
-LIGHT = 1e-6
+# Points of a kernel density estimate, drawn by their weights; the time grows with their number.
+CENTRES = 500
 # An interval is open at an end that is nearer to the bound than this share of its length.
 NEAR = 0.05
 
@@ -90,8 +90,7 @@ def sample(log_density: LogDensity, bounds: np.ndarray, *, points: int, rounds: 
         while size < ENOUGH * dimensions:
             flatness *= 0.5
             weights, size = normalize(flatness * values - mixture)
-        heavy = weights > LIGHT * weights.max()
-        proposals.append(gaussian_kde(x[heavy].T, weights=weights[heavy]))
+        proposals.append(gaussian_kde(x[random.choice(len(x), CENTRES, p=weights)].T))
         new = proposals[-1].resample(points, seed=random).T
         new = new[((new >= low) & (new <= high)).all(axis=1)]
         of_new = [np.zeros(len(new)), *(volume + proposal.logpdf(new.T) for proposal in proposals)]
