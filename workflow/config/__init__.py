@@ -1,5 +1,6 @@
 """The config: read, checked, scaled to the conveyor, and converted to the one form that rules and hashes depend on."""
 
+import itertools
 import os
 from collections.abc import Sequence
 from pathlib import Path
@@ -8,9 +9,9 @@ from typing import Any, NamedTuple
 from .checks import problems
 from .entries import by_methods, with_tighter
 from .errors import ConfigError, type_problems
-from .files import DEFAULT_FILES, ROOT, merge, read_all
+from .files import DEFAULT_FILES, ROOT, changed_values, merge, read_all
 from .model import MODEL
-from .own_conveyor import is_own_conveyor, scale_config
+from .own_conveyor import is_own_conveyor, names_conveyor, scale_config
 
 __all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems", "replace_config"]
 
@@ -38,16 +39,22 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
     ----------
     default_files : the config of the paper
     overlay_files : files that are merged over it. `config` contains them already; they are read again because keys keep
-        the order of the first file that has them
+        the order of the first file that has them, and because files in front of the conveyor's are scaled to it
     config : Snakemake's merged config; as a module of another workflow, it is the only overlay
     """
-    paper, overlay = merge(*read_all(default_files)), merge(*read_all(overlay_files), config)
-    whole = merge(paper, overlay)
+    paper, overlays = merge(*read_all(default_files)), read_all(overlay_files)
+    whole = merge(paper, *overlays, config)
     # Not whether values fit together: an overlay may give one end of a range whose other end is scaled below.
     if errors := type_problems(whole, ignored="value_error"):
         raise ConfigError(errors)
     if own_conveyor := is_own_conveyor(paper, whole):
-        whole = merge(scale_config(paper, overlay), overlay)
+        # The overlays in front of the conveyor's, such as config/reduced.yaml, are for the paper's conveyor.
+        before = list(itertools.takewhile(lambda overlay: not names_conveyor(paper, overlay), overlays))
+        own = merge(*overlays[len(before) :], changed_values(merge(*overlays), config))
+        base = merge(paper, *before)
+        if errors := type_problems(base):
+            raise ConfigError(errors)
+        whole = merge(scale_config(base, own), own)
         # The claims are the paper's. An overlay for any conveyor, such as config/reduced.yaml, may name them.
         checked = whole["uncertainty"]["claims"]
         whole["uncertainty"] |= {"claims": [name for name in checked if name in whole["claims"]]}

@@ -113,8 +113,8 @@ def sweeps(config: dict, defaults: dict) -> Iterator[str]:
                 )
 
 
-def runs_with_step(config: dict) -> Iterator[tuple[str, float, float, float]]:
-    """All runs with a fixed step: the key of the step, the step (s), the duration (s), the frequency (Hz)."""
+def runs_with_step(config: dict, defaults: dict) -> Iterator[tuple[str, float, float, float]]:
+    """The runs with a fixed step: the key of the step, the step (s), the duration (s), the frequency (Hz)."""
 
     def key(place: str, entry: dict) -> str:
         return f"{place}.step" if "step" in entry else f"solver.step (of {place})"
@@ -128,6 +128,8 @@ def runs_with_step(config: dict) -> Iterator[tuple[str, float, float, float]]:
                     if section == "dimensions":
                         duration = entry["begin"] + entry["interval"] * (entry["samples"] - 1) / frequency
                     yield key(f"{section}.{name}", entry), filled["step"], duration, frequency
+    if is_own_conveyor(defaults, config):
+        return  # the comparisons of methods below are the paper's
     exponent, precision = config["stability_estimates"]["exponent"], config["precision"]
     frequency = config["model"]["frequency"]
     for duration in (exponent["duration"], *exponent["durations"]):
@@ -142,7 +144,7 @@ def runs_with_step(config: dict) -> Iterator[tuple[str, float, float, float]]:
 
 
 def steps(config: dict, defaults: dict) -> Iterator[str]:
-    for key, step, duration, frequency in runs_with_step(config):
+    for key, step, duration, frequency in runs_with_step(config, defaults):
         given = f"{key} = {step!r} s"
         largest = 1.0 / (STEPS_IN_A_CYCLE * frequency)
         whole = max(1, round(duration / step))
@@ -316,6 +318,8 @@ def drive(config: dict, defaults: dict) -> Iterator[str]:
 
 
 def precision(config: dict, defaults: dict) -> Iterator[str]:
+    if is_own_conveyor(defaults, config):
+        return
     precision = config["precision"]
     interval = precision["sample_interval"]
     for place, step in enumerate(precision["steps"]):

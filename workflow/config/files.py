@@ -135,6 +135,18 @@ def merge(*configs: dict) -> dict:
     return merged
 
 
+def changed_values(before: dict, after: dict) -> dict:
+    """The keys of `after` with other values than `before`, level by level: what was merged over `before`."""
+    changed = {}
+    for key, value in after.items():
+        if isinstance(value, dict) and isinstance(before.get(key), dict):
+            if inner := changed_values(before[key], value):
+                changed[key] = inner
+        elif key not in before or before[key] != value:
+            changed[key] = value
+    return changed
+
+
 def check_command_line(arguments: list[str]) -> None:
     """End Snakemake if an overlay or a --config value of its command line is wrong.
 

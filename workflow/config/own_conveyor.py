@@ -5,6 +5,7 @@ leaves out everything that follows from the paper's own numbers, unless the over
 fits, first orbits, and the tables of the paper's method.
 """
 
+import itertools
 import math
 from typing import Any
 
@@ -24,14 +25,20 @@ CONVEYOR = (
 )
 # Settings of figures that mark a number of the paper.
 MARKS = ("critical_acceleration", "critical_height", "first_positive", "two_states")
-DIGITS = 4  # of scaled amplitudes, heights and velocities, which appear on axes and in titles
+DIGITS, EXACT = 4, 17  # of scaled amplitudes, heights and velocities, which appear on axes and in titles, and of other numbers
 ROUNDED = ("m/s²", "m", "m/s", "m²/s²")
 STEPS = 4000  # the steps per excitation cycle are a multiple of this number, so that samples lie on steps
 
 
+def names_conveyor(paper: dict, overlay: dict) -> bool:
+    """Whether an overlay gives the conveyor or the part a value other than the paper's."""
+    model = overlay.get("model", {})
+    return any(model[name] != paper["model"].get(name) for name in CONVEYOR if name in model)
+
+
 def is_own_conveyor(paper: dict, config: dict) -> bool:
     """Whether a complete config has a prefix and a conveyor other than the paper's."""
-    return bool(config["prefix"]) and any(config["model"].get(name) != paper["model"].get(name) for name in CONVEYOR)
+    return bool(config["prefix"]) and names_conveyor(paper, config)
 
 
 def scale_ratios(paper: dict, own: dict) -> dict[str, float]:
@@ -55,17 +62,22 @@ def scale_ratios(paper: dict, own: dict) -> dict[str, float]:
     }
 
 
-def scale(value: Any, schema: dict, ratios: dict[str, float]) -> Any:
-    """A value with all its numbers multiplied by the ratios of their units, which the schema has."""
+def scale(value: Any, schema: dict, ratios: dict[str, float], digits: int = DIGITS) -> Any:
+    """A value with all its numbers multiplied by the ratios of their units, which the schema has.
+
+    Amplitudes, heights and velocities are rounded to `digits`.
+    """
     if isinstance(value, dict):
-        return {key: scale(item, child(schema, key), ratios) for key, item in value.items()}
+        return {key: scale(item, child(schema, key), ratios, digits) for key, item in value.items()}
     if isinstance(value, list):
-        return [scale(item, child(schema, place), ratios) for place, item in enumerate(value)]
+        scaled = [scale(item, child(schema, place), ratios, digits) for place, item in enumerate(value)]
+        # Rounding must not make two distinct values of a list equal.
+        merges = any(one == other for one, other in itertools.pairwise(scaled)) and digits < EXACT
+        return scale(value, schema, ratios, EXACT) if merges else scaled
     unit = unit_of(schema)
     if not isinstance(value, float) or ratios.get(unit, 1.0) == 1.0:
         return value
-    scaled = value * ratios[unit]
-    return float(f"{scaled:.{DIGITS}g}") if unit in ROUNDED else scaled
+    return float(f"{value * ratios[unit]:.{digits if unit in ROUNDED else EXACT}g}")
 
 
 def contact_time(model: dict) -> float:
