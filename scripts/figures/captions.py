@@ -13,7 +13,9 @@ from accuracy.stability import PANELS, VELOCITY
 from claims.about_chaos import positive_onset
 from claims.about_proofs import lowest_fold
 from claims.about_states import find_runs, format_runs, second_from_rest
+from figures.plots.fig10 import ends_of
 from figures.plots.throw import proved_fold
+from figures.style import STATE_COLOURS
 from identification import findings
 from operating import drive_page
 from operating.chart import summarize_shares
@@ -38,12 +40,43 @@ def format_change(least: float, most: float) -> str:
     return f"{low:.1f} to {high:.1f} % {'below' if most < 0.0 else 'above'}"
 
 
-def fig10(*, converged: pd.DataFrame, euler: pd.DataFrame | None = None) -> dict[str, Any]:
+def name_state(state: str) -> str:
+    """A state of motion in a sentence: "the first state", "chaos"."""
+    return f"the {state} state" if state in ("first", "second") else state
+
+
+def state_map(*, map: pd.DataFrame) -> dict[str, Any]:
+    """The only state of a map, None if there are several, and the share of undecided initial conditions."""
+    states = map.state.unique()
+    is_one = len(states) == 1 and states[0] != "undecided"
+    return {"only": name_state(states[0]) if is_one else None, "undecided": (map.state == "undecided").mean()}
+
+
+def fig09(*, converged: pd.DataFrame) -> dict[str, bool]:
+    return {"changes": bool((converged.groupby("acceleration").state.nunique() > 1).any())}
+
+
+def fig10(
+    *, converged: pd.DataFrame, fit: pd.DataFrame | None = None, euler: pd.DataFrame | None = None
+) -> dict[str, Any]:
+    found = {
+        "found": len(converged) > 0,
+        "fitted": fit is not None and len(fit) > 0,
+        "returns": not converged.is_critical.all(),
+        "highest": ends_of(converged.attrs["scan"])[1],
+        "aside": None,
+    }
     if euler is None:
-        return {}
+        return found
     both = [edge[edge.is_critical].set_index("acceleration").z0 for edge in (euler, converged)]
     change = 100.0 * (both[0] / both[1] - 1.0).dropna()
-    return {"aside": format_change(change.max(), change.min()), "most_at": change.idxmin()}
+    if change.empty:
+        return found
+    return found | {"aside": format_change(change.max(), change.min()), "most_at": change.idxmin()}
+
+
+def fig17(*, converged: pd.DataFrame) -> dict[str, list[str]]:
+    return {"states": [name_state(state) for state in STATE_COLOURS if (converged.state == state).any()]}
 
 
 def fig22(*, converged: pd.DataFrame, spectrum: pd.DataFrame, euler: pd.DataFrame | None = None) -> dict[str, float]:
@@ -65,10 +98,10 @@ def fig22(*, converged: pd.DataFrame, spectrum: pd.DataFrame, euler: pd.DataFram
     }
 
 
-def bifurcation(*, spectrum: pd.DataFrame, cascade: pd.DataFrame) -> dict[str, Any]:
-    found = cascade.accumulation.dropna()
+def bifurcation(*, spectrum: pd.DataFrame, cascade: pd.DataFrame, bifurcations: pd.DataFrame) -> dict[str, Any]:
+    found, bends = cascade.accumulation.dropna(), bifurcations.kind.isin(("fold", "period_doubling")).any()
     if found.empty:
-        return {"accumulation": None}
+        return {"accumulation": None, "bends": bends}
     accumulation, runs = found.iloc[-1], {}
     for branch, rows in spectrum.sort_values("acceleration").groupby("branch"):
         early = rows[rows.acceleration < accumulation]
@@ -77,6 +110,8 @@ def bifurcation(*, spectrum: pd.DataFrame, cascade: pd.DataFrame) -> dict[str, A
     regular = (late.lambda_1 < -SIGNIFICANT * late.stderr).groupby(late.acceleration).all()
     return {
         "accumulation": accumulation,
+        "bends": bends,
+        "is_beyond": accumulation > spectrum.acceleration.max(),
         "early_up": format_runs(runs["up"], 2) if runs.get("up") else "nowhere",
         "early_down": format_runs(runs["down"], 2) if runs.get("down") else "nowhere",
         "regular_share": regular.mean(),
@@ -155,6 +190,8 @@ def sensitivity(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings:
     cusps = meetings[(meetings.begin == first) & (meetings.meeting == "cusp") & (meetings.parameter == "damping")]
     return {
         "heights": right[right.kind == "critical_height"].acceleration.unique(),
+        "right": len(right) > 0,
+        "has_fold": not np.isnan(first),
         "error": error.max(),
         "failed": len(derivatives) - len(right),
         "own": own.iloc[0].to_dict() if len(own) else {},
@@ -195,7 +232,10 @@ def identification(
 
 # Functions of the captions whose templates need more than the tables and settings of their figures.
 NUMBERS: dict[str, Callable[..., dict[str, Any]]] = {
+    "fig09": fig09,
     "fig10": fig10,
+    **dict.fromkeys(("fig12", "fig13", "fig14", "fig18", "fig19"), state_map),
+    "fig17": fig17,
     "fig22": fig22,
     "identification": identification,
     "overview": overview,

@@ -152,6 +152,11 @@ def state_map(axes: Axes, table: pd.DataFrame, x: str, y: str) -> None:
     class_map(axes, table.pivot(index=y, columns=x, values="state"), STATE_COLOURS)
 
 
+def say(axes: Axes, text: str) -> None:
+    """Write in the middle of empty axes why there is nothing to show."""
+    note(axes, text, (0.5, 0.5), xycoords="axes fraction", ha="center", va="center")
+
+
 def state_label(state: str) -> str:
     """The name of a state of motion in legends and titles: "first state", "chaos"."""
     return f"{state} state" if state in ("first", "second") else state
@@ -161,6 +166,12 @@ def state_handles(*tables: pd.DataFrame) -> list[Artist]:
     """Legend handles of the states of motion that occur in the tables."""
     occur = set().union(*(table.state.unique() for table in tables))
     return [Patch(color=colour, label=state_label(state)) for state, colour in STATE_COLOURS.items() if state in occur]
+
+
+def state_legend(figure: Figure, table: pd.DataFrame) -> None:
+    """Draw a legend of the states in a table above a figure of one column, in which three states fit side by side."""
+    handles = state_handles(table)
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles) if len(handles) <= 3 else 2)
 
 
 def phase_axis(axis: Axis) -> None:

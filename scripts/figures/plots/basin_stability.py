@@ -65,7 +65,10 @@ def plot(*, shares: pd.DataFrame) -> Figure:
     draw_motions(axes, shares, "acceleration")
     axes.axhline(0.0, color="black", linewidth=0.6, zorder=0)
     low, high = shares.mean_velocity.min(), shares.mean_velocity.max()
-    axes.set_ylim(min(0.0, low) - 0.05 * (high - low), high + 0.08 * (high - low))
+    if low < high:
+        axes.set_ylim(min(0.0, low) - 0.05 * (high - low), max(0.0, high) + 0.08 * (high - low))
+    elif shares.mean_velocity.isna().all():
+        style.say(axes, "no motion has a mean velocity")
     axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel(style.VELOCITY)
     throw_axis(axes, shares)

@@ -41,7 +41,8 @@ def draw_exponents(axes: Axes, spectrum: pd.DataFrame, lowest: float) -> None:
         label = f"amplitude swept {branch}"
         axes.plot(rows.acceleration, rows.lambda_1, color=DIRECTIONS[branch], linewidth=0.6, label=label)
     axes.axhline(0.0, color="black", linewidth=0.6)
-    axes.set_ylim(lowest, 1.15 * spectrum.lambda_1.max())
+    # Room for the line at zero if no motion is chaotic.
+    axes.set_ylim(lowest, max(1.15 * spectrum.lambda_1.max(), -0.1 * lowest))
 
 
 def plot(
@@ -60,8 +61,9 @@ def plot(
     draw_attractors(diagram, strobes)
     draw_orbits(diagram, branches[branches.period <= longest_period])
     draw_bifurcations(diagram, bifurcations[bifurcations.period <= longest_period])
-    # Too few period doublings have no accumulation point.
-    for place in cascade.accumulation.dropna().tail(1):
+    # Too few period doublings have no accumulation point, and it may lie beyond the diagram.
+    last = cascade.accumulation.dropna().tail(1)
+    for place in last[last < strobes.acceleration.max()]:
         for axes in (diagram, exponents):
             axes.axvline(place, color="0.5", linewidth=0.6, linestyle=":")
         style.note(exponents, "period doublings accumulate", (place, 0.05), (3, 0), xycoords=("data", "axes fraction"))

@@ -54,7 +54,7 @@ def plot(
             style.dots(axes, rows.acceleration, rows.mean_velocity, colour, 2.0)
         if place := unsettled(sweep):
             axes.annotate(
-                f"not settled\nin {sweep.attrs['duration']:g} s",
+                f"not settled\nin {sweep.attrs['duration']:.3g} s",
                 place,
                 (place[0], 0.15 * sweep.mean_velocity.max()),
                 ha="center",

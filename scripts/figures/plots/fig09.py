@@ -22,6 +22,7 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame | None = None, critical
         if critical_height is not None:
             style.mark(axes, 1e3 * critical_height, f"{1e3 * critical_height:g} mm")
     low, high = (pd.concat(sweeps.values()).mean_velocity.agg(name) for name in ("min", "max"))
-    panels[0].set_ylim(1.15 * min(low, 0.0), 1.15 * high)
+    if low < high:
+        panels[0].set_ylim(1.15 * min(low, 0.0), 1.15 * max(high, 0.0))
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside right center", title="$\\hat{a}$")
     return figure

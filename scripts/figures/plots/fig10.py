@@ -8,6 +8,11 @@ from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
 from figures import style
 
 
+def ends_of(axis: list | dict) -> tuple[float, float]:
+    """The first and the last value of an axis of the config."""
+    return (axis["start"], axis["stop"]) if isinstance(axis, dict) else (axis[0], axis[-1])
+
+
 def plot(
     *,
     converged: pd.DataFrame,
@@ -16,7 +21,7 @@ def plot(
     fit_euler: pd.DataFrame | None = None,
 ) -> Figure:
     """Draw critical heights and the regressions `fit` and `fit_euler` of Eq. 13."""
-    figure = style.figure(style.COLUMN, 66.0)
+    figure = style.figure(style.COLUMN, 82.0)
     axes = figure.subplots()
     edge = converged[converged.is_critical]
     curves = (
@@ -43,10 +48,12 @@ def plot(
         axes.plot(back.acceleration, 1e3 * back.z0, "v", label=label, **look)
     axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel("critical initial height $z_0$ in mm")
+    if converged.empty:
+        axes.set_xlim(*ends_of(converged.attrs["axes"]["acceleration"]))
+        axes.set_ylim(top=1e3 * ends_of(converged.attrs["scan"])[1])
+        style.say(axes, "no initial height changes the state of motion")
     axes.set_ylim(bottom=0.0)
-    if edge.empty:
-        axes.annotate("no change of state at these heights", (0.5, 0.5), xycoords="axes fraction", ha="center")
     if fit.empty:
         axes.plot([], [], " ", label=f"no fit of Eq. 13 to {edge.acceleration.nunique()} amplitudes")
-    axes.legend()
+    style.legend_above(figure, axes)
     return figure

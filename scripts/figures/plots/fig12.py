@@ -13,5 +13,5 @@ def plot(*, map: pd.DataFrame) -> Figure:
     style.state_map(axes, map.assign(z0=1e3 * map.z0), "acceleration", "z0")
     axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel("initial height $z_0$ in mm")
-    figure.legend(handles=style.state_handles(map), loc="outside upper center", ncols=4)
+    style.state_legend(figure, map)
     return figure

@@ -20,7 +20,7 @@ def draw_phase_map(table: pd.DataFrame, name: str, label: str, fixed: str) -> tu
     axes.set_ylabel("initial phase $\\psi_0$ in rad")
     style.phase_axis(axes.yaxis)
     axes.set_ylim(top=2.0 * np.pi)
-    figure.legend(handles=style.state_handles(table), loc="outside upper center", ncols=4)
+    style.state_legend(figure, table)
     return figure, axes
 
 

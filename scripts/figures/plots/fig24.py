@@ -42,7 +42,10 @@ def plot(
     # Room for all error bars, and for the marks below them.
     ends = [table.dimension + sign * table.error for table in tables.values() for sign in (-1.0, 1.0)]
     low, high = pd.concat(ends).min(), pd.concat(ends).max()
-    axes.set_ylim(low - 0.12 * (high - low), high + 0.04 * (high - low))
+    if low < high:
+        axes.set_ylim(low - 0.12 * (high - low), high + 0.04 * (high - low))
+    else:
+        style.say(axes, "no dimension is known")
     axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel("dimension of the phase portrait")
     style.legend_above(figure, axes)

@@ -100,6 +100,8 @@ def draw_curves(axes: Axes, curves: pd.DataFrame, meetings: pd.DataFrame, parame
         rows = shown[shown.meeting == kind]
         if len(rows):
             axes.plot(rows[group], rows.amplitude_group, label=label, **look, **HOLLOW)
+    if continued.empty:
+        style.say(axes, "no bifurcation to follow")
     own = curves[curves.parameter == "angle"]
     if len(own):
         axes.axvline(own[group].iloc[0], color="black", linewidth=0.5, linestyle=":")
@@ -123,7 +125,10 @@ def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.Dat
     named = {label: rows for label, rows in select_points(derivatives).items() if len(rows)}
     draw_dots(amplitudes, named, [name for name in NAMES if name != "acceleration"], "elasticity", POINTS)
     amplitudes.set_xlabel("change of $\\hat{a}$ in % per % of the parameter")
-    amplitudes.legend(loc="lower left", bbox_to_anchor=(-0.19, 1.0), ncols=2, columnspacing=0.6, handletextpad=0.2)
+    if named:
+        amplitudes.legend(loc="lower left", bbox_to_anchor=(-0.19, 1.0), ncols=2, columnspacing=0.6, handletextpad=0.2)
+    else:
+        style.say(amplitudes, "no bifurcation")
 
     rows = derivatives[(derivatives.kind == "critical_height") & (derivatives.status == "ok")]
     rows = rows.assign(per_percent=1e4 * rows.derivative * rows.value)
@@ -132,14 +137,18 @@ def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.Dat
     looks = {label: {"marker": "o", "color": shade} for label, shade in zip(by_amplitude, shades, strict=False)}
     draw_dots(heights, by_amplitude, list(NAMES), "per_percent", looks)
     heights.set_xlabel("change of height in µm per % of the parameter")
-    heights.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, columnspacing=0.7, handletextpad=0.0)
+    if by_amplitude:
+        heights.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, columnspacing=0.7, handletextpad=0.0)
+    else:
+        style.say(heights, "no critical height")
 
     draw_curves(damping, continued, meetings, "damping", "damping group $D = d_c/(m\\omega)$")
     draw_curves(stiffness, continued, meetings, "stiffness", "stiffness group $K = k_c g^{p-1}/(m\\omega^{2p})$")
     handles: dict = {}
     for axes in (damping, stiffness):
         handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
-    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4)
+    if handles:
+        figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4)
     for axes, letter in zip((amplitudes, heights, damping, stiffness), "abcd", strict=True):
         axes.set_title(letter, loc="left", x=-0.22, fontweight="bold")
     return figure

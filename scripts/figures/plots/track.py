@@ -22,7 +22,8 @@ def plot(*, track: pd.DataFrame) -> Figure:
         colours = {"cmap": "PuOr_r", "vmin": -largest, "vmax": largest}
         image = axes.pcolormesh(x, y, own, shading="nearest", rasterized=True, **colours)
         axes.set_facecolor("0.85")
-        axes.contour(x, y, own, levels=[0.0], colors="black", linewidths=1.0)
+        if own.min(axis=None) < 0.0 < own.max(axis=None):
+            axes.contour(x, y, own, levels=[0.0], colors="black", linewidths=1.0)
         axes.axhline(0.0, color="black", linewidth=0.4, linestyle=":")
         axes.axvline(0.0, color="black", linewidth=0.4, linestyle=":")
         axes.set_title(style.state_label(state), color=style.STATE_COLOURS[state])
@@ -36,4 +37,6 @@ def plot(*, track: pd.DataFrame) -> Figure:
     panels[0].set_ylabel("inclination $\\alpha$ in °")
     if states:
         figure.colorbar(image, ax=list(panels), label=style.VELOCITY)
+    else:
+        style.say(panels[0], "parts slide away on all tracks")
     return figure
