@@ -98,8 +98,11 @@ def fig22(*, converged: pd.DataFrame, spectrum: pd.DataFrame, euler: pd.DataFram
     }
 
 
-def bifurcation(*, spectrum: pd.DataFrame, cascade: pd.DataFrame, bifurcations: pd.DataFrame) -> dict[str, Any]:
-    found, bends = cascade.accumulation.dropna(), bifurcations.kind.isin(("fold", "period_doubling")).any()
+def bifurcation(
+    *, spectrum: pd.DataFrame, cascade: pd.DataFrame, bifurcations: pd.DataFrame | None = None
+) -> dict[str, Any]:
+    found = cascade.accumulation.dropna()
+    bends = bifurcations is None or bifurcations.kind.isin(("fold", "period_doubling")).any()
     if found.empty:
         return {"accumulation": None, "bends": bends}
     accumulation, runs = found.iloc[-1], {}

@@ -4,10 +4,11 @@ import numpy as np
 
 from conveyor import ensemble
 from conveyor.analysis.attractors.attractor_table import AttractorTable
-from conveyor.analysis.attractors.labels import classify, continued
+from conveyor.analysis.attractors.labels import continued
 from conveyor.analysis.basins import boundary_scan
+from conveyor.solver.model import Z0
 from pipeline import fields, grid
-from pipeline.motions import search_tolerance, shared_attractors
+from pipeline.motions import Limits, Table, find_limits, follow, is_slow, shared_attractors
 
 TABLES = {
     "critical": (
@@ -20,17 +21,18 @@ TABLES = {
 }
 
 
-def find_states(parameters: np.ndarray, settings: dict, known: AttractorTable, threads: int) -> np.ndarray:
+def find_states(
+    parameters: np.ndarray, settings: dict, known: AttractorTable, limits: Limits | None, threads: int
+) -> np.ndarray:
     """The state of motion that each initial condition leads to, str, shape (n,), for parameters of shape (n, 16).
 
     A fixed-step method runs for the duration, as in the paper, and the converged solution continues from its end.
     """
-    options = {"cycles": settings["settling"], "tolerance": search_tolerance(settings), "threads": threads}
     if settings["method"] != "event":
         run = {name: settings[name] for name in ("duration", "method", "step")}
         runs = ensemble.run(parameters, needs="vertical", chunk=8, threads=threads, **run)
         parameters = continued(parameters, runs["z_end"], runs["vz_end"], settings["duration"])
-    return classify(parameters, attractors=known, **options).state
+    return follow(parameters, known, settings, limits=limits, threads=threads).state
 
 
 def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
@@ -41,8 +43,12 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     axes, parameters = grid.product(settings["axes"], settings["model"])
     heights = grid.axis_values("z0", settings["scan"])
     known = shared_attractors(parameters, len(heights), settings, threads=threads)
+    starts = np.tile(parameters[0], (len(heights), 1))
+    starts[:, Z0] = heights
+    slow = is_slow(Table(parameters, starts, (len(parameters), len(heights))), settings, threads=threads)
+    limits = find_limits(parameters, starts, known, settings, threads=threads) if slow else None
     found = boundary_scan.find_crossings(
-        parameters, heights, lambda rows: find_states(rows, settings, known, threads), settings["resolution"]
+        parameters, heights, lambda rows: find_states(rows, settings, known, limits, threads), settings["resolution"]
     )
     first_row = np.searchsorted(found.point, found.point)
     return {

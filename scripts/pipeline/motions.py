@@ -1,20 +1,30 @@
 """Attractors that initial conditions lead to, with the settings of an entry of the config."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from conveyor.analysis.attractors.attractor_table import NO_ATTRACTORS, AttractorTable, distinct_conveyors
+from conveyor.analysis.attractors.attractor_table import (
+    INITIAL_CONDITION,
+    NO_ATTRACTORS,
+    AttractorTable,
+    distinct_conveyors,
+    find_places,
+)
 from conveyor.analysis.attractors.labels import Labels, classify, continued
 from conveyor.analysis.attractors.search import find_attractors
 from conveyor.simulation import DEFAULT_TOLERANCE
 from conveyor.solver.model import PARAMETERS, PSI0, VZ0, Z0
 from pipeline import grid
-from pipeline.sizes import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED
+from pipeline.sizes import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED, UNLIMITED
 
 INITIAL_CONDITIONS = {PARAMETERS[k] for k in (PSI0, Z0, VZ0)}
 # Conveyors per batch: the attractors of a conveyor take some 30 kB of memory.
 CONVEYORS = 2000
+# Conveyors of a table and initial conditions of each from which the length of searches is estimated, and the cycles of
+# the first estimate.
+SAMPLED_CONVEYORS, SAMPLED_STARTS, FIRST_LIMIT = 8, 32, 1000
 
 
 def search_tolerance(settings: dict) -> float:
@@ -36,6 +46,126 @@ def shared_attractors(
     return find_attractors(parameters, orbits=starts >= ORBITS_SHARED, **options, progress=progress)
 
 
+class Table(NamedTuple):
+    """A table whose rows are a product of conveyors and initial conditions, all in packed parameters."""
+
+    conveyors: np.ndarray  # float64, shape (m, 16), all of them or some that are spread over them
+    starts: np.ndarray  # float64, shape (s, 16), all of them or some that are spread over them
+    counts: tuple[int, int]  # of conveyors and of initial conditions on each
+
+
+class Limits(NamedTuple):
+    """When searches on m conveyors end."""
+
+    conveyors: np.ndarray  # float64, shape (m, 16), as from attractor_table.distinct_conveyors
+    cycles: np.ndarray  # int64, shape (m,), excitation cycles
+
+
+def sample_starts(parameters: np.ndarray, starts: np.ndarray) -> np.ndarray:
+    """Some of the initial conditions `starts`, shape (s, 16), on each conveyor in `parameters`, shape (n, 16)."""
+    conveyors, _ = distinct_conveyors(parameters)
+    chosen = spread(starts, SAMPLED_STARTS)
+    rows = np.repeat(conveyors, len(chosen), axis=0)
+    rows[:, INITIAL_CONDITION] = np.tile(chosen[:, INITIAL_CONDITION], (len(conveyors), 1))
+    return rows
+
+
+def spread(rows: np.ndarray, most: int) -> np.ndarray:
+    """At most so many rows of an array, evenly spread over it."""
+    return rows[spread_places(len(rows), most)]
+
+
+def spread_places(count: int, most: int) -> np.ndarray:
+    """At most so many of the numbers below `count`, evenly spread."""
+    return np.unique(np.linspace(0, count - 1, most).round().astype(np.int64))
+
+
+def spread_rows(axes: dict, model: dict, count: int, most: int) -> np.ndarray:
+    """At most so many of the `count` rows of a product of axes, shape (k, 16), evenly spread over it."""
+    if not axes:
+        return grid.packed(model)[None]
+    places = spread_places(count, most)
+    return np.concatenate([grid.product(axes, model, (place, place + 1))[1] for place in places])
+
+
+def search_limits(
+    sample: np.ndarray, group: np.ndarray, attractors: AttractorTable, settings: dict, *, threads: int = 1
+) -> np.ndarray:
+    """The excitation cycles after which searches in each group must end to take `mean_settling` cycles on average.
+
+    sample, group : some initial conditions of the groups, shape (k, 16), and their groups, 0 to m - 1, shape (k,)
+    Returns int64, shape (m,), at most `settling`.
+    """
+    most, mean = settings["settling"], settings["mean_settling"]
+    limits, is_open = np.full(group.max() + 1, most), np.ones(group.max() + 1, dtype=bool)
+    options = {"tolerance": search_tolerance(settings), "exponents": False, "threads": threads}
+    limit = min(FIRST_LIMIT, most)
+    while is_open.any():
+        rows = np.flatnonzero(is_open[group])
+        cycles = classify(sample[rows], attractors=attractors, cycles=limit, **options).cycles
+        for k in np.flatnonzero(is_open):
+            own = np.sort(cycles[group[rows] == k])
+            if own.mean() > mean:
+                # All but the j shortest searches end at L, and their sum is n mean. Any other j gives a smaller L.
+                shorter = np.cumsum(own) - own
+                limits[k] = ((len(own) * mean - shorter) / np.arange(len(own), 0, -1)).max()
+            is_open[k] = own.mean() <= mean and own[-1] >= limit and limit < most
+        limit = min(2 * limit, most)
+    return limits
+
+
+def is_slow(table: Table, settings: dict, *, threads: int = 1) -> bool:
+    """Whether a table has many points whose searches take more than `mean_settling` cycles on average."""
+    conveyors, starts = table.counts
+    if starts < ORBITS_SHARED or conveyors * starts <= UNLIMITED:
+        return False
+    sample = sample_starts(spread(distinct_conveyors(table.conveyors)[0], SAMPLED_CONVEYORS), table.starts)
+    attractors = shared_attractors(sample, starts, settings, threads=threads)
+    group = np.zeros(len(sample), dtype=np.int64)
+    return bool(search_limits(sample, group, attractors, settings, threads=threads)[0] < settings["settling"])
+
+
+def find_limits(
+    parameters: np.ndarray, starts: np.ndarray, attractors: AttractorTable, settings: dict, *, threads: int = 1
+) -> Limits:
+    """The limits of searches for the attractors of `starts`, shape (s, 16), on the conveyors in `parameters`."""
+    conveyors, _ = distinct_conveyors(parameters)
+    sample = sample_starts(parameters, starts)
+    group = np.repeat(np.arange(len(conveyors)), len(sample) // len(conveyors))
+    return Limits(conveyors, search_limits(sample, group, attractors, settings, threads=threads))
+
+
+def follow(
+    parameters: np.ndarray,
+    attractors: AttractorTable,
+    settings: dict,
+    *,
+    limits: Limits | None = None,
+    threads: int = 1,
+    progress: str | None = None,
+) -> Labels:
+    """The attractors that initial conditions lead to. Those whose search a limit ends stay undecided."""
+    most, exponents = settings["settling"], settings.get("exponents", True)
+    options = {"attractors": attractors, "tolerance": search_tolerance(settings), "threads": threads}
+    if limits is None:
+        return classify(parameters, cycles=most, exponents=exponents, **options, progress=progress)
+    conveyors, index = distinct_conveyors(parameters)
+    cycles = limits.cycles[find_places(limits.conveyors, conveyors)[:, 0]][index]
+    groups = [np.flatnonzero(cycles == limit) for limit in np.unique(cycles)]
+    parts = []
+    for rows in groups:
+        limit = int(cycles[rows[0]])
+        whole = exponents and limit == most
+        parts.append(classify(parameters[rows], cycles=limit, exponents=whole, **options, progress=progress))
+    return join(parts, groups)
+
+
+def join(parts: list[Labels], rows: list[np.ndarray]) -> Labels:
+    """The labels of parts of an array, whose rows are given, in the order of the array."""
+    order = np.argsort(np.concatenate(rows))
+    return Labels(*(np.concatenate(column)[order] for column in zip(*parts, strict=True)))
+
+
 def batches_by_conveyor(parameters: np.ndarray) -> list[np.ndarray]:
     """Rows of `parameters`, shape (n, 16), in batches; all initial conditions of a conveyor are in one batch."""
     _, conveyor = distinct_conveyors(parameters)
@@ -45,24 +175,32 @@ def batches_by_conveyor(parameters: np.ndarray) -> list[np.ndarray]:
 
 
 def motions_of_starts(
-    parameters: np.ndarray, settings: dict, *, starts: int, threads: int = 1, progress: str | None = None
+    parameters: np.ndarray,
+    settings: dict,
+    *,
+    starts: int,
+    table: Table | None = None,
+    threads: int = 1,
+    progress: str | None = None,
 ) -> Labels:
     """The attractors that initial conditions lead to. Attractors that many of them share are found first.
 
     parameters : float64, shape (n, 16)
-    settings : `settling`, `tolerance` if it is not the default, and `exponents` if not as in labels.classify
+    settings : `settling`, `mean_settling` for a table of many points, `tolerance` if it is not the default, and
+        `exponents` if not as in labels.classify
     starts : number of initial conditions of each conveyor, in all batches and shards
+    table : the whole table, if `parameters` are only a part of it
     """
-    options = {"cycles": settings["settling"], "tolerance": search_tolerance(settings), "threads": threads}
-    batches = batches_by_conveyor(parameters)
-    parts = []
+    batches, parts = batches_by_conveyor(parameters), []
+    table = table or Table(parameters, parameters[:starts], (len(parameters) // max(starts, 1), starts))
+    slow = is_slow(table, settings, threads=threads)
     for number, rows in enumerate(batches, start=1):
         label = progress and (f"{progress} ({number} of {len(batches)})" if len(batches) > 1 else progress)
-        known = shared_attractors(parameters[rows], starts, settings, threads=threads, progress=label)
-        exponents = settings.get("exponents", True)
-        parts.append(classify(parameters[rows], attractors=known, exponents=exponents, **options, progress=label))
-    order = np.argsort(np.concatenate(batches))
-    return Labels(*(np.concatenate(column)[order] for column in zip(*parts, strict=True)))
+        batch, options = parameters[rows], {"threads": threads}
+        known = shared_attractors(batch, starts, settings, **options, progress=label)
+        limits = find_limits(batch, table.starts, known, settings, **options) if slow else None
+        parts.append(follow(batch, known, settings, limits=limits, **options, progress=label))
+    return join(parts, batches)
 
 
 def motions(parameters: np.ndarray, settings: dict, **options) -> Labels:
@@ -70,9 +208,16 @@ def motions(parameters: np.ndarray, settings: dict, **options) -> Labels:
 
     options : `threads` and `progress`, as in motions_of_starts
     """
-    axes = settings["axes"].items()
-    starts = math.prod(grid.count_values(axis) for name, axis in axes if name in INITIAL_CONDITIONS)
-    return motions_of_starts(parameters, settings, starts=starts, **options)
+    axes, model = settings["axes"], settings.get("model", {})
+    varied = {name: axis for name, axis in axes.items() if name in INITIAL_CONDITIONS}
+    fixed = {name: axis for name, axis in axes.items() if name not in varied}
+    conveyors, starts = (math.prod(map(grid.count_values, some.values())) for some in (fixed, varied))
+    sampled = (
+        spread_rows(fixed, model, conveyors, SAMPLED_CONVEYORS),
+        spread_rows(varied, model, starts, SAMPLED_STARTS),
+    )
+    table = Table(*sampled, (conveyors, starts))
+    return motions_of_starts(parameters, settings, starts=starts, table=table, **options)
 
 
 def motions_after(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, settings: dict, **options) -> Labels:

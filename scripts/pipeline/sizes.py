@@ -11,3 +11,6 @@ CHAOS_SHARED = 8
 ORBITS_SHARED = 200
 # Below this total of excitation cycles over all initial conditions, this search takes longer than it saves.
 CYCLES_SHARED = 32_000
+
+# Up to this number of points, no limit ends a search before solver.settling: the table takes some minutes at most.
+UNLIMITED = 10_000

@@ -56,7 +56,7 @@ def fill_defaults(config: dict, section: str, entry: dict) -> dict:
     solver = {key: config["solver"][key] for key in ("duration", "method", "tolerance", "step")}
     filled = {**solver, **entry}
     if section in SETTLING:
-        filled["settling"] = config["solver"]["settling"]
+        filled |= {key: config["solver"][key] for key in ("settling", "mean_settling")}
     filled["model"] = {**config["model"], **entry.get("model", {})}
     for axis in entry.get("axes", ()):
         filled["model"].pop(axis, None)

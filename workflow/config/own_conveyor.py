@@ -25,7 +25,10 @@ CONVEYOR = (
 )
 # Settings of figures that mark a number of the paper.
 MARKS = ("critical_acceleration", "critical_height", "first_positive", "two_states")
-DIGITS, EXACT = 4, 17  # of scaled amplitudes, heights and velocities, which appear on axes and in titles, and of other numbers
+DIGITS, EXACT = (
+    4,
+    17,
+)  # of scaled amplitudes, heights and velocities, which appear on axes and in titles, and of other numbers
 ROUNDED = ("m/s²", "m", "m/s", "m²/s²")
 STEPS = 4000  # the steps per excitation cycle are a multiple of this number, so that samples lie on steps
 

@@ -38,7 +38,8 @@ def with_model(config: dict, *sections: str, solver: tuple[str, ...] = (), norma
 def box_settings(section: str, config: dict) -> dict:
     """A section whose initial conditions are drawn from the box of the section `operating`."""
     box = {key: value for key, value in config["operating"].items() if key not in ("acceleration", "resolution")}
-    own = {**box, **config[section], "settling": config["solver"]["settling"]}
+    limits = {key: config["solver"][key] for key in ("settling", "mean_settling")}
+    own = {**box, **config[section], **limits}
     stated = ("psi0", "z0", "vz0", *config[section], *own.get("bounds", ()))
     return {**own, "model": {name: value for name, value in model_of(config).items() if name not in stated}}
 

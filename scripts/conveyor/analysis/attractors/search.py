@@ -38,7 +38,7 @@ def find_attractors(
         chaotic = find_chaotic_sets(some, sampled, cycles, tolerance)
         for k, (row, of_row, sets) in enumerate(zip(some, sampled, chaotic, strict=True), start=begin):
             found[k] = AttractorTable(
-                find_attracting_orbits(row, of_row, tolerance) if orbits else NO_ATTRACTORS.orbits, sets
+                find_attracting_orbits(row, of_row, sets, cycles, tolerance) if orbits else NO_ATTRACTORS.orbits, sets
             )
 
     chunk = TOGETHER if len(conveyors) >= TOGETHER * threads else 1

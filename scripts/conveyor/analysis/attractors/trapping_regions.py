@@ -18,20 +18,26 @@ from ...solver.model import PSI0
 from ...solver.trajectory import BEGIN_OF_CYCLE, OK
 from .. import stroboscopic_map
 from ..dimensionless_groups import units
-from .attractor_table import NO_ATTRACTORS, AttractingOrbits, append_row
-from .convergence import PERIODIC, Trajectories, distance_components
+from . import sampling
+from .attractor_table import NO_ATTRACTORS, AttractingOrbits, AttractorTable, ChaoticSets, append_row
+from .convergence import NOT_CONVERGED, PERIODIC, Trajectories, distance_components, find_reached_orbit
 
 POINTS = 32  # of a curve
 PERIODS = 32  # in which a curve must come inside the one before
+# Of a slow orbit, a curve may take PATIENCE times as many periods as the linearisation.
+PATIENCE = 4.0
 # Lengths of the longer half-axes of the ellipses, in g/ω² and g/ω.
 SMALLEST, LARGEST = 1e-3, 64.0
-# Spectral radii of a linearisation: a smaller one counts as FASTEST; with a larger one no curve halves in PERIODS.
-FASTEST, SLOWEST = 1e-4, 0.98
+# Spectral radii of a linearisation: a smaller one counts as FASTEST; above SLOW, no curve halves in PERIODS; above
+# SLOWEST, checking a curve takes seconds.
+FASTEST, SLOW, SLOWEST = 1e-4, 0.98, 0.9995
+REFINEMENTS = 4  # steps of Newton's iteration
+FAR = 0.01  # in g/ω² and g/ω, farther than Newton's iteration moves to the orbit that it begins at
 LONGEST = 8  # excitation cycles, longest period of an orbit with a trapping region
 
 
 @compiled
-def comes_inside(parameters, tolerance, centre, factor, period, radius):
+def comes_inside(parameters, tolerance, centre, factor, period, radius, periods=PERIODS):
     """Whether an ellipse about a point of an orbit comes inside the ellipse of half its `radius`.
 
     All points must be inside after the same number of periods. The curve is then inside if the distance between
@@ -39,6 +45,7 @@ def comes_inside(parameters, tolerance, centre, factor, period, radius):
 
     centre, factor : see AttractingOrbits
     period : excitation cycles, of the orbit
+    periods : number of periods in which it must come inside
     """
     c, series = contact.constants(parameters, tolerance), contact.workspace()
     no_tangent, features = np.empty((0, 2)), np.zeros(stroboscopic_map.FEATURES)
@@ -49,7 +56,7 @@ def comes_inside(parameters, tolerance, centre, factor, period, radius):
         states[i, 0] = centre[0] + (radius * math.cos(angle) - factor[1] * across) / factor[0]
         states[i, 1] = centre[1] + across - c.damping * max(states[i, 0], 0.0)
     before = math.inf
-    for _ in range(PERIODS):
+    for _ in range(periods):
         size = gap = 0.0
         for i in range(POINTS):
             for _ in range(period):
@@ -69,18 +76,70 @@ def comes_inside(parameters, tolerance, centre, factor, period, radius):
     return False
 
 
+def spectral_radius(matrix: np.ndarray) -> float:
+    """The largest absolute eigenvalue of a matrix."""
+    return np.abs(np.linalg.eigvals(matrix)).max()
+
+
 def contracting_norm(matrix: np.ndarray) -> np.ndarray | None:
     """Upper triangular R, shape (2, 2), with |R M x| < |R x| for a matrix M and all x ≠ 0, and |x| ≤ |R x|.
 
     From Lyapunov's equation of M divided by the root of its spectral radius. None if M contracts too slowly, or not.
     """
-    radius = np.abs(np.linalg.eigvals(matrix)).max()
-    if not radius <= SLOWEST:
+    radius = spectral_radius(matrix)
+    if not radius <= SLOW:
         return None
     # The same digits as from scipy.linalg, which would take each job some tenths of a second to import.
     map_of = (matrix / math.sqrt(max(radius, FASTEST))).T
-    square = np.linalg.solve(np.eye(4) - np.kron(map_of, map_of), np.eye(2).ravel()).reshape(2, 2)
+    return factor_of(np.linalg.solve(np.eye(4) - np.kron(map_of, map_of), np.eye(2).ravel()).reshape(2, 2))
+
+
+def slow_norm(matrix: np.ndarray) -> np.ndarray | None:
+    """R as from `contracting_norm`, in coordinates along the eigenvectors of M.
+
+    Lyapunov's norm would make the ellipses narrow in a slow direction, from which motions come. None if M hardly
+    contracts, or not.
+    """
+    if not spectral_radius(matrix) <= SLOWEST:
+        return None
+    inverse = np.linalg.inv(np.linalg.eig(matrix).eigenvectors)
+    return factor_of((inverse.conj().T @ inverse).real)
+
+
+def factor_of(square: np.ndarray) -> np.ndarray:
+    """The upper triangular R, shape (2, 2), of a norm |R x| ≥ |x| whose square has a multiple of this matrix."""
     return np.linalg.cholesky(square / np.linalg.eigvalsh(square)[0], upper=True)
+
+
+def linearise(parameters: np.ndarray, tolerance: float, point: np.ndarray, period: int) -> tuple:
+    """Where δ (m) and Y (m/s) are after a period, shape (2,), and the derivative, shape (2, 2); None if a cycle fails.
+
+    period : excitation cycles
+    """
+    damping = contact.constants(parameters, tolerance).damping
+    state = np.array([point[0], point[1] - damping * max(point[0], 0.0)])
+    status, matrices, _ = stroboscopic_map.monodromy(parameters, tolerance, state, period)
+    if status != OK:
+        return None
+    end = np.array([state[0], state[1] + damping * max(state[0], 0.0)])
+    return end, reduce(lambda product, following: following @ product, matrices)
+
+
+def refine_orbit(
+    parameters: np.ndarray, tolerance: float, near: np.ndarray, period: int
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """The point of an orbit `near` a point δ (m), Y (m/s), and the linearisation there in g/ω² and g/ω, or None.
+
+    A motion on its way to a slow orbit seems to repeat itself when it is still far away. Newton's iteration goes on.
+    """
+    unit, point = np.array(units(parameters)), near
+    for _ in range(REFINEMENTS):
+        found = linearise(parameters, tolerance, point, period)
+        if found is None or np.abs((point - near) / unit).max() > FAR:
+            return None
+        point = point + np.linalg.lstsq(np.eye(2) - found[1], found[0] - point)[0]
+    found = linearise(parameters, tolerance, point, period)
+    return None if found is None else (point, found[1] * unit / unit[:, None])
 
 
 def find_trapping_region(
@@ -91,36 +150,62 @@ def find_trapping_region(
     parameters : float64, shape (16,), with the phase trajectory.BEGIN_OF_CYCLE
     state : δ (m), v (m/s), shape (2,), at trajectory.BEGIN_OF_CYCLE
     """
-    c, unit = contact.constants(parameters, tolerance), np.array(units(parameters))
-    status, matrices, _ = stroboscopic_map.monodromy(parameters, tolerance, state.copy(), period)
-    if status != OK:
+    damping, unit = contact.constants(parameters, tolerance).damping, np.array(units(parameters))
+    centre = np.array([state[0], state[1] + damping * max(state[0], 0.0)])
+    periods, found = PERIODS, linearise(parameters, tolerance, centre, period)
+    if found is None:
         return None
-    matrix = reduce(lambda product, following: following @ product, matrices)
-    norm = contracting_norm(matrix * unit / unit[:, None])
+    matrix = found[1] * unit / unit[:, None]
+    if spectral_radius(matrix) <= SLOW:
+        norm = contracting_norm(matrix)
+    else:
+        refined = refine_orbit(parameters, tolerance, centre, period)
+        if refined is None:
+            return None
+        centre, matrix = refined
+        norm = slow_norm(matrix)
+        periods = math.ceil(PATIENCE * math.log(0.5) / math.log(min(spectral_radius(matrix), SLOWEST)))
     if norm is None:
         return None
-    centre = np.array([state[0], state[1] + c.damping * max(state[0], 0.0)])
     factor = (norm / unit)[np.triu_indices(2)]
     radius = SMALLEST
-    while radius <= LARGEST and comes_inside(parameters, tolerance, centre, factor, period, radius):
+    while radius <= LARGEST and comes_inside(parameters, tolerance, centre, factor, period, radius, periods):
         radius *= 2.0
     return (centre, factor / (0.5 * radius)) if radius > SMALLEST else None
 
 
-def find_attracting_orbits(parameters: np.ndarray, trajectories: Trajectories, tolerance: float) -> AttractingOrbits:
-    """The attracting orbits that trajectories on a conveyor, shape (16,), have reached, each with a trapping region."""
+def find_attracting_orbits(
+    parameters: np.ndarray, sampled: Trajectories, chaotic: ChaoticSets, cycles: int, tolerance: float
+) -> AttractingOrbits:
+    """The attracting orbits of a conveyor, shape (16,), that trajectories reach, each with a trapping region.
+
+    sampled : trajectories on the conveyor; those that have not converged are followed further, for at most `cycles`,
+        one after the other, so that each slow orbit is approached only once
+    chaotic : the known chaotic sets of the conveyor
+    """
     at_top, unit = parameters.copy(), np.array(units(parameters))
     at_top[PSI0] = BEGIN_OF_CYCLE
     seen, found = np.empty((0, 2)), NO_ATTRACTORS.orbits
-    for k in np.flatnonzero((trajectories.outcomes == PERIODIC) & (trajectories.periods <= LONGEST)):
-        state, period = trajectories.states[k], int(trajectories.periods[k])
-        if (np.abs((seen - state) / unit).max(axis=1) < SMALLEST).any():
-            continue
+
+    def add(state: np.ndarray, period: int, flight: float) -> None:
+        nonlocal seen, found
+        if period > LONGEST or (np.abs((seen - state) / unit).max(axis=1) < SMALLEST).any():
+            return
         status, strobes, _ = stroboscopic_map.follow(at_top, tolerance, state.copy(), period)
-        if status != OK:
-            continue
-        seen = np.concatenate([seen, strobes])
-        around = find_trapping_region(at_top, tolerance, state, period)
-        if around is not None:
-            found = append_row(found, parameters, *around, period, trajectories.flights[k])
+        if status == OK:
+            seen = np.concatenate([seen, strobes])
+            around = find_trapping_region(at_top, tolerance, state, period)
+            if around is not None:
+                found = append_row(found, parameters, *around, period, flight)
+
+    for k in np.flatnonzero(sampled.outcomes == PERIODIC):
+        add(sampled.states[k], int(sampled.periods[k]), sampled.flights[k])
+    for state in sampled.states[sampled.outcomes == NOT_CONVERGED]:
+        late = sampling.follow(parameters[None], state[None], cycles, tolerance, AttractorTable(found, chaotic))
+        if late.outcomes[0] == NOT_CONVERGED:
+            break
+        constants = contact.constants(parameters, tolerance)
+        is_new = find_reached_orbit(constants, late.states[0], found, 0, len(found.periods)) < 0
+        if late.outcomes[0] == PERIODIC and is_new:
+            add(late.states[0], int(late.periods[0]), late.flights[0])
     return found
