@@ -88,6 +88,14 @@ def spread_rows(axes: dict, model: dict, count: int, most: int) -> np.ndarray:
     return np.concatenate([grid.product(axes, model, (place, place + 1))[1] for place in places])
 
 
+def limit_of_mean(cycles: np.ndarray, mean: float) -> int:
+    """The limit L for which searches of these lengths, shape (n,), that all end at L have a mean length."""
+    # If the j shortest searches end before L, the sum is n mean for one L. Any other j gives a smaller L.
+    ascending = np.sort(cycles)
+    shorter = np.cumsum(ascending) - ascending
+    return int(((len(cycles) * mean - shorter) / np.arange(len(cycles), 0, -1)).max())
+
+
 def search_limits(
     sample: np.ndarray, group: np.ndarray, attractors: AttractorTable, settings: dict, *, threads: int = 1
 ) -> np.ndarray:
@@ -104,12 +112,10 @@ def search_limits(
         rows = np.flatnonzero(is_open[group])
         cycles = classify(sample[rows], attractors=attractors, cycles=limit, **options).cycles
         for k in np.flatnonzero(is_open):
-            own = np.sort(cycles[group[rows] == k])
+            own = cycles[group[rows] == k]
             if own.mean() > mean:
-                # All but the j shortest searches end at L, and their sum is n mean. Any other j gives a smaller L.
-                shorter = np.cumsum(own) - own
-                limits[k] = ((len(own) * mean - shorter) / np.arange(len(own), 0, -1)).max()
-            is_open[k] = own.mean() <= mean and own[-1] >= limit and limit < most
+                limits[k] = limit_of_mean(own, mean)
+            is_open[k] = own.mean() <= mean and own.max() >= limit and limit < most
         limit = min(2 * limit, most)
     return limits
 

@@ -50,3 +50,41 @@ def test_attractors_are_searched_if_that_saves_time(count, settling, sets):
     row = grid.product({"acceleration": [80.0]}, {})[1]
     found = motions.shared_attractors(row, count, {"settling": settling, "tolerance": 1e-8})
     assert (len(found.chaotic.low), len(found.orbits.periods)) == (sets, 0)
+
+
+AT_A_WINDOW = {
+    "axes": {"psi0": {"start": 0.0, "stop": 6.0, "num": 20}, "z0": {"start": 0.0, "stop": 5e-4, "num": 20}},
+    "model": {"acceleration": 73.0},
+    "settling": 20_000,
+    "mean_settling": 400,
+    "tolerance": 1e-6,
+}
+
+
+def test_searches_of_many_points_take_a_mean_number_of_cycles(monkeypatch):
+    """At 73 m/s², chaos is a transient of thousands of cycles."""
+    starts = grid.product(AT_A_WINDOW["axes"], AT_A_WINDOW["model"])[1]
+    monkeypatch.setattr(motions, "UNLIMITED", 399)
+    found = motions.motions(starts, AT_A_WINDOW)
+    assert 300 < found.cycles.mean() < 500
+    undecided = found.state == "undecided"
+    assert 0.5 < undecided.mean() < 1.0
+    assert len(set(found.cycles[undecided])) == 1
+    assert (found.cycles[~undecided] <= found.cycles[undecided][0]).all()
+    # A part of the table, as a shard has it, and other threads.
+    part = motions.motions(starts[150:250], AT_A_WINDOW, threads=2)
+    assert equal(part, [column[150:250] for column in found])
+
+
+def test_searches_of_few_points_and_quick_ones_have_no_limit(monkeypatch):
+    settings = AT_A_WINDOW | {"model": {"acceleration": 40.0}}
+    starts = grid.product(settings["axes"], settings["model"])[1]
+    found = motions.motions(starts, settings)
+    monkeypatch.setattr(motions, "UNLIMITED", 399)
+    assert equal(motions.motions(starts, settings), found)
+    assert "undecided" not in found.state
+
+
+def test_a_limit_makes_the_mean():
+    assert motions.limit_of_mean(np.array([10, 20, 1000, 5000]), 100.0) == 185
+    assert motions.limit_of_mean(np.array([300, 400]), 200.0) == 200

@@ -235,6 +235,50 @@ def test_the_reduced_config_serves_other_conveyors_too(name):
     assert found.config["operating"]["starts"] == read_config("reduced")["operating"]["starts"]
 
 
+def loaded(tmp_path, *overlays: dict | str) -> dict:
+    """The config of overlays, each a file of the project or the content of a file."""
+    files = []
+    for number, overlay in enumerate(overlays):
+        file = ROOT / overlay if isinstance(overlay, str) else tmp_path / f"{number}.yaml"
+        if isinstance(overlay, dict):
+            file.write_text(yaml.safe_dump(overlay))
+        files.append(file)
+    contents = [yaml.safe_load(file.read_text()) for file in files]
+    return load_config(DEFAULT_FILES, files, merged(*contents)).config
+
+
+@pytest.mark.parametrize("frequency", [15.0, 16.6667, 30.0, 33.3, 60.0, 100.0, 300.0])
+def test_the_reduced_config_serves_any_frequency(tmp_path, frequency):
+    """Its steps and durations are scaled together, because not every period is a decimal number."""
+    found = loaded(tmp_path, "config/reduced.yaml", {"prefix": "mine", "model": {"frequency": frequency}})
+    assert found["prefix"] == "mine"
+    exponent = found["stability_estimates"]["exponent"]
+    assert exponent["duration"] / exponent["steps"][0] == pytest.approx(1.0e6)
+    assert "edge_euler" not in found["critical"]
+
+
+def test_overlays_in_front_of_the_conveyor_are_scaled_and_later_ones_are_not(tmp_path):
+    coarse = {"prefix": "coarse", "operating": {"resolution": 1.5}, "orbits": {"limits": [25.0, 80.0]}}
+    conveyor = {"prefix": "mine", "model": {"gravity": 19.62}}
+    found = loaded(tmp_path, coarse, conveyor, {"orbits": {"max_period": 2}})
+    assert found["operating"]["resolution"] == 3.0
+    assert found["orbits"] | {"model": None} == found["orbits"] | {"model": None, "limits": [50.0, 160.0]}
+    assert found["orbits"]["max_period"] == 2
+    assert loaded(tmp_path, conveyor, coarse)["operating"]["resolution"] == 1.5
+    assert loaded(tmp_path, coarse, conveyor, {"operating": {"resolution": 1.0}})["operating"]["resolution"] == 1.0
+
+
+def test_an_overlay_that_scales_must_fit_the_paper(tmp_path):
+    with pytest.raises(ConfigError, match="is reversed; give"):
+        loaded(tmp_path, {"orbits": {"limits": [80.0, 25.0]}}, {"prefix": "mine", "model": {"mass": 0.01}})
+
+
+def test_scaled_numbers_of_a_list_stay_distinct():
+    """The cascade of settling times has 72.97 and 73.0 m/s², which four digits would make equal here."""
+    found = scale_config(CONFIG, {"prefix": "mine", "model": {"angle": 0.1}})["settling_times"]["acceleration"]
+    assert len(set(found)) == len(CONFIG["settling_times"]["acceleration"])
+
+
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_no_fit_over_the_amplitudes_of_the_paper(name):
     assert settings_of(config_of(example(name)), "results/precision_estimates")["regression"] is None

@@ -88,6 +88,45 @@ def test_norm_contracts_in_each_step():
             assert trapping_regions.contracting_norm(matrix * radius / np.abs(np.linalg.eigvals(matrix)).max()) is None
 
 
+SLOW_CONVEYOR = {
+    "frequency": 60.0,
+    "angle": 0.2634,
+    "mass": 3.96e-3,
+    "stiffness": 4.673e6,
+    "damping": 2.03,
+    "friction": 0.3226,
+    "inclination": 0.01777,
+    "tension": "clip",
+}
+
+
+def test_slow_orbits_have_neighbourhoods_in_which_motions_stay():
+    """Next to its period doubling, an orbit attracts with the multiplier 0.999; it is approached from 400 cycles on."""
+    row = conveyor_of(42.31691002563875, **SLOW_CONVEYOR)
+    orbits = find_attractors(row[None], cycles=20_000, tolerance=TOLERANCE).orbits
+    (slow,) = np.flatnonzero((orbits.periods == 2) & (orbits.flights * 60.0 < 1.0))
+    starts = inside(row, orbits.centres[slow], orbits.factors[slow], 12)
+    motions = sampling.follow(np.tile(row, (12, 1)), starts, 20_000, TOLERANCE)
+    assert (motions.followed > 1000).all()
+    assert (motions.periods == 2).all()
+    np.testing.assert_allclose(motions.flights, orbits.flights[slow], rtol=1e-3)
+    edge = sampling.initial_conditions(row)[1:2]
+    assert sampling.follow(row[None], edge, 20_000, TOLERANCE).followed[0] > 10_000
+    table = attractor_table.AttractorTable(orbits, attractor_table.NO_ATTRACTORS.chaotic)
+    assert sampling.follow(row[None], edge, 20_000, TOLERANCE, table).followed[0] < 1500
+
+
+def test_slow_norm_contracts_in_each_step():
+    generator = np.random.default_rng(1)
+    for _ in range(200):
+        matrix = generator.normal(size=(2, 2))
+        matrix *= generator.uniform(0.98, 0.9995) / np.abs(np.linalg.eigvals(matrix)).max()
+        norm = trapping_regions.slow_norm(matrix)
+        assert np.linalg.norm(norm @ matrix @ np.linalg.inv(norm), 2) < 1.0
+        assert np.linalg.norm(np.linalg.inv(norm), 2) <= 1.0 + 1e-9
+        assert trapping_regions.slow_norm(matrix / np.abs(np.linalg.eigvals(matrix)).max()) is None
+
+
 def test_orbits_can_be_left_out():
     assert len(find_attractors(conveyor_of(40.0)[None], cycles=500, orbits=False).orbits.periods) == 0
 
