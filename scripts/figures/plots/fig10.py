@@ -52,8 +52,9 @@ def plot(
         axes.set_xlim(*ends_of(converged.attrs["axes"]["acceleration"]))
         axes.set_ylim(top=1e3 * ends_of(converged.attrs["scan"])[1])
         style.say(axes, "no initial height changes the state of motion")
-    axes.set_ylim(bottom=0.0)
-    if fit.empty:
+    elif fit.empty:
         axes.plot([], [], " ", label=f"no fit of Eq. 13 to {edge.acceleration.nunique()} amplitudes")
-    style.legend_above(figure, axes)
+    axes.set_ylim(bottom=0.0)
+    if len(converged):
+        style.legend_above(figure, axes)
     return figure

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from conveyor.solver.model import conveyor_motion
 from figures import style
@@ -17,6 +18,7 @@ def draw_phase_map(table: pd.DataFrame, name: str, label: str, fixed: str) -> tu
     style.state_map(axes, table, name, "psi0")
     axes.set_title(f"$\\hat{{a}}$ = {table.attrs['model']['acceleration']:g} m/s², {fixed}")
     axes.set_xlabel(label)
+    axes.xaxis.set_major_locator(MaxNLocator(5))
     axes.set_ylabel("initial phase $\\psi_0$ in rad")
     style.phase_axis(axes.yaxis)
     axes.set_ylim(top=2.0 * np.pi)

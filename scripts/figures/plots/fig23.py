@@ -2,6 +2,7 @@
 
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from figures import style
 
@@ -22,6 +23,7 @@ def plot(
             axes.plot(1e3 * settled.z, settled.vz, color=style.STATE_COLOURS[state], linewidth=0.8)
             if axes in panels[0]:
                 axes.set_title(f"{style.state_label(state)}, $\\hat{{a}}$ = {acceleration:g} m/s²")
+            axes.xaxis.set_major_locator(MaxNLocator(5))
             if axes in panels[-1]:
                 axes.set_xlabel("height $z_p$ in mm")
             axes.set_ylabel("vertical velocity $\\dot{z}_p$ in m/s")
