@@ -73,10 +73,11 @@ class Motion:
             force.append(stiffness * spring[n] + damping * fast[n])
             pull = turn * derivatives[n % 4] + (self.p["gravity"] if n == 0 else 0)
             deep.append(fast[n] / (n + 1))
+            # From depth (depth^p)' = p depth' depth^p; a coefficient of a product of series is a scalar product.
+            rising, falling = mp.fdot(fast, spring[n::-1]), mp.fdot(deep[1:], spring[n::-1])
             fast.append((pull - force[n]) / (n + 1))
             turn = turn * self.omega / (n + 1)
-            terms = [(k * exponent - (n + 1 - k)) * deep[k] * spring[n + 1 - k] for k in range(1, n + 2)]
-            spring.append(mp.fsum(terms) / ((n + 1) * depth))
+            spring.append(((exponent + 1) * rising - (n + 1) * falling) / ((n + 1) * depth))
         return deep, fast, force
 
     def step_in_contact(self, end: mpf) -> tuple[mpf, Callable, int | None]:
@@ -101,18 +102,20 @@ class Motion:
             tau = now - t
             z, vz, vx_s, _ = self.plate(now)
             if slip:
-                x_now = x + vx * tau + tau**2 * mp.polyval(path, tau, asc=True)
-                vx_now = vx + tau * mp.polyval(rate, tau, asc=True)
+                x_now, vx_now = x + vx * tau + tau**2 * mp.polyval(path, tau, asc=True), slipping_speed(tau)
             else:
                 swing = mp.cos(self.omega * t + self.p["psi0"]) - mp.cos(self.omega * now + self.p["psi0"])
                 x_now, vx_now = x + self.a_x / self.omega**2 * swing, vx_s
             return x_now, vx_now, z - mp.polyval(deep, tau, asc=True), vz - mp.polyval(fast, tau, asc=True)
 
+        def slipping_speed(tau):
+            return vx + tau * mp.polyval(rate, tau, asc=True)
+
         def margin(now):
             """Positive while the mode lasts: slip speed, or in stick the largest friction minus the needed one."""
             _, _, vx_s, ax_s = self.plate(now)
             if slip:
-                return slip * (vx_s - state(now)[1])
+                return slip * (vx_s - slipping_speed(now - t))
             return friction * mp.polyval(force, now - t, asc=True) - abs(ax_s)
 
         step = min(mpf(step), end - t)

@@ -41,6 +41,7 @@ TOLERANCE = 1e-14  # of contact steps
 LIGHT = 1e-5  # dimensionless damping so small that the loss of speed is proportional to it
 RUN = 20.0  # duration of a run in durations of an undamped impact
 CYCLES = 200  # excitation cycles until a part with a stiff contact is close to its orbit
+FAR_ENOUGH = 1.02  # end of a branch in amplitudes of the first period doubling of a rigid ball
 
 
 class Impact(NamedTuple):
@@ -106,8 +107,10 @@ def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[floa
     if orbit is None or orbit.impacts != 1:
         raise ArithmeticError(f"no orbit with one impact per cycle for e = {restitution:g}; take a stiffer contact")
     scale = gravity / vertical
-    branch = continue_orbit(conveyor, orbit, low=0.9 * low * scale, high=1.1 * high * scale)
-    ends = {point.kind: point.orbit.acceleration / scale for point in branch.bifurcations}
+    # Each side only as far as its bifurcation: behind the fold, the unstable orbits are not needed up to the doubling.
+    sides = (0.9 * low * scale, orbit.acceleration), (orbit.acceleration, FAR_ENOUGH * high * scale)
+    branches = [continue_orbit(conveyor, orbit, low=begin, high=end) for begin, end in sides]
+    ends = {point.kind: point.orbit.acceleration / scale for branch in branches for point in branch.bifurcations}
     if not {"fold", "period_doubling"} <= ends.keys():
         raise ArithmeticError(f"the branch of e = {restitution:g} has only {sorted(ends)}; take a stiffer contact")
     return ends["fold"], ends["period_doubling"]
