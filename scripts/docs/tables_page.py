@@ -19,7 +19,7 @@ from accuracy import (
 from claims import verdicts
 from dimensions import portraits
 from fit import regressions
-from identification import edges, fronts, printed, profiles
+from identification import edges, posterior
 from motion import critical, impacts, signals, spectra
 from operating import advice, drive, shares, throws, track
 from orbits import branches, certified, estimates, exponents, strobes, witnesses
@@ -43,7 +43,7 @@ MODULES = {
         *(scene_budget, rigid_part, theory, map_check, settling_times, scaling),
     ],
     "claims": [verdicts],
-    "identification": [edges, printed, fronts, profiles],
+    "identification": [edges, posterior],
 }
 
 

@@ -221,15 +221,12 @@ def track(*, track: pd.DataFrame) -> dict[str, Any]:
     return {"steepest": np.degrees(steepest).to_dict()}
 
 
-def identification(
-    *, front: pd.DataFrame, profiles: pd.DataFrame, frictions: pd.DataFrame, generations: pd.DataFrame
-) -> dict[str, Any]:
-    settings = profiles.attrs
+def identification(*, frictions: pd.DataFrame) -> dict[str, Any]:
+    settings = frictions.attrs
     return {
         "settings": settings,
         "coarse": findings.is_coarse(settings),
         "accepted": findings.accepted_frictions(frictions, settings["numbers"]),
-        "search": findings.summarize_search(front, generations),
     }
 
 

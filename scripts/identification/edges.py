@@ -10,17 +10,20 @@ from collections.abc import Callable
 import numpy as np
 
 from conveyor.analysis.attractors.labels import classify
-from conveyor.parameters import normal_gravity
+from conveyor.analysis.contact_groups import contact_of_groups
 from conveyor.solver.model import ACCELERATION, TENSION, TENSION_MODES, set_columns
 from pipeline import fields, grid
 
 TABLES = {
     "edges": (
-        fields.number("loss", "1", "approximate share of the impact speed that damping dissipates"),
-        fields.number("stiffness", "N/m^p", "contact stiffness"),
+        fields.number(
+            "loss", "1", "group L of the contact: approximate share of the impact speed that damping dissipates"
+        ),
+        fields.number("group", "1", "group K of the contact: its dimensionless stiffness"),
         fields.text("tension", "mode of a tensile contact force: allow (also for frictionless) or clip"),
         fields.number("z0", "m", "initial height"),
-        fields.number("damping", "N s/m", "contact damping, from loss and stiffness"),
+        fields.number("stiffness", "N/m^p", "contact stiffness"),
+        fields.number("damping", "N s/m", "contact damping"),
         fields.number("vertical_acceleration", "m/s²", "vertical amplitude up to which z0 leads to the first state"),
     ),
 }
@@ -35,25 +38,6 @@ FURTHER = 10
 TOLERANCE = 1e-6
 
 Decide = Callable[[np.ndarray], np.ndarray]
-
-
-def duration_over_mass(stiffness: np.ndarray, model: dict) -> np.ndarray:
-    """Duration of an impact at the speed g cos α/ω over the part's mass (s/kg), up to a factor of order one.
-
-    From dimensional analysis of m z̈ = k z^p: T = (m/k)^(1/(p+1)) v^((1-p)/(p+1)).
-    """
-    p, mass = model["exponent"], model["mass"]
-    speed = normal_gravity(model) / (2.0 * np.pi * model["frequency"])
-    return (mass / stiffness) ** (1.0 / (p + 1.0)) * speed ** ((1.0 - p) / (p + 1.0)) / mass
-
-
-def impact_loss(damping: np.ndarray, stiffness: np.ndarray, model: dict) -> np.ndarray:
-    """Relative loss of speed in an impact, d_c T / m, to first order in the damping and up to a factor of order one.
-
-    Contacts with equal loss have nearly the same coefficient of restitution. The edges change least along lines of
-    equal loss, and a table over the loss has no corners in which no part jumps, or all parts do.
-    """
-    return damping * duration_over_mass(stiffness, model)
 
 
 def find_edges(
@@ -119,8 +103,9 @@ def conveyors(settings: dict) -> tuple[dict[str, np.ndarray], np.ndarray]:
     axes = {name: np.geomspace(*settings["bounds"][name], number) for name, number in settings["contacts"].items()}
     axes |= {"tension": np.array(VERTICAL), "z0": np.array(settings["heights"], dtype=np.float64)}
     columns = dict(zip(axes, map(np.ravel, np.meshgrid(*axes.values(), indexing="ij")), strict=True))
-    columns["damping"] = columns["loss"] / duration_over_mass(columns["stiffness"], model)
-    parameters = np.tile(grid.packed(model | {"angle": 0.5 * np.pi}), (len(columns["loss"]), 1))
+    row = grid.packed(model | {"angle": 0.5 * np.pi})
+    columns["stiffness"], columns["damping"] = contact_of_groups(columns["group"], columns["loss"], row)
+    parameters = np.tile(row, (len(columns["loss"]), 1))
     parameters[:, TENSION] = [TENSION_MODES.index(mode) for mode in columns["tension"]]
     set_columns(parameters, {name: columns[name] for name in ("stiffness", "damping", "z0")})
     return columns, parameters

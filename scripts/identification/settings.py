@@ -1,6 +1,6 @@
 """Parts of the config that the tables of the identification need; imported by the Snakefile: no slow imports."""
 
-# Quantities of claims that scripts/identification/measures.py computes for any conveyor.
+# Quantities of claims that scripts/identification/numbers.py computes for any conveyor, and that the search fits.
 NUMBERS_OF_CLAIMS = (
     "C01.critical_amplitude",
     "C02.lower_end",
@@ -15,32 +15,24 @@ NUMBERS_OF_CLAIMS = (
     "C10.lower_end",
     "C10.upper_end",
 )
-# The parts of the section `identification`, and of the rest of the config, that each of its tables needs.
 EDGES = ("bounds", "contacts", "heights", "edges")
-SEARCH = ("bounds", "objectives", "search", "numbers", "measured")
-IDENTIFICATION = {
-    "edges": EDGES,
-    "printed": ("heights", "edges", "reported", "numbers", "measured", "euler"),
-    **dict.fromkeys(("front", "generations"), (*SEARCH, "readings")),
-    **dict.fromkeys(("profiles", "optima", "frictions", "implied"), (*SEARCH, *EDGES, "evidence", "profiles")),
-}
+POSTERIOR = ("numbers", "fits", "intervals", "samples", "frictions")
 
 
 def identification_settings(config: dict, table: str, model: dict) -> dict:
     """The parts of a config that a table of the section `identification` needs, with the model."""
     own = config["identification"]
-    computed = {"numbers": paper_numbers, "measured": measured_quantities, "euler": published_method}
-    parts = IDENTIFICATION[table]
-    settings = {name: computed[name](config) if name in computed else own[name] for name in parts}
-    return {**settings, "model": model}
+    if table == "edges":
+        return {**{name: own[name] for name in EDGES}, "model": model}
+    method = {name: config["solver"][name] for name in ("duration", "step", "settling")}
+    computed = {"numbers": paper_numbers(config), "measured": measured_quantities(config)}
+    return {**own, **computed, "euler": {**method, "method": "euler"}, "model": model}
 
 
 def paper_numbers(config: dict) -> dict[str, dict]:
-    """The paper's numbers CLAIM.QUANTITY that the search fits, each with the accepted interval."""
-    own = config["identification"]
-    searched = [number for group in own["objectives"].values() for number in group]
+    """The paper's numbers CLAIM.QUANTITY, each with the ends of its accepted interval."""
     found = {}
-    for number in [*searched, "C09.A", "C09.B", "C09.C"]:
+    for number in NUMBERS_OF_CLAIMS:
         claim, name = number.split(".")
         quantity = config["claims"][claim]["quantities"][name]
         low, high = quantity["accepted"]
@@ -58,16 +50,9 @@ def measured_quantities(config: dict) -> dict:
 
     sweeps, fit = config["sweeps"], config["regressions"]["height"]
     return {
-        "inside": config["identification"]["inside"],
         "interval": fit["acceleration"],
         "starts": ends_and_count(sweeps["amplitudes"]["axes"]["z0"]),
         "moved_starts": ends_and_count(sweeps["interval"]["axes"]["z0"]),
         "critical": {name: config["claims"][name]["settings"]["acceleration"] for name in ("C07", "C08")},
         "triple": fit["paper"],
-        "bounds_of_b": fit["bounds"]["B"],
     }
-
-
-def published_method(config: dict) -> dict:
-    """The settings of the paper's method, explicit Euler."""
-    return {**{name: config["solver"][name] for name in ("duration", "step", "settling")}, "method": "euler"}

@@ -2,14 +2,12 @@
 
 import numpy as np
 import pytest
-from project import read_config
 
 from conveyor import Conveyor, Start
 from conveyor.analysis.attractors.labels import classify
 from conveyor.solver.model import ACCELERATION, ANGLE, FRICTION, PARAMETERS, Z0, pack
 from identification import edges
 
-MODEL = read_config()["model"]
 SCAN, FURTHER = np.arange(10.0, 31.0, 2.0), 0.1 * np.arange(1.0, 11.0)
 
 
@@ -47,21 +45,6 @@ def test_each_row_may_have_its_own_scan():
     scan = np.array([[17.0, 10.0], [18.0, 11.0]])
     found = edges.find_edges(rows, scan, FURTHER, 1e-6, first_below((0.0, 17.3)))
     assert found == pytest.approx([17.3, np.nan], abs=1e-6, nan_ok=True)
-
-
-def test_the_loss_of_a_hooke_contact():
-    """For a Hooke contact it is d_c/m times sqrt(m/k), twice the damping ratio. It is dimensionless for any contact."""
-    linear = MODEL | {"exponent": 1.0}
-    ratio = 0.3 / np.sqrt(2e3 * MODEL["mass"])
-    assert edges.impact_loss(0.3, 2e3, linear) == pytest.approx(ratio)
-    # Lengths in mm and masses in g: N = kg m/s², so that N/m^1.5 takes 10^(3 + 3 - 4.5) and N s/m 10^(3 + 3 - 3).
-    other = MODEL | {"mass": 1e3 * MODEL["mass"], "gravity": 1e3 * MODEL["gravity"]}
-    assert edges.impact_loss(0.3e3, 5e5 * 10**1.5, other) == pytest.approx(edges.impact_loss(0.3, 5e5, MODEL))
-
-
-def test_the_loss_on_a_rising_track_follows_gravity_normal_to_it():
-    level = MODEL | {"gravity": MODEL["gravity"] * np.cos(0.4)}
-    assert edges.impact_loss(0.3, 5e5, MODEL | {"inclination": 0.4}) == edges.impact_loss(0.3, 5e5, level)
 
 
 def test_edges_hold_for_all_angles_frictions_and_frictionless_tension():

@@ -10,6 +10,7 @@ from project import ROOT, merged, read_config
 from conveyor import Conveyor, Start, ensemble, simulation
 from conveyor.methods import fixed_step
 from conveyor.solver import model
+from identification.settings import NUMBERS_OF_CLAIMS
 from workflow.config import problems
 from workflow.config.entries import by_methods, resolve
 from workflow.config.schema import schema_at
@@ -24,23 +25,15 @@ WRONG = [
     ({"companion": {"opening": "third"}}, "companion.opening = 'third' is unknown; there are first, second, chaos"),
     ({"companion": {"presets": {"mine": {"mas": 1.0}}}}, "companion.presets.mine.mas is an unknown key"),
     (
-        {"identification": {"objectives": {"second_velocity": ["C06.rise"]}}},
-        "identification.objectives.second_velocity[0] = 'C06.rise' should be 'C01.critical_amplitude'",
+        {"identification": {"evidence": {"all": {"without": ["C06.rise"]}}}},
+        "identification.evidence.all.without[0] = 'C06.rise' should be 'C01.critical_amplitude'",
     ),
     (
-        {"identification": {"objectives": {"second_velocity": ["C06.fall", "C07.height"]}}},
-        "identification.objectives has C07.height in two of its groups",
-    ),
-    (
-        {"identification": {"objectives": {"places": ["C01.critical_amplitude"]}}},
-        "identification.evidence.end_left_out.without = 'C02.upper_end' is in none of the objectives",
+        {"identification": {"evidence": {"all": {"without": list(NUMBERS_OF_CLAIMS[:8])}}}},
+        "identification.evidence.all.without leaves 4 numbers for 4 parameters",
     ),
     ({"identification": {"bounds": {"angle": [8, 16]}}}, "8° are 0.1396 rad"),
     ({"identification": {"bounds": {"friction": [0.4, 0.1]}}}, "is reversed"),
-    (
-        {"identification": {"search": {"population": 20, "weights": 5}}},
-        "is not larger than the number of weight triples, 21",
-    ),
     ({"identification": {"heights": [0.0, 2.0e-4, 1.0e-4, 3.0e-4]}}, "is not ascending"),
     ({"sweep": {}}, "sweep is an unknown key; did you mean sweeps?"),
     ({"sweeps": {"mine": {**MINE, "methd": "euler"}}}, "sweeps.mine.methd is an unknown key; did you mean method?"),

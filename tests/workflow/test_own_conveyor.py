@@ -286,6 +286,6 @@ def test_no_fit_over_the_amplitudes_of_the_paper(name):
 
 
 def test_tables_made_from_the_claims_of_the_paper_say_so(built):
-    run = built.snakemake("results/identification/printed.parquet", "--dry-run")
+    run = built.snakemake("results/identification/numbers.parquet", "--dry-run")
     assert run.returncode == 1
-    assert "printed.parquet needs the paper's claims, which this config lacks; use the paper's config" in run.stdout
+    assert "numbers.parquet needs the paper's claims, which this config lacks; use the paper's config" in run.stdout

@@ -27,9 +27,7 @@ CALLS = {
     "operating/track": {"operating/regimes", "operating/shares"},
     "operating/drive": {"operating/regimes", "operating/shares"},
     "operating/throws": {"operating/regimes", "operating/shares"},
-    "identification/fronts": {"identification/edges"},
-    "identification/printed": {"identification/edges", "motion/critical"},
-    "identification/profiles": {"identification/edges", "identification/printed", "motion/critical"},
+    "identification/posterior": {"identification/edges", "motion/critical"},
 }
 
 

@@ -8,6 +8,8 @@ from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 
+from scripts.identification.settings import NUMBERS_OF_CLAIMS
+
 from .entries import (
     ENTRIES,
     FIGURES,
@@ -293,22 +295,10 @@ def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
 
 def identification(config: dict, defaults: dict) -> Iterator[str]:
     own = config["identification"]
-    searched = [number for group in own["objectives"].values() for number in group]
-    for number in sorted({number for number in searched if searched.count(number) > 1}):
-        yield f"identification.objectives has {number} in two of its groups; keep it in one of them"
     for name, evidence in own["evidence"].items():
-        for number in evidence["without"]:
-            if number not in searched:
-                remedy = suggest_name(number, searched)
-                yield f"identification.evidence.{name}.without = {number!r} is in none of the objectives; {remedy}"
-        left = len(searched) - len(evidence["without"])
+        left = len(NUMBERS_OF_CLAIMS) - len(set(evidence["without"]))
         if left <= len(own["bounds"]):
             yield f"identification.evidence.{name}.without leaves {left} numbers for {len(own['bounds'])} parameters"
-    if own["search"]["population"] <= (weights := own["search"]["weights"] + 1) * (weights + 1) // 2:
-        yield (
-            f"identification.search.population = {own['search']['population']} is not larger than the number of weight "
-            f"triples, {weights * (weights + 1) // 2}; give more, or fewer weights"
-        )
 
 
 def drive(config: dict, defaults: dict) -> Iterator[str]:

@@ -553,13 +553,12 @@ class Drive(TypedDict):
 
 
 NumberOfClaim = word("quantity of a claim, as CLAIM.QUANTITY", *NUMBERS_OF_CLAIMS)
-NumbersOfClaims = many(NumberOfClaim, "quantities of claims")
 
 
 class Searched(TypedDict):
     friction: interval(number("friction", "1", gt=0, le=10), DESCRIPTIONS["friction"])
-    loss: interval(number("loss", "1", gt=0, le=2), "damping × contact time / mass")
-    stiffness: interval(MODEL_TYPES["stiffness"], DESCRIPTIONS["stiffness"])
+    loss: interval(number("loss", "1", gt=0, le=2), "group L of the contact: damping × contact time / mass")
+    group: interval(number("group", "1", gt=0, le=1e12), "group K of the contact: dimensionless stiffness")
     angle: interval(number("angle", "rad", gt=0, le=1.5707), DESCRIPTIONS["angle"])
 
 
@@ -570,52 +569,30 @@ class Evidence(TypedDict):
     shifted: Annotated[bool, Field(description="add the error of the paper's method at its parameters")]
 
 
-class Front(TypedDict):
-    weights: whole("parts into which the weights divide one", 1, 50)
-    drawn: whole("random points in the bounds", 10, 10**6)
-    starts: whole("random points that start a least-squares fit", 1, 100)
-    population: whole("population of NSGA-II", 20, 10**4)
-    generations: whole("generations of NSGA-II", 4, 10**5)
-    seeds: many(Seed, "seeds of the random numbers", least=2)
-    worst: number("misfit from which a member does not count", gt=0, le=1e3)
-
-
 class Edges(TypedDict):
     vertical_acceleration: span(number("vertical amplitude", "m/s²", gt=0, le=1e4), "scan from below")
     further: number("distance above an edge at which the first state is searched for", "m/s²", gt=0, le=1e3)
     resolution: number("accuracy of an edge", "m/s²", gt=0, le=10)
 
 
-class Profiles(TypedDict):
-    points: whole("points of a profile", 3, 1000)
+class PosteriorSearch(TypedDict):
+    points: whole("points of each round", 50, 10**6)
+    rounds: whole("rounds after the first one", 1, 100)
+    followed: whole("conveyors whose velocities are computed", 50, 10**6)
+    seed: Seed
     confidence: number("confidence level of the intervals", gt=0, lt=1)
-
-
-ChangedParameters = mapping(
-    "changed parameters",
-    {name: MODEL_TYPES[name] for name in ("friction", "damping", "stiffness", "angle")},
-    total=False,
-)
 
 
 class Identification(TypedDict):
     bounds: Annotated[Searched, Field(description="search interval of each parameter")]
-    readings: many(MODEL_TYPES["tension"], "readings of Eqs. 7 and 11")
-    objectives: mapping(
-        "objectives of the search", dict.fromkeys(("places", "first_velocity", "second_velocity"), NumbersOfClaims)
-    )
     evidence: mapping("sets of evidence", dict.fromkeys(("all", "end_left_out", "paper_method"), Evidence))
     contacts: mapping(
-        "contacts in the table of edges", dict.fromkeys(("loss", "stiffness"), whole("number of values", 4, 1000))
+        "contacts in the table of edges", dict.fromkeys(("loss", "group"), whole("number of values", 4, 1000))
     )
     heights: many(HeightNumber, "initial heights in the table of edges", least=4, check=check_ascending)
     edges: Annotated[Edges, Field(description="edges of the states of motion")]
     inside: number("distance inside the interval of two states at which velocities are measured", "m/s²", gt=0, le=10)
-    search: Annotated[Front, Field(description="multi-objective search with NSGA-II")]
-    profiles: Annotated[Profiles, Field(description="profile likelihoods")]
-    reported: Annotated[
-        dict[Name, ChangedParameters], Field(description="parameters at which the quantities are reported")
-    ]
+    search: Annotated[PosteriorSearch, Field(description="importance sampling of the parameters")]
 
 
 # [amplitude, initial height]

@@ -9,7 +9,7 @@ import math
 from functools import partial
 from operator import itemgetter
 
-from scripts.identification.settings import IDENTIFICATION, identification_settings
+from scripts.identification.settings import POSTERIOR, identification_settings
 
 from .entries import ENTRIES, TIGHTER, fill_defaults, resolve, without_tangential
 from .sharing import THREADS, conveyors_of, plan
@@ -180,7 +180,7 @@ TABLES = {
     "operating/track": partial(box_settings, "track"),
     "operating/drive_front": drive_settings,
     "operating/drive_generations": drive_settings,
-    **{f"identification/{name}": partial(identification_table_settings, name) for name in IDENTIFICATION},
+    **{f"identification/{name}": partial(identification_table_settings, name) for name in ("edges", *POSTERIOR)},
     "results/claims": lambda config: {"claims": config["claims"]},
     "results/benchmark": benchmark_settings,
     "results/reference_check": reference_settings,

@@ -4,7 +4,11 @@ import json
 
 # The tables that figures, captions and claims are made from, and tables that the same jobs make for pages only.
 QUOTED_TABLES = sorted({*references_of(config["figures"]), *references_of(config["claims"])})
-BYPRODUCTS = {"sensitivity/derivatives": "sensitivity/groups", "identification/profiles": "identification/implied"}
+BYPRODUCTS = {
+    "sensitivity/derivatives": "sensitivity/groups",
+    "identification/samples": "identification/intervals",
+    "identification/frictions": "identification/numbers",
+}
 BUILT_TABLES = sorted(
     {
         "results/claims",

@@ -1,5 +1,6 @@
-# Which parameters the paper's numbers imply: the quantities of the claims over the parameters, and the best fits. These jobs start
-# first, because they wait for each other. A job of the rule `precision` starts beside them, because both share little compiled code.
+# Which parameters the paper's numbers imply: edges of the first state over the parameters of the contact, and the posterior. These
+# jobs start first, because they wait for each other. A job of the rule `precision` starts beside them, because both share little
+# compiled code.
 
 
 rule identification_edges:
@@ -20,57 +21,25 @@ rule identification_edges:
         "../../scripts/make.py"
 
 
-rule identification_printed:
+rule identification_posterior:
     input:
         **tables_of("identification/edges"),
-    output:
-        **tables_of("identification/printed"),
-    log:
-        log_file("identification/printed"),
-    benchmark:
-        benchmark_file("identification/printed")
-    priority: 3
-    params:
-        **stage("identification.printed", "identification/printed"),
-    message:
-        "The paper's numbers at the paper's parameters"
-    script:
-        "../../scripts/make.py"
-
-
-rule identification_fronts:
-    input:
-        **tables_of("identification/edges"),
-    output:
-        **tables_of("identification/front", "identification/generations"),
-    log:
-        log_file("identification/fronts"),
-    benchmark:
-        benchmark_file("identification/fronts")
-    priority: 3
-    params:
-        **stage("identification.fronts", "identification/front"),
-    message:
-        "Best fits to the paper's numbers"
-    script:
-        "../../scripts/make.py"
-
-
-rule identification_profiles:
-    input:
-        **tables_of("identification/edges", "identification/front", "identification/printed"),
     output:
         **tables_of(
-            "identification/profiles", "identification/optima", "identification/frictions", "identification/implied"
+            "identification/numbers",
+            "identification/fits",
+            "identification/intervals",
+            "identification/samples",
+            "identification/frictions",
         ),
     log:
-        log_file("identification/profiles"),
+        log_file("identification/posterior"),
     benchmark:
-        benchmark_file("identification/profiles")
+        benchmark_file("identification/posterior")
     priority: 3
     params:
-        **stage("identification.profiles", "identification/profiles"),
+        **stage("identification.posterior", "identification/samples"),
     message:
-        "Confidence interval of each parameter"
+        "Parameters that the paper's numbers imply"
     script:
         "../../scripts/make.py"

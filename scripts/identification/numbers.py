@@ -1,0 +1,230 @@
+"""The paper's numbers for any conveyor, measured as in the claims but with fewer heights.
+
+The amplitudes and heights at which states of motion change follow from the edges of a contact (see edges), which hold
+for all angles and frictions. Each conveyor needs only four trajectories: both states of motion at both ends of the
+interval in which the paper states their velocities.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+from scipy.interpolate import CubicSpline, RegularGridInterpolator
+from scipy.sparse.linalg import spsolve
+
+from conveyor import ensemble
+from conveyor.analysis.attractors.attractor_table import NO_ATTRACTORS
+from conveyor.analysis.basins.hyperbola import Hyperbola, mean_squared_error
+from conveyor.analysis.contact_groups import contact_of_groups, groups_of_contact
+from conveyor.solver.model import ACCELERATION, ANGLE, TENSION, TENSION_MODES, UNITS, Z0, set_columns
+from identification import edges as edge_search
+from motion.critical import find_states
+from pipeline import grid
+
+# Parameters of the tables with their units, and searched parameters in order.
+PARAMETERS = {name: UNITS[name] for name in ("friction", "damping", "stiffness", "angle")}
+SEARCHED = ("friction", "loss", "group", "angle")
+CONTACT = [SEARCHED.index("loss"), SEARCHED.index("group")]
+CONVERGED, EULER = "converged", "euler"
+MM, CM = 1e3, 1e2
+FINE = 1001  # heights at which the curve through the edges is evaluated
+DURATION, TOLERANCE = 1.0, 1e-6  # of the four trajectories (s), and of their contact steps (see figure scene_budget)
+# Scan for the edges of the paper's method: distances from the converged edges, m/s².
+AROUND = np.array([-0.6, -0.3, 0.0, 0.3, 0.6])
+
+Follow = Callable[[np.ndarray], np.ndarray]
+
+
+def values_of(x: np.ndarray, model: dict) -> dict[str, np.ndarray]:
+    """The parameters, each of shape (n,), from logarithms of the searched parameters, shape (n, 4)."""
+    friction, loss, group, angle = np.exp(x).T
+    stiffness, damping = contact_of_groups(group, loss, grid.packed(model))
+    return {"friction": friction, "damping": damping, "stiffness": stiffness, "angle": angle}
+
+
+def searched(model: dict) -> np.ndarray:
+    """Logarithms of the searched parameters of a model, shape (1, 4)."""
+    group, loss = groups_of_contact(model["stiffness"], model["damping"], grid.packed(model))
+    return np.log([[model["friction"], loss, group, model["angle"]]])
+
+
+def packed(x: np.ndarray, tension: str, model: dict) -> np.ndarray:
+    """Parameter vectors, shape (n, 16), of a model with other searched parameters, shape (n, 4), and tension mode."""
+    rows = np.tile(grid.packed(model | {"z0": 0.0}), (len(x), 1))
+    columns = values_of(x, model)
+    if "static_friction" in model:
+        columns["static_friction"] = np.maximum(model["static_friction"], columns["friction"])
+    set_columns(rows, columns)
+    rows[:, TENSION] = TENSION_MODES.index(tension)
+    return rows
+
+
+def interpolate_edges(table: pd.DataFrame) -> dict[str, RegularGridInterpolator]:
+    """For each tension mode, a spline over the logarithms of loss and group; its values are the edges at all heights.
+
+    Raises
+    ------
+    ValueError
+        if a row of the table has no edge, because the bounds of the config are too wide
+    """
+    if table.vertical_acceleration.isna().any():
+        row = table[table.vertical_acceleration.isna()].iloc[0]
+        raise ValueError(
+            f"no edge was found at the loss {row.loss:.3g}, the group {row.group:.3g} and z0 = {row.z0:g} m; narrow "
+            "identification.bounds, or widen identification.edges.vertical_acceleration"
+        )
+    table = table.sort_values(["loss", "group", "z0"])
+    axes = [table[name].unique() for name in ("loss", "group", "z0")]
+    return {
+        tension: RegularGridInterpolator(
+            (np.log(axes[0]), np.log(axes[1])),
+            rows.vertical_acceleration.to_numpy().reshape([len(axis) for axis in axes]),
+            "cubic",
+            bounds_error=False,  # points at the bounds, up to rounding, are extrapolated
+            fill_value=None,
+            solver=spsolve,
+        )
+        for tension, rows in table.groupby("tension")
+    }
+
+
+class Curve(NamedTuple):
+    """Amplitude at the edge over the initial height: heights (m, shape (k,)), amplitudes (m/s², shape (n, k))."""
+
+    heights: np.ndarray
+    amplitudes: np.ndarray
+
+    def at(self, heights: np.ndarray) -> np.ndarray:
+        """Amplitudes at the edge, shape (n, m), at some heights (m, shape (m,))."""
+        return np.array([np.interp(heights, self.heights, amplitudes) for amplitudes in self.amplitudes])
+
+    def critical_height(self, acceleration: np.ndarray) -> np.ndarray:
+        """Lowest height (m) that does not lead to the first state, at amplitudes of shape (n, m): the same shape.
+
+        The lowest height of the curve if all heights leave the first state, the height of its lowest edge if none does.
+        """
+        heights = np.empty_like(acceleration)
+        for row, (wanted, amplitudes) in enumerate(zip(acceleration, self.amplitudes, strict=True)):
+            falling = np.minimum.accumulate(amplitudes[: amplitudes.argmin() + 1])
+            heights[row] = np.interp(-wanted, -falling, self.heights[: len(falling)])
+        return heights
+
+
+def converged_velocities(rows: np.ndarray) -> np.ndarray:
+    """Mean feeding velocities (m/s), shape (n,), of parameter vectors, shape (n, 16), by the converged solution."""
+    # The overhead of ensemble.run would add a seventh to a search that needs four trajectories at a time.
+    return ensemble.follow_by_events(rows, np.full(len(rows), DURATION), TOLERANCE, True)["mean_velocity"]
+
+
+def parameters_of_both_states(parameters: np.ndarray, found: Curve, interval: list[float], inside: float) -> np.ndarray:
+    """Parameter vectors that lead to each state at both ends of the interval of Fig. 9: shape (n, 2, 2, 16).
+
+    The axes after the first one are state and end. If both states do not coexist at an end, the nearest amplitude at
+    which they do replaces it, moved inside by a step of the amplitude axis. The initial height of the first state is
+    the middle of the heights that lead to it; the initial height of the second state is the height of the lowest edge.
+    """
+    low, high = interval
+    low = np.maximum(low, found.amplitudes.min(axis=1) + inside)
+    high = np.minimum(high, found.amplitudes.max(axis=1) - inside)
+    rows = np.tile(parameters[:, None, None, :], (1, 2, 2, 1))
+    rows[..., 0, ACCELERATION], rows[..., 1, ACCELERATION] = low[:, None], high[:, None]
+    rows[:, 0, :, Z0] = 0.5 * found.critical_height(np.stack([low, high], axis=1))
+    rows[:, 1, :, Z0] = found.heights[found.amplitudes.argmin(axis=1)][:, None]
+    return rows
+
+
+def changes_of_state(found: Curve, measured: dict, step: float) -> dict[str, np.ndarray]:
+    """Amplitudes and heights of changes of state, by CLAIM.QUANTITY, each of shape (n,), in the claims' units."""
+    fig_8, fig_11 = (found.at(np.linspace(*measured[name])) for name in ("starts", "moved_starts"))
+    low, high = measured["interval"]
+    # The critical height is largest at the lower end of the interval, or where the second state begins above it. It
+    # hardly depends on the amplitude there; the slope of Eq. 13 is added so that a search moves to the paper's value.
+    lowest = np.maximum(low, found.amplitudes.min(axis=1))
+    triple = Hyperbola(**measured["triple"])
+    missing = triple.A / (triple.B + low) ** 2 * (lowest - low)
+    given, fitted = list(measured["critical"].values()), np.linspace(low, high, round((high - low) / step) + 1)
+    amplitudes = np.tile([*given, *fitted], (len(lowest), 1))
+    heights = found.critical_height(np.column_stack([lowest, amplitudes]))
+    return {
+        "C01.critical_amplitude": fig_8[:, 0],
+        "C02.lower_end": fig_8.min(axis=1),
+        "C02.upper_end": fig_8.max(axis=1),
+        "C04.largest_height": MM * (heights[:, 0] + missing),
+        **{f"{name}.height": MM * heights[:, 1 + k] for k, name in enumerate(measured["critical"])},
+        "C09.error": mean_squared_error(fitted, heights[:, 1 + len(given) :], triple),
+        "C10.lower_end": fig_11.min(axis=1),
+        "C10.upper_end": fig_11.max(axis=1),
+    }
+
+
+def measure(
+    parameters: np.ndarray, edges: np.ndarray, settings: dict, follow: Follow | None = converged_velocities
+) -> dict[str, np.ndarray]:
+    """The quantities of conveyors, by CLAIM.QUANTITY, each of shape (n,), in the units of the claims.
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 16), rows as from model.pack; their acceleration and initial condition are not used
+    edges : vertical amplitudes at the edges of the heights of the settings, m/s², shape (n, h)
+    settings : of the rule
+    follow : function from parameter vectors to mean velocities (m/s); None for the changes of state only
+    """
+    measured, inside = settings["measured"], settings["inside"]
+    fine = np.linspace(settings["heights"][0], settings["heights"][-1], FINE)
+    splines = CubicSpline(settings["heights"], edges, axis=1)
+    found = Curve(fine, splines(fine) / np.sin(parameters[:, ANGLE])[:, None])
+    changes = changes_of_state(found, measured, inside)
+    if follow is None:
+        return changes
+    rows = parameters_of_both_states(parameters, found, measured["interval"], inside)
+    first, second = np.moveaxis(CM * follow(rows.reshape(-1, rows.shape[-1])).reshape(rows.shape[:3]), 1, 0)
+    return changes | {
+        "C05.velocity_at_lower_end": first[:, 0],
+        "C05.velocity_at_upper_end": first[:, 1],
+        "C06.fall": second[:, 0] - second[:, 1],
+    }
+
+
+def measure_by_table(
+    x: np.ndarray,
+    splines: dict[str, RegularGridInterpolator],
+    tension: str,
+    settings: dict,
+    follow: Follow | None = converged_velocities,
+) -> dict[str, np.ndarray]:
+    """The quantities at searched parameters, shape (n, 4), with interpolated edges and by the converged solution."""
+    edges = splines[edge_search.VERTICAL_OF[tension]](x[:, CONTACT])
+    return measure(packed(x, tension, settings["model"]), edges, settings, follow)
+
+
+def edges_directly(x: np.ndarray, method: str, settings: dict, threads: int) -> np.ndarray:
+    """Vertical edges (m/s²), shape (1, h), of the printed contact treatment at searched parameters, shape (1, 4).
+
+    The paper's method runs for its duration, and the converged solution continues from there, as in the claims.
+    """
+    model, heights, euler = settings["model"], settings["heights"], settings["euler"]
+    rows = np.repeat(packed(x, model["tension"], model), len(heights), axis=0)
+    rows[:, ANGLE], rows[:, Z0] = 0.5 * np.pi, heights
+    converged = edge_search.search_edges(rows, settings, edge_search.converged_states(threads))
+    if method == CONVERGED:
+        return converged[None]
+
+    def states(selected: np.ndarray) -> np.ndarray:
+        return find_states(selected, euler, NO_ATTRACTORS, threads)
+
+    return edge_search.search_edges(rows, settings, states, converged + AROUND[:, None])[None]
+
+
+def measure_directly(x: np.ndarray, method: str, settings: dict, threads: int) -> dict[str, np.ndarray]:
+    """The quantities at searched parameters, shape (1, 4), without interpolation, by one of both methods."""
+    run = {name: settings["euler"][name] for name in ("duration", "method", "step")}
+
+    def follow_by_euler(rows: np.ndarray) -> np.ndarray:
+        return ensemble.run(rows, chunk=1, threads=threads, **run)["mean_velocity"]
+
+    parameters, edges = (
+        packed(x, settings["model"]["tension"], settings["model"]),
+        edges_directly(x, method, settings, threads),
+    )
+    return measure(parameters, edges, settings, converged_velocities if method == CONVERGED else follow_by_euler)

@@ -1,0 +1,209 @@
+"""Which parameters the paper's numbers imply: the posterior of friction, damping, stiffness and angle.
+
+The likelihood takes the misfits as independent, normally distributed errors with a standard deviation of half an
+accepted interval. This makes the intervals wider, because the standard deviation of a uniform distribution over the
+accepted interval is smaller by √3. Counting critical heights on one curve as independent makes them narrower. If even
+the best parameters miss by more than these errors allow, all errors are scaled up by one factor (Birge's ratio). The
+prior is constant in the logarithms of the searched parameters, and both tension modes are equally probable.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+import pandas as pd
+from scipy.optimize import minimize
+from scipy.special import softmax
+from scipy.stats import chi2
+
+from identification import numbers as claims
+from identification.edges import VERTICAL
+from identification.findings import VELOCITIES, misfit
+from identification.numbers import CONVERGED, EULER, PARAMETERS, SEARCHED, searched, values_of
+from pipeline import fields
+from pipeline.importance_sampling import interval, sample
+
+EVIDENCE = fields.text("evidence", "set of the paper's numbers: see identification.evidence of the config")
+VALUES = tuple(fields.number(name, unit, "parameter") for name, unit in PARAMETERS.items())
+TOTAL = fields.number("total", "1", "sum of squared misfits, each in half an accepted interval")
+SETS = "a set of evidence at its best parameters; at the printed parameters: euler, converged, or interpolated (edges)"
+TENSION = fields.text("tension", "mode of a tensile contact force")
+TABLES = {
+    "numbers": (
+        fields.text("set", SETS),
+        fields.text("number", "CLAIM.QUANTITY"),
+        fields.number("value", "see the claim", "measured"),
+        fields.number("misfit", "1", "distance from the middle of the accepted interval over half its width"),
+    ),
+    "fits": (
+        EVIDENCE,
+        TENSION,
+        *VALUES,
+        TOTAL,
+        fields.number("printed_total", "1", "total at the printed parameters with this tension mode"),
+        fields.count("numbers", "numbers of the paper in the total"),
+        fields.number(
+            "scale",
+            "1",
+            "squared factor on all errors: least total of the changes of state over degrees of freedom, at least 1",
+        ),
+        fields.number("region", "1", "rise of the total at the edge of the confidence region of all parameters"),
+        fields.number("share", "1", "posterior probability of this tension mode"),
+        fields.number("size", "1", "effective number of points"),
+    ),
+    "intervals": (
+        EVIDENCE,
+        fields.text("parameter", "name"),
+        fields.number("best", "see parameter", "value with the least total"),
+        fields.number(
+            "low",
+            "see parameter",
+            "lower end of the credible interval; null if the effective number of points is below 100",
+        ),
+        fields.number("high", "see parameter", "upper end"),
+        fields.flag("open_low", "whether only the bound of the search limits the interval there"),
+        fields.flag("open_high", "the same for the upper end"),
+        fields.number("covered", "1", "share of the searched range that the interval covers, on a logarithmic scale"),
+    ),
+    "samples": (EVIDENCE, TENSION, *VALUES, TOTAL, fields.number("weight", "1", "share of the posterior")),
+    "frictions": (
+        fields.number("friction", "1", "coefficient of friction, with the other printed parameters"),
+        fields.number("first_low", "cm/s", "first state's velocity at the lower end of the interval with two states"),
+        fields.number("first_high", "cm/s", "first state's velocity at the upper end"),
+        fields.number("fall", "cm/s", "decrease of the second state's velocity from the lower to the upper end"),
+    ),
+}
+ENOUGH = 100.0  # effective points for an interval
+FRICTIONS = 65  # values of friction in the table `frictions`
+
+Quantities = Callable[[np.ndarray, str, bool], dict[str, np.ndarray]]
+
+
+def effective_number(weights: pd.Series) -> float:
+    """Effective number of points with these weights."""
+    return float(weights.sum() ** 2 / np.sum(weights**2))
+
+
+def number_rows(name: str, found: dict[str, np.ndarray], numbers: dict[str, dict]) -> pd.DataFrame:
+    """Rows of the table of numbers, from quantities of shape (1,)."""
+    values = {number: float(found[number][0]) for number in numbers}
+    misfits = [float(misfit(value, numbers[number])) for number, value in values.items()]
+    return pd.DataFrame({"set": name, "number": list(values), "value": list(values.values()), "misfit": misfits})
+
+
+def infer(evidence: dict, shifts: dict[str, float], quantities: Quantities, settings: dict) -> tuple[pd.DataFrame, ...]:
+    """Samples and fits of one set of evidence.
+
+    Changes of state do not depend on friction and need no trajectory. They give a posterior of contact and angle, from
+    which points are drawn for the trajectories; the velocities are the weights of these points.
+
+    Parameters
+    ----------
+    shifts : by CLAIM.QUANTITY, added to the quantities before they are compared
+    quantities : function from searched parameters, shape (n, 4), a tension mode, and whether velocities are wanted
+    """
+    model, options, bounds = settings["model"], settings["search"], bounds_of(settings)
+    numbers = {name: one for name, one in settings["numbers"].items() if name not in evidence["without"]}
+
+    def total(found: dict[str, np.ndarray]) -> np.ndarray:
+        moved = {name: value + shifts.get(name, 0.0) for name, value in found.items() if name in numbers}
+        return sum(misfit(value, numbers[name]) ** 2 for name, value in moved.items())
+
+    def of_states(y: np.ndarray, tension: str) -> np.ndarray:
+        return total(quantities(np.column_stack([np.full(len(y), bounds[0, 0]), y]), tension, False))
+
+    found = {
+        tension: sample(
+            lambda y, tension=tension: -0.5 * of_states(y, tension),
+            bounds[:, 1:],
+            **{name: options[name] for name in ("points", "rounds", "seed")},
+        )
+        for tension in VERTICAL
+    }
+    least = min(-2.0 * one.log_density.max() for one in found.values())
+    scale = max(least / (len(numbers) - len(SEARCHED)), 1.0)
+    random = np.random.default_rng(options["seed"])
+    samples, fits = [], []
+    for tension, states in found.items():
+        # All errors are scaled up: the density is raised to the power 1/scale. Weights that underflowed stay zero.
+        heavier = np.exp(
+            states.log_density * (1.0 / scale - 1.0), where=states.weights > 0.0, out=np.zeros(len(states.weights))
+        )
+        weights = states.weights * heavier
+        chosen = random.choice(len(weights), options["followed"], p=weights / weights.sum())
+        x = np.column_stack([random.uniform(*bounds[:, 0], len(chosen)), states.points[chosen]])
+        totals = total(quantities(x, tension, True))
+        velocities = -0.5 * totals - states.log_density[chosen]
+        # The logarithms of weights also compare both tension modes.
+        logs = states.log_evidence + np.log(weights.sum()) + velocities / scale
+        samples.append(pd.DataFrame(values_of(x, model)).assign(tension=tension, total=totals, weight=logs))
+        best = minimize(
+            lambda x, tension=tension: total(quantities(x[None], tension, True))[0],
+            x[totals.argmin()],
+            method="Nelder-Mead",
+            bounds=bounds.T,
+        )
+        row = {name: float(value[0]) for name, value in values_of(best.x[None], model).items()}
+        printed = total(quantities(searched(model), tension, True))
+        fits.append({"tension": tension, **row, "total": float(best.fun), "printed_total": float(printed[0])})
+    table = pd.concat(samples, ignore_index=True)
+    table["weight"] = softmax(table.weight)
+    by_tension = table.groupby("tension", sort=False).weight
+    return table, pd.DataFrame(fits).assign(
+        numbers=len(numbers),
+        scale=scale,
+        region=scale * chi2.ppf(options["confidence"], len(SEARCHED)),
+        share=by_tension.sum().to_numpy(),
+        size=by_tension.agg(effective_number).to_numpy(),
+    )
+
+
+def bounds_of(settings: dict) -> np.ndarray:
+    """Logarithms of the least and the largest value of each searched parameter, shape (2, 4)."""
+    return np.log(np.array([settings["bounds"][name] for name in SEARCHED]).T)
+
+
+def interval_rows(samples: pd.DataFrame, best: pd.Series, settings: dict) -> pd.DataFrame:
+    """The credible interval of each parameter, found on a logarithmic scale; null if there are too few points."""
+    ends = values_of(bounds_of(settings), settings["model"])
+    enough = effective_number(samples.weight) >= ENOUGH
+    rows = []
+    for name in PARAMETERS:
+        logs, bounds = np.log(samples[name].to_numpy()), tuple(np.log(ends[name]))
+        found = interval(logs, samples.weight.to_numpy(), bounds, settings["search"]["confidence"])
+        covered = (found.high - found.low) / (bounds[1] - bounds[0])
+        row = found._asdict() | {"low": np.exp(found.low), "high": np.exp(found.high), "covered": covered}
+        row |= {} if enough else dict.fromkeys(("low", "high", "covered"), np.nan)
+        rows.append({"parameter": name, "best": best[name]} | row)
+    return pd.DataFrame(rows)
+
+
+def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, pd.DataFrame]:
+    """The tables of numbers, fits, intervals, samples and frictions."""
+    model, numbers = settings["model"], settings["numbers"]
+    splines, printed = claims.interpolate_edges(edges), searched(model)
+
+    def quantities(x: np.ndarray, tension: str, velocities: bool = True) -> dict[str, np.ndarray]:
+        follow = claims.converged_velocities if velocities else None
+        return claims.measure_by_table(x, splines, tension, settings, follow)
+
+    at_printed = {method: claims.measure_directly(printed, method, settings, threads) for method in (EULER, CONVERGED)}
+    shifts = {name: float(at_printed[EULER][name][0] - at_printed[CONVERGED][name][0]) for name in numbers}
+    at_printed["interpolated"] = quantities(printed, model["tension"])
+    rows = [number_rows(name, found, numbers) for name, found in at_printed.items()]
+    tables: dict[str, list[pd.DataFrame]] = {"fits": [], "intervals": [], "samples": []}
+    for name, evidence in settings["evidence"].items():
+        samples, fits = infer(evidence, shifts if evidence["shifted"] else {}, quantities, settings)
+        best = fits.loc[fits.total.idxmin()]
+        at_best = quantities(searched(model | best[list(PARAMETERS)].to_dict()), best.tension)
+        rows.append(number_rows(name, at_best, numbers))
+        found = {"samples": samples, "fits": fits, "intervals": interval_rows(samples, best, settings)}
+        for kind, table in found.items():
+            tables[kind].append(table.assign(evidence=name))
+    grid = np.tile(printed, (FRICTIONS, 1))
+    grid[:, 0] = np.log(np.linspace(*settings["bounds"]["friction"], FRICTIONS))
+    along = quantities(grid, model["tension"])
+    frictions = {"friction": np.exp(grid[:, 0])} | {name: along[number] for name, number in VELOCITIES.items()}
+    return {kind: pd.concat(parts) for kind, parts in tables.items()} | {
+        "numbers": pd.concat(rows),
+        "frictions": pd.DataFrame(frictions),
+    }
