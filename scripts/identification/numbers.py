@@ -211,7 +211,7 @@ def edges_directly(x: np.ndarray, method: str, settings: dict, threads: int) -> 
         return converged[None]
 
     def states(selected: np.ndarray) -> np.ndarray:
-        return find_states(selected, euler, NO_ATTRACTORS, threads)
+        return find_states(selected, euler, NO_ATTRACTORS, None, threads)
 
     return edge_search.search_edges(rows, settings, states, converged + AROUND[:, None])[None]
 
