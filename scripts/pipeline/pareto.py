@@ -1,7 +1,7 @@
 """Pareto fronts by NSGA-II (pymoo); all objectives are to be minimised."""
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from pymoo.algorithms.moo.nsga2 import NSGA2
@@ -51,7 +51,6 @@ def search(
     seed: int,
     *,
     constraints: int = 0,
-    **options: Any,
 ) -> Front:
     """The front of all points within the constraints that any generation has.
 
@@ -66,7 +65,6 @@ def search(
     reference : reference point of the hypervolume, shape (k,)
     settings : population, generations
     constraints : their number, c
-    options : of pymoo's NSGA2
     """
 
     class Searched(Problem):
@@ -74,7 +72,7 @@ def search(
             out["F"], out["G"] = evaluate(x)
 
     sizes = {"n_var": bounds.shape[1], "n_obj": len(reference), "n_ieq_constr": constraints}
-    algorithm = NSGA2(pop_size=settings["population"], sampling=first, **options)
+    algorithm = NSGA2(pop_size=settings["population"], sampling=first)
     generations = ("n_gen", settings["generations"])
     algorithm.setup(Searched(**sizes, xl=bounds[0], xu=bounds[1]), termination=generations, seed=seed)
     points, objectives, volumes = np.empty((0, bounds.shape[1])), np.empty((0, len(reference))), []
