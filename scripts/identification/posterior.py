@@ -3,8 +3,9 @@
 The likelihood takes the misfits as independent, normally distributed errors with a standard deviation of half an
 accepted interval. This makes the intervals wider, because the standard deviation of a uniform distribution over the
 accepted interval is smaller by √3. Counting critical heights on one curve as independent makes them narrower. If even
-the best parameters miss by more than these errors allow, all errors are scaled up by one factor (Birge's ratio). The
-prior is constant in the logarithms of the searched parameters, and both tension modes are equally probable.
+the best parameters miss the changes of state by more than these errors allow, all errors are scaled up by one factor
+(Birge's ratio). The prior is constant in the logarithms of the searched parameters, and both tension modes are equally
+probable.
 """
 
 from collections.abc import Callable
@@ -12,7 +13,7 @@ from collections.abc import Callable
 import numpy as np
 import pandas as pd
 from scipy.optimize import minimize
-from scipy.special import softmax
+from scipy.special import logsumexp, softmax
 from scipy.stats import chi2
 
 from identification import numbers as claims
@@ -41,11 +42,7 @@ TABLES = {
         TOTAL,
         fields.number("printed_total", "1", "total at the printed parameters with this tension mode"),
         fields.count("numbers", "numbers of the paper in the total"),
-        fields.number(
-            "scale",
-            "1",
-            "squared factor on all errors: least total of the changes of state over degrees of freedom, at least 1",
-        ),
+        fields.number("scale", "1", "squared factor on all errors: least total over degrees of freedom, at least 1"),
         fields.number("region", "1", "rise of the total at the edge of the confidence region of all parameters"),
         fields.number("share", "1", "posterior probability of this tension mode"),
         fields.number("size", "1", "effective number of points"),
@@ -54,11 +51,7 @@ TABLES = {
         EVIDENCE,
         fields.text("parameter", "name"),
         fields.number("best", "see parameter", "value with the least total"),
-        fields.number(
-            "low",
-            "see parameter",
-            "lower end of the credible interval; null if the effective number of points is below 100",
-        ),
+        fields.number("low", "see parameter", "lower end of the credible interval; null for too few effective points"),
         fields.number("high", "see parameter", "upper end"),
         fields.flag("open_low", "whether only the bound of the search limits the interval there"),
         fields.flag("open_high", "the same for the upper end"),
@@ -124,18 +117,16 @@ def infer(evidence: dict, shifts: dict[str, float], quantities: Quantities, sett
     random = np.random.default_rng(options["seed"])
     samples, fits = [], []
     for tension, states in found.items():
-        # All errors are scaled up: the density is raised to the power 1/scale. Weights that underflowed stay zero.
-        heavier = np.exp(
-            states.log_density * (1.0 / scale - 1.0), where=states.weights > 0.0, out=np.zeros(len(states.weights))
-        )
-        weights = states.weights * heavier
-        chosen = random.choice(len(weights), options["followed"], p=weights / weights.sum())
+        # All errors are scaled up: the density is raised to the power 1/scale. Some weights have underflowed to zero.
+        kept = np.flatnonzero(states.weights)
+        logs = np.log(states.weights[kept]) + states.log_density[kept] * (1.0 / scale - 1.0)
+        chosen = random.choice(kept, options["followed"], p=softmax(logs))
         x = np.column_stack([random.uniform(*bounds[:, 0], len(chosen)), states.points[chosen]])
         totals = total(quantities(x, tension, True))
         velocities = -0.5 * totals - states.log_density[chosen]
         # The logarithms of weights also compare both tension modes.
-        logs = states.log_evidence + np.log(weights.sum()) + velocities / scale
-        samples.append(pd.DataFrame(values_of(x, model)).assign(tension=tension, total=totals, weight=logs))
+        log_weights = states.log_evidence + logsumexp(logs) + velocities / scale
+        samples.append(pd.DataFrame(values_of(x, model)).assign(tension=tension, total=totals, weight=log_weights))
         best = minimize(
             lambda x, tension=tension: total(quantities(x[None], tension, True))[0],
             x[totals.argmin()],
