@@ -53,6 +53,7 @@ TABLES = {
 TIGHT, TIGHTER = 1e-13, 3e-14
 # Excitation cycles of each variant and before the first sample of a portrait; number of samples of a portrait.
 CYCLES, SAMPLES = 1000, 20000
+RIGID_CYCLES = 500  # after which a rigid part has settled: twice as many lead to the same states
 SHIFTS = (1e-11, -1e-11, 2e-11)  # of the initial height, m: a tenth of an atom
 FEW = 10  # the share of the points with which code is loaded is 1/FEW: enough for all that many points use
 ROUNDS, ENOUGH = 3, 0.05  # most rounds of a timed run, and seconds after which it is not repeated
@@ -164,8 +165,7 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     for variant, of in variants_of(section, settings, budget["tolerances"]):
         rows.append(row(variant, of, *least_time(lambda of=of: shown.observe(of))))
     if section == "sweeps" and "tension" not in settings["axes"]:
-        # As many cycles as for the contact, but enough to find the longest period.
-        sweep = partial(rigid_part.sweep, cycles=max(settings["settling"], 2 * rigid_part.MAX_PERIOD))
+        sweep = partial(rigid_part.sweep, cycles=RIGID_CYCLES)
         sweep(settings | {"axes": observables.thin_axes(thinned, 1)})
         seconds, found = least_time(lambda: sweep(settings))
         rows.append(row(RIGID, dict(settings), seconds, found))
