@@ -223,8 +223,6 @@ def measure_directly(x: np.ndarray, method: str, settings: dict, threads: int) -
     def follow_by_euler(rows: np.ndarray) -> np.ndarray:
         return ensemble.run(rows, chunk=1, threads=threads, **run)["mean_velocity"]
 
-    parameters, edges = (
-        packed(x, settings["model"]["tension"], settings["model"]),
-        edges_directly(x, method, settings, threads),
-    )
-    return measure(parameters, edges, settings, converged_velocities if method == CONVERGED else follow_by_euler)
+    follow = converged_velocities if method == CONVERGED else follow_by_euler
+    parameters = packed(x, settings["model"]["tension"], settings["model"])
+    return measure(parameters, edges_directly(x, method, settings, threads), settings, follow)

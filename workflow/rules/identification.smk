@@ -38,7 +38,7 @@ rule identification_posterior:
         benchmark_file("identification/posterior")
     priority: 3
     params:
-        **stage("identification.posterior", "identification/samples"),
+        **stage("identification.posterior", "identification/numbers"),
     message:
         "Parameters that the paper's numbers imply"
     script:
