@@ -21,7 +21,7 @@ from dimensions import portraits
 from fit import regressions
 from identification import edges, posterior
 from motion import critical, impacts, signals, spectra
-from operating import advice, drive, shares, throws, track
+from operating import advice, drift, drive, shares, throws, track, transit
 from orbits import branches, certified, estimates, exponents, strobes, witnesses
 from pipeline import fields
 from pipeline.templates import render
@@ -37,7 +37,7 @@ MODULES = {
     "dimensions": [portraits],
     "fit": [regressions],
     "sensitivity": [derivatives, curves],
-    "operating": [shares, advice, throws, track, drive],
+    "operating": [shares, transit, drift, advice, throws, track, drive],
     "accuracy": [
         *(benchmark, precision, reference_check, precision_estimates, stability, stability_estimates),
         *(scene_budget, rigid_part, theory, map_check, settling_times, scaling),

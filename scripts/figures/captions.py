@@ -18,7 +18,8 @@ from figures.plots.throw import proved_fold
 from figures.style import STATE_COLOURS
 from identification import findings
 from operating import drive_page
-from operating.chart import summarize_shares
+from operating.chart import spreads_of, summarize_shares
+from operating.regimes import CHAOS, SEVERAL
 from pipeline.templates import render
 
 SMALL_ELASTICITY = 1e-3  # below it, a relative error means nothing
@@ -230,6 +231,17 @@ def identification(*, frictions: pd.DataFrame) -> dict[str, Any]:
     }
 
 
+def transit(*, transit: pd.DataFrame, lengths: pd.DataFrame, drift: pd.DataFrame) -> dict[str, Any]:
+    amplitudes = {regime: list(rows.acceleration.unique()) for regime, rows in lengths.groupby("regime")}
+    return {
+        "search": transit.attrs,
+        "spread": spreads_of(transit.attrs),
+        "coexisting": amplitudes.get(SEVERAL, []),
+        "chaotic": amplitudes.get(CHAOS, []),
+        "uncertain": int((drift.status != "ok").sum()),
+    }
+
+
 # Functions of the captions whose templates need more than the tables and settings of their figures.
 NUMBERS: dict[str, Callable[..., dict[str, Any]]] = {
     "fig09": fig09,
@@ -248,6 +260,7 @@ NUMBERS: dict[str, Callable[..., dict[str, Any]]] = {
     "throw": throw,
     "drive": drive_page.summarize_search,
     "track": track,
+    "transit": transit,
     "speed_accuracy": speed_accuracy,
     "stability": stability_limits,
     "stability_details": stability_details,

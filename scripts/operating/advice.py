@@ -1,156 +1,143 @@
-"""What to do: amplitudes at which to run a conveyor, what is certain there, and which parameters make it faster.
+"""Where to run a conveyor so that its parts arrive fast, or evenly, and which change of a parameter helps there.
 
-There are two aims. `certain`: all initial conditions of the box lead to one velocity, and no other amplitude where
-this holds has a larger one. `fast`: there is no chaos, and the velocity of the fastest motion times the share of
-initial conditions that reach it is largest. Both must hold at all amplitudes of the table within a relative margin,
-because no drive holds its amplitude exactly.
+There are two aims. `fast`: the 5 % quantile of the transit velocity is largest, so that nearly all parts are fast.
+`even`: the relative spread is least among the amplitudes with at least half of that quantile. Both must hold within a
+relative margin of the amplitude, because no drive holds its amplitude exactly. The parts are the varied ones.
 """
+
+from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 import pandas as pd
 
 from conveyor.analysis import throw_theory
-from conveyor.analysis.attractors.labels import Labels
-from conveyor.solver.model import VZ0
-from operating.regimes import CERTAIN, FAST, REGIMES_OF_AIMS, summarize_amplitudes
-from operating.shares import APART, FORGOTTEN, continue_normal, motions_at, parameters_of, starts_of_box
+from conveyor.parameters import RANGES
+from operating.parts import VARIED
+from operating.transit import MEASURES, measure
 from pipeline import fields
-from pipeline.motions import motions_of_starts
 
-AIM = fields.text(
-    "aim", f"{CERTAIN}: one velocity for all initial conditions, {FAST}: largest velocity times share, without chaos"
-)
+FAST, EVEN = "fast", "even"
+ENOUGH = 0.5  # of the largest 5 % quantile, which an even amplitude must have
+AIM = fields.text("aim", f"{FAST}: largest 5 % quantile of the transit velocity, {EVEN}: least relative spread")
 TABLES = {
     "advice": (
         AIM,
         fields.number("acceleration", "m/s²", "recommended amplitude of the excitation"),
         fields.number("throw_number", "1", "throw number Γ"),
-        *fields.STATE,
-        fields.number("mean_velocity", "m/s", "mean feeding velocity of the fastest motion"),
-        fields.number("share", "1", "share of the initial conditions that reach this velocity"),
-        fields.number("stderr", "1", "standard error of the share"),
-        fields.number("knock", "m/s", "smallest sudden change of ż that ends the motion; null if no tested one does"),
-        fields.number("largest_kick", "m/s", "largest change of ż that was tried"),
-        fields.number("impact_speed", "m/s", "largest speed of approach across the track in a period"),
-        fields.number("peak_force", "N", "largest contact force in a period"),
-        fields.number("textbook", "m/s", "velocity by the textbook theory; null beyond its range"),
+        *MEASURES,
+        fields.number("velocity_worst", "m/s", "smallest 5 % quantile of the velocity within the margin"),
+        fields.number("spread_worst", "1", "largest relative spread within the margin"),
+        fields.number("back_worst", "1", "largest share of parts that have moved back within the margin"),
+        fields.text("states", "states of motion at the nearest amplitude of the table of shares, with their shares"),
     ),
     "changes": (
         AIM,
         fields.text("parameter", "changed parameter"),
         fields.number("value", "SI", "its new value"),
-        fields.text("regime", "regime at this amplitude with the changed parameter"),
-        fields.number("mean_velocity", "m/s", "mean over all initial conditions; null where it is not known"),
-        fields.number("gain", "1", "relative change of the mean velocity"),
+        *MEASURES,
+        fields.number("gain", "1", "relative change of the 5 % quantile of the velocity, with the same parts"),
+        fields.number("widening", "1", "relative change of the relative spread, with the same parts"),
     ),
 }
 
 
-def worst_within(places: np.ndarray, scores: np.ndarray, margin: float) -> np.ndarray:
-    """The smallest score at any of the `places`, ascending, within the relative margin of each; all of shape (m,)."""
-    first = np.searchsorted(places, places * (1.0 - margin))
-    behind = np.searchsorted(places, places * (1.0 + margin), side="right")
-    return np.array([scores[begin:end].min() for begin, end in zip(first, behind, strict=True)])
+def best(scores: np.ndarray, worst_of: Callable[[int], float]) -> int | None:
+    """The place with the largest worst score within the margin; None if no score is above -inf.
 
-
-def recommended(shares: pd.DataFrame, margin: float) -> dict[str, float]:
-    """The recommended amplitude (m/s²) of each aim that can be met."""
-    amplitudes = summarize_amplitudes(shares, shares.attrs["same_velocity"])
-    places = amplitudes.acceleration.to_numpy()
-    scores = {CERTAIN: amplitudes.best, FAST: amplitudes.best * amplitudes.best_share}
-    worst = {
-        aim: worst_within(places, np.where(amplitudes.regime.isin(REGIMES_OF_AIMS[aim]), score, -np.inf), margin)
-        for aim, score in scores.items()
-    }
-    return {aim: float(places[score.argmax()]) for aim, score in worst.items() if np.isfinite(score.max())}
-
-
-def is_motion(found: Labels, motion: pd.Series) -> np.ndarray:
-    """Whether labels of n initial conditions equal the labels of a row of the table of shares: bool, shape (n,)."""
-    flight = np.nan_to_num(found.longest_flight, nan=-1.0)
-    apart = np.abs(flight - np.nan_to_num(motion.longest_flight, nan=-1.0))
-    return (found.state == motion.state) & (found.period == motion.period) & (apart <= APART)
-
-
-def settled(motion: pd.Series, settings: dict, phases: int, *, threads: int = 1) -> np.ndarray:
-    """Packed parameters that go on from a settled motion, at phases spread over a cycle, shape (phases, 16)."""
-    rows = parameters_of(np.array([motion.acceleration]), starts_of_box(settings), settings["model"])
-    found = motions_of_starts(rows, settings, starts=len(rows), threads=threads)
-    members = np.flatnonzero(is_motion(found, motion))
-    chosen = np.full(phases, members[found.cycles[members].argmin()])
-    cycles = found.cycles[chosen] + np.arange(phases) / phases + FORGOTTEN
-    return continue_normal(rows[chosen], cycles, settings, threads=threads)
-
-
-def smallest_knock(
-    rows: np.ndarray, motion: pd.Series, sizes: np.ndarray, settings: dict, *, threads: int = 1
-) -> float:
-    """The smallest change of ż (m/s) among `sizes`, up or down, that ends a motion; NaN if none does.
-
-    rows : points of the motion, packed, shape (k, 16)
+    scores : shape (m,), NaN where a score is not known
+    worst_of : the worst score within the margin of a place, which is not above the score of the place
     """
-    kicks = np.concatenate([-sizes, sizes])
-    kicked = np.repeat(rows, len(kicks), axis=0)
-    kicked[:, VZ0] += np.tile(kicks, len(rows))
-    found = motions_of_starts(kicked, settings, starts=len(kicked), threads=threads)
-    ended = np.abs(np.tile(kicks, len(rows)))[~is_motion(found, motion)]
-    return ended.min() if len(ended) else np.nan
+    chosen, highest = None, -np.inf
+    for place in np.argsort(-scores, kind="stable"):
+        if not scores[place] > highest:  # nor are the scores of the remaining places
+            break
+        if (worst := worst_of(int(place))) > highest:
+            chosen, highest = int(place), worst
+    return chosen
+
+
+def choose(rows: pd.DataFrame, around: Callable[[int], pd.DataFrame]) -> dict[str, int]:
+    """The place of the recommended amplitude of each aim that can be met.
+
+    rows : measures of varied parts over the amplitude
+    around : the measures at a place and at the ends of its margin
+    """
+    fast = best(rows.velocity_05.to_numpy(), lambda place: around(place).velocity_05.min(skipna=False))
+    if fast is None:
+        return {}
+    needed = ENOUGH * around(fast).velocity_05.min()
+    if needed <= 0.0:
+        return {FAST: fast}
+
+    def evenness(measures: pd.DataFrame) -> np.ndarray:
+        return np.where(measures.velocity_05 >= needed, -measures.spread, -np.inf)
+
+    even = best(evenness(rows), lambda place: evenness(around(place)).min())
+    return {FAST: fast} if even is None else {FAST: fast, EVEN: even}
 
 
 def with_parameter(model: dict, parameter: str, value: float) -> dict:
-    """A model with another value of one parameter; the static friction is not left below the friction."""
+    """A model with another value of one parameter; the static friction keeps its ratio to the friction."""
     changed = {**model, parameter: value}
-    if "static_friction" in model:
-        changed["static_friction"] = max(changed["static_friction"], changed["friction"])
+    if parameter == "friction" and "static_friction" in model:
+        changed["static_friction"] = model["static_friction"] * value / model["friction"]
     return changed
 
 
-def changes_at(acceleration: float, settings: dict, changes: dict[str, float], *, threads: int = 1) -> list[dict]:
-    """Regime and mean velocity if one parameter at a time is increased or decreased."""
+def relative_change(after: float, before: float) -> float:
+    """The change in units of the size before; NaN for a size of 0."""
+    return (after - before) / abs(before) if before else np.nan
 
-    def summary_with(model: dict) -> pd.Series:
-        table = motions_at(np.array([acceleration]), {**settings, "model": model}, threads=threads)
-        return summarize_amplitudes(table, settings["same_velocity"]).iloc[0]
 
-    model = settings["model"]
-    before = summary_with(model)
-    rows = []
+def changes_at(row: pd.Series, settings: dict, changes: dict[str, float], *, threads: int = 1) -> list[dict]:
+    """Measures if one parameter at a time is increased or decreased, at the amplitude of a row of the transit table."""
+    model, rows = settings["model"], []
     for parameter, change in changes.items():
+        low, high = RANGES[parameter]
         for value in (model[parameter] - change, model[parameter] + change):
-            after = summary_with(with_parameter(model, parameter, value))
-            row = {"parameter": parameter, "value": value, "regime": after.regime, "mean_velocity": after["mean"]}
-            rows.append(row | {"gain": after["mean"] / before["mean"] - 1.0})
+            if low <= value <= high:
+                changed = {**settings, "model": with_parameter(model, parameter, value)}
+                after = measure(np.array([row.acceleration]), changed, (VARIED,), threads=threads).iloc[0]
+                own = {
+                    "parameter": parameter,
+                    "value": value,
+                    "gain": relative_change(after.velocity_05, row.velocity_05),
+                    "widening": relative_change(after.spread, row.spread),
+                }
+                rows.append(after.to_dict() | own)
     return rows
 
 
-def make(shares: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, dict]:
+def describe_states(shares: pd.DataFrame, acceleration: float) -> str:
+    """The states at the nearest amplitude of the table of shares, "chaos 85 %, second 15 %"."""
+    nearest = shares.acceleration.iloc[(shares.acceleration - acceleration).abs().argmin()]
+    found = shares[shares.acceleration == nearest].groupby("state").share.sum().sort_values(ascending=False)
+    return ", ".join(f"{state} {100.0 * share:.0f} %" for state, share in found.items())
+
+
+def make(transit: pd.DataFrame, shares: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, dict]:
     """The columns of the tables of advice and of changes."""
-    box = shares.attrs
-    largest = max(map(abs, box["vz0"]))
-    sizes = np.geomspace(settings["smallest_kick"] * largest, largest, settings["kicks"])
-    amplitudes = summarize_amplitudes(shares, box["same_velocity"]).set_index("acceleration")
+    followed, margin = transit.attrs, settings["margin"]
+    rows = transit[transit.population == VARIED].reset_index(drop=True)
+    unit = throw_theory.throw_number(1.0, **followed["model"])
+
+    @cache
+    def around(place: int) -> pd.DataFrame:
+        ends = rows.acceleration[place] * np.array([1.0 - margin, 1.0 + margin])
+        return pd.concat([rows.iloc[[place]], measure(ends, followed, (VARIED,), threads=threads)])
+
     advice, changes = [], []
-    for aim, acceleration in recommended(shares, settings["margin"]).items():
-        motion = shares[shares.acceleration == acceleration].iloc[0]
-        rows = settled(motion, box, settings["phases"], threads=threads)
-        advice.append(
-            {
-                "aim": aim,
-                "acceleration": acceleration,
-                "throw_number": motion.vertical,
-                "state": motion.state,
-                "period": motion.period,
-                "mean_velocity": motion.mean_velocity,
-                "share": amplitudes.best_share[acceleration],
-                "stderr": amplitudes.stderr[acceleration],
-                "knock": smallest_knock(rows, motion, sizes, box, threads=threads),
-                "largest_kick": largest,
-                "impact_speed": motion.impact_speed,
-                "peak_force": motion.peak_force,
-                "textbook": float(throw_theory.mean_velocity(acceleration, **box["model"])),
-            }
-        )
-        changes += [{"aim": aim, **row} for row in changes_at(acceleration, box, settings["changes"], threads=threads)]
+    for aim, place in choose(rows, around).items():
+        row = rows.iloc[place]
+        worst = {
+            "velocity_worst": around(place).velocity_05.min(),
+            "spread_worst": around(place).spread.max(),
+            "back_worst": around(place).back.max(),
+        }
+        own = {"aim": aim, "throw_number": unit * row.acceleration, "states": describe_states(shares, row.acceleration)}
+        advice.append(row.to_dict() | worst | own)
+        changes += [{"aim": aim, **one} for one in changes_at(row, followed, settings["changes"], threads=threads)]
     return {
         "advice": fields.columns(advice, TABLES["advice"]),
         "changes": fields.columns(changes, TABLES["changes"]),

@@ -6,13 +6,14 @@ import numpy as np
 import pandas as pd
 
 from conveyor.parameters import UNITS
-from operating.regimes import AIMS, CHAOS, ONE, REGIMES_OF_AIMS, SEVERAL, UNKNOWN, summarize_amplitudes
+from operating.advice import EVEN, FAST
+from operating.regimes import CHAOS, ONE, SEVERAL, UNKNOWN, merge_narrow, summarize_amplitudes
 from pipeline.templates import render
 
 # If none of n independent initial conditions does something, then with 95 % confidence at most a share of 3/n does it:
 # -log(0.05) is 2.996.
 RULE_OF_THREE = 3.0
-WORTH_CHANGING = 0.01  # relative gain of velocity from which a change of a parameter is named
+WORTH_CHANGING = 0.01  # relative change of velocity or spread from which a change of a parameter is named
 MOST_CHANGES = 4  # that are named
 
 
@@ -41,31 +42,48 @@ def summarize_regimes(regimes: pd.DataFrame) -> dict[str, list[dict]]:
 
 
 def select_changes(aim: str, changes: pd.DataFrame) -> list[dict]:
-    """The changes of one parameter that raise the velocity most and keep a regime of the aim."""
-    faster = changes[(changes.aim == aim) & (changes.gain > WORTH_CHANGING)]
-    faster = faster[faster.regime.isin(REGIMES_OF_AIMS[aim])]
-    return faster.sort_values("gain", ascending=False).head(MOST_CHANGES).to_dict("records")
+    """The changes of one parameter that serve the aim best: more velocity, or less spread."""
+    own = changes[changes.aim == aim]
+    effect = own.gain if aim == FAST else -own.widening
+    order = effect[effect > WORTH_CHANGING].sort_values(ascending=False, kind="stable").index
+    return own.loc[order[:MOST_CHANGES]].to_dict("records")
+
+
+def spreads_of(settings: dict) -> dict[str, float]:
+    """The relative standard deviations by which parts differ, from the settings of a transit table."""
+    return {name: share for name, share in settings["spread"].items() if name != "seed" and share > 0.0}
+
+
+def summarize_advice(transit: pd.DataFrame, advice: pd.DataFrame, changes: pd.DataFrame) -> dict:
+    """The settings of the transit table, how parts differ, and the advice of each aim with its best changes."""
+    rows = {
+        row["aim"]: row | {"changes": select_changes(row["aim"], changes)}
+        for row in advice.replace({np.nan: None}).to_dict("records")
+    }
+    return {"track": transit.attrs, "spread": spreads_of(transit.attrs), "fast": rows.get(FAST), "even": rows.get(EVEN)}
 
 
 def make(
-    template: str, shares: pd.DataFrame, regimes: pd.DataFrame, advice: pd.DataFrame, changes: pd.DataFrame
+    template: str,
+    transit: pd.DataFrame,
+    shares: pd.DataFrame,
+    regimes: pd.DataFrame,
+    advice: pd.DataFrame,
+    changes: pd.DataFrame,
 ) -> str:
-    """The page from its template and the tables of shares, regimes, advice and changes."""
-    values = summarize_shares(shares) | summarize_regimes(regimes)
+    """The page from its template and its tables."""
+    merged = merge_narrow(regimes, advice.attrs["margin"])
+    values = summarize_advice(transit, advice, changes) | summarize_shares(shares) | summarize_regimes(merged)
     if values["several"]:
         amplitudes = summarize_amplitudes(shares, shares.attrs["same_velocity"])
         several = amplitudes[amplitudes.regime == SEVERAL]
         values["most"] = several.loc[several.best_share.idxmax()].to_dict()
-    recommended = {
-        row["aim"]: row | {"changes": select_changes(row["aim"], changes)}
-        for row in advice.replace({np.nan: None}).to_dict("records")
-    }
     values |= {
         "units": UNITS,
         "options": advice.attrs,
+        "merged": len(regimes) - len(merged),
         # The digits to which the ends of intervals of amplitudes are known.
         "digits": max(0, math.ceil(-math.log10(shares.attrs["resolution"]))),
         "throw_per_amplitude": shares.vertical.iloc[0] / shares.acceleration.iloc[0],
-        **{aim: recommended.get(aim) for aim in AIMS},
     }
     return render(template, values)

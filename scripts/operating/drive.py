@@ -1,10 +1,9 @@
 """Drive design: amplitude, frequency, angle and phase shift at which parts are fast, gently handled and cheap to drive.
 
-NSGA-II (pymoo) searches the Pareto front of three objectives: the velocity that nearly all initial conditions reach,
-the impact speed and the acceleration of the drive. A design must give one velocity to the required share of the initial
-conditions, no chaos, at least the least useful velocity, at most the largest impact speed, and a displacement of the
-drive within its limit. Because a drive keeps its amplitude only within a relative margin, all of this must hold in the
-whole margin: the smallest velocity and the largest impact speed in it count.
+NSGA-II (pymoo) searches the Pareto front of three objectives: the 5 % quantile of the transit velocity, the impact
+speed, and the acceleration of the drive. At most a small share of the parts may move back. The velocity must be useful,
+and the impact speed and the displacement of the drive must keep their limits. Because a drive keeps its amplitude only
+within a relative margin, the worst numbers within the margin count. The parts are the varied ones of the transit table.
 """
 
 from collections.abc import Callable
@@ -14,29 +13,39 @@ import numpy as np
 import pandas as pd
 
 from conveyor.solver.progress import bar
-from operating.regimes import same
-from operating.shares import brief_velocities, motions_of_conveyors, parameters_of, starts_of_box, velocities
+from operating.parts import population
+from operating.transit import follow, summarize
 from pipeline import fields, pareto
 from pipeline.fields import AXES
 
 SEARCHED = ("acceleration", "frequency", "angle", "phase_shift")
 # Errors of the amplitude, as parts of the margin, at which the search follows a design, and at which it is checked.
 SEARCH_ERRORS, CHECK_ERRORS = np.array([-1.0, 1.0]), np.array([-1.0, 0.0, 1.0])
-FIRST_STARTS = 1  # initial conditions that reveal most designs with chaos, which cost most
+# The worst measures of a design within the margin: name, measure of transit, and which value is the worst one.
+WORST = {
+    "velocity": ("velocity_05", np.min),
+    "impact_speed": ("impact_speed", np.max),
+    "back": ("back", np.max),
+    "late": ("late", np.max),
+    "failed": ("failed", np.max),
+    "velocity_50": ("velocity_50", np.min),
+    "velocity_95": ("velocity_95", np.max),
+}
+CHECKED = ("velocity", "velocity_50", "velocity_95", "impact_speed", "back", "late")
 TABLES = {
     "drive_front": (
         *(fields.number(name, AXES[name].metadata[b"unit"].decode(), "parameter of the design") for name in SEARCHED),
         fields.number("displacement", "m", "amplitude of the drive's displacement"),
-        fields.number("velocity", "m/s", "smallest velocity, within the margin, that most initial conditions reach"),
-        fields.number("impact_speed", "m/s", "largest speed of approach normal to the track within the margin"),
-        fields.flag("checked", "whether full operating runs were made; the next columns are null without them"),
-        fields.number("checked_velocity", "m/s", "mean over all initial conditions and errors of the amplitude"),
-        fields.number("velocity_low", "m/s", "smallest velocity of any of these initial conditions"),
-        fields.number("velocity_high", "m/s", "largest velocity of any of these initial conditions"),
-        fields.number("impact_low", "m/s", "smallest impact speed of any of these initial conditions"),
-        fields.number("impact_high", "m/s", "largest impact speed of any of these initial conditions"),
-        fields.number("checked_share", "1", "least share, within the margin, that reaches one velocity"),
-        fields.flag("confirmed", "whether the operating runs keep the constraints"),
+        fields.number("velocity", "m/s", "smallest 5 % quantile of the velocity within the margin, in the search"),
+        fields.number("impact_speed", "m/s", "largest 95 % quantile of the impact speed within the margin"),
+        fields.flag("checked", "whether all parts were followed along the track; the next columns are null otherwise"),
+        fields.number("checked_velocity", "m/s", "smallest 5 % quantile of the transit velocity within the margin"),
+        fields.number("checked_velocity_50", "m/s", "smallest median of the transit velocity within the margin"),
+        fields.number("checked_velocity_95", "m/s", "largest 95 % quantile of the transit velocity within the margin"),
+        fields.number("checked_impact_speed", "m/s", "largest 95 % quantile of the impact speed within the margin"),
+        fields.number("checked_back", "1", "largest share of the parts that have moved back"),
+        fields.number("checked_late", "1", "largest share of the parts that are late"),
+        fields.flag("confirmed", "whether these numbers keep the constraints"),
         fields.flag("recommended", "whether it is one of the recommended settings"),
     ),
     "drive_generations": (
@@ -71,71 +80,31 @@ def displacement(designs: np.ndarray) -> np.ndarray:
     return designs[:, 0] / (2.0 * np.pi * designs[:, 1]) ** 2
 
 
-def rows_of_designs(designs: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:
-    """Packed parameters of designs, shape (k, 4), from each of some initial conditions, shape (k starts, 16)."""
-    models = [model | dict(zip(SEARCHED[1:], design[1:], strict=True)) for design in designs]
-    rows = [parameters_of(design[:1], starts, own) for design, own in zip(designs, models, strict=True)]
-    return np.concatenate(rows)
-
-
-def outcome_of_conveyor(
-    velocity: np.ndarray, share: np.ndarray, impact: np.ndarray, is_chaos: np.ndarray, same_velocity: float
-) -> dict[str, float]:
-    """What the initial conditions of one conveyor reach: the `velocity` that most of them reach, with its share, its
-    impact speed and the share of chaos; mean and extremes over all of them. NaN where a velocity is not known.
-
-    velocity, share, impact, is_chaos : of each motion, shape (m,)
-    """
-    # Shares of the initial conditions that reach the velocity of each motion; an unknown velocity equals no other.
-    shares = same(velocity[:, None], velocity, same_velocity) @ share
-    most = shares.argmax()
-    return {
-        "velocity": velocity[most],
-        "impact_speed": impact[most],
-        "share": shares[most],
-        "chaos": share[is_chaos].sum(),
-        "mean": share @ velocity,
-        "velocity_low": velocity.min(),
-        "velocity_high": velocity.max(),
-        "impact_low": impact.min(),
-        "impact_high": impact.max(),
-    }
-
-
-# How outcomes at several amplitudes become one; all of these functions return NaN if one of the values is NaN.
-OVERALL = dict.fromkeys(("velocity", "share", "velocity_low", "impact_low"), np.min)
-OVERALL |= dict.fromkeys(("impact_speed", "chaos", "velocity_high", "impact_high"), np.max) | {"mean": np.mean}
-
-
-def evaluate(
-    designs: np.ndarray, settings: dict, errors: np.ndarray, *, measure: Callable = velocities, threads: int = 1
-) -> pd.DataFrame:
-    """The outcomes of designs, shape (k, 4): the worst within the margin, the mean over it, and its extremes.
+def evaluate(designs: np.ndarray, settings: dict, errors: np.ndarray, *, threads: int = 1) -> pd.DataFrame:
+    """The worst measures within the margin of designs, shape (k, 4), and their displacements.
 
     errors : of the amplitude, in parts of the margin
-    measure : as in `motions_of_conveyors`
     """
-    starts = starts_of_box(settings)
-    varied = np.repeat(designs, len(errors), axis=0)
-    varied[:, 0] *= np.tile(1.0 + settings["margin"] * errors, len(designs))
-    rows = rows_of_designs(varied, starts, settings["model"])
-    table = motions_of_conveyors(rows, len(starts), settings, measure=measure, threads=threads)
-    columns = [table[name].to_numpy() for name in ("mean_velocity", "share", "impact_speed")]
-    # Undecided motions count as chaos. Arrays take a tenth of the time of pandas' groups.
-    columns.append(~table.state.isin(("first", "second")).to_numpy())
-    first = np.flatnonzero(np.diff(table.conveyor)) + 1
-    conveyors = zip(*(np.split(column, first) for column in columns), strict=True)
-    each = [outcome_of_conveyor(*motions, settings["same_velocity"]) for motions in conveyors]
-    columns = {name: np.array([one[name] for one in each]).reshape(len(designs), len(errors)) for name in OVERALL}
-    outcome = {name: overall(columns[name], axis=1) for name, overall in OVERALL.items()}
+    rows = []
+    for design in designs:
+        own = {**settings, "model": settings["model"] | dict(zip(SEARCHED[1:], design[1:], strict=True))}
+        rows.append(population(design[0] * (1.0 + settings["margin"] * errors), own))
+    run = follow(np.concatenate(rows), settings, threads=threads)
+    parts = settings["starts"]
+    begins = range(0, parts * len(errors) * len(designs), parts)
+    measures = pd.DataFrame([summarize(run, slice(begin, begin + parts)) for begin in begins])
+    outcome = {
+        name: worst(measures[measure].to_numpy(dtype=float).reshape(len(designs), len(errors)), axis=1)
+        for name, (measure, worst) in WORST.items()
+    }
     return pd.DataFrame(outcome | {"displacement": displacement(designs)})
 
 
 def constraints(outcome: pd.DataFrame, settings: dict) -> np.ndarray:
     """Positive where a constraint is violated, shape (k, 5)."""
     violations = [
-        settings["share"] - outcome.share,
-        outcome.chaos,
+        outcome.back - settings["back"],
+        outcome.failed,
         1.0 - outcome.velocity / settings["velocity"],
         outcome.impact_speed / settings["impact_speed"] - 1.0,
         outcome.displacement / settings["displacement"] - 1.0,
@@ -152,18 +121,13 @@ def is_within(outcome: pd.DataFrame, settings: dict) -> np.ndarray:
 def search_outcomes(designs: np.ndarray, settings: dict) -> tuple[np.ndarray, np.ndarray]:
     """Objectives, shape (k, 3), all to be minimised, and constraints, shape (k, 5), of designs of the search.
 
-    Designs with too large a displacement are not followed, and designs that break a constraint with the first initial
-    conditions are not followed from the remaining ones.
+    Designs with too large a displacement are not followed.
     """
-    outcome = pd.DataFrame({"displacement": displacement(designs)}).reindex(columns=[*OVERALL, "displacement"])
+    outcome = pd.DataFrame({"displacement": displacement(designs)}).reindex(columns=[*WORST, "displacement"])
     within = outcome.displacement.to_numpy() <= settings["displacement"]
-    for starts in (FIRST_STARTS, settings["starts"]):
-        if not within.any():
-            break
-        few = {**settings, "starts": starts}
-        found = evaluate(designs[within], few, SEARCH_ERRORS, measure=brief_velocities)
+    if within.any():
+        found = evaluate(designs[within], settings, SEARCH_ERRORS)
         outcome.loc[within, found.columns] = found.to_numpy()
-        within = is_within(outcome, settings)
     objectives = np.column_stack([-outcome.velocity, outcome.impact_speed, designs[:, 0]])
     return np.where(np.isnan(objectives), np.inf, objectives), constraints(outcome, settings)
 
@@ -180,14 +144,13 @@ def search(settings: dict, seed: int, count: Callable[[], object]) -> pareto.Fro
     """
     bounds = bounds_of_points(settings["bounds"])
 
-    def evaluate(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def evaluate_points(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         found = search_outcomes(designs_of(points, settings["bounds"]), settings)
         count()
         return found
 
-    # Many random designs find the narrow ranges with one velocity; the best ones go on.
     drawn = np.random.default_rng(seed).uniform(*bounds, (settings["drawn"], len(SEARCHED)))
-    front = pareto.search(evaluate, drawn, bounds, reference_point(settings), settings, seed, constraints=5)
+    front = pareto.search(evaluate_points, drawn, bounds, reference_point(settings), settings, seed, constraints=5)
     return front._replace(points=designs_of(front.points, settings["bounds"]))
 
 
@@ -207,33 +170,32 @@ def spread(objectives: np.ndarray, count: int) -> np.ndarray:
     return np.array(chosen)
 
 
-CHECKED = {
-    **{"mean": "checked_velocity", "share": "checked_share"},
-    **{name: name for name in ("velocity_low", "velocity_high", "impact_low", "impact_high")},
-}
+def objectives_of(outcome: pd.DataFrame, acceleration: pd.Series) -> np.ndarray:
+    """The objectives of designs, shape (k, 3), all to be minimised."""
+    return np.column_stack([-outcome.velocity, outcome.impact_speed, acceleration])
 
 
 def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFrame:
-    """A front with full operating runs of some designs, and the recommended ones of the designs that they confirm."""
-    front = front.assign(checked=False, confirmed=False, recommended=False, **dict.fromkeys(CHECKED.values(), np.nan))
-    objectives = np.column_stack([-front.velocity, front.impact_speed, front.acceleration])
-    chosen = spread(objectives, settings["checked"])
+    """A front with the transit of all parts for some designs, and the recommended ones among confirmed designs."""
+    unknown = dict.fromkeys((f"checked_{name}" for name in CHECKED), np.nan)
+    front = front.assign(checked=False, confirmed=False, recommended=False, **unknown)
+    chosen = spread(objectives_of(front, front.acceleration), settings["checked"])
     if len(chosen) == 0:
         return front
-    designs = front.loc[chosen, list(SEARCHED)].to_numpy()
-    outcome = evaluate(designs, settings, CHECK_ERRORS, threads=threads)
+    outcome = evaluate(front.loc[chosen, list(SEARCHED)].to_numpy(), settings, CHECK_ERRORS, threads=threads)
+    outcome.index = chosen
     front.loc[chosen, "checked"] = True
-    front.loc[chosen, list(CHECKED.values())] = outcome[list(CHECKED)].to_numpy()
+    front.loc[chosen, list(unknown)] = outcome[list(CHECKED)].to_numpy()
     front.loc[chosen, "confirmed"] = is_within(outcome, settings)
-    sure = np.flatnonzero(front.confirmed)
-    front.loc[sure[spread(objectives[sure], settings["recommended"])], "recommended"] = True
+    sure = outcome[is_within(outcome, settings)]
+    best = spread(objectives_of(sure, front.acceleration[sure.index]), settings["recommended"])
+    front.loc[sure.index[best], "recommended"] = True
     return front
 
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, pd.DataFrame]:
     """The tables of the front and of the generations."""
-    # Designs with unsettled motions are refused, chaotic or not.
-    few = {**settings, **settings["search"], "followed": 1, "exponents": False}
+    few = {**settings, "starts": settings["search"]["parts"], "longest": settings["search"]["longest"]}
     # One thread for each seed: the designs of one generation are too few for several threads.
     total = len(settings["seeds"]) * settings["generations"]
     with bar(total=total, label=progress, unit="generations") as shown, ThreadPoolExecutor(threads) as pool:

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from operating.chart import RULE_OF_THREE
+from operating.chart import RULE_OF_THREE, spreads_of
 from pipeline.templates import render
 
 
@@ -22,6 +22,7 @@ def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
     last = generations[generations.generation == generations.generation.max()]
     return {
         "search": front.attrs,
+        "spread": spreads_of(front.attrs),
         "unseen_share": RULE_OF_THREE / front.attrs["starts"],
         "found": len(front),
         "checked": front.checked.sum(),
@@ -33,6 +34,6 @@ def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
 
 def make(template: str, drive_front: pd.DataFrame, drive_generations: pd.DataFrame) -> str:
     """The page from its template and the tables of the front and of the generations."""
-    recommended = drive_front[drive_front.recommended].sort_values("checked_velocity")
+    recommended = drive_front[drive_front.recommended].sort_values("checked_velocity", ascending=False)
     values = summarize_search(front=drive_front, generations=drive_generations)
     return render(template, values | {"rows": recommended.to_dict("records")})

@@ -12,9 +12,6 @@ ONE, SEVERAL, BESIDE, CHAOS, UNKNOWN = REGIMES = (
     "chaos only",
     "unknown",
 )
-# What a recommended amplitude aims at, see `advice`.
-CERTAIN, FAST = AIMS = ("certain", "fast")
-REGIMES_OF_AIMS = {CERTAIN: (ONE,), FAST: (ONE, SEVERAL)}
 # The status of a motion on a track that is too steep, see `track`.
 SLIDES_AWAY = "slides away"
 
@@ -101,3 +98,35 @@ def intervals_of(amplitudes: pd.DataFrame, shares: pd.DataFrame) -> pd.DataFrame
             }
         )
     return pd.DataFrame(rows)
+
+
+def join(rows: pd.DataFrame) -> pd.Series:
+    """One interval from neighbouring ones: the regime and the states of the widest, and the range of all velocities."""
+    widest = rows.loc[(rows.right - rows.left).idxmax()]
+    least = rows[["begin", "left", "velocity_low", "best_low", "best_share_low"]].min(skipna=False)
+    most = rows[["end", "right", "step", "best_high", "best_share_high", "best_share_stderr"]].max(skipna=False)
+    return pd.Series({**widest, **least, **most, "amplitudes": rows.amplitudes.sum()})
+
+
+def merge_narrow(regimes: pd.DataFrame, margin: float) -> pd.DataFrame:
+    """The table of regimes without intervals that are narrower than a relative margin of the amplitude.
+
+    The narrowest interval is merged into its wider neighbour until none is too narrow. An interval ends half-way
+    between computed amplitudes.
+    """
+    between = 0.5 * (regimes.end.shift() + regimes.begin)
+    rows = regimes.assign(left=between.fillna(regimes.begin), right=between.shift(-1).fillna(regimes.end))
+    while len(rows) > 1:
+        relative = (rows.right - rows.left) / rows.right
+        if relative.min() >= margin:
+            break
+        place = int(relative.argmin())
+        beside = [k for k in (place - 1, place + 1) if 0 <= k < len(rows)]
+        wider = max(beside, key=lambda k: rows.right.iloc[k] - rows.left.iloc[k])
+        joined = join(rows.iloc[min(place, wider) : max(place, wider) + 1])
+        parts = [rows.iloc[: min(place, wider)], joined.to_frame().T, rows.iloc[max(place, wider) + 1 :]]
+        rows = pd.concat(parts, ignore_index=True)
+        # Neighbours with one regime are one interval.
+        number = (rows.regime != rows.regime.shift()).cumsum()
+        rows = pd.DataFrame([join(part) for _, part in rows.groupby(number)]).reset_index(drop=True)
+    return rows.drop(columns=["left", "right"]).infer_objects()

@@ -5,17 +5,15 @@ regime changes, steps of the amplitude are halved.
 """
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
 
 from conveyor import ensemble
-from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.attractors.labels import Labels, continued
 from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
-from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, GRAVITY, INCLINATION, PSI0
+from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, GRAVITY, INCLINATION
 from conveyor.solver.parallel import for_each_chunk
 from operating import regimes
 from operating.parts import parameters_of, starts_of_box
@@ -160,31 +158,17 @@ def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> 
     return step * np.ceil(np.maximum(cycles, np.minimum(needed, MOST_CYCLES)) / step) / parameters[:, FREQUENCY]
 
 
-def brief_velocities(
-    parameters: np.ndarray, found: Labels, settings: dict, *, threads: int = 1
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """What `velocities` returns, from one run that begins where the search for labels ended; see `brief_durations`."""
-    rows = parameters.copy()
-    rows[:, PSI0] = trajectory.BEGIN_OF_CYCLE
-    rows = stroboscopic_map.pack_states(rows, np.column_stack([found.delta, found.v]), settings["tolerance"])
-    durations = brief_durations(rows, found.period, settings["cycles"])
-    run = ensemble.run(rows, duration=durations, tolerance=settings["tolerance"], threads=threads)
-    return run["mean_velocity"], np.column_stack([run["impact_speed"], run["peak_force"]]), run["status"]
-
-
 def motions_of_conveyors(
     parameters: np.ndarray,
     starts: int,
     settings: dict,
     *,
-    measure: Callable,
     threads: int = 1,
     progress: str | None = None,
 ) -> pd.DataFrame:
     """The motions that `starts` initial conditions of each of k conveyors end in, a row for each motion.
 
     parameters : packed, shape (k starts, 16)
-    measure : `velocities` or `brief_velocities`
     Returns the columns of the table and `conveyor`, its number.
     """
     found = motions_of_starts(parameters, settings, starts=starts, threads=threads, progress=progress)
@@ -196,7 +180,7 @@ def motions_of_conveyors(
     rank = np.arange(len(order)) - np.repeat(np.cumsum(count) - count, count)
     chosen = order[rank < np.repeat(most, count)]
     of_chosen = Labels(*(column[chosen] for column in found))
-    each, each_peaks, each_status = measure(parameters[chosen], of_chosen, settings, threads=threads)
+    each, each_peaks, each_status = velocities(parameters[chosen], of_chosen, settings, threads=threads)
     velocity, error, peaks = np.full(len(first), np.nan), np.full(len(first), np.nan), np.full((len(first), 2), np.nan)
     status = np.where(most > 0, "ok", "state not decided").astype(object)
     for row, own in enumerate(np.split(np.arange(len(chosen)), np.cumsum(np.minimum(count, most))[:-1])):
@@ -235,8 +219,7 @@ def motions_at(
     """The table for some amplitudes (m/s²), ascending, shape (m,)."""
     starts = starts_of_box(settings)
     parameters = parameters_of(amplitudes, starts, settings["model"])
-    options = {"measure": velocities, "threads": threads, "progress": progress}
-    table = motions_of_conveyors(parameters, len(starts), settings, **options)
+    table = motions_of_conveyors(parameters, len(starts), settings, threads=threads, progress=progress)
     order = {"by": ["acceleration", "mean_velocity", "starts"], "ascending": [True, False, False]}
     table = table.drop(columns="conveyor").sort_values(**order, ignore_index=True)
     return table.assign(motion=table.groupby("acceleration").cumcount() + 1)

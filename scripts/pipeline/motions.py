@@ -151,18 +151,17 @@ def follow(
     progress: str | None = None,
 ) -> Labels:
     """The attractors that initial conditions lead to. Those whose search a limit ends stay undecided."""
-    most, exponents = settings["settling"], settings.get("exponents", True)
+    most = settings["settling"]
     options = {"attractors": attractors, "tolerance": search_tolerance(settings), "threads": threads}
     if limits is None:
-        return classify(parameters, cycles=most, exponents=exponents, **options, progress=progress)
+        return classify(parameters, cycles=most, **options, progress=progress)
     conveyors, index = distinct_conveyors(parameters)
     cycles = limits.cycles[find_places(limits.conveyors, conveyors)[:, 0]][index]
     groups = [np.flatnonzero(cycles == limit) for limit in np.unique(cycles)]
     parts = []
     for rows in groups:
         limit = int(cycles[rows[0]])
-        whole = exponents and limit == most
-        parts.append(classify(parameters[rows], cycles=limit, exponents=whole, **options, progress=progress))
+        parts.append(classify(parameters[rows], cycles=limit, exponents=limit == most, **options, progress=progress))
     return join(parts, groups)
 
 
@@ -192,8 +191,7 @@ def motions_of_starts(
     """The attractors that initial conditions lead to. Attractors that many of them share are found first.
 
     parameters : float64, shape (n, 16)
-    settings : `settling`, `mean_settling` for a table of many points, `tolerance` if it is not the default, and
-        `exponents` if not as in labels.classify
+    settings : `settling`, `mean_settling` for a table of many points, and `tolerance` if it is not the default
     starts : number of initial conditions of each conveyor, in all batches and shards
     table : the whole table, if `parameters` are only a part of it
     """

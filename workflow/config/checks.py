@@ -68,10 +68,10 @@ def axes(config: dict, defaults: dict) -> Iterator[str]:
                 if rows > LARGEST_TABLE:
                     limit = f"at most {LARGEST_TABLE:,} are computed; give a smaller num"
                     yield f"{section}.{name}.axes makes {rows:,} points or rows; {limit}"
-    operating = config["operating"]
-    starts = count_values(operating["acceleration"]) * operating["starts"]
-    if starts > LARGEST_TABLE:
-        yield f"operating.starts makes {starts:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
+    for section, number in (("operating", "starts"), ("transit", "parts")):
+        runs = count_values(config[section]["acceleration"]) * config[section][number]
+        if runs > LARGEST_TABLE:
+            yield f"{section}.{number} makes {runs:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
 
 
 def friction(config: dict, defaults: dict) -> Iterator[str]:

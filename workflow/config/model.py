@@ -495,11 +495,37 @@ class Operating(TypedDict):
     tolerance: Tolerance
 
 
+DEVIATION = number("relative standard deviation", "of the value in the model", ge=0, le=1)
+
+
+class Parts(TypedDict):
+    friction: DEVIATION
+    damping: DEVIATION
+    stiffness: DEVIATION
+    mass: DEVIATION
+    acceleration: DEVIATION
+    seed: Seed
+
+
+class Transit(TypedDict):
+    acceleration: Accelerations
+    length: number("length of the track", "m", gt=0, le=1e4)
+    longest: number("time after which a part is late", "s", gt=0, le=1e5)
+    parts: whole("parts with random initial conditions per amplitude", 8, 10**6)
+
+
+class Drift(TypedDict):
+    amplitudes: whole("largest number of amplitudes", 1, 10**4)
+    runs: whole("initial conditions per amplitude", 4, 10**5)
+    forgotten: whole("excitation cycles before the first sample", 0, 10**6, "excitation cycles")
+    cycles: whole("excitation cycles of each run", 64, 10**6, "excitation cycles")
+    lengths: many(
+        number("length of a track", "transit.length", gt=0, le=1e3), "lengths of tracks", check=check_ascending
+    )
+
+
 class Advice(TypedDict):
     margin: number("relative error of the amplitude within which the advice must hold", gt=0, lt=1)
-    phases: whole("phases of the motion at which its velocity is changed", 1, 1000)
-    smallest_kick: number("smallest velocity change, in parts of the largest initial velocity", gt=0, lt=1)
-    kicks: whole("sizes of velocity changes that are tried in both directions", 2, 10**4)
     changes: mapping(
         "changes of single parameters, up and down",
         {
@@ -525,9 +551,8 @@ class Track(TypedDict):
 
 
 class DriveSearch(TypedDict):
-    starts: whole("random initial conditions per design", 8, 10**6)
-    settling: Cycles
-    cycles: whole("cycles that the feeding motion is followed for, at least", 4, 10**6, "excitation cycles")
+    parts: whole("parts per design", 8, 10**6)
+    longest: number("time for which a part is followed", "s", gt=0, le=1e5)
 
 
 class Drive(TypedDict):
@@ -539,16 +564,16 @@ class Drive(TypedDict):
         },
     )
     displacement: number("largest amplitude of the drive's displacement, â/ω²", "m", gt=0, le=1)
-    velocity: number("least useful velocity, which every design exceeds", "m/s", gt=0, le=100)
+    velocity: number("least useful velocity of the slowest 5 % of the parts", "m/s", gt=0, le=100)
     impact_speed: number("largest impact speed that a design may have", "m/s", gt=0, le=100)
-    share: number("least share of initial conditions that reach one velocity", gt=0, le=1)
-    search: Annotated[DriveSearch, Field(description="initial conditions of each design of the search")]
+    back: number("largest share of the parts that may move back", ge=0, lt=1)
+    search: Annotated[DriveSearch, Field(description="parts of each design of the search")]
     drawn: whole("random designs of the first generation", 4, 10**6)
     population: whole("population of NSGA-II", 4, 10**4)
     generations: whole("generations of NSGA-II", 4, 10**5)
     settled: number("growth of the hypervolume in the last quarter that counts as settled", "1", gt=0, le=1)
     seeds: many(Seed, "seeds of the random numbers")
-    checked: whole("designs of the front that get full operating runs", 1, 1000)
+    checked: whole("designs of the front that are confirmed by the transit of all parts", 1, 1000)
     recommended: whole("recommended settings", 1, 100)
 
 
@@ -676,6 +701,9 @@ class Config(TypedDict):
     sensitivity: Annotated[Sensitivity, Field(description="derivatives of bifurcations and critical heights")]
     scaling: Annotated[Scaling, Field(description="cost of sweeps by size, threads and shards")]
     operating: Annotated[Operating, Field(description="shares of the attractors over the amplitude")]
+    parts: Annotated[Parts, Field(description="how parts differ")]
+    transit: Annotated[Transit, Field(description="velocities of parts along a track over the amplitude")]
+    drift: Annotated[Drift, Field(description="drift and diffusion in chaos, and the spread over the track's length")]
     advice: Annotated[Advice, Field(description="advice on where to run the conveyor")]
     track: Annotated[Track, Field(description="velocity over inclination and phase shift")]
     throws: Annotated[Throws, Field(description="comparison with the textbook theory of throw conveyors")]

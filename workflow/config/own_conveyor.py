@@ -141,6 +141,9 @@ def scale_config(paper: dict, overlay: dict) -> dict:
         config["solver"]["step"] = scaled_step(paper, own)
     for entry in config["estimates"].values():
         entry["epsilon"] = scale(entry["epsilon"], schema_at(["model", entry["perturb"]]), ratios)
+    # A track is as long as it is, and how the user's parts differ is not known.
+    config["transit"] |= {name: paper["transit"][name] for name in ("length", "longest")}
+    config["parts"] |= {name: 0.0 for name in paper["parts"] if name != "seed"}
     config["claims"], config["uncertainty"]["claims"] = {}, []
     drop_other_methods(config, overlay)
     # With the paper's motion normal to the track, the tables of that motion stay as they are.

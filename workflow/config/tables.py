@@ -44,9 +44,26 @@ def box_settings(section: str, config: dict) -> dict:
     return {**own, "model": {name: value for name, value in model_of(config).items() if name not in stated}}
 
 
+def transit_settings(config: dict) -> dict:
+    """The box of `operating`, the section `transit`, and how its parts differ."""
+    box = {name: config["operating"][name] for name in ("height", "vz0", "psi0", "seed", "tolerance")}
+    transit = {name: value for name, value in config["transit"].items() if name != "parts"}
+    model = {name: value for name, value in model_of(config).items() if name not in ("psi0", "z0", "vz0")}
+    return {**box, **transit, "starts": config["transit"]["parts"], "spread": config["parts"], "model": model}
+
+
+def drift_settings(config: dict) -> dict:
+    """The parts of the transit table without their differences."""
+    transit = {name: value for name, value in transit_settings(config).items() if name != "spread"}
+    return {**transit, **config["drift"]}
+
+
 def drive_settings(config: dict) -> dict:
-    """The search keeps its constraints within the error of the amplitude that the advice states."""
-    return {**box_settings("drive", config), "margin": config["advice"]["margin"]}
+    """The search follows the parts of the transit table, within the error of the amplitude that the advice states."""
+    transit = {name: value for name, value in transit_settings(config).items() if name != "acceleration"}
+    drive = config["drive"]
+    model = {name: value for name, value in transit["model"].items() if name not in drive["bounds"]}
+    return {**transit, **drive, "margin": config["advice"]["margin"], "model": model}
 
 
 def paper_fit(config: dict) -> dict | None:
@@ -174,6 +191,9 @@ TABLES = {
     "sensitivity/meetings": curves_settings,
     "operating/shares": partial(box_settings, "operating"),
     "operating/regimes": partial(box_settings, "operating"),
+    "operating/transit": transit_settings,
+    "operating/drift": drift_settings,
+    "operating/track_lengths": drift_settings,
     "operating/advice": itemgetter("advice"),
     "operating/changes": itemgetter("advice"),
     "operating/throws": partial(box_settings, "throws"),

@@ -1,4 +1,5 @@
-# Where to run a conveyor: the attractors that initial conditions in a box reach, and what follows for the operator.
+# Where to run a conveyor: the attractors that initial conditions in a box reach, the transit of parts along a track, and what
+# follows for the operator.
 
 
 rule operating:
@@ -18,9 +19,45 @@ rule operating:
         "../../scripts/make.py"
 
 
+rule transit:
+    output:
+        **tables_of("operating/transit"),
+    log:
+        log_file("operating/transit"),
+    benchmark:
+        benchmark_file("operating/transit")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("operating.transit", "operating/transit"),
+    message:
+        "Transit of parts along a track, over the amplitude"
+    script:
+        "../../scripts/make.py"
+
+
+rule drift:
+    input:
+        **tables_of("operating/regimes"),
+    output:
+        **tables_of("operating/drift", "operating/track_lengths"),
+    log:
+        log_file("operating/drift"),
+    benchmark:
+        benchmark_file("operating/drift")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("operating.drift", "operating/drift"),
+    message:
+        "Drift and diffusion in chaos, and the spread of transit over the length of the track"
+    script:
+        "../../scripts/make.py"
+
+
 rule advice:
     input:
-        **tables_of("operating/shares"),
+        **tables_of("operating/transit", "operating/shares"),
     output:
         **tables_of("operating/advice", "operating/changes"),
     log:
@@ -32,7 +69,7 @@ rule advice:
     params:
         **stage("operating.advice", "operating/advice"),
     message:
-        "Where to run the conveyor, and what makes it faster"
+        "Where to run the conveyor, and what helps there"
     script:
         "../../scripts/make.py"
 
@@ -71,7 +108,9 @@ use rule operating as track with:
 
 rule operating_chart:
     input:
-        **tables_of("operating/shares", "operating/regimes", "operating/advice", "operating/changes"),
+        **tables_of(
+            "operating/transit", "operating/shares", "operating/regimes", "operating/advice", "operating/changes"
+        ),
         template=source("workflow/templates/operating_chart.md"),
     output:
         chart=result("operating/chart.md"),

@@ -10,13 +10,12 @@ SEEDS = (style.CONVERGED, style.SECOND_ESTIMATE, "black", "0.6")
 
 
 def draw_checked(axes: Axes, checked: pd.DataFrame) -> None:
-    """Mean velocity and largest impact speed of full operating runs, with the ranges of both."""
-    velocity, impact = checked.checked_velocity, checked.impact_high
-    below, above = velocity - checked.velocity_low, checked.velocity_high - velocity
-    # A mean of equal velocities may miss them by a rounding.
-    velocities, impacts = [below.clip(lower=0.0), above.clip(lower=0.0)], [impact - checked.impact_low, 0.0 * impact]
-    look = {"color": "black", "fmt": ".", "markersize": 2.5, "linewidth": 0.7, "capsize": 1.5}
-    axes.errorbar(impact, velocity, velocities, impacts, label="full operating runs with their ranges", **look)
+    """The 5 % quantile of the transit velocity of the checked designs, with bars up to the 95 % quantile."""
+    velocity = 100.0 * checked.checked_velocity
+    above = 100.0 * checked.checked_velocity_95 - velocity
+    look = {"color": "black", "fmt": ".", "markersize": 2.5, "linewidth": 0.5, "capsize": 1.5}
+    label = "transit of all parts: 5 % quantile, bar up to 95 %"
+    axes.errorbar(checked.checked_impact_speed, velocity, [0.0 * above, above], label=label, **look)
 
 
 def plot(*, front: pd.DataFrame, generations: pd.DataFrame) -> Figure:
@@ -24,13 +23,13 @@ def plot(*, front: pd.DataFrame, generations: pd.DataFrame) -> Figure:
     figure = style.figure(style.PAGE, 80.0)
     pareto, growth = figure.subplots(1, 2, width_ratios=(1.7, 1.0))
     look = {"c": front.acceleration, "cmap": "cividis", "s": 10.0, "linewidths": 0.0}
-    points = pareto.scatter(front.impact_speed, front.velocity, label="front of the search", **look)
+    points = pareto.scatter(front.impact_speed, 100.0 * front.velocity, label="front of the search", **look)
     draw_checked(pareto, front[front.checked])
     chosen = front[front.recommended]
     ring = {"s": 50.0, "facecolors": "none", "edgecolors": style.EULER, "zorder": 3}
-    pareto.scatter(chosen.impact_high, chosen.checked_velocity, label="recommended", **ring)
-    pareto.set_xlabel("largest impact speed in m/s")
-    pareto.set_ylabel("velocity in m/s")
+    pareto.scatter(chosen.checked_impact_speed, 100.0 * chosen.checked_velocity, label="recommended", **ring)
+    pareto.set_xlabel("impact speed (95 % quantile) in m/s")
+    pareto.set_ylabel("velocity of the slowest 5 % in cm/s")
     pareto.set_ylim(bottom=0.0)
     figure.colorbar(points, ax=pareto, label=style.AMPLITUDE)
     last = generations.generation.max()

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
@@ -19,10 +20,8 @@ LOOKS = {
 }
 
 
-def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
-    """Draw shares and regimes of motion."""
-    figure = style.figure(style.PAGE, 104.0)
-    strip, velocities, share = figure.subplots(3, 1, sharex=True, height_ratios=(0.35, 3.0, 2.0))
+def draw_regimes(strip: Axes, shares: pd.DataFrame, regimes: pd.DataFrame) -> list[Patch]:
+    """Draw a strip with the regime at each amplitude, below an axis for the throw number. Returns legend handles."""
     amplitudes = np.sort(shares.acceleration.unique())
     begin, end = ends_of(amplitudes)
     for row in regimes.itertuples():
@@ -32,6 +31,15 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
     strip.spines[["left", "bottom"]].set_visible(False)
     strip.tick_params(bottom=False)
     throw_axis(strip, shares)
+    return [Patch(**look, label=regime) for regime, look in LOOKS.items() if (regimes.regime == regime).any()]
+
+
+def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
+    """Draw shares and regimes of motion."""
+    figure = style.figure(style.PAGE, 104.0)
+    strip, velocities, share = figure.subplots(3, 1, sharex=True, height_ratios=(0.35, 3.0, 2.0))
+    handles = draw_regimes(strip, shares, regimes)
+    amplitudes = np.sort(shares.acceleration.unique())
 
     best = summarize_amplitudes(shares, shares.attrs["same_velocity"])
     slowest = shares.groupby("acceleration").mean_velocity.min()
@@ -52,7 +60,6 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
     share.set_xlabel(style.AMPLITUDE)
     share.set_xlim(amplitudes[0], amplitudes[-1])
     figure.align_ylabels([velocities, share])
-    handles = [Patch(**look, label=regime) for regime, look in LOOKS.items() if (regimes.regime == regime).any()]
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
     velocities.legend(loc="upper left")
     return figure
