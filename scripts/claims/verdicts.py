@@ -5,7 +5,7 @@ import math
 import pandas as pd
 import pyarrow as pa
 
-from claims import about_chaos, about_states
+from claims import about_chaos, about_states, about_transit
 from claims.finding import METHODS, Finding, format_interval
 from pipeline import fields, tables
 from pipeline.templates import render
@@ -28,7 +28,7 @@ TABLES = {
 }
 
 # Modules with the functions that the claims of the config name as `finding`.
-FINDINGS = {"about_chaos": about_chaos, "about_states": about_states}
+FINDINGS = {"about_chaos": about_chaos, "about_states": about_states, "about_transit": about_transit}
 REPRODUCED = "reproduced"
 PAPER_METHOD_ONLY = "reproduced by the paper's method only"
 NOT_REPRODUCED = "not reproduced"

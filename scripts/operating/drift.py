@@ -57,7 +57,8 @@ def amplitudes_in(regime: str, regimes: pd.DataFrame, settings: dict) -> np.ndar
 
 def spaced(amplitudes: np.ndarray, count: int) -> np.ndarray:
     """At most `count` of some ascending amplitudes, in the middles of equal parts of the list."""
-    return np.unique(amplitudes[((np.arange(count) + 0.5) / count * len(amplitudes)).astype(int)])
+    count = min(count, len(amplitudes))
+    return amplitudes[((np.arange(count) + 0.5) * len(amplitudes) / max(count, 1)).astype(int)]
 
 
 def positions(rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> np.ndarray:

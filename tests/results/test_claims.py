@@ -50,7 +50,7 @@ def differences(table, names) -> list[str]:
 
 def test_every_claim_has_a_verdict(result):
     table = result("claims")
-    assert len(table) == 23
+    assert len(table) == 24
     assert set(table.verdict) <= {REPRODUCED, PAPER_METHOD_ONLY, NOT_REPRODUCED}
 
 

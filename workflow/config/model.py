@@ -254,7 +254,7 @@ class Claim(TypedDict):
     tables: Annotated[dict[Name, Reference], Field(description="tables by the roles that the finding knows")]
 
 
-CLAIMS = tuple(f"C{place:02d}" for place in range(1, 24))
+CLAIMS = tuple(f"C{place:02d}" for place in range(1, 25))
 NameOfClaim = word("claim of the paper", *CLAIMS)
 
 

@@ -1,0 +1,39 @@
+"""The paper's abstract: chaotic motion feeds alike from all initial conditions."""
+
+import numpy as np
+import pandas as pd
+
+from claims.finding import NONE, Finding
+from operating.regimes import CHAOS, SEVERAL
+
+
+def exponents(lengths: pd.DataFrame, regime: str) -> dict[float, float]:
+    """The exponent of the relative spread over the length of the track, by the amplitude (m/s²), in a regime."""
+    rows = lengths[(lengths.regime == regime) & (lengths.spread > 0.0)]
+    return {
+        acceleration: float(np.polyfit(np.log(of.length), np.log(of.spread), 1)[0])
+        for acceleration, of in rows.groupby("acceleration")
+        if len(of) > 1
+    }
+
+
+def even_feeding(*, drift: pd.DataFrame, lengths: pd.DataFrame) -> Finding:
+    """Whether mean velocities in chaos depend on the initial conditions, and how the spread falls with the length."""
+    known = drift.dropna(subset=["velocity_1", "velocity_2"])
+    apart = (known.velocity_1 - known.velocity_2).abs() / np.hypot(known.velocity_1_stderr, known.velocity_2_stderr)
+    chaotic, coexisting = (exponents(lengths, regime) for regime in (CHAOS, SEVERAL))
+    farthest = max(chaotic.values(), key=lambda exponent: abs(exponent + 0.5), default=NONE)
+    texts = [
+        f"{name} at {', '.join(f'{acceleration:g} m/s² ({exponent:.2f})' for acceleration, exponent in found.items())}"
+        for name, found in (("chaos", chaotic), ("coexisting motions", coexisting))
+        if found
+    ]
+    note = (
+        f"Exponents of the spread: {' and '.join(texts)}" if texts else "No amplitude has chaos or coexisting motions"
+    )
+    numbers = {
+        "sets": float(apart.max()) if len(apart) else NONE,
+        "exponent": farthest,
+        "coexisting": min(coexisting.values(), default=NONE),
+    }
+    return Finding({}, numbers, note)
