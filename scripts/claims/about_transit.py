@@ -28,9 +28,7 @@ def even_feeding(*, drift: pd.DataFrame, lengths: pd.DataFrame) -> Finding:
         for name, found in (("chaos", chaotic), ("coexisting motions", coexisting))
         if found
     ]
-    note = (
-        f"Exponents of the spread: {' and '.join(texts)}" if texts else "No amplitude has chaos or coexisting motions"
-    )
+    note = f"Exponents of the spread: {' and '.join(texts)}" if texts else "No exponent of the spread is known"
     numbers = {
         "sets": float(apart.max()) if len(apart) else NONE,
         "exponent": farthest,

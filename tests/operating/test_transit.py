@@ -1,4 +1,4 @@
-"""Transit of populations of parts: exact cases, quantiles, brute force with a fixed-step method, drift and track lengths."""
+"""Transit of populations of parts: exact cases, quantiles, brute force by RK4, drift and track lengths."""
 
 import math
 

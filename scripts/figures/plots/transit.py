@@ -1,4 +1,4 @@
-"""Transit of parts: their velocities over the amplitude, and the relative spread over amplitude and length of the track."""
+"""Transit of parts: velocities over the amplitude, and the relative spread over amplitude and length of the track."""
 
 import numpy as np
 import pandas as pd
@@ -43,27 +43,16 @@ def draw_lengths(axes: Axes, lengths: pd.DataFrame) -> None:
             axes.plot(rows.length, rows.predicted, color=colour, linewidth=0.9, linestyle=(0, (3, 2)))
         numbers[regime] += 1
     if lengths.predicted.notna().any():
-        axes.plot(
-            [],
-            [],
-            color=style.STATE_COLOURS["chaos"],
-            linewidth=0.9,
-            linestyle=(0, (3, 2)),
-            label="by drift and diffusion",
-        )
+        look = {"color": style.STATE_COLOURS["chaos"], "linewidth": 0.9, "linestyle": (0, (3, 2))}
+        axes.plot([], [], label="by drift and diffusion", **look)
         ends, highest = np.array([lengths.length.min(), lengths.length.max()]), lengths.predicted.max()
         axes.plot(ends, 1.5 * highest * (ends / ends[0]) ** -0.5, color="0.5", linewidth=0.8, label="slope −1/2")
     if len(lengths):
         axes.set_xscale("log")
         axes.set_yscale("log")
     else:
-        style.note(
-            axes,
-            "no amplitude of the table\nlies in one of the regimes",
-            (0.5, 0.5),
-            xycoords="axes fraction",
-            ha="center",
-        )
+        text = "at no amplitude of the table do\nmotions coexist or is chaos alone"
+        style.note(axes, text, (0.5, 0.5), xycoords="axes fraction", ha="center")
 
 
 def plot(*, transit: pd.DataFrame, shares: pd.DataFrame, regimes: pd.DataFrame, lengths: pd.DataFrame) -> Figure:
