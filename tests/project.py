@@ -47,6 +47,9 @@ SINGLE = (
     "drive",
     "track",
     "advice",
+    "parts",
+    "transit",
+    "drift",
     "identification",
 )
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}

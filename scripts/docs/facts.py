@@ -8,6 +8,9 @@ import pandas as pd
 from claims.about_proofs import lowest_fold, stable_motions
 from claims.verdicts import VERDICTS
 from figures.captions import bifurcation, fig10
+from operating.chart import spreads_of
+from operating.parts import POPULATIONS
+from operating.regimes import SEVERAL
 
 
 def margin(value: float, low: float, high: float) -> float:
@@ -60,13 +63,25 @@ def valley(fit: pd.DataFrame) -> pd.Series:
     return fit.B[(fit.fit == "valley") & (fit.error <= paper.error)]
 
 
+def summarize_transit(transit: pd.DataFrame, lengths: pd.DataFrame) -> dict[str, Any]:
+    """Where identical parts differ most in their velocity, where varied parts differ least, and the track's length."""
+    widest = lengths[lengths.regime == SEVERAL].sort_values(["spread", "length"]).acceleration.iloc[-1]
+    identical, varied = (transit[transit.population == kind] for kind in POPULATIONS)
+    return {
+        "uneven": identical.loc[(identical.acceleration - widest).abs().idxmin()],
+        "even": varied.loc[varied.spread.idxmin()],
+        "track": transit.attrs["length"],
+        "differences": spreads_of(transit.attrs),
+    }
+
+
 def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
     """All facts of the pages, by the names that templates use.
 
     Parameters
     ----------
     tables : claims, benchmark, edge, edge_euler, estimate, estimate_euler, spectrum, cascade, certificates,
-        certified_bifurcations, certified_chaos and fit
+        certified_bifurcations, certified_chaos, fit, transit and lengths
     """
     claims = tables["claims"].set_index("id")
     first_error, second_error, right_signs = claims.paper_method["C22"]
@@ -85,4 +100,5 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         **names_by_verdict(tables["claims"]),
         **summarize_proofs(tables["certificates"], tables["certified_bifurcations"], tables["certified_chaos"]),
         **summarize_speed(tables["benchmark"]),
+        **summarize_transit(tables["transit"], tables["lengths"]),
     }

@@ -97,6 +97,9 @@ def drift_at(acceleration: float, x: np.ndarray, is_low: np.ndarray, period: flo
 
 def drift_table(amplitudes: np.ndarray, settings: dict, **options) -> pd.DataFrame:
     """The table of drift for amplitudes in chaos (m/s²), shape (m,)."""
+    columns = [column.name for column in TABLES["drift"]]
+    if len(amplitudes) == 0:
+        return pd.DataFrame(columns=columns)
     runs = {**settings, "starts": settings["runs"]}
     height = starts_of_box(runs)[:, 0]
     is_low = np.argsort(np.argsort(height)) < len(height) // 2
@@ -104,7 +107,7 @@ def drift_table(amplitudes: np.ndarray, settings: dict, **options) -> pd.DataFra
     x = positions(rows, settings, **options).reshape(len(amplitudes), len(height), -1)
     period = 1.0 / settings["model"]["frequency"]
     found = [drift_at(acceleration, of, is_low, period) for acceleration, of in zip(amplitudes, x, strict=True)]
-    return pd.DataFrame(found, columns=[column.name for column in TABLES["drift"]])
+    return pd.DataFrame(found, columns=columns)
 
 
 def lengths_table(regimes: pd.DataFrame, drifts: pd.DataFrame, settings: dict, **options) -> pd.DataFrame:

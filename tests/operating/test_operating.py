@@ -11,7 +11,7 @@ from project import ROOT, read_config
 from conveyor import Start, ensemble, simulate
 from conveyor.analysis.attractors.labels import Labels, classify
 from conveyor.solver.model import PSI0, VZ0, Z0, Conveyor, conveyor_motion, pack
-from operating import advice, chart, parts, regimes, shares, throws
+from operating import advice, chart, parts, regimes, shares, throws, transit
 from pipeline.motions import motions
 from pipeline.templates import format_range
 from workflow.config.tables import TABLES
@@ -152,19 +152,6 @@ def test_samples_of_both_first_runs_ascend(monkeypatch):
     assert all((0.75 * durations[:, 1:] >= durations[:, :-1]).all() for durations in wanted)
 
 
-def test_brief_runs_take_means_over_whole_periods():
-    """A motion with a period of four cycles, whose velocity differs from cycle to cycle."""
-    rows = pack(Conveyor(acceleration=61.8), Start(3e-4))[None]
-    options, labels = {**BOX, "cycles": 250}, classify(rows)
-    assert labels.period.tolist() == [4]
-    found, peaks, status = shares.brief_velocities(rows, labels, options)
-    long, long_peaks, _ = shares.velocities(rows, labels, options)
-    assert status.tolist() == ["ok"]
-    assert found == pytest.approx(long, rel=1e-3)
-    assert peaks == pytest.approx(long_peaks, rel=1e-5)
-    assert (shares.brief_durations(rows, np.array([4]), 250) * 50.0).tolist() == pytest.approx([256.0])
-
-
 def test_brief_runs_are_as_long_as_friction_needs():
     """On a track steeper than friction holds, no length helps."""
     rows = np.array([pack(Conveyor(inclination=alpha), Start()) for alpha in (0.0, -0.147, 0.14888, 0.2)])
@@ -299,23 +286,35 @@ def test_chaos_begins_at_its_lowest_amplitude():
     assert parts["unknown"] == []
 
 
-def advised() -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Made-up tables of advice and changes for one aim."""
-    row = {
-        **{"aim": "certain", "acceleration": 31.0, "throw_number": 0.66, "state": "first", "period": 1},
-        **{"mean_velocity": 0.01, "share": 1.0, "stderr": 0.0, "knock": 0.05, "largest_kick": 0.2},
-        **{"impact_speed": 0.1, "peak_force": 0.5, "textbook": 0.0},
-    }
-    changes = {"aim": "certain", "regime": "one velocity", "mean_velocity": 0.012}
+def measures(**changed: float) -> dict[str, float]:
+    """Made-up measures of a population."""
+    found = dict.fromkeys((column.name for column in transit.MEASURES), 0.0) | {"failed": 0}
+    found |= {"velocity_05": 0.02, "velocity_50": 0.03, "velocity_95": 0.05, "mean_velocity": 0.03, "spread": 1.0}
+    return found | {"late": 0.125, "impact_speed": 0.1, "peak_force": 0.5} | changed
+
+
+def advised(**worst: float) -> list[pd.DataFrame]:
+    """Made-up tables of transit, advice and changes."""
+    rows = pd.DataFrame([measures(acceleration=a, population="varied") for a in (31.0, 58.0)])
+    rows.attrs = {"length": 0.5, "longest": 20.0, "starts": 256, "spread": {"friction": 0.15, "mass": 0.0, "seed": 1}}
+    rows.attrs["model"] = {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0}
+    common = {"throw_number": 0.66, "velocity_worst": 0.01, "spread_worst": 1.1, "back_worst": 0.0} | worst
+    fast = measures(aim="fast", acceleration=31.0, states="first 90 %, second 10 %", **common)
+    even = measures(aim="even", acceleration=58.0, states="chaos 100 %", **common) | {"spread": 0.2, "back": 0.01}
+    advice_rows = pd.DataFrame([fast, even])
+    advice_rows.attrs = {"margin": 0.01, "part_length": 0.02}
     changes = [
-        {**changes, "parameter": "friction", "value": 0.17, "gain": 0.2},
-        {**changes, "parameter": "angle", "value": 0.2, "gain": -0.2},
-        {**changes, "parameter": "angle", "value": 0.24, "gain": 0.1},
-        {**changes, "parameter": "mass", "value": 1.0, "gain": 0.5, "regime": regimes.CHAOS},
+        {"aim": "fast", "parameter": "friction", "value": 0.17, "gain": 0.2, "widening": -0.1},
+        {"aim": "fast", "parameter": "angle", "value": 0.2, "gain": -0.2, "widening": -0.5},
+        {"aim": "fast", "parameter": "angle", "value": 0.24, "gain": 0.1, "widening": 0.3},
+        {"aim": "even", "parameter": "angle", "value": 0.2, "gain": -0.2, "widening": -0.5},
     ]
-    tables = pd.DataFrame([row]), pd.DataFrame(changes)
-    tables[0].attrs = {"margin": 0.01, "part_length": 0.02}
-    return tables
+    return [rows, advice_rows, pd.DataFrame(changes)]
+
+
+def page_of(shares_table: pd.DataFrame, tables: list[pd.DataFrame]) -> str:
+    rows, advice_rows, changes = tables
+    return chart.make(TEMPLATE, rows, shares_table, intervals_of(shares_table), advice_rows, changes)
 
 
 def intervals_of(table: pd.DataFrame) -> pd.DataFrame:
@@ -323,97 +322,124 @@ def intervals_of(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def test_the_page_begins_with_the_advice(refined):
-    page = chart.make(TEMPLATE, refined, intervals_of(refined), *advised())
-    assert page.startswith("# Operating chart\n\n## Recommended amplitudes\n")
-    assert (
-        "- **Amplitude 31 m/s²** (peak acceleration along the direction of vibration), throw number Γ = 0.66\n" in page
-    )
-    assert "- At most 30 parts of 20 mm per minute, one behind the other\n" in page
-    assert "all 100 random initial conditions reach this velocity. At 95 % confidence, fewer than 3 % of all" in page
-    assert "A sudden change of the part's velocity by 0.05 m/s normal to the track can end this motion" in page
-    assert "- Impact speed 0.1 m/s, peak force 0.5 N (50 times the weight of the part)\n" in page
-    assert "  - friction of 0.17 (now 0.15): +20 %, one velocity\n" in page
-    assert "  - angle of 13.8° (now 12°): +10 %, one velocity\n" in page
-    assert page.count("(now ") == 2
-    assert "mass of" not in page
-    assert "Faster on average" not in page
+    page = page_of(refined, advised())
+    assert page.startswith("# Operating chart\n\n## Where to run the conveyor\n\n**Fast for nearly all parts.**")
+    assert "- **Amplitude 31 m/s²** (peak acceleration along the direction of vibration), throw number" in page
+    assert "- **Velocity 3 cm/s** (median); 90 % of the parts have 2 to 5 cm/s. If the amplitude is wrong" in page
+    assert "- Up to 90 parts of 20 mm per minute at this velocity, one behind the other\n" in page
+    assert "- Late: 12.5 % of the parts need more than 20 s for 0.5 m. None has moved back\n" in page
+    assert "- Impact speed up to 0.1 m/s, contact force up to 0.5 N (50 times the weight of the part)" in page
+    assert "- State of motion: first 90 %, second 10 % of the initial conditions\n" in page
+    assert "  - friction of 0.17 (now 0.15): velocity +20 %, spread -10 %\n" in page
+    assert "  - angle of 13.8° (now 12°): velocity +10 %, spread +30 %\n" in page
+    assert page.index("**Even.**") < page.index("- **Amplitude 58 m/s²**") < page.index("## What the conveyor does")
+    assert "1.0 % have moved back" in page
+    assert page.count("(now ") == 3
+    assert "The parts differ: relative standard deviations are 15 % of friction." in page
 
 
-def test_advice_must_hold_within_the_margin(refined):
-    """One velocity up to 31.4 m/s², and the largest product of velocity and share above 40 m/s²."""
-    found = advice.recommended(refined, 0.01)
-    assert 20.0 <= found["certain"] <= 31.4 / 1.01
-    assert 40.0 <= found["fast"] <= 50.0 / 1.01
-    # Up to twice their amplitude there are two velocities everywhere, and chaos from 50 m/s² on.
-    wide = advice.recommended(refined, 0.99)
-    assert wide.keys() == {"fast"}
-    assert wide["fast"] <= 50.0 / 1.99
+def test_the_page_says_that_parts_move_back_everywhere(refined):
+    tables = advised(velocity_worst=-0.01)
+    tables[1] = tables[1].head(1)
+    tables[0].attrs["spread"] = {"friction": 0.0, "seed": 1}
+    page = page_of(refined, tables)
+    assert "**At no amplitude do 95 % of the parts move forward.**" in page
+    assert "**Even.**" not in page
+    assert "All parts have equal parameters" in page
 
 
-def test_worst_of_neighbours():
-    places, scores = np.array([1.0, 1.05, 1.5, 2.0]), np.array([3.0, 1.0, 5.0, 4.0])
-    assert advice.worst_within(places, scores, 0.1).tolist() == [1.0, 1.0, 5.0, 4.0]
+def made_up_transit(slowest: list[float], spread: list[float]) -> pd.DataFrame:
+    return pd.DataFrame({"acceleration": 10.0 * np.arange(len(spread)), "velocity_05": slowest, "spread": spread})
 
 
-def test_a_settled_motion_goes_on_and_a_large_kick_ends_it(table):
-    """At 40 m/s² one of the kicks tried is the smallest that ends the first state; smaller kicks do not end it."""
-    motion = table[(table.acceleration == 40.0) & (table.state == "first")].iloc[0]
-    rows = advice.settled(motion, BOX, 4)
-    assert advice.is_motion(classify(rows), motion).all()
-    sizes = np.geomspace(1e-4, 0.4, 30)
-    knock = advice.smallest_knock(rows, motion, sizes, BOX)
-    assert 1e-4 < knock < 0.4
-    assert np.isnan(advice.smallest_knock(rows, motion, sizes[sizes < knock], BOX))
-    # The label of a single kicked part, at the phase at which the kick has the largest effect.
-    at_knock = np.repeat(rows, 2, axis=0)
-    at_knock[:, VZ0] += np.tile([-knock, knock], len(rows))
-    assert (classify(at_knock).state == "second").any()
+def around_with(table: pd.DataFrame, ends: dict[int, tuple[float, float]]):
+    """The measures at a place, and at the ends of its margin if they differ there."""
+
+    def around(place: int) -> pd.DataFrame:
+        rows = table.iloc[[place, place]].copy()
+        if place in ends:
+            rows.iloc[1, 1:] = ends[place]
+        return rows
+
+    return around
 
 
-def test_advice_has_the_numbers_of_its_motion_and_of_changed_conveyors():
-    settings = TABLES["operating/shares"](read_config()) | {"starts": 32, "followed": 2, "cycles": 50, "settling": 2000}
-    table = shares.motions_at(np.array([22.0, 23.0]), settings)
+@pytest.mark.parametrize(
+    ("ends", "expected"),
+    [
+        ({}, {"fast": 1, "even": 2}),
+        ({1: (0.01, 0.5)}, {"fast": 3, "even": 2}),  # slow within the margin
+        ({2: (0.05, 0.9)}, {"fast": 1, "even": 3}),  # uneven within the margin
+        ({2: (0.01, 0.1)}, {"fast": 1, "even": 3}),  # too slow within the margin
+    ],
+)
+def test_advice_must_hold_within_the_margin(ends, expected):
+    table = made_up_transit([-0.1, 0.09, 0.05, 0.08, 0.01], [0.1, 0.5, 0.2, 0.3, 0.05])
+    assert advice.choose(table, around_with(table, ends)) == expected
+
+
+def test_unknown_and_backward_velocities_give_less_advice():
+    table = made_up_transit([-0.1, -0.02, np.nan], [0.1, 0.5, 0.2])
+    assert advice.choose(table, around_with(table, {})) == {"fast": 1}
+    table = made_up_transit([np.nan], [np.nan])
+    assert advice.choose(table, around_with(table, {})) == {}
+
+
+def test_advice_has_the_measures_of_its_amplitude_and_of_changed_conveyors():
+    settings = TABLES["operating/transit"](read_config()) | {"starts": 16, "longest": 1.0}
+    table = transit.measure(np.array([40.0, 80.0]), settings)
     table.attrs = settings
-    options = {"margin": 0.01, "phases": 2, "kicks": 5, "smallest_kick": 0.01}
-    found = advice.make(table, {**options, "changes": {"phase_shift": 0.175, "friction": 0.02}})
+    shares_table = pd.DataFrame({"acceleration": [39.0, 39.0, 81.0], "state": ["first", "second", "chaos"]})
+    shares_table = shares_table.assign(share=[0.3, 0.7, 1.0])
+    found = advice.make(table, shares_table, {"margin": 0.01, "changes": {"friction": 0.02}})
     told, changes = pd.DataFrame(found["advice"]), pd.DataFrame(found["changes"])
-    motion = table[table.acceleration == 23.0].iloc[0]
-    assert told.aim.tolist() == ["certain", "fast"]
-    for name in ("acceleration", "state", "period", "mean_velocity", "impact_speed", "peak_force"):
-        assert (told[name] == motion[name]).all(), name
-    assert (told.throw_number == motion.vertical).all()
-    assert (told.textbook == 0.0).all()
-    assert (told.share == 1.0).all()
-    certain = changes[changes.aim == "certain"].reset_index(drop=True)
-    friction = settings["model"]["friction"]
-    assert certain.parameter.tolist() == ["phase_shift", "phase_shift", "friction", "friction"]
-    assert certain.value.tolist() == pytest.approx([-0.175, 0.175, friction - 0.02, friction + 0.02])
-    changed = {**settings, "model": settings["model"] | {"phase_shift": 0.175}}
-    alone = shares.motions_at(np.array([23.0]), changed).mean_velocity[0]
-    assert certain.mean_velocity[1] == pytest.approx(alone, rel=1e-9)
-    assert certain.gain[1] == pytest.approx(alone / motion.mean_velocity - 1.0)
-    assert (certain.regime == regimes.ONE).all()
+    fast = told.iloc[0]
+    own = table[(table.population == "varied") & (table.acceleration == fast.acceleration)].iloc[0]
+    assert (fast.aim, fast.acceleration, fast.states) == ("fast", 80.0, "chaos 100 %")
+    assert fast.velocity_05 == own.velocity_05 == table[table.population == "varied"].velocity_05.max()
+    ends = transit.measure(np.array([79.2, 80.8]), settings, ("varied",))
+    assert fast.velocity_worst == min(fast.velocity_05, ends.velocity_05.min())
+    more = changes[(changes.aim == "fast") & (changes.value > 0.15)].iloc[0]
+    other = {**settings, "model": settings["model"] | {"friction": settings["model"]["friction"] + 0.02}}
+    alone = transit.measure(np.array([80.0]), other, ("varied",)).iloc[0]
+    assert more.velocity_05 == alone.velocity_05
+    assert more.gain == pytest.approx(alone.velocity_05 / own.velocity_05 - 1.0)
+    assert more.widening == pytest.approx(alone.spread / own.spread - 1.0)
+    assert advice.describe_states(shares_table, 40.0) == "second 70 %, first 30 %"
 
 
-def test_the_share_of_the_advice_covers_all_motions_with_its_velocity(refined, monkeypatch):
-    """Above 40 m/s² two motions have the same velocity: 24 and 10 of 100 initial conditions reach them."""
-    monkeypatch.setattr(advice, "settled", lambda *_, **__: None)
-    monkeypatch.setattr(advice, "smallest_knock", lambda *_, **__: np.nan)
-    monkeypatch.setattr(advice, "changes_at", lambda *_, **__: [])
-    refined = refined.assign(impact_speed=0.1, peak_force=1.0)
-    refined.attrs["model"] |= {"frequency": 50.0}
-    options = {"margin": 0.01, "phases": 2, "kicks": 5, "smallest_kick": 0.01, "changes": {}}
-    told = pd.DataFrame(advice.make(refined, options)["advice"]).set_index("aim")
-    assert told.share.to_dict() == pytest.approx({"certain": 1.0, "fast": 0.34})
-    assert told.stderr["fast"] == pytest.approx(math.sqrt(0.34 * 0.66 / 100))
-    assert told.mean_velocity.to_dict() == {"certain": 0.01, "fast": 0.06}
-
-
-def test_changes_of_a_parameter_keep_the_static_friction_above_the_friction():
-    model = {"friction": 0.15, "static_friction": 0.16, "angle": 0.2}
-    assert advice.with_parameter(model, "friction", 0.2)["static_friction"] == 0.2
-    assert advice.with_parameter(model, "friction", 0.1)["static_friction"] == 0.16
+def test_static_friction_keeps_its_ratio_and_values_out_of_range_are_left_out():
+    model = {"friction": 0.1, "static_friction": 0.2}
+    assert advice.with_parameter(model, "friction", 0.15)["static_friction"] == pytest.approx(0.3)
     assert advice.with_parameter({"friction": 0.15}, "friction", 0.2) == {"friction": 0.2}
+    settings = TABLES["operating/transit"](read_config()) | {"starts": 8, "longest": 0.2}
+    settings["model"] = settings["model"] | {"friction": 0.01}
+    row = transit.measure(np.array([40.0]), settings, ("varied",)).iloc[0]
+    assert [change["value"] for change in advice.changes_at(row, settings, {"friction": 0.02})] == [0.03]
+
+
+def interval_rows(*rows: tuple[str, float, float]) -> pd.DataFrame:
+    numbers = {"velocity_low": 0.1, "best_low": 0.2, "best_high": 0.3, "best_share_low": 0.4, "best_share_high": 0.5}
+    common = numbers | {"best_share_stderr": 0.0, "step": 0.1, "amplitudes": 2}
+    table = pd.DataFrame(rows, columns=["regime", "begin", "end"])
+    return table.assign(number=np.arange(len(rows)), states=table.regime, **common)
+
+
+def test_narrow_intervals_are_merged_into_their_wider_neighbour():
+    """The narrow interval of chaos between two with one velocity goes; the interval at 60 m/s² joins the wider side."""
+    table = interval_rows(
+        *((regimes.ONE, 20.0, 29.9), (regimes.CHAOS, 30.0, 30.05), (regimes.ONE, 30.1, 40.0)),
+        *((regimes.SEVERAL, 40.1, 59.9), (regimes.BESIDE, 60.0, 60.1), (regimes.CHAOS, 60.2, 61.5)),
+    )
+    table.loc[1, "velocity_low"] = 0.05
+    found = regimes.merge_narrow(table, 0.01)
+    assert found.regime.tolist() == [regimes.ONE, regimes.SEVERAL, regimes.CHAOS]
+    assert found.begin.tolist() == [20.0, 40.1, 60.2]
+    assert found.end.tolist() == [40.0, 60.1, 61.5]
+    assert found.velocity_low.tolist() == [0.05, 0.1, 0.1]
+    assert found.amplitudes.tolist() == [6, 4, 2]
+    pd.testing.assert_frame_equal(regimes.merge_narrow(table, 1e-6), table)
+    assert len(regimes.merge_narrow(table, 0.9)) == 1
 
 
 def test_regimes_and_their_words(refined):
@@ -426,7 +452,7 @@ def test_regimes_and_their_words(refined):
     assert found.best_share_stderr[1] == pytest.approx(math.sqrt(0.34 * 0.66 / 100))
     # The amplitudes of the config are 5 m/s² apart; closer ones were added where the answer changes.
     assert list(found.step[:2]) == [5.0, 5.0]
-    page = chart.make(TEMPLATE, refined, found, *advised())
+    page = page_of(refined, advised())
     assert "All initial conditions reach one velocity at 20.0 to 31.2 m/s² (first state, 0.01 m/s)." in page
     assert "Several velocities exist side by side, without chaos, at 31.4 to 50.0 m/s²" in page
     assert "\n30 to 34 % of the initial conditions reach it." in page
@@ -457,8 +483,11 @@ def test_regime_of_an_amplitude(states, velocities, regime):
 def test_a_table_without_known_amplitudes_gives_no_advice(refined):
     """The table has a single amplitude, whose regime is not known."""
     alone = refined[refined.acceleration == 20.0].assign(state="undecided", mean_velocity=np.nan)
-    page = chart.make(TEMPLATE, alone, intervals_of(alone), *(table.iloc[:0] for table in advised()))
-    assert "There is no amplitude at which every part reaches the same velocity with an amplitude error of 1 %." in page
+    rows, advice_rows, changes = advised()
+    advice_rows = advice_rows.iloc[:0]
+    advice_rows.attrs = {"margin": 0.01}
+    page = page_of(alone, [rows, advice_rows, changes.iloc[:0]])
+    assert "No part could be followed at any amplitude, so there is no advice." in page
     assert "At no amplitude do all initial conditions reach one velocity" in page
     assert "No initial condition ends in chaos" in page
     assert "At 20.0 m/s², the state or the velocity of a motion is not known." in page

@@ -31,6 +31,8 @@ FACTS = {
     "estimate": table("estimates/phase"),
     "estimate_euler": table("estimates/phase_euler"),
     "fit": table("regressions/height"),
+    "transit": table("operating/transit"),
+    "lengths": table("operating/track_lengths"),
 }
 KEPT_PAGES = ("README.md", "metadata.yaml", "codecheck.yml")
 ARTICLE_PARTS = {
@@ -277,7 +279,7 @@ rule costs:
 
 # The pictures of the README, and what the site shows of other conveyors:
 #   snakemake docs/bowl_operating.png --configfile config/examples/bowl.yaml
-#   snakemake docs/feeder_operating.png docs/feeder_chart.md --configfile workflow/templates/site/feeder.yaml
+#   snakemake docs/feeder_transit.png docs/feeder_chart.md --configfile workflow/templates/site/feeder.yaml
 rule picture:
     input:
         png=figure_file("{figure}", "png"),
@@ -288,7 +290,7 @@ rule picture:
     benchmark:
         benchmark_file("docs/{figure}")
     wildcard_constraints:
-        figure="operating|basin_stability|drive" if EXAMPLE else "overview|speed_accuracy",
+        figure="operating|transit|basin_stability|drive" if EXAMPLE else "overview|speed_accuracy",
     params:
         **stage("docs.pictures"),
     message:
