@@ -325,7 +325,7 @@ def test_the_page_begins_with_the_advice(refined):
     page = page_of(refined, advised())
     assert page.startswith("# Operating chart\n\n## Where to run the conveyor\n\n**Fast for nearly all parts.**")
     assert "- **Amplitude 31 m/s²** (peak acceleration along the direction of vibration), throw number" in page
-    assert "- **Velocity 3 cm/s** (median); 90 % of the parts have 2 to 5 cm/s. If the amplitude is wrong" in page
+    assert "- **Velocity 3 cm/s** (median); 90 % of the parts have 2 to 5 cm/s; with an amplitude error" in page
     assert "- Up to 90 parts of 20 mm per minute at this velocity, one behind the other\n" in page
     assert "- Late: 12.5 % of the parts need more than 20 s for 0.5 m. None has moved back\n" in page
     assert "- Impact speed up to 0.1 m/s, contact force up to 0.5 N (50 times the weight of the part)" in page
