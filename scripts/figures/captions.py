@@ -20,6 +20,7 @@ from identification import findings
 from operating import drive_page
 from operating.chart import spreads_of, summarize_shares
 from operating.regimes import CHAOS, SEVERAL
+from operating.transit import ENDS
 from pipeline.templates import render
 
 SMALL_ELASTICITY = 1e-3  # below it, a relative error means nothing
@@ -239,6 +240,8 @@ def transit(*, transit: pd.DataFrame, lengths: pd.DataFrame, drift: pd.DataFrame
         "coexisting": amplitudes.get(SEVERAL, []),
         "chaotic": amplitudes.get(CHAOS, []),
         "uncertain": int((drift.status != "ok").sum()),
+        "ends": ENDS,
+        "middle": ENDS[1] - ENDS[0],
     }
 
 

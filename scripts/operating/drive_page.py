@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 
 from operating.chart import RULE_OF_THREE, spreads_of
+from operating.transit import ENDS
 from pipeline.templates import render
 
 
@@ -23,6 +24,7 @@ def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
     return {
         "search": front.attrs,
         "spread": spreads_of(front.attrs),
+        "ends": ENDS,
         "unseen_share": RULE_OF_THREE / front.attrs["starts"],
         "found": len(front),
         "checked": front.checked.sum(),

@@ -22,10 +22,10 @@ CALLS = {
     },
     "accuracy/scaling": {"sweeps/shards"},
     "operating/shares": {"operating/regimes"},
-    "operating/advice": {"operating/regimes", "operating/shares"},
+    "operating/advice": {"operating/transit"},
     "operating/drift": {"operating/regimes", "operating/transit"},
     "operating/track": {"operating/regimes", "operating/shares"},
-    "operating/drive": {"operating/regimes", "operating/shares"},
+    "operating/drive": {"operating/transit"},
     "operating/throws": {"operating/regimes", "operating/shares"},
     "identification/posterior": {"identification/edges", "motion/critical"},
 }
