@@ -179,6 +179,8 @@ def find_attracting_orbits(
 ) -> AttractingOrbits:
     """The attracting orbits of a conveyor, shape (16,), that trajectories reach, each with a trapping region.
 
+    Parameters
+    ----------
     sampled : trajectories on the conveyor; those that have not converged are followed further, for at most `cycles`,
         one after the other, so that each slow orbit is approached only once
     chaotic : the known chaotic sets of the conveyor
