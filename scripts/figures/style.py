@@ -85,8 +85,9 @@ PARAMETERS = {
 
 
 def applied() -> AbstractContextManager:
-    """A context manager; figures made within it have this style."""
-    return mpl.rc_context(PARAMETERS)
+    """A context manager; figures made within it have this style, whatever the user's matplotlibrc says."""
+    defaults = {name: value for name, value in mpl.rcParamsDefault.items() if name != "backend"}
+    return mpl.rc_context(defaults | PARAMETERS)
 
 
 def figure(width: float, height: float) -> Figure:

@@ -1,5 +1,8 @@
 """The environment of jobs."""
 
+import pytest
+from project import Project
+
 STATUS = """
     import pyarrow
     from pathlib import Path
@@ -14,3 +17,26 @@ def test_tables_request_no_huge_pages(edited, monkeypatch):
     project = edited("scripts/figures/plots/fig03.py", "\n    return figure", STATUS)
     project.make("figures/fig03.pdf")
     assert "THP_enabled:\t0" in (project.folder / "status.txt").read_text()
+
+
+MATPLOTLIBRC = """
+text.usetex: True
+font.size: 20
+axes.grid: True
+lines.linewidth: 5
+savefig.bbox: tight
+savefig.transparent: True
+path.simplify: False
+"""
+
+
+@pytest.mark.parametrize("variable", ["XDG_CONFIG_HOME", "MPLCONFIGDIR", None])
+def test_figures_do_not_depend_on_the_users_matplotlib_settings(built, copied, tmp_path, variable):
+    folder = copied.folder if variable is None else tmp_path / "settings"
+    inner = folder / "matplotlib" if variable == "XDG_CONFIG_HOME" else folder
+    inner.mkdir(parents=True, exist_ok=True)
+    (inner / "matplotlibrc").write_text(MATPLOTLIBRC)
+    project = Project(copied.folder, environment={variable: str(folder)} if variable else {})
+    project.make("figures/fig03.pdf", "--force")
+    for name in ("figures/fig03.pdf", "figures/fig03.png"):
+        assert (project.folder / name).read_bytes() == (built.folder / name).read_bytes()
