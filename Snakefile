@@ -1,15 +1,21 @@
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
-from workflow.config import ConfigError, replace_config
+try:
+    from workflow.config import ConfigError, replace_config
+except ModuleNotFoundError as error:
+    if error.name.partition(".")[0] != "workflow":
+        raise
+    raise WorkflowError('This Snakefile needs the files beside it; in a Git repository, name path="workflow/Snakefile"')
 
 min_version("9.27")
 
 # The config of the paper, with the overlays of the command line merged over it and checked.
 try:
-    loaded, OVERLAYS = replace_config(workflow, config)
+    loaded, OVERLAYS, COMMAND_LINE = replace_config(workflow, config)
 except ConfigError as error:
     raise WorkflowError(str(error))
+config = loaded.config
 PAPER, OWN_CONVEYOR = loaded.paper, loaded.own_conveyor
 
 
@@ -41,10 +47,9 @@ rule all:
     input:
         figure_files(),
         caption_files(),
-        rules.claims.output,
-        rules.provenance.output,
-        rules.report_figures.output,
-        rules.report_summary.output,
+        CLAIM_FILES,
+        BUILD_RECORDS,
+        REPORT_FILES,
     localrule: True
     message:
         "All figures and claims are up to date"

@@ -8,9 +8,8 @@ import sys
 import pandas as pd
 
 
-def summary(targets: list[str], snakefile: str, configfiles: list[str]) -> pd.DataFrame:
+def summary(targets: list[str], snakefile: str, options: list[str]) -> pd.DataFrame:
     """Snakemake's detailed summary of all files behind some targets: output_file, log-file(s), input-file(s), …"""
-    options = ["--configfile", *configfiles] if configfiles else []
     command = [sys.executable, "-m", "snakemake", "--snakefile", snakefile, "--nolock", "--detailed-summary"]
     run = subprocess.run([*command, *targets, *options], stdout=subprocess.PIPE, text=True, check=True)
     return pd.read_csv(io.StringIO(run.stdout), sep="\t", dtype=str, keep_default_na=False)
@@ -39,13 +38,14 @@ def sum_costs(files: set[str]) -> dict[str, float | int]:
     return {"seconds": float(rows["s"].sum()), "memory": float(rows["max_rss"].max()), "jobs": len(files)}
 
 
-def make(figures: dict[str, list[str]], claims: dict[str, list[str]], snakefile: str, configfiles: list[str]) -> str:
+def make(figures: dict[str, list[str]], claims: dict[str, list[str]], snakefile: str, options: list[str]) -> str:
     """Seconds, MiB and number of jobs of each figure, of each claim, and of everything, as JSON.
 
     figures, claims : the files behind each figure and claim, by name
+    options : of Snakemake, which give it the same config
     """
     everything = sorted({file for files in [*figures.values(), *claims.values()] for file in files})
-    table = summary(everything, snakefile, configfiles)
+    table = summary(everything, snakefile, options)
 
     def costs(files: list[str]) -> dict[str, float | int]:
         return sum_costs(set().union(*(jobs_of(file, table) for file in files)))

@@ -3,6 +3,7 @@
 import os
 import resource
 
+import pandas as pd
 import pytest
 import yaml
 from project import CONFIG_FILES, ROOT, Project, copy_project, merged, read_config
@@ -229,8 +230,12 @@ COMMANDS = [
     (["--config=novalue"], f"--config 'novalue' {BOTH}"),
     (["-C", "novalue"], f"--config 'novalue' {BOTH}"),
     (["-Cnovalue"], f"--config 'novalue' {BOTH}"),
-    (["--config", "model={mass: 3}"], f"--config 'model={{mass: 3}}' {BOTH}"),
-    (["--config", "prefix=[x]"], f"--config 'prefix=[x]' {BOTH}"),
+    (["--config", "model={mass: 0.1"], "--config:2: is not YAML"),
+    (["--config", "model={mass: 050}"], "--config:1: model.mass = 050 is read as 40"),
+    (["--config", "model={mass: 0.1, mass: 0.2}"], "--config:1: model.mass is already set in line 1"),
+    (["--config", "model={mass: -3.0}"], "model.mass = -3.0 should be at least 1e-12 (kg)"),
+    (["--config", "model={masses: 3}"], "model.masses is an unknown key; did you mean mass?"),
+    (["--config", "prefix=[x]"], "prefix = ['x'] should be a valid string"),
 ]
 
 
@@ -243,6 +248,18 @@ def test_values_of_the_command_line_are_checked_before_snakemake_reads_them(proj
 
 def test_valid_values_of_the_command_line_are_accepted():
     check_command_line(["snakemake", "--config", "prefix=mine", "-n", "all", "-C", "a_b=1=2", "--cores", "2"])
+
+
+def test_nested_values_of_the_command_line_are_an_overlay(project, tmp_path):
+    """They are merged over the overlay files, and numbers are numbers, although Snakemake reads them as texts."""
+    overlay = {"prefix": "nested", "sweeps": {"amplitudes": {"model": {"mass": 0.002}, "duration": 0.02}}}
+    under = Project(project.folder, overlay | {"model": {"damping": 0.3}})
+    values = ("model={damping: 0.2}", "sweeps={amplitudes: {model: {friction: 0.3}, axes: {z0: [0, 1.0e-4]}}}")
+    target = "results/nested/sweeps/amplitudes.parquet"
+    under.make(target, "--config", *values)
+    settings = pd.read_parquet(project.folder / target).attrs
+    assert settings["model"] == settings["model"] | {"damping": 0.2, "mass": 0.002, "friction": 0.3}
+    assert settings["axes"]["z0"] == [0.0, 1.0e-4]
 
 
 LARGE = {

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from .checks import problems
 from .entries import by_methods, with_tighter
 from .errors import ConfigError, type_problems
-from .files import DEFAULT_FILES, ROOT, changed_values, merge, read_all
+from .files import DEFAULT_FILES, ROOT, changed_values, merge, parse_texts, read_all
 from .model import MODEL
 from .own_conveyor import is_own_conveyor, names_conveyor, scale_config
 
@@ -63,15 +63,18 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
     return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_conveyor)
 
 
-def replace_config(workflow: Any, config: dict) -> tuple[Loaded, list[str]]:
-    """Replace Snakemake's merged config by the canonical one, and return it with the paths of the overlays.
+def replace_config(workflow: Any, config: dict) -> tuple[Loaded, list[str], dict]:
+    """Convert Snakemake's merged config; also return the paths of the overlays and the values of the option --config.
 
-    The object stays the same, because Snakemake hands it to the report. As a module of another workflow, all
-    that counts is the config that the other workflow passes. ConfigError says what is wrong with the config.
+    The converted config is the same object, because Snakemake hands it to the report. As a module of another workflow,
+    all that counts is the config that the other workflow passes, which stays as it is, because Snakemake reads the
+    Snakefile again for each `use rule`. ConfigError says what is wrong with the config.
     """
-    is_module = not Path(workflow.main_snakefile).resolve().is_relative_to(ROOT)
-    overlays = [] if is_module else [os.path.relpath(file) for file in workflow.overwrite_configfiles]
-    loaded = load_config(DEFAULT_FILES, overlays, config)
+    if not Path(workflow.main_snakefile).resolve().is_relative_to(ROOT):
+        return load_config(DEFAULT_FILES, [], parse_texts(config)), [], {}
+    overlays = [os.path.relpath(file) for file in workflow.overwrite_configfiles]
+    command_line = parse_texts(dict(workflow.config_settings.config))
+    loaded = load_config(DEFAULT_FILES, overlays, merge(config, command_line))
     config.clear()
     config.update(loaded.config)
-    return loaded, overlays
+    return loaded._replace(config=config), overlays, command_line

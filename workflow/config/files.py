@@ -95,24 +95,33 @@ def read(file: str | Path) -> tuple[list[str], Any]:
         return [f"{file}: is no regular file; save the config in one, and name that file"], None
     try:
         text = Path(file).read_text(encoding="utf-8")
-        if fault := size_fault(text):
-            return [f"{file}:{fault}"], None
-        node = yaml.compose(text, Loader=yaml.CSafeLoader)
-        if faults := list(misread(node)) if node else []:
-            return list(dict.fromkeys(f"{file}:{fault}" for fault in faults)), None
-        content = yaml.load(text, Loader=yaml.CSafeLoader)
     except OSError as error:
         return [f"{file}: {error.strerror}; name a config file (put targets before --configfile)"], None
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
         return [f"{file}:{line}: is not UTF-8 text ({error.reason}); save it as UTF-8"], None
+    return parse(text, str(file))
+
+
+def parse(text: str, source: str) -> tuple[list[str], Any]:
+    """All faults of a YAML text, one line each, and its content (None if it cannot be read).
+
+    source : what messages call the text
+    """
+    try:
+        if fault := size_fault(text):
+            return [f"{source}:{fault}"], None
+        node = yaml.compose(text, Loader=yaml.CSafeLoader)
+        if faults := list(misread(node)) if node else []:
+            return list(dict.fromkeys(f"{source}:{fault}" for fault in faults)), None
+        content = yaml.load(text, Loader=yaml.CSafeLoader)
     except (*UNREADABLE, TypeError) as error:
         mark = getattr(error, "problem_mark", None)
         reason = " ".join(str(getattr(error, "problem", error)).split())
-        place = f"{file}:{mark.line + 1}" if mark else file
+        place = f"{source}:{mark.line + 1}" if mark else source
         return [f"{place}: is not YAML: {reason}; compare it with config/config.yaml"], None
     if not isinstance(content, dict):
-        return [f"{file}: has no keys with values; begin with a section of config/config.yaml"], None
+        return [f"{source}: has no keys with values; begin with a section of config/config.yaml"], None
     return [], content
 
 
@@ -147,6 +156,31 @@ def changed_values(before: dict, after: dict) -> dict:
     return changed
 
 
+def parse_texts(value: Any) -> Any:
+    """A config value with numbers, true, false and null in place of texts that YAML reads as such.
+
+    Snakemake leaves them as texts in nested values of its option --config, such as `model={damping: 0.2}`.
+    """
+    if isinstance(value, dict):
+        return {key: parse_texts(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [parse_texts(item) for item in value]
+    if not isinstance(value, str):
+        return value
+    node = yaml.ScalarNode(SCALARS.resolve(yaml.ScalarNode, value, (True, False)), value)
+    return value if scalar_fault(node) else SCALARS.construct_object(node)
+
+
+def command_line_faults(value: str) -> list[str]:
+    """The faults of a value of the option --config, one line each."""
+    match = re.fullmatch(r"([A-Za-z_][\w-]*\w)=(.*)", value, re.DOTALL)
+    if not match:
+        remedy = "write prefix=mine, or 'model={damping: 0.2}'"
+        return [f"--config {format_value(value)} is not KEY=VALUE with a top-level KEY such as prefix; {remedy}"]
+    key, content = match.groups()
+    return parse(f"{key}: {content}", "--config")[0] if content.lstrip()[:1] in ("{", "[") else []
+
+
 def check_command_line(arguments: list[str]) -> None:
     """End Snakemake if an overlay or a --config value of its command line is wrong.
 
@@ -157,11 +191,6 @@ def check_command_line(arguments: list[str]) -> None:
     parser.add_argument("--config", "-C", nargs="*", action="extend", default=[])
     options, _ = parser.parse_known_args(arguments)
     faults = [fault for file in options.configfile for fault in read(file)[0]]
-    faults += [
-        f"--config {format_value(value)} is not KEY=VALUE with a top-level KEY such as prefix and a single VALUE; put "
-        "other values in an overlay file, and name it with --configfile"
-        for value in options.config
-        if not re.fullmatch(r"[A-Za-z_]\w+=(?![{\[]).*", value, re.DOTALL)
-    ]
+    faults += [fault for value in options.config for fault in command_line_faults(value)]
     if faults:
         raise SystemExit(str(ConfigError(faults)))

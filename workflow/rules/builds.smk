@@ -25,6 +25,7 @@ BUILT_FILES = [
     *figure_files(),
     *figure_files("png"),
 ]
+BUILD_RECORDS = [result("manifest.sha256"), result("provenance.json")]
 # Kinds of tables with measured times, which differ from build to build, and the figures that are drawn from them.
 TIMED = {"benchmark", "precision_times", "certificate_times", "budget_times"}
 TIMED_FIGURES = [name for name, entry in config["figures"].items() if TIMED & {*map(kind_of, entry["tables"].values())}]
@@ -72,8 +73,8 @@ rule archive:
             *figure_files(),
             *caption_files(),
             *map(table, QUOTED_TABLES),
-            *rules.claims.output,
-            *rules.provenance.output,
+            *CLAIM_FILES,
+            *BUILD_RECORDS,
         ],
         sources=[file for pattern in ARCHIVED for file in sources(pattern)],
         overlays=[file for file in OVERLAYS if not file.startswith("..")],

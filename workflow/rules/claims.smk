@@ -3,6 +3,7 @@ from workflow.config.tables import ON_REQUEST, references, tighter_claims
 
 # Each claim alone.
 CLAIM = {name: {name: claim} for name, claim in config["claims"].items()}
+CLAIM_FILES = [table("results/claims"), result("claims.md")]
 TIGHTER_CLAIMS = tighter_claims(config)
 # Tests of the results, which apply to the paper's conveyor only, and the tables that they read.
 RESULT_TESTS = [] if OWN_CONVEYOR else sources("tests/results/*.py")

@@ -1,4 +1,5 @@
 # Pages of the documentation, the article and the site, made from results.
+import json
 from pathlib import Path
 
 from workflow.config.schema import json_schema
@@ -34,6 +35,14 @@ FACTS = {
     "transit": table("operating/transit"),
     "lengths": table("operating/track_lengths"),
 }
+FACTS_PARAMS = {
+    "figures": {name: {key: entry[key] for key in ("title", "section")} for name, entry in config["figures"].items()},
+    "values": {
+        "prefix": config["prefix"],
+        "step": config["solver"]["step"],
+        "tighter": config["uncertainty"]["tighter"],
+    },
+}
 KEPT_PAGES = ("README.md", "metadata.yaml", "codecheck.yml")
 ARTICLE_PARTS = {
     "config": [os.path.relpath(file) for file in DEFAULT_FILES],
@@ -44,11 +53,17 @@ ARTICLE_PARTS = {
 }
 DIAGRAMS = {name: result(f"diagrams/{name}.png") for name in ("cycle", "contact", "friction", "states")}
 ARTICLE = source("workflow/templates/article.md")
-SITE_PAGES = [ARTICLE, *sources("workflow/templates/site/*.md")]
+SITE_TEMPLATES = [ARTICLE, *sources("workflow/templates/site/*.md")]
+SITE_PAGES = [result(f"site_pages/{Path(file).name}") for file in SITE_TEMPLATES]
 LIBRARY = [
     Path(file).relative_to(source("scripts")).with_suffix("").as_posix()
     for file in sources("scripts/conveyor/**/*.py")
     if not file.endswith("__init__.py")
+]
+# The options of the command line that give Snakemake this config.
+CONFIG_OPTIONS = [
+    *(("--configfile", *OVERLAYS) if OVERLAYS else ()),
+    *(("--config", *(f"{key}={json.dumps(value)}" for key, value in COMMAND_LINE.items())) if COMMAND_LINE else ()),
 ]
 
 
@@ -136,12 +151,7 @@ rule findings:
         benchmark_file("docs/findings")
     params:
         **stage("docs.pages"),
-        figures={name: {key: entry[key] for key in ("title", "section")} for name, entry in config["figures"].items()},
-        values={
-            "prefix": config["prefix"],
-            "step": config["solver"]["step"],
-            "tighter": config["uncertainty"]["tighter"],
-        },
+        **FACTS_PARAMS,
     message:
         "Findings beyond the paper"
     script:
@@ -149,7 +159,7 @@ rule findings:
 
 
 # The README, the form of the journal ReScience, and the manifest of CODECHECK.
-use rule findings as kept_pages with:
+rule kept_pages:
     input:
         **FACTS,
         templates=[source(f"workflow/templates/{name}") for name in KEPT_PAGES],
@@ -161,11 +171,16 @@ use rule findings as kept_pages with:
         log_file("docs/kept_pages"),
     benchmark:
         benchmark_file("docs/kept_pages")
+    params:
+        **stage("docs.pages"),
+        **FACTS_PARAMS,
     message:
         "README and metadata"
+    script:
+        "../../scripts/make.py"
 
 
-use rule findings as article with:
+rule article:
     input:
         figure_files(),
         **FACTS,
@@ -181,31 +196,38 @@ use rule findings as article with:
         benchmark_file("docs/article")
     params:
         **stage("docs.article"),
+        **FACTS_PARAMS,
         medium="print",
         folder=lambda wildcards, input: f"{os.path.dirname(input[0])}/",
     message:
         "The article"
+    script:
+        "../../scripts/make.py"
 
 
-use rule findings as site_pages with:
+rule site_pages:
     input:
         **FACTS,
         **ARTICLE_PARTS,
-        templates=SITE_PAGES,
+        templates=SITE_TEMPLATES,
         schema=source("config/schema.json"),
         columns=f"{DOCS}tables.md",
     output:
-        [result(f"site_pages/{Path(file).name}") for file in SITE_PAGES],
+        SITE_PAGES,
     log:
         log_file("docs/site_pages"),
     benchmark:
         benchmark_file("docs/site_pages")
     params:
+        **stage("docs.pages"),
+        **FACTS_PARAMS,
         medium="site",
         folder="figures/",
         library=LIBRARY,
     message:
         "The pages of the site"
+    script:
+        "../../scripts/make.py"
 
 
 # The pictures that explain how the solver works.
@@ -229,7 +251,7 @@ rule site:
         article=result("article.pdf"),
         companion=f"{DOCS}companion.html",
         pages=[
-            *rules.site_pages.output,
+            *SITE_PAGES,
             source("scripts/conveyor/README.md"),
             f"{DOCS}checked.md",
             f"{DOCS}add_your_solver.md",
@@ -270,7 +292,7 @@ rule costs:
         figures={name: [figure_file(name)] for name in config["figures"]},
         claims={name: [*map(table, claim["tables"].values())] for name, claim in config["claims"].items()},
         snakefile=os.path.relpath(workflow.main_snakefile),
-        configfiles=OVERLAYS,
+        options=CONFIG_OPTIONS,
     message:
         "The cost of each figure and claim"
     script:
@@ -299,15 +321,18 @@ rule picture:
         "../../scripts/make.py"
 
 
-use rule claims_page as chart_page with:
+rule chart_page:
     input:
         result("operating/chart.md"),
     output:
         f"docs/{EXAMPLE}chart.md",
     log:
         log_file("docs/chart"),
+    localrule: True
     message:
         "The operating chart of an example"
+    run:
+        Path(output[0]).write_bytes(Path(input[0]).read_bytes())
 
 
 # The JSON Schema of the config, which the repository keeps for editors: snakemake --force config/schema.json

@@ -46,7 +46,7 @@ rule captions:
         "../../scripts/make.py"
 
 
-use rule captions as captions_on_request with:
+rule captions_on_request:
     input:
         read=map(table, references_of(config["figures_on_request"])),
         templates=[source(f"workflow/report/{figure}.rst") for figure in config["figures_on_request"]],
@@ -57,7 +57,11 @@ use rule captions as captions_on_request with:
     benchmark:
         benchmark_file("figures/captions_on_request")
     params:
+        **stage("figures.captions"),
         figures=config["figures_on_request"],
         references=references_of(config["figures_on_request"]),
+        paper=not OWN_CONVEYOR,
     message:
         "Captions of the figures on request"
+    script:
+        "../../scripts/make.py"

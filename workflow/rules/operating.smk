@@ -93,17 +93,21 @@ rule throws:
         "../../scripts/make.py"
 
 
-use rule operating as track with:
+rule track:
     output:
         **tables_of("operating/track"),
     log:
         log_file("operating/track"),
     benchmark:
         benchmark_file("operating/track")
+    resources:
+        cpus_per_task=JOB_THREADS,
     params:
         **stage("operating.track", "operating/track"),
     message:
         "Velocities over inclination and phase shift"
+    script:
+        "../../scripts/make.py"
 
 
 rule operating_chart:
@@ -126,17 +130,21 @@ rule operating_chart:
         "../../scripts/make.py"
 
 
-use rule operating as drive with:
+rule drive:
     output:
         **tables_of("operating/drive_front", "operating/drive_generations"),
     log:
         log_file("operating/drive_front"),
     benchmark:
         benchmark_file("operating/drive_front")
+    resources:
+        cpus_per_task=JOB_THREADS,
     params:
         **stage("operating.drive", "operating/drive_front"),
     message:
         "Search for the settings of the drive"
+    script:
+        "../../scripts/make.py"
 
 
 rule drive_page:

@@ -23,6 +23,10 @@ POINTS, PAPER_POINTS = (
     for sweeps in (config["sweeps"], PAPER_SWEEPS)
 )
 REPORT_NOTICE = {"overlays": OVERLAYS, "points": POINTS, "paper_points": PAPER_POINTS} if OVERLAYS else {}
+REPORT_FILES = [
+    *(page["file"] for page in REPORT_PAGES),
+    *(f"{REPORT}/{name}.html" for name in ("summary", "claims", "provenance")),
+]
 REPORT_SOURCES = [*sources("scripts/report/*.html"), source("scripts/report/page.css")]
 
 
