@@ -1,10 +1,11 @@
 """The workflow in another folder, and as a module of another workflow."""
 
+import re
 import subprocess
 import sys
 
 import pytest
-from project import ROOT
+from project import ROOT, copy_project
 
 MODULE = """
 module conveyor:
@@ -24,10 +25,15 @@ conveyor:
 """
 
 
-def snakemake(folder, *arguments):
+def called(folder, *arguments):
     command = [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
-    run = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-    assert run.returncode == 0, run.stdout + run.stderr
+    return subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+
+
+def snakemake(folder, *arguments):
+    run = called(folder, *arguments)
+    assert run.returncode == 0, run.stdout
+    return run.stdout
 
 
 def test_results_go_to_the_working_directory(tmp_path):
@@ -50,3 +56,86 @@ def test_the_workflow_is_a_module(tmp_path, snakefile):
     snakemake(tmp_path, "--configfile", "config.yaml")
     assert (tmp_path / "figures/mine/fig01.pdf").is_file()
     assert (tmp_path / "results/mine/sweeps/few.parquet").is_file()
+
+
+MODULE_OF_THE_PAPER = f"""
+module conveyor:
+    snakefile: "{ROOT / "Snakefile"}"
+    config: config
+"""
+
+
+def test_some_rules_of_the_module(tmp_path):
+    (tmp_path / "Snakefile").write_text(MODULE_OF_THE_PAPER + "use rule motion, plot from conveyor")
+    stdout = snakemake(tmp_path, "--dry-run", "figures/fig05.pdf")
+    assert re.findall(r"^(motion|plot) +(\d)$", stdout, re.MULTILINE) == [("motion", "2"), ("plot", "1")]
+
+
+@pytest.mark.parametrize("rule", ["captions_on_request", "article", "drive", "chart_page", "archive", "all"])
+def test_each_rule_of_the_module_works_alone(tmp_path, rule):
+    """Also if it resembles another rule, or needs files of other rules."""
+    (tmp_path / "Snakefile").write_text(MODULE_OF_THE_PAPER + f"use rule {rule} from conveyor")
+    snakemake(tmp_path, "--list-rules")
+
+
+CHANGED = """
+use rule * from conveyor as conveyor_*
+use rule motion from conveyor as my_motion with:
+    output: "mine/{section}/{name}.parquet"
+    log: "mine/{section}/{name}.log"
+    benchmark: "mine/{section}/{name}.tsv"
+use rule plot from conveyor as conveyor_plot with:
+    message: "Draw it"
+"""
+
+
+def test_rules_of_the_module_with_changes(tmp_path):
+    """Snakemake reads the Snakefile of the module once for each `use rule`."""
+    (tmp_path / "Snakefile").write_text(MODULE_OF_THE_PAPER + CHANGED)
+    (tmp_path / "config.yaml").write_text("figures: {fig05: {title: Forces}}")
+    targets = ("mine/signals/below_above.parquet", "figures/fig05.pdf")
+    stdout = snakemake(tmp_path, "--dry-run", "--configfile", "config.yaml", *targets)
+    jobs = re.findall(r"^(\w+(?:motion|plot)) +(\d)$", stdout, re.MULTILINE)
+    assert jobs == [("conveyor_motion", "2"), ("conveyor_plot", "1"), ("my_motion", "1")]
+    assert "Draw it" in stdout
+
+
+def test_nested_values_of_the_command_line_reach_the_module(tmp_path):
+    (tmp_path / "Snakefile").write_text(MODULE_OF_THE_PAPER + "use rule * from conveyor")
+    run = called(tmp_path, "--dry-run", "figures/fig05.pdf", "--config", "model={damping: -0.2}")
+    assert "model.damping = -0.2 should be at least 0" in run.stdout
+
+
+FROM_GIT = """
+module conveyor:
+    snakefile: gitfile("{repository}", path="{path}", tag="v1")
+    config: {{"prefix": "mine"}}
+
+use rule * from conveyor
+"""
+
+
+@pytest.fixture(scope="module")
+def repository(tmp_path_factory):
+    """A Git repository of the project with the tag v1."""
+    folder = copy_project(tmp_path_factory.mktemp("repository"))
+    for arguments in (["init"], ["add", "."], ["commit", "--message", "All"], ["tag", "v1"]):
+        command = ["git", "-c", "user.name=A", "-c", "user.email=a@example.org", *arguments]
+        subprocess.run(command, cwd=folder, check=True, capture_output=True)
+    return folder
+
+
+def test_a_module_from_a_git_repository(tmp_path, repository):
+    (tmp_path / "Snakefile").write_text(FROM_GIT.format(repository=repository, path="workflow/Snakefile"))
+    snakemake(tmp_path, "figures/mine/fig03.pdf", "--until", "shards")
+    assert (tmp_path / "results/mine/shards/amplitudes/0.parquet").is_file()
+    stdout = snakemake(tmp_path, "results/mine/shards/amplitudes/0.parquet")
+    assert "Nothing to be done" in stdout
+
+
+def test_the_snakefile_alone_names_the_entry_for_git(tmp_path, repository):
+    (tmp_path / "Snakefile").write_text(FROM_GIT.format(repository=repository, path="Snakefile"))
+    run = called(tmp_path, "--dry-run", "figures/mine/fig03.pdf")
+    assert run.returncode != 0
+    assert 'name path="workflow/Snakefile"' in run.stdout
+    assert "Traceback" not in run.stdout
