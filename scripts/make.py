@@ -13,6 +13,7 @@ text, bytes, or a picture. For several outputs, it returns a mapping by name, or
 
 import importlib
 import inspect
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
@@ -20,6 +21,8 @@ from typing import Any
 
 from pipeline import fields, tables
 from pipeline.rule_log import logged
+
+COMPILED = "Time to compile: "  # a line in the log of a job that compiled functions
 
 
 def read(path: str, expected: dict[str, list]) -> Any:
@@ -79,6 +82,10 @@ def run(job: Any) -> None:
     arguments |= {name: value for name, value in optional.items() if name in parameters}
     for name, path, content in contents(job.output, stage.make(**arguments)):
         write(stage, name, path, content, params.get("settings", {}))
+    # Imported by the stage if it uses compiled functions.
+    compilation = sys.modules.get("conveyor.solver.compilation")
+    if compilation and (seconds := compilation.compile_seconds()):
+        print(f"{COMPILED}{seconds:.1f} s", file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import numba
 from numba.core import types
 from numba.extending import intrinsic
 
-from . import machine_code  # noqa: F401 - chooses the folder of the machine code
+from . import compilation, machine_code  # noqa: F401 - says that it compiles; chooses the folder of the machine code
 
 
 def compiled(function, **options):

@@ -67,6 +67,7 @@ class ByContent(UserWideCacheLocator):
     """One of numba's cache locators (see "Notes on Caching" in its documentation) for the modules of this library."""
 
     def __init__(self, function, file: str):
+        super().__init__(function, file)
         self.module = Path(file).resolve()
         self.content = content(SOLVER if self.module.is_relative_to(SOLVER) else LIBRARY)
 

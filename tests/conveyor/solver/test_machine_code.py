@@ -10,6 +10,10 @@ from conveyor.solver import machine_code
 from pipeline.imports import direct_imports
 
 
+def a_function():
+    pass
+
+
 @pytest.fixture
 def library(tmp_path, monkeypatch):
     """A small library in place of this one; a function writes a file of it and gives the folders' contents."""
@@ -23,7 +27,7 @@ def library(tmp_path, monkeypatch):
             (tmp_path / f"{name}.py").write_text(text)
         machine_code.content.cache_clear()
         places = tmp_path / "solver/contact.py", tmp_path / "analysis/orbits.py"
-        return tuple(machine_code.ByContent(None, str(file)).content for file in places)
+        return tuple(machine_code.ByContent(a_function, str(file)).content for file in places)
 
     yield contents
     machine_code.content.cache_clear()
@@ -42,7 +46,7 @@ def test_a_change_gives_a_new_folder_to_all_code_that_may_hold_it(library, chang
 def test_modules_with_one_name_have_folders_of_their_own(library):
     library()
     files = [machine_code.LIBRARY / "analysis/newton.py", machine_code.LIBRARY / "certificates/newton.py"]
-    one, other = (machine_code.ByContent(None, str(file)) for file in files)
+    one, other = (machine_code.ByContent(a_function, str(file)) for file in files)
     assert one.content == other.content
     assert one.get_cache_path() != other.get_cache_path()
 

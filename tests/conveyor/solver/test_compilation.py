@@ -1,0 +1,71 @@
+"""What numba compiles in a session: said once, and timed."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+from project import ROOT
+
+from conveyor.solver.compilation import NOTICE
+
+# Two functions, so that a notice for each would be seen.
+LIBRARY = """
+import numpy as np
+from conveyor.solver import polynomial
+from conveyor.solver.compilation import compile_seconds
+
+series = np.eye(2, polynomial.SIZE)
+print(polynomial.value(series, 0, 0.5), *polynomial.derivatives(series, 0, 0.5))
+print(compile_seconds())
+"""
+OTHER = """
+import numba
+from conveyor.solver import jit
+
+print(numba.njit(lambda number: number + 1)(1))
+"""
+CROSSING = """
+import numpy as np
+from conveyor.solver import polynomial
+
+series = np.zeros((2, polynomial.SIZE))
+series[1, :2] = -1.0, 2.0
+print(polynomial.root_of_crossing(series, 1, 0.0, 1.0))
+"""
+
+
+@pytest.fixture
+def run(tmp_path):
+    """A function that runs code in a new session with a cache that is empty at first."""
+
+    def in_session(code, **variables):
+        environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path), "PYTHONPATH": str(ROOT / "scripts")} | variables
+        environment.pop("NUMBA_CACHE_DIR", None)
+        command = [sys.executable, "-W", "ignore", "-c", code]
+        return subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+
+    return in_session
+
+
+def test_the_notice_comes_once_and_not_from_the_cache(run):
+    first, later = run(LIBRARY), run(LIBRARY)
+    assert first.stderr == f"{NOTICE}\n"
+    assert float(first.stdout.split()[-1]) > 0.0
+    assert later.stderr == ""
+    assert float(later.stdout.split()[-1]) == 0.0
+
+
+def test_the_notice_and_the_time_are_in_the_log_of_a_rule(run, tmp_path):
+    code = f"from pipeline.rule_log import logged\nwith logged('{tmp_path}/rule.log'):\n"
+    run(code + LIBRARY.replace("\n", "\n    "))
+    assert (tmp_path / "rule.log").read_text() == f"{NOTICE}\n"
+
+
+def test_functions_of_others_give_no_notice(run):
+    assert run(OTHER).stderr == ""
+
+
+def test_functions_that_numba_cannot_keep_are_compiled(run):
+    """Without optimisation, numba keeps no machine code that refers to arrays of a module."""
+    assert float(run(CROSSING, NUMBA_OPT="0").stdout) == 0.5
