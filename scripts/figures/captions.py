@@ -14,6 +14,7 @@ from claims.about_chaos import positive_onset
 from claims.about_proofs import lowest_fold
 from claims.about_states import find_runs, format_runs, second_from_rest
 from figures.plots.fig10 import ends_of
+from figures.plots.speed_accuracy import method_name
 from figures.plots.throw import proved_fold
 from figures.style import STATE_COLOURS
 from identification import findings
@@ -156,11 +157,12 @@ def speed_accuracy(
     equal_error: float,
 ) -> dict[str, Any]:
     runs = speed.successful_runs(jumping, jumping_times)
-    paper, *rivals = speed.factors(runs, paper_step, equal_error)
+    paper, *others = speed.factors(runs, paper_step, equal_error)
     difference = reference.difference.abs().max()
     return {
         "paper_run": paper,
-        "rival": rivals[0] if rivals else None,
+        "rival": others[0] if others else None,
+        "rival_name": method_name(others[0].method) if others else None,
         "missing": list(jumping[jumping.outcome == "not installed"].method.unique()),
         "difference": difference,
         "agreeing": int(-np.log10(difference)),

@@ -8,9 +8,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from accuracy import precision
+from accuracy import precision, speed
 from conveyor.methods import leg
-from figures.plots import fig08, fig15, work_precision
+from figures.plots import fig08, fig15, speed_accuracy, work_precision
 
 
 def sweep(low: float, high: float) -> pd.DataFrame:
@@ -76,3 +76,20 @@ def test_a_picture_does_not_wait_for_the_compiler():
     scripts = Path(__file__).resolve().parents[2] / "scripts"
     run = subprocess.run([sys.executable, "-c", code], cwd=scripts, capture_output=True, text=True, check=True)
     assert run.stdout.split() == ["False", "True", "False"]
+
+
+@pytest.mark.parametrize(("method", "name"), [("heyoka", "heyoka"), ("DOP853", "SciPy's DOP853")])
+def test_an_arrow_names_the_method_that_the_solver_is_compared_with(method, name):
+    """Not "the best rival", because some methods may not be installed."""
+    runs = pd.DataFrame(
+        [
+            ("event", speed.OWN, np.nan, 1e-10, 1e-12, "ok", 1e-4),
+            ("euler", "fixed step", 5e-7, np.nan, 1e-3, "ok", 0.03),
+            (method, "modes", np.nan, 1e-10, 1e-10, "ok", 0.004),
+        ],
+        columns=["method", "treatment", "step", "tolerance", "trajectory_error", "outcome", "seconds"],
+    )
+    runs.attrs["duration"] = 0.5
+    figure = speed_accuracy.plot(jumping=runs, jumping_times=runs, paper_step=5e-7, equal_error=1e-9)
+    texts = [text.get_text() for text in figure.axes[0].texts]
+    assert f"40× faster than\n{name}" in texts

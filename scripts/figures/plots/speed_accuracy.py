@@ -5,6 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from accuracy import speed
+from conveyor.methods.rivals import RIVALS
 from figures import style
 from figures.plots.work_precision import missing_note
 
@@ -18,6 +19,12 @@ CURVES = (
     ("heyoka", "modes", "heyoka", (0, -8), "center"),
 )
 SMALLEST = 1e-15
+
+
+def method_name(method: str) -> str:
+    """The name of a method in a sentence; methods of SciPy with their package: "SciPy's DOP853"."""
+    rival = RIVALS.get(method)
+    return f"SciPy's {method}" if rival and rival.module == "scipy" else style.METHODS[method][1]
 
 
 def draw_curve(axes: Axes, rows: pd.DataFrame, method: str, name: str, offset: tuple, align: str) -> None:
@@ -37,7 +44,7 @@ def draw_factor(axes: Axes, factor: speed.Factor, text: str, below: bool) -> Non
     look = {"arrowstyle": "-|>", "color": "black", "linewidth": 1.0, "shrinkA": 0.0, "shrinkB": 2.0}
     tip, tail = (factor.own_milliseconds, factor.error), (factor.milliseconds, factor.error)
     axes.annotate("", tip, tail, arrowprops=look, zorder=4)
-    # Nearer to the solver, because curves of rivals pass the other end.
+    # Nearer to the solver, because curves of other methods pass the other end.
     place = factor.own_milliseconds**0.7 * factor.milliseconds**0.3
     label = f"{float(f'{factor.ratio:.2g}'):g}× {text}"
     offset, side = ((0, -3), "top") if below else ((0, 3), "bottom")
@@ -59,7 +66,7 @@ def plot(*, jumping: pd.DataFrame, jumping_times: pd.DataFrame, paper_step: floa
     style.note(axes, "paper's method and time step", place, (8, 3), color=style.EULER, va="bottom")
     for factor in speed.factors(runs, paper_step, equal_error):
         is_paper = factor.error == paper.trajectory_error
-        other = "the paper's method" if is_paper else "the best rival"
+        other = "the paper's method" if is_paper else method_name(factor.method)
         draw_factor(axes, factor, f"faster than\n{other}", is_paper)
     axes.set_xscale("log")
     axes.set_yscale("log")
