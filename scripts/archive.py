@@ -16,6 +16,7 @@ import pyarrow.parquet as pq
 
 from pipeline import fields, tables
 from pipeline.rule_log import logged
+from pipeline.templates import render
 
 SUMS = "SHA256SUMS"
 # Input of scripts/redraw.py: tables of each figure by role, their kinds, and the settings of the figure.
@@ -67,7 +68,8 @@ if __name__ == "__main__":
         copy(snakemake.input.results, os.curdir, archive)
         copy(snakemake.input.sources, Path(snakemake.scriptdir).parent, archive)
         copy(snakemake.input.overlays, os.curdir, archive)
-        shutil.copyfile(snakemake.input.readme, archive / "ARCHIVE.md")
+        readme = render(Path(snakemake.input.readme).read_text(encoding="utf-8"), {"version": snakemake.params.version})
+        (archive / "ARCHIVE.md").write_text(readme, encoding="utf-8")
         (archive / DRAWN).write_text(json.dumps(snakemake.params.figures, indent=1) + "\n", encoding="utf-8")
         (archive / SUMS).write_text(hash_files(archive), encoding="utf-8")
         check_size(archive, snakemake.params.megabytes)

@@ -20,9 +20,7 @@ from types import ModuleType
 from typing import Any
 
 from pipeline import fields, tables
-from pipeline.rule_log import logged
-
-COMPILED = "Time to compile: "  # a line in the log of a job that compiled functions
+from pipeline.rule_log import COMPILED, logged
 
 
 def read(path: str, expected: dict[str, list]) -> Any:

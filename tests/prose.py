@@ -18,7 +18,7 @@ ALLOWED = (
     r"\b[A-Z]\w+ \((18|19|20)\d\d\)|\([A-Z][^()\d]* (18|19|20)\d\d(;\s[A-Z][^()\d]* (18|19|20)\d\d)*\)",
     r"(?ms)^## References.*?(?=^## )",
     r"a confidence of 95 %",
-    r"DOP853|RK4\d?|SHA-256|BSD-3-Clause|Python 3\.11(, 3\.12 or 3\.13)?|x86-64|\bD_2\b",
+    r"DOP853|RK4\d?|SHA-256|BSD-3-Clause|Python 3\.1[14]( to 3\.14)?|x86-64|\bD_2\b",
 )
 FORMULA = re.compile(r"\$\$.*?\$\$|\$[^$\n]*\$", re.DOTALL)
 WORDS = r"\b(?:eleven|twelve|thirteen|fifteen|twenty|thirty|fifty|hundred)\b"

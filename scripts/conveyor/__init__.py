@@ -34,7 +34,7 @@ __all__ = [
     "simulate",
     "sweep",
 ]
-__version__ = "0.1.0"
+__version__ = "1.0.0"
 
 _MODULES = {"Conveyor": ".solver.model", "Start": ".solver.model", "Run": ".simulation", "simulate": ".simulation"}
 

@@ -2,10 +2,14 @@
 
 import io
 import json
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pandas as pd
+
+from pipeline.rule_log import COMPILED
 
 
 def summary(targets: list[str], snakefile: str, options: list[str]) -> pd.DataFrame:
@@ -30,16 +34,31 @@ def jobs_of(target: str, table: pd.DataFrame) -> set[str]:
     return jobs
 
 
+def compile_seconds(file: str) -> float:
+    """The time that the job with a benchmark file has spent compiling, s, from its log; 0 if it compiled nothing."""
+    log = Path(file.replace("/benchmarks/", "/logs/")).with_suffix(".log")
+    found = re.search(rf"^{COMPILED}([\d.]+) s$", log.read_text(encoding="utf-8"), re.MULTILINE)
+    return float(found[1]) if found else 0.0
+
+
 def sum_costs(files: set[str]) -> dict[str, float | int]:
-    """Sum of the wall times (s) and peak memory (MiB) of the jobs with these benchmark files."""
+    """Sum of the wall times (s) and peak memory (MiB) of the jobs with these benchmark files.
+
+    `compiling` is the part of the wall times that was spent compiling, s.
+    """
     if not files:
-        return {"seconds": 0.0, "memory": 0.0, "jobs": 0}
+        return {"seconds": 0.0, "compiling": 0.0, "memory": 0.0, "jobs": 0}
     rows = pd.concat([pd.read_csv(file, sep="\t", na_values="-") for file in sorted(files)])
-    return {"seconds": float(rows["s"].sum()), "memory": float(rows["max_rss"].max()), "jobs": len(files)}
+    return {
+        "seconds": float(rows["s"].sum()),
+        "compiling": sum(map(compile_seconds, files)),
+        "memory": float(rows["max_rss"].max()),
+        "jobs": len(files),
+    }
 
 
 def make(figures: dict[str, list[str]], claims: dict[str, list[str]], snakefile: str, options: list[str]) -> str:
-    """Seconds, MiB and number of jobs of each figure, of each claim, and of everything, as JSON.
+    """The costs of each figure, of each claim, and of everything, as JSON; see `sum_costs`.
 
     figures, claims : the files behind each figure and claim, by name
     options : of Snakemake, which give it the same config

@@ -2,6 +2,7 @@
 
 A template is Markdown (or YAML) with Jinja fields. It can use the facts of docs.facts and these names:
 
+    version           of the library and the workflow
     prefix            prefix of the config; empty for the paper's config
     step              time step of the paper's method, s
     tighter           factor between the usual tolerances and the tighter ones that give the uncertainty of the claims
@@ -9,7 +10,9 @@ A template is Markdown (or YAML) with Jinja fields. It can use the facts of docs
     statements        the claims as described by claims.verdicts, by name; quantities have a margin and an uncertainty
     tightened         number of claims evaluated with tighter tolerances
     same_verdicts     number of them whose verdict does not change
-    costs             seconds, memory (MiB) and jobs of all `figures`, all `claims`, and of `everything`
+    costs             seconds, `compiling` (seconds of them), memory (MiB) and jobs of all `figures`, of all `claims`,
+                      and of `everything`
+    waiting           seconds until the README's first figure is made: with an empty cache (first), and later
     gaps              keys of the config whose comment says that the paper leaves them open
     keys              all keys of the config by section, with the values of the default config
     entries           entries of the sections of the paper's config, with their comments
@@ -147,6 +150,7 @@ def make(
     values: dict[str, float | str],
     captions: list[str] = (),
     costs: str = "",
+    waiting: str = "",
     uncertainty: str = "",
     proved: str = "",
     findings: str = "",
@@ -165,7 +169,7 @@ def make(
     figures : entries of the config, with title and section
     values, proved, findings, columns : for templates, as above
     captions : of all figures, in order
-    costs : costs of figures and claims, as JSON
+    costs, waiting : as above, as JSON
     uncertainty : changes of the claims with tighter tolerances, as JSON
     medium : print or site
     folder : folder of the figures, relative to the page
@@ -188,6 +192,7 @@ def make(
         "tightened": len(changes),
         "same_verdicts": sum(one["same_verdict"] for one in changes.values()),
         "costs": json.loads(costs) if costs else {},
+        "waiting": json.loads(waiting) if waiting else {},
         "proved": proved,
         "findings": findings,
         "columns": columns,

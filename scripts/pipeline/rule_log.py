@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from typing import TextIO
 
+COMPILED = "Time to compile: "  # a line in the log of a job that compiled functions
+
 
 class Tee:
     """A text stream that writes to a terminal and to a log; the log gets only the final state of a progress bar."""

@@ -1,5 +1,8 @@
 """Captions and pages: every number in them comes from a table."""
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -7,7 +10,7 @@ from jinja2 import UndefinedError
 from project import ROOT, read_config
 from prose import typed
 
-from docs import costs
+from docs import costs, figures_page
 from figures import captions
 
 CONFIG = read_config()
@@ -114,6 +117,27 @@ def test_costs_cover_shards_and_states(built, monkeypatch):
         *(f"shards/{name}/0.tsv" for name in methods),
         *(f"sweeps/{name}.tsv" for name in methods),
     }
+
+
+def test_costs_name_the_time_to_compile(tmp_path):
+    """From the log of each job; a job that compiled nothing has no such line."""
+    files = {str(tmp_path / f"benchmarks/{name}.tsv") for name in ("first", "later")}
+    for folder in ("benchmarks", "logs"):
+        (tmp_path / folder).mkdir()
+    for file in files:
+        Path(file).write_text("s\tmax_rss\n20.0\t300.0\n")
+    (tmp_path / "logs/first.log").write_text("Compiling the solver.\nTime to compile: 12.5 s\n")
+    (tmp_path / "logs/later.log").write_text("")
+    assert costs.sum_costs(files) == {"seconds": 40.0, "compiling": 12.5, "memory": 300.0, "jobs": 2}
+
+
+@pytest.mark.parametrize("compiling", [0.0, 30.0])
+def test_the_page_of_costs_says_whether_the_cache_was_empty(compiling):
+    one = {"seconds": 60.0, "compiling": compiling, "memory": 300.0, "jobs": 2}
+    template = (ROOT / "workflow/templates/figures.md").read_text(encoding="utf-8")
+    text = figures_page.make(template, json.dumps({"figures": {"fig22": one}, "everything": one}))
+    assert f"| `snakemake figures/fig22.pdf` | 60 | {compiling:.0f} | 300 | 2 |" in text
+    assert ("all came from the cache" in text) == (compiling == 0.0)
 
 
 def test_when_a_rigid_part_leaves_and_arrives():

@@ -1,9 +1,13 @@
 """Files and names in CONTRIBUTING, pre-commit, GitHub Actions and the workflow catalogue exist."""
 
 import re
+import tomllib
 
+import pytest
 import yaml
 from project import ROOT
+
+from conveyor import __version__
 
 CI = (ROOT / ".ci/run").read_text()
 
@@ -38,18 +42,45 @@ def test_pre_commit_checks_what_ci_does():
     assert {hook["language"] for hook in hooks} == {"system"}
 
 
-def test_github_runs_the_same_script_with_pinned_actions():
-    actions = yaml.safe_load((ROOT / ".github/workflows/ci.yml").read_text())
-    steps = actions["jobs"]["ci"]["steps"]
-    assert [step["run"] for step in steps if "run" in step] == [".ci/run"]
+def github_workflow(name):
+    return yaml.safe_load((ROOT / f".github/workflows/{name}.yml").read_text())
+
+
+@pytest.mark.parametrize("name", ["ci", "pages"])
+def test_github_uses_pinned_actions(name):
+    steps = [step for job in github_workflow(name)["jobs"].values() for step in job["steps"]]
     assert all(re.fullmatch(r"[\w/-]+@v\d+\.\d+\.\d+", step["uses"]) for step in steps if "uses" in step)
-    versions = actions["jobs"]["ci"]["strategy"]["matrix"]["python"]
-    readme = (ROOT / "README.md").read_text()
-    assert f"Python {', '.join(versions[:-1])} or {versions[-1]}" in readme
-    assert (
-        f'requires-python = ">={versions[0]},<3.{int(versions[-1].split(".")[1]) + 1}"'
-        in (ROOT / "pyproject.toml").read_text()
-    )
+
+
+def test_github_runs_the_same_script_on_all_versions_of_python():
+    job = github_workflow("ci")["jobs"]["ci"]
+    assert [step["run"] for step in job["steps"] if "run" in step] == [".ci/run"]
+    versions = job["strategy"]["matrix"]["python"]
+    newest = int(versions[-1].split(".")[1])
+    assert versions == [f"3.{minor}" for minor in range(11, newest + 1)]
+    assert f"Python {versions[0]} to {versions[-1]}" in (ROOT / "README.md").read_text()
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert project["requires-python"] == f">={versions[0]},<3.{newest + 1}"
+    assert {f"Programming Language :: Python :: {version}" for version in versions} <= set(project["classifiers"])
+
+
+def test_github_publishes_the_site_that_the_config_makes(built):
+    """The commands of the release workflow, and the folder that it uploads."""
+    actions = github_workflow("pages")
+    assert actions[True]["release"] == {"types": ["published"]}  # YAML reads the key `on` as true
+    steps = actions["jobs"]["build"]["steps"]
+    *_, make = [step["run"] for step in steps if "run" in step]
+    (path,) = [step["with"]["path"] for step in steps if "path" in step.get("with", {})]
+    run = built.called("--dry-run", path, *make.split()[2:])
+    assert run.returncode == 0, run.stdout
+    for target in ("site", "article", "companion"):
+        assert re.search(rf"^{target} +1$", run.stdout, re.MULTILINE)
+
+
+def test_all_files_name_one_version():
+    assert yaml.safe_load((ROOT / "CITATION.cff").read_text())["version"] == __version__
+    assert f"Version {__version__} " in yaml.safe_load((ROOT / "codecheck.yml").read_text())["source"]
+    assert re.findall(r"^## (\S+)", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)[0] == __version__
 
 
 def test_the_catalogue_finds_its_files():

@@ -2,6 +2,8 @@
 import hashlib
 import json
 
+from scripts.conveyor import __version__
+
 # The tables that figures, captions and claims are made from, and tables that the same jobs make for pages only.
 QUOTED_TABLES = sorted({*references_of(config["figures"]), *references_of(config["claims"])})
 BYPRODUCTS = {
@@ -96,6 +98,7 @@ rule archive:
             for name, entry in config["figures"].items()
         },
         megabytes=config["archive"]["megabytes"],
+        version=__version__,
         code=source_hash("archive"),
     message:
         "An archive of the figures, their tables and the sources"

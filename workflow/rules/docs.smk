@@ -2,6 +2,7 @@
 import json
 from pathlib import Path
 
+from scripts.conveyor import __version__
 from workflow.config.schema import json_schema
 from workflow.config.tables import published_scenes
 
@@ -38,6 +39,7 @@ FACTS = {
 FACTS_PARAMS = {
     "figures": {name: {key: entry[key] for key in ("title", "section")} for name, entry in config["figures"].items()},
     "values": {
+        "version": __version__,
         "prefix": config["prefix"],
         "step": config["solver"]["step"],
         "tighter": config["uncertainty"]["tighter"],
@@ -165,6 +167,7 @@ rule kept_pages:
         templates=[source(f"workflow/templates/{name}") for name in KEPT_PAGES],
         findings=result("findings.md"),
         costs=result("costs.json"),
+        waiting=result("waiting.json"),
     output:
         [f"{PROJECT}{name}" for name in KEPT_PAGES],
     log:
@@ -295,6 +298,31 @@ rule costs:
         options=CONFIG_OPTIONS,
     message:
         "The cost of each figure and claim"
+    script:
+        "../../scripts/make.py"
+
+
+# How long a newcomer waits for the README's first figure. Runs alone, with all cores.
+rule waiting:
+    input:
+        figure_file("fig22"),
+    output:
+        result("waiting.json"),
+    log:
+        log_file("docs/waiting"),
+    benchmark:
+        benchmark_file("docs/waiting")
+    threads: CORES
+    resources:
+        cpus_per_task=CORES,
+        slurm_extra="--exclusive",
+    params:
+        **stage("docs.waiting"),
+        snakefile=source("Snakefile"),
+        target="figures/fig22.pdf",
+        cores=CORES,
+    message:
+        "Seconds until the first figure is made"
     script:
         "../../scripts/make.py"
 

@@ -1,4 +1,4 @@
-"""What numba compiles in this process: said once on stderr, and timed. Nothing when the machine code comes from the cache.
+"""What numba compiles in this process: said once on stderr, and timed; nothing if all code comes from the cache.
 
 Numba sends the event "numba:compile" for each function that its cache does not hold (see "Event API" in its
 documentation).
