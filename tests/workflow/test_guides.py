@@ -5,7 +5,7 @@ import tomllib
 
 import pytest
 import yaml
-from project import ROOT
+from project import ROOT, Project
 
 from conveyor import __version__
 
@@ -64,14 +64,14 @@ def test_github_runs_the_same_script_on_all_versions_of_python():
     assert {f"Programming Language :: Python :: {version}" for version in versions} <= set(project["classifiers"])
 
 
-def test_github_publishes_the_site_that_the_config_makes(built):
+def test_github_publishes_the_site_that_the_config_makes(tmp_path):
     """The commands of the release workflow, and the folder that it uploads."""
     actions = github_workflow("pages")
     assert actions[True]["release"] == {"types": ["published"]}  # YAML reads the key `on` as true
     steps = actions["jobs"]["build"]["steps"]
     *_, make = [step["run"] for step in steps if "run" in step]
     (path,) = [step["with"]["path"] for step in steps if "path" in step.get("with", {})]
-    run = built.called("--dry-run", path, *make.split()[2:])
+    run = Project(ROOT).called("--dry-run", "--directory", str(tmp_path), path, *make.split()[2:])
     assert run.returncode == 0, run.stdout
     for target in ("site", "article", "companion"):
         assert re.search(rf"^{target} +1$", run.stdout, re.MULTILINE)
