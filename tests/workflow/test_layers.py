@@ -1,5 +1,7 @@
 """The layout: each stage has one name everywhere, and later stages import earlier ones, never the reverse."""
 
+import re
+
 import pytest
 from project import ROOT, STAGES
 
@@ -55,3 +57,9 @@ def test_no_script_has_the_name_of_a_module_of_the_library():
     # Plots have the names of their figures.
     others = {module.rpartition(".")[2] for module in MODULES if not module.startswith(("conveyor", "figures.plots"))}
     assert not library & others
+
+
+@pytest.mark.parametrize("file", sorted((ROOT / "workflow/rules").glob("*.smk")), ids=lambda file: file.stem)
+def test_rules_refer_to_files_and_not_to_other_rules(file):
+    """Otherwise a module that imports some of the rules cannot be read."""
+    assert not re.search(r"^use rule|\brules\.", file.read_text(encoding="utf-8"), re.MULTILINE)
