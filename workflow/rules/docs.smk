@@ -319,7 +319,6 @@ rule waiting:
     params:
         **stage("docs.waiting"),
         snakefile=source("Snakefile"),
-        target="figures/fig22.pdf",
         cores=CORES,
     message:
         "Seconds until the first figure is made"
