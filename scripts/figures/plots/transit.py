@@ -50,6 +50,8 @@ def draw_lengths(axes: Axes, lengths: pd.DataFrame) -> None:
     if len(lengths):
         axes.set_xscale("log")
         axes.set_yscale("log")
+        axes.set_xticks(lengths.length.unique(), [f"{length:g}" for length in lengths.length.unique()])
+        axes.minorticks_off()
     else:
         text = "at no amplitude of the table do\nmotions coexist or is chaos alone"
         style.note(axes, text, (0.5, 0.5), xycoords="axes fraction", ha="center")
@@ -73,11 +75,11 @@ def plot(*, transit: pd.DataFrame, shares: pd.DataFrame, regimes: pd.DataFrame, 
     spreads.set_yscale("log")
     spreads.set_xlim(transit.acceleration.min(), transit.acceleration.max())
     spreads.set_xlabel(style.AMPLITUDE)
-    spreads.set_ylabel("relative spread of the velocity")
+    spreads.set_ylabel("relative spread")
     spreads.legend(loc="best")
     draw_lengths(tracks, lengths)
     tracks.set_xlabel("length of the track in m")
-    tracks.set_ylabel("relative spread of the velocity")
+    tracks.set_ylabel("relative spread")
     below.legend(*tracks.get_legend_handles_labels(), loc="outside right center")
     above.legend(handles=handles, loc="outside upper center", ncols=len(handles))
     for axes, letter in ((bands, "a"), (spreads, "b"), (tracks, "c")):
