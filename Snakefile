@@ -33,6 +33,7 @@ include: "workflow/rules/dimensions.smk"
 include: "workflow/rules/fit.smk"
 include: "workflow/rules/sensitivity.smk"
 include: "workflow/rules/operating.smk"
+include: "workflow/rules/calibration.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/identification.smk"
@@ -46,6 +47,7 @@ rule all:
     default_target: True
     input:
         figure_files(),
+        calibration_files(),
         caption_files(),
         CLAIM_FILES,
         BUILD_RECORDS,

@@ -16,6 +16,7 @@ from accuracy import (
     stability_estimates,
     theory,
 )
+from calibration import inference, prediction, study_table
 from claims import verdicts
 from dimensions import portraits
 from fit import regressions
@@ -38,6 +39,7 @@ MODULES = {
     "fit": [regressions],
     "sensitivity": [derivatives, curves],
     "operating": [shares, transit, drift, advice, throws, track, drive],
+    "calibration": [inference, prediction, study_table],
     "accuracy": [
         *(benchmark, precision, reference_check, precision_estimates, stability, stability_estimates),
         *(scene_budget, rigid_part, theory, map_check, settling_times, scaling),
@@ -47,12 +49,16 @@ MODULES = {
 }
 
 
-def file_of(kind: str) -> str:
-    """The file of the tables of a kind; NAME stands for the name of an entry of the config."""
+def file_of(kind: str, stage: str = "") -> str:
+    """The file of the tables of a kind; NAME stands for the name of an entry of the config.
+
+    stage : which of several stages makes the table, if tables of the same name exist
+    """
     folders = [reference.split("/")[0] for reference in TABLES if reference.split("/")[1] == kind]
     if not folders:
         return f"results/{kind}/NAME.parquet"
-    return f"results/{kind}.parquet" if folders == ["results"] else f"results/{folders[0]}/{kind}.parquet"
+    folder = stage if stage in folders else folders[0]
+    return f"results/{kind}.parquet" if folder == "results" else f"results/{folder}/{kind}.parquet"
 
 
 def describe(column: pa.Field) -> dict[str, str]:
@@ -66,7 +72,7 @@ def make(template: str) -> str:
     """The page from its template."""
     stages = {
         stage: [
-            {"kind": kind, "file": file_of(kind), "columns": [describe(column) for column in schema]}
+            {"kind": kind, "file": file_of(kind, stage), "columns": [describe(column) for column in schema]}
             for module in modules
             for kind, schema in module.TABLES.items()
         ]

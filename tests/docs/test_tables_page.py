@@ -21,7 +21,7 @@ def test_paths_are_the_paths_of_the_workflow():
     for reference in references(read_config()):
         kind, name = kind_of(reference), reference.split("/")[1]
         # A scene of the section `precision` has a different kind of table.
-        file = tables_page.file_of(kind).replace("NAME", name)
+        file = tables_page.file_of(kind, reference.split("/")[0]).replace("NAME", name)
         assert file == f"results/{reference.removeprefix('results/')}.parquet"
 
 

@@ -32,6 +32,14 @@ def canonical(config: dict) -> dict:
     return MODEL.validate_python(config)
 
 
+def name_measurements(config: dict, files: Sequence[str | Path], contents: list[dict]) -> None:
+    """Replace the name of the file of measurements, relative to the overlay that names it, by its path."""
+    for file, content in zip(files, contents, strict=True):
+        section = content.get("calibration")
+        if isinstance(section, dict) and isinstance(section.get("measurements"), str):
+            config["calibration"]["measurements"] = os.path.join(os.path.dirname(file), section["measurements"])
+
+
 def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str | Path], config: dict) -> Loaded:
     """The config of a run; ConfigError says what is wrong with it in at most six lines.
 
@@ -58,8 +66,11 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
         # The claims are the paper's. An overlay for any conveyor, such as config/reduced.yaml, may name them.
         checked = whole["uncertainty"]["claims"]
         whole["uncertainty"] |= {"claims": [name for name in checked if name in whole["claims"]]}
+    name_measurements(whole, overlay_files, overlays)
     if errors := problems(whole, paper):
         raise ConfigError(errors)
+    if "measurements" not in whole["calibration"]:
+        whole["figures_on_request"].pop("calibration", None)
     return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_conveyor)
 
 

@@ -8,6 +8,8 @@ from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 
+from scripts.calibration.measurements import MeasurementError, parse, read_text
+from scripts.conveyor.parameters import RANGES
 from scripts.identification.settings import NUMBERS_OF_CLAIMS
 
 from .entries import (
@@ -307,6 +309,19 @@ def drive(config: dict, defaults: dict) -> Iterator[str]:
         yield f"drive.recommended = {recommended} is above drive.checked = {checked}; check more, or recommend fewer"
 
 
+def calibration(config: dict, defaults: dict) -> Iterator[str]:
+    """The file of measurements, so that a fault in it ends a run before any job starts."""
+    if (path := config["calibration"].get("measurements")) is None:
+        return
+    if not config["prefix"]:
+        yield "calibration.measurements needs a folder for its results; give the config a prefix"
+    try:
+        settings = {**config["calibration"], "model": config["model"]}
+        parse(read_text(path), path, settings, RANGES)
+    except MeasurementError as error:
+        yield from error.faults
+
+
 def precision(config: dict, defaults: dict) -> Iterator[str]:
     if is_own_conveyor(defaults, config):
         return
@@ -323,7 +338,7 @@ def precision(config: dict, defaults: dict) -> Iterator[str]:
 
 CHECKS = (
     *(prefix, methods, axes, friction, sweeps, steps, perturbations, critical, times, orbits, dimensions),
-    *(unknown_references, figures, unused_keys, identification, precision, drive),
+    *(unknown_references, figures, unused_keys, identification, calibration, precision, drive),
 )
 
 

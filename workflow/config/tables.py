@@ -66,6 +66,35 @@ def drive_settings(config: dict) -> dict:
     return {**transit, **drive, "margin": config["advice"]["margin"], "model": model}
 
 
+def calibration_settings(config: dict) -> dict:
+    """The search leaves the values of the searched parameters in the model open, except for the static friction, which
+    keeps its ratio to the friction. A config to which calibrated parameters are added has the same settings.
+    """
+    own, model = config["calibration"], model_of(config)
+    ratio = model.get("static_friction", model["friction"]) / model["friction"]
+    stated = ("psi0", "z0", "vz0", "static_friction", *own["parameters"])
+    return {
+        **{name: config["operating"][name] for name in ("height", "vz0", "psi0")},
+        **own,
+        "ranges": {name: own["ranges"][name] for name in own["parameters"]},
+        "static_ratio": float(f"{ratio:.6g}"),
+        "model": {name: value for name, value in model.items() if name not in stated},
+    }
+
+
+def calibration_study_settings(config: dict) -> dict:
+    """The study calibrates with the settings of the config, without its conveyor and its measurements."""
+    own = {name: value for name, value in calibration_settings(config).items() if name not in ("measurements", "model")}
+    own["ranges"] = {name: config["calibration"]["ranges"][name] for name in ("friction", "damping", "stiffness")}
+    own["parameters"] = list(own["ranges"])
+    box = {name: config["operating"][name] for name in ("height", "vz0", "psi0")}
+    study = {name: value for name, value in config["calibration_study"].items() if name != "example"}
+    model = {
+        name: value for name, value in model_of(config).items() if name not in ("z0", "static_friction", "psi0", "vz0")
+    }
+    return {**study, **box, "calibration": own, "model": model}
+
+
 def paper_fit(config: dict) -> dict | None:
     """The fit of Eq. 13 over the paper's amplitudes; None for a conveyor whose config has no such fit."""
     fit = config["regressions"].get("height", {})
@@ -172,6 +201,7 @@ def identification_table_settings(table: str, config: dict) -> dict:
 
 
 FOLLOWED = ("tolerance", "settling")
+CALIBRATION_TABLES = ("parameters", "samples", "fit", "prediction", "next")
 # The tables that are not entries, and the function that returns the settings of each.
 TABLES = {
     **dict.fromkeys(
@@ -201,6 +231,7 @@ TABLES = {
     "operating/drive_front": drive_settings,
     "operating/drive_generations": drive_settings,
     **{f"identification/{name}": partial(identification_table_settings, name) for name in ("edges", *POSTERIOR)},
+    **dict.fromkeys((f"calibration/{name}" for name in CALIBRATION_TABLES), calibration_settings),
     "results/claims": lambda config: {"claims": config["claims"]},
     "results/benchmark": benchmark_settings,
     "results/reference_check": reference_settings,
@@ -213,10 +244,11 @@ TABLES = {
     "results/theory": lambda config: with_model(config, "theory"),
     "results/map_check": itemgetter("map_check"),
     "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED, normal=True),
+    "results/calibration_study": calibration_study_settings,
     "results/scaling": lambda config: {**config["scaling"], "sharing": config["sharing"]},
 }
 # Tables that only an explicit target makes.
-ON_REQUEST = ("results/scaling",)
+ON_REQUEST = ("results/scaling", "results/calibration_study", *(f"calibration/{name}" for name in CALIBRATION_TABLES))
 
 
 def references(config: dict) -> list[str]:

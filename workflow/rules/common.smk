@@ -135,20 +135,49 @@ def rows_of_shard(wildcards):
     return [first, min(first + sweep.rows, sweep.points)]
 
 
+# -- calibration -------------------------------------------------------------------------------------------------------
+
+
+HAS_MEASUREMENTS = "measurements" in config["calibration"]
+NO_MEASUREMENTS = (
+    "a calibration needs measured velocities; give an overlay with a prefix that names a CSV file of them, relative to itself: "
+    "calibration: {measurements: FILE.csv}"
+)
+
+
+def measurements(wildcards):
+    """The file of measured velocities; an error for a config without one."""
+    if not HAS_MEASUREMENTS:
+        raise WorkflowError(NO_MEASUREMENTS)
+    return config["calibration"]["measurements"]
+
+
+def calibration_files():
+    """What a config with measurements makes beside all figures."""
+    return [result("calibration.md"), figure_file("calibration")] if HAS_MEASUREMENTS else []
+
+
+# The data sets of the simulation study, numbered through.
+STUDY_KINDS = [kind for kind, count in config["calibration_study"]["sets"].items() for _ in range(count)]
+STUDY_SETS = [result(f"calibration_study/{kind}_{number}.json") for number, kind in enumerate(STUDY_KINDS)]
+
+
 # -- figures and claims ------------------------------------------------------------------------------------------------
 
 FIGURES = config["figures"] | config["figures_on_request"]
-# Figures of the paper's conveyor only, with the reasons.
-PAPER_FIGURES = {
+# Figures that this conveyor does not have, with the reasons.
+NO_FIGURES = {
     name: entry["paper_only"]
     for name, entry in (PAPER["figures"] | PAPER["figures_on_request"]).items()
     if "paper_only" in entry and name not in FIGURES
 }
+if not HAS_MEASUREMENTS:
+    NO_FIGURES["calibration"] = NO_MEASUREMENTS
 
 
 def tables_of_figure(wildcards):
     """The tables that a figure draws, by their roles; an error for a figure that makes no sense for this conveyor."""
-    if reason := PAPER_FIGURES.get(wildcards.figure):
+    if reason := NO_FIGURES.get(wildcards.figure):
         raise WorkflowError(f"{figure_file(wildcards.figure)} cannot be made for this conveyor: {reason}")
     return {role: table(reference) for role, reference in FIGURES[wildcards.figure]["tables"].items()}
 

@@ -15,6 +15,7 @@ SCENE_FILES = [f"{DOCS}benchmark/{scene}.json" for scene in SCENES]
 # Inputs that fill the template of each page.
 PAGES = {
     "add_your_solver": {"scenes": SCENE_FILES, "example": source("scripts/accuracy/example_solver.py")},
+    "calibration_study": tables_of("results/calibration_study"),
     "certificates": tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
     "checked": tables_of("results/theory", "results/map_check"),
     "cluster": tables_of("results/scaling"),

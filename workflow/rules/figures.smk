@@ -12,7 +12,7 @@ rule plot:
     benchmark:
         benchmark_file("figures/{figure}")
     wildcard_constraints:
-        figure=one_of([*FIGURES, *PAPER_FIGURES]),
+        figure=one_of([*FIGURES, *NO_FIGURES]),
     resources:
         mem_mb=1500,
     params:

@@ -1,0 +1,1 @@
+"""Calibration: parameters of the contact from measured velocities."""

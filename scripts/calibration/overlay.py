@@ -1,0 +1,34 @@
+"""An overlay with the calibrated parameters, for further analyses of the conveyor."""
+
+import pandas as pd
+
+from calibration.inference import TOO_FEW
+
+DIGITS = 6
+
+
+class NotCalibratedError(Exception):
+    """There are no parameters that an overlay could have."""
+
+
+def make(parameters: pd.DataFrame, fit: pd.DataFrame) -> str:
+    """The overlay as text; NotCalibratedError says why there is none."""
+    settings = parameters.attrs
+    page = "the page calibration.md says what to do"
+    if not fit.explained.all():
+        raise NotCalibratedError(f"The model does not explain the measurements, so there is no overlay; {page}")
+    if (parameters.status == TOO_FEW).any():
+        raise NotCalibratedError(f"The search has found too few samples for an overlay; {page}")
+    model = {row.parameter: f"{row.best:.{DIGITS - 1}e}" for row in parameters.itertuples()}
+    comments = {
+        row.parameter: f"{'1' if row.unit == '1' else row.unit}, {row.status}: {row.low:.3g} to {row.high:.3g}"
+        for row in parameters.itertuples()
+    }
+    if "friction" in model and settings["static_ratio"] != 1.0:
+        model["static_friction"] = f"{settings['static_ratio'] * float(model['friction']):.{DIGITS - 1}e}"
+        comments["static_friction"] = "1, in the same ratio to the friction as before"
+    lines = [f"  {name}: {value}   # {comments[name]}" for name, value in model.items()]
+    head = (
+        f"# Calibrated from {settings['measurements']}. Name this file behind the overlay that names the measurements."
+    )
+    return "\n".join([head, "model:", *lines, ""])

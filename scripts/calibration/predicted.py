@@ -1,0 +1,210 @@
+"""Velocities that a conveyor with some parameters can give, and the density of measured velocities under them.
+
+Under one set of conditions (amplitude, times, known initial conditions), a number of parts with random initial
+conditions are followed. Their velocities are a sample of what a measurement can give. They may be one value, several
+values with nothing between them, or, in chaos, a whole range.
+"""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from scipy.stats import qmc
+
+from calibration.measurements import INITIAL, Measurement
+from conveyor.solver import horizontal, trajectory
+from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, PSI0, VZ0, Z0, set_columns
+from conveyor.solver.parallel import for_each_chunk
+from pipeline import grid
+
+TOLERANCE = 1e-5  # per contact step: errors of velocities stay far below those of a measurement
+# The density around a part's velocity is as wide as the distance to its neighbour of this rank, times a factor, but at
+# most a share of the standard deviation of all parts. It is narrow where parts share a velocity, and smooth in chaos.
+NEIGHBOUR, WIDENED, OF_ALL = 4, 1.5, 0.4
+# Least standard deviation of a measurement, as a share of the plate's largest velocity along the track: what the
+# tolerance, and motions that have not settled, add.
+FLOOR = 5e-4
+# Parts that are followed first, and the relative difference up to which their velocities count as equal.
+FIRST, ALIKE = 8, 0.01
+
+
+class Conditions(NamedTuple):
+    """Under which conditions parts are followed; k different ones."""
+
+    rows: np.ndarray  # packed parameters, shape (k, 16), with NaN for unknown initial conditions
+    times: np.ndarray  # begin and end of the measurement (s), shape (k, 2)
+
+    @property
+    def plate(self) -> np.ndarray:
+        """Largest velocity of the plate along the track (m/s), shape (k,)."""
+        rows = self.rows
+        return rows[:, ACCELERATION] * np.cos(rows[:, ANGLE]) / (2.0 * math.pi * rows[:, FREQUENCY])
+
+
+def conditions_at(
+    accelerations: Sequence[float],
+    changed: Sequence[Mapping[str, float]],
+    times: Sequence[tuple[float, float]],
+    model: Mapping,
+) -> Conditions:
+    """The conditions at some amplitudes (m/s²) with changed parameters.
+
+    changed : parameters that differ from the model, and known initial conditions
+    times : time before a measurement and its duration (s)
+    """
+    rows = []
+    for acceleration, own in zip(accelerations, changed, strict=True):
+        known = {name: value for name, value in own.items() if name not in INITIAL}
+        row = grid.packed({**model, **known, "acceleration": acceleration})
+        row[[Z0, VZ0, PSI0]] = [own.get(name, math.nan) for name in ("z0", "vz0", "psi0")]
+        rows.append(row)
+    before, lasts = np.array(times, dtype=np.float64).T
+    return Conditions(np.array(rows), np.column_stack([before, before + lasts]))
+
+
+def conditions_of(measured: Sequence[Measurement], model: Mapping) -> tuple[Conditions, np.ndarray]:
+    """The different conditions of the measurements, and the number of the condition of each one, shape (n,)."""
+    keys = [(one.acceleration, one.before, one.duration, tuple(sorted(one.changed.items()))) for one in measured]
+    distinct = list(dict.fromkeys(keys))
+    conditions = conditions_at(
+        [key[0] for key in distinct], [dict(key[3]) for key in distinct], [key[1:3] for key in distinct], model
+    )
+    return conditions, np.array([distinct.index(key) for key in keys])
+
+
+def velocities(
+    values: Mapping[str, np.ndarray],
+    conditions: Conditions,
+    settings: dict,
+    *,
+    parts: int,
+    seed: int,
+    threads: int = 1,
+    progress: str | None = None,
+    worth: Callable[[np.ndarray], np.ndarray] | None = None,
+) -> np.ndarray:
+    """Mean velocities (m/s) of parts for each set of parameters and each of k conditions, shape (n, k, parts).
+
+    NaN stands for a part that could not be followed. The initial conditions are low-discrepancy points (Sobol), shifted
+    at random for each set of parameters and each condition, so that a rare motion that the parts of one set miss is not
+    missed by all sets. All parts are followed only where the first ones differ; elsewhere these count several times.
+
+    Parameters
+    ----------
+    values : of parameters of the model, by name, each of shape (n,)
+    settings : the box of initial conditions, and `static_ratio`, static friction in units of friction
+    parts : number of parts per set and condition
+    worth : function of the velocities of the first parts, shape (n, k, FIRST), which returns whether a set of
+        parameters is worth following more parts, shape (n,); without it all sets are
+    """
+    n, k = len(next(iter(values.values()))), len(conditions.rows)
+    random = np.random.default_rng(seed)
+    shift = random.random((n, k, 3))
+    points = qmc.Sobol(3, scramble=False).random(1 << (parts - 1).bit_length())[:parts]
+    low, high = np.array([settings[name] for name in ("height", "vz0", "psi0")], dtype=np.float64).T
+    if "friction" in values:
+        values = {**values, "static_friction": settings["static_ratio"] * values["friction"]}
+
+    def follow(sets: np.ndarray, of: np.ndarray, begin: int, end: int, label: str) -> np.ndarray:
+        """The velocities of the parts begin to end for pairs of sets and conditions, shape (m, end - begin)."""
+        count = end - begin
+        drawn = (points[begin:end] + shift[sets, of][:, None]) % 1.0
+        height, speed, phase = np.moveaxis(low + (high - low) * drawn, -1, 0).reshape(3, -1)
+        rows, times = (np.repeat(own[of], count, axis=0) for own in conditions)
+        set_columns(rows, {name: np.repeat(column[sets], count) for name, column in values.items()})
+        rows[:, PSI0] = np.where(np.isnan(rows[:, PSI0]), phase, rows[:, PSI0])
+        rows[:, VZ0] = np.where(np.isnan(rows[:, VZ0]), speed, rows[:, VZ0])
+        stroke = rows[:, ACCELERATION] * np.sin(rows[:, ANGLE]) / (2.0 * math.pi * rows[:, FREQUENCY]) ** 2
+        height -= stroke * np.cos(rows[:, PSI0])  # Eq. 4
+        rows[:, Z0] = np.where(np.isnan(rows[:, Z0]), height, rows[:, Z0])
+        return mean_velocities(rows, times, threads, progress and f"{progress}{label}").reshape(-1, count)
+
+    first = min(FIRST, parts)
+    sets, of = np.indices((n, k)).reshape(2, -1)
+    few = follow(sets, of, 0, first, "").reshape(n, k, first)
+    found = np.tile(few, -(-parts // first))[..., :parts]
+    differ = ~(np.ptp(few, axis=-1) <= ALIKE * np.abs(few).max(axis=-1) + FLOOR * conditions.plate)
+    if worth is not None:
+        differ &= worth(few)[:, None]
+    sets, of = np.nonzero(differ)
+    if parts > first and len(sets):
+        found[sets, of, first:] = follow(sets, of, first, parts, ", more parts")
+    return found
+
+
+def mean_velocities(rows: np.ndarray, times: np.ndarray, threads: int, progress: str | None) -> np.ndarray:
+    """Mean feeding velocity (m/s) between two times (s), shape (n, 2), of packed parameters, shape (n, 16)."""
+    means = np.empty(len(rows))
+
+    def work(begin: int, end: int) -> None:
+        own = slice(begin, end)
+        samples, results = trajectory.integrate(rows[own], times[own], tolerance=TOLERANCE)
+        x = samples[:, :, horizontal.X]
+        is_known = results[:, trajectory.CODE] == trajectory.OK
+        means[own] = np.where(is_known, (x[:, 1] - x[:, 0]) / (times[own, 1] - times[own, 0]), np.nan)
+
+    for_each_chunk(work, len(rows), threads=threads, chunk=256, progress=progress)
+    return means
+
+
+def widths(velocities: np.ndarray) -> np.ndarray:
+    """Standard deviation (m/s) of the density around each velocity, shape (…, parts), as the velocities; see above."""
+    order = np.argsort(velocities, axis=-1)
+    ascending = np.take_along_axis(velocities, order, axis=-1)
+    parts, rank = velocities.shape[-1], min(NEIGHBOUR, velocities.shape[-1] - 1)
+    # The neighbour of some rank is the nearest end of one of the rank + 1 windows of neighbours around a value.
+    distance = np.full_like(ascending, np.inf)
+    for left in range(rank + 1):
+        spans = np.full_like(ascending, np.inf)
+        inside = slice(left, parts - rank + left)
+        below = ascending[..., inside] - ascending[..., : parts - rank]
+        above = ascending[..., rank:] - ascending[..., inside]
+        spans[..., inside] = np.maximum(below, above)
+        distance = np.fmin(distance, spans)
+    with np.errstate(invalid="ignore"):
+        most = OF_ALL * np.sqrt(
+            np.nanvar(np.where(np.isfinite(velocities), velocities, np.nan), axis=-1, keepdims=True)
+        )
+    found = np.empty_like(velocities)
+    np.put_along_axis(found, order, np.minimum(WIDENED * distance, most), axis=-1)
+    return found
+
+
+def deviations(velocities: np.ndarray, sd: np.ndarray, plate: np.ndarray, noise: float) -> np.ndarray:
+    """Standard deviation (m/s) of a measurement of `velocities` (m/s).
+
+    sd : the given ones, NaN where there is none and the relative `noise` counts
+    plate : largest velocity of the plate along the track (m/s)
+    All arrays are of shapes that NumPy broadcasts.
+    """
+    own = np.where(np.isnan(sd), noise * np.abs(velocities), sd)
+    return np.hypot(own, FLOOR * plate)
+
+
+def log_densities(
+    measured: np.ndarray,
+    velocities: np.ndarray,
+    sd: np.ndarray,
+    plate: np.ndarray,
+    settings: dict,
+    spread: np.ndarray | None = None,
+    inflation: float = 1.0,
+) -> np.ndarray:
+    """Logarithm of the density of measured velocities (m/s), shape (n, r).
+
+    Parameters
+    ----------
+    measured, sd, plate : m/s, shape (r,) or (n, r); see `deviations`
+    velocities : of the parts under the conditions of each measurement, m/s, shape (n, r, parts)
+    spread : their `widths`
+    inflation : factor of the standard deviation of the measurements
+    """
+    spread = widths(velocities) if spread is None else spread
+    scale = np.hypot(inflation * deviations(velocities, sd[..., None], plate[..., None], settings["noise"]), spread)
+    z = (measured[..., None] - velocities) / scale
+    density = np.exp(-0.5 * z**2) / (math.sqrt(2.0 * math.pi) * scale)
+    mean = np.nan_to_num(density).sum(axis=-1) / velocities.shape[-1]
+    outlier = 0.5 / np.maximum(plate, np.abs(measured))  # even over twice the plate's velocity
+    share = settings["outliers"]
+    return np.log((1.0 - share) * mean + share * outlier)

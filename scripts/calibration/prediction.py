@@ -1,0 +1,115 @@
+"""Velocities that the calibrated model predicts, and the amplitude at which one more velocity would help most.
+
+The velocity of one part at an amplitude is uncertain for two reasons: its initial condition, and the parameters.
+Samples of the posterior, each with several random initial conditions, contain both.
+
+A velocity at another amplitude gives the samples new weights. Velocities of the samples themselves, with noise, serve
+as possible results of this measurement. The expected narrowing of an interval follows from the mean of the parameter's
+standard deviation after such a result, relative to the one before.
+"""
+
+import math
+
+import numpy as np
+import pandas as pd
+
+from calibration.measurements import CALIBRATED, DEFAULTS
+from calibration.predicted import conditions_at, deviations, log_densities, velocities
+from calibration.search_space import LOGARITHMIC
+from pipeline import fields
+
+TABLES = {
+    "prediction": (
+        fields.number("acceleration", "m/s²", "amplitude of the excitation"),
+        fields.number("low", "m/s", "5 % quantile of the velocity of one part"),
+        fields.number("median", "m/s", "median of the velocity of one part"),
+        fields.number("high", "m/s", "95 % quantile of the velocity of one part"),
+    ),
+    "next": (
+        fields.number("acceleration", "m/s²", "amplitude of one more measurement"),
+        fields.number("narrowing", "1", "expected narrowing of the intervals, mean over the parameters"),
+        *(
+            fields.number(
+                f"narrowing_{name}", "1", f"expected narrowing of the interval of {name}; null if not searched"
+            )
+            for name in CALIBRATED
+        ),
+    ),
+}
+ENDS = (0.05, 0.5, 0.95)
+POSSIBLE = 256  # possible results of a measurement
+
+
+def expected_narrowing(
+    found: np.ndarray, values: np.ndarray, plate: float, settings: dict, random: np.random.Generator
+) -> np.ndarray:
+    """Expected narrowing of the interval of each parameter by one velocity, shape (d,).
+
+    Parameters
+    ----------
+    found : velocities of the parts of each sample, m/s, shape (n, parts)
+    values : searched parameters, or their logarithms, shape (n, d)
+    plate : largest velocity of the plate along the track, m/s
+    """
+    found = np.where(np.isnan(found), 0.0, found)
+    n, parts = found.shape
+    place = random.permutation(n * parts)[:POSSIBLE]
+    sample, part = np.divmod(place, parts)
+    true, none = found[sample, part], np.array(math.nan)
+    result = true + random.standard_normal(len(true)) * deviations(true, none, np.array(plate), settings["noise"])
+    measured = np.repeat(result[:, None], n, axis=1)  # rows of possible results, columns of samples
+    unknown, plates = np.full(n, math.nan), np.full(n, plate)
+    logs = log_densities(measured, found, unknown, plates, settings)
+    # The part that gave a result must not count as evidence for its own sample.
+    others = np.array([np.delete(found[s], p) for s, p in zip(sample, part, strict=True)])
+    rows = np.arange(len(result))
+    one = np.full(len(result), math.nan), np.full(len(result), plate)
+    logs[rows, sample] = log_densities(result, others, *one, settings)
+    weights = np.exp(logs - logs.max(axis=1, keepdims=True))
+    weights /= weights.sum(axis=1, keepdims=True)
+    mean = weights @ values
+    after = np.sqrt(np.maximum(weights @ values**2 - mean**2, 0.0)).mean(axis=0)
+    return 1.0 - after / values.std(axis=0)
+
+
+def make(
+    samples: pd.DataFrame, fit: pd.DataFrame, settings: dict, *, threads: int = 1, progress: str | None = None
+) -> dict[str, dict]:
+    """The tables of predicted velocities and of possible next measurements."""
+    low, high = fit.acceleration.min(), fit.acceleration.max()
+    between = np.linspace(low, high, settings["amplitudes"])
+    step = (high - low) / (settings["amplitudes"] - 1) if high > low else 0.05 * low
+    count = math.floor(settings["beyond"] * high / step)
+    beyond = np.concatenate([low - step * np.arange(1, count + 1), high + step * np.arange(1, count + 1)])
+    amplitudes = np.concatenate([between, beyond[beyond > (1.0 - settings["beyond"]) * low]])
+    conditions = conditions_at(
+        amplitudes,
+        [{}] * len(amplitudes),
+        [(DEFAULTS["before"], DEFAULTS["duration"])] * len(amplitudes),
+        settings["model"],
+    )
+    chosen = samples.iloc[np.linspace(0, len(samples) - 1, settings["predicted"]).round().astype(int)]
+    values = {name: chosen[name].to_numpy() for name in settings["parameters"]}
+    options = {"parts": settings["predicted_parts"], "seed": settings["seed"], "threads": threads}
+    found = velocities(values, conditions, settings, **options, progress=progress)
+    random = np.random.default_rng(settings["seed"])
+    columns = np.column_stack([np.log(one) if name in LOGARITHMIC else one for name, one in values.items()])
+    columns = columns + 1e-12 * random.standard_normal(columns.shape)  # equal samples have no standard deviation
+    gains = np.array(
+        [
+            expected_narrowing(found[:, place], columns, conditions.plate[place], settings, random)
+            for place in range(len(amplitudes))
+        ]
+    )
+    quantiles = np.nanquantile(np.moveaxis(found[:, : len(between)], 1, 0).reshape(len(between), -1), ENDS, axis=1)
+    order = np.argsort(amplitudes)
+    by_name = dict(zip(values, gains.T, strict=True))
+    nothing = np.full(len(amplitudes), math.nan)
+    return {
+        "prediction": {"acceleration": between, **dict(zip(("low", "median", "high"), quantiles, strict=True))},
+        "next": {
+            "acceleration": amplitudes[order],
+            "narrowing": gains.mean(axis=1)[order],
+            **{f"narrowing_{name}": by_name.get(name, nothing)[order] for name in CALIBRATED},
+        },
+    }

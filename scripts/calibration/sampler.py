@@ -1,0 +1,136 @@
+"""Adaptive importance sampling of a posterior whose likelihood is a product of factors that simulations estimate.
+
+The first points fill the bounds evenly. Each further round draws from a kernel density estimate of the posterior of all
+points so far. All points count, each with the density over the mean density of all proposals, as in
+pipeline.importance_sampling. Two things differ, because each factor is the density of one measurement, estimated from a
+few simulated parts:
+
+- The estimates are noisy, above all in chaos, and a product of many of them would be decided by luck. Therefore each
+  factor is averaged over neighbouring points before the product is taken. The average of densities is the density of
+  the parts of all neighbours together. It hardly loses information, because a single measurement limits the parameters
+  much less than all of them. As little of this is done as needed, because it blurs what few measurements say.
+- The search begins with measurements that count as less accurate than they are. A density that is narrow from the
+  beginning would be found only by chance.
+"""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from scipy.spatial.distance import cdist
+from scipy.special import logsumexp
+from scipy.stats import gaussian_kde, qmc
+
+from pipeline.importance_sampling import Sample, normalize
+
+# Standard deviations of the average over neighbours, in units of the standard deviation of the posterior. The narrowest
+# one that gives enough effective points counts; wider ones are only tried after more rounds.
+WIDTHS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5)
+WIDEST = WIDTHS[-1]
+# Effective points, for each parameter, that the density of a proposal keeps, and the factor by which its power falls if
+# even the flattest density keeps fewer.
+LEAST, FLATTER = 6.0, 0.8
+SAME_VOLUME = 0.1  # change of the logarithm of the squared volume of a sample that counts as none
+TINY = 1e-300  # density whose logarithm is finite
+LIGHT = 1e-6  # share of the largest weight below which a point does not count in a proposal
+
+
+def smoothed(factors: np.ndarray, points: np.ndarray, weights: np.ndarray, width: float = WIDEST) -> np.ndarray:
+    """Logarithms of the product of factors after averaging each over neighbouring points, shape (m, n).
+
+    factors : logarithms, shape (m, n, r), for m densities and r factors
+    points, weights : shape (n, d) and (n,); the covariance of this sample is the unit of distances
+    width : of the neighbourhood in this unit; 0 for no average
+    """
+    if width == 0.0:
+        return factors.sum(axis=-1)
+    centred = points - weights @ points
+    covariance = (weights[:, None] * centred).T @ centred
+    scale = np.linalg.cholesky(covariance + 1e-12 * np.eye(points.shape[1]))
+    z = np.linalg.solve(scale, points.T).T / width
+    near = np.exp(-0.5 * cdist(z, z, "sqeuclidean"))
+    near /= near.sum(axis=1, keepdims=True)
+    return np.array([np.log(np.maximum(near @ np.exp(one), TINY)).sum(axis=1) for one in factors])
+
+
+def flattened(values: np.ndarray, mixture: np.ndarray, least: float) -> np.ndarray:
+    """Weights of the first of several densities, shape (m, n), that keeps enough effective points, shape (n,)."""
+    for one in values:
+        weights, size = normalize(one - mixture)
+        if size >= least:
+            return weights
+    power = 1.0
+    while size < least:
+        power *= FLATTER
+        weights, size = normalize(power * values[-1] - mixture)
+    return weights
+
+
+def settle(
+    factors: np.ndarray, points: np.ndarray, mixture: np.ndarray, weights: np.ndarray, width: float, enough: float
+) -> Sample:
+    """The sample after smoothing in units of its own standard deviation.
+
+    Smoothing in units of a wider sample gives a sample that is too wide, but narrower than that one. The repetition
+    ends when the volume hardly changes, or when there are not enough effective points for it.
+    """
+    volume = math.inf
+    while True:
+        (values,) = smoothed(factors, points, weights, width)
+        weights, size = normalize(values - mixture)
+        before, volume = volume, np.linalg.slogdet(np.cov(points.T, aweights=weights, ddof=0))[1]
+        if width == 0.0 or size < enough or not volume < before - SAME_VOLUME:
+            evidence = logsumexp(values - mixture) - np.log(len(points))
+            return Sample(points, values, weights, float(evidence), size)
+
+
+def sample(
+    log_factors: Callable[[np.ndarray], np.ndarray],
+    bounds: np.ndarray,
+    *,
+    first: int,
+    points: int,
+    rounds: int,
+    enough: float,
+    seed: int,
+) -> Sample:
+    """A sample of the posterior with a constant prior within the bounds.
+
+    Parameters
+    ----------
+    log_factors : function from points, shape (n, d), to logarithms of the factors of the likelihood, shape (m, n, r),
+        for the measurements as they are and for m - 1 ever larger inflations of their errors; called once per round
+    bounds : lower and upper bounds, shape (2, d)
+    first : number of points of the first round
+    points : number of points of each further round; those beyond the bounds are dropped
+    rounds : largest number of further rounds
+    enough : effective number of points at which the search ends
+    seed : of the random numbers
+    """
+    random = np.random.default_rng(seed)
+    low, high = bounds
+    volume, dimensions = np.log(high - low).sum(), len(low)
+    x = qmc.scale(qmc.Halton(dimensions, rng=random).random(first), low, high)
+    factors = log_factors(x)
+    even = np.log(first / points)
+    mixture = np.full(first, even)  # logarithm of the sum of all proposals over the even one
+    known = flattened(factors.sum(axis=-1), mixture, LEAST * dimensions)
+    values = smoothed(factors, x, known)
+    proposals: list[gaussian_kde] = []
+    while True:
+        for width in WIDTHS:
+            settled = settle(factors[:1], x, mixture, known, width, enough)
+            if settled.size >= enough or width >= WIDEST * len(proposals) / rounds:
+                break
+        if settled.size >= enough or len(proposals) == rounds:
+            return settled
+        known = flattened(values, mixture, LEAST * dimensions)
+        heavy = known > LIGHT * known.max()
+        proposals.append(gaussian_kde(x[heavy].T, weights=known[heavy]))
+        new = proposals[-1].resample(points, seed=random).T
+        new = new[((new >= low) & (new <= high)).all(axis=1)]
+        of_new = [np.full(len(new), even), *(volume + proposal.logpdf(new.T) for proposal in proposals)]
+        mixture = np.append(np.logaddexp(mixture, volume + proposals[-1].logpdf(x.T)), logsumexp(of_new, axis=0))
+        x, factors = np.vstack([x, new]), np.concatenate([factors, log_factors(new)], axis=1)
+        known = flattened(smoothed(factors, x, np.append(known, np.zeros(len(new)))), mixture, LEAST * dimensions)
+        values = smoothed(factors, x, known)

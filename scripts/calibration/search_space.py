@@ -1,0 +1,40 @@
+"""The searched parameters and their ranges: logarithms of dimensionless groups, so that the ranges fit any conveyor.
+
+The damping is searched as the loss group L and the stiffness as the group K, see conveyor.analysis.contact_groups. The
+other parameters are searched as they are; angles and phases without the logarithm.
+"""
+
+import numpy as np
+
+from conveyor.analysis.contact_groups import contact_of_groups, groups_of_contact
+from conveyor.solver.model import DAMPING, STIFFNESS, set_columns
+from pipeline import grid
+
+LOGARITHMIC = ("friction", "damping", "stiffness", "exponent")
+
+
+def bounds_of(settings: dict) -> np.ndarray:
+    """Lower and upper bounds of the searched coordinates, shape (2, d)."""
+    ranges = [settings["ranges"][name] for name in settings["parameters"]]
+    return np.array(
+        [
+            np.log(ends) if name in LOGARITHMIC else ends
+            for name, ends in zip(settings["parameters"], ranges, strict=True)
+        ]
+    ).T
+
+
+def values_at(coordinates: np.ndarray, settings: dict) -> dict[str, np.ndarray]:
+    """Values of the searched parameters of the model, each of shape (n,), at coordinates, shape (n, d).
+
+    settings : searched `parameters` and their `ranges`; the `model` with the values of the other parameters
+    """
+    found = {
+        name: np.exp(column) if name in LOGARITHMIC else column
+        for name, column in zip(settings["parameters"], coordinates.T, strict=True)
+    }
+    rows = np.tile(grid.packed(settings["model"]), (len(coordinates), 1))
+    set_columns(rows, {name: found[name] for name in ("exponent", "inclination") if name in found})
+    group, loss = groups_of_contact(rows[:, STIFFNESS], rows[:, DAMPING], rows)
+    contact = contact_of_groups(found.get("stiffness", group), found.get("damping", loss), rows)
+    return found | {name: one for name, one in zip(("stiffness", "damping"), contact, strict=True) if name in found}

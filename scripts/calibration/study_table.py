@@ -1,0 +1,36 @@
+"""The table of the simulation study: a row for each data set."""
+
+import json
+
+from calibration.study import PARAMETERS
+from pipeline import fields
+
+TABLES = {
+    "calibration_study": (
+        fields.count("number", "number of the data set, the seed of its random numbers"),
+        fields.text("kind", "rich, poor, or what was wrong"),
+        fields.number("frequency", "Hz", "frequency of the excitation"),
+        fields.number("angle", "rad", "angle of throw"),
+        fields.number("mass", "kg", "mass of the part"),
+        fields.count("measurements", "number of measured velocities"),
+        *(
+            fields.number(f"{name}{ending}", "SI", f"{name}: {meaning}")
+            for name in PARAMETERS
+            for ending, meaning in (
+                ("", "true value"),
+                ("_best", "best value"),
+                ("_low", "lower end of the interval"),
+                ("_high", "upper end of the interval"),
+            )
+        ),
+        fields.number("in_band", "1", "share of further velocities within the predicted band from 5 % to 95 %"),
+        fields.number("p_value", "1", "of the data under the model"),
+        fields.flag("explained", "whether the model is said to explain the data"),
+        fields.number("effective", "1", "effective number of samples"),
+    )
+}
+
+
+def make(rows: list[str], settings: dict) -> dict[str, list]:
+    """The columns of the table from the rows of all data sets, as JSON."""
+    return fields.columns([json.loads(row) for row in rows], TABLES["calibration_study"])

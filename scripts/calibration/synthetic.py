@@ -1,0 +1,58 @@
+"""Synthetic measurements from the library: parts whose parameters are known, measured with noise.
+
+`simulate` follows each part by itself, with a tighter tolerance than the calibration uses.
+"""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from calibration.measurements import DEFAULTS
+from conveyor import Conveyor, Start, simulate
+
+TOLERANCE = 1e-9
+FORMAT = ".4g"
+
+
+def true_velocity(
+    model: dict, acceleration: float, box: dict, random: np.random.Generator, duration: float = DEFAULTS["duration"]
+) -> float:
+    """Mean velocity (m/s) of one part with a random initial condition from the box.
+
+    duration : s over which the velocity is measured, and time on the track before
+    """
+    height, vz, phase = (float(random.uniform(*box[name])) for name in ("height", "vz0", "psi0"))
+    stroke = acceleration * math.sin(model["angle"]) / (2.0 * math.pi * model["frequency"]) ** 2
+    conveyor = Conveyor(**{**model, "acceleration": acceleration, "psi0": phase})
+    start = Start(height - stroke * math.cos(phase), vz)
+    run = simulate(conveyor, start, duration=2.0 * duration, tolerance=TOLERANCE)
+    x = run.sample(np.array([duration, 2.0 * duration]))["x"]
+    return float((x[1] - x[0]) / duration)
+
+
+def measure(
+    model: dict, accelerations: Sequence[float], box: dict, noise: float, random: np.random.Generator, **options: float
+) -> list[tuple[float, float]]:
+    """Amplitude (m/s²) and velocity (m/s) of one part for each amplitude, with a relative `noise` of the velocity."""
+    rows = []
+    for acceleration in accelerations:
+        velocity = true_velocity(model, float(acceleration), box, random, **options)
+        rows.append((float(acceleration), velocity * (1.0 + noise * float(random.standard_normal()))))
+    return rows
+
+
+def csv_text(rows: Sequence[tuple[float, float]], comment: str, **others: float) -> str:
+    """A file of measurements that begins with a comment; `others` are further columns, equal in all rows."""
+    lines = [f"# {comment}", ",".join(["acceleration", "velocity", *others])]
+    for acceleration, velocity in rows:
+        lines.append(",".join([f"{acceleration:.5g}", f"{velocity:{FORMAT}}", *map(str, others.values())]))
+    return "\n".join([*lines, ""])
+
+
+def make(settings: dict) -> str:
+    """The file of measurements of the example."""
+    random = np.random.default_rng(settings["seed"])
+    accelerations = np.repeat(np.linspace(*settings["acceleration"], settings["amplitudes"]), settings["parts"])
+    rows = measure(settings["model"], accelerations, settings, settings["noise"], random)
+    return csv_text(rows, "Synthetic, not measured: made by `snakemake config/examples/measured.csv`, with noise")

@@ -1,0 +1,45 @@
+"""The page of the simulation study of the calibration."""
+
+import numpy as np
+import pandas as pd
+
+from pipeline.templates import render
+
+PARAMETERS = ("friction", "damping", "stiffness")
+RIGHT = ("rich", "poor")
+
+
+def summarize(kind: str, sets: pd.DataFrame) -> dict:
+    """Coverage, widths and errors of the data sets of one kind."""
+    reliable = sets.dropna(subset=[f"{name}_low" for name in PARAMETERS])
+    row = {"kind": kind, "sets": len(sets), "reliable": len(reliable), "rejected": int((~sets.explained).sum())}
+    for name in PARAMETERS:
+        true, best, low, high = (reliable[f"{name}{ending}"] for ending in ("", "_best", "_low", "_high"))
+        row[name] = {
+            "covered": int(((low <= true) & (true <= high)).sum()),
+            "width": float((0.5 * (high - low) / best).median()),
+            "error": float(np.abs(best / true - 1.0).median()),
+        }
+    return row | {
+        "covered": sum(row[name]["covered"] for name in PARAMETERS),
+        "in_band": float(sets.in_band.mean()),
+    }
+
+
+def make(template: str, calibration_study: pd.DataFrame) -> str:
+    """The page from its template and the table of the study."""
+    settings = calibration_study.attrs
+    by_kind = dict(list(calibration_study.groupby("kind", sort=False)))
+    return render(
+        template,
+        {
+            **{name: settings[name] for name in ("conveyors", "throw_number", "amplitudes", "poor")},
+            "noise": settings["calibration"]["noise"],
+            "confidence": settings["calibration"]["confidence"],
+            "parts": settings["parts_of_study"],
+            "differences": settings["wrong"],
+            "count": len(calibration_study),
+            "right": [summarize(kind, by_kind[kind]) for kind in RIGHT if kind in by_kind],
+            "wrong": [summarize(kind, sets) for kind, sets in by_kind.items() if kind not in RIGHT],
+        },
+    )

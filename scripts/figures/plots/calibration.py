@@ -1,0 +1,105 @@
+"""Calibration: measured velocities with the predicted band, and the posterior of each parameter and each pair."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
+
+from calibration.search_space import LOGARITHMIC
+from figures import style
+
+MISFIT = "#D55E00"
+BAND = "#56B4E9"
+BINS = 18
+
+
+def draw_velocities(axes: Axes, fit: pd.DataFrame, prediction: pd.DataFrame) -> None:
+    """Measured velocities over the predicted band."""
+    axes.fill_between(
+        prediction.acceleration,
+        prediction.low,
+        prediction.high,
+        color=BAND,
+        alpha=0.35,
+        linewidth=0.0,
+        label="predicted for one part, 5 % to 95 %",
+    )
+    axes.plot(prediction.acceleration, prediction["median"], color=style.CONVERGED, linewidth=0.8, label="median")
+    for fits, look in (
+        (True, {"color": "black", "label": "measured"}),
+        (False, {"color": MISFIT, "label": "does not fit"}),
+    ):
+        own = fit[fit.fits == fits]
+        if len(own):
+            options = {"linestyle": "none", "marker": "o" if fits else "X", "markersize": 2.6 if fits else 4.0}
+            axes.errorbar(own.acceleration, own.velocity, yerr=2.0 * own.sd, elinewidth=0.6, **options, **look)
+    axes.axhline(0.0, color="black", linewidth=0.4, zorder=0)
+    axes.set_xlabel(style.AMPLITUDE)
+    axes.set_ylabel(style.VELOCITY)
+    axes.legend(loc="upper left")
+
+
+def label_of(row: pd.Series) -> str:
+    """Name and unit of a parameter."""
+    name = row.parameter.replace("_", " ")
+    return name if row.unit == "1" else f"{name} in {row.unit}"
+
+
+def scale(axes: Axes, which: str, name: str, values: np.ndarray) -> None:
+    """The scale and the limits of an axis of a parameter."""
+    if name in LOGARITHMIC:
+        getattr(axes, f"set_{which}scale")("log")
+        axis = getattr(axes, f"{which}axis")
+        if values.max() < 12.0 * values.min():
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+            axis.set_major_formatter(
+                lambda value, _: f"{value:g}" if 1e-3 < value < 1e4 else f"{value:.0e}".replace("e+0", "e")
+            )
+        axis.set_minor_formatter(NullFormatter())
+
+
+def draw_posterior(panels: np.ndarray, parameters: pd.DataFrame, samples: pd.DataFrame) -> None:
+    """Histograms of the parameters on the diagonal of `panels`, shape (d, d), and pairs of parameters below it."""
+    rows = list(parameters.itertuples())
+    for below, own in enumerate(rows):
+        for beside, other in enumerate(rows):
+            axes = panels[below, beside]
+            if beside > below:
+                axes.set_visible(False)
+                continue
+            x = samples[other.parameter].to_numpy()
+            scale(axes, "x", other.parameter, x)
+            if beside == below:
+                log = other.parameter in LOGARITHMIC
+                edges = np.geomspace(x.min(), x.max(), BINS) if log else np.linspace(x.min(), x.max(), BINS)
+                axes.hist(x, edges, color="0.75")
+                axes.axvline(own.best, color="black", linewidth=0.8)
+                for end in (own.low, own.high):
+                    axes.axvline(end, color="black", linewidth=0.8, linestyle=(0, (3, 2)))
+                axes.set_yticks([])
+            else:
+                y = samples[own.parameter].to_numpy()
+                scale(axes, "y", own.parameter, y)
+                axes.plot(x, y, linestyle="none", marker=".", markersize=2.0, color="0.4", rasterized=True)
+                axes.plot([other.best], [own.best], marker="+", color="black", markersize=7.0)
+            if below == len(rows) - 1:
+                axes.set_xlabel(label_of(other))
+            else:
+                axes.tick_params(labelbottom=False)
+            if beside == 0 and below > 0:
+                axes.set_ylabel(label_of(own))
+            elif beside != below:
+                axes.tick_params(labelleft=False)
+
+
+def plot(*, parameters: pd.DataFrame, samples: pd.DataFrame, fit: pd.DataFrame, prediction: pd.DataFrame) -> Figure:
+    """Draw the calibration."""
+    count = len(parameters)
+    figure = style.figure(style.PAGE, 62.0 + 32.0 * count)
+    above, under = figure.subfigures(2, 1, height_ratios=(62.0, 32.0 * count))
+    draw_velocities(above.subplots(), fit, prediction)
+    panels = under.subplots(count, count, squeeze=False)
+    draw_posterior(panels, parameters, samples)
+    under.align_ylabels(panels[:, 0])
+    return figure

@@ -1,0 +1,122 @@
+"""The search on factors with a known posterior, and small calibrations of synthetic measurements."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from calibration import prediction
+from calibration.inference import calibrate
+from calibration.measurements import parse
+from calibration.sampler import sample
+from calibration.synthetic import csv_text, measure
+from conveyor.parameters import RANGES
+
+BOUNDS = np.array([[-5.0, -5.0], [5.0, 5.0]])
+OPTIONS = {"first": 200, "points": 100, "rounds": 12, "enough": 150, "seed": 1}
+FACTORS = 20
+# Each factor limits a combination of both parameters; the sum of their precisions is the inverse of this covariance.
+DIRECTIONS = np.random.default_rng(5).normal(size=(FACTORS, 2)) * 3.0
+COVARIANCE = np.linalg.inv(DIRECTIONS.T @ DIRECTIONS)
+MEAN = np.array([1.0, -2.0])
+
+
+def factors(points, noise=None):
+    """Logarithms of normal factors for three inflations of their standard deviation, shape (3, n, 20)."""
+    squares = ((points - MEAN) @ DIRECTIONS.T) ** 2
+    logs = np.array([-0.5 * squares / inflation**2 for inflation in (1.0, 3.0, 10.0)])
+    return logs if noise is None else logs + noise.normal(-0.5 * 0.6**2, 0.6, squares.shape)
+
+
+@pytest.mark.parametrize("noisy", [False, True])
+def test_the_sample_has_the_moments_of_the_posterior_also_if_factors_are_noisy(noisy):
+    noise = np.random.default_rng(3) if noisy else None
+    found = sample(lambda points: factors(points, noise), BOUNDS, **OPTIONS)
+    assert found.size >= 150
+    assert found.weights @ found.points == pytest.approx(MEAN, abs=0.1)
+    centred = found.points - found.weights @ found.points
+    covariance = (found.weights[:, None] * centred).T @ centred
+    assert np.diag(covariance) == pytest.approx(np.diag(COVARIANCE), rel=0.5)
+
+
+def test_the_search_ends_without_enough_samples_after_the_last_round():
+    options = OPTIONS | {"rounds": 1, "enough": 1e6}
+    assert sample(factors, BOUNDS, **options).size < 1e6
+
+
+MODEL = {"frequency": 40.0, "angle": 0.3, "mass": 1e-3, "gravity": 9.81, "exponent": 1.5, "inclination": 0.0}
+MODEL |= {"phase_shift": 0.0}
+CONTACT = {"friction": 0.25, "damping": 0.3, "stiffness": 3e5}
+SETTINGS = {
+    "parameters": ["friction", "damping", "stiffness"],
+    "ranges": {"friction": [0.05, 1.0], "damping": [0.03, 2.5], "stiffness": [2.0, 2000.0]},
+    "height": [0.0, 5e-4],
+    "vz0": [-0.2, 0.2],
+    "psi0": [0.0, 2.0 * math.pi],
+    "model": MODEL,
+    "static_ratio": 1.0,
+    "measurements": "mine.csv",
+    "noise": 0.02,
+    "outliers": 0.02,
+    "parts": 8,
+    "first": 100,
+    "points": 50,
+    "rounds": 12,
+    "enough": 30.0,
+    "effective": 5.0,
+    "confidence": 0.95,
+    "samples": 40,
+    "checked": 6,
+    "checked_parts": 16,
+    "replicates": 400,
+    "significance": 0.01,
+    "amplitudes": 4,
+    "beyond": 0.2,
+    "predicted": 20,
+    "predicted_parts": 8,
+    "seed": 1,
+}
+AMPLITUDES = np.repeat([20.0, 26.0, 32.0, 38.0, 50.0, 60.0], 2)
+
+
+def measured(factor=1.0):
+    """Measurements over 0.3 s; `factor` multiplies every second velocity."""
+    rows = measure(MODEL | CONTACT, AMPLITUDES, SETTINGS, 0.02, np.random.default_rng(4), duration=0.3)
+    rows = [(one, velocity * (factor if place % 2 else 1.0)) for place, (one, velocity) in enumerate(rows)]
+    return parse(csv_text(rows, "synthetic", duration=0.3, before=0.3), "mine.csv", SETTINGS, RANGES)
+
+
+@pytest.fixture(scope="module")
+def found():
+    return calibrate(measured(), SETTINGS, threads=2)
+
+
+def test_a_right_model_is_explained_and_its_friction_is_found(found):
+    rows = {row["parameter"]: row for row in pd.DataFrame(found["parameters"]).to_dict("records")}
+    assert rows["friction"]["low"] <= CONTACT["friction"] <= rows["friction"]["high"]
+    assert all(row["low"] <= row["best"] <= row["high"] for row in rows.values())
+    assert np.all(found["fit"]["explained"])
+
+
+def test_velocities_that_no_parameters_give_are_not_explained():
+    wrong = calibrate(measured(factor=-1.0), SETTINGS, threads=2)["fit"]
+    assert not np.any(wrong["explained"])
+    assert np.count_nonzero(~wrong["fits"]) >= 3
+
+
+def test_results_do_not_depend_on_the_threads(found):
+    again = calibrate(measured(), SETTINGS, threads=1)
+    for name in found:
+        pd.testing.assert_frame_equal(pd.DataFrame(found[name]), pd.DataFrame(again[name]), check_exact=True)
+
+
+def test_the_prediction_covers_the_measured_amplitudes_and_the_next_measurement_lies_near(found):
+    samples, fit = (pd.DataFrame(found[name]) for name in ("samples", "fit"))
+    tables = prediction.make(samples, fit, SETTINGS, threads=2)
+    band, candidates = (pd.DataFrame(tables[name]) for name in ("prediction", "next"))
+    assert (band.acceleration.iloc[0], band.acceleration.iloc[-1]) == (20.0, 60.0)
+    assert ((band.low <= band["median"]) & (band["median"] <= band.high)).all()
+    assert candidates.acceleration.is_monotonic_increasing
+    assert candidates.acceleration.min() >= 16.0 - 1e-9 and candidates.acceleration.max() <= 72.0 + 1e-9
+    assert (candidates.narrowing < 1.0).all() and candidates.narrowing_angle.isna().all()

@@ -1,0 +1,137 @@
+"""Files of measurements: good ones in several spellings, and bad ones, each rejected with its line and a remedy."""
+
+import subprocess
+import sys
+import time
+
+import pytest
+from project import ROOT
+
+from calibration.measurements import MeasurementError, parse, read_text
+from conveyor.parameters import RANGES
+
+MODEL = {"frequency": 60.0, "angle": 0.35, "mass": 2e-3, "gravity": 9.81, "inclination": 0.0}
+SETTINGS = {"parameters": ["friction", "damping", "stiffness"], "model": MODEL}
+HEAD = "acceleration,velocity"
+GOOD = "30,0.02\n40,0.05\n50,0.06\n"
+
+# Text of the file (bytes where it is not text), line of the fault, and a part of its message.
+BAD = {
+    "empty": ("", 1, "is empty"),
+    "only a comment": ("# measured in May\n", 1, "is empty"),
+    "no velocity": ("acceleration,sd\n30,0.01\n", 1, "has no column velocity (m/s); add it"),
+    "no header": ("30,0.02\n40,0.05\n50,0.06\n", 1, "the first line must name the columns"),
+    "misspelt column": (f"{HEAD},frequncy\n30,0.02,50\n", 1, "did you mean frequency?"),
+    "unit in the header": ("acceleration (m/s²),velocity\n30,0.02\n", 1, "did you mean acceleration?"),
+    "column twice": (f"{HEAD},velocity\n30,0.02,0.02\n", 1, "has the column velocity twice"),
+    "searched parameter": (f"{HEAD},friction\n30,0.02,0.2\n", 1, "unknown column 'friction'"),
+    "semicolons": ("acceleration;velocity\n30;0,02\n", 1, "separates columns by semicolons"),
+    "tabs": ("acceleration\tvelocity\n30\t0.02\n", 1, "separates columns by tabs"),
+    "decimal comma": (f'{HEAD}\n30,0.02\n40,"0,05"\n50,0.06\n', 3, "has a decimal comma; write 0.05"),
+    "decimal comma without quotes": (f"{HEAD}\n30,0.02\n40,0,05\n50,0.06\n", 3, "has 3 values for 2 columns"),
+    "text in a number": (f"{HEAD}\n30,0.02\n40,fast\n50,0.06\n", 3, "velocity = 'fast' is text"),
+    "unit in a number": (f"{HEAD}\n30 m/s²,0.02\n40,0.05\n50,0.06\n", 2, "without the unit"),
+    "nan": (f"{HEAD}\n30,0.02\n40,nan\n50,0.06\n", 3, "is not a measured number; delete the line"),
+    "infinite": (f"{HEAD}\n30,inf\n40,0.05\n50,0.06\n", 2, "is not a measured number"),
+    "number too large": (f"{HEAD}\n30,0.02\n40,1e999\n50,0.06\n", 3, "is outside [-100, 100]"),
+    "empty velocity": (f"{HEAD}\n30,0.02\n40,\n50,0.06\n", 3, "has no velocity; fill it in"),
+    "missing field": (f"{HEAD},sd\n30,0.02,0.001\n40,0.05\n50,0.06,0.001\n", 3, "has 2 values for 3 columns"),
+    "negative duration": (f"{HEAD},duration\n30,0.02,1\n40,0.05,-1\n50,0.06,1\n", 3, "duration = '-1' is outside"),
+    "no duration": (f"{HEAD},duration\n30,0.02,1\n40,0.05,0\n50,0.06,1\n", 3, "duration = '0' must be more than 0"),
+    "negative sd": (f"{HEAD},sd\n30,0.02,-0.001\n40,0.05,\n50,0.06,\n", 2, "sd = '-0.001' is outside"),
+    "zero sd": (f"{HEAD},sd\n30,0.02,0.001\n40,0.05,0\n50,0.06,\n", 3, "leave sd empty"),
+    "angle in degrees": (f"{HEAD},angle\n30,0.02,20\n40,0.05,20\n50,0.06,20\n", 2, "(angles in rad)"),
+    "velocities in cm/s": (f"{HEAD}\n30,2\n40,5\n50,6\n", 2, "in cm/s: divide by 100"),
+    "velocities in mm/s": (f"{HEAD}\n30,20\n40,50\n50,60\n", 2, "in mm/s: divide by 1000"),
+    "accelerations in g": (f"{HEAD}\n3,0.02\n4,0.05\n5,0.06\n", 2, "Is the acceleration in g: multiply by 9.81?"),
+    "fewer rows than parameters": (f"{HEAD}\n30,0.02\n40,0.05\n", 3, "2 measurements cannot determine 3 parameters"),
+    "no rows": (f"{HEAD}\n", 1, "0 measurements cannot determine 3 parameters"),
+    "a spreadsheet": (b"PK\x03\x04\x14\x00\x06\x00\xff\xfe" + bytes(300), 1, "is not UTF-8 text"),
+    "Latin-1": (
+        "acceleration,velocity\n30,0.02\n# gemessen für\n".encode("latin-1"),
+        3,
+        "export the table as CSV with UTF-8",
+    ),
+    "zero bytes": ("acceleration,velocity\n30,\x000.02\n", 1, "is not a CSV text"),
+    "open quote": (f'{HEAD}\n30,0.02\n40,"0.05\n50,0.06\n', 4, "is not CSV"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_bad_files_are_rejected_with_line_and_remedy(name, tmp_path):
+    text, line, message = BAD[name]
+    file = tmp_path / "mine.csv"
+    file.write_bytes(text if isinstance(text, bytes) else text.encode())
+    with pytest.raises(MeasurementError) as error:
+        parse(read_text(file), file, SETTINGS, RANGES)
+    assert error.value.faults[0].startswith(f"{file}:{line}: ")
+    assert message in error.value.faults[0]
+    assert all("\n" not in fault for fault in error.value.faults)
+
+
+@pytest.mark.parametrize("kind", ["missing", "folder"])
+def test_files_that_cannot_be_read_are_named(kind, tmp_path):
+    path = tmp_path if kind == "folder" else tmp_path / "nothing.csv"
+    with pytest.raises(MeasurementError, match=r"calibration\.measurements names a CSV file"):
+        read_text(path)
+
+
+def test_all_faults_of_a_file_are_named_at_once():
+    with pytest.raises(MeasurementError) as error:
+        parse(f"{HEAD}\n30,x\n40,0.05\n-1,0.06\n", "mine.csv", SETTINGS, RANGES)
+    assert [fault.split(":")[1] for fault in error.value.faults] == ["2", "4"]
+
+
+def test_optional_columns_have_defaults_and_lines_are_those_of_the_file():
+    text = "# a comment\n\nacceleration, velocity, sd, before, frequency, z0\n"
+    text += "30, 0.02, , 2, , 1e-4\n40,0.05,0.001,,61,\n50,.06,,,,\n"
+    one, two, three = parse(text, "mine.csv", SETTINGS, RANGES)
+    assert [row.line for row in (one, two, three)] == [4, 5, 6]
+    assert (one.sd, one.before, one.duration, one.changed) == (None, 2.0, 1.0, {"z0": 1e-4})
+    assert (two.sd, two.before, two.changed) == (0.001, 1.0, {"frequency": 61.0})
+    assert three == (6, 50.0, 0.06, None, 1.0, 1.0, {})
+
+
+def test_a_byte_order_mark_and_windows_lines_are_no_fault(tmp_path):
+    file = tmp_path / "mine.csv"
+    file.write_bytes(b"\xef\xbb\xbf" + f"{HEAD}\n{GOOD}".replace("\n", "\r\n").encode())
+    assert len(parse(read_text(file), file, SETTINGS, RANGES)) == 3
+
+
+def test_parts_that_slide_down_a_steep_track_may_be_faster_than_the_plate():
+    steep = SETTINGS | {"model": MODEL | {"inclination": -0.3}}
+    assert len(parse(f"{HEAD}\n30,0.9\n40,0.9\n50,0.9\n", "mine.csv", steep, RANGES)) == 3
+    with pytest.raises(MeasurementError, match="impossible"):
+        parse(f"{HEAD}\n30,0.9\n40,0.9\n50,0.9\n", "mine.csv", SETTINGS, RANGES)
+
+
+def run_snakemake(overlay, *targets):
+    command = [sys.executable, "-m", "snakemake", "--dry-run", *targets, "--configfile", str(overlay)]
+    begin = time.perf_counter()
+    run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    return run, time.perf_counter() - begin
+
+
+def test_a_bad_file_ends_snakemake_before_any_job(tmp_path):
+    (tmp_path / "mine.yaml").write_text(
+        "prefix: mine\nmodel: {frequency: 60.0}\ncalibration: {measurements: mine.csv}\n"
+    )
+    (tmp_path / "mine.csv").write_text(f"{HEAD}\n30,2\n40,5\n50,6\n")
+    run, seconds = run_snakemake(tmp_path / "mine.yaml", "results/mine/calibration.md")
+    assert run.returncode != 0
+    assert "mine.csv:2: velocity = 2 m/s is impossible" in run.stdout + run.stderr
+    assert "cm/s: divide by 100" in run.stdout + run.stderr
+    # As fast as any other faulty config on this machine.
+    (tmp_path / "other.yaml").write_text("prefix: 1\n")
+    _, other = run_snakemake(tmp_path / "other.yaml", "results/mine/calibration.md")
+    assert seconds < 2.0 * other + 1.0
+
+
+@pytest.mark.parametrize(
+    "target", ["results/mine/calibration.md", "figures/mine/calibration.pdf", "results/mine/calibrated.yaml"]
+)
+def test_a_config_without_measurements_refuses_a_calibration(target, tmp_path):
+    (tmp_path / "mine.yaml").write_text("prefix: mine\nmodel: {frequency: 60.0}\n")
+    run, _ = run_snakemake(tmp_path / "mine.yaml", target)
+    assert run.returncode != 0
+    assert "a calibration needs measured velocities" in run.stdout + run.stderr

@@ -1,0 +1,97 @@
+"""The page and the overlay: what they say first, and when there is no overlay."""
+
+import math
+
+import pandas as pd
+import pytest
+import yaml
+from project import ROOT
+
+from calibration import overlay, page
+from calibration.inference import DETERMINED, NOT_DETERMINED, OPEN, TOO_FEW
+
+SETTINGS = {
+    "measurements": "mine.csv",
+    "static_ratio": 1.2,
+    "noise": 0.02,
+    "outliers": 0.02,
+    "significance": 0.01,
+    "confidence": 0.95,
+    "effective": 40.0,
+    "first": 256,
+    "points": 96,
+    "rounds": 24,
+    "parts": 24,
+    "replicates": 2000,
+    "checked": 24,
+}
+
+
+def tables(*, explained=True, reliable=True, misfits=0, narrowing=0.1):
+    status = [DETERMINED, OPEN, NOT_DETERMINED] if reliable else [TOO_FEW] * 3
+    parameters = pd.DataFrame(
+        {
+            "parameter": ["friction", "damping", "stiffness"],
+            "unit": ["1", "N s/m", "N/m^p"],
+            "best": [0.24, 0.7, 4e5],
+            "low": [0.23, 0.6, 1e5] if reliable else math.nan,
+            "high": [0.25, 10.0, 9e5] if reliable else math.nan,
+            "range_low": [0.03, 0.02, 1e4],
+            "range_high": [1.2, 10.0, 1e9],
+            "status": status,
+            "effective": 100.0 if reliable else 1.5,
+        }
+    )
+    fit = pd.DataFrame({"line": [2, 3, 4, 5], "acceleration": [30.0, 40.0, 50.0, 60.0], "velocity": 0.05})
+    fit = fit.assign(low=0.01, high=0.02, p_row=[0.5, 0.001, 0.002, 0.4], p_value=0.3 if explained else 5e-4)
+    fit = fit.assign(fits=[True] * (4 - misfits) + [False] * misfits, explained=explained)
+    prediction = pd.DataFrame({"acceleration": [30.0, 60.0], "low": 0.01, "median": 0.02, "high": [0.03, 0.04]})
+    next_ = pd.DataFrame({"acceleration": [30.0, 45.0], "narrowing": [0.0, narrowing]})
+    next_ = next_.assign(**{f"narrowing_{name}": [0.0, narrowing] for name in parameters.parameter})
+    parameters.attrs = SETTINGS
+    return {"parameters": parameters, "fit": fit, "prediction": prediction, "next": next_}
+
+
+def first_screen(**options):
+    template = (ROOT / "workflow/templates/calibration.md").read_text(encoding="utf-8")
+    return page.make(template, **tables(**options), prefix="mine").partition("## Parameters")[0]
+
+
+def test_the_page_begins_with_what_was_found_how_sure_it_is_and_what_to_do():
+    text = first_screen()
+    assert "**The model explains the 4 measured velocities.**" in text
+    assert "friction coefficient **0.24**, contact damping **0.7 N s/m**, contact stiffness **4e5 N/m^p**" in text
+    assert "the friction coefficient lies between 0.23 and 0.25" in text
+    assert "the contact damping is at least 0.6 N s/m, and may be much larger" in text
+    assert "the measurements say nothing about the contact stiffness" in text
+    assert "measure one more velocity at **45 m/s²**" in text and "10 % on average" in text
+    assert "snakemake results/mine/calibrated.yaml" in text
+
+
+def test_a_model_that_is_wrong_is_called_so_first():
+    text = first_screen(explained=False, misfits=2)
+    assert text.startswith("# Calibration\n\n**The model does not explain the measurements.**")
+    assert "2 of the 4 measured velocities are practically impossible" in text
+    assert "phase shift" in text and "units" in text.lower() and "inclination" in text
+    assert "| 4 | 50 |" in text and "| 2 | 30 |" not in text
+    assert "calibrated.yaml --configfile" not in text
+
+
+def test_a_sample_that_is_too_small_gives_no_intervals():
+    text = first_screen(reliable=False)
+    assert "did not find enough good parameters" in text
+    assert "points: 192" in text and "lies between" not in text
+
+
+def test_the_overlay_has_the_best_parameters_and_keeps_the_ratio_of_static_friction():
+    found = tables()
+    model = yaml.safe_load(overlay.make(found["parameters"], found["fit"]))["model"]
+    assert model == {"friction": 0.24, "damping": 0.7, "stiffness": 4e5, "static_friction": pytest.approx(0.288)}
+    assert all(isinstance(value, float) for value in model.values())
+
+
+@pytest.mark.parametrize("options", [{"explained": False}, {"reliable": False}])
+def test_there_is_no_overlay_without_parameters_that_can_be_trusted(options):
+    found = tables(**options)
+    with pytest.raises(overlay.NotCalibratedError, match=r"no overlay|for an overlay"):
+        overlay.make(found["parameters"], found["fit"])

@@ -1,0 +1,134 @@
+# Parameters of a conveyor from measured velocities. Only a config with `calibration.measurements` has these targets. The simulation
+# study of the method, docs/calibration_study.md, and the measurements of the example are made on request.
+
+
+rule calibration:
+    input:
+        measurements=measurements,
+    output:
+        **tables_of("calibration/parameters", "calibration/samples", "calibration/fit"),
+    log:
+        log_file("calibration/parameters"),
+    benchmark:
+        benchmark_file("calibration/parameters")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("calibration.inference", "calibration/parameters"),
+    message:
+        "Parameters that the measured velocities imply"
+    script:
+        "../../scripts/make.py"
+
+
+rule calibration_prediction:
+    input:
+        **tables_of("calibration/samples", "calibration/fit"),
+    output:
+        **tables_of("calibration/prediction", "calibration/next"),
+    log:
+        log_file("calibration/prediction"),
+    benchmark:
+        benchmark_file("calibration/prediction")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("calibration.prediction", "calibration/prediction"),
+    message:
+        "Velocities that the calibrated model predicts, and the next measurement"
+    script:
+        "../../scripts/make.py"
+
+
+rule calibration_page:
+    input:
+        **tables_of("calibration/parameters", "calibration/fit", "calibration/prediction", "calibration/next"),
+        template=source("workflow/templates/calibration.md"),
+    output:
+        page=result("calibration.md"),
+    log:
+        log_file("calibration/page"),
+    benchmark:
+        benchmark_file("calibration/page")
+    params:
+        **stage("calibration.page"),
+        prefix=config["prefix"],
+    message:
+        "The calibration in words"
+    script:
+        "../../scripts/make.py"
+
+
+rule calibrated:
+    input:
+        **tables_of("calibration/parameters", "calibration/fit"),
+    output:
+        overlay=result("calibrated.yaml"),
+    log:
+        log_file("calibration/calibrated"),
+    benchmark:
+        benchmark_file("calibration/calibrated")
+    params:
+        **stage("calibration.overlay"),
+    message:
+        "An overlay with the calibrated parameters"
+    script:
+        "../../scripts/make.py"
+
+
+rule study_set:
+    output:
+        row=result("calibration_study/{kind}_{number}.json"),
+    log:
+        log_file("calibration_study/{kind}_{number}"),
+    benchmark:
+        benchmark_file("calibration_study/{kind}_{number}")
+    wildcard_constraints:
+        kind=one_of(config["calibration_study"]["sets"]),
+        number=r"\d+",
+    params:
+        **stage("calibration.study"),
+        settings=lambda wildcards: settings_of(config, "results/calibration_study"),
+        kind=lambda wildcards: wildcards.kind,
+        number=lambda wildcards: int(wildcards.number),
+    message:
+        "Study of the calibration: {wildcards.kind} {wildcards.number}"
+    script:
+        "../../scripts/make.py"
+
+
+rule calibration_study:
+    input:
+        rows=STUDY_SETS,
+    output:
+        **tables_of("results/calibration_study"),
+    log:
+        log_file("calibration_study"),
+    benchmark:
+        benchmark_file("calibration_study")
+    params:
+        **stage("calibration.study_table", "results/calibration_study"),
+    message:
+        "Simulation study of the calibration"
+    script:
+        "../../scripts/make.py"
+
+
+# Not for a config with measurements, which reads this file at its start.
+if not HAS_MEASUREMENTS:
+
+    rule measured_example:
+        output:
+            measurements=source("config/examples/measured.csv"),
+        log:
+            log_file("calibration/measured_example"),
+        benchmark:
+            benchmark_file("calibration/measured_example")
+        params:
+            **stage("calibration.synthetic"),
+            settings=PAPER["calibration_study"]["example"]
+            | {name: PAPER["operating"][name] for name in ("height", "vz0", "psi0")},
+        message:
+            "Synthetic measurements for the example"
+        script:
+            "../../scripts/make.py"
