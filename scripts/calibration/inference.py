@@ -181,7 +181,7 @@ def summarize_parameters(found: Sample, settings: dict) -> list[dict]:
         )
         if is_log:
             low, high = math.exp(low), math.exp(high)
-        # Smoothing may reach beyond a bound. The bounds of the damping belong to the best stiffness, not to all of them.
+        # Smoothing may reach beyond a bound. The bounds of the damping belong to the best stiffness only.
         low = min(low, range_low) if open_low else low if name == "damping" else max(low, range_low)
         high = max(high, range_high) if open_high else high if name == "damping" else min(high, range_high)
         rows.append(

@@ -31,4 +31,7 @@ def make(parameters: pd.DataFrame, fit: pd.DataFrame) -> str:
     head = (
         f"# Calibrated from {settings['measurements']}. Name this file behind the overlay that names the measurements."
     )
-    return "\n".join([head, "model:", *lines, ""])
+    parts = (
+        "parts: {calibrated: true}   # the transit of parts draws these parameters from the samples of the calibration"
+    )
+    return "\n".join([head, "model:", *lines, parts, ""])

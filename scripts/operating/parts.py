@@ -7,6 +7,7 @@ parts.
 import math
 
 import numpy as np
+import pandas as pd
 
 from conveyor.solver.model import (
     ACCELERATION,
@@ -60,17 +61,33 @@ def factors(spread: dict, count: int) -> np.ndarray:
     return np.exp(np.sqrt(np.log1p(deviations**2)) * normal)
 
 
+def calibrated_factors(samples: pd.DataFrame, settings: dict) -> np.ndarray:
+    """Factors of the parameters in COLUMNS for each part, shape (n, 5), from samples of a calibration.
+
+    settings : `model`, whose values the factors multiply; `starts` (n) and `spread`, whose seed assigns the samples
+    """
+    own = np.ones((settings["starts"], len(COLUMNS)))
+    order = np.random.default_rng(settings["spread"]["seed"]).permutation(len(samples))
+    chosen = samples.iloc[np.resize(order, len(own))]
+    for column, name in enumerate(COLUMNS):
+        if name in samples:
+            own[:, column] = chosen[name] / settings["model"][name]
+    return own
+
+
 def population(amplitudes: np.ndarray, settings: dict, kind: str = VARIED) -> np.ndarray:
     """Packed parameters of n parts at each of m amplitudes (m/s²), shape (m n, 16).
 
-    settings : `model`; `starts` (n), `seed` and the ends of the box of initial conditions; `spread`, see `factors`
+    settings : `model`; `starts` (n), `seed` and the ends of the box of initial conditions; `spread`, see `factors`; if
+        parameters are uncertain, `calibrated`, see `calibrated_factors`
     kind : one of POPULATIONS
     """
     starts = starts_of_box(settings)
     _, conveyors = grid.product({"acceleration": list(amplitudes)}, settings["model"])
     rows = np.repeat(conveyors, len(starts), axis=0)
     if kind == VARIED:
-        own = np.tile(factors(settings["spread"], len(starts)), (len(amplitudes), 1))
+        each = factors(settings["spread"], len(starts)) * settings.get("calibrated", 1.0)
+        own = np.tile(each, (len(amplitudes), 1))
         rows[:, list(COLUMNS.values())] *= own
         rows[:, STATIC_FRICTION] *= own[:, list(COLUMNS).index("friction")]
     set_starts(rows, np.tile(starts, (len(amplitudes), 1)))

@@ -13,7 +13,7 @@ from scipy.stats.mstats import mjci
 
 from conveyor import ensemble
 from conveyor.solver.model import FREQUENCY
-from operating.parts import IDENTICAL, POPULATIONS, population
+from operating.parts import IDENTICAL, POPULATIONS, calibrated_factors, population
 from pipeline import fields, grid
 
 PROBABILITIES = (0.05, 0.25, 0.5, 0.75, 0.95)
@@ -124,7 +124,14 @@ def measure(amplitudes: np.ndarray, settings: dict, kinds: tuple[str, ...] = POP
     return pd.concat(tables, ignore_index=True).sort_values("acceleration", kind="stable", ignore_index=True)
 
 
-def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
-    """The table for the settings of the config."""
+def make(
+    settings: dict, samples: pd.DataFrame | None = None, *, threads: int = 1, progress: str | None = None
+) -> pd.DataFrame:
+    """The table for the settings of the config.
+
+    samples : of a calibration, from which the parameters of varied parts are drawn, too
+    """
+    if samples is not None:
+        settings = {**settings, "calibrated": calibrated_factors(samples, settings)}
     amplitudes = np.unique(grid.axis_values("acceleration", settings["acceleration"]))
     return measure(amplitudes, settings, threads=threads, progress=progress)

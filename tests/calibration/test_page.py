@@ -88,6 +88,7 @@ def test_the_overlay_has_the_best_parameters_and_keeps_the_ratio_of_static_frict
     model = yaml.safe_load(overlay.make(found["parameters"], found["fit"]))["model"]
     assert model == {"friction": 0.24, "damping": 0.7, "stiffness": 4e5, "static_friction": pytest.approx(0.288)}
     assert all(isinstance(value, float) for value in model.values())
+    assert yaml.safe_load(overlay.make(found["parameters"], found["fit"]))["parts"] == {"calibrated": True}
 
 
 @pytest.mark.parametrize("options", [{"explained": False}, {"reliable": False}])

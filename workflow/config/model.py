@@ -505,6 +505,11 @@ class Parts(TypedDict):
     stiffness: DEVIATION
     mass: DEVIATION
     acceleration: DEVIATION
+    calibrated: NotRequired[
+        Annotated[
+            bool, Field(description="draw friction, damping and stiffness from the samples of the calibration, too")
+        ]
+    ]
     seed: Seed
 
 

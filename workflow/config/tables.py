@@ -77,7 +77,7 @@ def calibration_settings(config: dict) -> dict:
         **{name: config["operating"][name] for name in ("height", "vz0", "psi0")},
         **own,
         "ranges": {name: own["ranges"][name] for name in own["parameters"]},
-        "static_ratio": float(f"{ratio:.6g}"),
+        "static_ratio": float(f"{ratio:.4g}"),
         "model": {name: value for name, value in model.items() if name not in stated},
     }
 

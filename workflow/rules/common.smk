@@ -152,6 +152,11 @@ def measurements(wildcards):
     return config["calibration"]["measurements"]
 
 
+def samples_of_parts():
+    """The samples from which the parameters of parts are drawn, if the config says so."""
+    return tables_of("calibration/samples") if config["parts"].get("calibrated") else {}
+
+
 def calibration_files():
     """What a config with measurements makes beside all figures."""
     return [result("calibration.md"), figure_file("calibration")] if HAS_MEASUREMENTS else []

@@ -20,6 +20,8 @@ rule operating:
 
 
 rule transit:
+    input:
+        **samples_of_parts(),
     output:
         **tables_of("operating/transit"),
     log:
