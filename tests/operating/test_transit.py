@@ -211,7 +211,7 @@ def test_a_failed_run_leaves_no_drift():
 def test_calibrated_parts_have_the_parameters_of_the_samples():
     samples = pd.DataFrame({"friction": [0.1, 0.3], "damping": [0.3, 0.6], "stiffness": [5e5, 1e6]})
     settings = {"model": {"friction": 0.2, "damping": 0.3, "stiffness": 5e5}, "starts": 4, "spread": {"seed": 1}}
-    factors = calibrated_factors(samples, settings)
+    factors = parts.calibrated_factors(samples, settings)
     assert sorted(factors[:, 0]) == pytest.approx([0.5, 0.5, 1.5, 1.5])
     for friction, damping, stiffness, *others in factors:
         assert (damping, stiffness) == ((1.0, 1.0) if friction < 1.0 else (2.0, 2.0))

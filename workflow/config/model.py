@@ -648,6 +648,10 @@ class CalibrationStudy(TypedDict):
     parts_of_study: whole("parts at each amplitude of a rich set", 1, 1000)
     poor: whole("velocities of a poor set", 3, 1000)
     duration: number("time over which a velocity is measured, and before", gt=0, le=1e4)
+    band: mapping(
+        "settings of the predicted band",
+        {name: Calibration.__annotations__[name] for name in ("amplitudes", "beyond", "predicted")},
+    )
     held_out: whole("further velocities to check the predicted band", 1, 10**5)
     wrong: mapping(
         "differences that the calibration is not told",
