@@ -128,7 +128,7 @@ def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.Dat
     if named:
         amplitudes.legend(loc="lower left", bbox_to_anchor=(-0.19, 1.0), ncols=2, columnspacing=0.6, handletextpad=0.2)
     else:
-        style.say(amplitudes, "no bifurcation")
+        style.say(amplitudes, "no fold and no period doubling")
 
     rows = derivatives[(derivatives.kind == "critical_height") & (derivatives.status == "ok")]
     rows = rows.assign(per_percent=1e4 * rows.derivative * rows.value)

@@ -1,0 +1,78 @@
+"""A Snakemake executor that runs the scripts of all jobs in Snakemake's own process, for tests.
+
+Python starts and imports everything once per build, instead of once per job. With QUICK_FIGURES in the environment,
+figures are drawn, but PDF files stay empty and PNG files are small, because fonts and pixels take most of the time.
+"""
+
+import importlib
+import os
+import runpy
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+from snakemake_interface_executor_plugins.executors.base import SubmittedJobInfo
+from snakemake_interface_executor_plugins.executors.real import RealExecutor
+from snakemake_interface_executor_plugins.settings import CommonSettings
+
+common_settings = CommonSettings(
+    non_local_exec=False,
+    implies_no_shared_fs=False,
+    job_deploy_sources=False,
+    pass_envvar_declarations_to_cmd=False,
+    auto_deploy_default_storage_provider=False,
+)
+GIVEN = ("input", "output", "params", "wildcards", "threads", "resources", "log")
+
+
+def save_quickly(figure, paths):
+    """Lay a figure out and write it in few pixels, and to an empty PDF file."""
+    style = importlib.import_module("figures.style")
+    with style.applied():
+        style.lay_out(figure)
+        for path in paths:
+            Path(path).write_bytes(b"")
+            if path.endswith(".png"):
+                figure.savefig(path, dpi=20)
+
+
+class Executor(RealExecutor):
+    def run_job(self, job):
+        info = SubmittedJobInfo(job=job)
+        self.report_job_submission(info)
+        try:
+            if job.rule.script:
+                script = (Path(str(job.rule.basedir)) / job.rule.script).resolve()
+                if str(script.parent) not in sys.path:
+                    sys.path.insert(0, str(script.parent))
+                for file in (*job.output, *job.log, job.benchmark):
+                    Path(file).parent.mkdir(parents=True, exist_ok=True)
+                Path(job.benchmark).write_text("s\n0.0\n")
+                if script.name == "draw.py" and "QUICK_FIGURES" in os.environ:
+                    importlib.import_module("figures.style").save = save_quickly
+                given = SimpleNamespace(rule=job.rule.name, **{name: getattr(job, name) for name in GIVEN})
+                runpy.run_path(str(script), {"snakemake": given}, "__main__")
+        except BaseException:
+            self.print_job_error(info)
+            self.report_job_error(info)
+            raise
+        self.report_job_success(info)
+
+    def handle_job_exception(self, job, exception):
+        raise exception
+
+    def get_exec_mode(self):
+        raise NotImplementedError
+
+    def cancel(self):
+        pass
+
+    def shutdown(self):
+        pass
+
+    def get_python_executable(self):
+        raise NotImplementedError
+
+    @property
+    def cores(self):
+        return self.workflow.resource_settings.cores

@@ -1,0 +1,120 @@
+"""The default target of conveyors of many kinds, on axes so coarse that all are built within a minute."""
+
+import re
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+
+import pytest
+import yaml
+from project import ROOT, Project
+
+HERE = ROOT / "tests/inprocess"  # an executor that needs no new Python for each job
+MOST = 2  # builds at a time
+
+FEW = {"acceleration": {"num": 6}}
+PHASE_AND_HEIGHT = {"psi0": {"num": 5}, "z0": {"num": 6}}
+PHASE_AND_VELOCITY = {"psi0": {"num": 5}, "vz0": {"num": 6}}
+PORTRAIT = {"axes": {"acceleration": {"num": 2}}, "begin": 20.0, "samples": 3000}
+COARSE = {
+    "prefix": "coarse",
+    "solver": {"settling": 1000},
+    "sweeps": {
+        "amplitudes": {"axes": FEW | {"z0": {"num": 2}}},
+        "heights": {"axes": {"acceleration": [29.0, 38.0, 47.0], "z0": {"num": 5}}},
+        "heights_chaos": {"axes": {"z0": {"num": 5}}},
+        "map_amplitude": {"axes": FEW | {"z0": {"num": 5}}},
+        "map_height": {"axes": PHASE_AND_HEIGHT},
+        "map_velocity": {"axes": PHASE_AND_VELOCITY},
+        "map_height_chaos": {"axes": PHASE_AND_HEIGHT},
+        "map_velocity_chaos": {"axes": PHASE_AND_VELOCITY},
+    },
+    "estimates": {"phase": {"axes": FEW}, "height": {"axes": FEW}},
+    "critical": {"edge": {"axes": FEW, "scan": {"num": 9}}},
+    "regressions": {"height": {"evaluations": 500, "valley": {"num": 9}}},
+    "signals": {"states": {"times": {"num": 401}}, "long_chaos": {"axes": {"z0": [0.0]}}},
+    "dimensions": {"portrait": PORTRAIT, "portrait_correlation": PORTRAIT | {"samples": 1000}},
+    "orbits": {"max_period": 1, "cycles": 300},
+    "attractors": FEW | {"transient": 50, "strobes": 8},
+    "lyapunov": {"cycles": 10, "blocks": 4},
+    "sensitivity": {"doublings": 1, "heights": 1, "curves": {"doublings": 1, "points": 10}},
+    "operating": FEW | {"resolution": 10.0, "starts": 16, "followed": 2, "cycles": 20},
+    "track": {"inclination": {"num": 2}, "phase_shift": {"num": 3}, "starts": 4, "cycles": 20},
+    # A step for the paper's conveyor, which does not divide most other periods.
+    "stability_estimates": {"exponent": {"steps": [1.0e-6]}},
+}
+
+# SI units. On most of these conveyors, something that the paper's conveyor has is missing.
+CONVEYORS = {
+    "climbing": {
+        **{"frequency": 60.0, "angle": 0.2634, "mass": 3.96e-3, "stiffness": 4.673e6, "damping": 2.03},
+        **{"friction": 0.3226, "inclination": 0.01777, "tension": "clip"},
+    },
+    # Damping takes all energy of an impact, and so no motion jumps.
+    "riding": {
+        **{"frequency": 100.0, "angle": 0.35, "mass": 5.0e-3, "stiffness": 3.0e5, "damping": 30.0},
+        **{"friction": 0.35, "static_friction": 0.45},
+    },
+    # Friction does not hold a part on this track.
+    "sliding": {
+        **{"frequency": 120.0, "angle": 1.05, "mass": 5.0e-4, "stiffness": 1.0e7, "damping": 0.5},
+        **{"friction": 0.2, "inclination": 0.27},
+    },
+    "elliptical": {
+        **{"frequency": 30.0, "angle": 0.09, "mass": 0.02, "stiffness": 2.0e4, "exponent": 1.0, "damping": 0.4},
+        **{"friction": 0.4, "phase_shift": 0.7},
+    },
+    "light": {
+        **{"frequency": 300.0, "angle": 0.14, "mass": 7.0e-5, "stiffness": 3.0e6, "damping": 0.15},
+        **{"friction": 0.12, "tension": "frictionless"},
+    },
+    "heavy": {
+        **{"frequency": 16.6667, "angle": 0.8, "mass": 0.22, "stiffness": 2.0e6, "damping": 60.0},
+        **{"friction": 0.6, "exponent": 1.5},
+    },
+}
+
+
+def build(folder, name: str):
+    """Build the default target of a conveyor: the run, and the captions by figure."""
+    overlays = []
+    for stem, content in (("coarse", COARSE), (name, {"prefix": name, "model": CONVEYORS[name]})):
+        overlays.append(str(folder / f"{stem}.yaml"))
+        (folder / f"{stem}.yaml").write_text(yaml.safe_dump(content, sort_keys=False))
+    (folder / name).mkdir()
+    project = Project(folder / name, environment={"PYTHONPATH": str(HERE), "QUICK_FIGURES": "1"})
+    options = ("--cores", "1", "--jobs", "1", "--executor", "inprocess", "--snakefile", str(ROOT / "Snakefile"))
+    run = project.called(*options, "--configfile", *overlays)
+    captions = (folder / name / f"results/{name}/captions").glob("*.rst")
+    return run, {file.stem: " ".join(file.read_text().split()) for file in captions}
+
+
+@pytest.fixture(scope="module")
+def builds(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("conveyors")
+    with ThreadPoolExecutor(MOST) as pool:
+        return folder, dict(zip(CONVEYORS, pool.map(partial(build, folder), CONVEYORS), strict=True))
+
+
+@pytest.mark.parametrize("name", CONVEYORS)
+def test_the_default_target_is_built(builds, name):
+    folder, runs = builds
+    run, captions = runs[name]
+    assert run.returncode == 0, run.stdout[-3000:]
+    drawn = {file.stem for file in (folder / name / f"figures/{name}").glob("*.pdf")}
+    assert drawn == captions.keys()
+    assert {"fig10", "fig12", "fig24", "bifurcation", "operating", "sensitivity", "track"} <= drawn
+    for caption in captions.values():
+        assert not re.search(r"\b(nan|None|inf)\b", caption), caption
+        assert "the paper's" not in caption
+
+
+def test_captions_say_what_a_conveyor_does_not_have(builds):
+    _, runs = builds
+    riding = runs["riding"][1]
+    assert "no initial height changes the state of motion at any of these amplitudes" in riding["fig10"]
+    assert "no critical height" in riding["fig09"]
+    assert riding["fig12"].endswith("All initial conditions lead to the first state.")
+    assert "None of these orbits folds or doubles its period." in riding["bifurcation"]
+    assert "There is no derivative, because no bifurcation and no critical height was found." in riding["sensitivity"]
+    assert riding["fig17"].endswith("States of motion: the first state.")
+    assert "0.833 s" in runs["climbing"][1]["fig03"]
