@@ -221,7 +221,7 @@ def throw(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> dict[str, Any]
 
 
 def track(*, track: pd.DataFrame) -> dict[str, Any]:
-    steepest = track[track.mean_velocity > 0.0].groupby("state").inclination.max()
+    steepest = track[(track.mean_velocity > 0.0) & (track.inclination > 0.0)].groupby("state").inclination.max()
     return {"steepest": np.degrees(steepest).to_dict()}
 
 

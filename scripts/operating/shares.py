@@ -13,7 +13,7 @@ from conveyor import ensemble
 from conveyor.analysis.attractors.labels import Labels, continued
 from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
-from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, GRAVITY, INCLINATION
+from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, GRAVITY, INCLINATION, STATIC_FRICTION
 from conveyor.solver.parallel import for_each_chunk
 from operating import regimes
 from operating.parts import parameters_of, starts_of_box
@@ -121,7 +121,9 @@ def velocities(
     # A mean over whole periods; the last quarter of a run is what a mean is taken over.
     step = np.maximum(period, 1)
     quarter = np.maximum(np.maximum(settings["cycles"], np.ceil((settled + FORGOTTEN) / 3.0)), step)
-    open_ = np.arange(n)
+    # Friction cannot hold a part on such a track, so that its velocity grows without end.
+    steep = np.abs(np.tan(parameters[:, INCLINATION])) > parameters[:, STATIC_FRICTION]
+    status[steep], open_ = regimes.SLIDES_AWAY, np.flatnonzero(~steep)
     # Every trajectory needs the second run, which contains the first; one integration gives both.
     for doublings in ([0, 1], *([doubling] for doubling in range(2, RUNS))):
         cycles = 4.0 * step[open_, None] * np.ceil(2.0 ** np.array(doublings) * (quarter / step)[open_, None])

@@ -38,6 +38,8 @@ COARSE = {
     "lyapunov": {"cycles": 10, "blocks": 4},
     "sensitivity": {"doublings": 1, "heights": 1, "curves": {"doublings": 1, "points": 10}},
     "operating": FEW | {"resolution": 10.0, "starts": 16, "followed": 2, "cycles": 20},
+    "transit": {"acceleration": {"num": 2}, "longest": 2.0, "parts": 8},
+    "drift": {"amplitudes": 1, "runs": 4, "cycles": 256, "lengths": [0.5, 1.0]},
     "track": {"inclination": {"num": 2}, "phase_shift": {"num": 3}, "starts": 4, "cycles": 20},
     # A step for the paper's conveyor, which does not divide most other periods.
     "stability_estimates": {"exponent": {"steps": [1.0e-6]}},
@@ -117,4 +119,7 @@ def test_captions_say_what_a_conveyor_does_not_have(builds):
     assert "None of these orbits folds or doubles its period." in riding["bifurcation"]
     assert "There is no derivative, because no bifurcation and no critical height was found." in riding["sensitivity"]
     assert riding["fig17"].endswith("States of motion: the first state.")
+    sliding = runs["sliding"][1]
+    assert "No motion has a mean velocity (slides away)." in sliding["operating"]
+    assert "Parts climb on none of these tracks." in sliding["track"]
     assert "0.833 s" in runs["climbing"][1]["fig03"]
