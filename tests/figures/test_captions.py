@@ -166,3 +166,25 @@ def test_tables_with_a_visible_variant_count_once():
     half = table.assign(variant="half the time", visible=False)
     text = caption("scene_budget", budget=pd.concat([table, half]))
     assert "visible in 1 of 2 tables, half the time in 0 of 2." in text
+
+
+def test_a_map_states_its_undecided_share_and_the_key_that_reduces_it():
+    table = pd.DataFrame({"state": ["first", "first", "undecided", "second"] * 5})
+    text = caption("fig12", map=table)
+    assert "The search ended before 25 % of the initial conditions had settled (undecided)." in text
+    assert text.endswith("A larger ``solver.mean_settling`` in the config follows them further.")
+    assert "undecided" not in caption("fig12", map=table[:2])
+    assert "All initial conditions lead to" not in text
+    assert caption("fig12", map=table[:2]).endswith("All initial conditions lead to the first state.")
+
+
+def test_fig_10_without_a_common_amplitude_or_without_a_critical_height():
+    columns = {"acceleration": [40.0], "z0": [1e-4], "is_critical": [True]}
+    converged, euler = (pd.DataFrame(columns | {"acceleration": [a]}) for a in (30.0, 40.0))
+    converged.attrs = {"scan": {"start": 0.0, "stop": 5e-4, "num": 9}, "resolution": 1.0e-9}
+    template = (ROOT / "workflow/report/fig10.rst").read_text(encoding="utf-8")
+    tables = {"converged": converged, "euler": euler, "fit": converged}
+    assert "at no common amplitude" in captions.caption(template, "fig10", tables, {})
+    tables = {"converged": converged[:0], "fit": converged[:0]}
+    text = captions.caption(template, "fig10", tables, {}, paper=False)
+    assert "Up to 0.5 mm, no initial height changes the state of motion at any of these amplitudes." in text

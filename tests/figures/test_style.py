@@ -1,5 +1,6 @@
 """Saving of figures."""
 
+import pandas as pd
 import pytest
 
 from figures import style
@@ -30,3 +31,14 @@ def test_positions_are_rounded(tmp_path):
     positions = [*(axes.get_position().bounds for axes in panels), *(part.bbox_relative.bounds for part in parts)]
     for position in positions:
         assert position == pytest.approx([round(number, 9) for number in position], abs=1e-15)
+
+
+def test_a_legend_of_four_states_fits_a_column():
+    with style.applied():
+        figure = style.figure(style.COLUMN, 70.0)
+        figure.subplots()
+        style.state_legend(figure, pd.DataFrame({"state": list(style.STATE_COLOURS)}))
+        style.lay_out(figure)
+        legend = figure.legends[0].get_window_extent()
+    assert len(figure.legends[0].get_texts()) == 4
+    assert figure.bbox.x0 <= legend.x0 < legend.x1 <= figure.bbox.x1
