@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.ticker import MaxNLocator, ScalarFormatter
 
 from calibration.search_space import LOGARITHMIC
 from figures import style
@@ -12,6 +12,7 @@ from figures import style
 MISFIT = "#D55E00"
 BAND = "#56B4E9"
 BINS = 18
+MUCH = 12.0  # ratio of values from which their axis is logarithmic
 
 
 def draw_velocities(axes: Axes, fit: pd.DataFrame, prediction: pd.DataFrame) -> None:
@@ -47,16 +48,14 @@ def label_of(row: pd.Series) -> str:
 
 
 def scale(axes: Axes, which: str, name: str, values: np.ndarray) -> None:
-    """The scale and the limits of an axis of a parameter."""
-    if name in LOGARITHMIC:
+    """The scale and the ticks of an axis of a parameter: logarithmic if the values differ by much."""
+    axis = getattr(axes, f"{which}axis")
+    if name in LOGARITHMIC and values.max() > MUCH * values.min():
         getattr(axes, f"set_{which}scale")("log")
-        axis = getattr(axes, f"{which}axis")
-        if values.max() < 12.0 * values.min():
-            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-            axis.set_major_formatter(
-                lambda value, _: f"{value:g}" if 1e-3 < value < 1e4 else f"{value:.0e}".replace("e+0", "e")
-            )
-        axis.set_minor_formatter(NullFormatter())
+    else:
+        axis.set_major_locator(MaxNLocator(3))
+        axis.set_major_formatter(ScalarFormatter(useMathText=True))
+        axes.ticklabel_format(axis=which, scilimits=(-3, 4))
 
 
 def draw_posterior(panels: np.ndarray, parameters: pd.DataFrame, samples: pd.DataFrame) -> None:
