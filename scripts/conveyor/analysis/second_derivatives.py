@@ -14,8 +14,9 @@ import math
 
 import numpy as np
 
-from ..solver import contact, polynomial
-from ..solver.contact import FIRST, FORCE_SIGN, SEPARATION
+from ..solver import contact, contact_law, polynomial
+from ..solver.contact import FORCE_SIGN, SEPARATION
+from ..solver.contact_law import FIRST, row_of
 from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from ..solver.model import TENSION_CLIP
 from ..solver.polynomial import ORDER, SIZE
@@ -37,7 +38,7 @@ LOG_EDGE = 1e-5
 @compiled
 def log_series(c, series, out):
     """Fill `out`, shape (SIZE,), with the Taylor coefficients of 2 log w of a contact step, 0 where w is left out."""
-    w = series[FIRST + contact.W]
+    w = row_of(series, FIRST + contact_law.W)
     out[:] = 0.0
     if w[0] > branch_edge(c):
         out[0] = math.log(w[0])
@@ -75,8 +76,8 @@ def expand(c, series, first, second, free, count):
     count : number of quantities that are wanted, from the first one on
     """
     series, first, second = no_refcount((series, first, second))
-    w, square = series[FIRST + contact.W], series[FIRST + contact.SQUARE]
-    spring, cosine_w = series[FIRST + contact.SPRING], series[FIRST + contact.COSINE_W]
+    w, square = row_of(series, FIRST + contact_law.W), row_of(series, FIRST + contact_law.SQUARE)
+    spring, cosine_w = row_of(series, FIRST + contact_law.SPRING), row_of(series, FIRST + contact_law.COSINE_W)
     damping = 0.0 if free else c.damping
     stiffness = 0.0 if free else c.stiffness
     # w^(2p-1) and w^(2p-3), the first and second derivatives of the spring times w.
@@ -86,10 +87,10 @@ def expand(c, series, first, second, free, count):
     elif c.exponent == 1.0:
         slope = w
     else:
-        contact.expand_power(c, series, FIRST, 2.0 * c.exponent - 1.0)
-        slope = series[contact.SCRATCH].copy()
-        contact.expand_power(c, series, FIRST, 2.0 * c.exponent - 3.0)
-        bend = series[contact.SCRATCH].copy()
+        contact_law.expand_power(c, series, FIRST, 2.0 * c.exponent - 1.0)
+        slope = row_of(series, contact_law.SCRATCH).copy()
+        contact_law.expand_power(c, series, FIRST, 2.0 * c.exponent - 3.0)
+        bend = row_of(series, contact_law.SCRATCH).copy()
     # log w² itself, and times the spring's slope: with 1/p times that slope the derivative of p w^(2p-1) by p, over p.
     log, slope_by_exponent = np.zeros(SIZE), np.zeros(SIZE)
     by_exponent = count > EXPONENT
@@ -203,16 +204,16 @@ def press(c, series, first, second, motion, piece, count):
         longest = min(longest, PART_OF_RADIUS * motion.w / abs(0.5 * motion.v))
     else:
         longest = min(longest, piece.length)
-        while polynomial.value(series, FIRST + contact.W, longest) > 4.0 * edge:
+        while polynomial.value(series, FIRST + contact_law.W, longest) > 4.0 * edge:
             longest *= 0.5
     if longest < piece.length:
-        duration = polynomial.value(series, FIRST + contact.T, longest)
+        duration = polynomial.value(series, FIRST + contact_law.T, longest)
         piece = cut_step(series, FIRST, longest, duration, contact.NOTHING)
     for j in range(count):
         for of in range(2):
-            first[j, of, 0] = polynomial.value(first[j], of, piece.length)
+            first[j, of, 0] = polynomial.value(first[j, of], 0, piece.length)
             for i in range(2):
-                second[i, j, of, 0] = polynomial.value(second[i, j], of, piece.length)
+                second[i, j, of, 0] = polynomial.value(second[i, j, of], 0, piece.length)
     return piece
 
 

@@ -16,8 +16,8 @@ import math
 
 import numpy as np
 
-from ..solver import contact, polynomial
-from ..solver.contact import FIRST
+from ..solver import contact, contact_law, polynomial
+from ..solver.contact_law import FIRST, row_of
 from ..solver.jit import compiled, compiled_inline, copy, no_refcount
 from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
 from ..solver.polynomial import ORDER, SIZE
@@ -72,15 +72,15 @@ def expand_tangents(c, series, expansions, free):
     expansions : float64, shape (2, 3, SIZE), for each perturbation the rows ETA, ZETA, and RATE, ζ - (d_c/m) η
     free : whether the contact force is left out
     """
-    w, stiff = series[FIRST + contact.W], series[contact.SCRATCH]
+    w, stiff = row_of(series, FIRST + contact_law.W), row_of(series, contact_law.SCRATCH)
     damping = 0.0 if free else c.damping
     stiffness = 0.0 if free else c.exponent * c.stiffness
     if c.exponent == 1.5:
-        stiff = series[FIRST + contact.SQUARE]
+        stiff = row_of(series, FIRST + contact_law.SQUARE)
     elif c.exponent == 1.0:
         stiff = w
     else:
-        contact.expand_power(c, series, FIRST, 2.0 * c.exponent - 1.0)
+        contact_law.expand_power(c, series, FIRST, 2.0 * c.exponent - 1.0)
     w_0, stiff_0 = w[0], stiff[0]
     eta_1, eta_2 = expansions[0, ETA, 0], expansions[1, ETA, 0]
     zeta_1, zeta_2 = expansions[0, ZETA, 0], expansions[1, ZETA, 0]
@@ -138,11 +138,11 @@ def advance_tangent(c, series, tangent, expansions, motion, piece):
     expand_tangents(c, series, expansions, motion.pulled and c.tension == TENSION_CLIP)
     longest = tangent_length(c, expansions)
     if longest < piece.length:
-        duration = polynomial.value(series, FIRST + contact.T, longest)
+        duration = polynomial.value(series, FIRST + contact_law.T, longest)
         piece = cut_step(series, FIRST, longest, duration, contact.NOTHING)
     for i in range(tangent.shape[0]):
-        tangent[i, 0] = polynomial.value(expansions[i], ETA, piece.length)
-        tangent[i, 1] = polynomial.value(expansions[i], ZETA, piece.length)
+        tangent[i, 0] = polynomial.value(expansions[i, ETA], 0, piece.length)
+        tangent[i, 1] = polynomial.value(expansions[i, ZETA], 0, piece.length)
     if piece.end == contact.FORCE_SIGN:
         switch_damping(c, tangent, not motion.pulled)
     return piece

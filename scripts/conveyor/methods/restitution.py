@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..arguments import LARGEST_COORDINATE, check_array
-from ..solver import contact
+from ..solver import contact, contact_law
 from ..solver.jit import compiled
 
 CONTACT_TOLERANCE = 1e-14  # of the contact steps that follow an impact
@@ -31,8 +31,8 @@ def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
     series = contact.workspace()
     w, v, time, pulled = 0.0, speed, 0.0, False
     for _ in range(MAX_CONTACT_STEPS):
-        length = contact.begin_step(alone, series, contact.FIRST, w, v, 0.0, 1.0, pulled)
-        _, w, v, lapse, end = contact.end_step(alone, series, contact.FIRST, w, v, pulled, length)
+        length = contact.begin_step(alone, series, contact_law.FIRST, w, v, 0.0, 1.0, pulled)
+        _, w, v, lapse, end = contact.end_step(alone, series, contact_law.FIRST, w, v, pulled, length)
         if end == contact.SEPARATION:
             return -v / speed
         if end == contact.FORCE_SIGN:

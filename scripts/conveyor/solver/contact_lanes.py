@@ -1,126 +1,127 @@
-"""Contact steps of several parts side by side, one in each lane of the processor's vector registers.
+"""Contact steps of several trajectories side by side, which halves the time of maps.
 
-This module repeats contact.py for whole registers, because that halves the time of maps (`convergence_lanes` and
-`vertical_lanes` use it). It takes the steps in which no event can be, which are most of them, with the operations of
-contact.py in the same order, so that each lane gives the same bits. In all other cases the lane keeps its motion and
-its series, and contact.py finds the event. Lanes follow Hertz contacts (exponent 1.5) whose force may pull.
+`step` calls the functions of contact in plain loops over the lanes, which LLVM turns into vector code. A step in which
+an event may be ends in contact, for its lane alone. Lanes follow Hertz contacts (exponent 1.5) whose force may pull.
 """
 
-from types import FunctionType
-
 import numpy as np
-from llvmlite import ir
-from numba.core import types
-from numba.extending import intrinsic
 
-from . import contact, model, unrolled
+from . import contact, contact_law, model
+from .contact_law import expand_hertz
 from .jit import compiled, compiled_inline, compiled_into_callers
-from .polynomial import ORDER, SIZE
+from .polynomial import ORDER, SIZE, value_in_lane
 from .trajectory import MAX_PIECES
-from .vectors import INTEGER, Memory, Vector, call, fma, power, where
 
 # Eight lanes take about a tenth less time than four, also in code for registers of four numbers.
 LANES = 8
 
-# The rows of the memory, which has a column for each lane. The first nine are the arguments of `expand`, in its order:
-# √penetration (√m), speed of approach (m/s), sine and cosine of the phase, and contact.Constants.
+# The rows of the memory, which has a column for each lane. The first nine are the arguments of `expand_hertz`, in its
+# order: √penetration (√m), speed of approach (m/s), sine and cosine of the phase, and contact.Constants.
 W, V, SINE, COSINE, GRAVITY, A_Z, OMEGA, STIFFNESS, DAMPING = range(9)
 # Further constants; the time and the end of the motion (s); the number of steps taken, up to MAX_PIECES; the length of
 # the step in the variable s up to which the series holds, and the time (s) that a step of this length takes.
 TOLERANCE, SCALE_V, TIME, END, STEPS, LENGTH, LAPSE = range(9, 16)
-# Row SERIES + SIZE k + n holds coefficient n of row k of a workspace's step.
-SERIES = 16
-KEPT = (contact.W, contact.T, contact.V, contact.SINE, contact.COSINE)
+ALLOWED, LAST, BEFORE = range(16, 19)  # contact.last_terms
+# Row SERIES + row + n holds coefficient n of a row of a workspace's step.
+SERIES = 19
+KEPT = (contact_law.W, contact_law.T, contact_law.V, contact_law.SINE, contact_law.COSINE)
 ROWS = SERIES + SIZE * len(KEPT)
 
-LINE = 64  # bytes, of a register and of a cache line: a vector that crosses a line costs two accesses
 HUGE = 1e300
 NONE = -1  # the row of a lane without a trajectory
 
-# The straight-line code of the expansion, for Vectors.
-expand = FunctionType(unrolled.expand_hertz.__code__, {"fma": fma})
+
+@compiled_inline
+def place(row, lane):
+    """The place in the memory, as a flat array, of the number in a row and a lane; all unsigned."""
+    return np.uint64(LANES * row) + lane
 
 
-def maximum(a: Vector, b: Vector) -> Vector:
-    """In each lane the larger number, or `a` if one is NaN."""
-    return where(b > a, b, a)
+@compiled_inline
+def value(memory, row, lane, s):
+    """The value at `s` of a row of the series in a lane."""
+    return value_in_lane(memory, place(SERIES + row, lane), np.uint64(LANES), s)
 
 
-def step_length(at: Memory, series: dict[tuple[int, int], Vector]) -> Vector:
-    """The length of the step in the variable s, see contact.step_length."""
-    w, v = at[W], at[V]
-    square = w * w
-    energy = v * v + 2.0 * at[STIFFNESS] * (square * square * w) / 2.5
-    scale = maximum(call("sqrt", energy), at[SCALE_V])
-    allowed = at[TOLERANCE] * scale
-    turn = maximum(abs(series[contact.SINE, ORDER]), abs(series[contact.COSINE, ORDER]))
-    last = maximum(abs(series[contact.V, ORDER]), scale * turn)
-    before = abs(series[contact.V, ORDER - 1])
-    length = power(allowed / before, 1.0 / (ORDER - 1), before > 0.0, HUGE)
-    shorter = power(allowed / last, 1.0 / ORDER, last * length > before, HUGE)
-    return where(shorter < length, shorter, length)
+@compiled
+def step(memory, lanes):
+    """Expand the motions of the first `lanes` lanes, and take the steps in which no event can be.
 
-
-def value(series: dict[tuple[int, int], Vector], row: int, s: Vector) -> Vector:
-    """Σ c_n sⁿ as in polynomial.value, without the coefficients beyond ORDER, which are zero."""
-    s2 = s * s
-    s4 = s2 * s2
-    sums = []
-    for n in range(4):
-        last, *others = (series[row, k] for k in reversed(range(n, ORDER + 1, 4)))
-        total = s.like(last)
-        for coefficient in others:
-            total = fma(total, s4, coefficient)
-        sums.append(total)
-    return (sums[0] + s * sums[1]) + s2 * (sums[2] + s * sums[3])
-
-
-@intrinsic(prefer_literal=True)
-def step(typing_context, lanes, memory):
-    """Expand the motion of each lane into its SERIES and LENGTH, and take the step if no event can be in it.
-
-    lanes, memory : the number of lanes, and float64, shape (ROWS, lanes)
     Returns an integer with a bit for each lane: 1 if the lane keeps its motion, so that contact.end_step must end it.
+
+    The number of lanes is an argument because LLVM would unroll a short loop of constant length before it copies the
+    functions into it. Unsigned places in one array spare it checks whether numbers overlap.
     """
-
-    def code(context, builder, signature, arguments):
-        at = Memory(context, builder, signature, arguments)
-        start = [at[row] for row in range(TOLERANCE)]
-        w, v, sine, cosine, *_ = start
-        series = {}
-        expand(*start, series, 0)
-        for row in KEPT:
-            for n in range(ORDER + 1):
-                at[SERIES + SIZE * row + n] = w.like(series[row, n])
-        length = step_length(at, series)
-        at[LENGTH] = length
-        new_w, new_v, lapse, new_sine, new_cosine = (
-            value(series, row, length) for row in (contact.W, contact.V, contact.T, contact.SINE, contact.COSINE)
+    stride = np.uint64(LANES)
+    for k in range(lanes):
+        lane = np.uint64(k)
+        at = place(SERIES, lane)
+        w, v, stiffness = memory[place(W, lane)], memory[place(V, lane)], memory[place(STIFFNESS, lane)]
+        expand_hertz(
+            w,
+            v,
+            memory[place(SINE, lane)],
+            memory[place(COSINE, lane)],
+            memory[place(GRAVITY, lane)],
+            memory[place(A_Z, lane)],
+            memory[place(OMEGA, lane)],
+            stiffness,
+            memory[place(DAMPING, lane)],
+            memory,
+            at,
+            stride,
+            False,
         )
-        at[LAPSE] = lapse
+        tolerance, scale_v = memory[place(TOLERANCE, lane)], memory[place(SCALE_V, lane)]
+        allowed, last, before = contact.last_terms(memory, at, stride, tolerance, scale_v, stiffness, 1.5, w, v)
+        memory[place(ALLOWED, lane)] = allowed
+        memory[place(LAST, lane)] = last
+        memory[place(BEFORE, lane)] = before
+    # A loop of its own, because powers take one number at a time.
+    for k in range(lanes):
+        lane = np.uint64(k)
+        allowed, last, before = (
+            memory[place(ALLOWED, lane)],
+            memory[place(LAST, lane)],
+            memory[place(BEFORE, lane)],
+        )
+        memory[place(LENGTH, lane)] = contact.length_within(allowed, last, before)
+    stopped = np.uint64(0)
+    for k in range(lanes):
+        lane = np.uint64(k)
+        length = memory[place(LENGTH, lane)]
+        w, v = memory[place(W, lane)], memory[place(V, lane)]
+        sine, cosine = memory[place(SINE, lane)], memory[place(COSINE, lane)]
+        time, steps = memory[place(TIME, lane)], memory[place(STEPS, lane)]
+        new_w, new_v = value(memory, contact_law.W, lane, length), value(memory, contact_law.V, lane, length)
+        lapse = value(memory, contact_law.T, lane, length)
+        memory[place(LAPSE, lane)] = lapse
         # Comparisons with NaN are false.
-        proper = (new_w < HUGE) & (abs(new_v) < HUGE) & (lapse <= at[END] - at[TIME]) & (at[STEPS] < MAX_PIECES)
+        proper = (new_w < HUGE) & (abs(new_v) < HUGE)
+        proper &= (lapse <= memory[place(END, lane)] - time) & (steps < MAX_PIECES)
         taken = proper & (new_w > 0.0) & ~((v < 0.0) & (new_v > 0.0))
-        at[W], at[V] = where(taken, new_w, w), where(taken, new_v, v)
-        at[SINE], at[COSINE] = where(taken, new_sine, sine), where(taken, new_cosine, cosine)
-        at[TIME] = where(taken, at[TIME] + lapse, at[TIME])
-        at[STEPS] = where(taken, at[STEPS] + 1.0, at[STEPS])
-        return builder.zext(builder.bitcast((~taken).value, ir.IntType(w.lanes)), INTEGER)
+        new_sine = value(memory, contact_law.SINE, lane, length)
+        new_cosine = value(memory, contact_law.COSINE, lane, length)
+        memory[place(W, lane)] = new_w if taken else w
+        memory[place(V, lane)] = new_v if taken else v
+        memory[place(SINE, lane)] = new_sine if taken else sine
+        memory[place(COSINE, lane)] = new_cosine if taken else cosine
+        memory[place(TIME, lane)] = time + lapse if taken else time
+        memory[place(STEPS, lane)] = steps + 1.0 if taken else steps
+        stopped |= np.uint64(not taken) << lane
+    return np.int64(stopped)
 
-    return types.int64(lanes, memory), code
 
-
-def new_memory(lanes: int) -> np.ndarray:
-    """The memory of a number of lanes, aligned to LINE, all zero."""
-    numbers = np.zeros(ROWS * lanes + LINE // 8)
-    first = (-numbers.ctypes.data % LINE) // 8
-    return numbers[first : first + ROWS * lanes].reshape(ROWS, lanes)
+def new_memory() -> tuple[np.ndarray, np.ndarray]:
+    """The memory of all lanes, all zero: as a flat array for `step`, and the same memory with the shape (ROWS, LANES)."""
+    memory = np.zeros(ROWS * LANES)
+    return memory, memory.reshape(ROWS, LANES)
 
 
 @compiled
 def can_follow(c):
     """Whether lanes can take the contact steps of a conveyor with these contact.Constants."""
-    return contact.is_hertz(c) and c.tension == model.TENSION_ALLOW
+    return contact_law.is_hertz(c) and c.tension == model.TENSION_ALLOW
 
 
 @compiled_into_callers
@@ -166,6 +167,6 @@ def set_motion(motion, lane, memory):
 @compiled_inline
 def copy_series(memory, lane, series, at):
     """Copy the series of a lane's step into a contact.workspace, from row `at` on."""
-    for row in range(len(KEPT)):
+    for row in KEPT:
         for n in range(ORDER + 1):
-            series[at + row, n] = memory[SERIES + SIZE * row + n, lane]
+            series[np.uint64(at + row + n)] = memory[SERIES + row + n, lane]

@@ -15,9 +15,9 @@ motion u and the margin of stick are polynomials.
 import math
 
 from . import polynomial
-from .contact import COSINE, SCRATCH, SINE, T, V, expand_force, impulse_of_tension
+from .contact_law import COSINE, SCRATCH, SINE, T, V, expand_force, impulse_of_tension
 from .jit import compiled_inline, compiled_into_callers
-from .polynomial import ORDER
+from .polynomial import ORDER, place
 
 
 @compiled_inline
@@ -43,7 +43,7 @@ def keeps_slipping(c, segment, piece, slip, plate, gain, fastest):
     segment, piece : the horizontal.Segment, and the vertical.Piece in which it lies
     slip, plate : slip velocity at its beginning and the change of ẋ_s until the end, times the slip's sign, m/s
     gain : ∫ F_c/m dt, m/s
-    fastest : m/s, as in contact.impulse_of_tension
+    fastest : m/s, as in contact_law.impulse_of_tension
 
     Friction lowers the slip by μ times the impulse of the force, and raises it where the force pulls. The velocity of
     the plate is monotonic while cos(θ + ε) keeps its sign, and gravity changes that of the part monotonically.
@@ -72,12 +72,13 @@ def slip_end(c, step, segment, slip, leave):
     plate, turned = speed * c.cos_shift - mu * c.a_z / c.omega, speed * c.sin_shift
     fall = mu * c.gravity - segment.sigma * c.downhill
     for n in range(ORDER + 1):
-        series[SCRATCH, n] = plate * series[at + SINE, n] + mu * series[at + V, n] - fall * series[at + T, n]
+        slipped = plate * series[place(at + SINE, n)] + mu * series[place(at + V, n)]
+        series[place(SCRATCH, n)] = slipped - fall * series[place(at + T, n)]
     if turned != 0.0:  # a loop of its own, because the paper's conveyor does not need it
         for n in range(ORDER + 1):
-            series[SCRATCH, n] += turned * series[at + COSINE, n]
-    series[SCRATCH, 0] = 0.0
-    series[SCRATCH, 0] = segment.sigma * slip - polynomial.value(series, SCRATCH, segment.s)
+            series[place(SCRATCH, n)] += turned * series[place(at + COSINE, n)]
+    series[SCRATCH] = 0.0
+    series[SCRATCH] = segment.sigma * slip - polynomial.value(series, SCRATCH, segment.s)
     return polynomial.first_root(series, SCRATCH, segment.s, step.piece.length, leave)
 
 
@@ -98,7 +99,7 @@ def stick_end(c, step, segment):
             root = polynomial.first_root(series, SCRATCH, segment.s, length, polynomial.LEAVE)
             if root < end:
                 for n in range(ORDER):
-                    series[SCRATCH, n] *= -1.0
+                    series[place(SCRATCH, n)] *= -1.0
                 end = root
                 lasting = polynomial.first_root(series, SCRATCH, root, length, polynomial.LEAVE) == math.inf
     return end, lasting

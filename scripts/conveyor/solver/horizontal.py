@@ -8,7 +8,7 @@ from collections import namedtuple
 
 import numpy as np
 
-from . import contact, friction
+from . import contact_law, friction
 from .jit import compiled_inline, compiled_into_callers
 from .model import TENSION_CLIP
 from .polynomial import LEAVE, value
@@ -95,7 +95,7 @@ def segment_end(c, step, segment, released, fastest, leave):
     The s is infinite if the segment itself lasts beyond the step.
 
     released : whether the slip of this segment is known to last beyond the step
-    fastest : m/s, as in contact.impulse_of_tension
+    fastest : m/s, as in contact_law.impulse_of_tension
     leave : as in polynomial.first_root, for a slip that begins at rest
     """
     if released:
@@ -123,9 +123,9 @@ def sample_contact(c, step, segment, tau, sample):
     s = invert_time(series, at, step.piece.length, tau)
     phase = motion.theta + c.omega * tau
     sine, cosine = math.sin(phase), math.cos(phase)
-    w, v = value(series, at + contact.W, s), value(series, at + contact.V, s)
+    w, v = value(series, at + contact_law.W, s), value(series, at + contact_law.V, s)
     z, vz = -speed_z / c.omega * cosine - w * w, speed_z * sine - v
-    force = 0.0 if motion.pulled and c.tension == TENSION_CLIP else contact.force(c, w, v)
+    force = 0.0 if motion.pulled and c.tension == TENSION_CLIP else contact_law.force(c, w, v)
     rub = friction.pull(c, sine, cosine) if segment.sigma == 0.0 else segment.sigma * segment.mu * force
     sample[X], sample[VX] = state_in_segment(c, segment, tau - segment.t, sine, cosine, z, vz)
     sample[Z], sample[VZ] = z, vz
@@ -171,8 +171,8 @@ def follow_horizontal(c, step, horizontal, feeding, record, sampled, events):
         changed = change < piece.length
         if changed:
             s = change
-            t = value(series, at + contact.T, s)
-            w, v = value(series, at + contact.W, s), value(series, at + contact.V, s)
+            t = value(series, at + contact_law.T, s)
+            w, v = value(series, at + contact_law.W, s), value(series, at + contact_law.V, s)
             phase = motion.theta + c.omega * t
             sine, cosine = math.sin(phase), math.cos(phase)
         while sampled < record.times.size and begin + t >= record.times[sampled]:
@@ -189,7 +189,7 @@ def follow_horizontal(c, step, horizontal, feeding, record, sampled, events):
             kind = SLIP
         else:
             mu = 0.0 if motion.pulled else c.static_friction
-            sigma = friction.direction_at_rest(c, friction.pull(c, sine, cosine), contact.force(c, w, v), mu)
+            sigma = friction.direction_at_rest(c, friction.pull(c, sine, cosine), contact_law.force(c, w, v), mu)
             kind = STICK if sigma == 0.0 else SLIP_REVERSAL
         if sigma == segment.sigma:
             # No reversal, because the slip is zero to rounding here. The next search starts further on.

@@ -4,7 +4,7 @@ Force and rate have closed forms at the ends of a contact step. If the rate chan
 between, the largest force is at a root of the rate along the step's series.
 """
 
-from . import contact
+from .contact_law import COSINE, V, W, force, force_rate
 from .jit import compiled, compiled_inline, compiled_into_callers
 from .polynomial import value
 from .vertical import invert_time
@@ -17,21 +17,10 @@ MAX_HALVINGS = 30
 
 
 @compiled_inline
-def force_rate(c, w, v, cosine):
-    """Rate of the contact force per mass (m/s³) at w, v and a phase with the given cosine."""
-    stiffening = c.stiffness * c.exponent * v
-    if c.exponent == 1.5:
-        stiffening *= w
-    elif c.exponent != 1.0:
-        stiffening *= max(w, 0.0) ** (2.0 * c.exponent - 2.0)
-    return stiffening + c.damping * (c.gravity + c.a_z * cosine - contact.force(c, w, v))
-
-
-@compiled_inline
 def force_and_rate(c, series, at, s):
     """F_c/m (m/s²) and its rate (m/s³) at the place `s` of a contact step."""
-    w, v = value(series, at + contact.W, s), value(series, at + contact.V, s)
-    return contact.force(c, w, v), force_rate(c, w, v, value(series, at + contact.COSINE, s))
+    w, v = value(series, at + W, s), value(series, at + V, s)
+    return force(c, w, v), force_rate(c, w, v, value(series, at + COSINE, s))
 
 
 @compiled_into_callers
@@ -66,8 +55,8 @@ def largest_force(c, series, at, low, high):
     side, last = 0, low
     for _ in range(MAX_ITERATIONS):
         s = low + (high - low) * rate_low / (rate_low - rate_high)
-        force, rate = force_and_rate(c, series, at, s)
-        largest = max(largest, force)
+        force_here, rate = force_and_rate(c, series, at, s)
+        largest = max(largest, force_here)
         if abs(s - last) <= CLOSE * s:
             break
         last = s
@@ -85,7 +74,7 @@ def largest_force(c, series, at, low, high):
 @compiled_into_callers
 def largest_force_at_ends(c, motion, piece):
     """The larger F_c/m (m/s²) at the ends of a whole contact step."""
-    return max(contact.force(c, motion.w, motion.v), contact.force(c, piece.w, piece.v))
+    return max(force(c, motion.w, motion.v), force(c, piece.w, piece.v))
 
 
 @compiled

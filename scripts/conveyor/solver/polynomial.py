@@ -1,10 +1,17 @@
-"""Taylor polynomials in the rows of an array: values, and the first root, proved to be the first one."""
+"""Taylor polynomials in an array: values, and the first root, proved to be the first one.
+
+An array holds the coefficients of several polynomials, one polynomial after the other. `row` is the place of the first
+coefficient of a polynomial, and row + n that of the coefficient of order n. In an array for several trajectories side by
+side (lanes), the n-th coefficients of all of them follow each other.
+"""
 
 import math
 
+import numpy as np
+
 from .jit import compiled, compiled_inline, fma
 
-# Order of every series, and the length of its row, whose tail is zero.
+# Order of every series, and the number of coefficients in its row, the last ones of which are zero.
 ORDER = 16
 SIZE = 20
 
@@ -21,22 +28,34 @@ MAX_PIECES = 1000
 
 # Answers of a search.
 FOUND, ABSENT, OPEN = range(3)
-# The functions of this module overwrite the first row of every array.
+# The functions that search for roots overwrite the first row of every array.
 SHIFTED = 0
 
 
 @compiled_inline
-def value(series, row, s):
-    """Σ c_n sⁿ, in four interleaved sums that the processor computes at the same time."""
+def place(row, n):
+    """The place of coefficient n. It is unsigned: numba would check at each access whether a signed one is negative."""
+    return np.uint64(row + n)
+
+
+@compiled_inline
+def value_in_lane(series, row, lanes, s):
+    """Σ c_n sⁿ, in four interleaved sums that the processor computes at the same time; row and lanes are unsigned."""
     s2 = s * s
     s4 = s2 * s2
     sum0 = sum1 = sum2 = sum3 = 0.0
     for n in range(SIZE - 4, -1, -4):
-        sum0 = fma(sum0, s4, series[row, n])
-        sum1 = fma(sum1, s4, series[row, n + 1])
-        sum2 = fma(sum2, s4, series[row, n + 2])
-        sum3 = fma(sum3, s4, series[row, n + 3])
+        sum0 = fma(sum0, s4, series[row + np.uint64(n) * lanes])
+        sum1 = fma(sum1, s4, series[row + np.uint64(n + 1) * lanes])
+        sum2 = fma(sum2, s4, series[row + np.uint64(n + 2) * lanes])
+        sum3 = fma(sum3, s4, series[row + np.uint64(n + 3) * lanes])
     return (sum0 + s * sum1) + s2 * (sum2 + s * sum3)
+
+
+@compiled_inline
+def value(series, row, s):
+    """Σ c_n sⁿ of a polynomial."""
+    return value_in_lane(series, np.uint64(row), np.uint64(1), s)
 
 
 @compiled_inline
@@ -45,7 +64,8 @@ def derivatives(series, row, s):
     value0 = value1 = slope0 = slope1 = bend0 = bend1 = 0.0
     s2 = s * s
     for n in range(ORDER, -1, -2):
-        c0, c1, c2, c3 = series[row, n], series[row, n + 1], series[row, n + 2], series[row, n + 3]
+        c0, c1 = series[place(row, n)], series[place(row, n + 1)]
+        c2, c3 = series[place(row, n + 2)], series[place(row, n + 3)]
         value0 = fma(value0, s2, c0)
         value1 = fma(value1, s2, c1)
         slope0 = fma(slope0, s2, (n + 1) * c1)
@@ -81,10 +101,10 @@ def root_of_crossing(series, row, low, high):
 def shift(series, row, s):
     """Write the expansion of a row about `s` into the row SHIFTED."""
     for n in range(SIZE):
-        series[SHIFTED, n] = series[row, n]
+        series[place(SHIFTED, n)] = series[place(row, n)]
     for k in range(ORDER):
         for n in range(ORDER - 1, k - 1, -1):
-            series[SHIFTED, n] += s * series[SHIFTED, n + 1]
+            series[place(SHIFTED, n)] += s * series[place(SHIFTED, n + 1)]
 
 
 @compiled
@@ -104,11 +124,11 @@ def search(series, row, start, end, shortest, noise):
     second = third = 0.0
     power = 1.0
     for n in range(2, ORDER + 1):
-        second += n * (n - 1) * abs(series[row, n]) * power
-        third += (n + 1) * n * (n - 1) * abs(series[row, n + 1]) * power
+        second += n * (n - 1) * abs(series[place(row, n)]) * power
+        third += (n + 1) * n * (n - 1) * abs(series[place(row, n + 1)]) * power
         power *= end
     s = start
-    f, gradient, bend = series[row, 0], series[row, 1], 2.0 * series[row, 2]
+    f, gradient, bend = series[row], series[row + 1], 2.0 * series[row + 2]
     if s != 0.0:
         f, gradient, bend = derivatives(series, row, s)
     for _ in range(MAX_STEPS):
@@ -153,11 +173,11 @@ def first_root(series, row, start, end, leave):
     reach = 0.0
     power = end
     for n in range(1, ORDER + 1):
-        reach += abs(series[row, n]) * power
+        reach += abs(series[place(row, n)]) * power
         power *= end
-    if series[row, 0] > reach or reach == 0.0:
+    if series[row] > reach or reach == 0.0:
         return math.inf
-    noise = NOISE * (abs(series[row, 0]) + reach)
+    noise = NOISE * (abs(series[row]) + reach)
     answer, s, shortest = search(series, row, start, end, leave * end, noise)
     piece = end - s
     for _ in range(MAX_PIECES):

@@ -10,9 +10,8 @@ from collections import namedtuple
 import numpy as np
 
 from . import peaks
-from .contact import FIRST, ROWS
+from .contact_law import FIRST, STEP
 from .jit import compiled_into_callers
-from .polynomial import SIZE
 from .vertical import CONTACT, Piece
 
 # Steps kept; further steps of a cycle share the last place.
@@ -33,7 +32,7 @@ KeptSteps = namedtuple("KeptSteps", "series steps")
 
 def new_arrays() -> tuple[np.ndarray, np.ndarray]:
     """New arrays for the two fields of KeptSteps."""
-    return np.empty((FIRST + PLACES * ROWS, SIZE)), np.empty((PLACES, COLUMNS))
+    return np.empty(FIRST + PLACES * STEP), np.empty((PLACES, COLUMNS))
 
 
 @compiled_into_callers
@@ -46,21 +45,19 @@ def forget(kept):
 @compiled_into_callers
 def clear(kept):
     """Forget all steps, and zero the rows that all steps share."""
-    for row in range(FIRST):
-        for n in range(SIZE):
-            kept.series[row, n] = 0.0
+    for k in range(FIRST):
+        kept.series[k] = 0.0
     forget(kept)
 
 
 @compiled_into_callers
 def first_row(kept, place):
     """The first row of a step's series. A place is zeroed when it is first used, because most places never are."""
-    row = FIRST + place * ROWS
+    first = FIRST + place * STEP
     if kept.steps[place, BEGIN_T] == np.inf:
-        for k in range(row, row + ROWS):
-            for n in range(SIZE):
-                kept.series[k, n] = 0.0
-    return row
+        for k in range(first, first + STEP):
+            kept.series[k] = 0.0
+    return first
 
 
 @compiled_into_callers

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from . import contact, peaks, repeated_steps
+from . import contact, contact_law, peaks, repeated_steps
 from .contact import FORCE_SIGN, SEPARATION
 from .flight import highest_gap
 from .horizontal import (
@@ -168,7 +168,7 @@ def next_cycle(c, motion, piece):
 @compiled_into_callers
 def touch_down(c, motion, horizontal):
     """The Horizontal motion of a part that has just come into contact."""
-    force = contact.force(c, motion.w, motion.v)
+    force = contact_law.force(c, motion.w, motion.v)
     sigma = slip_direction(c, motion.sine, motion.cosine, horizontal.vx, force, c.static_friction)
     return Horizontal(horizontal.x, horizontal.vx, sigma)
 

@@ -8,7 +8,7 @@ an excitation cycle, at which the excitation has the phase `origin`.
 import math
 from collections import namedtuple
 
-from . import contact, polynomial
+from . import contact, contact_law, polynomial
 from .contact import FORCE_SIGN, NOTHING, SEPARATION
 from .flight import Flight, gap, next_impact
 from .jit import compiled, compiled_inline, compiled_into_callers
@@ -52,7 +52,7 @@ def motion_at(c, q, rate, t, theta):
     z, vz = q - c.a_z / (c.omega * c.omega) * cosine, rate + c.a_z / c.omega * sine
     touching = in_contact(c, q, rate, theta)
     w, v = math.sqrt(max(-q, 0.0)), -rate
-    pulled = touching and c.tension != TENSION_ALLOW and contact.force(c, w, v) < 0.0
+    pulled = touching and c.tension != TENSION_ALLOW and contact_law.force(c, w, v) < 0.0
     return Motion(t, theta, sine, cosine, touching, w, v, pulled, z, vz, q, rate)
 
 
@@ -72,13 +72,13 @@ def press_on(c, cosine):
 def invert_time(series, at, length, tau):
     """The s in [0, length] that a contact step reaches at the time `tau` (s) after its beginning."""
     low, high = 0.0, length
-    total = polynomial.value(series, at + contact.T, length)
+    total = polynomial.value(series, at + contact_law.T, length)
     if tau >= total:  # also for a step too short to take time
         return length
     s = length * max(tau / total, 0.0)
     for _ in range(100):
-        error = polynomial.value(series, at + contact.T, s) - tau
-        w = polynomial.value(series, at + contact.W, s)
+        error = polynomial.value(series, at + contact_law.T, s) - tau
+        w = polynomial.value(series, at + contact_law.W, s)
         if error > 0.0:
             high = s
         else:
@@ -99,10 +99,10 @@ def cut_step(series, at, length, duration, end):
         duration,
         length,
         end,
-        polynomial.value(series, at + contact.W, length),
-        polynomial.value(series, at + contact.V, length),
-        polynomial.value(series, at + contact.SINE, length),
-        polynomial.value(series, at + contact.COSINE, length),
+        polynomial.value(series, at + contact_law.W, length),
+        polynomial.value(series, at + contact_law.V, length),
+        polynomial.value(series, at + contact_law.SINE, length),
+        polynomial.value(series, at + contact_law.COSINE, length),
     )
 
 
@@ -144,8 +144,8 @@ def press(c, series, at, motion, length, limit):
     length, w, v, lapse, end = contact.end_step(c, series, at, motion.w, motion.v, motion.pulled, length)
     if lapse > limit:
         return cut_step(series, at, invert_time(series, at, length, limit), limit, LIMIT)
-    sine = polynomial.value(series, at + contact.SINE, length)
-    cosine = polynomial.value(series, at + contact.COSINE, length)
+    sine = polynomial.value(series, at + contact_law.SINE, length)
+    cosine = polynomial.value(series, at + contact_law.COSINE, length)
     return Piece(CONTACT, lapse, length, end, w, v, sine, cosine)
 
 

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from . import contact, peaks, repeated_steps, trajectory
-from .contact import FIRST, NOTHING
+from .contact import NOTHING
 from .contact_lanes import (
     COSINE,
     END,
@@ -31,6 +31,7 @@ from .contact_lanes import (
     set_motion,
     step,
 )
+from .contact_law import FIRST
 from .flight import highest_gap
 from .horizontal import SAMPLES, Horizontal, Step, first_segment, sample_contact
 from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
@@ -225,7 +226,7 @@ def follow(parameters, tolerance, times, samples, results, left, work):
         follows, a contact.workspace, and the kept steps of each lane
     """
     parameters, times, samples, results, left = no_refcount((parameters, times, samples, results, left))
-    steps, runs, rows, series, kept_steps = no_refcount(work)
+    memory, steps, runs, rows, series, kept_steps = no_refcount(work)
     constants = [contact.constants(parameters[0], tolerance)] * LANES
     motions = [motion_at(constants[0], 0.0, 0.0, 0.0, 0.0)] * LANES
     waiting = running = 0
@@ -275,7 +276,7 @@ def follow(parameters, tolerance, times, samples, results, left, work):
                     break
         if running == 0:
             return
-        stopped = step(LANES, steps) & running
+        stopped = step(memory, LANES) & running
 
 
 def integrate(parameters: np.ndarray, times: np.ndarray, *, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
@@ -289,7 +290,7 @@ def integrate(parameters: np.ndarray, times: np.ndarray, *, tolerance: float) ->
     left = np.full(n, n < LANES)
     if n >= LANES:
         steps = np.empty((LANES, repeated_steps.PLACES, repeated_steps.COLUMNS))
-        work = (new_memory(LANES), np.empty((LANES, COUNTS)), np.full(LANES, NONE), contact.workspace(), steps)
+        work = (*new_memory(), np.empty((LANES, COUNTS)), np.full(LANES, NONE), contact.workspace(), steps)
         follow(parameters, tolerance, times, samples, results, left, work)
     if left.any():
         found, results[left] = trajectory.integrate(parameters[left], times[left], tolerance=tolerance, feeding=False)

@@ -7,6 +7,7 @@ import pytest
 
 from conveyor import Conveyor, Start
 from conveyor.solver import contact, friction, vertical
+from conveyor.solver.contact_law import FIRST, SPRING
 from conveyor.solver.horizontal import Segment, Step
 from conveyor.solver.model import pack
 
@@ -34,8 +35,8 @@ def test_a_step_errs_by_its_tolerance(exponent, tolerance):
         series, w, v, sine, cosine = contact.workspace(), 0.0, speed, 0.0, 1.0
         steps, event = 0, contact.NOTHING
         while event != contact.SEPARATION:
-            length = contact.begin_step(c, series, contact.FIRST, w, v, sine, cosine, False)
-            _, w, v, lapse, event = contact.end_step(c, series, contact.FIRST, w, v, False, length)
+            length = contact.begin_step(c, series, FIRST, w, v, sine, cosine, False)
+            _, w, v, lapse, event = contact.end_step(c, series, FIRST, w, v, False, length)
             phase = math.atan2(sine, cosine) + c.omega * lapse
             sine, cosine = math.sin(phase), math.cos(phase)
             steps += 1
@@ -57,8 +58,8 @@ def test_a_part_that_the_plate_leaves_behind_separates_once(tolerance):
             w, v0 = math.sqrt(depth), -share * speed
             series, v, event = contact.workspace(), v0, contact.NOTHING
             for _ in range(20):
-                length = contact.begin_step(c, series, contact.FIRST, w, v, 0.0, -1.0, False)
-                _, w, v, _, event = contact.end_step(c, series, contact.FIRST, w, v, False, length)
+                length = contact.begin_step(c, series, FIRST, w, v, 0.0, -1.0, False)
+                _, w, v, _, event = contact.end_step(c, series, FIRST, w, v, False, length)
                 if event != contact.NOTHING:
                     break
             assert (event, w) == (contact.SEPARATION, 0.0)
@@ -92,8 +93,8 @@ def test_slip_that_follows_stick_lasts_while_the_force_is_too_small(roots, lasti
     series, margin = contact.workspace(), np.ones(1)
     for root in roots:
         margin = np.convolve(margin, [1.0, -1.0 / root])
-    series[contact.FIRST + contact.SPRING, : len(margin)] = margin
-    step = Step(series, contact.FIRST, vertical.motion_at(c, -1.0, 0.0, 0.0, 0.0), piece(1.0, 1.0), 0.0)
+    series[FIRST + SPRING : FIRST + SPRING + len(margin)] = margin
+    step = Step(series, FIRST, vertical.motion_at(c, -1.0, 0.0, 0.0, 0.0), piece(1.0, 1.0), 0.0)
     end, lasts = friction.stick_end(c, step, segment(0.0, 1.0))
     assert end == pytest.approx(0.3, abs=1e-5)
     assert lasts == lasting

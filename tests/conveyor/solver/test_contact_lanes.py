@@ -1,33 +1,22 @@
 """Contact steps in lanes: bit for bit equal to single steps, and no missed event."""
 
-import functools
-
 import numba
 import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start
 from conveyor.solver import contact, contact_lanes, model, polynomial
-from conveyor.solver.contact_lanes import COSINE, END, LENGTH, ROWS, SERIES, SINE, STEPS, TIME, V, W
+from conveyor.solver.contact_lanes import COSINE, END, LENGTH, SERIES, SINE, STEPS, TIME, V, W
+from conveyor.solver.contact_law import FIRST
 from conveyor.solver.trajectory import MAX_PIECES
 
 TOLERANCES = (1e-6, 1e-8, 1e-12)
 
 
-@functools.cache
-def in_lanes(lanes):
-    # Not cached: a kernel of a test would be taken for current when the library has changed.
-    @numba.njit
-    def take(memory):
-        return contact_lanes.step(lanes, memory)
-
-    return take
-
-
 @numba.njit(error_model="numpy")
 def take_one(c, series, w, v, sine, cosine):
-    length = contact.begin_step(c, series, contact.FIRST, w, v, sine, cosine, False)
-    return contact.end_step(c, series, contact.FIRST, w, v, False, length)
+    length = contact.begin_step(c, series, FIRST, w, v, sine, cosine, False)
+    return contact.end_step(c, series, FIRST, w, v, False, length)
 
 
 @numba.njit(error_model="numpy")
@@ -68,8 +57,7 @@ def test_steps_have_the_bits_of_single_ones(lanes):
     series = contact.workspace()
     taken = 0
     for first in range(0, 400, lanes):
-        memory = contact_lanes.new_memory(lanes)
-        assert memory.shape == (ROWS, lanes)
+        flat, memory = contact_lanes.new_memory()
         rows = range(first, first + lanes)
         for lane, k in enumerate(rows):
             fill(memory, lane, constants[k])
@@ -77,11 +65,13 @@ def test_steps_have_the_bits_of_single_ones(lanes):
             memory[[W, V, SINE, COSINE], lane] = start
             memory[[TIME, END], lane] = 0.001, 1.0
         before = memory.copy()
-        stays = in_lanes(lanes)(memory)
+        stays = contact_lanes.step(flat, lanes)
+        assert (memory[:, lanes:] == 0.0).all()
         for lane, k in enumerate(rows):
             length, new_w, new_v, lapse, event = take_one(constants[k], series, *before[[W, V, SINE, COSINE], lane])
-            coefficients = memory[SERIES:, lane].reshape(-1, polynomial.SIZE)
-            np.testing.assert_array_equal(coefficients, series[contact.FIRST :][list(contact_lanes.KEPT)])
+            # The rows that lanes keep are the first ones.
+            kept = len(contact_lanes.KEPT) * polynomial.SIZE
+            np.testing.assert_array_equal(memory[SERIES:, lane], series[FIRST : FIRST + kept])
             if stays >> lane & 1:
                 rows_of_motion = [W, V, SINE, COSINE, TIME, STEPS]
                 assert (memory[rows_of_motion, lane] == before[rows_of_motion, lane]).all()
@@ -96,14 +86,14 @@ def test_steps_have_the_bits_of_single_ones(lanes):
 def test_a_step_stays_where_no_time_or_no_step_is_left_or_what_is_not_a_number():
     constants, *_ = random_contacts(1, seed=0)
     c = constants[0]
-    memory = contact_lanes.new_memory(4)
+    flat, memory = contact_lanes.new_memory()
     for lane in range(4):
         fill(memory, lane, c)
         memory[[W, V, SINE, COSINE, TIME, END], lane] = c.scale_w, 0.0, 0.0, 1.0, 0.0, 1.0
     memory[END, 1] = 0.0
     memory[STEPS, 2] = MAX_PIECES
     memory[V, 3] = np.nan
-    assert in_lanes(4)(memory) == 0b1110
+    assert contact_lanes.step(flat, 4) == 0b1110
 
 
 def test_what_can_be_followed_in_lanes():

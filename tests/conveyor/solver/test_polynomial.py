@@ -8,13 +8,16 @@ import pytest
 from conveyor.solver import polynomial
 
 
+ROW = polynomial.SIZE  # behind the row that searches overwrite
+
+
 def series_of(roots):
     """Rows as in the solver: the coefficients of Π (1 - s/r), positive at 0, in the row after the free row."""
     coefficients = np.ones(1)
     for root in roots:
         coefficients = np.convolve(coefficients, [1.0, -1.0 / root])
-    series = np.zeros((2, polynomial.SIZE))
-    series[1, : len(coefficients)] = coefficients.real
+    series = np.zeros(2 * polynomial.SIZE)
+    series[ROW : ROW + len(coefficients)] = coefficients.real
     return series
 
 
@@ -23,7 +26,7 @@ def test_no_pair_of_roots_is_missed(distance):
     """Between two roots a polynomial is below zero, and above it at both ends of the search."""
     for first in np.linspace(0.05, 0.65, 25):
         for others in ((), (1.2,), (-0.5, -0.7), (3.0, -2.0)):
-            found = polynomial.first_root(series_of([first, first + distance, *others]), 1, 0.0, 1.0, polynomial.LEAVE)
+            found = polynomial.first_root(series_of([first, first + distance, *others]), ROW, 0.0, 1.0, polynomial.LEAVE)
             # If the first step ends on the root, it counts as a start on it, which two smallest steps leave.
             assert found == pytest.approx(first, abs=3.0 * polynomial.LEAVE)
 
@@ -35,7 +38,7 @@ def test_first_root_is_the_least_of_all():
         roots = generator.uniform(0.0, 1.5, 6) * generator.choice([-1.0, 1.0], 6)
         pair = generator.uniform(-1.0, 1.0) + 1j * generator.uniform(0.1, 1.0)
         ahead = roots[(roots > 0.0) & (roots <= 1.0)]
-        found = polynomial.first_root(series_of([*roots, pair, np.conj(pair)]), 1, 0.0, 1.0, polynomial.LEAVE)
+        found = polynomial.first_root(series_of([*roots, pair, np.conj(pair)]), ROW, 0.0, 1.0, polynomial.LEAVE)
         if len(ahead):
             assert found == pytest.approx(ahead.min(), rel=1e-6)
             inside += 1
@@ -51,6 +54,6 @@ def test_a_root_next_to_zero_is_found_relative_to_itself(exponent):
     for _ in range(50):
         root, length = 10.0 ** generator.uniform(exponent, exponent + 1), generator.uniform(0.01, 1.0)
         series = series_of([root])
-        series[1] *= root  # as √penetration: small, with a speed of usual size
-        series[1, 3] = -30.0
-        assert polynomial.root_of_crossing(series, 1, 0.0, length) == pytest.approx(root, rel=1e-9, abs=0.0)
+        series[ROW:] *= root  # as √penetration: small, with a speed of usual size
+        series[ROW + 3] = -30.0
+        assert polynomial.root_of_crossing(series, ROW, 0.0, length) == pytest.approx(root, rel=1e-9, abs=0.0)

@@ -11,7 +11,7 @@ from collections import namedtuple
 import numpy as np
 
 from ...solver import contact
-from ...solver.contact import FIRST
+from ...solver.contact_law import FIRST
 from ...solver.contact_lanes import (
     COSINE,
     END,
@@ -149,7 +149,7 @@ def follow(parameters, tolerance, search, found, side_by_side, work):
         a contact.workspace, and convergence.new_searches
     """
     parameters, search, found = no_refcount((parameters, search, found))
-    steps, cycle, trajectories, series, histories, counters = no_refcount(work)
+    memory, steps, cycle, trajectories, series, histories, counters = no_refcount(work)
     constants = [contact.constants(parameters[0], tolerance)] * LANES
     waiting = running = 0
     stopped = (1 << LANES) - 1  # a bit for each lane
@@ -187,7 +187,7 @@ def follow(parameters, tolerance, search, found, side_by_side, work):
             return
         stopped = 0
         while stopped == 0:
-            stopped = step(LANES, steps) & running
+            stopped = step(memory, LANES) & running
 
 
 def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows, strobes=None):
@@ -205,6 +205,6 @@ def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows
     if len(parameters) > 0:
         strobes = np.empty((len(parameters), 0, 2)) if strobes is None else strobes
         trajectories, side_by_side = np.full(LANES, NONE), len(parameters) >= SIDE_BY_SIDE
-        work = (new_memory(LANES), np.zeros((3, LANES)), trajectories, contact.workspace(), *new_searches(LANES))
+        work = (*new_memory(), np.zeros((3, LANES)), trajectories, contact.workspace(), *new_searches(LANES))
         follow(parameters, tolerance, Search(max_cycles, attractors, rows, strobes), found, side_by_side, work)
     return found

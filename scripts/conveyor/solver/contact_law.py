@@ -1,0 +1,230 @@
+"""The contact law F_c = k_c δ^p + d_c δ̇, in every form in which the solver needs it.
+
+A change of the law begins here: `spring_and_damper` is the law itself, which fixed-step methods and peers call, too.
+`next_speed` is its part in the Taylor recurrences of the motion in the plate. The other functions are its series along
+a contact step, its rate, its energy and a bound on its tension.
+
+With the penetration δ = -q = w² and the time dt = w ds (a Sundman transformation) the equations of motion of a Hertz
+contact become polynomial,
+
+    w' = v/2,   t' = w,   v' = w (g + a_z cos θ - (d_c/m) v) - (k_c/m) w^(2p+1),   θ' = ω w,
+
+where v = δ̇ is the speed of approach and ' = d/ds. Because v w is the derivative of w², the equation for v + (d_c/m) w²
+needs no product of v and w. For p = 1 and 3/2 no singularity is left on the real axis. For any other exponent w^(2p+1)
+is smooth only where w > 0. The spring is therefore switched off below the √penetration `edge_w`; above it the series
+follows from the recurrence of a power.
+"""
+
+import numpy as np
+
+from .jit import compiled, compiled_inline, compiled_into_callers, fma
+from .polynomial import ORDER, SHIFTED, SIZE, place
+from .unrolled import product, square
+
+# A workspace is an array of rows of Taylor coefficients (see polynomial). The first row belongs to the search for
+# roots, and SCRATCH is free. Each contact step has STEP coefficients from its first row on, in the rows at + W, at + T
+# and so forth: w, t, v, sine and cosine of the phase, w², w^(2p+1), and the cosine times w.
+SCRATCH = SHIFTED + SIZE
+FIRST = SCRATCH + SIZE
+W, T, V, SINE, COSINE, SQUARE, SPRING, COSINE_W = range(0, 8 * SIZE, SIZE)
+STEP = 8 * SIZE
+# The letters of these rows in the generated code.
+LETTERS = {W: "w", T: "t", V: "v", SINE: "s", COSINE: "c", SQUARE: "q", SPRING: "p", COSINE_W: "x"}
+
+
+@compiled_inline
+def spring_and_damper(elastic, damping, speed):
+    """F_c of a closed contact from k_c δ^p, d_c and δ̇ (Eq. 7), or F_c/m from these values per mass."""
+    return elastic + damping * speed
+
+
+@compiled_inline
+def force(c, w, v):
+    """Contact force per mass, m/s², at w = √penetration and the speed of approach v (Eq. 9)."""
+    if c.exponent == 1.5:
+        return spring_and_damper(c.stiffness * w * w * w, c.damping, v)
+    return spring_and_damper(c.stiffness * max(w, 0.0) ** (2.0 * c.exponent), c.damping, v)
+
+
+@compiled_inline
+def force_rate(c, w, v, cosine):
+    """Rate of the contact force per mass (m/s³) at w, v and a phase with the given cosine."""
+    stiffening = c.stiffness * c.exponent * v
+    if c.exponent == 1.5:
+        stiffening *= w
+    elif c.exponent != 1.0:
+        stiffening *= max(w, 0.0) ** (2.0 * c.exponent - 2.0)
+    return stiffening + c.damping * (c.gravity + c.a_z * cosine - force(c, w, v))
+
+
+@compiled_into_callers
+def impulse_of_tension(c, fastest, lapse):
+    """Bound on the impulse per mass (m/s) of a force that pulls during a time `lapse` (s).
+
+    fastest : m/s, a bound on the speed of separation without what gravity and the plate add during the time
+    """
+    return c.damping * (fastest + 2.0 * (c.gravity + c.a_z) * lapse) * lapse
+
+
+@compiled_inline
+def twice_elastic_energy(stiffness, exponent, w):
+    """Twice the energy per mass (m²/s²) of the spring at w = √penetration."""
+    square = w * w
+    power = square * square * w if exponent == 1.5 else w ** (2.0 * exponent + 2.0)
+    return 2.0 * stiffness * power / (exponent + 1.0)
+
+
+@compiled_inline
+def next_speed(inverse, w, cosine_w, spring, square, gravity, a_z, stiffness, damping):
+    """Coefficient n + 1 of v from coefficients n of w, w cos θ and w^(2p+1), and n + 1 of w²; inverse = 1/(n + 1)."""
+    rate = fma(-stiffness, spring, fma(a_z, cosine_w, gravity * w))
+    return fma(-damping, square, rate * inverse)
+
+
+@compiled_inline
+def is_hertz(c):
+    """Whether `expand_hertz` holds for this contact."""
+    return c.exponent == 1.5
+
+
+def hertz_source() -> str:
+    """Source of `expand_hertz`, which fills the rows of a step for p = 3/2.
+
+    Its arguments are w, v, sine and cosine at s = 0; gravity, a_z, omega, stiffness and damping per mass; the array, the
+    place of its first coefficient, and the number of lanes, both unsigned; and whether the last three rows are wanted.
+    """
+    lines = ["def expand_hertz(w0, v0, s0, c0, gravity, a_z, omega, stiffness, damping, series, at, lanes, all_rows):"]
+    lines += ["t0 = 0.0", "q0 = w0 * w0"]
+    for n in range(ORDER):
+        inverse = 1.0 / (n + 1)
+        lines += [
+            f"w{n + 1} = v{n} * {0.5 * inverse!r}",
+            f"t{n + 1} = w{n} * {inverse!r}",
+            f"q{n + 1} = {square('w', n + 1)}",
+            f"x{n} = {product('c', 'w', n)}",
+            f"sine_w = {product('s', 'w', n)}",
+            f"p{n} = {square('q', n)}",
+            f"v{n + 1} = next_speed({inverse!r}, w{n}, x{n}, p{n}, q{n + 1}, gravity, a_z, stiffness, damping)",
+            f"turn = omega * {inverse!r}",
+            f"c{n + 1} = -turn * sine_w",
+            f"s{n + 1} = turn * x{n}",
+        ]
+    for row, letter in LETTERS.items():
+        if row == SQUARE:
+            lines += ["if not all_rows:", "    return"]
+        terms = ORDER if row in (SPRING, COSINE_W) else ORDER + 1
+        lines += [f"series[at + np.uint64({row + n}) * lanes] = {letter}{n}" for n in range(terms)]
+    return "\n    ".join(lines) + "\n"
+
+
+# Named after this file, so that numba can cache the machine code.
+exec(compile(hertz_source(), __file__, "exec"))
+expand_hertz = compiled_inline(expand_hertz)  # noqa: F821
+
+
+@compiled
+def expand_one_hertz(w0, v0, sine0, cosine0, gravity, a_z, omega, stiffness, damping, series, at):
+    """`expand_hertz` for one trajectory."""
+    first, lanes = np.uint64(at), np.uint64(1)
+    expand_hertz(w0, v0, sine0, cosine0, gravity, a_z, omega, stiffness, damping, series, first, lanes, True)
+
+
+@compiled_into_callers
+def power_term(series, w, power, exponent, n):
+    """Coefficient n ≥ 1 of w^exponent (row `power`) from the lower coefficients, for w_0 > 0."""
+    total = 0.0
+    for k in range(1, n + 1):
+        total += (k * exponent - (n - k)) * series[place(w, k)] * series[place(power, n - k)]
+    return total / (n * series[w])
+
+
+@compiled
+def expand_other(w0, v0, sine0, cosine0, gravity, a_z, omega, stiffness, damping, exponent, edge_w, series, at):
+    """Fill the rows of a step for any contact exponent. Below `edge_w` (√m), the spring is switched off, see above."""
+    w, t, v, sine, cosine = at + W, at + T, at + V, at + SINE, at + COSINE
+    squared, spring = at + SQUARE, at + SPRING
+    hooke = exponent == 1.0
+    of_w = 2.0 * exponent + 1.0
+    series[w] = w0
+    series[t] = 0.0
+    series[v] = v0
+    series[sine] = sine0
+    series[cosine] = cosine0
+    series[squared] = w0 * w0
+    general = not hooke and w0 > edge_w
+    for n in range(SIZE):
+        series[spring + n] = 0.0
+    if general:
+        series[spring] = w0**of_w
+    for n in range(ORDER):
+        inverse = 1.0 / (n + 1)
+        series[w + n + 1] = 0.5 * series[v + n] * inverse
+        series[t + n + 1] = series[w + n] * inverse
+        cosine_w = sine_w = cube = 0.0
+        doubled = series[w + n + 1] * w0
+        for k in range(n + 1):
+            later = series[place(w, n - k)]
+            cosine_w += series[place(cosine, k)] * later
+            sine_w += series[place(sine, k)] * later
+            cube += series[place(squared, k)] * later
+            doubled += series[place(w, k)] * series[place(w, n + 1 - k)]
+        if hooke:
+            series[spring + n] = cube
+        series[at + COSINE_W + n] = cosine_w
+        series[squared + n + 1] = doubled
+        series[cosine + n + 1] = -omega * sine_w * inverse
+        series[sine + n + 1] = omega * cosine_w * inverse
+        series[v + n + 1] = next_speed(
+            inverse, series[w + n], cosine_w, series[spring + n], doubled, gravity, a_z, stiffness, damping
+        )
+        if general:
+            series[spring + n + 1] = power_term(series, w, spring, of_w, n + 1)
+
+
+@compiled_into_callers
+def expand(c, series, at, w0, v0, sine0, cosine0, free):
+    """Fill the rows of a step from their values at s = 0; `free` leaves the contact force out."""
+    stiffness = 0.0 if free else c.stiffness
+    damping = 0.0 if free else c.damping
+    if is_hertz(c):
+        expand_one_hertz(w0, v0, sine0, cosine0, c.gravity, c.a_z, c.omega, stiffness, damping, series, at)
+    else:
+        expand_other(
+            w0, v0, sine0, cosine0, c.gravity, c.a_z, c.omega, stiffness, damping, c.exponent, c.edge_w, series, at
+        )
+
+
+@compiled_inline
+def row_of(series, row):
+    """The coefficients of a row of a workspace."""
+    return series[row : row + SIZE]
+
+
+@compiled
+def expand_power(c, series, at, exponent):
+    """Fill the row SCRATCH with the series of w^exponent along a step; it is 0 where the spring is switched off."""
+    for n in range(SIZE):
+        series[SCRATCH + n] = 0.0
+    if series[at + W] > c.edge_w:
+        series[SCRATCH] = series[at + W] ** exponent
+        for n in range(1, ORDER):
+            series[SCRATCH + n] = power_term(series, at + W, SCRATCH, exponent, n)
+
+
+@compiled_inline
+def expand_force(c, series, at, scale, plate, slack):
+    """Fill the row SCRATCH with the series of w (scale F_c/m + plate cos(θ + ε) + slack).
+
+    The series has the sign of the expression in brackets. The product of sin θ and w follows from
+    (cos θ)' = -ω w sin θ.
+    """
+    plate, turned = plate * c.cos_shift, plate * c.sin_shift / c.omega
+    for n in range(ORDER):
+        damper = c.damping * (n + 1) * series[place(at + SQUARE, n + 1)]
+        force = c.stiffness * series[place(at + SPRING, n)] + damper
+        total = scale * force + plate * series[place(at + COSINE_W, n)]
+        series[place(SCRATCH, n)] = total + slack * series[place(at + W, n)]
+    if turned != 0.0:
+        for n in range(ORDER):
+            series[place(SCRATCH, n)] += turned * (n + 1) * series[place(at + COSINE, n + 1)]
+    series[SCRATCH + ORDER] = 0.0
