@@ -7,7 +7,7 @@ import numpy as np
 
 from ..solver import model
 from ..solver.jit import compiled, copy
-from .force_law import contact_acceleration, friction_acceleration
+from .force_law import contact_acceleration, friction_acceleration, least_push, least_rub, power_of_depth
 from .leg import BACKWARD, FLIGHT, FORWARD, SIGN, STICK
 
 
@@ -37,13 +37,14 @@ def normal_force(parameters, t, state):
     z, vz, _, _ = plate_motion(parameters, t)
     gap = state[2] - z
     mass = parameters[model.MASS]
+    closed = min(gap, 0.0)
     push = contact_acceleration(
-        min(gap, 0.0),
-        state[3] - vz,
+        closed,
+        vz - state[3],
+        power_of_depth(-closed, parameters[model.EXPONENT]),
         parameters[model.STIFFNESS] / mass,
         parameters[model.DAMPING] / mass,
-        parameters[model.EXPONENT],
-        parameters[model.TENSION],
+        least_push(parameters[model.TENSION]),
     )
     return gap, push
 
@@ -64,7 +65,7 @@ def rates(t, state, parameters, mode):
             slip = 1.0
         elif mode == BACKWARD:
             slip = -1.0
-        rub = friction_acceleration(push, slip, parameters[model.FRICTION], parameters[model.TENSION])
+        rub = friction_acceleration(push, slip, parameters[model.FRICTION], least_rub(parameters[model.TENSION]))
         forward = rub - downhill
     return np.array([state[1], forward, state[3], push - normal])
 

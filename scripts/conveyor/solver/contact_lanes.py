@@ -27,6 +27,7 @@ SERIES = 19
 KEPT = (contact_law.W, contact_law.T, contact_law.V, contact_law.SINE, contact_law.COSINE)
 ROWS = SERIES + SIZE * len(KEPT)
 
+LINE = 64  # bytes, of a register and of a cache line
 HUGE = 1e300
 NONE = -1  # the row of a lane without a trajectory
 
@@ -112,10 +113,15 @@ def step(memory, lanes):
     return np.int64(stopped)
 
 
-def new_memory() -> tuple[np.ndarray, np.ndarray]:
-    """The memory of all lanes, all zero: as a flat array for `step`, and the same memory with the shape (ROWS, LANES)."""
-    memory = np.zeros(ROWS * LANES)
-    return memory, memory.reshape(ROWS, LANES)
+def new_memory(rows: int) -> tuple[np.ndarray, np.ndarray]:
+    """A memory, all zero, as a flat array for loops over the lanes, and the same memory with the shape (rows, LANES).
+
+    It begins at a cache line, because a vector that crosses a line costs two accesses.
+    """
+    numbers = np.zeros(rows * LANES + LINE // 8)
+    first = (-numbers.ctypes.data % LINE) // 8
+    memory = numbers[first : first + rows * LANES]
+    return memory, memory.reshape(rows, LANES)
 
 
 @compiled

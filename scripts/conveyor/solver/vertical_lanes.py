@@ -19,6 +19,7 @@ from .contact_lanes import (
     LAPSE,
     LENGTH,
     NONE,
+    ROWS,
     SINE,
     STEPS,
     V,
@@ -290,7 +291,7 @@ def integrate(parameters: np.ndarray, times: np.ndarray, *, tolerance: float) ->
     left = np.full(n, n < LANES)
     if n >= LANES:
         steps = np.empty((LANES, repeated_steps.PLACES, repeated_steps.COLUMNS))
-        work = (*new_memory(), np.empty((LANES, COUNTS)), np.full(LANES, NONE), contact.workspace(), steps)
+        work = (*new_memory(ROWS), np.empty((LANES, COUNTS)), np.full(LANES, NONE), contact.workspace(), steps)
         follow(parameters, tolerance, times, samples, results, left, work)
     if left.any():
         found, results[left] = trajectory.integrate(parameters[left], times[left], tolerance=tolerance, feeding=False)

@@ -9,7 +9,7 @@ from scipy.special import gamma
 
 from conveyor import Conveyor, Start, ensemble, simulate
 from conveyor.methods import fixed_step
-from conveyor.methods.euler_lanes import IMPACT_SPEED, PEAK_FORCE
+from conveyor.methods.fixed_step import IMPACT_SPEED, PEAK_FORCE
 from conveyor.solver.horizontal import SAMPLES
 from conveyor.solver.model import PSI0, STIFFNESS, VZ0, pack
 
@@ -257,11 +257,9 @@ def test_many_are_followed_as_one_is(method):
 @pytest.mark.parametrize("code", [-1, len(fixed_step.METHODS)])
 def test_an_unknown_method_raises_an_error(code):
     parameters = np.array([pack(Conveyor(), Start())])
-    indices, samples, events, results = np.empty(0, int), np.empty((1, 0, 6)), np.empty((1, 0, 2)), np.empty((1, 10))
+    indices, samples, events, results = np.empty(0, int), np.empty((1, 0, 6)), np.empty((1, 0, 2)), np.empty((1, 12))
     with pytest.raises(ValueError, match="method"):
-        fixed_step.integrate_all(parameters, 1e-5, 10, code, indices, samples, events, results)
-    with pytest.raises(ValueError, match="method"):
-        fixed_step.integrate(parameters, 1e-5, 10, fixed_step.EULER, indices, samples, events, results)
+        fixed_step.integrate(parameters, 1e-5, 10, code, indices, samples, events, results)
     with pytest.raises(ValueError):
         ensemble.run(parameters, method="unheard")
 

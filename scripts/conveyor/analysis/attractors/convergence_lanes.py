@@ -18,6 +18,7 @@ from ...solver.contact_lanes import (
     LANES,
     LENGTH,
     NONE,
+    ROWS,
     SINE,
     STEPS,
     TIME,
@@ -205,6 +206,6 @@ def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows
     if len(parameters) > 0:
         strobes = np.empty((len(parameters), 0, 2)) if strobes is None else strobes
         trajectories, side_by_side = np.full(LANES, NONE), len(parameters) >= SIDE_BY_SIDE
-        work = (*new_memory(), np.zeros((3, LANES)), trajectories, contact.workspace(), *new_searches(LANES))
+        work = (*new_memory(ROWS), np.zeros((3, LANES)), trajectories, contact.workspace(), *new_searches(LANES))
         follow(parameters, tolerance, Search(max_cycles, attractors, rows, strobes), found, side_by_side, work)
     return found

@@ -1,4 +1,4 @@
-"""Explicit Euler in lanes: sine and cosine, bits that do not depend on lanes, a plain loop, closed forms."""
+"""Fixed steps in lanes: sine and cosine, bits that do not depend on lanes, a plain loop, closed forms."""
 
 import math
 
@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start
-from conveyor.methods import euler_lanes
-from conveyor.methods.euler_lanes import (
+from conveyor.methods import fixed_step
+from conveyor.methods.fixed_step import (
     CHECK,
     CONTACT_TIME,
-    EVALUATIONS,
+    EULER,
     EVENTS,
+    FORCE_EVALUATIONS,
     IMPACTS,
     MAX_GAP,
     STATUS,
@@ -20,6 +21,7 @@ from conveyor.methods.euler_lanes import (
     X,
     Z,
 )
+from conveyor.methods.sine import sine_and_cosine_of_one
 from conveyor.solver.jit import compiled
 from conveyor.solver.model import FRICTION, GRAVITY, STATIC_FRICTION, TENSION_MODES, VZ0, Z0, pack
 
@@ -30,12 +32,13 @@ STIFFNESS = {1.0: 3e3, 1.5: 5e5, 1.8: 5e6}
 TILTED = {"inclination": 0.1, "phase_shift": -0.8, "friction": 0.3, "static_friction": 0.9}
 
 
-def follow(parameters, step=STEP, n_steps=5000, indices=INDICES, n_events=20, integrate=euler_lanes.integrate):
+def follow(parameters, step=STEP, n_steps=5000, indices=INDICES, n_events=20, method=EULER):
     """Samples, events and results of trajectories; NaN where nothing was written."""
     n = len(parameters)
     samples, events = np.full((n, len(indices), 6), math.nan), np.full((n, n_events, 2), math.nan)
-    results = np.full((n, euler_lanes.RESULTS), math.nan)
-    integrate(parameters, step, n_steps, np.asarray(indices, dtype=np.int64), samples, events, results)
+    results = np.full((n, fixed_step.RESULTS), math.nan)
+    indices = np.asarray(indices, dtype=np.int64)
+    fixed_step.integrate(parameters, step, n_steps, method, indices, samples, events, results)
     return samples, events, results
 
 
@@ -74,7 +77,7 @@ def random_parameters(n, seed):
 @compiled
 def fill(phases, values):
     for i in range(len(phases)):
-        values[i] = euler_lanes.sincos(phases[i])
+        values[i] = sine_and_cosine_of_one(phases[i])
 
 
 def slow_euler(parameters, step, n_steps, sincos):
@@ -140,23 +143,19 @@ def test_sine_and_cosine_of_zero_are_exact():
     assert values.tolist() == [[0.0, 1.0]]
 
 
-@pytest.mark.parametrize("n", range(1, 18))
-def test_a_group_agrees_with_single_runs(n):
-    parameters = random_parameters(n, seed=n)
-    single = [bits(follow(parameters[[k]])) for k in range(n)]
-    np.testing.assert_array_equal(bits(follow(parameters)), np.concatenate(single))
-
-
-@pytest.mark.parametrize("lanes", [1, 2, 4, 8])
-def test_bits_do_not_depend_on_the_number_of_lanes(lanes):
-    parameters = random_parameters(19, seed=100)
-    found = follow(parameters, integrate=euler_lanes.in_lanes(lanes))
-    np.testing.assert_array_equal(bits(found), bits(follow(parameters)))
+@pytest.mark.parametrize("method", range(len(fixed_step.METHODS)))
+def test_a_group_agrees_with_single_runs(method):
+    """For one, two, four, eight and any other number of trajectories side by side."""
+    parameters = random_parameters(17, seed=100)
+    single = np.concatenate([bits(follow(parameters[[k]], method=method)) for k in range(17)])
+    for n in (1, 2, 3, 4, 7, 8, 9, 17):
+        found = follow(parameters[:n], method=method)
+        np.testing.assert_array_equal(bits(found), single[:n])
     # The comparison is meaningful.
-    evaluations, status = found[2][:, EVALUATIONS], found[2][:, STATUS]
+    evaluations, status = found[2][:, FORCE_EVALUATIONS], found[2][:, STATUS]
     assert (found[2][:, IMPACTS] > 1).sum() > 5
-    assert set(status) == {euler_lanes.OK, euler_lanes.NOT_FINITE}
-    assert len(set(evaluations)) > 2
+    assert set(status) == {fixed_step.OK, fixed_step.NOT_FINITE}
+    assert len(set(evaluations)) > 1
 
 
 def test_neither_order_nor_neighbours_nor_chunks_matter():
@@ -214,7 +213,7 @@ def test_the_plain_loop(exponent, tension, start, track):
     scale = np.abs(slow_samples).max(axis=0)
     np.testing.assert_allclose(samples / scale, slow_samples / scale, rtol=0.0, atol=1e-12)
     np.testing.assert_array_equal(events[:n_events], slow_events)
-    counted = [EVENTS, IMPACTS, CONTACT_TIME, EVALUATIONS, STATUS]
+    counted = [EVENTS, IMPACTS, CONTACT_TIME, FORCE_EVALUATIONS, STATUS]
     np.testing.assert_array_equal(results[counted], slow_results[counted])
     assert results[MAX_GAP] == pytest.approx(slow_results[MAX_GAP], rel=1e-12)
 
@@ -255,8 +254,8 @@ def test_a_state_that_is_not_finite():
     lost[[GRAVITY, VZ0]] = -1e308, 1.77e308
     samples, _, results = follow(np.array([calm, lost, calm]))
     np.testing.assert_array_equal(results[0], results[2])
-    assert results[:, STATUS].tolist() == [euler_lanes.OK, euler_lanes.NOT_FINITE, euler_lanes.OK]
-    assert results[:, EVALUATIONS].tolist() == [5000, 3 * CHECK, 5000]
+    assert results[:, STATUS].tolist() == [fixed_step.OK, fixed_step.NOT_FINITE, fixed_step.OK]
+    assert results[:, FORCE_EVALUATIONS].tolist() == [5000, 3 * CHECK, 5000]
     assert np.isfinite(samples[1, :6]).all()
     assert np.isnan(samples[1, 6:]).all()
     assert np.isfinite(samples[[0, 2]]).all()
@@ -268,12 +267,8 @@ def test_events_of_a_trajectory_end_where_it_is_lost():
     lost = calm.copy()
     lost[[FRICTION, STATIC_FRICTION]] = 1e308
     _, events, results = follow(np.array([lost, calm]))
-    assert results[:, STATUS].tolist() == [euler_lanes.NOT_FINITE, euler_lanes.OK]
+    assert results[:, STATUS].tolist() == [fixed_step.NOT_FINITE, fixed_step.OK]
     seen = int(results[0, EVENTS])
     assert 0 < seen < results[1, EVENTS]
     np.testing.assert_array_equal(events[0, :seen], events[1, :seen])
     assert np.isnan(events[0, seen:]).all()
-
-
-def test_lanes_of_this_processor():
-    assert euler_lanes.lanes_of_processor() in (1, 2, 4, 8)

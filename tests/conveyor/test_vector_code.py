@@ -1,0 +1,55 @@
+"""Loops over lanes are vector code, in the widest registers that the compiler uses on this machine."""
+
+import re
+
+import numba
+import numpy as np
+import pytest
+
+from conveyor import Conveyor, Start
+from conveyor.methods import fixed_step
+from conveyor.solver import contact_lanes
+from conveyor.solver.model import pack
+
+# Of x86, with the number of float64 in a register.
+REGISTERS = {"zmm": 8, "ymm": 4, "xmm": 2}
+
+
+@numba.njit
+def simple_loop(x):
+    for k in range(len(x)):
+        x[k] = 2.0 * x[k] + 1.0
+
+
+def vector_instructions(function) -> dict[str, int]:
+    """The numbers of multiplications, sums and roots of whole registers in the machine code, by the registers."""
+    code = function.inspect_asm(function.signatures[0])
+    operations = re.findall(r"\bv?(?:f?n?m(?:add|sub)\d*|mul|add|sub|sqrt)pd\s[^\n]*?%([xyz]mm)", code)
+    return {register: operations.count(register) for register in REGISTERS}
+
+
+@pytest.fixture(scope="module")
+def widest():
+    """The widest registers in which the compiler makes vector code of the simplest loop."""
+    simple_loop(np.ones(8))
+    found = vector_instructions(simple_loop)
+    if not any(found.values()):
+        pytest.skip(f"this test reads the machine code of x86 processors only, not of {numba.core.config.MACHINE_BITS}-bit others")
+    return next(register for register in REGISTERS if found[register])
+
+
+def test_contact_steps_are_vector_code(widest):
+    """The expansion alone has about 360 products and sums."""
+    memory, _ = contact_lanes.new_memory(contact_lanes.ROWS)
+    contact_lanes.step(memory, contact_lanes.LANES)
+    assert vector_instructions(contact_lanes.step)[widest] > 500
+
+
+@pytest.mark.parametrize(("method", "least"), [("euler", 60), ("semi_implicit_euler", 20), ("rk4", 80)])
+@pytest.mark.parametrize("tilted", [{}, {"inclination": 0.1, "phase_shift": 0.5, "static_friction": 0.5}])
+def test_fixed_steps_are_vector_code(widest, method, least, tilted):
+    """Each evaluation of the forces has about ten products and sums, sine and cosine have thirty."""
+    parameters = np.array([pack(Conveyor(**tilted), Start())])
+    fixed_step.run_all(parameters, 1e-5, 1e-6, method)
+    follow = fixed_step.compiled_method(fixed_step.METHODS.index(method), fixed_step.is_general(parameters))
+    assert vector_instructions(follow)[widest] > least
