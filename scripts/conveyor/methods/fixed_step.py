@@ -27,7 +27,7 @@ from ..solver.jit import compiled, compiled_inline
 from ..solver.trajectory import NOT_FINITE, OK
 from ..solver.trajectory import STATUS as STATUS_NAMES
 from .force_law import contact_acceleration, friction_acceleration, least_push, least_rub, power_of_depth, simple_power
-from .sine import sine_and_cosine, sine_and_cosine_of_one
+from .sine import sine_and_cosine
 
 EULER, SEMI_IMPLICIT_EULER, RK4 = range(len(METHODS))
 # Evaluations of the forces in a step of each method.
@@ -69,10 +69,10 @@ def turn_plate(memory, lane, time):
 
 @compiled_inline
 def turn_plates_by_library(lanes, memory, time, lead, sine_row):
-    """Write sine and cosine of the plate's phase at a time (s), turned further by `lead` (s), to a row and the next one.
+    """Write sine and cosine of the plate's phase at a time (s), turned further by `lead` (s), to a row and the next.
 
-    Explicit Euler needs sines fast. The other two methods take them from the C library, as they always did. A plate
-    that moves like its neighbour shares them.
+    Only explicit Euler computes thousands of trajectories and needs a faster sine than that of the C library. A plate
+    that moves like its neighbour shares the values.
     """
     for k in range(lanes):
         here, before = np.uint64(k), np.uint64(max(k - 1, 0))
@@ -245,7 +245,10 @@ def rk4_step(lanes, memory, general, has_powers, time, step):
         lane = np.uint64(k)
         count_step(memory, lane)
         vx, vz = memory[place(VX, lane)], memory[place(VZ, lane)]
-        rub, push = sum_of_stages(memory, lane, RUB, RUB_2, RUB_3, RUB_4), sum_of_stages(memory, lane, PUSH, PUSH_2, PUSH_3, PUSH_4)
+        rub, push = (
+            sum_of_stages(memory, lane, RUB, RUB_2, RUB_3, RUB_4),
+            sum_of_stages(memory, lane, PUSH, PUSH_2, PUSH_3, PUSH_4),
+        )
         memory[place(X, lane)] += step / 6.0 * sum_of_stages(memory, lane, VX, VX_2, VX_3, VX_4)
         memory[place(VX, lane)] = vx + step / 6.0 * rub - step * memory[place(DOWNHILL, lane)]
         memory[place(Z, lane)] += step / 6.0 * sum_of_stages(memory, lane, VZ, VZ_2, VZ_3, VZ_4)
@@ -275,34 +278,32 @@ def advance(lanes, memory, method, general, has_powers, i, step):
     return evaluate(lanes, memory, method, general, has_powers, (i + 1) * step)
 
 
+@compiled
+def sine_and_cosine_by(own, phase):
+    """Sine and cosine of a phase (rad), `own` as in `prepare`."""
+    return sine_and_cosine(phase) if own else (math.sin(phase), math.cos(phase))
+
+
 @compiled_inline
 def prepare(parameters, own, memory, lane):
     """Set a lane of the memory, zero before, to the initial condition of a packed parameter vector.
 
-    own : as in `turn_plate`
+    own : whether sine_and_cosine computes sines and cosines, or the C library
     """
-    angles = parameters[model.ANGLE], parameters[model.INCLINATION], parameters[model.PHASE_SHIFT], parameters[model.PSI0]
-    if own:
-        (sine_angle, cosine_angle), (sine_track, cosine_track), (ahead, straight), (sine, cosine) = (
-            sine_and_cosine_of_one(angles[0]),
-            sine_and_cosine_of_one(angles[1]),
-            sine_and_cosine_of_one(angles[2]),
-            sine_and_cosine_of_one(angles[3]),
-        )
-    else:
-        (sine_angle, cosine_angle), (sine_track, cosine_track), (ahead, straight), (sine, cosine) = (
-            (math.sin(angles[0]), math.cos(angles[0])),
-            (math.sin(angles[1]), math.cos(angles[1])),
-            (math.sin(angles[2]), math.cos(angles[2])),
-            (math.sin(angles[3]), math.cos(angles[3])),
-        )
+    sine_angle, cosine_angle = sine_and_cosine_by(own, parameters[model.ANGLE])
+    sine_track, cosine_track = sine_and_cosine_by(own, parameters[model.INCLINATION])
+    ahead, straight = sine_and_cosine_by(own, parameters[model.PHASE_SHIFT])
+    sine, cosine = sine_and_cosine_by(own, parameters[model.PSI0])
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
     mass = parameters[model.MASS]
     a_z, a_x = parameters[model.ACCELERATION] * sine_angle, parameters[model.ACCELERATION] * cosine_angle
     memory[OMEGA, lane], memory[PSI0, lane] = omega, parameters[model.PSI0]
     memory[PLATE_Z, lane], memory[PLATE_VZ, lane] = a_z / (omega * omega), a_z / omega
     memory[PLATE_VX, lane], memory[PLATE_AX, lane] = a_x / omega, a_x
-    memory[STIFFNESS, lane], memory[DAMPING, lane] = parameters[model.STIFFNESS] / mass, parameters[model.DAMPING] / mass
+    memory[STIFFNESS, lane], memory[DAMPING, lane] = (
+        parameters[model.STIFFNESS] / mass,
+        parameters[model.DAMPING] / mass,
+    )
     memory[EXPONENT, lane] = parameters[model.EXPONENT]
     memory[FRICTION, lane] = parameters[model.FRICTION]
     memory[STATIC_FRICTION, lane] = parameters[model.STATIC_FRICTION]
@@ -380,10 +381,9 @@ def record_events(first, memory, running, events, time):
 
 @functools.cache
 def compiled_method(method, general):
-    """`integrate` for the code of one of METHODS.
+    """The compiled part of `integrate` for the code of one of METHODS.
 
-    general : whether there may be phase shifts, inclinations or larger static frictions; without them, steps take a
-        quarter less time
+    general : see `is_general`; steps that need not be general take less time
     """
     own = method == EULER
 

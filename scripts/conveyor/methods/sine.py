@@ -1,6 +1,6 @@
 """Sine and cosine without a library function, for loops over lanes: the same digits on every machine."""
 
-from ..solver.jit import compiled, compiled_inline, fma
+from ..solver.jit import compiled_inline, fma
 
 TWO_OVER_PI = 0.6366197723675814
 HALF_PI = (1.5707963267948966, 6.123233995736766e-17, -1.4973849048591833e-33)  # their sum is π/2 to 161 bits
@@ -33,9 +33,3 @@ def sine_and_cosine(phase):
     is_odd = abs(quarter) == 1.0
     s, c = cosine if is_odd else sine, sine if is_odd else cosine
     return -s if (quarter < 0.0) | (quarter == 2.0) else s, -c if (quarter == 1.0) | (abs(quarter) == 2.0) else c
-
-
-@compiled
-def sine_and_cosine_of_one(phase):
-    """`sine_and_cosine`, compiled by itself."""
-    return sine_and_cosine(phase)

@@ -104,9 +104,7 @@ def length_within(allowed, last, before):
 def step_length(c, series, at, w0, v0):
     """Length of the step in the variable s up to which its series holds."""
     first, lanes = np.uint64(at), np.uint64(1)
-    length = length_within(
-        *last_terms(series, first, lanes, c.tolerance, c.scale_v, c.stiffness, c.exponent, w0, v0)
-    )
+    length = length_within(*last_terms(series, first, lanes, c.tolerance, c.scale_v, c.stiffness, c.exponent, w0, v0))
     if c.edge_w > 0.0 and series[at + SPRING] > 0.0:
         # Beyond the radius of convergence of w^(2p+1), v may still be right, but the sign of the force is not.
         of_spring = c.stiffness * abs(series[at + SPRING + ORDER - 1])

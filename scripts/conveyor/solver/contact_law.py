@@ -90,8 +90,8 @@ def is_hertz(c):
 def hertz_source() -> str:
     """Source of `expand_hertz`, which fills the rows of a step for p = 3/2.
 
-    Its arguments are w, v, sine and cosine at s = 0; gravity, a_z, omega, stiffness and damping per mass; the array, the
-    place of its first coefficient, and the number of lanes, both unsigned; and whether the last three rows are wanted.
+    Its arguments are w, v, sine and cosine at s = 0; gravity, a_z, omega, stiffness and damping per mass; the array,
+    the place of its first coefficient, and the number of lanes, both unsigned; whether the last three rows are wanted.
     """
     lines = ["def expand_hertz(w0, v0, s0, c0, gravity, a_z, omega, stiffness, damping, series, at, lanes, all_rows):"]
     lines += ["t0 = 0.0", "q0 = w0 * w0"]

@@ -26,7 +26,8 @@ def compiled(function, **options):
     template_for = dispatcher.get_call_template
 
     def template_for_any_value(arguments, keywords):
-        # For a literal such as 0 in a call, numba would compile the function once more, for that value alone.
+        # For a literal such as 0 in a call, numba would compile the function once more, for that value alone. Numba
+        # documents no option against it. The first `simulate` would compile for 15 % more time.
         return template_for(
             tuple(map(types.unliteral, arguments)), {name: types.unliteral(one) for name, one in keywords.items()}
         )

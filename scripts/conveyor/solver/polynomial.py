@@ -1,8 +1,8 @@
 """Taylor polynomials in an array: values, and the first root, proved to be the first one.
 
 An array holds the coefficients of several polynomials, one polynomial after the other. `row` is the place of the first
-coefficient of a polynomial, and row + n that of the coefficient of order n. In an array for several trajectories side by
-side (lanes), the n-th coefficients of all of them follow each other.
+coefficient of a polynomial, and row + n that of the coefficient of order n. In an array for several trajectories side
+by side (lanes), the n-th coefficients of all of them follow each other.
 """
 
 import math

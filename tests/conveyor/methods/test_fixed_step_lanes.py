@@ -21,7 +21,7 @@ from conveyor.methods.fixed_step import (
     X,
     Z,
 )
-from conveyor.methods.sine import sine_and_cosine_of_one
+from conveyor.methods.sine import sine_and_cosine
 from conveyor.solver.jit import compiled
 from conveyor.solver.model import FRICTION, GRAVITY, STATIC_FRICTION, TENSION_MODES, VZ0, Z0, pack
 
@@ -77,7 +77,7 @@ def random_parameters(n, seed):
 @compiled
 def fill(phases, values):
     for i in range(len(phases)):
-        values[i] = sine_and_cosine_of_one(phases[i])
+        values[i] = sine_and_cosine(phases[i])
 
 
 def slow_euler(parameters, step, n_steps, sincos):

@@ -57,7 +57,7 @@ def test_steps_have_the_bits_of_single_ones(lanes):
     series = contact.workspace()
     taken = 0
     for first in range(0, 400, lanes):
-        flat, memory = contact_lanes.new_memory()
+        flat, memory = contact_lanes.new_memory(contact_lanes.ROWS)
         rows = range(first, first + lanes)
         for lane, k in enumerate(rows):
             fill(memory, lane, constants[k])
@@ -86,7 +86,7 @@ def test_steps_have_the_bits_of_single_ones(lanes):
 def test_a_step_stays_where_no_time_or_no_step_is_left_or_what_is_not_a_number():
     constants, *_ = random_contacts(1, seed=0)
     c = constants[0]
-    flat, memory = contact_lanes.new_memory()
+    flat, memory = contact_lanes.new_memory(contact_lanes.ROWS)
     for lane in range(4):
         fill(memory, lane, c)
         memory[[W, V, SINE, COSINE, TIME, END], lane] = c.scale_w, 0.0, 0.0, 1.0, 0.0, 1.0

@@ -7,7 +7,6 @@ import pytest
 
 from conveyor.solver import polynomial
 
-
 ROW = polynomial.SIZE  # behind the row that searches overwrite
 
 
@@ -26,7 +25,9 @@ def test_no_pair_of_roots_is_missed(distance):
     """Between two roots a polynomial is below zero, and above it at both ends of the search."""
     for first in np.linspace(0.05, 0.65, 25):
         for others in ((), (1.2,), (-0.5, -0.7), (3.0, -2.0)):
-            found = polynomial.first_root(series_of([first, first + distance, *others]), ROW, 0.0, 1.0, polynomial.LEAVE)
+            found = polynomial.first_root(
+                series_of([first, first + distance, *others]), ROW, 0.0, 1.0, polynomial.LEAVE
+            )
             # If the first step ends on the root, it counts as a start on it, which two smallest steps leave.
             assert found == pytest.approx(first, abs=3.0 * polynomial.LEAVE)
 

@@ -11,7 +11,6 @@ from collections import namedtuple
 import numpy as np
 
 from ...solver import contact
-from ...solver.contact_law import FIRST
 from ...solver.contact_lanes import (
     COSINE,
     END,
@@ -32,6 +31,7 @@ from ...solver.contact_lanes import (
     set_motion,
     step,
 )
+from ...solver.contact_law import FIRST
 from ...solver.jit import compiled, compiled_into_callers, no_refcount
 from ...solver.model import VZ0, Z0
 from ...solver.trajectory import BEGIN_OF_CYCLE, MAX_PIECES, time_to_next_cycle
