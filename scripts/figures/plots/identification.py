@@ -101,7 +101,7 @@ def plot(*, samples: pd.DataFrame, frictions: pd.DataFrame) -> Figure:
     panels = lower.subplots(1, 4, sharey=True)
     for axes, parameter in zip(panels, UNITS, strict=True):
         draw_posterior(axes, samples, parameter, model[parameter])
-    panels[0].set_ylabel("posterior in % per bin")
+    panels[0].set_ylabel("posterior in %")
     lower.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     for axes, letter in zip((alone, contacts, *panels), "abcdef", strict=True):
         axes.set_title(letter, loc="left", fontweight="bold")

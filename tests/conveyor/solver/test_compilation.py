@@ -29,9 +29,9 @@ CROSSING = """
 import numpy as np
 from conveyor.solver import polynomial
 
-series = np.zeros((2, polynomial.SIZE))
-series[1, :2] = -1.0, 2.0
-print(polynomial.root_of_crossing(series, 1, 0.0, 1.0))
+series = np.zeros(2 * polynomial.SIZE)
+series[polynomial.SIZE : polynomial.SIZE + 2] = -1.0, 2.0
+print(polynomial.root_of_crossing(series, polynomial.SIZE, 0.0, 1.0))
 """
 
 
