@@ -20,7 +20,8 @@ from workflow.config.own_conveyor import (
 from workflow.config.tables import TABLES, references, settings_of
 
 CONFIG = canonical(read_config())
-EXAMPLES = {path.stem: path for path in sorted((ROOT / "config/examples").glob("*.yaml"))}
+# The examples that describe a whole conveyor; the contact of `measured` is not known.
+EXAMPLES = {path.stem: path for path in sorted((ROOT / "config/examples").glob("*.yaml")) if path.stem != "measured"}
 # Figures for any conveyor.
 ANY = {f"fig{number:02d}" for number in (3, 8, 9, 10, 12, 13, 14, 17, 18, 19, 20, 22, 23, 24)}
 ANY |= {"bifurcation", "operating", "basin_stability"}

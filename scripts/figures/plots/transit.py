@@ -37,7 +37,7 @@ def draw_lengths(axes: Axes, lengths: pd.DataFrame) -> None:
         colour = style.STATE_COLOURS["chaos"] if regime == CHAOS else style.STATE_COLOURS["first"]
         look = {"color": colour, "fmt": MARKERS[numbers[regime] % len(MARKERS)], "markersize": 3.5, "linewidth": 0.8}
         look |= {"markerfacecolor": "none" if numbers[regime] else colour}
-        label = f"{acceleration:g} m/s², {'chaos' if regime == CHAOS else 'coexisting motions'}"
+        label = f"{acceleration:.4g} m/s², {'chaos' if regime == CHAOS else 'coexisting motions'}"
         axes.errorbar(rows.length, rows.spread, rows.spread_stderr, label=label, **look)
         if rows.predicted.notna().any():
             axes.plot(rows.length, rows.predicted, color=colour, linewidth=0.9, linestyle=(0, (3, 2)))
