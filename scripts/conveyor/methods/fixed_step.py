@@ -7,8 +7,9 @@ where static_friction exceeds friction, a part whose slip has vanished or change
 plate's velocity while |ẍ_s + g sin α| ≤ μ_s F_c/m.
 
 Time is the step number times the step and does not drift. Trajectories are followed side by side, in plain loops over
-lanes that LLVM turns into vector code. A result depends neither on its lane nor on its neighbours. For the exponents 1
-and 1.5 explicit Euler calls no library function, so that every machine gives the same digits.
+lanes that LLVM turns into vector code; a single trajectory is the same code with one lane. A result depends neither on
+its lane nor on its neighbours. For the exponents 1 and 1.5 explicit Euler calls no library function, so that every
+machine gives the same digits.
 """
 
 import functools
@@ -21,7 +22,7 @@ from ..arguments import LONGEST, check_array, check_choice, check_time
 from ..parameters import FIXED_STEP_METHODS as METHODS
 from ..parameters import LAST
 from ..solver import model
-from ..solver.contact_lanes import LANES, new_memory, place
+from ..solver.contact_lanes import new_memory, place
 from ..solver.horizontal import IMPACT, SAMPLES, SEPARATED, name_events
 from ..solver.jit import compiled, compiled_inline
 from ..solver.trajectory import NOT_FINITE, OK
@@ -44,87 +45,91 @@ CHECK = 256  # steps between checks that the state is finite
 X, VX, Z, VZ, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, FORCE_EVALUATIONS, STATUS, IMPACT_SPEED, PEAK_FORCE = range(12)
 RESULTS = 12
 # At the present step: gap (m), forces per mass (m/s²), whether the gap was last seen closed (1 or 0), the slip velocity
-# (m/s) at the last step; δ^p (m^p) of exponents other than 1 and 1.5.
-GAP, PUSH, RUB, IN_CONTACT, LAST_SLIP, POWER = range(12, 18)
+# (m/s) at the last step; only for exponents other than 1 and 1.5, δ^p (m^p), sine and cosine of the plate's phase.
+GAP, PUSH, RUB, IN_CONTACT, LAST_SLIP, POWER, SINE, COSINE = range(12, 20)
 # Constants: ω (rad/s), ψ0 (rad), the amplitudes of z_s, ż_s, ẋ_s, ẍ_s; k_c/m, d_c/m, p, μ, μ_s, gravity normal to the
 # track and down along it (m/s²); force_law.least_push and least_rub; cosine and sine of the phase shift.
-OMEGA, PSI0, PLATE_Z, PLATE_VZ, PLATE_VX, PLATE_AX = range(18, 24)
-STIFFNESS, DAMPING, EXPONENT, FRICTION, STATIC_FRICTION, GRAVITY, DOWNHILL = range(24, 31)
-LEAST_PUSH, LEAST_RUB, COS_SHIFT, SIN_SHIFT = range(31, 35)
-# Sine and cosine of the plate's phase at the beginning of the step, in its middle and at its end.
-SINE, COSINE, MIDDLE_SINE, MIDDLE_COSINE, END_SINE, END_COSINE = range(35, 41)
-# ẋ, z, ż and the forces per mass of the second, third and fourth stage of RK4.
-VX_2, _, VZ_2, PUSH_2, RUB_2 = range(41, 46)
-VX_3, _, VZ_3, PUSH_3, RUB_3 = range(46, 51)
-VX_4, _, VZ_4, PUSH_4, RUB_4 = range(51, 56)
-ROWS = 56
+OMEGA, PSI0, PLATE_Z, PLATE_VZ, PLATE_VX, PLATE_AX = range(20, 26)
+STIFFNESS, DAMPING, EXPONENT, FRICTION, STATIC_FRICTION, GRAVITY, DOWNHILL = range(26, 33)
+LEAST_PUSH, LEAST_RUB, COS_SHIFT, SIN_SHIFT = range(33, 37)
+ROWS = 37
+
+
+class Kind(NamedTuple):
+    """What the steps are compiled for, because steps that need less take less time."""
+
+    method: int  # the code of one of METHODS
+    single: bool  # whether there is one trajectory only
+    alike: bool  # whether all plates have the same frequency and ψ0
+    general: bool  # whether there are inclinations, phase shifts or static frictions larger than the friction
+    has_powers: bool  # whether there are exponents other than 1 and 1.5
 
 
 @compiled_inline
-def turn_plate(memory, lane, time):
-    """Write sine and cosine of the plate's phase at a time (s)."""
-    phase = memory[place(OMEGA, lane)] * time + memory[place(PSI0, lane)]
-    memory[place(SINE, lane)], memory[place(COSINE, lane)] = sine_and_cosine(phase)
+def sine_and_cosine_by(method, phase):
+    """Sine and cosine of a phase (rad): by the C library, except for explicit Euler, which needs them faster."""
+    return sine_and_cosine(phase) if method == EULER else (math.sin(phase), math.cos(phase))
 
 
 @compiled_inline
-def turn_plates_by_library(lanes, memory, time, lead, sine_row):
-    """Write sine and cosine of the plate's phase at a time (s), turned further by `lead` (s), to a row and the next.
+def turn_plate(method, memory, lane, i, step):
+    """Sines and cosines of the plate's phase for step number i, of a length (s): at its end, where the next forces act.
 
-    Only explicit Euler computes thousands of trajectories and needs a faster sine than that of the C library. A plate
-    that moves like its neighbour shares the values.
+    For RK4 also in its middle and, as reckoned from its beginning, at its end; else zeros.
     """
-    for k in range(lanes):
-        here, before = np.uint64(k), np.uint64(max(k - 1, 0))
-        omega, psi0 = memory[place(OMEGA, here)], memory[place(PSI0, here)]
-        if k > 0 and omega == memory[place(OMEGA, before)] and psi0 == memory[place(PSI0, before)]:
-            memory[place(sine_row, here)] = memory[place(sine_row, before)]
-            memory[place(sine_row + 1, here)] = memory[place(sine_row + 1, before)]
-        else:
-            phase = omega * time + psi0 + lead * omega
-            memory[place(sine_row, here)], memory[place(sine_row + 1, here)] = math.sin(phase), math.cos(phase)
+    omega, psi0 = memory[place(OMEGA, lane)], memory[place(PSI0, lane)]
+    sine, cosine = sine_and_cosine_by(method, omega * ((i + 1) * step) + psi0)
+    if method != RK4:
+        return sine, cosine, 0.0, 0.0, 0.0, 0.0
+    phase, turn = omega * (i * step) + psi0, omega * step
+    middle, end = phase + 0.5 * turn, phase + turn
+    return sine, cosine, math.sin(middle), math.cos(middle), math.sin(end), math.cos(end)
 
 
 @compiled_inline
-def raise_depths(lanes, memory, z_row, sine_row):
-    """Write δ^p to POWER, in a loop of its own, because powers take one number at a time; rows as in `forces`."""
-    for k in range(lanes):
-        lane = np.uint64(k)
-        gap = memory[place(z_row, lane)] + memory[place(PLATE_Z, lane)] * memory[place(sine_row + 1, lane)]
-        memory[place(POWER, lane)] = power_of_depth(-gap, memory[place(EXPONENT, lane)])
+def turn_plates(memory, i, step, sines, cosines):
+    """Write sine and cosine of `turn_plate` for CHECK steps of explicit Euler from number i on, for alike plates.
 
-
-@compiled_inline
-def forces(memory, lane, general, has_powers, vx_row, z_row, vz_row, sine_row):
-    """Gap (m), F_c/m, F_r/m (m/s², Eqs. 7, 11 and 12) and slip velocity (m/s) of a state in a lane.
-
-    general : whether there are phase shifts or larger static frictions
-    has_powers : whether there are exponents other than 1 and 1.5
-    vx_row, z_row, vz_row : the rows of the state
-    sine_row : the row of the sine of the plate's phase; the cosine is in the row behind it
+    In this loop, LLVM computes the sines of several steps at once. That halves the time of a single trajectory.
     """
-    sine, cosine = memory[place(sine_row, lane)], memory[place(sine_row + 1, lane)]
-    gap = memory[place(z_row, lane)] + memory[place(PLATE_Z, lane)] * cosine
+    for n in range(CHECK):
+        at = np.uint64(n)
+        sines[at], cosines[at], _, _, _, _ = turn_plate(EULER, memory, np.uint64(0), i + n, step)
+
+
+@compiled_inline
+def forces(kind, memory, lane, vx, z, vz, sine, cosine, is_raised):
+    """Gap (m), F_c/m, F_r/m (m/s², Eqs. 7, 11 and 12) and slip velocity (m/s) of a state.
+
+    sine, cosine : of the plate's phase
+    is_raised : whether POWER holds δ^p
+    """
+    gap = z + memory[place(PLATE_Z, lane)] * cosine
+    exponent = memory[place(EXPONENT, lane)]
+    if is_raised:
+        power = memory[place(POWER, lane)]
+    else:
+        power = power_of_depth(-gap, exponent) if kind.has_powers else simple_power(-gap, exponent)
     push = contact_acceleration(
         gap,
-        memory[place(PLATE_VZ, lane)] * sine - memory[place(vz_row, lane)],
-        memory[place(POWER, lane)] if has_powers else simple_power(-gap, memory[place(EXPONENT, lane)]),
+        memory[place(PLATE_VZ, lane)] * sine - vz,
+        power,
         memory[place(STIFFNESS, lane)],
         memory[place(DAMPING, lane)],
         memory[place(LEAST_PUSH, lane)],
     )
     along = sine
-    if general:
+    if kind.general:
         along = sine * memory[place(COS_SHIFT, lane)] + cosine * memory[place(SIN_SHIFT, lane)]
-    slip = memory[place(PLATE_VX, lane)] * along - memory[place(vx_row, lane)]
+    slip = memory[place(PLATE_VX, lane)] * along - vx
     rub = friction_acceleration(push, slip, memory[place(FRICTION, lane)], memory[place(LEAST_RUB, lane)])
     return gap, push, rub, slip
 
 
 @compiled_inline
-def stick(memory, lane, gap, push, rub, slip):
+def stick(memory, lane, gap, push, rub, slip, sine, cosine):
     """F_r/m of a part that sticks if its slip has vanished, or `rub`; a part that sticks gets the plate's velocity."""
-    sine, cosine, vx = memory[place(SINE, lane)], memory[place(COSINE, lane)], memory[place(VX, lane)]
+    vx = memory[place(VX, lane)]
     turned = cosine * memory[place(COS_SHIFT, lane)] - sine * memory[place(SIN_SHIFT, lane)]
     pull = memory[place(PLATE_AX, lane)] * turned + memory[place(DOWNHILL, lane)]
     static_friction = memory[place(STATIC_FRICTION, lane)]
@@ -136,28 +141,29 @@ def stick(memory, lane, gap, push, rub, slip):
 
 
 @compiled_inline
-def find_forces(memory, lane, general, has_powers):
-    """Write GAP, PUSH and RUB at the present step. Returns whether the gap has opened or closed."""
-    gap, push, rub, slip = forces(memory, lane, general, has_powers, VX, Z, VZ, SINE)
-    if general:
-        rub = stick(memory, lane, gap, push, rub, slip)
+def find_forces(kind, memory, lane, sine, cosine):
+    """Write GAP, PUSH and RUB of the present state. Returns whether the gap has opened or closed."""
+    vx, z, vz = memory[place(VX, lane)], memory[place(Z, lane)], memory[place(VZ, lane)]
+    gap, push, rub, slip = forces(kind, memory, lane, vx, z, vz, sine, cosine, kind.has_powers)
+    if kind.general:
+        rub = stick(memory, lane, gap, push, rub, slip, sine, cosine)
     memory[place(GAP, lane)], memory[place(PUSH, lane)], memory[place(RUB, lane)] = gap, push, rub
     return (1.0 if gap <= 0.0 else 0.0) != memory[place(IN_CONTACT, lane)]
 
 
 @compiled_inline
-def evaluate(lanes, memory, method, general, has_powers, time):
-    """Write GAP, PUSH and RUB of all lanes at a time (s). Returns the number of gaps that have opened or closed."""
-    if method == EULER:
+def find_forces_of_all(kind, lanes, memory):
+    """`find_forces` of all lanes, with SINE and COSINE in memory. Returns the number of gaps that opened or closed."""
+    if kind.has_powers:
+        # In a loop of its own, because powers take one number at a time.
         for k in range(lanes):
-            turn_plate(memory, np.uint64(k), time)
-    else:
-        turn_plates_by_library(lanes, memory, time, 0.0, SINE)
-    if has_powers:
-        raise_depths(lanes, memory, Z, SINE)
+            lane = np.uint64(k)
+            gap = memory[place(Z, lane)] + memory[place(PLATE_Z, lane)] * memory[place(COSINE, lane)]
+            memory[place(POWER, lane)] = power_of_depth(-gap, memory[place(EXPONENT, lane)])
     changed = 0
     for k in range(lanes):
-        changed += find_forces(memory, np.uint64(k), general, has_powers)
+        lane = np.uint64(k)
+        changed += find_forces(kind, memory, lane, memory[place(SINE, lane)], memory[place(COSINE, lane)])
     return changed
 
 
@@ -173,127 +179,84 @@ def count_step(memory, lane):
 
 
 @compiled_inline
-def euler_step(memory, lane, general, step):
-    """One step (s) with the forces in memory."""
-    count_step(memory, lane)
-    vx, vz = memory[place(VX, lane)], memory[place(VZ, lane)]
-    memory[place(X, lane)] += step * vx
-    forward = memory[place(RUB, lane)] - (memory[place(DOWNHILL, lane)] if general else 0.0)
-    memory[place(VX, lane)] = vx + step * forward
-    memory[place(Z, lane)] += step * vz
-    memory[place(VZ, lane)] = vz + step * (memory[place(PUSH, lane)] - memory[place(GRAVITY, lane)])
-
-
-@compiled_inline
-def semi_implicit_euler_step(memory, lane, step):
-    """One step (s) with the forces in memory: velocities first, then positions with the new velocities."""
-    count_step(memory, lane)
-    vx = memory[place(VX, lane)] + step * (memory[place(RUB, lane)] - memory[place(DOWNHILL, lane)])
-    vz = memory[place(VZ, lane)] + step * (memory[place(PUSH, lane)] - memory[place(GRAVITY, lane)])
-    memory[place(X, lane)] += step * vx
-    memory[place(VX, lane)] = vx
-    memory[place(Z, lane)] += step * vz
-    memory[place(VZ, lane)] = vz
-
-
-@compiled_inline
-def rk4_stage(lanes, memory, lapse, vz_row, push_row, stage_row):
-    """Write ẋ, z and ż of a stage to the rows from `stage_row` on.
-
-    They are the state after the time `lapse` (s) with the velocity and the forces of the stage before, whose ż is in
-    `vz_row`, and whose forces are in `push_row` and the row behind it.
-    """
-    for k in range(lanes):
-        lane = np.uint64(k)
-        rub, push = memory[place(push_row + 1, lane)], memory[place(push_row, lane)]
-        memory[place(stage_row, lane)] = memory[place(VX, lane)] + lapse * (rub - memory[place(DOWNHILL, lane)])
-        memory[place(stage_row + 1, lane)] = memory[place(Z, lane)] + lapse * memory[place(vz_row, lane)]
-        memory[place(stage_row + 2, lane)] = memory[place(VZ, lane)] + lapse * (push - memory[place(GRAVITY, lane)])
-
-
-@compiled_inline
-def find_forces_of_stage(lanes, memory, general, has_powers, vx_row, sine_row):
-    """Write F_c/m and F_r/m of a stage of RK4 behind its state, which begins in `vx_row`."""
-    if has_powers:
-        raise_depths(lanes, memory, vx_row + 1, sine_row)
-    for k in range(lanes):
-        lane = np.uint64(k)
-        _, push, rub, _ = forces(memory, lane, general, has_powers, vx_row, vx_row + 1, vx_row + 2, sine_row)
-        memory[place(vx_row + 3, lane)], memory[place(vx_row + 4, lane)] = push, rub
-
-
-@compiled_inline
-def sum_of_stages(memory, lane, first, second, third, fourth):
-    """Six times the weighted mean of a quantity, from its rows in the four stages."""
-    middle = memory[place(second, lane)] + memory[place(third, lane)]
-    return memory[place(first, lane)] + 2.0 * middle + memory[place(fourth, lane)]
-
-
-@compiled_inline
-def rk4_step(lanes, memory, general, has_powers, time, step):
-    """One classical Runge-Kutta step (s) from a time (s), with the forces in memory."""
+def rk4_step(kind, memory, lane, state, gravity, downhill, sines, step):
+    """(x, vx, z, vz) one classical Runge-Kutta step (s) later; the rest as in `take_step`."""
+    x, vx1, z, vz1 = state
+    push1, rub1 = memory[place(PUSH, lane)], memory[place(RUB, lane)]
     half = 0.5 * step
-    turn_plates_by_library(lanes, memory, time, half, MIDDLE_SINE)
-    turn_plates_by_library(lanes, memory, time, step, END_SINE)
-    rk4_stage(lanes, memory, half, VZ, PUSH, VX_2)
-    find_forces_of_stage(lanes, memory, general, has_powers, VX_2, MIDDLE_SINE)
-    rk4_stage(lanes, memory, half, VZ_2, PUSH_2, VX_3)
-    find_forces_of_stage(lanes, memory, general, has_powers, VX_3, MIDDLE_SINE)
-    rk4_stage(lanes, memory, step, VZ_3, PUSH_3, VX_4)
-    find_forces_of_stage(lanes, memory, general, has_powers, VX_4, END_SINE)
-    for k in range(lanes):
-        lane = np.uint64(k)
-        count_step(memory, lane)
-        vx, vz = memory[place(VX, lane)], memory[place(VZ, lane)]
-        rub, push = (
-            sum_of_stages(memory, lane, RUB, RUB_2, RUB_3, RUB_4),
-            sum_of_stages(memory, lane, PUSH, PUSH_2, PUSH_3, PUSH_4),
-        )
-        memory[place(X, lane)] += step / 6.0 * sum_of_stages(memory, lane, VX, VX_2, VX_3, VX_4)
-        memory[place(VX, lane)] = vx + step / 6.0 * rub - step * memory[place(DOWNHILL, lane)]
-        memory[place(Z, lane)] += step / 6.0 * sum_of_stages(memory, lane, VZ, VZ_2, VZ_3, VZ_4)
-        memory[place(VZ, lane)] = vz + step * (push / 6.0 - memory[place(GRAVITY, lane)])
+    _, _, middle_sine, middle_cosine, end_sine, end_cosine = sines
+    vx2, vz2 = vx1 + half * (rub1 - downhill), vz1 + half * (push1 - gravity)
+    _, push2, rub2, _ = forces(kind, memory, lane, vx2, z + half * vz1, vz2, middle_sine, middle_cosine, False)
+    vx3, vz3 = vx1 + half * (rub2 - downhill), vz1 + half * (push2 - gravity)
+    _, push3, rub3, _ = forces(kind, memory, lane, vx3, z + half * vz2, vz3, middle_sine, middle_cosine, False)
+    vx4, vz4 = vx1 + step * (rub3 - downhill), vz1 + step * (push3 - gravity)
+    _, push4, rub4, _ = forces(kind, memory, lane, vx4, z + step * vz3, vz4, end_sine, end_cosine, False)
+    return (
+        x + step / 6.0 * (vx1 + 2.0 * (vx2 + vx3) + vx4),
+        vx1 + step / 6.0 * (rub1 + 2.0 * (rub2 + rub3) + rub4) - step * downhill,
+        z + step / 6.0 * (vz1 + 2.0 * (vz2 + vz3) + vz4),
+        vz1 + step * ((push1 + 2.0 * (push2 + push3) + push4) / 6.0 - gravity),
+    )
 
 
 @compiled_inline
-def advance(lanes, memory, method, general, has_powers, i, step):
-    """Take step number i, of a length (s), and evaluate the forces behind it. Returns the same as `evaluate`."""
-    if method == EULER and not has_powers:
-        # One loop for all of it takes half the time.
-        changed = 0
+def take_step(kind, memory, lane, sines, step):
+    """Advance a state by one step (s), with the forces in memory.
+
+    sines : from `turn_plate`
+    """
+    x, vx, z, vz = memory[place(X, lane)], memory[place(VX, lane)], memory[place(Z, lane)], memory[place(VZ, lane)]
+    gravity, downhill = memory[place(GRAVITY, lane)], memory[place(DOWNHILL, lane)] if kind.general else 0.0
+    if kind.method == RK4:
+        x, vx, z, vz = rk4_step(kind, memory, lane, (x, vx, z, vz), gravity, downhill, sines, step)
+    else:
+        next_vx = vx + step * (memory[place(RUB, lane)] - downhill)
+        next_vz = vz + step * (memory[place(PUSH, lane)] - gravity)
+        if kind.method == EULER:
+            x, z = x + step * vx, z + step * vz
+        else:
+            x, z = x + step * next_vx, z + step * next_vz
+        vx, vz = next_vx, next_vz
+    memory[place(X, lane)], memory[place(VX, lane)], memory[place(Z, lane)], memory[place(VZ, lane)] = x, vx, z, vz
+
+
+@compiled_inline
+def take_steps(kind, lanes, memory, i, stop, step, sines, cosines):
+    """Take steps from number i on, to `stop` or until a gap opens or closes. Returns the number of the next step.
+
+    sines, cosines : from `turn_plates`, for the CHECK steps that hold these ones
+    """
+    changed = 0
+    while changed == 0 and i != stop:
+        if kind.alike and kind.method == EULER:
+            at = np.uint64(i % CHECK)
+            plate = sines[at], cosines[at], 0.0, 0.0, 0.0, 0.0
+        elif kind.alike:
+            plate = turn_plate(kind.method, memory, np.uint64(0), i, step)
         for k in range(lanes):
             lane = np.uint64(k)
-            turn_plate(memory, lane, (i + 1) * step)
-            euler_step(memory, lane, general, step)
-            changed += find_forces(memory, lane, general, False)
-        return changed
-    if method == RK4:
-        rk4_step(lanes, memory, general, has_powers, i * step, step)
-    else:
-        for k in range(lanes):
-            if method == EULER:
-                euler_step(memory, np.uint64(k), general, step)
+            if not kind.alike:
+                plate = turn_plate(kind.method, memory, lane, i, step)
+            count_step(memory, lane)
+            take_step(kind, memory, lane, plate, step)
+            if kind.has_powers:
+                memory[place(SINE, lane)], memory[place(COSINE, lane)] = plate[0], plate[1]
             else:
-                semi_implicit_euler_step(memory, np.uint64(k), step)
-    return evaluate(lanes, memory, method, general, has_powers, (i + 1) * step)
-
-
-@compiled
-def sine_and_cosine_by(own, phase):
-    """Sine and cosine of a phase (rad), `own` as in `prepare`."""
-    return sine_and_cosine(phase) if own else (math.sin(phase), math.cos(phase))
+                # In the same loop, which halves the time.
+                changed += find_forces(kind, memory, lane, plate[0], plate[1])
+        if kind.has_powers:
+            changed = find_forces_of_all(kind, lanes, memory)
+        i += 1
+    return i
 
 
 @compiled_inline
-def prepare(parameters, own, memory, lane):
-    """Set a lane of the memory, zero before, to the initial condition of a packed parameter vector.
-
-    own : whether sine_and_cosine computes sines and cosines, or the C library
-    """
-    sine_angle, cosine_angle = sine_and_cosine_by(own, parameters[model.ANGLE])
-    sine_track, cosine_track = sine_and_cosine_by(own, parameters[model.INCLINATION])
-    ahead, straight = sine_and_cosine_by(own, parameters[model.PHASE_SHIFT])
-    sine, cosine = sine_and_cosine_by(own, parameters[model.PSI0])
+def prepare(parameters, method, memory, lane):
+    """Set a lane of the memory, zero before, to the initial condition of a packed parameter vector."""
+    sine_angle, cosine_angle = sine_and_cosine_by(method, parameters[model.ANGLE])
+    sine_track, cosine_track = sine_and_cosine_by(method, parameters[model.INCLINATION])
+    ahead, straight = sine_and_cosine_by(method, parameters[model.PHASE_SHIFT])
+    sine, cosine = sine_and_cosine_by(method, parameters[model.PSI0])
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
     mass = parameters[model.MASS]
     a_z, a_x = parameters[model.ACCELERATION] * sine_angle, parameters[model.ACCELERATION] * cosine_angle
@@ -326,7 +289,7 @@ def record_samples(parameters, first, memory, running, samples, number):
 
     first : row of the trajectory in the first lane
     """
-    for lane in range(LANES):
+    for lane in range(len(running)):
         if running[lane]:
             mass, row = parameters[first + lane, model.MASS], samples[first + lane, number]
             for column in range(4):
@@ -340,10 +303,10 @@ def record_samples(parameters, first, memory, running, samples, number):
 def record_results(parameters, first, memory, running, results, step, evaluations, is_end):
     """Write the results of trajectories that end here: all of them, or those whose state is not finite.
 
-    Returns the number of trajectories that are still `running`, shape (LANES,), which is changed.
+    Returns the number of trajectories that are still `running`, shape (lanes,), which is changed.
     """
     left = 0
-    for lane in range(LANES):
+    for lane in range(len(running)):
         total = 0.0
         for column in range(4):
             total += memory[column, lane]
@@ -362,9 +325,9 @@ def record_results(parameters, first, memory, running, results, step, evaluation
 
 
 @compiled_inline
-def record_events(first, memory, running, events, time):
+def record_events(method, first, memory, running, events, time):
     """Count the gaps that have opened or closed, and write the time (s) and kind of the first events."""
-    for lane in range(LANES):
+    for lane in range(len(running)):
         touching = memory[GAP, lane] <= 0.0
         if touching != memory[IN_CONTACT, lane]:
             n_events = int(memory[EVENTS, lane])
@@ -374,35 +337,35 @@ def record_events(first, memory, running, events, time):
             memory[EVENTS, lane] += 1.0
             memory[IMPACTS, lane] += touching
             if touching:
-                speed = memory[PLATE_VZ, lane] * memory[SINE, lane] - memory[VZ, lane]
+                sine, _ = sine_and_cosine_by(method, memory[OMEGA, lane] * time + memory[PSI0, lane])
+                speed = memory[PLATE_VZ, lane] * sine - memory[VZ, lane]
                 memory[IMPACT_SPEED, lane] = max(memory[IMPACT_SPEED, lane], speed)
             memory[IN_CONTACT, lane] = touching
 
 
 @functools.cache
-def compiled_method(method, general):
-    """The compiled part of `integrate` for the code of one of METHODS.
-
-    general : see `is_general`; steps that need not be general take less time
-    """
-    own = method == EULER
+def compiled_for(kind):
+    """The compiled part of `integrate` for a Kind."""
+    method = kind.method
 
     @compiled
-    def integrate(parameters, step, n_steps, has_powers, sample_indices, samples, events, results, work):
+    def integrate(parameters, step, n_steps, sample_indices, samples, events, results, work):
         flat, memory = work
-        lanes = memory.shape[1]
-        running = np.empty(LANES, np.bool_)
-        for first in range(0, len(parameters), LANES):
+        lanes = 1 if kind.single else memory.shape[1]
+        running = np.empty(lanes, np.bool_)
+        sines, cosines = np.empty(CHECK), np.empty(CHECK)
+        for first in range(0, len(parameters), lanes):
             # A lane without a trajectory hangs in the air, without gravity.
             for k in range(len(flat)):
                 flat[k] = 0.0
-            for lane in range(LANES):
+            for lane in range(lanes):
                 memory[Z, lane] = 1.0
                 running[lane] = first + lane < len(parameters)
                 if running[lane]:
-                    prepare(parameters[first + lane], own, memory, lane)
+                    prepare(parameters[first + lane], method, memory, lane)
+                memory[SINE, lane], memory[COSINE, lane] = sine_and_cosine_by(method, memory[PSI0, lane])
+            find_forces_of_all(kind, lanes, flat)
             i = n_sampled = 0
-            evaluate(lanes, flat, method, general, has_powers, 0.0)
             while True:
                 while n_sampled < len(sample_indices) and sample_indices[n_sampled] <= i:
                     record_samples(parameters, first, memory, running, samples, n_sampled)
@@ -412,22 +375,28 @@ def compiled_method(method, general):
                     is_end = i == n_steps
                     if record_results(parameters, first, memory, running, results, step, evaluations, is_end) == 0:
                         break
-                record_events(first, memory, running, events, i * step)
+                    if kind.alike and method == EULER:
+                        turn_plates(flat, i, step, sines, cosines)
+                record_events(method, first, memory, running, events, i * step)
                 stop = min(n_steps, i - i % CHECK + CHECK)
                 if n_sampled < len(sample_indices):
                     stop = min(stop, sample_indices[n_sampled])
-                changed = 0
-                while changed == 0 and i != stop:
-                    changed = advance(lanes, flat, method, general, has_powers, i, step)
-                    i += 1
+                i = take_steps(kind, lanes, flat, i, stop, step, sines, cosines)
 
     return integrate
 
 
-def is_general(parameters: np.ndarray) -> bool:
-    """Whether any conveyor has an inclination, a phase shift or a static friction larger than its friction."""
+def kind_of(method: int, parameters: np.ndarray) -> Kind:
+    """The Kind of steps with the code of a method that trajectories need, for packed `parameters`, shape (n, 16)."""
+    phases = parameters[:, [model.FREQUENCY, model.PSI0]]
     tilted = (parameters[:, [model.INCLINATION, model.PHASE_SHIFT]] != 0.0).any()
-    return bool(tilted or (parameters[:, model.STATIC_FRICTION] > parameters[:, model.FRICTION]).any())
+    return Kind(
+        method,
+        single=len(parameters) == 1,
+        alike=bool((phases == phases[:1]).all()),
+        general=bool(tilted or (parameters[:, model.STATIC_FRICTION] > parameters[:, model.FRICTION]).any()),
+        has_powers=bool((~np.isin(parameters[:, model.EXPONENT], (1.0, 1.5))).any()),
+    )
 
 
 def integrate(parameters, step, n_steps, method, sample_indices, samples, events, results):
@@ -450,10 +419,8 @@ def integrate(parameters, step, n_steps, method, sample_indices, samples, events
     """
     if method not in range(len(METHODS)):
         raise ValueError(f"method: there is no code {method!r}")
-    has_powers = bool((~np.isin(parameters[:, model.EXPONENT], (1.0, 1.5))).any())
-    follow = compiled_method(method, is_general(parameters))
-    memory = new_memory(ROWS)
-    follow(parameters, step, n_steps, has_powers, sample_indices, samples, events, results, memory)
+    follow = compiled_for(kind_of(method, parameters))
+    follow(parameters, step, n_steps, sample_indices, samples, events, results, new_memory(ROWS))
 
 
 class Summary(NamedTuple):
