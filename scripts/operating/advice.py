@@ -13,8 +13,8 @@ import pandas as pd
 
 from conveyor.analysis import throw_theory
 from conveyor.parameters import RANGES
-from operating.parts import VARIED
-from operating.transit import MEASURES, measure
+from operating.parts import VARIED, population
+from operating.transit import MEASURES, follow, measure, summarize
 from pipeline import fields
 
 FAST, EVEN = "fast", "even"
@@ -92,20 +92,27 @@ def relative_change(after: float, before: float) -> float:
 
 def changes_at(row: pd.Series, settings: dict, changes: dict[str, float], *, threads: int = 1) -> list[dict]:
     """Measures if one parameter at a time is increased or decreased, at the amplitude of a row of the transit table."""
-    model, rows = settings["model"], []
-    for parameter, change in changes.items():
-        low, high = RANGES[parameter]
-        for value in (model[parameter] - change, model[parameter] + change):
-            if low <= value <= high:
-                changed = {**settings, "model": with_parameter(model, parameter, value)}
-                after = measure(np.array([row.acceleration]), changed, (VARIED,), threads=threads).iloc[0]
-                own = {
-                    "parameter": parameter,
-                    "value": value,
-                    "gain": relative_change(after.velocity_05, row.velocity_05),
-                    "widening": relative_change(after.spread, row.spread),
-                }
-                rows.append(after.to_dict() | own)
+    model, amplitude, parts = settings["model"], np.array([row.acceleration]), settings["starts"]
+    changed = [
+        (parameter, value)
+        for parameter, change in changes.items()
+        for value in (model[parameter] - change, model[parameter] + change)
+        if RANGES[parameter][0] <= value <= RANGES[parameter][1]
+    ]
+    if not changed:
+        return []
+    populations = [population(amplitude, {**settings, "model": with_parameter(model, *one)}) for one in changed]
+    run = follow(np.concatenate(populations), settings, threads=threads)
+    rows = []
+    for place, (parameter, value) in enumerate(changed):
+        after = summarize(run, slice(place * parts, (place + 1) * parts))
+        own = {
+            "parameter": parameter,
+            "value": value,
+            "gain": relative_change(after["velocity_05"], row.velocity_05),
+            "widening": relative_change(after["spread"], row.spread),
+        }
+        rows.append(after | own)
     return rows
 
 

@@ -78,6 +78,25 @@ def test_arrivals_agree_with_the_position_over_time():
     assert np.isnan(found["arrival"]).sum() == 1
 
 
+def test_repeated_motions_are_skipped_without_a_trace():
+    """Sliding, jumping and sliding back, each with and without an arrival after hundreds of cycles."""
+    rows = np.array(
+        [
+            pack(Conveyor(acceleration=a, inclination=inclination), Start(z))
+            for a, z, inclination in ((30.0, 0.0, 0.0), (40.0, 3e-4, 0.0), (30.0, 0.0, 0.12))
+        ]
+    )
+    length, longest = 0.1004, 20.0
+    found = ensemble.transits(rows, np.array([length]), np.array([longest]), begin=np.array(1.0))
+    arrived = np.where(np.isnan(found["arrival"][:, 0]), longest, found["arrival"][:, 0])
+    followed = ensemble.run(rows, duration=arrived)
+    assert np.isnan(found["arrival"]).sum() == 1
+    np.testing.assert_allclose(found["velocity"][:, 0], followed["x_end"] / arrived, rtol=1e-5)
+    late = arrived == longest
+    np.testing.assert_allclose(found["velocity"][late, 0], followed["x_end"][late] / longest, rtol=1e-8)
+    np.testing.assert_allclose(found["peak_force"], followed["peak_force"], rtol=1e-6)
+
+
 def test_transits_do_not_depend_on_threads_and_longer_tracks():
     rows = parts.population(np.array([40.0, 80.0]), SETTINGS)
     alone = ensemble.transits(rows, np.array([0.1]), np.array([2.0]), begin=np.full(len(rows), 0.4))

@@ -68,6 +68,10 @@ def time_to_next_cycle(c):
 OK, TOO_MANY_EVENTS, TOO_STIFF, IMPACT_LOST, NOT_FINITE = range(5)
 STATUS = ("ok", "too many events", "contact too stiff", "impact not found", "not finite")
 
+# On a track, parts move for thousands of cycles. A motion that after a block of cycles differs from itself by no more
+# than this part of the plate's largest speed repeats itself. The cycles are whole periods of motions with the periods
+# 1 to 6.
+BLOCK, SAME = 60, 1e-10
 # Pieces in one excitation cycle after which a run ends with "contact too stiff".
 MAX_PIECES = 100_000
 # Columns of the results of runs: the status code, numbers of events and of impacts, the time with contact force (s),
@@ -91,7 +95,8 @@ def integrate(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Follow parts until the last of their `times` and sample them there.
 
-    With `distances`, a part is followed no further than the last of them.
+    With `distances`, a part is followed no further than the last of them, and blocks of cycles in which its motion
+    repeats itself are skipped, also by the counts in the results.
 
     Parameters
     ----------
@@ -173,6 +178,31 @@ def touch_down(c, motion, horizontal):
     return Horizontal(horizontal.x, horizontal.vx, sigma)
 
 
+@compiled_into_callers
+def blocks_to_skip(c, before, after, left, ahead):
+    """How many of the next blocks of cycles repeat the last one, and contain neither a sample nor an arrival.
+
+    before, after : time into the cycle (s), w, v, the velocity and the position along the track (m/s, m) where the last
+        block began and where it ended
+    left : time to the next sample, s
+    ahead : from the furthest position in the last block to the next distance, m
+    """
+    speed = max(c.a_x, c.a_z) / c.omega
+    deviation = max(
+        c.omega * speed * abs(after[0] - before[0]),
+        c.omega * abs(after[1] ** 2 - before[1] ** 2),
+        abs(after[2] - before[2]),
+        abs(after[3] - before[3]),
+    )
+    if deviation > SAME * speed:
+        return 0
+    advance = after[4] - before[4]
+    blocks = left / (BLOCK * c.period)
+    if advance > 0.0:
+        blocks = min(blocks, ahead / advance)
+    return max(int((1.0 - SAME) * blocks), 0)  # never beyond the sample by a rounding error
+
+
 @compiled
 def follow(parameters, options, records, results, room, distances):
     """The compiled part of `integrate`.
@@ -205,7 +235,8 @@ def follow(parameters, options, records, results, room, distances):
         horizontal = Horizontal(0.0, 0.0, 0.0)
         if motion.touching:
             horizontal = touch_down(c, motion, horizontal)
-        sampled = events = impacts = steps = repeats = pieces = place = arrived = 0
+        sampled = events = impacts = steps = repeats = pieces = place = arrived = block = 0
+        compared, furthest = (0.0, 0.0, 0.0, 0.0, 0.0), 0.0
         contact_time = impact_speed = peak_force = 0.0
         max_gap = max(q, 0.0)
         status = OK
@@ -266,6 +297,7 @@ def follow(parameters, options, records, results, room, distances):
             while arrived < arrival.size and horizontal.x >= distances[arrived]:
                 arrival[arrived] = begins + piece.duration * (distances[arrived] - x_before) / (horizontal.x - x_before)
                 arrived += 1
+            furthest = max(furthest, horizontal.x)
             if arrived > 0 and arrived == arrival.size:
                 break
             pulled = motion.pulled
@@ -278,6 +310,15 @@ def follow(parameters, options, records, results, room, distances):
             motion, cycles = next_cycle(c, motion, piece)
             if cycles > 0:
                 cycle += cycles
+                if arrival.size > 0 and cycle >= block + BLOCK and motion.touching:
+                    now = (motion.t, motion.w, motion.v, horizontal.vx, horizontal.x)
+                    if cycle == block + BLOCK:
+                        left = record.times[sampled] - (cycle * c.period - offset)
+                        skipped = blocks_to_skip(c, compared, now, left, distances[arrived] - furthest)
+                        cycle += skipped * BLOCK
+                        x = horizontal.x + skipped * (horizontal.x - compared[4])
+                        horizontal = Horizontal(x, horizontal.vx, horizontal.sigma)
+                    block, compared, furthest = cycle, (now[0], now[1], now[2], now[3], horizontal.x), horizontal.x
                 base = cycle * c.period - offset
                 pieces = place = 0
             if piece.kind == FLIGHT and feeding:
