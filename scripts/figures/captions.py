@@ -102,21 +102,24 @@ def fig22(*, converged: pd.DataFrame, spectrum: pd.DataFrame, euler: pd.DataFram
 
 
 def bifurcation(
-    *, spectrum: pd.DataFrame, cascade: pd.DataFrame, bifurcations: pd.DataFrame | None = None
+    *, spectrum: pd.DataFrame, branches: pd.DataFrame, cascade: pd.DataFrame, bifurcations: pd.DataFrame
 ) -> dict[str, Any]:
     found = cascade.accumulation.dropna()
-    bends = bifurcations is None or bifurcations.kind.isin(("fold", "period_doubling")).any()
+    about = {
+        "orbits": len(branches) > 0,
+        "bends": bifurcations.kind.isin(("fold", "period_doubling")).any(),
+        "ended": (branches.cycle == 1).sum() >= branches.attrs["most"],
+    }
     if found.empty:
-        return {"accumulation": None, "bends": bends}
+        return about | {"accumulation": None}
     accumulation, runs = found.iloc[-1], {}
     for branch, rows in spectrum.sort_values("acceleration").groupby("branch"):
         early = rows[rows.acceleration < accumulation]
         runs[branch] = find_runs(early.acceleration, is_chaotic(early))
     late = spectrum[spectrum.acceleration > accumulation].sort_values("acceleration")
     regular = (late.lambda_1 < -SIGNIFICANT * late.stderr).groupby(late.acceleration).all()
-    return {
+    return about | {
         "accumulation": accumulation,
-        "bends": bends,
         "is_beyond": accumulation > spectrum.acceleration.max(),
         "early_up": format_runs(runs["up"], 2) if runs.get("up") else "nowhere",
         "early_down": format_runs(runs["down"], 2) if runs.get("down") else "nowhere",
@@ -189,13 +192,17 @@ def stability_limits(*, stability: pd.DataFrame) -> dict[str, Any]:
     return {"accuracy": VELOCITY, "own_right": own.outcome == "right"}
 
 
-def sensitivity(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.DataFrame) -> dict[str, Any]:
+def sensitivity(
+    *, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.DataFrame, bifurcations: pd.DataFrame
+) -> dict[str, Any]:
     right = derivatives[derivatives.status == "ok"]
     error = ((right.derivative - right.difference) / right.derivative).abs()[right.elasticity.abs() > SMALL_ELASTICITY]
     own = continued[continued.parameter == "angle"]
     first = continued[continued.kind == "fold"].begin.min()
     cusps = meetings[(meetings.begin == first) & (meetings.meeting == "cusp") & (meetings.parameter == "damping")]
+    short = bifurcations[bifurcations.period <= derivatives.attrs["longest_period"]]
     return {
+        "many": (short.kind.value_counts() > derivatives.attrs["most"]).any(),
         "heights": right[right.kind == "critical_height"].acceleration.unique(),
         "right": len(right) > 0,
         "has_fold": not np.isnan(first),

@@ -10,6 +10,7 @@ from conveyor.solver.model import Z0
 from pipeline import fields, grid
 from pipeline.motions import Limits, Table, find_limits, follow, is_slow, shared_attractors
 
+NOT_LOCATED = "between two heights of the scan"
 TABLES = {
     "critical": (
         fields.number("z0", "m", "initial height at which the state of motion changes"),
@@ -17,6 +18,7 @@ TABLES = {
         fields.text("state_below", "state of motion just below this height"),
         fields.text("state_above", "state of motion just above this height"),
         fields.flag("is_critical", "whether this is the lowest change out of the first state"),
+        fields.text("status", f"ok, or {NOT_LOCATED}: bisection locates only some of many changes at one conveyor"),
     ),
 }
 
@@ -45,8 +47,9 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     known = shared_attractors(parameters, len(heights), settings, threads=threads)
     starts = np.tile(parameters[0], (len(heights), 1))
     starts[:, Z0] = heights
-    slow = is_slow(Table(parameters, starts, (len(parameters), len(heights))), settings, threads=threads)
-    limits = find_limits(parameters, starts, known, settings, threads=threads) if slow else None
+    table = Table(parameters, starts, (len(parameters), len(heights)))
+    slow = is_slow(table, settings, threads=threads)
+    limits = find_limits(parameters, table, known, settings, threads=threads) if slow else None
     found = boundary_scan.find_crossings(
         parameters, heights, lambda rows: find_states(rows, settings, known, limits, threads), settings["resolution"]
     )
@@ -57,5 +60,6 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
         "crossing": np.arange(len(found.point)) - first_row + 1,
         "state_below": found.below,
         "state_above": found.above,
-        "is_critical": boundary_scan.select_critical(found),
+        "is_critical": boundary_scan.select_critical(found.point, found.below),
+        "status": np.where(found.located, "ok", NOT_LOCATED),
     }

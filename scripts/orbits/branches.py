@@ -94,7 +94,7 @@ def explore_branches(parameters: np.ndarray, orbits: list[Orbit], settings: dict
     """
     options = tuple(settings["limits"]), settings["max_period"]
     if "seeds" in settings:
-        return continuation.explore(parameters, orbits, *options)
+        return continuation.explore(parameters, orbits, *options, settings["most"])
     branches = []
     for period in sorted({orbit.period for orbit in orbits}):
         new = [
@@ -103,7 +103,8 @@ def explore_branches(parameters: np.ndarray, orbits: list[Orbit], settings: dict
             if orbit.period == period
             and not any(continuation.on_branch(parameters, branch, orbit) for branch in branches)
         ]
-        branches += continuation.explore(parameters, new, *options)
+        left = settings["most"] - sum(len(branch.orbits) for branch in branches)
+        branches += continuation.explore(parameters, new, *options, left)
     return branches
 
 

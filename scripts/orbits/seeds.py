@@ -55,19 +55,11 @@ def search_seeds(parameters: np.ndarray, settings: dict) -> Iterator[Orbit]:
 
 
 def seeds(parameters: np.ndarray, settings: dict) -> list[Orbit]:
-    """The stable orbits from which branches are continued.
+    """The stable orbits from which branches are continued; the search may find none.
 
     Raises
     ------
     ValueError
-        if there are none, or a seed of the config does not lead to one
+        if a seed of the config does not lead to one
     """
-    if "seeds" in settings:
-        return follow_seeds(settings)
-    found = list(search_seeds(parameters, settings))
-    if not found:
-        raise ValueError(
-            f"orbits.seeds: no initial condition between {settings['limits']} m/s² leads to a stable orbit of up to "
-            f"{settings['max_period']} cycles; change orbits.limits, or add orbits.seeds"
-        )
-    return found
+    return follow_seeds(settings) if "seeds" in settings else list(search_seeds(parameters, settings))

@@ -17,7 +17,7 @@ from conveyor.analysis.attractors.search import find_attractors
 from conveyor.simulation import DEFAULT_TOLERANCE
 from conveyor.solver.model import PARAMETERS, PSI0, VZ0, Z0
 from pipeline import grid
-from pipeline.sizes import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED, UNLIMITED
+from pipeline.sizes import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED, WHOLE_MAP
 
 INITIAL_CONDITIONS = {PARAMETERS[k] for k in (PSI0, Z0, VZ0)}
 # Conveyors per batch: the attractors of a conveyor take some 30 kB of memory.
@@ -97,14 +97,14 @@ def limit_of_mean(cycles: np.ndarray, mean: float) -> int:
 
 
 def search_limits(
-    sample: np.ndarray, group: np.ndarray, attractors: AttractorTable, settings: dict, *, threads: int = 1
+    sample: np.ndarray, group: np.ndarray, attractors: AttractorTable, mean: float, settings: dict, *, threads: int = 1
 ) -> np.ndarray:
-    """The excitation cycles after which searches in each group must end to take `mean_settling` cycles on average.
+    """The excitation cycles after which searches in each group must end to take `mean` cycles on average.
 
     sample, group : some initial conditions of the groups, shape (k, 16), and their groups, 0 to m - 1, shape (k,)
     Returns int64, shape (m,), at most `settling`.
     """
-    most, mean = settings["settling"], settings["mean_settling"]
+    most = settings["settling"]
     limits, is_open = np.full(group.max() + 1, most), np.ones(group.max() + 1, dtype=bool)
     options = {"tolerance": search_tolerance(settings), "exponents": False, "threads": threads}
     limit = min(FIRST_LIMIT, most)
@@ -120,25 +120,31 @@ def search_limits(
     return limits
 
 
+def mean_limit(table: Table, settings: dict) -> float:
+    """The excitation cycles that searches for a table may take on average: as many in all as for a whole map."""
+    return settings["mean_settling"] * max(1.0, WHOLE_MAP / math.prod(table.counts))
+
+
 def is_slow(table: Table, settings: dict, *, threads: int = 1) -> bool:
-    """Whether a table has many points whose searches take more than `mean_settling` cycles on average."""
-    conveyors, starts = table.counts
-    if starts < ORBITS_SHARED or conveyors * starts <= UNLIMITED:
+    """Whether the searches for a table take more cycles than its `mean_limit`."""
+    mean = mean_limit(table, settings)
+    if mean >= settings["settling"]:
         return False
     sample = sample_starts(spread(distinct_conveyors(table.conveyors)[0], SAMPLED_CONVEYORS), table.starts)
-    attractors = shared_attractors(sample, starts, settings, threads=threads)
+    attractors = shared_attractors(sample, table.counts[1], settings, threads=threads)
     group = np.zeros(len(sample), dtype=np.int64)
-    return bool(search_limits(sample, group, attractors, settings, threads=threads)[0] < settings["settling"])
+    return bool(search_limits(sample, group, attractors, mean, settings, threads=threads)[0] < settings["settling"])
 
 
 def find_limits(
-    parameters: np.ndarray, starts: np.ndarray, attractors: AttractorTable, settings: dict, *, threads: int = 1
+    parameters: np.ndarray, table: Table, attractors: AttractorTable, settings: dict, *, threads: int = 1
 ) -> Limits:
-    """The limits of searches for the attractors of `starts`, shape (s, 16), on the conveyors in `parameters`."""
+    """The limits of searches for a table, on the conveyors in `parameters`, which are some of the table's rows."""
     conveyors, _ = distinct_conveyors(parameters)
-    sample = sample_starts(parameters, starts)
+    sample = sample_starts(parameters, table.starts)
     group = np.repeat(np.arange(len(conveyors)), len(sample) // len(conveyors))
-    return Limits(conveyors, search_limits(sample, group, attractors, settings, threads=threads))
+    mean = mean_limit(table, settings)
+    return Limits(conveyors, search_limits(sample, group, attractors, mean, settings, threads=threads))
 
 
 def follow(
@@ -191,7 +197,7 @@ def motions_of_starts(
     """The attractors that initial conditions lead to. Attractors that many of them share are found first.
 
     parameters : float64, shape (n, 16)
-    settings : `settling`, `mean_settling` for a table of many points, and `tolerance` if it is not the default
+    settings : `settling`, `mean_settling`, and `tolerance` if it is not the default
     starts : number of initial conditions of each conveyor, in all batches and shards
     table : the whole table, if `parameters` are only a part of it
     """
@@ -202,7 +208,7 @@ def motions_of_starts(
         label = progress and (f"{progress} ({number} of {len(batches)})" if len(batches) > 1 else progress)
         batch, options = parameters[rows], {"threads": threads}
         known = shared_attractors(batch, starts, settings, **options, progress=label)
-        limits = find_limits(batch, table.starts, known, settings, **options) if slow else None
+        limits = find_limits(batch, table, known, settings, **options) if slow else None
         parts.append(follow(batch, known, settings, limits=limits, **options, progress=label))
     return join(parts, batches)
 

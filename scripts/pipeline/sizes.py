@@ -12,5 +12,5 @@ ORBITS_SHARED = 200
 # Below this total of excitation cycles over all initial conditions, this search takes longer than it saves.
 CYCLES_SHARED = 32_000
 
-# Up to this number of points, no limit ends a search before solver.settling: the table takes some minutes at most.
-UNLIMITED = 10_000
+# Points of a map. All searches for a smaller table may together take as many cycles as those for a map.
+WHOLE_MAP = 160_000

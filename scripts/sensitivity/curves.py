@@ -140,9 +140,7 @@ def make(
     """The columns of both tables, by their kinds, for the section `sensitivity` of the config."""
     parameters = grid.packed(settings["model"])
     options = settings["curves"]
-    chosen = select_bifurcations(
-        parameters, folds_and_doublings, cascade, settings["longest_period"], options["doublings"]
-    )
+    chosen = select_bifurcations(parameters, folds_and_doublings, cascade, settings, options["doublings"])
     chosen = [one for one in chosen if one.point is not None and (one.kind != GRAZING or one.rides)]
     tasks = [(bifurcation, parameter) for bifurcation in chosen for parameter in POWERS]
     tasks += [(bifurcation, "angle") for bifurcation in chosen]

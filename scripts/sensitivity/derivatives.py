@@ -269,9 +269,7 @@ def make(
 ) -> dict[str, dict[str, np.ndarray]]:
     """The columns of both tables, by their kinds, for the section `sensitivity` of the config."""
     parameters = grid.packed(settings["model"])
-    chosen = select_bifurcations(
-        parameters, folds_and_doublings, cascade, settings["longest_period"], settings["doublings"]
-    )
+    chosen = select_bifurcations(parameters, folds_and_doublings, cascade, settings, settings["doublings"])
     bifurcations = [differentiate_bifurcation(parameters, bifurcation) for bifurcation in chosen]
     accumulation = differentiate_accumulation(parameters, [point for point in bifurcations if point.doubling])
     points = [*bifurcations, *([accumulation] if accumulation else []), *boundary_points(critical, settings)]

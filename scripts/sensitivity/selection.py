@@ -46,17 +46,21 @@ def solve_again(parameters: np.ndarray, row: pd.Series) -> Point | None:
 
 
 def select_bifurcations(
-    parameters: np.ndarray, bifurcations: pd.DataFrame, cascade: pd.DataFrame, longest_period: int, doublings: int
+    parameters: np.ndarray, bifurcations: pd.DataFrame, cascade: pd.DataFrame, settings: dict, doublings: int
 ) -> list[Selected]:
-    """Folds, period doublings and grazings up to a period, by amplitude, then the first doublings of the cascade."""
+    """Folds, period doublings and grazings up to a period, by amplitude, then the first doublings of the cascade.
+
+    settings : the section `sensitivity` of the config, with `longest_period`, and `most`, the number of each kind
+    """
     first = cascade.sort_values("number").head(doublings).assign(kind="period_doubling")
-    others = bifurcations[bifurcations.period <= longest_period].sort_values("acceleration")
+    others = bifurcations[bifurcations.period <= settings["longest_period"]].sort_values("acceleration")
     repeated = [
         ((first.period == row.period) & (abs(first.acceleration / row.acceleration - 1.0) < SAME)).any()
         and row.kind == "period_doubling"
         for row in others.itertuples()
     ]
-    rows = pd.concat([others[~np.array(repeated, dtype=bool)].assign(number=0), first])
+    others = others[~np.array(repeated, dtype=bool)].assign(number=0)
+    rows = pd.concat([others[others.groupby("kind").cumcount() < settings["most"]], first])
     return [
         Selected(
             row["kind"],

@@ -75,12 +75,21 @@ def test_chaos_before_the_accumulation_is_mentioned():
         for branch, early in (("up", (acceleration >= 59.5) & (acceleration <= 61.0)), ("down", False))
     )
     cascade = pd.DataFrame({"accumulation": [np.nan, 62.77]})
-    text = caption("bifurcation", {"longest_period": 2}, spectrum=spectrum, cascade=cascade)
+    orbits = pd.DataFrame({"cycle": [1, 2, 1, 2]})
+    orbits.attrs |= {"most": 3, "max_period": 4}
+    others = {"spectrum": spectrum, "branches": orbits, "bifurcations": pd.DataFrame({"kind": ["fold"]})}
+    text = caption("bifurcation", {"longest_period": 2}, cascade=cascade, **others)
     assert "accumulate at 62.77 m/s²." in text
     assert "(increasing amplitude: 59.50 to 61.00 m/s²; decreasing amplitude: nowhere)" in text
     assert f"; {100 * 2 / 14:.0f} % of the amplitudes" in text  # 63.0 and the window at 66.0
-    without = caption("bifurcation", {"longest_period": 2}, spectrum=spectrum, cascade=cascade[:1])
+    without = caption("bifurcation", {"longest_period": 2}, cascade=cascade[:1], **others)
     assert without.endswith("attractors. No cascade of period doublings was found.")
+    orbits.attrs["most"] = 2
+    ended = caption("bifurcation", {"longest_period": 2}, cascade=cascade[:1], **others)
+    assert "The search ended after 2 orbits; a larger ``orbits.most``" in ended
+    none = others | {"branches": orbits[:0], "bifurcations": pd.DataFrame({"kind": []})}
+    empty = caption("bifurcation", {"longest_period": 2}, cascade=cascade[:1], **none)
+    assert "No initial condition leads to a stable orbit of up to 4 cycles" in empty
 
 
 def test_costs_cover_all_jobs_behind_a_figure():

@@ -22,6 +22,8 @@ def test_changes_are_numbered_from_below_at_each_conveyor(monkeypatch):
             "model": {"vz0": 0.0},
             "scan": {"start": 0.0, "stop": 4e-4, "num": 9},
             "resolution": 1e-9,
+            "settling": 2000,
+            "mean_settling": 400,
         }
     )
     assert found["acceleration"].tolist() == [30.0, 40.0, 40.0, 40.0]
@@ -29,3 +31,4 @@ def test_changes_are_numbered_from_below_at_each_conveyor(monkeypatch):
     np.testing.assert_allclose(found["z0"], [1.5e-4, 1.5e-4, 2.5e-4, 3.5e-4], rtol=0, atol=1e-9)
     assert found["state_below"].tolist() == ["first", "first", "second", "first"]
     assert found["is_critical"].tolist() == [True, True, False, False]
+    assert set(found["status"]) == {"ok"}

@@ -1,5 +1,6 @@
 """Strobes, exponents and witnesses at a few amplitudes where they are known."""
 
+from collections import namedtuple
 from types import SimpleNamespace
 
 import numpy as np
@@ -94,30 +95,36 @@ def test_seeds_are_found():
     assert len(tables["cascade"]["number"]) == 0
 
 
-def test_a_search_without_a_stable_orbit_says_so():
+def test_a_search_without_a_stable_orbit_leaves_the_tables_empty():
     """In chaos there is no stable orbit."""
     section = read_config("orbits")["orbits"]
     settings = {**section, "limits": [79.0, 81.0], "cycles": 300, "model": MODEL}
     del settings["seeds"]
-    with pytest.raises(
-        ValueError, match=r"orbits\.seeds: no initial condition between \[79\.0, 81\.0\] m/s² leads to a stable orbit"
-    ):
-        branches.make(settings)
+    tables = branches.make(settings)
+    assert {len(column) for table in tables.values() for column in table.values()} == {0}
 
 
 def test_orbits_on_a_known_branch_start_no_new_branch(monkeypatch):
     """The branch of the orbit of one cycle leads to the doubled branch, on which the other orbit lies."""
+    branch = namedtuple("Branch", "name orbits")
     periods = {"double": 2, "once": 1, "apart": 2}
     starts = [SimpleNamespace(name=name, period=period) for name, period in periods.items()]
     found = {"once": ["once", "double"], "apart": ["apart"], "double": ["double"]}
-    monkeypatch.setattr(branches.continuation, "on_branch", lambda parameters, branch, orbit: branch == orbit.name)
+    monkeypatch.setattr(branches.continuation, "on_branch", lambda parameters, branch, orbit: branch.name == orbit.name)
     monkeypatch.setattr(
         branches.continuation,
         "explore",
-        lambda parameters, seeds, *rest: [one for seed in seeds for one in found[seed.name]],
+        lambda parameters, seeds, *rest: [branch(one, [one]) for seed in seeds for one in found[seed.name]],
     )
-    settings = {"limits": [20.0, 90.0], "max_period": 2}
-    assert branches.explore_branches(None, starts, settings) == ["once", "double", "apart"]
+    settings = {"limits": [20.0, 90.0], "max_period": 2, "most": 1000}
+    assert [one.name for one in branches.explore_branches(None, starts, settings)] == ["once", "double", "apart"]
+
+
+def test_no_branch_is_followed_after_the_largest_number_of_orbits():
+    section = read_config("orbits")["orbits"]
+    settings = {**section, "limits": [38.0, 42.0], "max_period": 1, "cycles": 300, "most": 1, "model": MODEL}
+    tables = branches.make({key: value for key, value in settings.items() if key != "seeds"})
+    assert set(tables["branches"]["branch"]) == {0}
 
 
 def test_an_exponent_within_its_error_is_not_a_witness_of_chaos(monkeypatch):

@@ -8,6 +8,7 @@ from pipeline import grid, motions
 SETTINGS = {
     "axes": {"acceleration": [40.0, 53.0, 80.0], "z0": {"start": 0.0, "stop": 4e-4, "num": 9}},
     "settling": 4000,
+    "mean_settling": 1000,
     "tolerance": 1e-8,
 }
 
@@ -64,7 +65,7 @@ AT_A_WINDOW = {
 def test_searches_of_many_points_take_a_mean_number_of_cycles(monkeypatch):
     """At 73 m/s², chaos is a transient of thousands of cycles."""
     starts = grid.product(AT_A_WINDOW["axes"], AT_A_WINDOW["model"])[1]
-    monkeypatch.setattr(motions, "UNLIMITED", 399)
+    monkeypatch.setattr(motions, "WHOLE_MAP", 400)
     found = motions.motions(starts, AT_A_WINDOW)
     assert 300 < found.cycles.mean() < 500
     undecided = found.state == "undecided"
@@ -80,7 +81,7 @@ def test_searches_of_few_points_and_quick_ones_have_no_limit(monkeypatch):
     settings = AT_A_WINDOW | {"model": {"acceleration": 40.0}}
     starts = grid.product(settings["axes"], settings["model"])[1]
     found = motions.motions(starts, settings)
-    monkeypatch.setattr(motions, "UNLIMITED", 399)
+    monkeypatch.setattr(motions, "WHOLE_MAP", 400)
     assert equal(motions.motions(starts, settings), found)
     assert "undecided" not in found.state
 

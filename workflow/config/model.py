@@ -185,6 +185,7 @@ class Orbits(TypedDict):
     limits: interval(Acceleration, "amplitudes between which branches are followed")
     max_period: whole("longest period that is followed", 1, 64, "excitation cycles")
     cycles: whole("cycles until a seed is near its orbit", 64, 10**9, "excitation cycles")
+    most: whole("orbits after which no further branch is followed", 1, 10**9)
     model: NotRequired[Model]
 
 
@@ -466,6 +467,7 @@ class Curves(TypedDict):
 
 class Sensitivity(TypedDict):
     longest_period: Period
+    most: whole("number of bifurcations of each kind, those at the lowest amplitudes", 1, 10**4)
     doublings: whole("doublings whose derivatives are extrapolated", 1, 12)
     rest: mapping("initial condition of Fig. 3", {"z0": HeightNumber, "vz0": Velocity})
     critical: Annotated[Name, Field(description="entry of `critical` over the amplitude alone")]

@@ -192,7 +192,7 @@ def derivatives_settings(config: dict) -> dict:
 
 
 def curves_settings(config: dict) -> dict:
-    own = {key: config["sensitivity"][key] for key in ("longest_period", "curves")}
+    own = {key: config["sensitivity"][key] for key in ("longest_period", "most", "curves")}
     return {**own, "model": model_of(config, "orbits", normal=True)}
 
 

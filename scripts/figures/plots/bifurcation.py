@@ -32,7 +32,8 @@ def draw_bifurcations(axes: Axes, bifurcations: pd.DataFrame) -> None:
     """Draw folds and period doublings."""
     for kind, (marker, label) in MARKERS.items():
         rows = bifurcations[bifurcations.kind == kind]
-        axes.plot(rows.acceleration, rows.v, marker, label=label, zorder=3, **WHITE)
+        if len(rows):
+            axes.plot(rows.acceleration, rows.v, marker, label=label, zorder=3, **WHITE)
 
 
 def draw_exponents(axes: Axes, spectrum: pd.DataFrame, lowest: float) -> None:
@@ -68,8 +69,9 @@ def plot(
             axes.axvline(place, color="0.5", linewidth=0.6, linestyle=":")
         style.note(exponents, "period doublings accumulate", (place, 0.05), (3, 0), xycoords=("data", "axes fraction"))
     draw_exponents(exponents, spectrum, lowest_exponent)
-    diagram.plot([], [], label="stable orbit", **STABLE)
-    diagram.plot([], [], label="unstable orbit", **UNSTABLE)
+    for stable, label, look in ((True, "stable orbit", STABLE), (False, "unstable orbit", UNSTABLE)):
+        if (branches.stable == stable).any():
+            diagram.plot([], [], label=label, **look)
     diagram.set_ylabel("speed of approach $v$ at $\\psi$ = $\\psi_0$ in m/s")
     exponents.set_ylabel("exponent $\\lambda_1$ in 1/s")
     exponents.set_xlabel(style.AMPLITUDE)

@@ -27,28 +27,31 @@ def cover_by_boxes(strobes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndar
 
 
 def find_chaotic_sets(
-    conveyors: np.ndarray, sampled: list[Trajectories], cycles: int, tolerance: float
+    conveyors: np.ndarray, sampled: list[Trajectories], cycles: int, tolerance: float, *, most: int
 ) -> list[ChaoticSets]:
     """The chaotic sets of conveyors, shape (n, 16), from motions that do not converge within twice `cycles`.
 
     A conveyor on which a trajectory becomes periodic late has no chaotic sets: chaos is a transient there, and every
     trajectory must be followed to its own end. Trajectories of one conveyor run one after the other, and trajectories
-    of several conveyors side by side.
+    of several conveyors side by side. On each conveyor, no new trajectory begins after `most` cycles in all.
     """
     candidates = [list(trajectories.states[trajectories.outcomes == NOT_CONVERGED]) for trajectories in sampled]
-    found = [NO_ATTRACTORS.chaotic] * len(conveyors)
+    found, spent = [NO_ATTRACTORS.chaotic] * len(conveyors), np.zeros(len(conveyors), dtype=np.int64)
 
     def search(rows: list[int], states: np.ndarray, length: int, strobes: np.ndarray | None = None) -> Trajectories:
         attractors = concatenate([NO_ATTRACTORS, *(NO_ATTRACTORS._replace(chaotic=found[k]) for k in rows)])
-        return sampling.follow(conveyors[rows], states, length, tolerance, attractors, strobes)
+        motions = sampling.follow(conveyors[rows], states, length, tolerance, attractors, strobes)
+        spent[rows] += motions.followed
+        return motions
 
-    while any(candidates):
-        rows = np.array([k for k, states in enumerate(candidates) if states])
+    while rows := [k for k, states in enumerate(candidates) if states and spent[k] < most]:
+        rows = np.array(rows)
         states = np.array([candidates[k].pop(0) for k in rows])
         # A few cycles are enough to leave out motions that stay in a known set, or that do not stretch.
         goes_on = search(rows, states, sampling.SHORT_SEARCH).outcomes == NOT_CONVERGED
         rows, states = rows[goes_on], states[goes_on]
         early = lyapunov.spectrum_from(conveyors[rows], states, sampling.SHORT_SEARCH, tolerance=tolerance)
+        spent[rows] += sampling.SHORT_SEARCH
         goes_on = early.lambda_1 > 0.0
         rows, states, followed = rows[goes_on], states[goes_on], 0
         for record in (False, True):
@@ -58,6 +61,7 @@ def find_chaotic_sets(
                 found[k], candidates[k] = NO_ATTRACTORS.chaotic, []
             goes_on = motions.outcomes == NOT_CONVERGED
             rows, states, followed = rows[goes_on], motions.states[goes_on], cycles
+        spent[rows] += sum(lyapunov.LOOKS)
         stretches = lyapunov.signs(conveyors[rows], states, tolerance=tolerance) > 0
         for k, visited in zip(rows[stretches], strobes[goes_on][stretches], strict=True):
             if len(found[k].low) < MOST:

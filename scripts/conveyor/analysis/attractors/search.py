@@ -10,6 +10,9 @@ from .trapping_regions import find_attracting_orbits
 
 # Conveyors whose trajectories are followed side by side.
 TOGETHER = 16
+# Chaotic sets of a conveyor, and then its orbits, are searched for in at most as many cycles as this number of
+# searches for a period takes.
+SEARCHES = 32
 
 
 def find_attractors(
@@ -25,7 +28,8 @@ def find_attractors(
 
     Parameters
     ----------
-    cycles : excitation cycles after which a search for a period ends, as in labels.classify
+    cycles : excitation cycles after which a search for a period ends, as in labels.classify. SEARCHES times as many
+        end the search for the chaotic sets of a conveyor, and the search for its orbits; the rest is not found
     orbits : whether trapping regions of periodic orbits are wanted; each takes some thousand cycles
     tolerance, threads, progress : as in labels.classify
     """
@@ -35,11 +39,13 @@ def find_attractors(
     def work(begin, end):
         some = conveyors[begin:end]
         sampled = sampling.sample_conveyors(some, min(sampling.SHORT_SEARCH, cycles), tolerance)
-        chaotic = find_chaotic_sets(some, sampled, cycles, tolerance)
+        most = SEARCHES * cycles
+        chaotic = find_chaotic_sets(some, sampled, cycles, tolerance, most=most)
         for k, (row, of_row, sets) in enumerate(zip(some, sampled, chaotic, strict=True), start=begin):
-            found[k] = AttractorTable(
-                find_attracting_orbits(row, of_row, sets, cycles, tolerance) if orbits else NO_ATTRACTORS.orbits, sets
-            )
+            known = NO_ATTRACTORS.orbits
+            if orbits:
+                known = find_attracting_orbits(row, of_row, sets, cycles, tolerance, most=most)
+            found[k] = AttractorTable(known, sets)
 
     chunk = TOGETHER if len(conveyors) >= TOGETHER * threads else 1
     for_each_chunk(work, len(conveyors), threads=threads, chunk=chunk, progress=progress)

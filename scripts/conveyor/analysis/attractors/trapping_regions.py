@@ -46,6 +46,11 @@ def comes_inside(parameters, tolerance, centre, factor, period, radius, periods=
     centre, factor : see AttractingOrbits
     period : excitation cycles, of the orbit
     periods : number of periods in which it must come inside
+
+    Returns
+    -------
+    inside : whether it does
+    cycles : excitation cycles that all points of the curve were followed for
     """
     c, series = contact.constants(parameters, tolerance), contact.workspace()
     no_tangent, features = np.empty((0, 2)), np.zeros(stroboscopic_map.FEATURES)
@@ -56,24 +61,24 @@ def comes_inside(parameters, tolerance, centre, factor, period, radius, periods=
         states[i, 0] = centre[0] + (radius * math.cos(angle) - factor[1] * across) / factor[0]
         states[i, 1] = centre[1] + across - c.damping * max(states[i, 0], 0.0)
     before = math.inf
-    for _ in range(periods):
+    for n in range(1, periods + 1):
         size = gap = 0.0
         for i in range(POINTS):
             for _ in range(period):
                 status = stroboscopic_map.advance(c, series, states[i], BEGIN_OF_CYCLE, c.period, no_tangent, features)
                 if status != OK:
-                    return False
+                    return False, n * period * POINTS
             images[i, 0], images[i, 1] = distance_components(c, centre, factor, states[i])
             size = max(size, math.hypot(images[i, 0], images[i, 1]))
         for i in range(POINTS):
             gap = max(gap, math.hypot(images[i, 0] - images[i - 1, 0], images[i, 1] - images[i - 1, 1]))
         if size + gap <= 0.5 * radius:
-            return True
+            return True, n * period * POINTS
         # A curve that has left itself and does not come back is most likely outside the basin.
         if size > radius and size >= before:
-            return False
+            return False, n * period * POINTS
         before = size
-    return False
+    return False, periods * period * POINTS
 
 
 def spectral_radius(matrix: np.ndarray) -> float:
@@ -143,39 +148,47 @@ def refine_orbit(
 
 
 def find_trapping_region(
-    parameters: np.ndarray, tolerance: float, state: np.ndarray, period: int
-) -> tuple[np.ndarray, np.ndarray] | None:
-    """Centre, shape (2,), and factor, shape (3,), of the largest trapping region of a point of an orbit; None for none.
+    parameters: np.ndarray, tolerance: float, state: np.ndarray, period: int, *, most: int
+) -> tuple[tuple[np.ndarray, np.ndarray] | None, int]:
+    """The largest trapping region of a point of an orbit that at most about `most` excitation cycles show.
 
     parameters : float64, shape (16,), with the phase trajectory.BEGIN_OF_CYCLE
     state : δ (m), v (m/s), shape (2,), at trajectory.BEGIN_OF_CYCLE
+
+    Returns
+    -------
+    region : centre, shape (2,), and factor, shape (3,); None for none
+    spent : excitation cycles
     """
     damping, unit = contact.constants(parameters, tolerance).damping, np.array(units(parameters))
     centre = np.array([state[0], state[1] + damping * max(state[0], 0.0)])
     periods, found = PERIODS, linearise(parameters, tolerance, centre, period)
     if found is None:
-        return None
+        return None, 0
     matrix = found[1] * unit / unit[:, None]
     if spectral_radius(matrix) <= SLOW:
         norm = contracting_norm(matrix)
     else:
         refined = refine_orbit(parameters, tolerance, centre, period)
         if refined is None:
-            return None
+            return None, 0
         centre, matrix = refined
         norm = slow_norm(matrix)
         periods = math.ceil(PATIENCE * math.log(0.5) / math.log(min(spectral_radius(matrix), SLOWEST)))
     if norm is None:
-        return None
+        return None, 0
     factor = (norm / unit)[np.triu_indices(2)]
-    radius = SMALLEST
-    while radius <= LARGEST and comes_inside(parameters, tolerance, centre, factor, period, radius, periods):
-        radius *= 2.0
-    return (centre, factor / (0.5 * radius)) if radius > SMALLEST else None
+    radius, spent, inside = SMALLEST, 0, True
+    while inside and radius <= LARGEST and spent < most:
+        inside, cycles = comes_inside(parameters, tolerance, centre, factor, period, radius, periods)
+        spent += cycles
+        if inside:
+            radius *= 2.0
+    return ((centre, factor / (0.5 * radius)) if radius > SMALLEST else None), spent
 
 
 def find_attracting_orbits(
-    parameters: np.ndarray, sampled: Trajectories, chaotic: ChaoticSets, cycles: int, tolerance: float
+    parameters: np.ndarray, sampled: Trajectories, chaotic: ChaoticSets, cycles: int, tolerance: float, *, most: int
 ) -> AttractingOrbits:
     """The attracting orbits of a conveyor, shape (16,), that trajectories reach, each with a trapping region.
 
@@ -184,26 +197,31 @@ def find_attracting_orbits(
     sampled : trajectories on the conveyor; those that have not converged are followed further, for at most `cycles`,
         one after the other, so that each slow orbit is approached only once
     chaotic : the known chaotic sets of the conveyor
+    most : excitation cycles in all, after which no further orbit is searched for
     """
     at_top, unit = parameters.copy(), np.array(units(parameters))
     at_top[PSI0] = BEGIN_OF_CYCLE
-    seen, found = np.empty((0, 2)), NO_ATTRACTORS.orbits
+    seen, found, left = np.empty((0, 2)), NO_ATTRACTORS.orbits, most
 
     def add(state: np.ndarray, period: int, flight: float) -> None:
-        nonlocal seen, found
-        if period > LONGEST or (np.abs((seen - state) / unit).max(axis=1) < SMALLEST).any():
+        nonlocal seen, found, left
+        if left <= 0 or period > LONGEST or (np.abs((seen - state) / unit).max(axis=1) < SMALLEST).any():
             return
         status, strobes, _ = stroboscopic_map.follow(at_top, tolerance, state.copy(), period)
         if status == OK:
             seen = np.concatenate([seen, strobes])
-            around = find_trapping_region(at_top, tolerance, state, period)
+            around, spent = find_trapping_region(at_top, tolerance, state, period, most=left)
+            left -= spent
             if around is not None:
                 found = append_row(found, parameters, *around, period, flight)
 
     for k in np.flatnonzero(sampled.outcomes == PERIODIC):
         add(sampled.states[k], int(sampled.periods[k]), sampled.flights[k])
     for state in sampled.states[sampled.outcomes == NOT_CONVERGED]:
+        if left <= 0:
+            break
         late = sampling.follow(parameters[None], state[None], cycles, tolerance, AttractorTable(found, chaotic))
+        left -= int(late.followed[0])
         if late.outcomes[0] == NOT_CONVERGED:
             break
         constants = contact.constants(parameters, tolerance)

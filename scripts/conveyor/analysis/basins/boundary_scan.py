@@ -11,12 +11,16 @@ import numpy as np
 
 from ...solver.model import Z0
 
+# Changes of state of one conveyor that are located. Where chaos is a long transient, each height has its own label.
+MOST = 16
+
 
 class Crossings(NamedTuple):
     """Changes of state along z0, sorted by conveyor and height; every field has the shape (k,)."""
 
     point: np.ndarray  # int64, row of the conveyor
     height: np.ndarray  # m, the highest z0 found to lead to the state below
+    located: np.ndarray  # bool, whether bisection has located it; otherwise it lies between two heights of the scan
     below: np.ndarray  # str, label just below
     above: np.ndarray  # str, label just above
 
@@ -27,7 +31,9 @@ def find_crossings(
     decide: Callable[[np.ndarray], np.ndarray],
     resolution: float = 1e-9,
 ) -> Crossings:
-    """All changes of state that a scan of z0 shows, each located by bisection.
+    """All changes of state that a scan of z0 shows; bisection locates at most MOST of each conveyor.
+
+    The critical one and the lowest ones are located.
 
     Parameters
     ----------
@@ -61,23 +67,25 @@ def find_crossings(
     point, left = np.nonzero(scan[:, 1:] != scan[:, :-1])
     low, high = heights[left], heights[left + 1]
     below, above = scan[point, left], scan[point, left + 1]
-    while (wide := np.flatnonzero(high - low > resolution)).size:
+    rank = np.arange(len(point)) - np.searchsorted(point, point)
+    located = (rank < MOST - 1) | select_critical(point, below)
+    while (wide := np.flatnonzero(located & (high - low > resolution))).size:
         middle = 0.5 * (low[wide] + high[wide])
         state = states_at(point[wide], middle)
         lower = state == below[wide]
         low[wide[lower]] = middle[lower]
         high[wide[~lower]], above[wide[~lower]] = middle[~lower], state[~lower]
-    return Crossings(point, low, below, above)
+    return Crossings(point, low, located, below, above)
 
 
-def select_critical(found: Crossings) -> np.ndarray:
-    """Which of the crossings is the critical z0 of its conveyor: bool, shape (k,).
+def select_critical(point: np.ndarray, below: np.ndarray) -> np.ndarray:
+    """Which of some `Crossings` is the critical z0 of its conveyor: bool, shape (k,).
 
     It is the lowest crossing at which the first state ends: a part released lower is certain to move with the plate.
     (The height above which *only* the second state is found need not exist: where the second state is young, parts that
     fall from still higher land in the first state again.)
     """
-    leaves = np.flatnonzero(found.below == "first")
-    chosen = np.zeros(len(found.point), dtype=bool)
-    chosen[leaves[np.unique(found.point[leaves], return_index=True)[1]]] = True
+    leaves = np.flatnonzero(below == "first")
+    chosen = np.zeros(len(point), dtype=bool)
+    chosen[leaves[np.unique(point[leaves], return_index=True)[1]]] = True
     return chosen

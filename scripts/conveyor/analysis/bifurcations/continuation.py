@@ -174,7 +174,7 @@ def on_branch(parameters: np.ndarray, branch: Branch, orbit: Orbit) -> bool:
 
 
 def explore(
-    parameters: np.ndarray, seeds: Iterable[Orbit], limits: tuple[float, float], max_period: int
+    parameters: np.ndarray, seeds: Iterable[Orbit], limits: tuple[float, float], max_period: int, most: int
 ) -> list[Branch]:
     """All branches that are connected with the seeds through period doublings, each once.
 
@@ -184,10 +184,11 @@ def explore(
     seeds : orbits to begin with
     limits : lowest and highest â, m/s²
     max_period : longer orbits are left out
+    most : number of orbits, after which no further branch is followed
     """
     branches: list[Branch] = []
     waiting = list(seeds)
-    while waiting:
+    while waiting and sum(len(branch.orbits) for branch in branches) < most:
         orbit = waiting.pop(0)
         if any(on_branch(parameters, branch, orbit) for branch in branches):
             continue

@@ -40,14 +40,14 @@ def test_every_stripe_is_reported_and_the_lowest_end_of_the_first_state_is_criti
     np.testing.assert_array_equal(found.point, [0, 0, 0, 1, 1, 1])
     np.testing.assert_allclose(found.height, np.tile([1e-4, 2e-4, 1e-3 / 3.0], 2), atol=1e-9)
     assert list(found.above[:3]) == ["second", "first", "chaos"]
-    np.testing.assert_array_equal(boundary_scan.select_critical(found), [True, False, False] * 2)
+    np.testing.assert_array_equal(boundary_scan.select_critical(found.point, found.below), [True, False, False] * 2)
 
 
 def test_a_start_in_the_second_state_is_not_critical():
     found = boundary_scan.find_crossings(
         conveyors(30.0), HEIGHTS, lambda rows: np.where(rows[:, Z0] < 2e-4, "second", "first"), 1e-9
     )
-    assert len(found.point) == 1 and not boundary_scan.select_critical(found).any()
+    assert len(found.point) == 1 and not boundary_scan.select_critical(found.point, found.below).any()
 
 
 def test_a_third_state_inside_an_interval_takes_the_place_of_the_state_above():
@@ -61,7 +61,27 @@ def test_a_third_state_inside_an_interval_takes_the_place_of_the_state_above():
 
 def test_one_state_everywhere_has_no_crossing():
     found = boundary_scan.find_crossings(conveyors(30.0, 40.0), HEIGHTS, lambda rows: np.full(len(rows), "first"), 1e-9)
-    assert len(found.point) == 0 and len(boundary_scan.select_critical(found)) == 0
+    assert len(found.point) == 0 and len(boundary_scan.select_critical(found.point, found.below)) == 0
+
+
+def test_only_some_of_many_changes_are_located(monkeypatch):
+    """Chaos below 0.4 mm with a label of its own for each height; the first state ends above it."""
+
+    def decide(rows):
+        noise = np.where((rows[:, Z0] * 1e5).round() % 2 == 0, "chaos", "undecided")
+        return np.where(rows[:, Z0] < 4e-4, noise, np.where(rows[:, Z0] < 4.53e-4, "first", "second"))
+
+    decided = []
+    monkeypatch.setattr(boundary_scan, "MOST", 4)
+    found = boundary_scan.find_crossings(
+        conveyors(30.0, 40.0), HEIGHTS, lambda rows: decided.append(len(rows)) or decide(rows), 1e-9
+    )
+    assert len(found.point) == 2 * 41
+    own = found.point == 0
+    np.testing.assert_array_equal(np.flatnonzero(found.located[own]), [0, 1, 2, 40])
+    np.testing.assert_allclose(found.height[own][-1], 4.53e-4, atol=1e-9)
+    np.testing.assert_array_equal(found.height[own][3:40], HEIGHTS[3:40])
+    assert max(decided[1:]) == 2 * 4
 
 
 @pytest.mark.parametrize(("heights", "resolution"), [([0.0], 1e-9), ([1e-4, 0.0], 1e-9), ([0.0, 1e-4], 0.0)])
