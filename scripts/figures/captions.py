@@ -48,6 +48,11 @@ def name_state(state: str) -> str:
     return f"the {state} state" if state in ("first", "second") else state
 
 
+def slides_away(model: dict) -> bool:
+    """Whether a track is too steep for friction to hold a part, so that its velocity grows without end."""
+    return abs(np.tan(model.get("inclination", 0.0))) > model.get("static_friction", model["friction"])
+
+
 def state_map(*, map: pd.DataFrame) -> dict[str, Any]:
     """The only state of a map, None if there are several, and the share of undecided initial conditions."""
     states = map.state.unique()
@@ -295,7 +300,9 @@ def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings:
         parameters = inspect.signature(function).parameters
         numbers = function(**{name: values[name] for name in parameters if name in values})
     conveyor = "the paper's conveyor" if paper else "this conveyor"
-    return render(template, values | numbers | {"paper": paper, "conveyor": conveyor})
+    models = [table.attrs["model"] for table in tables.values() if "friction" in table.attrs.get("model", {})]
+    about = {"paper": paper, "conveyor": conveyor, "slides": any(map(slides_away, models))}
+    return render(template, values | numbers | about)
 
 
 def make(

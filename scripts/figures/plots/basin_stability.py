@@ -63,15 +63,17 @@ def plot(*, shares: pd.DataFrame) -> Figure:
     figure = style.figure(style.PAGE, 92.0)
     axes = figure.subplots()
     draw_motions(axes, shares, "acceleration")
-    axes.axhline(0.0, color="black", linewidth=0.6, zorder=0)
     low, high = shares.mean_velocity.min(), shares.mean_velocity.max()
     if low < high:
         axes.set_ylim(min(0.0, low) - 0.05 * (high - low), max(0.0, high) + 0.08 * (high - low))
-    elif shares.mean_velocity.isna().all():
+    if shares.mean_velocity.isna().all():
         style.say(axes, "no motion has a mean velocity")
+        axes.set_yticks([])
+    else:
+        axes.axhline(0.0, color="black", linewidth=0.6, zorder=0)
+        handles = share_handles(shares)
+        figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), columnspacing=1.2)
     axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel(style.VELOCITY)
     throw_axis(axes, shares)
-    handles = share_handles(shares)
-    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), columnspacing=1.2)
     return figure

@@ -30,7 +30,7 @@ def unsettled(sweep: pd.DataFrame) -> tuple[float, float] | None:
     """
     runs = sweep[sweep.state == "second"].groupby("acceleration").mean_velocity
     low, high = runs.quantile(0.25), runs.quantile(0.75)
-    wide = low[high - low > WIDE * sweep.mean_velocity.max()]
+    wide = low[high - low > WIDE * sweep.mean_velocity.abs().max()]
     if wide.empty:
         return None
     middle = wide.index[len(wide) // 2]
@@ -56,7 +56,7 @@ def plot(
             axes.annotate(
                 f"not settled\nin {sweep.attrs['duration']:.3g} s",
                 place,
-                (place[0], 0.15 * sweep.mean_velocity.max()),
+                (place[0], 0.15 * max(sweep.mean_velocity.max(), sweep.mean_velocity.min(), key=abs)),
                 ha="center",
                 va="center",
                 size=7.0,

@@ -6,6 +6,8 @@ from matplotlib.ticker import MaxNLocator
 
 from figures import style
 
+SMALL = 1e-4  # m, up to which heights are in µm, because ticks in mm would have too many digits
+
 
 def plot(
     *, converged: pd.DataFrame, portraits: list[list[float]], transient: float, euler: pd.DataFrame | None = None
@@ -19,13 +21,15 @@ def plot(
             run = table[(table.acceleration == acceleration) & (table.z0 == z0)]
             (state,) = run.state.unique()
             settled = run[run.time >= transient]
-            axes.plot(1e3 * run.z, run.vz, color="0.75", linewidth=0.4)
-            axes.plot(1e3 * settled.z, settled.vz, color=style.STATE_COLOURS[state], linewidth=0.8)
+            highest = converged[(converged.acceleration == acceleration) & (converged.z0 == z0)].z.max()
+            factor, unit = (1e3, "mm") if highest > SMALL else (1e6, "µm")
+            axes.plot(factor * run.z, run.vz, color="0.75", linewidth=0.4)
+            axes.plot(factor * settled.z, settled.vz, color=style.STATE_COLOURS[state], linewidth=0.8)
             if axes in panels[0]:
                 axes.set_title(f"{style.state_label(state)}, $\\hat{{a}}$ = {acceleration:g} m/s²")
             axes.xaxis.set_major_locator(MaxNLocator(5))
             if axes in panels[-1]:
-                axes.set_xlabel("height $z_p$ in mm")
+                axes.set_xlabel(f"height $z_p$ in {unit}")
             axes.set_ylabel("vertical velocity $\\dot{z}_p$ in m/s")
         line[0].set_ylabel(f"{style.LOOKS[role]['label']}\nvertical velocity $\\dot{{z}}_p$ in m/s")
     figure.align_ylabels(panels[:, 0])

@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 from figures import style
 
 UNKNOWN = {"converged": 0.05, "correlation": 0.02}  # axes fraction of the marks of amplitudes without an estimate
+REASONS = {"interval too wide": "confidence interval too wide", "too few scales": "too few scales"}
 BARS = {"markersize": 2.0, "markeredgewidth": 0.6, "linewidth": 0.6, "elinewidth": 0.4}
 LOOKS = {
     "euler": ("o-", style.EULER, "paper's method: box counting, first second"),
@@ -36,7 +37,10 @@ def plot(
             unknown = table[table.dimension.isna()].acceleration
             look = {"color": colour, "markersize": 3.5, "markeredgewidth": 0.8}
             axes.plot(unknown, [UNKNOWN[role]] * len(unknown), "|", transform=axes.get_xaxis_transform(), **look)
-    axes.plot([], [], "|", color="black", markersize=3.5, label="no estimate: confidence interval too wide")
+    reasons = pd.concat([table[table.dimension.isna()].status for role, table in tables.items() if role in UNKNOWN])
+    if len(reasons):
+        label = f"no estimate: {' or '.join(REASONS[reason] for reason in reasons.unique())}"
+        axes.plot([], [], "|", color="black", markersize=3.5, label=label)
     if critical_acceleration is not None:
         style.mark(axes, critical_acceleration, f"{critical_acceleration:g} m/s²")
     # Room for all error bars, and for the marks below them.

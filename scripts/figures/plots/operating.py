@@ -43,11 +43,14 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
 
     best = summarize_amplitudes(shares, shares.attrs["same_velocity"])
     slowest = shares.groupby("acceleration").mean_velocity.min()
-    velocities.fill_between(amplitudes, slowest, best.best, color="0.88", linewidth=0.0)
-    velocities.plot(best.acceleration, best.best, color="black", label="fastest motion")
-    look = {"color": "black", "linewidth": 0.8, "linestyle": (0, (3, 2))}
-    velocities.plot(best.acceleration, best["mean"], label="mean over all initial conditions", **look)
-    velocities.plot(amplitudes, slowest, color="0.5", linewidth=0.8, linestyle=":", label="slowest motion")
+    if best.best.isna().all():
+        style.say(share, "no motion has a mean velocity")
+    else:
+        velocities.fill_between(amplitudes, slowest, best.best, color="0.88", linewidth=0.0)
+        velocities.plot(best.acceleration, best.best, color="black", label="fastest motion")
+        look = {"color": "black", "linewidth": 0.8, "linestyle": (0, (3, 2))}
+        velocities.plot(best.acceleration, best["mean"], label="mean over all initial conditions", **look)
+        velocities.plot(amplitudes, slowest, color="0.5", linewidth=0.8, linestyle=":", label="slowest motion")
     velocities.plot(amplitudes, throw_theory.mean_velocity(amplitudes, **shares.attrs["model"]), **style.TEXTBOOK)
     velocities.axhline(0.0, color="black", linewidth=0.4, zorder=0)
     velocities.set_ylabel(style.VELOCITY)
