@@ -24,7 +24,7 @@ def identification_settings(config: dict, table: str, model: dict) -> dict:
     own = config["identification"]
     if table == "edges":
         return {**{name: own[name] for name in EDGES}, "model": model}
-    method = {name: config["solver"][name] for name in ("duration", "step", "settling")}
+    method = {name: config["solver"][name] for name in ("duration", "step", "settling", "mean_settling")}
     computed = {"numbers": paper_numbers(config), "measured": measured_quantities(config)}
     return {**own, **computed, "euler": {**method, "method": "euler"}, "model": model}
 

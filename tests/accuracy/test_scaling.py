@@ -19,6 +19,7 @@ SETTINGS = {
     "duration": 0.02,
     "tolerance": 1.0e-6,
     "settling": 1000,
+    "mean_settling": 375,
 }
 PLAN = {"points": 20, "rows": 7, "shards": 3, "seconds": 1.0, "memory": 300.0, "gathering": 300.0}
 CASE = {"varied": "points", "settings": SETTINGS, "plan": PLAN, "threads": 1, "conveyors": 1, "measured": 3}

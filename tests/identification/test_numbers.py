@@ -28,7 +28,7 @@ MEASURED = {
     "critical": {"C07": 40.0, "C08": 35.0},
     "triple": TRIPLE,
 }
-EULER = {"method": "euler", "duration": 1.0, "step": 5e-7, "settling": 1000}
+EULER = {"method": "euler", "duration": 1.0, "step": 5e-7, "settling": 1000, "mean_settling": 375}
 # Contacts close to the printed one.
 NEAR = {
     **OWN,
@@ -94,6 +94,7 @@ def test_critical_heights_and_their_fit_agree_with_the_claims(direct):
         "scan": {"start": 0.0, "stop": 0.5e-3, "num": 11},
         "resolution": 1e-8,
         "settling": 1000,
+        "mean_settling": 375,
         "method": "event",
         "tolerance": 1e-6,
     }

@@ -12,7 +12,15 @@ MODEL = {"z0": 0.0, "vz0": 0.0}
 
 
 def settings(**others):
-    return {"model": MODEL, "method": "event", "tolerance": 1e-10, "duration": 0.1, "settling": 2000, **others}
+    return {
+        "model": MODEL,
+        "method": "event",
+        "tolerance": 1e-10,
+        "duration": 0.1,
+        "settling": 2000,
+        "mean_settling": 375,
+        **others,
+    }
 
 
 def frame(stage, entry):

@@ -21,6 +21,7 @@ BOX = {
     **read_config("operating")["operating"],
     "starts": 64,
     "settling": 2000,
+    "mean_settling": 375,
     "followed": 2,
     "model": {},
 }

@@ -55,6 +55,7 @@ MAP = {
     "method": "event",
     "tolerance": 1.0e-6,
     "settling": 1000,
+    "mean_settling": 375,
 }
 POINTS = 50
 
@@ -169,7 +170,13 @@ def test_a_run_that_failed_has_no_state(monkeypatch):
         return true(parameters, **options) | {"status": np.array(["ok", "contact too stiff"])}
 
     monkeypatch.setattr(ensemble, "run", failing)
-    settings = {"axes": {"z0": [0.0, 1e-4]}, "model": {"acceleration": 30.0}, "duration": 0.1, "settling": 2000}
+    settings = {
+        "axes": {"z0": [0.0, 1e-4]},
+        "model": {"acceleration": 30.0},
+        "duration": 0.1,
+        "settling": 2000,
+        "mean_settling": 375,
+    }
     found = shards.columns(settings)
     assert (list(found["state"]), list(found["period"])) == (["first", "undecided"], [1, 0])
     assert np.isfinite(found["longest_flight"]).tolist() == [True, False]
