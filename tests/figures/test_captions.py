@@ -181,7 +181,7 @@ def test_a_map_states_its_undecided_share_and_the_key_that_reduces_it():
     table = pd.DataFrame({"state": ["first", "first", "undecided", "second"] * 5})
     text = caption("fig12", map=table)
     assert "The search ended before 25 % of the initial conditions had settled (undecided)." in text
-    assert text.endswith("A larger ``solver.mean_settling`` in the config follows them further.")
+    assert text.endswith("``solver.mean_settling`` and ``solver.settling`` in the config follow them further.")
     assert "undecided" not in caption("fig12", map=table[:2])
     assert "All initial conditions lead to" not in text
     assert caption("fig12", map=table[:2]).endswith("All initial conditions lead to the first state.")

@@ -53,10 +53,12 @@ def plot(
             rows = sweep[sweep.state == state]
             style.dots(axes, rows.acceleration, rows.mean_velocity, colour, 2.0)
         if place := unsettled(sweep):
+            largest = max(sweep.mean_velocity.max(), sweep.mean_velocity.min(), key=abs)
+            # The text stands between the axis and these runs, or above runs that are near the axis.
             axes.annotate(
                 f"not settled\nin {sweep.attrs['duration']:.3g} s",
                 place,
-                (place[0], 0.15 * max(sweep.mean_velocity.max(), sweep.mean_velocity.min(), key=abs)),
+                (place[0], (0.15 if place[1] / largest > 0.3 else 0.6) * largest),
                 ha="center",
                 va="center",
                 size=7.0,
