@@ -21,13 +21,17 @@ def summarize_shares(shares: pd.DataFrame) -> dict:
     """The settings (`search`), amplitudes (m/s²) and throw numbers of the table of shares.
 
     `unseen_share` is the largest share of initial conditions that may lead to a motion that none of the tested ones
-    leads to.
+    leads to. `located` is the largest distance between neighbouring amplitudes with different regimes, at least the
+    resolution of the config.
     """
     amplitudes = np.sort(shares.acceleration.unique())
+    regime = summarize_amplitudes(shares, shares.attrs["same_velocity"]).regime.to_numpy()
+    between = np.diff(amplitudes)[regime[1:] != regime[:-1]]
     return {
         "search": shares.attrs,
         "unseen_share": RULE_OF_THREE / shares.attrs["starts"],
         "amplitudes": amplitudes,
+        "located": between.max(initial=shares.attrs["resolution"]),
         "step": np.diff(amplitudes).max(initial=0.0),
         "throw_numbers": (shares.vertical.min(), shares.vertical.max()),
     }

@@ -41,6 +41,8 @@ TABLES = {
 
 # Two motions of one state and period are different if their longest flights differ by more, in excitation cycles.
 APART = 0.01
+# Amplitudes besides those of the config, after which boundaries between regimes are not located further.
+MOST_ADDED = 200
 # A mean velocity counts as converged if a run twice as long agrees within this fraction of the plate's largest
 # velocity.
 SETTLED = 1e-3
@@ -235,7 +237,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
         summary = regimes.summarize_amplitudes(table, settings["same_velocity"])
         places, found = summary.acceleration.to_numpy(), summary.regime.to_numpy()
         wide = (found[1:] != found[:-1]) & (np.diff(places) > settings["resolution"])
-        if not wide.any():
+        if not wide.any() or len(places) >= len(amplitudes) + MOST_ADDED:
             return {"shares": table, "regimes": regimes.intervals_of(summary, table)}
         between = 0.5 * (places[1:] + places[:-1])[wide]
         label = progress and f"{progress}, {len(between)} amplitudes between"

@@ -263,6 +263,15 @@ def test_amplitudes_are_halved_where_the_answer_changes(refined):
     assert len(places) < 30
 
 
+def test_boundaries_are_located_with_a_limited_number_of_amplitudes(monkeypatch):
+    monkeypatch.setattr(shares, "motions_at", made_up)
+    monkeypatch.setattr(shares, "MOST_ADDED", 0)
+    table = shares.make(SETTINGS)["shares"]
+    np.testing.assert_array_equal(np.unique(table.acceleration), np.linspace(20.0, 60.0, 9))
+    table.attrs = SETTINGS
+    assert chart.summarize_shares(table)["located"] == 5.0
+
+
 @pytest.mark.parametrize(
     ("ends", "words"),
     [((0.0648, 0.141), "0.0648 to 0.141"), ((0.1, 0.10001), "0.1"), ((np.nan, np.nan), "not known")],

@@ -42,6 +42,8 @@ def draw_exponents(axes: Axes, spectrum: pd.DataFrame, lowest: float) -> None:
         label = f"amplitude swept {branch}"
         axes.plot(rows.acceleration, rows.lambda_1, color=DIRECTIONS[branch], linewidth=0.6, label=label)
     axes.axhline(0.0, color="black", linewidth=0.6)
+    if not (spectrum.lambda_1 > lowest).any():
+        style.say(axes, f"no exponent above {lowest:.3g} 1/s")
     # Room for the line at zero if no motion is chaotic.
     axes.set_ylim(lowest, max(1.15 * spectrum.lambda_1.max(), -0.1 * lowest))
 
