@@ -20,7 +20,7 @@ from figures.style import STATE_COLOURS
 from identification import findings
 from operating import drive_page
 from operating.chart import spreads_of, summarize_shares
-from operating.regimes import CHAOS, SEVERAL
+from operating.regimes import CHAOS, SEVERAL, SLIDES_AWAY
 from operating.transit import ENDS
 from pipeline.templates import render
 
@@ -70,7 +70,7 @@ def fig10(
     found = {
         "found": len(converged) > 0,
         "fitted": fit is not None and len(fit) > 0,
-        "returns": not converged.is_critical.all(),
+        "returns": (~converged.is_critical & (converged.state_above == "first")).any(),
         "highest": ends_of(converged.attrs["scan"])[1],
         "aside": None,
     }
@@ -209,6 +209,7 @@ def sensitivity(
     return {
         "many": (short.kind.value_counts() > derivatives.attrs["most"]).any(),
         "heights": right[right.kind == "critical_height"].acceleration.unique(),
+        "tried": (derivatives.kind == "critical_height").any(),
         "right": len(right) > 0,
         "has_fold": not np.isnan(first),
         "error": error.max(),
@@ -234,7 +235,12 @@ def throw(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> dict[str, Any]
 
 def track(*, track: pd.DataFrame) -> dict[str, Any]:
     steepest = track[(track.mean_velocity > 0.0) & (track.inclination > 0.0)].groupby("state").inclination.max()
-    return {"steepest": np.degrees(steepest).to_dict()}
+    reached = track[track.status != SLIDES_AWAY]
+    return {
+        "steepest": np.degrees(steepest).to_dict(),
+        "steep": (track.status == SLIDES_AWAY).any(),
+        "missing": list(reached[reached.status != "ok"].state.unique()),
+    }
 
 
 def identification(*, frictions: pd.DataFrame) -> dict[str, Any]:

@@ -188,12 +188,16 @@ def test_a_map_states_its_undecided_share_and_the_key_that_reduces_it():
 
 
 def test_fig_10_without_a_common_amplitude_or_without_a_critical_height():
-    columns = {"acceleration": [40.0], "z0": [1e-4], "is_critical": [True]}
+    columns = {"acceleration": [40.0], "z0": [1e-4], "is_critical": [True], "state_above": "second"}
     converged, euler = (pd.DataFrame(columns | {"acceleration": [a]}) for a in (30.0, 40.0))
     converged.attrs = {"scan": {"start": 0.0, "stop": 5e-4, "num": 9}, "resolution": 1.0e-9}
     template = (ROOT / "workflow/report/fig10.rst").read_text(encoding="utf-8")
     tables = {"converged": converged, "euler": euler, "fit": converged}
     assert "at no common amplitude" in captions.caption(template, "fig10", tables, {})
+    back = pd.concat([converged, converged.assign(z0=2e-4, is_critical=False, state_above="first")])
+    back.attrs = converged.attrs
+    for table, returns in ((converged, False), (back, True), (back.assign(state_above="chaos"), False)):
+        assert ("Triangles" in captions.caption(template, "fig10", tables | {"converged": table}, {})) == returns
     tables = {"converged": converged[:0], "fit": converged[:0]}
     text = captions.caption(template, "fig10", tables, {}, paper=False)
     assert "Up to 0.5 mm, no initial height changes the state of motion at any of these amplitudes." in text
@@ -208,3 +212,13 @@ def test_a_track_that_is_too_steep_is_named():
         template = (ROOT / "workflow/report/fig03.rst").read_text(encoding="utf-8")
         text = captions.caption(template, "fig03", {"converged": table}, {}, paper=False)
         assert ("slides away faster and faster" in " ".join(text.split())) == steep
+
+
+def test_grey_parts_of_the_map_of_tracks_are_explained():
+    table = pd.DataFrame({"inclination": [0.1, 0.2], "state": "first", "mean_velocity": [0.1, np.nan]})
+    table.attrs |= {"acceleration": 40.0, "starts": 16}
+    climbs = caption("track", track=table.assign(status="ok"))
+    assert "rises by 5.7°" in climbs and "grey" not in climbs
+    assert "too steep" in caption("track", track=table.assign(status=["ok", "slides away"]))
+    missing = caption("track", track=table.assign(status=["ok", "no initial condition leads to the state"]))
+    assert "none of 16 random initial conditions leads to its state" in missing and "too steep" not in missing

@@ -70,7 +70,7 @@ class Solver(TypedDict):
     step: Step
     settling: whole("an initial condition that has not settled by then may be chaotic", 256, 10**9, "excitation cycles")
     mean_settling: whole(
-        "mean search of many initial conditions; longer searches end undecided", 256, 10**9, "excitation cycles"
+        "mean search of many initial conditions; longer searches end undecided", 64, 10**9, "excitation cycles"
     )
 
 

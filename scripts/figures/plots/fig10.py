@@ -41,7 +41,7 @@ def plot(
         rows = euler[euler.is_critical]
         axes.plot(rows.acceleration, 1e3 * rows.z0, "o", markersize=4.0, **style.LOOKS["euler"], **hollow)
     axes.plot(edge.acceleration, 1e3 * edge.z0, ".", markersize=2.6, **style.LOOKS["converged"])
-    back = converged[~converged.is_critical]
+    back = converged[~converged.is_critical & (converged.state_above == "first")]
     if len(back):
         look = {"color": style.CONVERGED, "markersize": 3.0, **hollow}
         label = "converged solution, return to the first state"

@@ -128,7 +128,8 @@ def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.Dat
     if named:
         amplitudes.legend(loc="lower left", bbox_to_anchor=(-0.19, 1.0), ncols=2, columnspacing=0.6, handletextpad=0.2)
     else:
-        style.say(amplitudes, "no fold and no period doubling")
+        found = derivatives.kind.isin(("fold", "period_doubling")).any()
+        style.say(amplitudes, "no derivative passed the check" if found else "no fold and no period doubling")
 
     rows = derivatives[(derivatives.kind == "critical_height") & (derivatives.status == "ok")]
     rows = rows.assign(per_percent=1e4 * rows.derivative * rows.value)
@@ -140,7 +141,8 @@ def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.Dat
     if by_amplitude:
         heights.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, columnspacing=0.7, handletextpad=0.0)
     else:
-        style.say(heights, "no critical height")
+        found = (derivatives.kind == "critical_height").any()
+        style.say(heights, "no derivative passed the check" if found else "no critical height")
 
     draw_curves(damping, continued, meetings, "damping", "damping group $D = d_c/(m\\omega)$")
     draw_curves(stiffness, continued, meetings, "stiffness", "stiffness group $K = k_c g^{p-1}/(m\\omega^{2p})$")

@@ -38,5 +38,6 @@ def plot(*, track: pd.DataFrame) -> Figure:
     if states:
         figure.colorbar(image, ax=list(panels), label=style.VELOCITY)
     else:
-        style.say(panels[0], "parts slide away on all tracks")
+        slides = (track.status == SLIDES_AWAY).all()
+        style.say(panels[0], "parts slide away on all tracks" if slides else "no periodic motion on any track")
     return figure
