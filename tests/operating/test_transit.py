@@ -204,6 +204,7 @@ def test_drift_predicts_the_spread_and_tracks_with_coexisting_motions_keep_their
     lengths = found["track_lengths"]
     chaos = lengths[lengths.regime == regimes.CHAOS]
     assert chaos.spread.to_numpy() == pytest.approx(chaos.predicted.to_numpy(), rel=0.5)
+    assert (chaos.spread / chaos.predicted).mean() == pytest.approx(1.0, abs=0.25)
     assert chaos.predicted.iloc[0] / chaos.predicted.iloc[1] == pytest.approx(2.0)
     several = lengths[lengths.regime == regimes.SEVERAL]
     assert several.predicted.isna().all()
