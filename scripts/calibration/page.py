@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from calibration.inference import DETERMINED, NOT_DETERMINED, OPEN, TOO_FEW
+from calibration.inference import DETERMINED, NOT_DETERMINED, OPEN, TOO_FEW, UNLIKELY
 from pipeline.templates import render
 
 WORST = 8  # rows that are named
@@ -43,6 +43,7 @@ def make(
             "explained": bool(fit.explained.all()),
             "p_value": float(fit.p_value.iloc[0]),
             "count": len(fit),
+            "unlikely": UNLIKELY,
             "misfits": int((~fit.fits).sum()),
             "worst": worst[~worst.fits].sort_values("line").to_dict("records"),
             "widest": bands.loc[bands.width.idxmax()].to_dict(),

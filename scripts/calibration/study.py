@@ -28,7 +28,7 @@ def random_conveyor(settings: dict, random: np.random.Generator) -> tuple[dict, 
     """A model, and the box of initial conditions in the same multiples of g/ω² and g/ω as in the config."""
     ranges = settings["conveyors"]
     model = settings["model"] | {
-        "frequency": random.uniform(*ranges["frequency"]),
+        "frequency": log_uniform(*ranges["frequency"], random),
         "angle": random.uniform(*ranges["angle"]),
         "mass": log_uniform(*ranges["mass"], random),
         "friction": random.uniform(*ranges["friction"]),

@@ -191,3 +191,8 @@ def references_of(entries):
     """The tables that claims read, or figures with their captions."""
     roles = [entry.get(key, {}) for entry in entries.values() for key in ("tables", "caption_tables")]
     return sorted({reference for of_entry in roles for reference in of_entry.values()})
+
+
+def captioned(wildcards):
+    """The entry of the figure whose caption is made by itself."""
+    return {wildcards.figure: config["figures_on_request"][wildcards.figure]}

@@ -46,22 +46,24 @@ rule captions:
         "../../scripts/make.py"
 
 
-rule captions_on_request:
+rule caption_on_request:
     input:
-        read=map(table, references_of(config["figures_on_request"])),
-        templates=[source(f"workflow/report/{figure}.rst") for figure in config["figures_on_request"]],
+        read=lambda wildcards: [table(reference) for reference in references_of(captioned(wildcards))],
+        templates=[source("workflow/report/{figure}.rst")],
     output:
-        caption_files(config["figures_on_request"]),
+        [result("captions/{figure}.rst")],
     log:
-        log_file("figures/captions_on_request"),
+        log_file("figures/caption_{figure}"),
     benchmark:
-        benchmark_file("figures/captions_on_request")
+        benchmark_file("figures/caption_{figure}")
+    wildcard_constraints:
+        figure=one_of(config["figures_on_request"]),
     params:
         **stage("figures.captions"),
-        figures=config["figures_on_request"],
-        references=references_of(config["figures_on_request"]),
+        figures=captioned,
+        references=lambda wildcards: references_of(captioned(wildcards)),
         paper=not OWN_CONVEYOR,
     message:
-        "Captions of the figures on request"
+        "Caption of {wildcards.figure}"
     script:
         "../../scripts/make.py"
