@@ -1,5 +1,6 @@
 """Files of measurements: good ones in several spellings, and bad ones, each rejected with its line and a remedy."""
 
+import re
 import subprocess
 import sys
 import time
@@ -135,3 +136,14 @@ def test_a_config_without_measurements_refuses_a_calibration(target, tmp_path):
     run, _ = run_snakemake(tmp_path / "mine.yaml", target)
     assert run.returncode != 0
     assert "a calibration needs measured velocities" in run.stdout + run.stderr
+
+
+def test_the_caption_of_the_figure_needs_the_tables_of_this_figure_only(tmp_path):
+    (tmp_path / "mine.yaml").write_text(
+        "prefix: mine\nmodel: {frequency: 60.0}\ncalibration: {measurements: mine.csv}\n"
+    )
+    (tmp_path / "mine.csv").write_text(f"{HEAD}\n{GOOD}")
+    run, _ = run_snakemake(tmp_path / "mine.yaml", "results/mine/captions/calibration.rst")
+    assert run.returncode == 0, run.stderr
+    jobs = dict(re.findall(r"^(\w+) +(\d+)$", run.stdout + run.stderr, re.MULTILINE))
+    assert jobs.keys() == {"calibration", "calibration_prediction", "caption_on_request", "total"}
