@@ -88,6 +88,5 @@ def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: 
     ):
         row |= {name: real[name], f"{name}_best": best, f"{name}_low": below, f"{name}_high": above}
     row |= {"in_band": float(np.mean((low <= velocity) & (velocity <= high)))}
-    row |= {"p_value": float(fit.p_value.iloc[0]), "explained": bool(fit.explained.all())}
-    row |= {"effective": found["parameters"]["effective"][0]}
+    row |= {"p_value": float(fit.p_value.iloc[0]), "effective": found["parameters"]["effective"][0]}
     return json.dumps(row)

@@ -33,4 +33,6 @@ TABLES = {
 
 def make(rows: list[str], settings: dict) -> dict[str, list]:
     """The columns of the table from the rows of all data sets, as JSON."""
-    return fields.columns([json.loads(row) for row in rows], TABLES["calibration_study"])
+    found = [json.loads(row) for row in rows]
+    least = settings["calibration"]["significance"]
+    return fields.columns([row | {"explained": row["p_value"] >= least} for row in found], TABLES["calibration_study"])
