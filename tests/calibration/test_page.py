@@ -27,8 +27,8 @@ SETTINGS = {
 }
 
 
-def tables(*, explained=True, reliable=True, misfits=0, narrowing=0.1):
-    status = [DETERMINED, OPEN, NOT_DETERMINED] if reliable else [TOO_FEW] * 3
+def tables(*, explained=True, reliable=True, misfits=0, narrowing=0.1, status=(DETERMINED, OPEN, NOT_DETERMINED)):
+    status = status if reliable else [TOO_FEW] * 3
     parameters = pd.DataFrame(
         {
             "parameter": ["friction", "damping", "stiffness"],
@@ -66,6 +66,11 @@ def test_the_page_begins_with_what_was_found_how_sure_it_is_and_what_to_do():
     assert "the measurements say nothing about the contact stiffness" in text
     assert "measure one more velocity at **45 m/s²**" in text and "10 % on average" in text
     assert "snakemake results/mine/calibrated.yaml" in text
+    assert "the contact damping and the contact stiffness reach the end of the searched range" in text
+
+
+def test_the_page_asks_for_no_check_if_all_parameters_are_determined():
+    assert "end of the searched range" not in first_screen(status=[DETERMINED] * 3)
 
 
 def test_a_model_that_is_wrong_is_called_so_first():
