@@ -257,6 +257,7 @@ def transit(*, transit: pd.DataFrame, lengths: pd.DataFrame, drift: pd.DataFrame
     return {
         "search": transit.attrs,
         "spread": spreads_of(transit.attrs),
+        "calibrated": transit.attrs["spread"].get("calibrated", False),
         "coexisting": amplitudes.get(SEVERAL, []),
         "chaotic": amplitudes.get(CHAOS, []),
         "uncertain": int((drift.status != "ok").sum()),

@@ -55,7 +55,8 @@ def select_changes(aim: str, changes: pd.DataFrame) -> list[dict]:
 
 def spreads_of(settings: dict) -> dict[str, float]:
     """The relative standard deviations by which parts differ, from the settings of a transit table."""
-    return {name: share for name, share in settings["spread"].items() if name != "seed" and share > 0.0}
+    others = ("seed", "calibrated")
+    return {name: share for name, share in settings["spread"].items() if name not in others and share > 0.0}
 
 
 def summarize_advice(transit: pd.DataFrame, advice: pd.DataFrame, changes: pd.DataFrame) -> dict:
@@ -64,7 +65,13 @@ def summarize_advice(transit: pd.DataFrame, advice: pd.DataFrame, changes: pd.Da
         row["aim"]: row | {"changes": select_changes(row["aim"], changes)}
         for row in advice.replace({np.nan: None}).to_dict("records")
     }
-    return {"track": transit.attrs, "spread": spreads_of(transit.attrs), "fast": rows.get(FAST), "even": rows.get(EVEN)}
+    return {
+        "track": transit.attrs,
+        "spread": spreads_of(transit.attrs),
+        "calibrated": transit.attrs["spread"].get("calibrated", False),
+        "fast": rows.get(FAST),
+        "even": rows.get(EVEN),
+    }
 
 
 def make(

@@ -358,6 +358,16 @@ def test_the_page_says_that_parts_move_back_everywhere(refined):
     assert "All parts have equal parameters" in page
 
 
+@pytest.mark.parametrize("friction", [0.0, 0.15])
+def test_the_page_says_that_parts_have_calibrated_parameters(refined, friction):
+    tables = advised()
+    tables[0].attrs["spread"] = {"friction": friction, "calibrated": True, "seed": 1}
+    page = page_of(refined, tables)
+    assert "The parameters of each part are drawn from the samples of the calibration" in page
+    assert "of calibrated" not in page and "All parts have equal parameters" not in page
+    assert ("15 % of friction" in page) == (friction > 0.0)
+
+
 def made_up_transit(slowest: list[float], spread: list[float]) -> pd.DataFrame:
     return pd.DataFrame({"acceleration": 10.0 * np.arange(len(spread)), "velocity_05": slowest, "spread": spread})
 
