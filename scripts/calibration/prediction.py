@@ -1,7 +1,9 @@
 """Velocities that the calibrated model predicts, and the amplitude at which one more velocity would help most.
 
 The velocity of one part at an amplitude is uncertain for two reasons: its initial condition, and the parameters.
-Samples of the posterior, each with several random initial conditions, contain both.
+Samples of the posterior, each with several random initial conditions, contain both. The velocities at the two
+neighbouring amplitudes of the table count as well, so that a line between two rows of the table does not miss a motion
+that begins or ends there.
 
 A velocity at another amplitude gives the samples new weights. Velocities of the samples themselves, with noise, serve
 as possible results of this measurement. The expected narrowing of an interval follows from the mean of the parameter's
@@ -21,9 +23,9 @@ from pipeline import fields
 TABLES = {
     "prediction": (
         fields.number("acceleration", "m/s²", "amplitude of the excitation"),
-        fields.number("low", "m/s", "5 % quantile of the velocity of one part"),
-        fields.number("median", "m/s", "median of the velocity of one part"),
-        fields.number("high", "m/s", "95 % quantile of the velocity of one part"),
+        fields.number("low", "m/s", "5 % quantile of the velocity of one part between the neighbouring amplitudes"),
+        fields.number("median", "m/s", "median of the velocity of one part between the neighbouring amplitudes"),
+        fields.number("high", "m/s", "95 % quantile of the velocity of one part between the neighbouring amplitudes"),
     ),
     "next": (
         fields.number("acceleration", "m/s²", "amplitude of one more measurement"),
@@ -101,7 +103,12 @@ def make(
             for place in range(len(amplitudes))
         ]
     )
-    quantiles = np.nanquantile(np.moveaxis(found[:, : len(between)], 1, 0).reshape(len(between), -1), ENDS, axis=1)
+    quantiles = np.array(
+        [
+            np.nanquantile(found[:, max(place - 1, 0) : min(place + 2, len(between))], ENDS)
+            for place in range(len(between))
+        ]
+    ).T
     order = np.argsort(amplitudes)
     by_name = dict(zip(values, gains.T, strict=True))
     nothing = np.full(len(amplitudes), math.nan)
