@@ -12,6 +12,7 @@ from calibration.measurements import parse
 from calibration.sampler import sample
 from calibration.synthetic import csv_text, measure
 from conveyor.parameters import RANGES
+from conveyor.solver.model import ACCELERATION
 
 BOUNDS = np.array([[-5.0, -5.0], [5.0, 5.0]])
 OPTIONS = {"first": 200, "points": 100, "rounds": 12, "enough": 150, "seed": 1}
@@ -120,3 +121,22 @@ def test_the_prediction_covers_the_measured_amplitudes_and_the_next_measurement_
     assert candidates.acceleration.is_monotonic_increasing
     assert candidates.acceleration.min() >= 16.0 - 1e-9 and candidates.acceleration.max() <= 72.0 + 1e-9
     assert (candidates.narrowing < 1.0).all() and candidates.narrowing_angle.isna().all()
+
+
+def test_the_band_between_two_rows_contains_a_motion_that_begins_there(monkeypatch):
+    def step(values, conditions, settings, *, parts, seed, **options):
+        random = np.random.default_rng(seed)
+        begun = conditions.rows[:, ACCELERATION] > 41.0
+        return np.where(begun, 0.1, 0.02)[:, None] * random.normal(
+            1.0, 0.01, (len(values["friction"]), len(begun), parts)
+        )
+
+    monkeypatch.setattr(prediction, "velocities", step)
+    samples = pd.DataFrame({name: value * np.linspace(0.9, 1.1, 40) for name, value in CONTACT.items()})
+    fit = pd.DataFrame({"acceleration": [20.0, 60.0]})
+    band = pd.DataFrame(prediction.make(samples, fit, SETTINGS | {"amplitudes": 9})["prediction"])
+    for velocity in (0.02, 0.1):  # at 40.5 and at 41.5 m/s²
+        low, high = (np.interp([40.5, 41.5], band.acceleration, band[name]) for name in ("low", "high"))
+        assert (low < velocity).all() and (velocity < high).all()
+    away = band[(band.acceleration - 42.5).abs() > 5.0]
+    assert (away.high - away.low < 0.01).all()
