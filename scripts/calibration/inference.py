@@ -52,7 +52,7 @@ TABLES = {
         fields.number("low", "m/s", "5 % quantile of what the best parameters give, noise included"),
         fields.number("median", "m/s", "median of what the best parameters give"),
         fields.number("high", "m/s", "95 % quantile of what the best parameters give, noise included"),
-        fields.number("p_row", "1", "share of replicates of this measurement that fit worse, mean over the posterior"),
+        fields.number("p_row", "1", "share of replicates of this measurement that fit worse, for the best parameters"),
         fields.flag("fits", "whether this share is not small"),
         fields.number(
             "p_value",
@@ -268,7 +268,7 @@ def check_fit(found: Sample, data: Data, settings: dict, *, threads: int = 1, pr
     followed = velocities(values, data.conditions, settings, **options, threads=threads, progress=progress)
     random = np.random.default_rng(settings["seed"])
     p_values, p_rows, drawn = zip(*(compare(parts, data, settings, random) for parts in followed), strict=True)
-    p_value, p_row = np.mean(p_values), np.mean(p_rows, axis=0)
+    p_value, p_row = np.mean(p_values), p_rows[0]
     low, middle, high = np.quantile(drawn[0], [0.05, 0.5, 0.95], axis=0)
     rows = len(data.velocity)
     return {

@@ -182,8 +182,7 @@ def touch_down(c, motion, horizontal):
 def blocks_to_skip(c, before, after, left, ahead):
     """How many of the next blocks of cycles repeat the last one, and contain neither a sample nor an arrival.
 
-    before, after : time into the cycle (s), w, v, the velocity and the position along the track (m/s, m) where the last
-        block began and where it ended
+    before, after : time into the cycle (s), w, v, velocity and position along the track (m/s, m) at both ends of it
     left : time to the next sample, s
     ahead : from the furthest position in the last block to the next distance, m
     """
