@@ -7,17 +7,23 @@ from pipeline.templates import render
 
 PARAMETERS = ("friction", "damping", "stiffness")
 RIGHT = ("rich", "poor")
+NARROW = 0.2  # half of an interval, relative to the best value
 
 
 def summarize(kind: str, sets: pd.DataFrame) -> dict:
     """Coverage, widths and errors of the data sets of one kind."""
     reliable = sets.dropna(subset=[f"{name}_low" for name in PARAMETERS])
     row = {"kind": kind, "sets": len(sets), "reliable": len(reliable), "rejected": int((~sets.explained).sum())}
+    widths = {
+        name: 0.5 * (reliable[f"{name}_high"] - reliable[f"{name}_low"]) / reliable[f"{name}_best"]
+        for name in PARAMETERS
+    }
+    row["narrow"] = int(((widths["friction"] <= NARROW) & (widths["damping"] <= NARROW)).sum())
     for name in PARAMETERS:
         true, best, low, high = (reliable[f"{name}{ending}"] for ending in ("", "_best", "_low", "_high"))
         row[name] = {
             "covered": int(((low <= true) & (true <= high)).sum()),
-            "width": float((0.5 * (high - low) / best).median()),
+            "width": float(widths[name].median()),
             "error": float(np.abs(best / true - 1.0).median()),
         }
     return row | {
@@ -35,10 +41,11 @@ def make(template: str, calibration_study: pd.DataFrame) -> str:
         {
             **{name: settings[name] for name in ("conveyors", "throw_number", "amplitudes", "poor")},
             "noise": settings["calibration"]["noise"],
-            "confidence": settings["calibration"]["confidence"],
+            **{name: settings["calibration"][name] for name in ("confidence", "significance")},
             "parts": settings["parts_of_study"],
             "differences": settings["wrong"],
             "count": len(calibration_study),
+            "narrow": NARROW,
             "right": [summarize(kind, by_kind[kind]) for kind in RIGHT if kind in by_kind],
             "wrong": [summarize(kind, sets) for kind, sets in by_kind.items() if kind not in RIGHT],
         },
