@@ -7,7 +7,7 @@ import pandas as pd
 
 from conveyor.parameters import UNITS
 from operating.advice import EVEN, FAST
-from operating.regimes import CHAOS, ONE, SEVERAL, UNKNOWN, merge_narrow, summarize_amplitudes
+from operating.regimes import CHAOS, ONE, SEVERAL, SLIDES_AWAY, UNKNOWN, merge_narrow, summarize_amplitudes
 from pipeline.templates import render
 
 # If none of n independent initial conditions does something, then with 95 % confidence at most a share of 3/n does it:
@@ -92,6 +92,8 @@ def make(
     values |= {
         "units": UNITS,
         "options": advice.attrs,
+        "forward": (transit.velocity_95 > 0.0).any(),
+        "slides": (shares.status == SLIDES_AWAY).all(),
         "merged": len(regimes) - len(merged),
         # The digits to which the ends of intervals of amplitudes are known.
         "digits": max(0, math.ceil(-math.log10(shares.attrs["resolution"]))),

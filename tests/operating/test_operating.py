@@ -331,6 +331,20 @@ def intervals_of(table: pd.DataFrame) -> pd.DataFrame:
     return regimes.intervals_of(regimes.summarize_amplitudes(table, SETTINGS["same_velocity"]), table)
 
 
+def test_no_amplitude_is_recommended_where_parts_move_back(refined):
+    rows, *others = advised()
+    back = rows.assign(velocity_95=-0.01)
+    back.attrs = rows.attrs
+    page = page_of(refined, [back, *others])
+    assert (
+        "**At least 95 % of the parts move back at every amplitude**, so there is no amplitude to recommend. A" in page
+    )
+    assert "- **Amplitude" not in page and "relative spread is" not in page
+    steep = refined.assign(status=regimes.SLIDES_AWAY)
+    steep.attrs = refined.attrs
+    assert "too steep for friction to hold a part" in page_of(steep, [back, *others])
+
+
 def test_the_page_begins_with_the_advice(refined):
     page = page_of(refined, advised())
     assert page.startswith("# Operating chart\n\n## Where to run the conveyor\n\n**Fast for nearly all parts.**")
