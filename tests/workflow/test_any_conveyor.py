@@ -69,6 +69,11 @@ CONVEYORS = {
         **{"frequency": 300.0, "angle": 0.14, "mass": 7.0e-5, "stiffness": 3.0e6, "damping": 0.15},
         **{"friction": 0.12, "tension": "frictionless"},
     },
+    # Impacts take so little energy that no motion settles within the cycles of this test.
+    "undamped": {
+        **{"frequency": 50.0, "angle": 0.35, "mass": 0.03, "stiffness": 1.0e8, "damping": 0.05},
+        **{"friction": 0.25, "static_friction": 0.35},
+    },
     "heavy": {
         **{"frequency": 16.6667, "angle": 0.8, "mass": 0.22, "stiffness": 2.0e6, "damping": 60.0},
         **{"friction": 0.6, "exponent": 1.5},
@@ -122,4 +127,6 @@ def test_captions_say_what_a_conveyor_does_not_have(builds):
     sliding = runs["sliding"][1]
     assert "No motion has a mean velocity (slides away)." in sliding["operating"]
     assert "Parts climb on none of these tracks." in sliding["track"]
+    assert "slides away faster and faster" in sliding["fig03"]
     assert "0.833 s" in runs["climbing"][1]["fig03"]
+    assert "No initial condition leads to a stable orbit of up to 1 cycle" in runs["undamped"][1]["bifurcation"]

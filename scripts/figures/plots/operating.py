@@ -64,5 +64,5 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
     share.set_xlim(amplitudes[0], amplitudes[-1])
     figure.align_ylabels([velocities, share])
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
-    velocities.legend(loc="upper left")
+    velocities.legend(loc="best")
     return figure

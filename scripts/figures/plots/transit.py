@@ -68,7 +68,7 @@ def plot(*, transit: pd.DataFrame, shares: pd.DataFrame, regimes: pd.DataFrame, 
     bands.set_xlim(transit.acceleration.min(), transit.acceleration.max())
     bands.set_xlabel(style.AMPLITUDE)
     bands.set_ylabel("transit velocity in cm/s")
-    bands.legend(loc="upper left")
+    bands.legend(loc="best")
     for population in POPULATIONS:
         rows = transit[transit.population == population]
         spreads.plot(rows.acceleration, rows.spread, color=COLOURS[population], label=LABELS[population])
