@@ -72,6 +72,7 @@ def fig10(
         "fitted": fit is not None and len(fit) > 0,
         "returns": (~converged.is_critical & (converged.state_above == "first")).any(),
         "highest": ends_of(converged.attrs["scan"])[1],
+        "many": (converged.status != "ok").any(),
         "aside": None,
     }
     if euler is None:

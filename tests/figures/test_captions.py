@@ -188,7 +188,7 @@ def test_a_map_states_its_undecided_share_and_the_key_that_reduces_it():
 
 
 def test_fig_10_without_a_common_amplitude_or_without_a_critical_height():
-    columns = {"acceleration": [40.0], "z0": [1e-4], "is_critical": [True], "state_above": "second"}
+    columns = {"acceleration": [40.0], "z0": [1e-4], "is_critical": [True], "state_above": "second", "status": "ok"}
     converged, euler = (pd.DataFrame(columns | {"acceleration": [a]}) for a in (30.0, 40.0))
     converged.attrs = {"scan": {"start": 0.0, "stop": 5e-4, "num": 9}, "resolution": 1.0e-9}
     template = (ROOT / "workflow/report/fig10.rst").read_text(encoding="utf-8")
@@ -198,6 +198,8 @@ def test_fig_10_without_a_common_amplitude_or_without_a_critical_height():
     back.attrs = converged.attrs
     for table, returns in ((converged, False), (back, True), (back.assign(state_above="chaos"), False)):
         assert ("Triangles" in captions.caption(template, "fig10", tables | {"converged": table}, {})) == returns
+    many = back.assign(status="between two heights of the scan")
+    assert "known to one step of the scan" in captions.caption(template, "fig10", tables | {"converged": many}, {})
     tables = {"converged": converged[:0], "fit": converged[:0]}
     text = captions.caption(template, "fig10", tables, {}, paper=False)
     assert "Up to 0.5 mm, no initial height changes the state of motion at any of these amplitudes." in text
