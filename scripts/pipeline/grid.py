@@ -38,7 +38,8 @@ def axis_values(name: str, axis: Axis) -> np.ndarray:
     ValueError
         names an axis that is empty or has a value outside its range
     """
-    if isinstance(axis, Mapping):
+    is_range = isinstance(axis, Mapping)
+    if is_range:
         axis = np.linspace(axis["start"], axis["stop"], int(axis["num"]))
     if len(axis) == 0:
         raise ValueError(f"axis {name} is empty")
@@ -46,6 +47,10 @@ def axis_values(name: str, axis: Axis) -> np.ndarray:
         if unknown := set(axis) - set(TENSION_MODES):
             raise ValueError(f"tension = {unknown.pop()!r} is not one of {', '.join(TENSION_MODES)}")
         return np.array(axis, dtype=np.str_)
+    if is_range:
+        check_parameter(name, axis[0])
+        check_parameter(name, axis[-1])
+        return axis
     is_height = name == PARAMETERS[Z0]
     return np.array([math.nan if is_height and value == "conveyor" else check_parameter(name, value) for value in axis])
 

@@ -85,9 +85,6 @@ def new_searches(count: int) -> tuple[np.ndarray, np.ndarray]:
 @compiled_inline
 def reset_search(past, counts):
     """Clear the history and the counters of a search."""
-    for k in range(PAST):
-        past[DELTA, k] = past[V, k] = math.inf
-        past[FLIGHTS, k] = 0.0
     for k in range(4):
         counts[k] = 0
 
@@ -105,7 +102,7 @@ def find_period(state, past, n, scale_0, scale_1):
     near = 0
     # Most states have no near one in the past. This loop has no branches and no divisions, and shows so quickly.
     reach_0, reach_1 = 2.0 * CLOSE * scale_0, 2.0 * CLOSE * scale_1
-    for k in range(PAST):
+    for k in range(min(n, PAST)):
         near += (abs(state[0] - past[DELTA, k]) <= reach_0) & (abs(state[1] - past[V, k]) <= reach_1)
     if near > 0:
         for period in range(1, min(n, MAX_PERIOD) + 1):
