@@ -48,7 +48,7 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     starts = np.tile(parameters[0], (len(heights), 1))
     starts[:, Z0] = heights
     table = Table(parameters, starts, (len(parameters), len(heights)))
-    slow = is_slow(table, settings, threads=threads)
+    slow = is_slow(table, settings, known=known, threads=threads)
     limits = find_limits(parameters, table, known, settings, threads=threads) if slow else None
     found = boundary_scan.find_crossings(
         parameters, heights, lambda rows: find_states(rows, settings, known, limits, threads), settings["resolution"]

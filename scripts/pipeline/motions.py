@@ -125,13 +125,16 @@ def mean_limit(table: Table, settings: dict) -> float:
     return settings["mean_settling"] * max(1.0, WHOLE_MAP / math.prod(table.counts))
 
 
-def is_slow(table: Table, settings: dict, *, threads: int = 1) -> bool:
-    """Whether the searches for a table take more cycles than its `mean_limit`."""
+def is_slow(table: Table, settings: dict, *, known: AttractorTable | None = None, threads: int = 1) -> bool:
+    """Whether the searches for a table take more cycles than its `mean_limit`.
+
+    known : the shared attractors of all conveyors of the table; None if they have not been found yet
+    """
     mean = mean_limit(table, settings)
     if mean >= settings["settling"]:
         return False
     sample = sample_starts(spread(distinct_conveyors(table.conveyors)[0], SAMPLED_CONVEYORS), table.starts)
-    attractors = shared_attractors(sample, table.counts[1], settings, threads=threads)
+    attractors = known or shared_attractors(sample, table.counts[1], settings, threads=threads)
     group = np.zeros(len(sample), dtype=np.int64)
     return bool(search_limits(sample, group, attractors, mean, settings, threads=threads)[0] < settings["settling"])
 
@@ -203,11 +206,14 @@ def motions_of_starts(
     """
     batches, parts = batches_by_conveyor(parameters), []
     table = table or Table(parameters, parameters[:starts], (len(parameters) // max(starts, 1), starts))
-    slow = is_slow(table, settings, threads=threads)
+    options, of_all = {"threads": threads}, None
+    if table.counts[0] <= SAMPLED_CONVEYORS:
+        of_all = shared_attractors(table.conveyors, starts, settings, **options, progress=progress)
+    slow = is_slow(table, settings, known=of_all, **options)
     for number, rows in enumerate(batches, start=1):
         label = progress and (f"{progress} ({number} of {len(batches)})" if len(batches) > 1 else progress)
-        batch, options = parameters[rows], {"threads": threads}
-        known = shared_attractors(batch, starts, settings, **options, progress=label)
+        batch = parameters[rows]
+        known = of_all or shared_attractors(batch, starts, settings, **options, progress=label)
         limits = find_limits(batch, table, known, settings, **options) if slow else None
         parts.append(follow(batch, known, settings, limits=limits, **options, progress=label))
     return join(parts, batches)

@@ -113,7 +113,9 @@ def hertz_source() -> str:
         if row == SQUARE:
             lines += ["if not all_rows:", "    return"]
         terms = ORDER if row in (SPRING, COSINE_W) else ORDER + 1
-        lines += [f"series[at + np.uint64({row + n}) * lanes] = {letter}{n}" for n in range(terms)]
+        for n in range(SIZE):
+            lines += [f"series[at] = {letter}{n}"] if n < terms else []
+            lines += ["at += lanes"]
     return "\n    ".join(lines) + "\n"
 
 
