@@ -18,7 +18,7 @@ import numpy as np
 
 from ..solver import contact, contact_law, polynomial
 from ..solver.contact_law import FIRST, row_of
-from ..solver.jit import compiled, compiled_inline, copy, no_refcount
+from ..solver.jit import compiled, compiled_inline, copy
 from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
 from ..solver.polynomial import ORDER, SIZE
 from ..solver.trajectory import (
@@ -183,7 +183,6 @@ def advance(c, series, state, phase, duration, tangent, features):
     -------
     status code of trajectory.STATUS
     """
-    series, state, tangent, features = no_refcount((series, state, tangent, features))
     # Numbers of both perturbations lie side by side, so that one instruction works on both.
     expansions = np.zeros((SIZE, 3, tangent.shape[0])).T
     features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = 0.0

@@ -8,7 +8,7 @@ unevaluated sum of two floats, which has about 30 digits (Dekker 1971).
 import numpy as np
 from flint import arb
 
-from ..solver.jit import compiled, compiled_inline
+from ..solver.jit import compiled, compiled_inline, fma
 
 # Components of a step; the columns of perturbations follow, two components each.
 W, Y, COSINE, SINE, PHASE, MOTION = range(6)
@@ -17,7 +17,6 @@ HIGH, LOW, RADIUS = range(3)
 # Relative rounding error of a product in double-double arithmetic. In an arithmetic of `bits` bits it is taken to be
 # 2^(SPARE_BITS - bits). Radii are enlarged by the factor WIDER, because they have rounding errors, too.
 ROUNDING, SPARE_BITS, WIDER = 1e-30, 4, 1.0 + 1e-6
-SPLIT = 134217729.0  # 2^27 + 1
 
 
 def parts_of(ball: arb) -> tuple[float, float, float]:
@@ -37,12 +36,9 @@ def two_sum(a, b):
 
 @compiled_inline
 def two_product(a, b):
-    """a b, and the error of this product (Dekker)."""
+    """a b, and the error of this product."""
     product = a * b
-    wide_a, wide_b = SPLIT * a, SPLIT * b
-    high_a, high_b = wide_a - (wide_a - a), wide_b - (wide_b - b)
-    low_a, low_b = a - high_a, b - high_b
-    return product, ((high_a * high_b - product) + high_a * low_b + low_a * high_b) + low_a * low_b
+    return product, fma(a, b, -product)
 
 
 @compiled_inline

@@ -2,9 +2,10 @@
 
 `compiled` is for a function that is called from Python, or rarely. Numba compiles it by itself; a caller jumps to it.
 `compiled_inline` is for a small function that runs several times in each step. Numba compiles it by itself, and LLVM
-copies its machine code into every caller, because passing a conveyor's constants would take longer than the function.
+copies its machine code into every caller. LLVM turns a loop over lanes into vector code only if all functions in it are
+copied: otherwise maps would take 1.5 times as long, and their labels 1.8 times. Single runs gain 4 %.
 `compiled_into_callers` is for any other function with one or two callers. Numba copies its source into them and never
-compiles it alone, which saves about a third of the time to compile.
+compiles it alone: the first `simulate` compiles for 14 s instead of 19 s.
 """
 
 import numba
@@ -27,7 +28,7 @@ def compiled(function, **options):
 
     def template_for_any_value(arguments, keywords):
         # For a literal such as 0 in a call, numba would compile the function once more, for that value alone. Numba
-        # documents no option against it. The first `simulate` would compile for 15 % more time.
+        # documents no option against it. The first `simulate` would compile for 16 s instead of 14 s.
         return template_for(
             tuple(map(types.unliteral, arguments)), {name: types.unliteral(one) for name, one in keywords.items()}
         )
@@ -50,7 +51,7 @@ def compiled_into_callers(function):
 def copy(target, source):
     """Copy the numbers of a tuple, or of an array of one dimension, to an array of the same length.
 
-    Numba takes a second and a half to compile `target[:] = source`, because of the message for unequal lengths.
+    Numba takes 1.6 s longer to compile `target[:] = source`, because of the message for unequal lengths.
     """
     for k in range(len(source)):
         target[k] = source[k]
@@ -71,7 +72,7 @@ def no_refcount(typing_context, value):
     """The same array, or tuple of arrays, numbers and tuples, without reference counting.
 
     For a function whose caller holds the arrays until it returns. Numba counts references atomically at each function
-    that an array passes through; that would cost more than the solver.
+    that an array passes through. Maps would take 1.4 times as long, sweeps 1.15 times, second derivatives 1.25 times.
     """
 
     def without_refcount(context, builder, kind, value):
