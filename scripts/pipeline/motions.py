@@ -174,15 +174,19 @@ def follow(
     return join(parts, groups)
 
 
-def join(parts: list[Labels], rows: list[np.ndarray]) -> Labels:
-    """The labels of parts of an array, whose rows are given, in the order of the array."""
+def join(parts: list[Labels], rows: list[np.ndarray | slice]) -> Labels:
+    """The labels of parts of an array, whose rows are given, in the order of the array. A single part is all of it."""
+    if len(parts) == 1:
+        return parts[0]
     order = np.argsort(np.concatenate(rows))
     return Labels(*(np.concatenate(column)[order] for column in zip(*parts, strict=True)))
 
 
-def batches_by_conveyor(parameters: np.ndarray) -> list[np.ndarray]:
+def batches_by_conveyor(parameters: np.ndarray) -> list[np.ndarray | slice]:
     """Rows of `parameters`, shape (n, 16), in batches; all initial conditions of a conveyor are in one batch."""
-    _, conveyor = distinct_conveyors(parameters)
+    conveyors, conveyor = distinct_conveyors(parameters)
+    if len(conveyors) <= CONVEYORS:
+        return [slice(None)]
     order = np.argsort(conveyor, kind="stable")
     batch = conveyor[order] // CONVEYORS
     return np.split(order, np.flatnonzero(np.diff(batch)) + 1)
