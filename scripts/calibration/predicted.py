@@ -25,8 +25,7 @@ NEIGHBOUR, WIDENED, OF_ALL = 4, 1.5, 0.4
 # Least standard deviation of a measurement, as a share of the plate's largest velocity along the track: what the
 # tolerance, and motions that have not settled, add.
 FLOOR = 5e-4
-# Parts that are followed first, and the relative difference up to which their velocities count as equal.
-FIRST, ALIKE = 8, 0.01
+FIRST = 8  # parts that are followed first
 
 
 class Conditions(NamedTuple):
@@ -88,7 +87,7 @@ def velocities(
 
     NaN stands for a part that could not be followed. The initial conditions are low-discrepancy points (Sobol), shifted
     at random for each set of parameters and each condition, so that a rare motion that the parts of one set miss is not
-    missed by all sets. All parts are followed only where the first ones differ; elsewhere these count several times.
+    missed by all sets.
 
     Parameters
     ----------
@@ -96,7 +95,7 @@ def velocities(
     settings : the box of initial conditions, and `static_ratio`, static friction in units of friction
     parts : number of parts per set and condition
     worth : function of the velocities of the first parts, shape (n, k, FIRST), which returns whether a set of
-        parameters is worth following more parts, shape (n,); without it all sets are
+        parameters is worth following more parts, shape (n,), and whose first parts count several times if it is not
     """
     n, k = len(next(iter(values.values()))), len(conditions.rows)
     random = np.random.default_rng(seed)
@@ -120,16 +119,14 @@ def velocities(
         rows[:, Z0] = np.where(np.isnan(rows[:, Z0]), height, rows[:, Z0])
         return mean_velocities(rows, times, threads, progress and f"{progress}{label}").reshape(-1, count)
 
-    first = min(FIRST, parts)
+    first = parts if worth is None else min(FIRST, parts)
     sets, of = np.indices((n, k)).reshape(2, -1)
     few = follow(sets, of, 0, first, "").reshape(n, k, first)
     found = np.tile(few, -(-parts // first))[..., :parts]
-    differ = ~(np.ptp(few, axis=-1) <= ALIKE * np.abs(few).max(axis=-1) + FLOOR * conditions.plate)
-    if worth is not None:
-        differ &= worth(few)[:, None]
-    sets, of = np.nonzero(differ)
-    if parts > first and len(sets):
-        found[sets, of, first:] = follow(sets, of, first, parts, ", more parts")
+    if first < parts:
+        chosen = np.flatnonzero(worth(few))
+        sets, of = np.repeat(chosen, k), np.tile(np.arange(k), len(chosen))
+        found[chosen, :, first:] = follow(sets, of, first, parts, ", more parts").reshape(len(chosen), k, -1)
     return found
 
 
