@@ -84,6 +84,16 @@ def test_velocities_do_not_depend_on_the_threads_and_differ_where_states_coexist
     assert np.ptp(one[:, 1]) > 0.02
 
 
+def test_a_motion_with_a_small_share_is_not_missed_because_the_first_parts_are_alike():
+    rows = [Measurement(1, 43.22, 0.0628, None, 1.0, 1.0, {})]
+    conditions, _ = conditions_of(rows, MODEL | {"angle": 0.3, "mass": 1e-3})
+    values = {name: np.full(60, value) for name, value in {"friction": 0.25, "damping": 0.3, "stiffness": 3e5}.items()}
+    found = velocities(values, conditions, BOX, parts=24, seed=3, worth=lambda few: np.full(len(few), True))
+    rare = found[:, 0] < 0.09
+    assert 0.1 < rare.mean() < 0.3
+    assert np.count_nonzero(~rare.any(axis=1)) <= 3
+
+
 @pytest.mark.parametrize(
     "parameters", [["friction", "damping", "stiffness"], ["friction", "stiffness", "phase_shift"], ["damping"]]
 )
