@@ -36,7 +36,7 @@ def draw_regimes(strip: Axes, shares: pd.DataFrame, regimes: pd.DataFrame) -> li
 
 def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
     """Draw shares and regimes of motion."""
-    figure = style.figure(style.PAGE, 104.0)
+    figure = style.figure(style.PAGE, 108.0)
     strip, velocities, share = figure.subplots(3, 1, sharex=True, height_ratios=(0.35, 3.0, 2.0))
     handles = draw_regimes(strip, shares, regimes)
     amplitudes = np.sort(shares.acceleration.unique())
@@ -59,10 +59,10 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
     share.fill_between(best.acceleration, low, high, color="0.75", linewidth=0.0, step="mid")
     share.plot(best.acceleration, 100.0 * best.best_share, color="black", drawstyle="steps-mid")
     share.set_ylim(0.0, 104.0)
-    share.set_ylabel("initial conditions with\nthe fastest motion in %")
+    share.set_ylabel("share of the\nfastest motion in %")
     share.set_xlabel(style.AMPLITUDE)
     share.set_xlim(amplitudes[0], amplitudes[-1])
     figure.align_ylabels([velocities, share])
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
-    velocities.legend(loc="best")
+    velocities.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4)
     return figure

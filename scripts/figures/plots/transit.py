@@ -68,15 +68,14 @@ def plot(*, transit: pd.DataFrame, shares: pd.DataFrame, regimes: pd.DataFrame, 
     bands.set_xlim(transit.acceleration.min(), transit.acceleration.max())
     bands.set_xlabel(style.AMPLITUDE)
     bands.set_ylabel("transit velocity in cm/s")
-    bands.legend(loc="best")
+    bands.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
     for population in POPULATIONS:
         rows = transit[transit.population == population]
-        spreads.plot(rows.acceleration, rows.spread, color=COLOURS[population], label=LABELS[population])
+        spreads.plot(rows.acceleration, rows.spread, color=COLOURS[population])
     spreads.set_yscale("log")
     spreads.set_xlim(transit.acceleration.min(), transit.acceleration.max())
     spreads.set_xlabel(style.AMPLITUDE)
     spreads.set_ylabel("relative spread")
-    spreads.legend(loc="best")
     draw_lengths(tracks, lengths)
     tracks.set_xlabel("length of the track in m")
     tracks.set_ylabel("relative spread")
