@@ -7,7 +7,7 @@ import pandas as pd
 
 from claims.about_proofs import lowest_fold, stable_motions
 from claims.verdicts import VERDICTS
-from figures.captions import bifurcation, fig10
+from figures.captions import accumulation, fig10
 from operating.chart import spreads_of
 from operating.parts import POPULATIONS
 from operating.regimes import SEVERAL
@@ -96,7 +96,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         "heights_aside": fig10(converged=tables["edge"], euler=tables["edge_euler"])["aside"],
         "epsilon": tables["estimate"].attrs["epsilon"],
         "valley": valley(tables["fit"]),
-        **bifurcation(spectrum=tables["spectrum"], cascade=tables["cascade"]),
+        **accumulation(spectrum=tables["spectrum"], cascade=tables["cascade"]),
         **names_by_verdict(tables["claims"]),
         **summarize_proofs(tables["certificates"], tables["certified_bifurcations"], tables["certified_chaos"]),
         **summarize_speed(tables["benchmark"]),

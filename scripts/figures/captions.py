@@ -107,29 +107,33 @@ def fig22(*, converged: pd.DataFrame, spectrum: pd.DataFrame, euler: pd.DataFram
     }
 
 
-def bifurcation(
-    *, spectrum: pd.DataFrame, branches: pd.DataFrame, cascade: pd.DataFrame, bifurcations: pd.DataFrame
-) -> dict[str, Any]:
+def accumulation(*, spectrum: pd.DataFrame, cascade: pd.DataFrame) -> dict[str, Any]:
+    """Where the period doublings accumulate, and where motions are chaotic before it and regular behind it."""
     found = cascade.accumulation.dropna()
-    about = {
-        "orbits": len(branches) > 0,
-        "bends": bifurcations.kind.isin(("fold", "period_doubling")).any(),
-        "ended": (branches.cycle == 1).sum() >= branches.attrs["most"],
-    }
     if found.empty:
-        return about | {"accumulation": None}
-    accumulation, runs = found.iloc[-1], {}
+        return {"accumulation": None}
+    place, runs = found.iloc[-1], {}
     for branch, rows in spectrum.sort_values("acceleration").groupby("branch"):
-        early = rows[rows.acceleration < accumulation]
+        early = rows[rows.acceleration < place]
         runs[branch] = find_runs(early.acceleration, is_chaotic(early))
-    late = spectrum[spectrum.acceleration > accumulation].sort_values("acceleration")
+    late = spectrum[spectrum.acceleration > place].sort_values("acceleration")
     regular = (late.lambda_1 < -SIGNIFICANT * late.stderr).groupby(late.acceleration).all()
-    return about | {
-        "accumulation": accumulation,
-        "is_beyond": accumulation > spectrum.acceleration.max(),
+    return {
+        "accumulation": place,
+        "is_beyond": place > spectrum.acceleration.max(),
         "early_up": format_runs(runs["up"], 2) if runs.get("up") else "nowhere",
         "early_down": format_runs(runs["down"], 2) if runs.get("down") else "nowhere",
         "regular_share": regular.mean(),
+    }
+
+
+def bifurcation(
+    *, spectrum: pd.DataFrame, branches: pd.DataFrame, cascade: pd.DataFrame, bifurcations: pd.DataFrame
+) -> dict[str, Any]:
+    return accumulation(spectrum=spectrum, cascade=cascade) | {
+        "orbits": len(branches) > 0,
+        "bends": bifurcations.kind.isin(("fold", "period_doubling")).any(),
+        "ended": (branches.cycle == 1).sum() >= branches.attrs["most"],
     }
 
 
