@@ -126,7 +126,7 @@ def velocities(
     if first < parts:
         chosen = np.flatnonzero(worth(few))
         sets, of = np.repeat(chosen, k), np.tile(np.arange(k), len(chosen))
-        found[chosen, :, first:] = follow(sets, of, first, parts, ", more parts").reshape(len(chosen), k, -1)
+        found[chosen, :, first:] = follow(sets, of, first, parts, ", more parts").reshape(-1, k, parts - first)
     return found
 
 

@@ -94,6 +94,14 @@ def test_a_motion_with_a_small_share_is_not_missed_because_the_first_parts_are_a
     assert np.count_nonzero(~rare.any(axis=1)) <= 3
 
 
+def test_no_set_may_be_worth_more_parts():
+    conditions, _ = conditions_of([Measurement(1, 40.0, 0.06, None, 0.2, 0.2, {})], MODEL)
+    values = {name: np.full(2, value) for name, value in CONTACT.items()}
+    first = velocities(values, conditions, BOX, parts=8, seed=3)
+    found = velocities(values, conditions, BOX, parts=24, seed=3, worth=lambda few: np.full(len(few), False))
+    np.testing.assert_array_equal(found, np.tile(first, 3))
+
+
 @pytest.mark.parametrize(
     "parameters", [["friction", "damping", "stiffness"], ["friction", "stiffness", "phase_shift"], ["damping"]]
 )
