@@ -1,9 +1,12 @@
 """The calibration in words, with all numbers from the tables."""
 
+import math
+
 import numpy as np
 import pandas as pd
 
-from calibration.inference import DETERMINED, NOT_DETERMINED, OPEN, TOO_FEW, UNLIKELY
+from calibration.inference import DETERMINED, NOT_DETERMINED, OPEN, TOO_FEW
+from calibration.model_check import UNLIKELY
 from pipeline.templates import render
 
 WORST = 8  # rows that are named
@@ -12,10 +15,16 @@ NAMES = {"friction": "friction coefficient", "damping": "contact damping", "stif
 WORTH = 0.02  # expected narrowing from which one more measurement is recommended
 
 
+def power_of_ten(decades: float) -> str:
+    """A factor in words, from its decimal logarithm; factors that no reader compares are powers of ten."""
+    return f"{10.0**decades:.2g}" if abs(decades) < 3.0 else f"10^{decades:.0f}"
+
+
 def make(
     template: str,
     parameters: pd.DataFrame,
     fit: pd.DataFrame,
+    alternatives: pd.DataFrame,
     prediction: pd.DataFrame,
     next: pd.DataFrame,
     prefix: str,
@@ -25,6 +34,12 @@ def make(
         {**row, "name": NAMES.get(row["parameter"], row["parameter"].replace("_", " "))}
         for row in parameters.replace({np.nan: None}).to_dict("records")
     ]
+    decades = alternatives.log_bayes_factor / math.log(10.0)
+    others = (
+        alternatives.assign(factor=[power_of_ten(one) for one in decades])
+        .sort_values("log_bayes_factor", ascending=False)
+        .to_dict("records")
+    )
     best = next.loc[next.narrowing.idxmax()]
     worst = fit.sort_values("p_row").head(WORST)
     bands = prediction.assign(width=prediction.high - prediction.low)
@@ -41,6 +56,9 @@ def make(
             "reliable": not (parameters.status == TOO_FEW).any(),
             "effective": float(parameters.effective.iloc[0]),
             "explained": bool(fit.explained.all()),
+            "fits": bool(fit.p_value.iloc[0] >= parameters.attrs["significance"]),
+            "alternatives": others,
+            "preferred": [row for row in others if row["preferred"]],
             "p_value": float(fit.p_value.iloc[0]),
             "count": len(fit),
             "unlikely": UNLIKELY,

@@ -10,7 +10,8 @@ import math
 import numpy as np
 import pandas as pd
 
-from calibration import inference, prediction
+from calibration import prediction
+from calibration.calibrate import calibrate
 from calibration.measurements import parse
 from calibration.synthetic import csv_text, measure, true_velocity
 from conveyor.analysis.contact_groups import contact_of_groups
@@ -75,7 +76,7 @@ def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: 
     text = csv_text(pairs, "synthetic", duration=lasts, before=lasts)
     model = {name: value for name, value in stated.items() if name not in PARAMETERS}
     own = settings["calibration"] | settings["band"] | box | {"model": model, "static_ratio": 1.0}
-    found = inference.calibrate(parse(text, "synthetic", own, RANGES), own, threads=threads, progress=progress)
+    found = calibrate(parse(text, "synthetic", own, RANGES), own, threads=threads, progress=progress)
     samples, fit = (pd.DataFrame(found[name]) for name in ("samples", "fit"))
     band = prediction.make(samples, fit, own, threads=threads, progress=progress)["prediction"]
     held = random.uniform(amplitudes[0], amplitudes[-1], settings["held_out"])
@@ -87,6 +88,8 @@ def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: 
         *(found["parameters"][key] for key in ("parameter", "best", "low", "high")), strict=True
     ):
         row |= {name: real[name], f"{name}_best": best, f"{name}_low": below, f"{name}_high": above}
+    gains = zip(*(found["alternatives"][key] for key in ("log_bayes_factor", "parameter")), strict=True)
+    row["log_bayes_factor"], row["alternative"] = max(gains, default=(-math.inf, ""))
     row |= {"in_band": float(np.mean((low <= velocity) & (velocity <= high)))}
     row |= {"p_value": float(fit.p_value.iloc[0]), "effective": found["parameters"]["effective"][0]}
     return json.dumps(row)

@@ -1,6 +1,7 @@
 """The table of the simulation study: a row for each data set."""
 
 import json
+import math
 
 from calibration.study import PARAMETERS
 from pipeline import fields
@@ -25,6 +26,8 @@ TABLES = {
         ),
         fields.number("in_band", "1", "share of further velocities within the predicted band from 5 % to 95 %"),
         fields.number("p_value", "1", "of the data under the model"),
+        fields.text("alternative", "parameter that explains the data best if it is searched, too"),
+        fields.number("log_bayes_factor", "1", "logarithm of its Bayes factor"),
         fields.flag("explained", "whether the model is said to explain the data"),
         fields.number("effective", "1", "effective number of samples"),
     )
@@ -34,5 +37,7 @@ TABLES = {
 def make(rows: list[str], settings: dict) -> dict[str, list]:
     """The columns of the table from the rows of all data sets, as JSON."""
     found = [json.loads(row) for row in rows]
-    least = settings["calibration"]["significance"]
-    return fields.columns([row | {"explained": row["p_value"] >= least} for row in found], TABLES["calibration_study"])
+    least, decisive = (settings["calibration"][name] for name in ("significance", "decisive"))
+    for row in found:
+        row["explained"] = row["p_value"] >= least and row["log_bayes_factor"] <= math.log(decisive)
+    return fields.columns(found, TABLES["calibration_study"])

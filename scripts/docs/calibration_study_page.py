@@ -41,7 +41,7 @@ def make(template: str, calibration_study: pd.DataFrame) -> str:
         {
             **{name: settings[name] for name in ("conveyors", "throw_number", "amplitudes", "poor")},
             "noise": settings["calibration"]["noise"],
-            **{name: settings["calibration"][name] for name in ("confidence", "significance")},
+            **{name: settings["calibration"][name] for name in ("confidence", "significance", "decisive")},
             "parts": settings["parts_of_study"],
             "differences": settings["wrong"],
             "count": len(calibration_study),

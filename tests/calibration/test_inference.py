@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from calibration import prediction
-from calibration.inference import calibrate
+from calibration.calibrate import calibrate
 from calibration.measurements import parse
 from calibration.sampler import sample
 from calibration.synthetic import csv_text, measure
@@ -51,6 +51,8 @@ MODEL |= {"phase_shift": 0.0}
 CONTACT = {"friction": 0.25, "damping": 0.3, "stiffness": 3e5}
 SETTINGS = {
     "parameters": ["friction", "damping", "stiffness"],
+    "alternatives": {},
+    "decisive": 150.0,
     "ranges": {"friction": [0.05, 1.0], "damping": [0.03, 2.5], "stiffness": [2.0, 2000.0]},
     "height": [0.0, 5e-4],
     "vz0": [-0.2, 0.2],
@@ -81,9 +83,9 @@ SETTINGS = {
 AMPLITUDES = np.repeat([20.0, 26.0, 32.0, 38.0, 50.0, 60.0], 2)
 
 
-def measured(factor=1.0):
+def measured(factor=1.0, **undeclared):
     """Measurements over 0.3 s; `factor` multiplies every second velocity."""
-    rows = measure(MODEL | CONTACT, AMPLITUDES, SETTINGS, 0.02, np.random.default_rng(4), duration=0.3)
+    rows = measure(MODEL | CONTACT | undeclared, AMPLITUDES, SETTINGS, 0.02, np.random.default_rng(4), duration=0.3)
     rows = [(one, velocity * (factor if place % 2 else 1.0)) for place, (one, velocity) in enumerate(rows)]
     return parse(csv_text(rows, "synthetic", duration=0.3, before=0.3), "mine.csv", SETTINGS, RANGES)
 
@@ -104,6 +106,16 @@ def test_velocities_that_no_parameters_give_are_not_explained():
     wrong = calibrate(measured(factor=-1.0), SETTINGS, threads=2)["fit"]
     assert not np.any(wrong["explained"])
     assert np.count_nonzero(~wrong["fits"]) >= 3
+
+
+@pytest.mark.parametrize("inclination", [0.0, 0.08])
+def test_an_inclination_that_was_not_declared_is_preferred(inclination):
+    found = calibrate(measured(inclination=inclination), SETTINGS | {"alternatives": {"inclination": 0.15}}, threads=2)
+    (value,), (preferred,) = (found["alternatives"][name] for name in ("value", "preferred"))
+    print(found["alternatives"], found["fit"]["p_value"][0])
+    assert preferred == (inclination > 0.0)
+    assert value == pytest.approx(inclination, abs=0.03)
+    assert np.all(found["fit"]["explained"]) != preferred
 
 
 def test_results_do_not_depend_on_the_threads(found):

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from calibration.inference import Data, compare
+from calibration.inference import Data
+from calibration.model_check import compare
 
 SETTINGS = {"noise": 0.02, "outliers": 0.02, "replicates": 500}
 CONDITIONS, REPEATS, PARTS = 6, 3, 64

@@ -16,6 +16,9 @@ SETTINGS = {
     "noise": 0.02,
     "outliers": 0.02,
     "significance": 0.01,
+    "decisive": 150.0,
+    "parameters": ["friction", "damping", "stiffness"],
+    "model": {"inclination": 0.0, "phase_shift": 0.0},
     "confidence": 0.95,
     "effective": 40.0,
     "first": 256,
@@ -27,7 +30,15 @@ SETTINGS = {
 }
 
 
-def tables(*, explained=True, reliable=True, misfits=0, narrowing=0.1, status=(DETERMINED, OPEN, NOT_DETERMINED)):
+def tables(
+    *,
+    explained=True,
+    alternative=False,
+    reliable=True,
+    misfits=0,
+    narrowing=0.1,
+    status=(DETERMINED, OPEN, NOT_DETERMINED),
+):
     status = status if reliable else [TOO_FEW] * 3
     parameters = pd.DataFrame(
         {
@@ -44,12 +55,16 @@ def tables(*, explained=True, reliable=True, misfits=0, narrowing=0.1, status=(D
     )
     fit = pd.DataFrame({"line": [2, 3, 4, 5], "acceleration": [30.0, 40.0, 50.0, 60.0], "velocity": 0.05})
     fit = fit.assign(low=0.01, high=0.02, p_row=[0.5, 0.001, 0.002, 0.4], p_value=0.3 if explained else 5e-4)
-    fit = fit.assign(fits=[True] * (4 - misfits) + [False] * misfits, explained=explained)
+    fit = fit.assign(fits=[True] * (4 - misfits) + [False] * misfits, explained=explained and not alternative)
     prediction = pd.DataFrame({"acceleration": [30.0, 60.0], "low": 0.01, "median": 0.02, "high": [0.03, 0.04]})
+    alternatives = pd.DataFrame({"parameter": ["inclination", "phase_shift"], "unit": "rad", "value": [0.06, 0.3]})
+    alternatives = alternatives.assign(log_bayes_factor=[16.1 if alternative else -2.0, -3.0], effective=50.0)
+    alternatives = alternatives.assign(preferred=[alternative, False])
     next_ = pd.DataFrame({"acceleration": [30.0, 45.0], "narrowing": [0.0, narrowing]})
     next_ = next_.assign(**{f"narrowing_{name}": [0.0, narrowing] for name in parameters.parameter})
     parameters.attrs = SETTINGS
-    return {"parameters": parameters, "fit": fit, "prediction": prediction, "next": next_}
+    found = {"parameters": parameters, "fit": fit, "alternatives": alternatives}
+    return found | {"prediction": prediction, "next": next_}
 
 
 def first_screen(**options):
@@ -82,6 +97,14 @@ def test_a_model_that_is_wrong_is_called_so_first():
     assert "calibrated.yaml --configfile" not in text
 
 
+def test_a_parameter_that_explains_much_more_rejects_the_model_and_is_named_with_its_value():
+    text = first_screen(alternative=True)
+    assert text.startswith("# Calibration\n\n**The model does not explain the measurements.**")
+    assert "`inclination` = **0.06 rad** (3.4°)" in text and "10^7 times as probable" in text
+    assert "`model: {inclination: 0.06}`" in text and "[friction, damping, stiffness, inclination]" in text
+    assert "very unlikely" not in text and "phase_shift` =" not in text
+
+
 def test_a_sample_that_is_too_small_gives_no_intervals():
     text = first_screen(reliable=False)
     assert "did not find enough good parameters" in text
@@ -96,7 +119,7 @@ def test_the_overlay_has_the_best_parameters_and_keeps_the_ratio_of_static_frict
     assert yaml.safe_load(overlay.make(found["parameters"], found["fit"]))["parts"] == {"calibrated": True}
 
 
-@pytest.mark.parametrize("options", [{"explained": False}, {"reliable": False}])
+@pytest.mark.parametrize("options", [{"explained": False}, {"alternative": True}, {"reliable": False}])
 def test_there_is_no_overlay_without_parameters_that_can_be_trusted(options):
     found = tables(**options)
     with pytest.raises(overlay.NotCalibratedError, match=r"no overlay|for an overlay"):

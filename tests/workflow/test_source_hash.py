@@ -22,7 +22,7 @@ CALLS = {
     },
     "accuracy/scaling": {"sweeps/shards"},
     "operating/shares": {"operating/regimes"},
-    "calibration/study_table": {"calibration/inference", "calibration/prediction"},
+    "calibration/study_table": {"calibration/calibrate", "calibration/prediction"},
     "operating/advice": {"operating/transit"},
     "operating/drift": {"operating/regimes", "operating/transit"},
     "operating/track": {"operating/regimes", "operating/shares"},

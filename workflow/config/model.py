@@ -600,6 +600,14 @@ class Calibration(TypedDict):
         Annotated[Line, Field(description="CSV file of measured velocities, relative to this config file")]
     ]
     parameters: many(word("parameter that is searched", *CALIBRATED), "parameters that are searched")
+    alternatives: mapping(
+        "largest difference from the stated value that is searched in addition",
+        {
+            "inclination": number(DESCRIPTIONS["inclination"], "rad", gt=0, le=0.5),
+            "phase_shift": number(DESCRIPTIONS["phase_shift"], "rad", gt=0, le=3.15),
+        },
+    )
+    decisive: number("Bayes factor from which an alternative rejects the model", gt=1)
     ranges: mapping("range of each parameter, in dimensionless groups", RANGES_OF_CALIBRATION)
     noise: number("relative standard deviation of a velocity without its own", ge=0, lt=1)
     outliers: number("share of measurements that may have any velocity", gt=0, lt=1)

@@ -201,7 +201,7 @@ def identification_table_settings(table: str, config: dict) -> dict:
 
 
 FOLLOWED = ("tolerance", "settling")
-CALIBRATION_TABLES = ("parameters", "samples", "fit", "prediction", "next")
+CALIBRATION_TABLES = ("parameters", "samples", "fit", "alternatives", "prediction", "next")
 # The tables that are not entries, and the function that returns the settings of each.
 TABLES = {
     **dict.fromkeys(

@@ -6,7 +6,7 @@ rule calibration:
     input:
         measurements=measurements,
     output:
-        **tables_of("calibration/parameters", "calibration/samples", "calibration/fit"),
+        **tables_of("calibration/parameters", "calibration/samples", "calibration/fit", "calibration/alternatives"),
     log:
         log_file("calibration/parameters"),
     benchmark:
@@ -14,7 +14,7 @@ rule calibration:
     resources:
         cpus_per_task=JOB_THREADS,
     params:
-        **stage("calibration.inference", "calibration/parameters"),
+        **stage("calibration.calibrate", "calibration/parameters"),
     message:
         "Parameters that the measured velocities imply"
     script:

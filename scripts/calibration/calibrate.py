@@ -1,0 +1,85 @@
+"""Parameters from measured velocities: their posterior, and whether the model explains the measurements."""
+
+import numpy as np
+
+from calibration.inference import DETERMINED, NOT_DETERMINED, OPEN, TOO_FEW, data_of, draw, search, summarize_parameters
+from calibration.measurements import CALIBRATED, Measurement, parse
+from calibration.model_check import check_fit, compare_alternatives
+from calibration.search_space import values_at
+from conveyor.parameters import RANGES, UNITS
+from pipeline import fields
+
+TABLES = {
+    "parameters": (
+        fields.text("parameter", "parameter of the model"),
+        fields.text("unit", "its unit"),
+        fields.number("best", "SI", "value at the mode of the posterior"),
+        fields.number("low", "SI", "lower end of the 95 % interval; null if the sample is too small for intervals"),
+        fields.number("high", "SI", "upper end of the 95 % interval; null if the sample is too small for intervals"),
+        fields.number("range_low", "SI", "lower end of the searched range"),
+        fields.number("range_high", "SI", "upper end of the searched range"),
+        fields.text("status", f"{DETERMINED}, {OPEN}, {NOT_DETERMINED}, or {TOO_FEW}"),
+        fields.number("effective", "1", "effective number of samples of the posterior"),
+    ),
+    "samples": (
+        *(fields.number(name, UNITS[name], "value in this sample of the posterior") for name in CALIBRATED),
+        fields.number("log_likelihood", "1", "logarithm of the likelihood"),
+    ),
+    "fit": (
+        fields.count("line", "line of the file of measurements"),
+        fields.number("acceleration", "m/s²", "amplitude of the excitation"),
+        fields.number("velocity", "m/s", "measured velocity"),
+        fields.number("sd", "m/s", "standard deviation of the measurement"),
+        fields.number("low", "m/s", "5 % quantile of what the best parameters give, noise included"),
+        fields.number("median", "m/s", "median of what the best parameters give"),
+        fields.number("high", "m/s", "95 % quantile of what the best parameters give, noise included"),
+        fields.number("p_row", "1", "share of replicates of this measurement that fit worse, for the best parameters"),
+        fields.flag("fits", "whether this share is not small"),
+        fields.number(
+            "p_value",
+            "1",
+            "share of replicates of all measurements that fit worse, mean over the posterior; equal in all rows",
+        ),
+        fields.flag(
+            "explained",
+            "whether the model explains the measurements, and no alternative is preferred; equal in all rows",
+        ),
+    ),
+    "alternatives": (
+        fields.text("parameter", "parameter of the model that was searched in addition"),
+        fields.text("unit", "its unit"),
+        fields.number("value", "SI", "value at the mode of this posterior"),
+        fields.number(
+            "log_bayes_factor", "1", "logarithm of how much more probable the measurements are with this parameter"
+        ),
+        fields.flag("preferred", "whether the measurements demand this parameter"),
+        fields.number("effective", "1", "effective number of samples of this posterior"),
+    ),
+}
+
+
+def calibrate(
+    measured: list[Measurement], settings: dict, *, threads: int = 1, progress: str | None = None
+) -> dict[str, dict]:
+    """The columns of the tables of parameters, of samples, of the fit and of alternatives, from measurements."""
+    data = data_of(measured, settings["model"])
+    options = {"threads": threads, "progress": progress}
+    found = search(data, settings, **options)
+    alternatives = compare_alternatives(found, data, settings, **options)
+    fit = check_fit(found, data, settings, **options)
+    fit["explained"] &= not any(row["preferred"] for row in alternatives)
+    chosen = draw(found, settings["samples"])
+    values = values_at(found.points[chosen], settings)
+    others = {name: np.full(len(chosen), value) for name, value in settings["model"].items() if name in CALIBRATED}
+    return {
+        "parameters": fields.columns(summarize_parameters(found, settings), TABLES["parameters"]),
+        "samples": {**others, **values, "log_likelihood": found.log_density[chosen]},
+        "fit": fit,
+        "alternatives": fields.columns(alternatives, TABLES["alternatives"]),
+    }
+
+
+def make(measurements: str, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, dict]:
+    """The tables from the text of the file of measurements."""
+    measured = parse(measurements, settings["measurements"], settings, RANGES)
+    return calibrate(measured, settings, threads=threads, progress=progress)
