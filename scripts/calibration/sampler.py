@@ -80,8 +80,7 @@ def settle(
         weights, size = normalize(values - mixture)
         before, volume = volume, np.linalg.slogdet(np.cov(points.T, aweights=weights, ddof=0))[1]
         if width == 0.0 or size < enough or not volume < before - SAME_VOLUME:
-            evidence = logsumexp(values - mixture) - np.log(len(points))
-            return Sample(points, values, weights, float(evidence), size)
+            return Sample(points, values, weights, float(logsumexp(values - mixture)), size)
 
 
 def sample(
@@ -123,7 +122,8 @@ def sample(
             if settled.size >= enough or width >= WIDEST * len(proposals) / rounds:
                 break
         if settled.size >= enough or len(proposals) == rounds:
-            return settled
+            # A proposal counts as one in `mixture`, and stands for as many points as a round has.
+            return settled._replace(log_evidence=settled.log_evidence - math.log(points))
         known = flattened(values, mixture, LEAST * dimensions)
         heavy = known > LIGHT * known.max()
         proposals.append(gaussian_kde(x[heavy].T, weights=known[heavy]))
