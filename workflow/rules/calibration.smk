@@ -42,7 +42,7 @@ rule calibration_prediction:
 
 rule calibration_page:
     input:
-        **tables_of("calibration/parameters", "calibration/fit", "calibration/prediction", "calibration/next"),
+        **tables_of(*(f"calibration/{name}" for name in ("parameters", "fit", "alternatives", "prediction", "next"))),
         template=source("workflow/templates/calibration.md"),
     output:
         page=result("calibration.md"),
