@@ -116,7 +116,8 @@ def compare_alternatives(
             continue
         ends = [settings["model"][name] - difference, settings["model"][name] + difference]
         own = settings | {"parameters": [*settings["parameters"], name], "ranges": settings["ranges"] | {name: ends}}
-        own |= {"enough": settings["effective"]}
+        # An evidence needs fewer samples than intervals. A search that has not found them underestimates it.
+        own |= {"enough": settings["effective"], "rounds": settings["rounds"] // 2}
         other = search(data, own, threads=threads, progress=progress and f"{progress}: {name.replace('_', ' ')}")
         gain = other.log_evidence - found.log_evidence
         rows.append(
