@@ -16,7 +16,7 @@ from accuracy import (
     stability_estimates,
     theory,
 )
-from calibration import inference, prediction, study_table
+from calibration import calibrate, prediction, study_table
 from claims import verdicts
 from dimensions import portraits
 from fit import regressions
@@ -39,7 +39,7 @@ MODULES = {
     "fit": [regressions],
     "sensitivity": [derivatives, curves],
     "operating": [shares, transit, drift, advice, throws, track, drive],
-    "calibration": [inference, prediction, study_table],
+    "calibration": [calibrate, prediction, study_table],
     "accuracy": [
         *(benchmark, precision, reference_check, precision_estimates, stability, stability_estimates),
         *(scene_budget, rigid_part, theory, map_check, settling_times, scaling),
