@@ -4,7 +4,6 @@ A trajectory that stays in these boxes and their neighbours for many cycles in a
 """
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 
 from ..chaos import lyapunov
 from . import sampling
@@ -21,9 +20,12 @@ def cover_by_boxes(strobes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndar
     size = (high - low) / (BOXES - 3)  # leaves an empty box on either side
     low = low - size
     places = ((strobes - low) / size).astype(np.int64)
-    visited = np.zeros((BOXES, BOXES), dtype=np.bool_)
-    visited[places[:, 0], places[:, 1]] = True
-    return low, size, sliding_window_view(np.pad(visited, 1), (3, 3)).any(axis=(2, 3))
+    near = np.zeros((BOXES, BOXES), dtype=np.bool_)
+    near[places[:, 0], places[:, 1]] = True
+    for along in (near, near.T):
+        along[1:] |= along[:-1]
+        along[:-1] |= along[1:]
+    return low, size, near
 
 
 def find_chaotic_sets(

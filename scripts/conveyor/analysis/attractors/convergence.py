@@ -13,8 +13,9 @@ CLOSE = 1e-6
 # Just behind a period doubling a trajectory almost repeats itself after half its period. It counts as the half period
 # if the distance is below this one.
 SAME = 1e-4
-# Cycles in a row within chaotic sets after which a trajectory is taken to stay there.
-STAY = 64
+# Cycles in a row within chaotic sets after which a trajectory is taken to stay there. On the paper's maps no trajectory
+# that becomes periodic stays for two.
+STAY = 32
 
 # Outcomes of a search; GOES_ON is none of them.
 PERIODIC, IN_CHAOTIC_SET, NOT_CONVERGED, FAILED, GOES_ON = range(5)
@@ -24,6 +25,8 @@ PAST = 2 * MAX_PERIOD
 DELTA, V, FLIGHTS = range(3)
 # Its counters: cycles followed, the last period found, cycles for which it has held, cycles in a row in chaotic sets.
 FOLLOWED, CANDIDATE, REPEATS, STAYED = range(4)
+# The cycles that a search has followed before its first whole cycle begins.
+BEFORE_FIRST_CYCLE = -1
 
 
 class Trajectories(NamedTuple):
@@ -87,6 +90,7 @@ def reset_search(past, counts):
     """Clear the history and the counters of a search."""
     for k in range(4):
         counts[k] = 0
+    counts[FOLLOWED] = BEFORE_FIRST_CYCLE
 
 
 @compiled_inline
@@ -122,7 +126,7 @@ def longest_flight(past, n, cycles):
 
 @compiled
 def check_convergence(c, state, flight, max_cycles, attractors, rows, past, counts):
-    """Whether a search is over after one more cycle.
+    """Whether a search is over after one more cycle, or at the beginning of its first whole cycle.
 
     Parameters
     ----------
@@ -144,6 +148,8 @@ def check_convergence(c, state, flight, max_cycles, attractors, rows, past, coun
     orbit = find_reached_orbit(c, state, attractors.orbits, rows[0], rows[1])
     if orbit >= 0:
         return PERIODIC, attractors.orbits.periods[orbit], attractors.orbits.flights[orbit]
+    if n == BEFORE_FIRST_CYCLE:
+        return GOES_ON, 0, math.nan
     scale_0, scale_1 = c.scale_w * c.scale_w, c.scale_v
     found = find_period(state, past, n, scale_0, scale_1)
     past[DELTA, n % PAST], past[V, n % PAST], past[FLIGHTS, n % PAST] = state[0], state[1], flight

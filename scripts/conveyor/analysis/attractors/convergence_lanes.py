@@ -52,7 +52,15 @@ from ...solver.vertical import (
     press,
 )
 from ..stroboscopic_map import delta_and_v
-from .convergence import FOLLOWED, GOES_ON, check_convergence, new_searches, new_trajectories, reset_search
+from .convergence import (
+    BEFORE_FIRST_CYCLE,
+    FOLLOWED,
+    GOES_ON,
+    check_convergence,
+    new_searches,
+    new_trajectories,
+    reset_search,
+)
 
 # The smallest number of trajectories in lanes: a single one takes about a tenth less time in scalar code.
 SIDE_BY_SIDE = 2
@@ -60,8 +68,6 @@ SIDE_BY_SIDE = 2
 # The state of a lane's present cycle: time since the last separation (s), longest flight that ended in the cycle (s),
 # phase of the excitation at its beginning (rad).
 AIRBORNE, LONGEST, ORIGIN = range(3)
-# The cycles that a search has followed before its first whole cycle begins.
-BEFORE_FIRST_CYCLE = -1
 
 # The arguments of `follow_all_to_attractors` that say when a search is over, and the array of strobes.
 Search = namedtuple("Search", "max_cycles attractors rows strobes")
@@ -72,7 +78,6 @@ def begin_trajectory(c, parameters, lane, steps, cycle, past, counts):
     """The Motion at the initial condition of `parameters`, shape (16,); resets all that is known of the lane."""
     set_constants(steps, lane, c)
     reset_search(past, counts)
-    counts[FOLLOWED] = BEFORE_FIRST_CYCLE
     # The first whole cycle begins within one cycle.
     steps[END, lane] = time_to_next_cycle(c)
     steps[STEPS, lane] = cycle[LONGEST, lane] = cycle[AIRBORNE, lane] = 0.0
@@ -110,18 +115,16 @@ def end_cycle(c, i, lane, motion, cycle, search, past, counts, found):
     """Whether the search of trajectory i is over with the `motion` at the end of a cycle."""
     state = found.states[i]
     state[0], state[1] = delta_and_v(motion)
-    if counts[FOLLOWED] == BEFORE_FIRST_CYCLE:
-        counts[FOLLOWED] = 0
-        cycle[AIRBORNE, lane] = 0.0
-        return False
-    if counts[FOLLOWED] < search.strobes.shape[1]:
-        search.strobes[i, counts[FOLLOWED], 0] = state[0]
-        search.strobes[i, counts[FOLLOWED], 1] = state[1]
+    cycles = counts[FOLLOWED]
+    if 0 <= cycles < search.strobes.shape[1]:
+        search.strobes[i, cycles, 0], search.strobes[i, cycles, 1] = state[0], state[1]
     flight = max(cycle[LONGEST, lane], cycle[AIRBORNE, lane])
     outcome, period, longest = check_convergence(
         c, state, flight, search.max_cycles, search.attractors, search.rows[i], past, counts
     )
     found.followed[i] = counts[FOLLOWED]
+    if cycles == BEFORE_FIRST_CYCLE:
+        cycle[AIRBORNE, lane] = 0.0
     if outcome == GOES_ON:
         return False
     found.outcomes[i], found.periods[i], found.flights[i] = outcome, period, longest

@@ -8,8 +8,8 @@ from .attractor_table import NO_ATTRACTORS, AttractorTable, concatenate, distinc
 from .chaotic_sets import find_chaotic_sets
 from .trapping_regions import find_attracting_orbits
 
-# Conveyors whose trajectories are followed side by side.
-TOGETHER = 16
+# Conveyors whose trajectories are followed side by side. Each takes 0.3 MB while its chaotic sets are searched for.
+TOGETHER = 128
 # Chaotic sets of a conveyor, and then its orbits, are searched for in at most as many cycles as this number of
 # searches for a period takes.
 SEARCHES = 32
@@ -47,6 +47,5 @@ def find_attractors(
                 known = find_attracting_orbits(row, of_row, sets, cycles, tolerance, most=most)
             found[k] = AttractorTable(known, sets)
 
-    chunk = TOGETHER if len(conveyors) >= TOGETHER * threads else 1
-    for_each_chunk(work, len(conveyors), threads=threads, chunk=chunk, progress=progress)
+    for_each_chunk(work, len(conveyors), threads=threads, chunk=TOGETHER, progress=progress)
     return concatenate([NO_ATTRACTORS, *found])

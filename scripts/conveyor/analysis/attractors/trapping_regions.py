@@ -20,7 +20,15 @@ from .. import stroboscopic_map
 from ..dimensionless_groups import units
 from . import sampling
 from .attractor_table import NO_ATTRACTORS, AttractingOrbits, AttractorTable, ChaoticSets, append_row
-from .convergence import NOT_CONVERGED, PERIODIC, Trajectories, distance_components, find_reached_orbit
+from .convergence import (
+    IN_CHAOTIC_SET,
+    NOT_CONVERGED,
+    PERIODIC,
+    STAY,
+    Trajectories,
+    distance_components,
+    find_reached_orbit,
+)
 
 POINTS = 32  # of a curve
 PERIODS = 32  # in which a curve must come inside the one before
@@ -194,8 +202,8 @@ def find_attracting_orbits(
 
     Parameters
     ----------
-    sampled : trajectories on the conveyor; those that have not converged are followed further, for at most `cycles`,
-        one after the other, so that each slow orbit is approached only once
+    sampled : trajectories on the conveyor; those that have not converged and do not stay in a chaotic set are followed
+        further, for at most `cycles`, one after the other, so that each slow orbit is approached only once
     chaotic : the known chaotic sets of the conveyor
     most : excitation cycles in all, after which no further orbit is searched for
     """
@@ -217,7 +225,12 @@ def find_attracting_orbits(
 
     for k in np.flatnonzero(sampled.outcomes == PERIODIC):
         add(sampled.states[k], int(sampled.periods[k]), sampled.flights[k])
-    for state in sampled.states[sampled.outcomes == NOT_CONVERGED]:
+    states = sampled.states[sampled.outcomes == NOT_CONVERGED]
+    # Side by side, because most of them stay in a chaotic set.
+    rows = np.repeat(parameters[None], len(states), axis=0)
+    early = sampling.follow(rows, states, min(2 * STAY, cycles), tolerance, AttractorTable(found, chaotic))
+    left -= int(early.followed.sum())
+    for state in states[early.outcomes != IN_CHAOTIC_SET]:
         if left <= 0:
             break
         late = sampling.follow(parameters[None], state[None], cycles, tolerance, AttractorTable(found, chaotic))
