@@ -26,11 +26,16 @@ Flight = namedtuple("Flight", "z vz theta gravity a_z omega")
 @compiled_inline
 def gap(flight, tau):
     """Gap (m) and its rate (m/s) after the time `tau` (s) of a flight."""
-    z, vz, theta, gravity, a_z, omega = flight
-    phase = theta + omega * tau
-    q = z + (vz - 0.5 * gravity * tau) * tau + a_z / (omega * omega) * math.cos(phase)
-    rate = vz - gravity * tau - a_z / omega * math.sin(phase)
-    return q, rate
+    phase = flight.theta + flight.omega * tau
+    return gap_at_phase(flight, tau, math.sin(phase), math.cos(phase))
+
+
+@compiled_inline
+def gap_at_phase(flight, tau, sine, cosine):
+    """`gap` for a known sine and cosine of the excitation's phase."""
+    z, vz, _, gravity, a_z, omega = flight
+    q = z + (vz - 0.5 * gravity * tau) * tau + a_z / (omega * omega) * cosine
+    return q, vz - gravity * tau - a_z / omega * sine
 
 
 @compiled_inline

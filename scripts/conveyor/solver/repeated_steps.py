@@ -32,13 +32,15 @@ KeptSteps = namedtuple("KeptSteps", "series steps")
 
 def new_arrays() -> tuple[np.ndarray, np.ndarray]:
     """New arrays for the two fields of KeptSteps."""
-    return np.empty(FIRST + PLACES * STEP), np.empty((PLACES, COLUMNS))
+    return np.empty(FIRST + PLACES * STEP), np.full((PLACES, COLUMNS), np.inf)
 
 
 @compiled_into_callers
 def forget(kept):
-    """Forget all steps."""
+    """Forget all steps; places are used one after the other."""
     for place in range(PLACES):
+        if kept.steps[place, BEGIN_T] == np.inf:
+            break
         kept.steps[place, BEGIN_T] = np.inf
 
 

@@ -10,7 +10,7 @@ from collections import namedtuple
 
 from . import contact, contact_law, polynomial
 from .contact import FORCE_SIGN, NOTHING, SEPARATION
-from .flight import Flight, gap, next_impact
+from .flight import Flight, gap_at_phase, next_impact
 from .jit import compiled, compiled_inline, compiled_into_callers
 from .model import TENSION_ALLOW
 
@@ -172,7 +172,7 @@ def arrive(c, motion, piece, origin):
     if piece.kind == FLIGHT:
         if piece.end == IMPACT:
             return Motion(t, theta, sine, cosine, True, 0.0, v, False, 0.0, 0.0, 0.0, 0.0)
-        q, rate = gap(flight_from(c, motion), piece.duration)
+        q, rate = gap_at_phase(flight_from(c, motion), piece.duration, sine, cosine)
         z = q - c.a_z / (c.omega * c.omega) * cosine
         return Motion(t, theta, sine, cosine, False, 0.0, 0.0, False, z, rate + c.a_z / c.omega * sine, q, rate)
     touching = True

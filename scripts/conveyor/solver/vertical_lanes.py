@@ -25,6 +25,7 @@ from .contact_lanes import (
     V,
     W,
     can_follow,
+    constants_of,
     copy_series,
     new_memory,
     refill,
@@ -228,7 +229,8 @@ def follow(parameters, tolerance, times, samples, results, left, work):
     """
     parameters, times, samples, results, left = no_refcount((parameters, times, samples, results, left))
     memory, steps, runs, rows, series, kept_steps = no_refcount(work)
-    constants = [contact.constants(parameters[0], tolerance)] * LANES
+    latest = contact.constants(parameters[0], tolerance)
+    constants = [latest] * LANES
     motions = [motion_at(constants[0], 0.0, 0.0, 0.0, 0.0)] * LANES
     waiting = running = 0
     stopped = 0  # a bit for each lane
@@ -253,7 +255,7 @@ def follow(parameters, tolerance, times, samples, results, left, work):
                     i = rows[lane]
                     if i == NONE:
                         break
-                    c = constants[lane] = contact.constants(parameters[i], tolerance)
+                    c = constants[lane] = latest = constants_of(parameters, i, tolerance, latest)
                     if can_follow(c):
                         motion = begin_run(c, parameters[i], times[i], run, steps, lane, kept)
                         answer = GOES_ON
@@ -290,7 +292,7 @@ def integrate(parameters: np.ndarray, times: np.ndarray, *, tolerance: float) ->
     samples, results = np.empty((n, len(SAMPLES))), np.full((n, trajectory.RESULTS), np.nan)
     left = np.full(n, n < LANES)
     if n >= LANES:
-        steps = np.empty((LANES, repeated_steps.PLACES, repeated_steps.COLUMNS))
+        steps = np.full((LANES, repeated_steps.PLACES, repeated_steps.COLUMNS), np.inf)
         work = (*new_memory(ROWS), np.empty((LANES, COUNTS)), np.full(LANES, NONE), contact.workspace(), steps)
         follow(parameters, tolerance, times, samples, results, left, work)
     if left.any():

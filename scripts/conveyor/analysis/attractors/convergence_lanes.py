@@ -24,6 +24,7 @@ from ...solver.contact_lanes import (
     V,
     W,
     can_follow,
+    constants_of,
     copy_series,
     new_memory,
     refill,
@@ -154,7 +155,8 @@ def follow(parameters, tolerance, search, found, side_by_side, work):
     """
     parameters, search, found = no_refcount((parameters, search, found))
     memory, steps, cycle, trajectories, series, histories, counters = no_refcount(work)
-    constants = [contact.constants(parameters[0], tolerance)] * LANES
+    latest = contact.constants(parameters[0], tolerance)
+    constants = [latest] * LANES
     waiting = running = 0
     stopped = (1 << LANES) - 1  # a bit for each lane
     while True:
@@ -181,7 +183,7 @@ def follow(parameters, tolerance, search, found, side_by_side, work):
                     i = trajectories[lane]
                     if i == NONE:
                         break
-                    c = constants[lane] = contact.constants(parameters[i], tolerance)
+                    c = constants[lane] = latest = constants_of(parameters, i, tolerance, latest)
                     motion = begin_trajectory(c, parameters[i], lane, steps, cycle, past, counts)
                 if side_by_side and can_follow(c) and motion.touching and not is_grazing(c, motion):
                     set_motion(motion, lane, steps)

@@ -2,9 +2,9 @@
 
 The stroboscopic map is a homeomorphism of the plane. If the image of a closed curve lies inside another curve, so does
 the image of all that it surrounds, and only points of the curve need checking. The curves are ellipses around a point
-of the orbit. The first ellipse is so small that the motion is linear there. Each following ellipse is twice as large,
-and its image must come inside the ellipse before. The ellipses belong to a norm in which the linearisation contracts in
-each period, not only in the long run.
+of the orbit. The first ellipse is so small that the motion is linear there. Each following ellipse is larger, at first
+twice as large, and its image must come inside the ellipse before. The ellipses belong to a norm in which the
+linearisation contracts in each period, not only in the long run.
 """
 
 import math
@@ -38,6 +38,7 @@ PATIENCE = 4.0
 SMALLEST, LARGEST = 1e-3, 64.0
 # Spectral radii of a linearisation: a smaller one counts as FASTEST; above SLOW, no curve halves in PERIODS; above
 # SLOWEST, checking a curve takes seconds.
+LEAST_GROWTH = 1.1  # from one ellipse to the next; the first ones are twice as large as the ones before
 FASTEST, SLOW, SLOWEST = 1e-4, 0.98, 0.9995
 REFINEMENTS = 4  # steps of Newton's iteration
 FAR = 0.01  # in g/ω² and g/ω, farther than Newton's iteration moves to the orbit that it begins at
@@ -45,14 +46,15 @@ LONGEST = 8  # excitation cycles, longest period of an orbit with a trapping reg
 
 
 @compiled
-def comes_inside(parameters, tolerance, centre, factor, period, radius, periods=PERIODS):
-    """Whether an ellipse about a point of an orbit comes inside the ellipse of half its `radius`.
+def comes_inside(parameters, tolerance, centre, factor, period, radius, inner, periods=PERIODS):
+    """Whether an ellipse about a point of an orbit, of the given `radius`, comes inside a smaller one.
 
     All points must be inside after the same number of periods. The curve is then inside if the distance between
     neighbouring points is smaller than the distance of each point from the smaller ellipse.
 
     centre, factor : see AttractingOrbits
     period : excitation cycles, of the orbit
+    inner : radius of the smaller ellipse
     periods : number of periods in which it must come inside
 
     Returns
@@ -80,10 +82,10 @@ def comes_inside(parameters, tolerance, centre, factor, period, radius, periods=
             size = max(size, math.hypot(images[i, 0], images[i, 1]))
         for i in range(POINTS):
             gap = max(gap, math.hypot(images[i, 0] - images[i - 1, 0], images[i, 1] - images[i - 1, 1]))
-        if size + gap <= 0.5 * radius:
+        if size + gap <= inner:
             return True, n * period * POINTS
-        # A curve that has left itself and does not come back is most likely outside the basin.
-        if size > radius and size >= before:
+        # A curve that is far outside itself and does not come back is most likely outside the basin.
+        if size > 2.0 * radius and size >= before:
             return False, n * period * POINTS
         before = size
     return False, periods * period * POINTS
@@ -186,13 +188,15 @@ def find_trapping_region(
     if norm is None:
         return None, 0
     factor = (norm / unit)[np.triu_indices(2)]
-    radius, spent, inside = SMALLEST, 0, True
-    while inside and radius <= LARGEST and spent < most:
-        inside, cycles = comes_inside(parameters, tolerance, centre, factor, period, radius, periods)
+    radius, growth, spent = 0.5 * SMALLEST, 2.0, 0
+    while growth > LEAST_GROWTH and growth * radius <= LARGEST and spent < most:
+        inside, cycles = comes_inside(parameters, tolerance, centre, factor, period, growth * radius, radius, periods)
         spent += cycles
         if inside:
-            radius *= 2.0
-    return ((centre, factor / (0.5 * radius)) if radius > SMALLEST else None), spent
+            radius *= growth
+        else:
+            growth = math.sqrt(growth)
+    return ((centre, factor / radius) if radius >= SMALLEST else None), spent
 
 
 def find_attracting_orbits(

@@ -228,3 +228,14 @@ def test_flights_of_undecided_trajectories_are_not_known():
     found = labels.classify(row[None], cycles=70, exponents=False)
     assert found.state.tolist() == ["undecided"]
     assert np.isnan(found.longest_flight).all()
+
+
+def test_a_trajectory_that_begins_in_a_trapping_region_is_followed_for_no_whole_cycle():
+    """Its label is that of the trajectory that is followed without known attractors."""
+    rows = random_starts(40.0, 30)
+    known = search.find_attractors(rows, cycles=labels.CYCLES)
+    found, wanted = labels.classify(rows, attractors=known), labels.classify(rows)
+    assert 0.0 < (found.cycles == 0).mean() < 1.0
+    assert found.state.tolist() == wanted.state.tolist()
+    assert found.period.tolist() == wanted.period.tolist()
+    assert wanted.cycles.min() > 0

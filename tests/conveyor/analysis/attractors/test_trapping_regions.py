@@ -55,7 +55,7 @@ def test_trajectories_from_a_neighbourhood_converge_to_its_orbit(found):
 
 def test_neighbourhoods_are_not_much_smaller_than_basins(found):
     row, orbits = found
-    assert min(share_that_ends_there(row, orbits, k, 32.0) for k in range(len(orbits.periods))) < 1.0
+    assert min(share_that_ends_there(row, orbits, k, 8.0) for k in range(len(orbits.periods))) < 1.0
 
 
 def test_a_curve_far_outside_does_not_enter():
@@ -64,8 +64,8 @@ def test_a_curve_far_outside_does_not_enter():
     (motions,) = sampling.sample_conveyors(row[None], 400, TOLERANCE)
     k = int(np.argmax(motions.flights))
     (centre, factor), spent = trapping_regions.find_trapping_region(row, TOLERANCE, motions.states[k], 1, most=10**6)
-    assert trapping_regions.comes_inside(row, TOLERANCE, centre, factor, 1, 1.0)[0]
-    assert not trapping_regions.comes_inside(row, TOLERANCE, centre, factor, 1, 8.0)[0]
+    assert trapping_regions.comes_inside(row, TOLERANCE, centre, factor, 1, 1.0, 0.9)[0]
+    assert not trapping_regions.comes_inside(row, TOLERANCE, centre, factor, 1, 4.0, 1.0)[0]
     # Fewer cycles show only a smaller region.
     (_, smaller), less = trapping_regions.find_trapping_region(row, TOLERANCE, motions.states[k], 1, most=spent // 4)
     assert less < spent and smaller[0] > factor[0]
