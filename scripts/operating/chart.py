@@ -7,7 +7,17 @@ import pandas as pd
 
 from conveyor.parameters import UNITS
 from operating.advice import EVEN, FAST
-from operating.regimes import CHAOS, ONE, SEVERAL, SLIDES_AWAY, UNKNOWN, merge_narrow, summarize_amplitudes
+from operating.regimes import (
+    CHAOS,
+    ONE,
+    SEVERAL,
+    SLIDES_AWAY,
+    UNDECIDED,
+    UNKNOWN,
+    UNSETTLED,
+    merge_narrow,
+    summarize_amplitudes,
+)
 from pipeline.templates import render
 
 # If none of n independent initial conditions does something, then with 95 % confidence at most a share of 3/n does it:
@@ -22,7 +32,8 @@ def summarize_shares(shares: pd.DataFrame) -> dict:
 
     `unseen_share` is the largest share of initial conditions that may lead to a motion that none of the tested ones
     leads to. `located` is the largest distance between neighbouring amplitudes with different regimes, at least the
-    resolution of the config.
+    resolution of the config. `unsettled` is the number of amplitudes at which a search ended before a state or a velocity
+    was known.
     """
     amplitudes = np.sort(shares.acceleration.unique())
     regime = summarize_amplitudes(shares, shares.attrs["same_velocity"]).regime.to_numpy()
@@ -31,6 +42,7 @@ def summarize_shares(shares: pd.DataFrame) -> dict:
         "search": shares.attrs,
         "unseen_share": RULE_OF_THREE / shares.attrs["starts"],
         "amplitudes": amplitudes,
+        "unsettled": shares[shares.status.isin((UNDECIDED, UNSETTLED))].acceleration.nunique(),
         "located": between.max(initial=shares.attrs["resolution"]),
         "step": np.diff(amplitudes).max(initial=0.0),
         "throw_numbers": (shares.vertical.min(), shares.vertical.max()),

@@ -14,6 +14,8 @@ ONE, SEVERAL, BESIDE, CHAOS, UNKNOWN = REGIMES = (
 )
 # The status of a motion on a track that is too steep, see `track`.
 SLIDES_AWAY = "slides away"
+# The status of a motion whose state, or whose mean velocity, is not known after the cycles that the config allows.
+UNDECIDED, UNSETTLED = "state not decided", "mean velocity not settled"
 
 # Columns of the table `regimes`.
 COLUMNS = (

@@ -18,7 +18,8 @@ from conveyor.solver.parallel import for_each_chunk
 from operating import regimes
 from operating.parts import parameters_of, starts_of_box
 from pipeline import fields, grid
-from pipeline.motions import motions_of_starts
+from pipeline.motions import limit_of_mean, motions_of_starts
+from pipeline.sizes import WHOLE_MAP
 
 TABLES = {
     "shares": (
@@ -110,14 +111,15 @@ def velocities(
     force (N) over the same cycles, whole periods of the motion, shape (n, 2); and the status.
 
     Each trajectory is followed until it has settled, and then twice as long, until both mean velocities agree. They
-    never agree in chaos, where the mean is taken over the longer run.
+    never agree in chaos, where the mean is taken over the longer run. In all, they are followed for at most as many
+    cycles as the searches for a map; the velocities of the slowest ones are then not known.
 
     parameters, found : packed, shape (n, 16), and the labels of the trajectories
     """
     n, period = len(parameters), found.period
     # A motion without a period is not more settled in later cycles.
     settled = np.where(period > 0, found.cycles, np.minimum(found.cycles, settings["cycles"]))
-    velocity, status = np.full(n, np.nan), np.full(n, "mean velocity not settled", dtype=object)
+    velocity, status = np.full(n, np.nan), np.full(n, regimes.UNSETTLED, dtype=object)
     peaks = np.full((n, 2), np.nan)
     plate = parameters[:, ACCELERATION] * np.cos(parameters[:, ANGLE]) / (2.0 * math.pi * parameters[:, FREQUENCY])
     # A mean over whole periods; the last quarter of a run is what a mean is taken over.
@@ -126,9 +128,14 @@ def velocities(
     # Friction cannot hold a part on such a track, so that its velocity grows without end.
     steep = np.abs(np.tan(parameters[:, INCLINATION])) > parameters[:, STATIC_FRICTION]
     status[steep], open_ = regimes.SLIDES_AWAY, np.flatnonzero(~steep)
+    left = settings["mean_settling"] * WHOLE_MAP
     # Every trajectory needs the second run, which contains the first; one integration gives both.
     for doublings in ([0, 1], *([doubling] for doubling in range(2, RUNS))):
         cycles = 4.0 * step[open_, None] * np.ceil(2.0 ** np.array(doublings) * (quarter / step)[open_, None])
+        if len(open_):
+            affordable = cycles[:, -1] <= limit_of_mean(cycles[:, -1], left / len(open_))
+            open_, cycles = open_[affordable], cycles[affordable]
+            left -= cycles[:, -1].sum()
         durations = cycles / parameters[open_, None, FREQUENCY]
         means, peaks[open_], why = last_quarters(parameters[open_], durations, settings["tolerance"], threads)
         failed = why != "ok"
@@ -186,7 +193,7 @@ def motions_of_conveyors(
     of_chosen = Labels(*(column[chosen] for column in found))
     each, each_peaks, each_status = velocities(parameters[chosen], of_chosen, settings, threads=threads)
     velocity, error, peaks = np.full(len(first), np.nan), np.full(len(first), np.nan), np.full((len(first), 2), np.nan)
-    status = np.where(most > 0, "ok", "state not decided").astype(object)
+    status = np.where(most > 0, "ok", regimes.UNDECIDED).astype(object)
     for row, own in enumerate(np.split(np.arange(len(chosen)), np.cumsum(np.minimum(count, most))[:-1])):
         failed = each_status[own] != "ok"
         if failed.any():

@@ -5,8 +5,11 @@ import numpy as np
 from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.attractors import labels
 from conveyor.analysis.bifurcations import bifurcation_diagram
+from conveyor.solver.model import PSI0
 from conveyor.solver.parallel import for_each_chunk
+from conveyor.solver.trajectory import BEGIN_OF_CYCLE
 from pipeline import fields, grid
+from pipeline.motions import mean_limit
 
 TABLES = {
     "strobes": (
@@ -20,6 +23,32 @@ TABLES = {
 }
 
 BRANCHES = ("up", "down")
+
+
+def label_motions(
+    parameters: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None
+) -> labels.Labels:
+    """The label of each motion in `parameters`, shape (n, 16), each with a conveyor of its own.
+
+    All searches together take at most as many cycles as those for a map: motions that have not settled after the mean
+    share what is left. Exponents label motions that have not settled then, too.
+    """
+    mean, most = int(mean_limit(len(parameters), settings)), settings["settling"]
+    options = {"tolerance": settings["tolerance"], "threads": threads, "progress": progress}
+    if mean >= most:
+        return labels.classify(parameters, cycles=most, **options)
+    found = labels.classify(parameters, cycles=mean, exponents=False, **options)
+    late = np.flatnonzero(found.cycles >= mean)
+    if len(late):
+        left = (mean * len(parameters) - int(found.cycles.sum())) // len(late)
+        states = np.column_stack([found.delta, found.v])[late]
+        at_top = np.array(parameters[late])
+        at_top[:, PSI0] = BEGIN_OF_CYCLE
+        rows = stroboscopic_map.pack_states(at_top, states, settings["tolerance"])
+        later = labels.classify(rows, cycles=min(most - mean, left), **options)
+        for column, values in zip(found, later, strict=True):
+            column[late] = values
+    return found
 
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
@@ -41,7 +70,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     points, status = (np.stack(columns) for columns in zip(*swept, strict=True))
     rows = len(BRANCHES) * len(amplitudes)
     last = stroboscopic_map.pack_states(np.tile(upwards, (2, 1)), points[:, :, -1].reshape(rows, 2), tolerance)
-    found = labels.classify(last, cycles=settings["settling"], tolerance=tolerance, threads=threads, progress=progress)
+    found = label_motions(last, settings, threads=threads, progress=progress)
     return {
         "branch": np.repeat(BRANCHES, len(amplitudes) * count),
         "acceleration": np.tile(np.repeat(amplitudes, count), 2),

@@ -120,9 +120,9 @@ def search_limits(
     return limits
 
 
-def mean_limit(table: Table, settings: dict) -> float:
-    """The excitation cycles that searches for a table may take on average: as many in all as for a whole map."""
-    return settings["mean_settling"] * max(1.0, WHOLE_MAP / math.prod(table.counts))
+def mean_limit(count: int, settings: dict) -> float:
+    """The excitation cycles that `count` searches for a table may take on average: as many in all as for a map."""
+    return settings["mean_settling"] * max(1.0, WHOLE_MAP / count)
 
 
 def is_slow(table: Table, settings: dict, *, known: AttractorTable | None = None, threads: int = 1) -> bool:
@@ -130,7 +130,7 @@ def is_slow(table: Table, settings: dict, *, known: AttractorTable | None = None
 
     known : the shared attractors of all conveyors of the table; None if they have not been found yet
     """
-    mean = mean_limit(table, settings)
+    mean = mean_limit(math.prod(table.counts), settings)
     if mean >= settings["settling"]:
         return False
     sample = sample_starts(spread(distinct_conveyors(table.conveyors)[0], SAMPLED_CONVEYORS), table.starts)
@@ -146,7 +146,7 @@ def find_limits(
     conveyors, _ = distinct_conveyors(parameters)
     sample = sample_starts(parameters, table.starts)
     group = np.repeat(np.arange(len(conveyors)), len(sample) // len(conveyors))
-    mean = mean_limit(table, settings)
+    mean = mean_limit(math.prod(table.counts), settings)
     return Limits(conveyors, search_limits(sample, group, attractors, mean, settings, threads=threads))
 
 

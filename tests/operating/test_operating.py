@@ -153,6 +153,32 @@ def test_samples_of_both_first_runs_ascend(monkeypatch):
     assert all((0.75 * durations[:, 1:] >= durations[:, :-1]).all() for durations in wanted)
 
 
+def test_velocities_take_as_many_cycles_as_a_map(monkeypatch):
+    """The velocities of the slowest motions are not known then."""
+    rows = np.array([pack(Conveyor(friction=friction), Start(3e-4)) for friction in (0.15, 0.1, 1e-3)])
+    found = Labels(
+        np.full(3, "second"), np.ones(3, np.int64), np.zeros(3), np.array([20, 20, 3000]), np.zeros(3), np.zeros(3)
+    )
+    settings, counted = {**BOX, "cycles": 20, "mean_settling": 100}, []
+    last_quarters = shares.last_quarters
+
+    def count(parameters, durations, *rest):
+        counted.append((durations[:, -1] * 50.0).sum())
+        return last_quarters(parameters, durations, *rest)
+
+    monkeypatch.setattr(shares, "last_quarters", count)
+    free, _, all_known = shares.velocities(rows, found, settings)
+    assert (all_known == "ok").all()
+    assert sum(counted) > 9000
+    counted.clear()
+    monkeypatch.setattr(shares, "WHOLE_MAP", 50)
+    limited, _, status = shares.velocities(rows, found, settings)
+    assert sum(counted) <= 5000
+    assert status.tolist() == ["ok", "ok", regimes.UNSETTLED]
+    assert limited[:2].tolist() == free[:2].tolist()
+    assert np.isnan(limited[2])
+
+
 def test_brief_runs_are_as_long_as_friction_needs():
     """On a track steeper than friction holds, no length helps."""
     rows = np.array([pack(Conveyor(inclination=alpha), Start()) for alpha in (0.0, -0.147, 0.14888, 0.2)])

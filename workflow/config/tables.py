@@ -200,7 +200,7 @@ def identification_table_settings(table: str, config: dict) -> dict:
     return identification_settings(config, table, model_of(config, normal=table == "edges"))
 
 
-FOLLOWED = ("tolerance", "settling")
+FOLLOWED = ("tolerance", "settling", "mean_settling")
 CALIBRATION_TABLES = ("parameters", "samples", "fit", "alternatives", "prediction", "next")
 # The tables that are not entries, and the function that returns the settings of each.
 TABLES = {

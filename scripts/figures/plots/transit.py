@@ -51,7 +51,7 @@ def draw_lengths(axes: Axes, lengths: pd.DataFrame) -> None:
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_xticks(lengths.length.unique(), [f"{length:g}" for length in lengths.length.unique()])
-        axes.minorticks_off()
+        axes.xaxis.minorticks_off()
     else:
         text = "at no amplitude of the table do\nmotions coexist or is chaos alone"
         style.note(axes, text, (0.5, 0.5), xycoords="axes fraction", ha="center")

@@ -12,7 +12,7 @@ from .trapping_regions import find_attracting_orbits
 TOGETHER = 128
 # Chaotic sets of a conveyor, and then its orbits, are searched for in at most as many cycles as this number of
 # searches for a period takes.
-SEARCHES = 32
+SEARCHES = 8
 
 
 def find_attractors(

@@ -26,10 +26,15 @@ from ...solver.jit import compiled
 from ...solver.model import FREQUENCY, PSI0
 from ...solver.parallel import for_each_chunk
 from .. import stroboscopic_map
+from ..attractors.convergence import MAX_PERIOD
+from ..dimensionless_groups import units
 from . import stretching
 
 # Cycles within which a motion near its attractor repeats itself bit for bit, if it ever does.
 REPEATS_WITHIN = 400
+# A part that rides a stiff contact may never do that. Its motion counts as repeated, with a period of up to MAX_PERIOD
+# cycles, if it differs from itself by no more than ROUNDING, in g/ω² and g/ω, in each of the last WATCHED cycles.
+ROUNDING, WATCHED = 1e-13, 100
 # Excitation cycles after which the sign is decided. Weak chaos shows only after the second number.
 LOOKS = (400, 2000)
 BLOCKS = 20
@@ -182,10 +187,25 @@ def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threa
     return found
 
 
+def find_period(strobes: np.ndarray, unit: np.ndarray) -> int:
+    """The number of cycles after which a motion repeats itself at the end of its strobes, shape (n, 2); 0 for none.
+
+    unit : g/ω² and g/ω, shape (2,)
+    """
+    same = np.flatnonzero((strobes[:-1] == strobes[-1]).all(axis=1))
+    if len(same):
+        return len(strobes) - 1 - int(same[-1])
+    scaled = strobes[-WATCHED - MAX_PERIOD :] / unit
+    for period in np.flatnonzero(np.abs(scaled[-2 : -2 - MAX_PERIOD : -1] - scaled[-1]).max(axis=1) <= ROUNDING) + 1:
+        if np.abs(scaled[-WATCHED:] - scaled[-WATCHED - period : -period]).max() <= ROUNDING:
+            return int(period)
+    return 0
+
+
 def repeating_motion(
     parameters: np.ndarray, state: np.ndarray, tolerance: float
 ) -> tuple[int, tuple[float, float], float]:
-    """Period and Floquet multipliers of a motion that repeats itself bit for bit from `state` on, or soon after.
+    """Period and Floquet multipliers of a motion that repeats itself from `state` on, or soon after.
 
     Parameters
     ----------
@@ -201,10 +221,9 @@ def repeating_motion(
     """
     nothing = 0, (math.nan, math.nan), math.nan
     status, strobes, _ = stroboscopic_map.follow(parameters, tolerance, state, REPEATS_WITHIN)
-    same = np.flatnonzero((strobes[:-1] == strobes[-1]).all(axis=1))
-    if status != trajectory.OK or not len(same):
+    period = find_period(strobes, np.array(units(parameters))) if status == trajectory.OK else 0
+    if not period:
         return nothing
-    period = REPEATS_WITHIN - 1 - int(same[-1])
     status, matrices, features = stroboscopic_map.monodromy(parameters, tolerance, state, period)
     logarithms = stretching.log_multipliers(matrices)
     if status != trajectory.OK or not math.isfinite(logarithms[0]):
@@ -223,8 +242,8 @@ def spectrum_on_attractors(
 ) -> Spectrum:
     """Both vertical Lyapunov exponents of motions that begin on their attractors, or close to them.
 
-    A motion that repeats itself bit for bit within REPEATS_WITHIN cycles has the exponents of its Floquet multipliers,
-    with a standard error of 0. Any other motion is followed by `spectrum`.
+    A motion that repeats itself within REPEATS_WITHIN cycles, but for rounding, has the exponents of its Floquet
+    multipliers, with a standard error of 0. Any other motion is followed by `spectrum`.
 
     Parameters
     ----------

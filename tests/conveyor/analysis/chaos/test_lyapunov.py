@@ -95,6 +95,17 @@ def test_periodic_motions_have_the_exponents_of_their_multipliers():
     assert found.lambda_1[:3] == pytest.approx(followed.lambda_1[:3], abs=5.0)
 
 
+@pytest.mark.parametrize(("noise", "period"), [(0.0, 3), (3e-14, 3), (1e-12, 0)])
+def test_a_motion_repeats_itself_but_for_rounding(noise, period):
+    """In units of g/ω² and g/ω."""
+    unit = np.array([1e-4, 0.03])
+    strobes = np.tile([[0.2, 0.0], [0.4, -1.0], [0.1, 1.0]], (100, 1)) * unit
+    strobes += noise * unit * np.random.default_rng(1).uniform(-0.5, 0.5, strobes.shape)
+    assert lyapunov.find_period(strobes, unit) == period
+    strobes[-50] += 1e-6 * unit
+    assert lyapunov.find_period(strobes, unit) == (period if noise == 0.0 else 0)
+
+
 def test_standard_error_shrinks_with_the_run():
     rows = points((80.0, 0.0))
     errors = [lyapunov.spectrum(rows, cycles=cycles).stderr[0] for cycles in (20, 320)]
