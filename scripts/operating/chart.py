@@ -32,8 +32,8 @@ def summarize_shares(shares: pd.DataFrame) -> dict:
 
     `unseen_share` is the largest share of initial conditions that may lead to a motion that none of the tested ones
     leads to. `located` is the largest distance between neighbouring amplitudes with different regimes, at least the
-    resolution of the config. `unsettled` is the number of amplitudes at which a search ended before a state or a velocity
-    was known.
+    resolution of the config. `unsettled` is the number of amplitudes at which a search ended before a state or a
+    velocity was known.
     """
     amplitudes = np.sort(shares.acceleration.unique())
     regime = summarize_amplitudes(shares, shares.attrs["same_velocity"]).regime.to_numpy()

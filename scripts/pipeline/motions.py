@@ -33,15 +33,25 @@ def search_tolerance(settings: dict) -> float:
 
 
 def shared_attractors(
-    parameters: np.ndarray, starts: int, settings: dict, *, threads: int = 1, progress: str | None = None
+    parameters: np.ndarray,
+    counts: tuple[int, int],
+    settings: dict,
+    *,
+    threads: int = 1,
+    progress: str | None = None,
 ) -> AttractorTable:
     """The attractors that many initial conditions share, for parameters of shape (n, 16).
 
-    Which attractors are worth a search depends on `starts`, the number of initial conditions of each conveyor.
+    Which attractors are worth a search depends on the number of initial conditions of each conveyor. The searches for
+    the orbits of all conveyors may together take as many cycles as those for a map, and so may those for chaotic sets.
+
+    counts : of conveyors and of initial conditions on each, as in a Table
     """
+    conveyors, starts = counts
     if starts < CHAOS_SHARED or starts * settings["settling"] < CYCLES_SHARED:
         return NO_ATTRACTORS
     options = {"cycles": settings["settling"], "tolerance": search_tolerance(settings), "threads": threads}
+    options["most"] = settings["mean_settling"] * WHOLE_MAP // conveyors
     progress = progress and f"{progress}: attractors"
     return find_attractors(parameters, orbits=starts >= ORBITS_SHARED, **options, progress=progress)
 
@@ -134,7 +144,7 @@ def is_slow(table: Table, settings: dict, *, known: AttractorTable | None = None
     if mean >= settings["settling"]:
         return False
     sample = sample_starts(spread(distinct_conveyors(table.conveyors)[0], SAMPLED_CONVEYORS), table.starts)
-    attractors = known or shared_attractors(sample, table.counts[1], settings, threads=threads)
+    attractors = known or shared_attractors(sample, table.counts, settings, threads=threads)
     group = np.zeros(len(sample), dtype=np.int64)
     return bool(search_limits(sample, group, attractors, mean, settings, threads=threads)[0] < settings["settling"])
 
@@ -209,15 +219,15 @@ def motions_of_starts(
     table : the whole table, if `parameters` are only a part of it
     """
     batches, parts = batches_by_conveyor(parameters), []
-    table = table or Table(parameters, parameters[:starts], (len(parameters) // max(starts, 1), starts))
+    table = table or Table(parameters, parameters[:starts], (max(len(parameters) // max(starts, 1), 1), starts))
     options, of_all = {"threads": threads}, None
     if table.counts[0] <= SAMPLED_CONVEYORS:
-        of_all = shared_attractors(table.conveyors, starts, settings, **options, progress=progress)
+        of_all = shared_attractors(table.conveyors, table.counts, settings, **options, progress=progress)
     slow = is_slow(table, settings, known=of_all, **options)
     for number, rows in enumerate(batches, start=1):
         label = progress and (f"{progress} ({number} of {len(batches)})" if len(batches) > 1 else progress)
         batch = parameters[rows]
-        known = of_all or shared_attractors(batch, starts, settings, **options, progress=label)
+        known = of_all or shared_attractors(batch, table.counts, settings, **options, progress=label)
         limits = find_limits(batch, table, known, settings, **options) if slow else None
         parts.append(follow(batch, known, settings, limits=limits, **options, progress=label))
     return join(parts, batches)

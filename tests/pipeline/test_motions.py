@@ -49,7 +49,7 @@ def test_labels_do_not_depend_on_the_order_of_initial_conditions(monkeypatch, st
 def test_attractors_are_searched_if_that_saves_time(count, settling, sets):
     """One conveyor in chaos: a few initial conditions, or short runs, are followed one by one."""
     row = grid.product({"acceleration": [80.0]}, {})[1]
-    found = motions.shared_attractors(row, count, {"settling": settling, "tolerance": 1e-8})
+    found = motions.shared_attractors(row, (1, count), SETTINGS | {"settling": settling})
     assert (len(found.chaotic.low), len(found.orbits.periods)) == (sets, 0)
 
 

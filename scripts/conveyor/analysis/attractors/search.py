@@ -1,5 +1,7 @@
 """Find the attractors of conveyors by following trajectories from sampled initial conditions."""
 
+import math
+
 import numpy as np
 
 from ...solver.parallel import for_each_chunk
@@ -11,8 +13,8 @@ from .trapping_regions import find_attracting_orbits
 # Conveyors whose trajectories are followed side by side. Each takes 0.3 MB while its chaotic sets are searched for.
 TOGETHER = 128
 # Chaotic sets of a conveyor, and then its orbits, are searched for in at most as many cycles as this number of
-# searches for a period takes.
-SEARCHES = 8
+# searches for a period takes, unless a number of cycles is given.
+SEARCHES = 32
 
 
 def find_attractors(
@@ -20,6 +22,7 @@ def find_attractors(
     *,
     cycles: int,
     orbits: bool = True,
+    most: int | None = None,
     tolerance: float = 1e-8,
     threads: int = 1,
     progress: str | None = None,
@@ -28,18 +31,19 @@ def find_attractors(
 
     Parameters
     ----------
-    cycles : excitation cycles after which a search for a period ends, as in labels.classify. SEARCHES times as many
-        end the search for the chaotic sets of a conveyor, and the search for its orbits; the rest is not found
+    cycles : excitation cycles after which a search for a period ends, as in labels.classify
+    most : excitation cycles that end the search for the chaotic sets of a conveyor, and the search for its orbits; the
+        rest is not found. At most, and by default, SEARCHES times `cycles`
     orbits : whether trapping regions of periodic orbits are wanted; each takes some thousand cycles
     tolerance, threads, progress : as in labels.classify
     """
     conveyors, _ = distinct_conveyors(parameters)
+    most = min(SEARCHES * cycles, math.inf if most is None else most)
     found = [NO_ATTRACTORS] * len(conveyors)
 
     def work(begin, end):
         some = conveyors[begin:end]
         sampled = sampling.sample_conveyors(some, min(sampling.SHORT_SEARCH, cycles), tolerance)
-        most = SEARCHES * cycles
         chaotic = find_chaotic_sets(some, sampled, cycles, tolerance, most=most)
         for k, (row, of_row, sets) in enumerate(zip(some, sampled, chaotic, strict=True), start=begin):
             known = NO_ATTRACTORS.orbits
