@@ -22,7 +22,7 @@ from operating import drive_page
 from operating.chart import spreads_of, summarize_shares
 from operating.regimes import CHAOS, SEVERAL, SLIDES_AWAY
 from operating.transit import ENDS
-from pipeline.templates import render
+from pipeline.templates import format_number, render
 
 SMALL_ELASTICITY = 1e-3  # below it, a relative error means nothing
 TEXTBOOK_AGREES = 0.1  # largest relative difference from the textbook velocity that counts as agreement
@@ -61,7 +61,9 @@ def state_map(*, map: pd.DataFrame) -> dict[str, Any]:
 
 
 def fig09(*, converged: pd.DataFrame) -> dict[str, bool]:
-    return {"changes": bool((converged.groupby("acceleration").state.nunique() > 1).any())}
+    decided = converged[converged.state != "undecided"]
+    changes = decided.groupby("acceleration").state.agg(lambda state: state.nunique() > 1 and "first" in set(state))
+    return {"changes": bool(changes.any())}
 
 
 def fig10(
@@ -215,7 +217,8 @@ def sensitivity(
         "many": (short.kind.value_counts() > derivatives.attrs["most"]).any(),
         "heights": right[right.kind == "critical_height"].acceleration.unique(),
         "tried": (derivatives.kind == "critical_height").any(),
-        "right": len(right) > 0,
+        "right": np.isfinite(error.max()),
+        "points": (derivatives.kind != "critical_amplitude").any(),
         "has_fold": not np.isnan(first),
         "error": error.max(),
         "failed": len(derivatives) - len(right),
@@ -245,6 +248,7 @@ def track(*, track: pd.DataFrame) -> dict[str, Any]:
         "steepest": np.degrees(steepest).to_dict(),
         "steep": (track.status == SLIDES_AWAY).any(),
         "missing": list(reached[reached.status != "ok"].state.unique()),
+        "empty": track.mean_velocity.isna().all(),
     }
 
 
@@ -258,7 +262,9 @@ def identification(*, frictions: pd.DataFrame) -> dict[str, Any]:
 
 
 def transit(*, transit: pd.DataFrame, lengths: pd.DataFrame, drift: pd.DataFrame) -> dict[str, Any]:
-    amplitudes = {regime: list(rows.acceleration.unique()) for regime, rows in lengths.groupby("regime")}
+    amplitudes = {
+        regime: list(map(format_number, rows.acceleration.unique())) for regime, rows in lengths.groupby("regime")
+    }
     return {
         "search": transit.attrs,
         "spread": spreads_of(transit.attrs),

@@ -13,6 +13,7 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullFormatter
 
 mpl.use("Agg")
 
@@ -155,7 +156,8 @@ def state_map(axes: Axes, table: pd.DataFrame, x: str, y: str) -> None:
 
 def say(axes: Axes, text: str) -> None:
     """Write in the middle of empty axes why there is nothing to show."""
-    note(axes, text, (0.5, 0.5), xycoords="axes fraction", ha="center", va="center")
+    box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
+    note(axes, text, (0.5, 0.5), xycoords="axes fraction", ha="center", va="center", bbox=box)
 
 
 def state_label(state: str) -> str:
@@ -179,6 +181,19 @@ def phase_axis(axis: Axis) -> None:
     """Set the ticks of an axis of phases (rad) to multiples of π/2."""
     names = ("0", "π/2", "π", "3π/2", "2π")
     axis.set_ticks(0.5 * np.pi * np.arange(len(names)), names)
+
+
+def label_powers(axis: Axis) -> None:
+    """Label a logarithmic axis at powers of ten, and between them where fewer than two powers are visible.
+
+    All minor labels of such an axis would overlap. Call this after the data are drawn.
+    """
+    low, high = np.log10(axis.get_view_interval())
+    if np.floor(high) - np.ceil(low) >= 1.0:
+        axis.set_minor_formatter(NullFormatter())
+    elif high - low > 1.0:
+        axis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
+        axis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))
 
 
 def legend_above(figure: Figure, axes: Axes, **options) -> None:

@@ -44,11 +44,12 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     """
     axes, parameters = grid.product(settings["axes"], settings["model"])
     heights = grid.axis_values("z0", settings["scan"])
-    counts = len(parameters), len(heights)
-    known = shared_attractors(parameters, counts, settings, threads=threads)
+    known = shared_attractors(parameters, (len(parameters), len(heights)), settings, threads=threads)
     starts = np.tile(parameters[0], (len(heights), 1))
     starts[:, Z0] = heights
-    table = Table(parameters, starts, counts)
+    # Bisection takes searches, too.
+    decisions = boundary_scan.count_decisions(heights, settings["resolution"])
+    table = Table(parameters, starts, (len(parameters), decisions))
     slow = is_slow(table, settings, known=known, threads=threads)
     limits = find_limits(parameters, table, known, settings, threads=threads) if slow else None
     found = boundary_scan.find_crossings(

@@ -240,3 +240,42 @@ def test_the_operating_chart_says_how_many_amplitudes_a_limit_leaves_open():
         slides = shares.assign(status=["ok", "slides away"] * 2)
         slides.attrs = shares.attrs
         assert "ended" not in caption(name, shares=slides, **tables)
+
+
+def test_states_change_at_a_critical_height_if_the_first_state_ends():
+    table = pd.DataFrame({"acceleration": 40.0, "state": ["chaos", "undecided", "second", "chaos"]})
+    assert "no critical height" in caption("fig09", converged=table)
+    assert "no critical height" in caption("fig09", converged=table.assign(state=["first", "undecided"] * 2))
+    assert "jumps at the critical height" in caption("fig09", converged=table.assign(state=["first", "chaos"] * 2))
+
+
+def test_derivatives_that_do_not_pass_the_check_are_named():
+    """An influence of zero, here of friction, confirms nothing."""
+    row = {"kind": "critical_height", "parameter": "mass", "derivative": 0.0, "difference": 0.0, "elasticity": 0.0}
+    row |= {"status": "ok", "acceleration": 40.0}
+    wrong = row | {"derivative": 1.0, "elasticity": 1.0, "status": "differences disagree"}
+    derivatives = pd.DataFrame([row, wrong])
+    derivatives.attrs = {"longest_period": 1, "most": 6}
+    curves = pd.DataFrame({"parameter": [], "kind": [], "begin": [], "meeting": [], "status": [], "damping_group": []})
+    curves.attrs = {"model": {"exponent": 1.5}}
+    tables = {"continued": curves, "meetings": curves, "bifurcations": pd.DataFrame({"period": [], "kind": []})}
+    text = caption("sensitivity", derivatives=derivatives, **tables)
+    assert "No derivative passed the check" in text
+    right = pd.DataFrame([row | {"derivative": 2.0, "difference": 2.0 + 2e-8, "elasticity": 1.0}, wrong])
+    right.attrs = derivatives.attrs
+    text = caption("sensitivity", derivatives=right, **tables)
+    assert "to a relative error of 1e-8 (derivatives that fail this check: 1)" in text
+    none = derivatives.assign(kind="critical_amplitude")
+    none.attrs = derivatives.attrs
+    assert "There is no derivative" in caption("sensitivity", derivatives=none, **tables)
+
+
+def test_an_empty_map_of_tracks_is_explained():
+    table = pd.DataFrame({"inclination": [0.1, 0.2], "state": "first", "mean_velocity": np.nan})
+    table.attrs |= {"acceleration": 40.0, "starts": 16}
+    none = "no initial condition leads to the state"
+    text = caption("track", track=table.assign(status=none))
+    assert "On these tracks, none of 16 random initial conditions leads to a periodic motion." in text
+    assert "On the remaining tracks" in caption("track", track=table.assign(status=[none, "slides away"]))
+    text = caption("track", track=table.assign(status="slides away"))
+    assert "initial conditions" not in text and "grey" not in text

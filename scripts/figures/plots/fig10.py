@@ -53,7 +53,8 @@ def plot(
         axes.set_ylim(top=1e3 * ends_of(converged.attrs["scan"])[1])
         style.say(axes, "no initial height changes the state of motion")
     elif fit.empty:
-        axes.plot([], [], " ", label=f"no fit of Eq. 13 to {edge.acceleration.nunique()} amplitudes")
+        count = edge.acceleration.nunique()
+        axes.plot([], [], " ", label=f"no fit of Eq. 13 to {count} amplitude{'s' if count != 1 else ''}")
     axes.set_ylim(bottom=0.0)
     if len(converged):
         style.legend_above(figure, axes)

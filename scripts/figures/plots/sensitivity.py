@@ -5,7 +5,7 @@ import pandas as pd
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.ticker import LogLocator
 
 from figures import style
 
@@ -49,7 +49,10 @@ def select_points(table: pd.DataFrame) -> dict[str, pd.DataFrame]:
         "second period doubling": table[table.doubling == 2],
         "accumulation of doublings": table[table.kind == "accumulation"],
     }
-    return {label: rows[rows.status == "ok"] for label, rows in found.items()}
+    return {
+        label: rows[(rows.status == "ok") & rows.parameter.isin(NAMES) & rows.elasticity.notna()]
+        for label, rows in found.items()
+    }
 
 
 def draw_dots(axes: Axes, groups: dict[str, pd.DataFrame], parameters: list[str], column: str, looks: dict) -> None:
@@ -64,6 +67,7 @@ def draw_dots(axes: Axes, groups: dict[str, pd.DataFrame], parameters: list[str]
     axes.set_ylim(len(parameters) - 0.5, -0.5)
     axes.set_yticks(range(len(parameters)), [NAMES[name] for name in parameters])
     axes.tick_params(axis="y", length=0.0)
+    axes.locator_params(axis="x", nbins=7)  # labels such as -0.75 would overlap
 
 
 def label_and_look(curve: pd.DataFrame, first_fold: float) -> tuple[str, dict]:
@@ -112,7 +116,7 @@ def draw_curves(axes: Axes, curves: pd.DataFrame, meetings: pd.DataFrame, parame
     axes.set_ylim(low, high)
     axes.set_yticks([0.2, 0.5, 1.0, 2.0, 5.0], ["0.2", "0.5", "1", "2", "5"])
     axes.yaxis.set_minor_locator(LogLocator(subs=()))
-    axes.xaxis.set_minor_formatter(NullFormatter())
+    style.label_powers(axes.xaxis)
     axes.set_xlabel(name)
     axes.set_ylabel("amplitude group $\\Gamma = a_z/g$")
 

@@ -16,6 +16,10 @@ def plot(*, track: pd.DataFrame) -> Figure:
     figure = style.figure(style.PAGE, 82.0)
     panels = figure.subplots(1, max(len(states), 1), sharex=True, sharey=True, squeeze=False)[0]
     largest = track.mean_velocity.abs().max()
+    for axes in panels:
+        axes.set_xlabel("phase shift $\\varepsilon$ in rad")
+        axes.set_xticks(list(PHASES.values()), PHASES)
+        axes.set_xlim(track.phase_shift.min(), track.phase_shift.max())
     for axes, state in zip(panels, states, strict=False):
         own = track[track.state == state].pivot(index="inclination", columns="phase_shift", values="mean_velocity")
         x, y = own.columns.to_numpy(), np.degrees(own.index.to_numpy())
@@ -27,9 +31,6 @@ def plot(*, track: pd.DataFrame) -> Figure:
         axes.axhline(0.0, color="black", linewidth=0.4, linestyle=":")
         axes.axvline(0.0, color="black", linewidth=0.4, linestyle=":")
         axes.set_title(style.state_label(state), color=style.STATE_COLOURS[state])
-        axes.set_xlabel("phase shift $\\varepsilon$ in rad")
-        axes.set_xticks(list(PHASES.values()), PHASES)
-        axes.set_xlim(x[0], x[-1])
         steep = np.degrees(track.inclination[(track.status == SLIDES_AWAY) & (track.inclination > 0.0)])
         if len(steep):
             middle = (0.0, 0.5 * (steep.min() + steep.max()))
@@ -38,6 +39,7 @@ def plot(*, track: pd.DataFrame) -> Figure:
     if states:
         figure.colorbar(image, ax=list(panels), label=style.VELOCITY)
     else:
+        panels[0].set_ylim(*np.degrees([track.inclination.min(), track.inclination.max()]))
         slides = (track.status == SLIDES_AWAY).all()
         style.say(panels[0], "parts slide away on all tracks" if slides else "no periodic motion on any track")
     return figure
