@@ -244,10 +244,12 @@ def throw(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> dict[str, Any]
 def track(*, track: pd.DataFrame) -> dict[str, Any]:
     steepest = track[(track.mean_velocity > 0.0) & (track.inclination > 0.0)].groupby("state").inclination.max()
     reached = track[track.status != SLIDES_AWAY]
+    is_reached = (reached.status == "ok").groupby(reached.state)
     return {
         "steepest": np.degrees(steepest).to_dict(),
         "steep": (track.status == SLIDES_AWAY).any(),
-        "missing": list(reached[reached.status != "ok"].state.unique()),
+        "missing": [state for state, all_reach in is_reached.all().items() if not all_reach],
+        "absent": [state for state, any_reach in is_reached.any().items() if not any_reach],
         "empty": track.mean_velocity.isna().all(),
     }
 

@@ -13,7 +13,7 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullFormatter
+from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
 mpl.use("Agg")
 
@@ -112,10 +112,11 @@ def method_panels(figure: Figure, tables: dict[str, pd.DataFrame], xlabel: str, 
 
 
 def from_zero(*panels: Axes) -> None:
-    """Start the vertical axis, which all panels share, at zero if no value is negative."""
-    curves = [line.get_ydata() for axes in panels for line in axes.lines]
+    """Start the vertical axis, which all panels share, at zero if no value is negative. It ends above all values."""
+    curves = [line.get_ydata() for axes in panels for line in axes.lines if line.get_transform() == axes.transData]
     if min((np.nanmin(values) for values in curves if len(values)), default=0.0) >= 0.0:
-        panels[0].set_ylim(bottom=0.0)
+        highest = max((np.nanmax(values) for values in curves if len(values)), default=1.0)
+        panels[0].set_ylim(0.0, max(panels[0].get_ylim()[1], 1.02 * highest))
 
 
 def note(axes: Axes, text: str, place: tuple, offset: tuple[float, float] = (0.0, 0.0), **options) -> None:
@@ -186,14 +187,19 @@ def phase_axis(axis: Axis) -> None:
 def label_powers(axis: Axis) -> None:
     """Label a logarithmic axis at powers of ten, and between them where fewer than two powers are visible.
 
-    All minor labels of such an axis would overlap. Call this after the data are drawn.
+    Labels of all minor ticks would overlap. Call this after the data are drawn.
     """
     low, high = np.log10(axis.get_view_interval())
     if np.floor(high) - np.ceil(low) >= 1.0:
         axis.set_minor_formatter(NullFormatter())
-    elif high - low > 1.0:
+        return
+    for set_formatter in (axis.set_major_formatter, axis.set_minor_formatter):
+        set_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))  # labels all ticks
+    if high - low > 1.0:
         axis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
-        axis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))
+    else:
+        axis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
+        axis.set_minor_locator(NullLocator())
 
 
 def legend_above(figure: Figure, axes: Axes, **options) -> None:

@@ -223,7 +223,13 @@ def test_grey_parts_of_the_map_of_tracks_are_explained():
     assert "rises by 5.7°" in climbs and "grey" not in climbs
     assert "too steep" in caption("track", track=table.assign(status=["ok", "slides away"]))
     missing = caption("track", track=table.assign(status=["ok", "no initial condition leads to the state"]))
-    assert "none of 16 random initial conditions leads to its state" in missing and "too steep" not in missing
+    assert "Where the map of the first state is grey, none of 16 random initial conditions leads to it." in missing
+    assert "too steep" not in missing
+    other = table.assign(state="second", mean_velocity=np.nan, status="no initial condition leads to the state")
+    both = pd.concat([table.assign(status="ok"), other])
+    both.attrs = table.attrs
+    absent = "On none of these tracks does one of 16 random initial conditions lead to the second state."
+    assert absent in caption("track", track=both)
 
 
 def test_the_operating_chart_says_how_many_amplitudes_a_limit_leaves_open():

@@ -1,5 +1,6 @@
 """Plots: runs that have not settled, and the modules that plots import."""
 
+import itertools
 import subprocess
 import sys
 from pathlib import Path
@@ -10,14 +11,16 @@ import pytest
 
 from accuracy import precision, speed
 from conveyor.methods import leg
-from figures.plots import fig08, fig15, speed_accuracy, work_precision
+from figures import style
+from figures.plots import fig08, fig15, speed_accuracy, transit, work_precision
 
 
 def sweep(low: float, high: float) -> pd.DataFrame:
     """Five initial conditions at each of five amplitudes, two of which have velocities between `low` and `high`."""
     amplitudes = np.repeat([50.0, 51.0, 52.0, 53.0, 54.0], 5)
     velocity = np.where(amplitudes > 52.5, np.tile(np.linspace(low, high, 5), 5), 0.1)
-    return pd.DataFrame({"acceleration": amplitudes, "mean_velocity": velocity, "state": "second"})
+    about = {"state": "second", "period": 1, "longest_flight": 0.9}
+    return pd.DataFrame({"acceleration": amplitudes, "mean_velocity": velocity, **about})
 
 
 def test_unsettled_runs_are_found_where_most_velocities_scatter():
@@ -31,8 +34,55 @@ def test_settled_runs_do_not_count_as_scattered():
     assert fig08.unsettled(one_aside) is None
 
 
+def test_coexisting_jumps_do_not_count_as_unsettled():
+    """Two motions with flights of 0.9 and 1.8 cycles, of which each has its own velocity."""
+    both = sweep(0.1, 0.1)
+    both.loc[::2, ["mean_velocity", "longest_flight"]] = 0.2, 1.8
+    assert fig08.unsettled(both) is None
+    assert fig08.unsettled(both.assign(longest_flight=0.9)) is not None
+
+
 def test_chaos_does_not_count_as_unsettled():
     assert fig08.unsettled(sweep(0.1, 0.2).assign(state="chaos")) is None
+
+
+def test_equal_values_stay_below_the_end_of_an_axis_from_zero():
+    with style.applied():
+        axes = style.figure(50.0, 40.0).subplots()
+        axes.plot([0.0, 1.0], [0.3, 0.3 + 1e-12])
+        style.from_zero(axes)
+    assert axes.get_ylim() == pytest.approx((0.0, 0.306))
+
+
+@pytest.mark.parametrize(("least", "labels"), [(0.11, 2), (0.3, 2), (0.03, 2)])
+def test_short_logarithmic_axes_of_track_lengths_have_labels(least, labels):
+    lengths = pd.DataFrame({"acceleration": 40.0, "regime": "several velocities", "length": [0.25, 0.5], "late": 0.0})
+    lengths = lengths.assign(spread=[least, 0.9], spread_stderr=0.0, predicted=np.nan)
+    with style.applied():
+        figure = style.figure(80.0, 60.0)
+        axes = figure.subplots()
+        transit.draw_lengths(axes, lengths)
+        style.lay_out(figure)
+    low, high = axes.get_ylim()
+    ticks = [*axes.get_yticklabels(), *axes.get_yticklabels(minor=True)]
+    assert sum(bool(tick.get_text()) and low <= tick.get_position()[1] <= high for tick in ticks) >= labels
+
+
+@pytest.mark.parametrize(("low", "high"), [(0.35, 0.8), (0.02, 0.9), (0.3, 40.0), (2.0, 2000.0)])
+def test_some_powers_or_digits_of_a_logarithmic_axis_are_labelled(low, high):
+    with style.applied():
+        figure = style.figure(80.0, 40.0)
+        axes = figure.subplots()
+        axes.set_xscale("log")
+        axes.plot([low, high], [1.0, 2.0])
+        style.label_powers(axes.xaxis)
+        style.lay_out(figure)
+        left, right = axes.get_xlim()
+        ticks = [*axes.get_xticklabels(), *axes.get_xticklabels(minor=True)]
+        boxes = [t.get_window_extent() for t in ticks if t.get_text() and left <= t.get_position()[0] <= right]
+    boxes.sort(key=lambda box: box.x0)
+    assert len(boxes) >= 2
+    assert all(one.x1 < other.x0 for one, other in itertools.pairwise(boxes))
 
 
 @pytest.mark.parametrize("inclination", [0.0, 0.5])

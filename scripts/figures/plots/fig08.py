@@ -12,6 +12,7 @@ from pipeline import grid
 
 # Interquartile range of the velocities of one motion, over the largest velocity, above which runs have not settled.
 WIDE = 0.05
+DIGITS = 2  # of the longest flight, in excitation cycles, by which motions with one period differ
 
 
 def plate_velocity(sweep: pd.DataFrame) -> tuple[list[float], list[float]]:
@@ -26,11 +27,12 @@ def plate_velocity(sweep: pd.DataFrame) -> tuple[list[float], list[float]]:
 def unsettled(sweep: pd.DataFrame) -> tuple[float, float] | None:
     """The median amplitude (m/s²) at which runs in the second state have not settled, and their low velocity (m/s).
 
-    None if all runs have settled.
+    None if all runs have settled. Jumping motions of other periods or with longer flights have velocities of their own.
     """
-    runs = sweep[sweep.state == "second"].groupby("acceleration").mean_velocity
+    second = sweep[sweep.state == "second"]
+    runs = second.groupby(["acceleration", "period", second.longest_flight.round(DIGITS)]).mean_velocity
     low, high = runs.quantile(0.25), runs.quantile(0.75)
-    wide = low[high - low > WIDE * sweep.mean_velocity.abs().max()]
+    wide = low[high - low > WIDE * sweep.mean_velocity.abs().max()].groupby("acceleration").first()
     if wide.empty:
         return None
     middle = wide.index[len(wide) // 2]

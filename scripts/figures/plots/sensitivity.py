@@ -104,8 +104,6 @@ def draw_curves(axes: Axes, curves: pd.DataFrame, meetings: pd.DataFrame, parame
         rows = shown[shown.meeting == kind]
         if len(rows):
             axes.plot(rows[group], rows.amplitude_group, label=label, **look, **HOLLOW)
-    if continued.empty:
-        style.say(axes, "no bifurcation to follow")
     own = curves[curves.parameter == "angle"]
     if len(own):
         axes.axvline(own[group].iloc[0], color="black", linewidth=0.5, linestyle=":")
@@ -117,6 +115,10 @@ def draw_curves(axes: Axes, curves: pd.DataFrame, meetings: pd.DataFrame, parame
     axes.set_yticks([0.2, 0.5, 1.0, 2.0, 5.0], ["0.2", "0.5", "1", "2", "5"])
     axes.yaxis.set_minor_locator(LogLocator(subs=()))
     style.label_powers(axes.xaxis)
+    if continued.empty:
+        style.say(axes, "no bifurcation to follow")
+        axes.set_xticks([])
+        axes.minorticks_off()
     axes.set_xlabel(name)
     axes.set_ylabel("amplitude group $\\Gamma = a_z/g$")
 
@@ -134,6 +136,7 @@ def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.Dat
     else:
         found = derivatives.kind.isin(("fold", "period_doubling")).any()
         style.say(amplitudes, "no derivative passed the check" if found else "no fold and no period doubling")
+        amplitudes.set_xticks([])
 
     rows = derivatives[(derivatives.kind == "critical_height") & (derivatives.status == "ok")]
     rows = rows.assign(per_percent=1e4 * rows.derivative * rows.value)
@@ -147,6 +150,7 @@ def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.Dat
     else:
         found = (derivatives.kind == "critical_height").any()
         style.say(heights, "no derivative passed the check" if found else "no critical height")
+        heights.set_xticks([])
 
     draw_curves(damping, continued, meetings, "damping", "damping group $D = d_c/(m\\omega)$")
     draw_curves(stiffness, continued, meetings, "stiffness", "stiffness group $K = k_c g^{p-1}/(m\\omega^{2p})$")

@@ -54,7 +54,8 @@ def draw_lengths(axes: Axes, lengths: pd.DataFrame) -> None:
         axes.xaxis.minorticks_off()
     else:
         text = "at no amplitude of the table do\nmotions coexist or is chaos alone"
-        style.note(axes, text, (0.5, 0.5), xycoords="axes fraction", ha="center")
+        style.say(axes, text)
+        axes.set(xticks=[], yticks=[])
 
 
 def plot(*, transit: pd.DataFrame, shares: pd.DataFrame, regimes: pd.DataFrame, lengths: pd.DataFrame) -> Figure:
