@@ -20,7 +20,7 @@ def last_growth(generations: pd.DataFrame) -> float:
 
 def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
     """The settings of the search, the sizes of its front, and how much the hypervolume grew at the end."""
-    last = generations[generations.generation == generations.generation.max()]
+    last, growth = generations[generations.generation == generations.generation.max()], last_growth(generations)
     return {
         "search": front.attrs,
         "spread": spreads_of(front.attrs),
@@ -29,7 +29,8 @@ def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
         "found": len(front),
         "checked": front.checked.sum(),
         "confirmed": front.confirmed.sum(),
-        "growth": last_growth(generations),
+        "growth": growth,
+        "is_late": np.isinf(growth),
         "worst_seed": last.hypervolume.min(),
     }
 

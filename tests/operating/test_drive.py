@@ -185,6 +185,17 @@ def test_the_page_says_that_nothing_was_found(made):
     assert "grew by up to 11 % (limit: 2 %)" in page
 
 
+def test_a_seed_that_finds_a_design_late_or_never_is_named(made):
+    """Its hypervolume has no relative growth."""
+    volumes = growing(0.0, 0.0, 0.0, 1.0), growing(0.0, 0.0, 0.0, 0.0).assign(seed=2)
+    page = drive_page.make(TEMPLATE, made["drive_front"], pd.concat(volumes))
+    assert "not every seed had a design within the constraints" in page
+    assert "A seed found no design within the constraints." in page
+    assert "inf" not in page
+    page = drive_page.make(TEMPLATE, made["drive_front"], growing(0.1, 0.5, 0.9, 1.0))
+    assert "not every seed" not in page and "has at least 100 % of the hypervolume" in page
+
+
 def test_a_search_that_finds_nothing_says_so(monkeypatch):
     def evaluate(x, settings, errors, **_):
         found = pd.DataFrame(np.nan, index=range(len(x)), columns=[*drive.WORST])

@@ -398,6 +398,15 @@ def test_the_page_says_that_parts_move_back_everywhere(refined):
     assert "All parts have equal parameters" in page
 
 
+def test_large_forces_have_no_exponent_and_unknown_ones_a_dash(refined):
+    page = page_of(refined, advised(peak_force=128.0))
+    assert "contact force up to 130 N (13000 times the weight of the part)" in page
+    tables = advised()
+    tables[1] = tables[1].assign(peak_force=math.nan)
+    tables[1].attrs = advised()[1].attrs
+    assert "contact force up to – N (– times" in page_of(refined, tables)
+
+
 @pytest.mark.parametrize("friction", [0.0, 0.15])
 def test_the_page_says_that_parts_have_calibrated_parameters(refined, friction):
     tables = advised()

@@ -269,6 +269,14 @@ def test_overlays_in_front_of_the_conveyor_are_scaled_and_later_ones_are_not(tmp
     assert loaded(tmp_path, coarse, conveyor, {"operating": {"resolution": 1.0}})["operating"]["resolution"] == 1.0
 
 
+def test_lengths_of_tracks_and_parts_are_not_scaled(tmp_path):
+    front, own = tmp_path / "front.yaml", tmp_path / "own.yaml"
+    front.write_text("transit: {length: 0.7}\nadvice: {part_length: 0.02}\n")
+    own.write_text("prefix: own\nmodel: {frequency: 25.0}\n")
+    config = load_config(DEFAULT_FILES, [front, own], {}).config
+    assert (config["transit"]["length"], config["advice"]["part_length"]) == (0.7, 0.02)
+
+
 def test_an_overlay_that_scales_must_fit_the_paper(tmp_path):
     with pytest.raises(ConfigError, match="is reversed; give"):
         loaded(tmp_path, {"orbits": {"limits": [80.0, 25.0]}}, {"prefix": "mine", "model": {"mass": 0.01}})

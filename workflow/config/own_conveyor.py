@@ -141,7 +141,8 @@ def scale_config(paper: dict, overlay: dict) -> dict:
         config["solver"]["step"] = scaled_step(paper, own)
     for entry in config["estimates"].values():
         entry["epsilon"] = scale(entry["epsilon"], schema_at(["model", entry["perturb"]]), ratios)
-    # A track is as long as it is, and how the user's parts differ is not known.
+    # A track is as long as it is, and so is a part; how the user's parts differ is not known.
+    config["advice"] |= {name: paper["advice"][name] for name in ("part_length",) if name in paper["advice"]}
     config["transit"] |= {name: paper["transit"][name] for name in ("length", "longest")}
     config["parts"] |= {name: 0.0 for name in paper["parts"] if name != "seed"}
     config["claims"], config["uncertainty"]["claims"] = {}, []
