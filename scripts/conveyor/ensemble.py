@@ -60,7 +60,7 @@ def run(
     step: float = DEFAULT_STEP,
     needs: str = "feeding",
     threads: int = 1,
-    chunk: int = 1024,
+    chunk: int = 4096,
     progress: str | None = None,
 ) -> dict[str, np.ndarray]:
     """Follow every point for `duration` (s). The event-driven method also takes one duration per point, shape (n,).

@@ -32,7 +32,7 @@ LONG_FLIGHT = 0.5
 # Excitation cycles after which a search for a period ends.
 CYCLES = 20_000
 # Trajectories that a thread takes at a time. The last ones leave lanes idle, so that many are better.
-TOGETHER = 2048
+TOGETHER = 8192
 
 
 class Labels(NamedTuple):
