@@ -215,7 +215,7 @@ def sensitivity(
     short = bifurcations[bifurcations.period <= derivatives.attrs["longest_period"]]
     return {
         "many": (short.kind.value_counts() > derivatives.attrs["most"]).any(),
-        "heights": right[right.kind == "critical_height"].acceleration.unique(),
+        "heights": list(map(format_number, right[right.kind == "critical_height"].acceleration.unique())),
         "tried": (derivatives.kind == "critical_height").any(),
         "right": np.isfinite(error.max()),
         "points": (derivatives.kind != "critical_amplitude").any(),

@@ -25,6 +25,8 @@ CONVEYORS = 2000
 # Conveyors of a table and initial conditions of each from which the length of searches is estimated, and the cycles of
 # the first estimate.
 SAMPLED_CONVEYORS, SAMPLED_STARTS, FIRST_LIMIT = 8, 32, 1000
+# Searches that all end after so many times `mean_settling` on average are not ended before, so that no label is open.
+COMPLETED = 3
 
 
 def search_tolerance(settings: dict) -> float:
@@ -136,11 +138,11 @@ def mean_limit(count: int, settings: dict) -> float:
 
 
 def is_slow(table: Table, settings: dict, *, known: AttractorTable | None = None, threads: int = 1) -> bool:
-    """Whether the searches for a table take more cycles than its `mean_limit`.
+    """Whether the searches for a table must end after its `mean_limit`, because they would take much more cycles.
 
     known : the shared attractors of all conveyors of the table; None if they have not been found yet
     """
-    mean = mean_limit(math.prod(table.counts), settings)
+    mean = max(mean_limit(math.prod(table.counts), settings), COMPLETED * settings["mean_settling"])
     if mean >= settings["settling"]:
         return False
     sample = sample_starts(spread(distinct_conveyors(table.conveyors)[0], SAMPLED_CONVEYORS), table.starts)

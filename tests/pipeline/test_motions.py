@@ -77,6 +77,18 @@ def test_searches_of_many_points_take_a_mean_number_of_cycles(monkeypatch):
     assert equal(part, [column[150:250] for column in found])
 
 
+def test_searches_that_somewhat_more_cycles_complete_have_no_limit(monkeypatch):
+    settings = {**AT_A_WINDOW, "mean_settling": 20_000}
+    starts = grid.product(settings["axes"], settings["model"])[1][::4]
+    free = motions.motions_of_starts(starts, settings, starts=len(starts))
+    monkeypatch.setattr(motions, "WHOLE_MAP", len(starts))
+    for share, is_free in ((0.6, True), (0.2, False)):
+        few = {**settings, "mean_settling": int(share * free.cycles.mean())}
+        found = motions.motions_of_starts(starts, few, starts=len(starts))
+        assert equal(found, free) == is_free
+        assert ("undecided" in found.state) != is_free
+
+
 def test_searches_of_few_points_and_quick_ones_have_no_limit(monkeypatch):
     settings = AT_A_WINDOW | {"model": {"acceleration": 40.0}}
     starts = grid.product(settings["axes"], settings["model"])[1]
