@@ -64,6 +64,7 @@ def plot(
                 ha="center",
                 va="center",
                 size=7.0,
+                bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5},
                 arrowprops={"arrowstyle": "->", "linewidth": 0.6, "shrinkB": 3.0},
             )
     style.from_zero(*panels)
