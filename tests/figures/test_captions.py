@@ -87,6 +87,10 @@ def test_chaos_before_the_accumulation_is_mentioned():
     orbits.attrs["most"] = 2
     ended = caption("bifurcation", {"longest_period": 2}, cascade=cascade[:1], **others)
     assert "The search ended after 2 orbits; a larger ``orbits.most``" in ended
+    assert "None of these orbits folds" not in ended
+    straight = others | {"bifurcations": pd.DataFrame({"kind": ["grazing"]})}
+    text = caption("bifurcation", {"longest_period": 2}, cascade=cascade[:1], **straight)
+    assert "None of these orbits folds or doubles its period." in text
     none = others | {"branches": orbits[:0], "bifurcations": pd.DataFrame({"kind": []})}
     empty = caption("bifurcation", {"longest_period": 2}, cascade=cascade[:1], **none)
     assert "No initial condition leads to a stable orbit of up to 4 cycles" in empty
@@ -185,6 +189,7 @@ def test_a_map_states_its_undecided_share_and_the_key_that_reduces_it():
     assert "undecided" not in caption("fig12", map=table[:2])
     assert "All initial conditions lead to" not in text
     assert caption("fig12", map=table[:2]).endswith("All initial conditions lead to the first state.")
+    assert "lead to" not in caption("fig12", map=table[:2].assign(state="undecided"))
 
 
 def test_fig_10_without_a_common_amplitude_or_without_a_critical_height():
