@@ -26,7 +26,6 @@ from ...solver.jit import compiled
 from ...solver.model import FREQUENCY, PSI0
 from ...solver.parallel import for_each_chunk
 from .. import stroboscopic_map
-from ..attractors.convergence import MAX_PERIOD
 from ..dimensionless_groups import units
 from . import stretching
 
@@ -35,6 +34,7 @@ REPEATS_WITHIN = 400
 # A part that rides a stiff contact may never do that. Its motion counts as repeated, with a period of up to MAX_PERIOD
 # cycles, if it differs from itself by no more than ROUNDING, in g/ω² and g/ω, in each of the last WATCHED cycles.
 ROUNDING, WATCHED = 1e-13, 100
+MAX_PERIOD = 64  # as in the search for attractors
 # Excitation cycles after which the sign is decided. Weak chaos shows only after the second number.
 LOOKS = (400, 2000)
 BLOCKS = 20
