@@ -109,15 +109,15 @@ def compare_alternatives(
     found: Sample, data: Data, settings: dict, *, threads: int = 1, progress: str | None = None
 ) -> list[dict]:
     """The rows of the table of alternatives: the posterior with one more parameter, against the one without."""
-    declared = {*settings["parameters"], *(name for one in data.measured for name in one.changed)}
+    stated = {*settings["parameters"], *(name for one in data.measured for name in one.changed)}
     rows = []
     for name, difference in settings["alternatives"].items():
-        if name in declared:
+        if name in stated:
             continue
         ends = [settings["model"][name] - difference, settings["model"][name] + difference]
         own = settings | {"parameters": [*settings["parameters"], name], "ranges": settings["ranges"] | {name: ends}}
         # An evidence needs fewer samples than intervals. A search that has not found them underestimates it.
-        own |= {"enough": settings["effective"], "rounds": settings["rounds"] // 2}
+        own |= {"enough": settings["effective"], "rounds": (settings["rounds"] + 1) // 2}
         other = search(data, own, threads=threads, progress=progress and f"{progress}: {name.replace('_', ' ')}")
         gain = other.log_evidence - found.log_evidence
         rows.append(

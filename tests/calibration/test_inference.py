@@ -123,6 +123,11 @@ def test_an_inclination_that_was_not_stated_rejects_the_model(inclination):
     assert np.all(found["fit"]["explained"]) != preferred
 
 
+def test_alternatives_are_also_searched_in_a_single_round():
+    settings = SETTINGS | {"rounds": 1, "alternatives": {"inclination": 0.2}}
+    assert len(calibrate(measured(), settings, threads=2)["alternatives"]["parameter"]) == 1
+
+
 def test_a_parameter_that_the_measurements_state_is_no_alternative():
     stated = [one._replace(changed={"inclination": 0.0}) for one in measured()]
     data = data_of(stated, MODEL)
