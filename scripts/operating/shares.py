@@ -18,7 +18,7 @@ from conveyor.solver.parallel import for_each_chunk
 from operating import regimes
 from operating.parts import parameters_of, starts_of_box
 from pipeline import fields, grid
-from pipeline.motions import limit_of_mean, motions_of_starts
+from pipeline.motions import limit_of_mean, mean_settling, motions_of_starts
 from pipeline.sizes import WHOLE_MAP
 
 TABLES = {
@@ -128,7 +128,7 @@ def velocities(
     # Friction cannot hold a part on such a track, so that its velocity grows without end.
     steep = np.abs(np.tan(parameters[:, INCLINATION])) > parameters[:, STATIC_FRICTION]
     status[steep], open_ = regimes.SLIDES_AWAY, np.flatnonzero(~steep)
-    left = settings["mean_settling"] * WHOLE_MAP
+    left = mean_settling(settings) * WHOLE_MAP
     # Every trajectory needs the second run, which contains the first; one integration gives both.
     for doublings in ([0, 1], *([doubling] for doubling in range(2, RUNS))):
         cycles = 4.0 * step[open_, None] * np.ceil(2.0 ** np.array(doublings) * (quarter / step)[open_, None])

@@ -25,6 +25,9 @@ CONVEYORS = 2000
 # Conveyors of a table and initial conditions of each from which the length of searches is estimated, and the cycles of
 # the first estimate.
 SAMPLED_CONVEYORS, SAMPLED_STARTS, FIRST_LIMIT = 8, 32, 1000
+# Exponents of the contact law with short series (see contact_law). Cycles with other exponents take about three times
+# as long, so that searches get a third of the cycles.
+QUICK_EXPONENTS, SLOWER = (1.0, 1.5), 3
 # Searches that all end after so many times `mean_settling` on average are not ended before, so that no label is open.
 COMPLETED = 3
 
@@ -32,6 +35,13 @@ COMPLETED = 3
 def search_tolerance(settings: dict) -> float:
     """Tolerance of the contact steps in the search; the default for entries of fixed-step methods, which have none."""
     return settings.get("tolerance", DEFAULT_TOLERANCE)
+
+
+def mean_settling(settings: dict) -> int:
+    """The excitation cycles that an initial condition may take, on average over a map, with the model of the settings."""
+    model = {name: [value] for name, value in settings.get("model", {}).items()} | settings.get("axes", {})
+    exponents = grid.axis_values("exponent", model["exponent"]) if "exponent" in model else QUICK_EXPONENTS
+    return settings["mean_settling"] // (1 if np.isin(exponents, QUICK_EXPONENTS).all() else SLOWER)
 
 
 def shared_attractors(
@@ -53,7 +63,7 @@ def shared_attractors(
     if starts < CHAOS_SHARED or starts * settings["settling"] < CYCLES_SHARED:
         return NO_ATTRACTORS
     options = {"cycles": settings["settling"], "tolerance": search_tolerance(settings), "threads": threads}
-    options["most"] = settings["mean_settling"] * WHOLE_MAP // conveyors
+    options["most"] = mean_settling(settings) * WHOLE_MAP // conveyors
     progress = progress and f"{progress}: attractors"
     return find_attractors(parameters, orbits=starts >= ORBITS_SHARED, **options, progress=progress)
 
@@ -134,7 +144,7 @@ def search_limits(
 
 def mean_limit(count: int, settings: dict) -> float:
     """The excitation cycles that `count` searches for a table may take on average: as many in all as for a map."""
-    return settings["mean_settling"] * max(1.0, WHOLE_MAP / count)
+    return mean_settling(settings) * max(1.0, WHOLE_MAP / count)
 
 
 def is_slow(table: Table, settings: dict, *, known: AttractorTable | None = None, threads: int = 1) -> bool:
@@ -142,7 +152,7 @@ def is_slow(table: Table, settings: dict, *, known: AttractorTable | None = None
 
     known : the shared attractors of all conveyors of the table; None if they have not been found yet
     """
-    mean = max(mean_limit(math.prod(table.counts), settings), COMPLETED * settings["mean_settling"])
+    mean = max(mean_limit(math.prod(table.counts), settings), COMPLETED * mean_settling(settings))
     if mean >= settings["settling"]:
         return False
     sample = sample_starts(spread(distinct_conveyors(table.conveyors)[0], SAMPLED_CONVEYORS), table.starts)

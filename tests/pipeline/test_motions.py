@@ -101,3 +101,17 @@ def test_searches_of_few_points_and_quick_ones_have_no_limit(monkeypatch):
 def test_a_limit_makes_the_mean():
     assert motions.limit_of_mean(np.array([10, 20, 1000, 5000]), 100.0) == 185
     assert motions.limit_of_mean(np.array([300, 400]), 200.0) == 200
+
+
+@pytest.mark.parametrize(
+    ("model", "axes", "wanted"),
+    [
+        ({}, {}, 1000),
+        ({"exponent": 1.5}, {}, 1000),
+        ({"exponent": 1.0}, {"exponent": [1.0, 1.5]}, 1000),
+        ({"exponent": 1.03}, {}, 333),
+        ({}, {"exponent": {"start": 1.0, "stop": 1.5, "num": 3}}, 333),
+    ],
+)
+def test_searches_with_slow_series_take_fewer_cycles(model, axes, wanted):
+    assert motions.mean_settling(SETTINGS | {"model": model, "axes": axes}) == wanted
