@@ -221,7 +221,8 @@ def sensitivity(
         "points": (derivatives.kind != "critical_amplitude").any(),
         "has_fold": not np.isnan(first),
         "error": error.max(),
-        "failed": len(derivatives) - len(right),
+        "failed": (derivatives.derivative.notna() & (derivatives.status != "ok")).sum(),
+        "missing": derivatives.derivative.isna().sum(),
         "own": own.iloc[0].to_dict() if len(own) else {},
         "cusps": list(cusps[cusps.status == "ok"].damping_group.sort_values()),
     }

@@ -247,18 +247,19 @@ def group_rows(point: CriticalPoint) -> Iterator[dict]:
 
 
 def boundary_points(critical: pd.DataFrame, settings: dict) -> Iterator[CriticalPoint]:
-    """The critical amplitude of a part from rest, and critical heights."""
+    """The critical amplitude of a part from rest, and critical heights; none of them without a critical height."""
     parameters = grid.packed({**critical.attrs["model"], "z0": 0.0})
     edges = critical[critical.is_critical].sort_values("acceleration")
+    if edges.empty:
+        return
     rest = parameters.copy()
     rest[Z0], rest[VZ0] = settings["rest"]["z0"], settings["rest"]["vz0"]
-    if len(edges):
-        # The amplitude whose critical height is closest to rest is the initial guess.
-        rest = with_amplitude(rest, edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - rest[Z0])))])
+    # The amplitude whose critical height is closest to rest is the initial guess.
+    rest = with_amplitude(rest, edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - rest[Z0])))])
     yield differentiate_boundary("critical_amplitude", rest, "acceleration")
     # Evenly spaced rows without the first and the last one.
     inner = np.linspace(0, len(edges) - 1, settings["heights"] + 2)[1:-1].round().astype(int)
-    for edge in edges.iloc[np.unique(inner)].itertuples() if len(edges) else ():
+    for edge in edges.iloc[np.unique(inner)].itertuples():
         here = with_amplitude(parameters, edge.acceleration)
         here[Z0] = edge.z0
         yield differentiate_boundary("critical_height", here, "z0")

@@ -17,10 +17,10 @@ CONFIG = read_config()
 FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]
 
 
-def caption(name: str, settings: dict | None = None, **tables: pd.DataFrame) -> str:
+def caption(name: str, settings: dict | None = None, *, paper: bool = True, **tables: pd.DataFrame) -> str:
     """The caption of a figure from its own template, on one line."""
     template = (ROOT / f"workflow/report/{name}.rst").read_text(encoding="utf-8")
-    return " ".join(captions.caption(template, name, tables, settings or {}).split())
+    return " ".join(captions.caption(template, name, tables, settings or {}, paper).split())
 
 
 @pytest.mark.parametrize("name", FIGURES)
@@ -260,6 +260,15 @@ def test_states_change_at_a_critical_height_if_the_first_state_ends():
     assert "jumps at the critical height" in caption("fig09", converged=table.assign(state=["first", "chaos"] * 2))
 
 
+def test_a_state_that_all_heights_lead_to_is_named():
+    table = pd.DataFrame({"state": ["second", "second"], "status": "ok"})
+    assert "All initial heights lead to the second state." in caption("fig17", paper=False, converged=table)
+    one = table.assign(state="undecided")
+    assert "States of motion: undecided." in caption("fig17", paper=False, converged=one)
+    several = table.assign(state=["second", "chaos"])
+    assert "States of motion: the second state and chaos." in caption("fig17", paper=False, converged=several)
+
+
 def test_derivatives_that_do_not_pass_the_check_are_named():
     """An influence of zero, here of friction, confirms nothing."""
     row = {"kind": "critical_height", "parameter": "mass", "derivative": 0.0, "difference": 0.0, "elasticity": 0.0}
@@ -276,6 +285,11 @@ def test_derivatives_that_do_not_pass_the_check_are_named():
     right.attrs = derivatives.attrs
     text = caption("sensitivity", derivatives=right, **tables)
     assert "to a relative error of 1e-8 (derivatives that fail this check: 1)" in text
+    lost = row | {"derivative": np.nan, "elasticity": np.nan, "status": "not found again"}
+    both = pd.concat([right, pd.DataFrame([lost, lost])])
+    both.attrs = derivatives.attrs
+    text = caption("sensitivity", derivatives=both, **tables)
+    assert "(derivatives that fail this check: 1, that were not found: 2)" in text
     none = derivatives.assign(kind="critical_amplitude")
     none.attrs = derivatives.attrs
     assert "There is no derivative" in caption("sensitivity", derivatives=none, **tables)
