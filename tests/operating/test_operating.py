@@ -388,6 +388,10 @@ def test_the_page_begins_with_the_advice(refined):
     assert "The parts differ: relative standard deviations are 15 % of friction." in page
 
 
+def test_the_page_says_that_riding_parts_have_no_impacts(refined):
+    assert "- No impacts, contact force up to 0.5 N" in page_of(refined, advised(impact_speed=0.0))
+
+
 def test_the_page_says_that_parts_move_back_everywhere(refined):
     tables = advised(velocity_worst=-0.01)
     tables[1] = tables[1].head(1)

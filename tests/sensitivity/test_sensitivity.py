@@ -76,7 +76,9 @@ def test_a_point_that_is_not_found_again_keeps_its_row_with_a_reason(tables):
 def test_a_conveyor_without_critical_heights_has_no_critical_amplitude(tables, rows):
     none = tables[2].assign(is_critical=False)
     none.attrs = tables[2].attrs
-    found = derivatives.make(tables[0].iloc[:rows], tables[1].iloc[:0], none, {**SETTINGS, "heights": 1, "model": MODEL})
+    found = derivatives.make(
+        tables[0].iloc[:rows], tables[1].iloc[:0], none, {**SETTINGS, "heights": 1, "model": MODEL}
+    )
     kinds = {"fold", "grazing", "period_doubling"} if rows else set()
     assert set(found["derivatives"]["kind"]) == set(found["groups"]["kind"]) == kinds
 
