@@ -38,7 +38,7 @@ def search_tolerance(settings: dict) -> float:
 
 
 def mean_settling(settings: dict) -> int:
-    """The excitation cycles that an initial condition may take, on average over a map, with the model of the settings."""
+    """The excitation cycles that an initial condition may take with the settings' model, on average over a map."""
     model = {name: [value] for name, value in settings.get("model", {}).items()} | settings.get("axes", {})
     exponents = grid.axis_values("exponent", model["exponent"]) if "exponent" in model else QUICK_EXPONENTS
     return settings["mean_settling"] // (1 if np.isin(exponents, QUICK_EXPONENTS).all() else SLOWER)
