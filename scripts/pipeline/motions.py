@@ -30,6 +30,8 @@ SAMPLED_CONVEYORS, SAMPLED_STARTS, FIRST_LIMIT = 8, 32, 1000
 QUICK_EXPONENTS, SLOWER = (1.0, 1.5), 4
 # Searches that all end after so many times `mean_settling` on average are not ended before, so that no label is open.
 COMPLETED = 3
+# Searches of which a smaller share settles within their limit end after half of it, because they would decide little.
+WORTHWHILE = 0.1
 
 
 def search_tolerance(settings: dict) -> float:
@@ -121,7 +123,7 @@ def limit_of_mean(cycles: np.ndarray, mean: float) -> int:
 def search_limits(
     sample: np.ndarray, group: np.ndarray, attractors: AttractorTable, mean: float, settings: dict, *, threads: int = 1
 ) -> np.ndarray:
-    """The excitation cycles after which searches in each group must end to take `mean` cycles on average.
+    """The excitation cycles after which searches in each group must end to take `mean` cycles on average, or half.
 
     sample, group : some initial conditions of the groups, shape (k, 16), and their groups, 0 to m - 1, shape (k,)
     Returns int64, shape (m,), at most `settling`.
@@ -136,7 +138,8 @@ def search_limits(
         for k in np.flatnonzero(is_open):
             own = cycles[group[rows] == k]
             if own.mean() > mean:
-                limits[k] = limit_of_mean(own, mean)
+                affordable = limit_of_mean(own, mean)
+                limits[k] = affordable if (own < affordable).mean() >= WORTHWHILE else affordable // 2
             is_open[k] = own.mean() <= mean and own.max() >= limit and limit < most
         limit = min(2 * limit, most)
     return limits
