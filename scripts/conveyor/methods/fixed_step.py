@@ -61,7 +61,8 @@ class Kind(NamedTuple):
     method: int  # the code of one of METHODS
     single: bool  # whether there is one trajectory only
     alike: bool  # whether all plates have the same frequency and ψ0
-    general: bool  # whether there are inclinations, phase shifts or static frictions larger than the friction
+    tilted: bool  # whether there are inclinations or phase shifts
+    sticks: bool  # whether there are static frictions larger than the friction
     has_powers: bool  # whether there are exponents other than 1 and 1.5
 
 
@@ -119,7 +120,7 @@ def forces(kind, memory, lane, vx, z, vz, sine, cosine, is_raised):
         memory[place(LEAST_PUSH, lane)],
     )
     along = sine
-    if kind.general:
+    if kind.tilted:
         along = sine * memory[place(COS_SHIFT, lane)] + cosine * memory[place(SIN_SHIFT, lane)]
     slip = memory[place(PLATE_VX, lane)] * along - vx
     rub = friction_acceleration(push, slip, memory[place(FRICTION, lane)], memory[place(LEAST_RUB, lane)])
@@ -145,25 +146,25 @@ def find_forces(kind, memory, lane, sine, cosine):
     """Write GAP, PUSH and RUB of the present state. Returns whether the gap has opened or closed."""
     vx, z, vz = memory[place(VX, lane)], memory[place(Z, lane)], memory[place(VZ, lane)]
     gap, push, rub, slip = forces(kind, memory, lane, vx, z, vz, sine, cosine, kind.has_powers)
-    if kind.general:
+    if kind.sticks:
         rub = stick(memory, lane, gap, push, rub, slip, sine, cosine)
     memory[place(GAP, lane)], memory[place(PUSH, lane)], memory[place(RUB, lane)] = gap, push, rub
-    return (1.0 if gap <= 0.0 else 0.0) != memory[place(IN_CONTACT, lane)]
+    return (gap <= 0.0) != (memory[place(IN_CONTACT, lane)] > 0.0)
 
 
 @compiled_inline
 def find_forces_of_all(kind, lanes, memory):
-    """`find_forces` of all lanes, with SINE and COSINE in memory. Returns the number of gaps that opened or closed."""
+    """`find_forces` of all lanes, with SINE and COSINE in memory. Returns whether a gap has opened or closed."""
     if kind.has_powers:
         # In a loop of its own, because powers take one number at a time.
         for k in range(lanes):
             lane = np.uint64(k)
             gap = memory[place(Z, lane)] + memory[place(PLATE_Z, lane)] * memory[place(COSINE, lane)]
             memory[place(POWER, lane)] = power_of_depth(-gap, memory[place(EXPONENT, lane)])
-    changed = 0
+    changed = False
     for k in range(lanes):
         lane = np.uint64(k)
-        changed += find_forces(kind, memory, lane, memory[place(SINE, lane)], memory[place(COSINE, lane)])
+        changed |= find_forces(kind, memory, lane, memory[place(SINE, lane)], memory[place(COSINE, lane)])
     return changed
 
 
@@ -173,8 +174,8 @@ def count_step(memory, lane):
     gap, push = memory[place(GAP, lane)], memory[place(PUSH, lane)]
     highest, strongest = memory[place(MAX_GAP, lane)], memory[place(PEAK_FORCE, lane)]
     # Without the zeros LLVM stores only where a number changes, and the next load waits for it.
-    memory[place(MAX_GAP, lane)] = max(highest + 0.0, gap)
-    memory[place(PEAK_FORCE, lane)] = max(strongest + 0.0, push)
+    memory[place(MAX_GAP, lane)] = (gap if gap > highest else highest) + 0.0
+    memory[place(PEAK_FORCE, lane)] = (push if push > strongest else strongest) + 0.0
     memory[place(CONTACT_TIME, lane)] += 0.0 if push == 0.0 else 1.0
 
 
@@ -206,7 +207,7 @@ def take_step(kind, memory, lane, sines, step):
     sines : from `turn_plate`
     """
     x, vx, z, vz = memory[place(X, lane)], memory[place(VX, lane)], memory[place(Z, lane)], memory[place(VZ, lane)]
-    gravity, downhill = memory[place(GRAVITY, lane)], memory[place(DOWNHILL, lane)] if kind.general else 0.0
+    gravity, downhill = memory[place(GRAVITY, lane)], memory[place(DOWNHILL, lane)] if kind.tilted else 0.0
     if kind.method == RK4:
         x, vx, z, vz = rk4_step(kind, memory, lane, (x, vx, z, vz), gravity, downhill, sines, step)
     else:
@@ -226,8 +227,8 @@ def take_steps(kind, lanes, memory, i, stop, step, sines, cosines):
 
     sines, cosines : from `turn_plates`, for the CHECK steps that hold these ones
     """
-    changed = 0
-    while changed == 0 and i != stop:
+    changed = False
+    while not changed and i != stop:
         if kind.alike and kind.method == EULER:
             at = np.uint64(i % CHECK)
             plate = sines[at], cosines[at], 0.0, 0.0, 0.0, 0.0
@@ -243,7 +244,7 @@ def take_steps(kind, lanes, memory, i, stop, step, sines, cosines):
                 memory[place(SINE, lane)], memory[place(COSINE, lane)] = plate[0], plate[1]
             else:
                 # In the same loop, which halves the time.
-                changed += find_forces(kind, memory, lane, plate[0], plate[1])
+                changed |= find_forces(kind, memory, lane, plate[0], plate[1])
         if kind.has_powers:
             changed = find_forces_of_all(kind, lanes, memory)
         i += 1
@@ -389,12 +390,12 @@ def compiled_for(kind):
 def kind_of(method: int, parameters: np.ndarray) -> Kind:
     """The Kind of steps with the code of a method that trajectories need, for packed `parameters`, shape (n, 16)."""
     phases = parameters[:, [model.FREQUENCY, model.PSI0]]
-    tilted = (parameters[:, [model.INCLINATION, model.PHASE_SHIFT]] != 0.0).any()
     return Kind(
         method,
         single=len(parameters) == 1,
         alike=bool((phases == phases[:1]).all()),
-        general=bool(tilted or (parameters[:, model.STATIC_FRICTION] > parameters[:, model.FRICTION]).any()),
+        tilted=bool((parameters[:, [model.INCLINATION, model.PHASE_SHIFT]] != 0.0).any()),
+        sticks=bool((parameters[:, model.STATIC_FRICTION] > parameters[:, model.FRICTION]).any()),
         has_powers=bool((~np.isin(parameters[:, model.EXPONENT], (1.0, 1.5))).any()),
     )
 

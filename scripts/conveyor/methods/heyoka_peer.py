@@ -46,7 +46,7 @@ def systems(exponent: float, tolerance: float) -> dict[int, Any]:
     state = hy.make_vars("x", "vx", "z", "vz")
     x, vx, z, vz = state
     p, gap, rate, slip, forward = quantities(state)
-    push = spring_and_damper.py_func(p["stiffness"] * (-gap) ** exponent, p["damping"], -rate) / p["mass"]
+    push = spring_and_damper(p["stiffness"] * (-gap) ** exponent, p["damping"], -rate) / p["mass"]
     rub = p["friction"] * push
     up, down = hy.event_direction.positive, hy.event_direction.negative
 

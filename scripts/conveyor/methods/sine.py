@@ -8,6 +8,7 @@ TWO_OVER_PI = 0.6366197723675814
 HALF_PI = (1.5707963267948966, 6.123233995736766e-17, -1.4973849048591833e-33)  # their sum is π/2 to 161 bits
 # Doubles of this size have no fractional bits: adding ROUNDER rounds to an integer, which is then in the low bits.
 ROUNDER = 1.5 * 2.0**52
+SIGN = np.int64(-(2**63))  # the bit of the sign
 # Coefficients of r³, r⁵, ..., r¹³ and r⁴, r⁶, ..., r¹⁴ on |r| ≤ π/4: k_sin.c and k_cos.c of fdlibm (Sun Microsystems
 # 1993).
 S3, S5, S7 = -1.66666666666666324348e-01, 8.33333333332248946124e-03, -1.98412698298579493134e-04
@@ -17,9 +18,9 @@ C10, C12, C14 = -2.75573143513906633035e-07, 2.08757232129817482790e-09, -1.1359
 
 
 @compiled_inline
-def with_sign(value, bit):
-    """A number, negated if the lowest bit of an integer is set."""
-    return np.int64(np.float64(value).view(np.int64) ^ (bit << 63)).view(np.float64)
+def with_sign(value, sign):
+    """A number, negated if an integer is negative."""
+    return np.int64(np.float64(value).view(np.int64) ^ (sign & SIGN)).view(np.float64)
 
 
 @compiled_inline
@@ -42,4 +43,4 @@ def sine_and_cosine(phase):
     is_odd = quarter & 1 == 1
     s, c = cosine if is_odd else sine, sine if is_odd else cosine
     # The sine is negative in the quarters 2 and 3, the cosine in the quarters 1 and 2.
-    return with_sign(s, quarter >> 1), with_sign(c, quarter ^ quarter >> 1)
+    return with_sign(s, quarter << 62), with_sign(c, quarter << 62 ^ quarter << 63)

@@ -12,8 +12,9 @@ from .jit import compiled, compiled_inline, compiled_into_callers
 from .polynomial import ORDER, SIZE, value_in_lane
 from .trajectory import MAX_PIECES
 
-# Eight lanes take about a tenth less time than four, also in code for registers of four numbers.
-LANES = 8
+# Eight lanes take about a tenth less time than four, also in code for registers of four numbers. A NumPy integer, see
+# polynomial.SHIFTED.
+LANES = np.int64(8)
 
 # The rows of the memory, which has a column for each lane. The first nine are the arguments of `expand_hertz`, in its
 # order: √penetration (√m), speed of approach (m/s), sine and cosine of the phase, and contact.Constants.

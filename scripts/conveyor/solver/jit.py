@@ -10,36 +10,23 @@ compiles it alone: the first `simulate` compiles for 14 s instead of 19 s.
 
 import numba
 from numba.core import types
-from numba.extending import intrinsic
+from numba.extending import intrinsic, register_jitable
 
 from . import compilation, machine_code  # noqa: F401 - says that it compiles; chooses the folder of the machine code
 
+# Functions run without the GIL, so that threads can share the rows of a sweep. Divisions by zero follow IEEE 754
+# instead of raising. C code calls no function, so that numba need not compile an entry for it.
+OPTIONS = {"cache": True, "nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
+
 
 def compiled(function, **options):
-    """Compile a function when it is first called, once for all values of its arguments.
-
-    The function runs without the GIL, so that threads can share the rows of a sweep. Divisions by zero follow IEEE 754
-    instead of raising.
-    """
-    dispatcher = numba.njit(cache=True, nogil=True, error_model="numpy", **options)(function)
-    if numba.config.DISABLE_JIT:  # the function itself
-        return dispatcher
-    template_for = dispatcher.get_call_template
-
-    def template_for_any_value(arguments, keywords):
-        # For a literal such as 0 in a call, numba would compile the function once more, for that value alone. Numba
-        # documents no option against it. The first `simulate` would compile for 16 s instead of 14 s.
-        return template_for(
-            tuple(map(types.unliteral, arguments)), {name: types.unliteral(one) for name, one in keywords.items()}
-        )
-
-    dispatcher.get_call_template = template_for_any_value
-    return dispatcher
+    """Compile a function when it is first called."""
+    return numba.njit(**OPTIONS, **options)(function)
 
 
 def compiled_inline(function):
-    """`compiled`, with its machine code copied into every caller."""
-    return compiled(function, forceinline=True)
+    """Compile a function for compiled callers, with its machine code copied into them; Python calls its source."""
+    return register_jitable(**OPTIONS, forceinline=True)(function)
 
 
 def compiled_into_callers(function):

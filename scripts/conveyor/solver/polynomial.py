@@ -29,7 +29,9 @@ MAX_PIECES = 1000
 # Answers of a search.
 FOUND, ABSENT, OPEN = range(3)
 # The functions that search for roots overwrite the first row of every array.
-SHIFTED = 0
+# It is a NumPy integer, and so are all places counted from it: for a Python integer in a call, numba would compile the
+# function once more, for this value alone.
+SHIFTED = np.int64(0)
 
 
 @compiled_inline

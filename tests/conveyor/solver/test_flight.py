@@ -94,7 +94,7 @@ def test_a_long_fall_ends_on_the_plate():
 
 def test_a_failed_search_says_so(monkeypatch):
     monkeypatch.setattr(flight, "MAX_STEPS", 2)
-    tau, _ = flight.next_impact.py_func(flight.Flight(1.0, 0.0, 0.0, 9.81, 8.0, 314.0), 1.0, 0.0, math.inf)
+    tau, _ = flight.next_impact(flight.Flight(1.0, 0.0, 0.0, 9.81, 8.0, 314.0), 1.0, 0.0, math.inf)
     assert math.isnan(tau)
 
 

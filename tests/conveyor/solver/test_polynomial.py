@@ -2,12 +2,18 @@
 
 import math
 
+import numba
 import numpy as np
 import pytest
 
 from conveyor.solver import polynomial
 
 ROW = polynomial.SIZE  # behind the row that searches overwrite
+
+
+@numba.njit
+def root_of_crossing(series, row, low, high):
+    return polynomial.root_of_crossing(series, row, low, high)
 
 
 def series_of(roots):
@@ -57,4 +63,4 @@ def test_a_root_next_to_zero_is_found_relative_to_itself(exponent):
         series = series_of([root])
         series[ROW:] *= root  # as √penetration: small, with a speed of usual size
         series[ROW + 3] = -30.0
-        assert polynomial.root_of_crossing(series, ROW, 0.0, length) == pytest.approx(root, rel=1e-9, abs=0.0)
+        assert root_of_crossing(series, ROW, 0.0, length) == pytest.approx(root, rel=1e-9, abs=0.0)
