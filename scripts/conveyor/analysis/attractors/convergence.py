@@ -86,8 +86,8 @@ def new_searches(count: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 @compiled_inline
-def reset_search(past, counts):
-    """Clear the history and the counters of a search."""
+def reset_search(counts):
+    """Set the counters of a search back, so that its history counts no longer."""
     for k in range(4):
         counts[k] = 0
     counts[FOLLOWED] = BEFORE_FIRST_CYCLE

@@ -75,10 +75,10 @@ Search = namedtuple("Search", "max_cycles attractors rows strobes")
 
 
 @compiled_into_callers
-def begin_trajectory(c, parameters, lane, steps, cycle, past, counts):
+def begin_trajectory(c, parameters, lane, steps, cycle, counts):
     """The Motion at the initial condition of `parameters`, shape (16,); resets all that is known of the lane."""
     set_constants(steps, lane, c)
-    reset_search(past, counts)
+    reset_search(counts)
     # The first whole cycle begins within one cycle.
     steps[END, lane] = time_to_next_cycle(c)
     steps[STEPS, lane] = cycle[LONGEST, lane] = cycle[AIRBORNE, lane] = 0.0
@@ -184,7 +184,7 @@ def follow(parameters, tolerance, search, found, side_by_side, work):
                     if i == NONE:
                         break
                     c = constants[lane] = latest = constants_of(parameters, i, tolerance, latest)
-                    motion = begin_trajectory(c, parameters[i], lane, steps, cycle, past, counts)
+                    motion = begin_trajectory(c, parameters[i], lane, steps, cycle, counts)
                 if side_by_side and can_follow(c) and motion.touching and not is_grazing(c, motion):
                     set_motion(motion, lane, steps)
                     break
