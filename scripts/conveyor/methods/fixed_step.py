@@ -24,7 +24,7 @@ from ..parameters import LAST
 from ..solver import model
 from ..solver.contact_lanes import new_memory, place
 from ..solver.horizontal import IMPACT, SAMPLES, SEPARATED, name_events
-from ..solver.jit import compiled, compiled_inline
+from ..solver.jit import compiled, compiled_inline, compiled_into_callers
 from ..solver.trajectory import NOT_FINITE, OK
 from ..solver.trajectory import STATUS as STATUS_NAMES
 from .force_law import contact_acceleration, friction_acceleration, least_push, least_rub, power_of_depth, simple_power
@@ -127,7 +127,7 @@ def forces(kind, memory, lane, vx, z, vz, sine, cosine, is_raised):
     return gap, push, rub, slip
 
 
-@compiled_inline
+@compiled_into_callers
 def stick(memory, lane, gap, push, rub, slip, sine, cosine):
     """F_r/m of a part that sticks if its slip has vanished, or `rub`; a part that sticks gets the plate's velocity."""
     vx = memory[place(VX, lane)]
@@ -168,7 +168,7 @@ def find_forces_of_all(kind, lanes, memory):
     return changed
 
 
-@compiled_inline
+@compiled_into_callers
 def count_step(memory, lane):
     """Update the totals over the run before a step is taken."""
     gap, push = memory[place(GAP, lane)], memory[place(PUSH, lane)]
@@ -179,7 +179,7 @@ def count_step(memory, lane):
     memory[place(CONTACT_TIME, lane)] += 0.0 if push == 0.0 else 1.0
 
 
-@compiled_inline
+@compiled_into_callers
 def rk4_step(kind, memory, lane, state, gravity, downhill, sines, step):
     """(x, vx, z, vz) one classical Runge-Kutta step (s) later; the rest as in `take_step`."""
     x, vx1, z, vz1 = state
@@ -200,7 +200,7 @@ def rk4_step(kind, memory, lane, state, gravity, downhill, sines, step):
     )
 
 
-@compiled_inline
+@compiled_into_callers
 def take_step(kind, memory, lane, sines, step):
     """Advance a state by one step (s), with the forces in memory.
 
