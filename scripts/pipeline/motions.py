@@ -25,9 +25,9 @@ CONVEYORS = 2000
 # Conveyors of a table and initial conditions of each from which the length of searches is estimated, and the cycles of
 # the first estimate.
 SAMPLED_CONVEYORS, SAMPLED_STARTS, FIRST_LIMIT = 8, 32, 1000
-# Exponents of the contact law with short series (see contact_law). Cycles with other exponents take about four times
-# as long, so that searches get a quarter of the cycles.
-QUICK_EXPONENTS, SLOWER = (1.0, 1.5), 4
+# Exponents of the contact law with short series (see contact_law). Cycles with other exponents take several times as
+# long, so that searches get a sixth of the cycles.
+QUICK_EXPONENTS, SLOWER = (1.0, 1.5), 6
 # Searches that all end after so many times `mean_settling` on average are not ended before, so that no label is open.
 COMPLETED = 3
 # Searches of which a smaller share settles within their limit end after half of it, because they would decide little.

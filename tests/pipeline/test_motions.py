@@ -111,8 +111,8 @@ def test_a_limit_makes_the_mean():
         ({}, {}, 1000),
         ({"exponent": 1.5}, {}, 1000),
         ({"exponent": 1.0}, {"exponent": [1.0, 1.5]}, 1000),
-        ({"exponent": 1.03}, {}, 250),
-        ({}, {"exponent": {"start": 1.0, "stop": 1.5, "num": 3}}, 250),
+        ({"exponent": 1.03}, {}, 166),
+        ({}, {"exponent": {"start": 1.0, "stop": 1.5, "num": 3}}, 166),
     ],
 )
 def test_searches_with_slow_series_take_fewer_cycles(model, axes, wanted):
