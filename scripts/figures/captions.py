@@ -70,7 +70,7 @@ def fig10(
     *, converged: pd.DataFrame, fit: pd.DataFrame | None = None, euler: pd.DataFrame | None = None
 ) -> dict[str, Any]:
     found = {
-        "found": len(converged) > 0,
+        "found": converged.is_critical.any(),
         "fitted": fit is not None and len(fit) > 0,
         "returns": (~converged.is_critical & (converged.state_above == "first")).any(),
         "highest": ends_of(converged.attrs["scan"])[1],

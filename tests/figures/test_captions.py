@@ -208,6 +208,10 @@ def test_fig_10_without_a_common_amplitude_or_without_a_critical_height():
     tables = {"converged": converged[:0], "fit": converged[:0]}
     text = captions.caption(template, "fig10", tables, {}, paper=False)
     assert "Up to 0.5 mm, no initial height changes the state of motion at any of these amplitudes." in text
+    tables["converged"] = converged.assign(is_critical=False)
+    tables["converged"].attrs = converged.attrs
+    text = captions.caption(template, "fig10", tables, {}, paper=False)
+    assert "Up to 0.5 mm, no initial height ends the first state at any of these amplitudes." in text
 
 
 def test_a_track_that_is_too_steep_is_named():

@@ -48,14 +48,16 @@ def plot(
         axes.plot(back.acceleration, 1e3 * back.z0, "v", label=label, **look)
     axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel("critical initial height $z_0$ in mm")
-    if converged.empty:
+    nothing = edge.empty and back.empty
+    if nothing:
         axes.set_xlim(*ends_of(converged.attrs["axes"]["acceleration"]))
         axes.set_ylim(top=1e3 * ends_of(converged.attrs["scan"])[1])
-        style.say(axes, "no initial height changes the state of motion")
+        change = "changes the state of motion" if converged.empty else "ends the first state"
+        style.say(axes, f"no initial height {change}")
     elif fit.empty:
         count = edge.acceleration.nunique()
         axes.plot([], [], " ", label=f"no fit of Eq. 13 to {count} amplitude{'s' if count != 1 else ''}")
     axes.set_ylim(bottom=0.0)
-    if len(converged):
+    if not nothing:
         style.legend_above(figure, axes)
     return figure
