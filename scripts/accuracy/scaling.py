@@ -32,7 +32,7 @@ SCRIPTS = Path(__file__).resolve().parents[1]
 ROUNDS, ENOUGH = 5, 30.0
 MOST_GATHERED = 3  # most copies of a shard that are joined
 # With fewer first points, the code for several initial conditions side by side would not be loaded.
-FIRST_POINTS = contact_lanes.LANES
+FIRST_POINTS = int(contact_lanes.LANES)
 
 TABLES = {
     "scaling": (

@@ -123,7 +123,7 @@ def test_captions_say_what_a_conveyor_does_not_have(builds):
     assert riding["fig12"].endswith("All initial conditions lead to the first state.")
     assert "None of these orbits folds or doubles its period." in riding["bifurcation"]
     assert "There is no derivative, because no bifurcation and no critical height was found." in riding["sensitivity"]
-    assert riding["fig17"].endswith("States of motion: the first state.")
+    assert riding["fig17"].endswith("All initial heights lead to the first state.")
     sliding = runs["sliding"][1]
     assert "No motion has a mean velocity (slides away)." in sliding["operating"]
     assert "Parts climb on none of these tracks." in sliding["track"]
