@@ -20,7 +20,7 @@ from figures.style import STATE_COLOURS
 from identification import findings
 from operating import drive_page
 from operating.chart import spreads_of, summarize_shares
-from operating.regimes import CHAOS, SEVERAL, SLIDES_AWAY
+from operating.regimes import CHAOS, NOT_ALL_SETTLED, SEVERAL, SLIDES_AWAY
 from operating.transit import ENDS
 from pipeline.templates import format_number, render
 
@@ -244,13 +244,15 @@ def throw(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> dict[str, Any]
 
 def track(*, track: pd.DataFrame) -> dict[str, Any]:
     steepest = track[(track.mean_velocity > 0.0) & (track.inclination > 0.0)].groupby("state").inclination.max()
-    reached = track[track.status != SLIDES_AWAY]
-    is_reached = (reached.status == "ok").groupby(reached.state)
+    is_open = track.status == NOT_ALL_SETTLED
+    known = track[~is_open & (track.status != SLIDES_AWAY)]
+    is_reached = (known.status == "ok").groupby(known.state)
     return {
         "steepest": np.degrees(steepest).to_dict(),
         "steep": (track.status == SLIDES_AWAY).any(),
         "missing": [state for state, all_reach in is_reached.all().items() if not all_reach],
         "absent": [state for state, any_reach in is_reached.any().items() if not any_reach],
+        "unsettled": track[is_open].inclination.nunique() / track.inclination.nunique(),
         "empty": track.mean_velocity.isna().all(),
     }
 

@@ -16,6 +16,8 @@ ONE, SEVERAL, BESIDE, CHAOS, UNKNOWN = REGIMES = (
 SLIDES_AWAY = "slides away"
 # The status of a motion whose state, or whose mean velocity, is not known after the cycles that the config allows.
 UNDECIDED, UNSETTLED = "state not decided", "mean velocity not settled"
+# The status of a state that was not found although it may exist, see `track`.
+NOT_ALL_SETTLED = "not all initial conditions settled"
 
 # Columns of the table `regimes`.
 COLUMNS = (

@@ -12,28 +12,29 @@ import numpy as np
 from conveyor import ensemble
 from conveyor.solver.model import PHASE_SHIFT
 from operating.parts import parameters_of, starts_of_box
-from operating.regimes import SLIDES_AWAY
+from operating.regimes import NOT_ALL_SETTLED, SLIDES_AWAY
 from operating.shares import FORGOTTEN, brief_durations, continue_normal
 from pipeline import fields, grid
 from pipeline.motions import motions_of_starts
 
 STATES = ("first", "second")
+NOT_REACHED = "no initial condition leads to the state"
 TABLES = {
     "track": (
         fields.number("inclination", "rad", "inclination of the track"),
         fields.number("phase_shift", "rad", "phase by which the motion along the track leads"),
         *fields.STATE,
         fields.number("mean_velocity", "m/s", "mean feeding velocity; null where there is none"),
-        fields.text("status", f"ok, no initial condition leads to the state, or {SLIDES_AWAY}"),
+        fields.text("status", f"ok, {NOT_REACHED}, {NOT_ALL_SETTLED}, or {SLIDES_AWAY}"),
     )
 }
 
 
 def settled_motions(
     inclinations: np.ndarray, settings: dict, threads: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Number of the inclination, number of the state and period of each settled motion, shape (k,), and its packed
-    parameters, shape (k, 16).
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Number of the inclination, number of the state and period of each settled motion, shape (k,), its packed
+    parameters, shape (k, 16), and whether a search ended before it had settled, for each inclination.
     """
     starts, amplitude = starts_of_box(settings), np.array([settings["acceleration"]])
     models = [{**settings["model"], "inclination": value} for value in inclinations]
@@ -51,13 +52,14 @@ def settled_motions(
                 motions.append((number, place, period, members[found.cycles[members].argmin()]))
     number, state, period, first = np.array(motions, dtype=np.int64).reshape(len(motions), 4).T
     settled = continue_normal(rows[first], found.cycles[first] + FORGOTTEN, settings, threads=threads)
-    return number, state, period, settled
+    is_open = ((found.period == 0) & (found.state != "chaos")).reshape(len(inclinations), len(starts)).any(axis=1)
+    return number, state, period, settled, is_open
 
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table: a row for each state at each inclination and phase shift."""
     inclinations, shifts = (grid.axis_values(name, settings[name]) for name in ("inclination", "phase_shift"))
-    number, state, of_motion, settled = settled_motions(inclinations, settings, threads)
+    number, state, of_motion, settled, is_open = settled_motions(inclinations, settings, threads)
     rows = np.repeat(settled, len(shifts), axis=0)
     rows[:, PHASE_SHIFT] = np.tile(shifts, len(settled))
     durations = brief_durations(rows, np.repeat(of_motion, len(shifts)), settings["cycles"])
@@ -68,7 +70,8 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     velocity[number, state] = run["mean_velocity"].reshape(len(settled), len(shifts))
     period[number, state] = of_motion[:, None]
     model = settings["model"]
-    status = np.where(period > 0, "ok", "no initial condition leads to the state").astype(object)
+    missing = np.where(is_open, NOT_ALL_SETTLED, NOT_REACHED)[:, None, None]
+    status = np.where(period > 0, "ok", missing).astype(object)
     steep = np.abs(np.tan(inclinations)) > model.get("static_friction", model["friction"])
     velocity[steep], status[steep] = np.nan, SLIDES_AWAY
     alpha, state, shift = np.indices(shape)

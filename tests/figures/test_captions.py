@@ -308,3 +308,13 @@ def test_an_empty_map_of_tracks_is_explained():
     assert "On the remaining tracks" in caption("track", track=table.assign(status=[none, "slides away"]))
     text = caption("track", track=table.assign(status="slides away"))
     assert "initial conditions" not in text and "grey" not in text
+
+
+def test_a_search_that_ended_early_does_not_rule_out_that_parts_climb():
+    table = pd.DataFrame({"inclination": [0.1, 0.2, 0.3, 0.4], "state": "first", "mean_velocity": -0.1})
+    table.attrs |= {"acceleration": 40.0, "starts": 16}
+    assert "Parts climb on none of these tracks." in caption("track", track=table.assign(status="ok"))
+    text = caption("track", track=table.assign(status=["ok", "ok", "ok", "not all initial conditions settled"]))
+    assert "At 25 % of the inclinations, the search ended before all initial conditions had settled." in text
+    assert "solver.mean_settling" in text
+    assert "No state that was found climbs." in text and "Parts climb on none" not in text

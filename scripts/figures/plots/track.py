@@ -5,7 +5,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from figures import style
-from operating.regimes import SLIDES_AWAY
+from operating.regimes import NOT_ALL_SETTLED, SLIDES_AWAY
 
 PHASES = {"−π": -np.pi, "−π/2": -0.5 * np.pi, "0": 0.0, "π/2": 0.5 * np.pi, "π": np.pi}
 
@@ -40,6 +40,7 @@ def plot(*, track: pd.DataFrame) -> Figure:
         figure.colorbar(image, ax=list(panels), label=style.VELOCITY)
     else:
         panels[0].set_ylim(*np.degrees([track.inclination.min(), track.inclination.max()]))
+        known = "known " if (track.status == NOT_ALL_SETTLED).any() else ""
         slides = (track.status == SLIDES_AWAY).all()
-        style.say(panels[0], "parts slide away on all tracks" if slides else "no periodic motion on any track")
+        style.say(panels[0], "parts slide away on all tracks" if slides else f"no periodic motion {known}on any track")
     return figure
