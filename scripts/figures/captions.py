@@ -60,10 +60,10 @@ def state_map(*, map: pd.DataFrame) -> dict[str, Any]:
     return {"only": name_state(states[0]) if is_one else None, "undecided": (map.state == "undecided").mean()}
 
 
-def fig09(*, converged: pd.DataFrame) -> dict[str, bool]:
+def fig09(*, converged: pd.DataFrame) -> dict[str, Any]:
     decided = converged[converged.state != "undecided"]
     changes = decided.groupby("acceleration").state.agg(lambda state: state.nunique() > 1 and "first" in set(state))
-    return {"changes": bool(changes.any())}
+    return {"changes": bool(changes.any()), "undecided": 1.0 - len(decided) / len(converged)}
 
 
 def fig10(
@@ -75,6 +75,9 @@ def fig10(
         "returns": (~converged.is_critical & (converged.state_above == "first")).any(),
         "highest": ends_of(converged.attrs["scan"])[1],
         "many": (converged.status != "ok").any(),
+        "undecided": converged[
+            (converged[["state_below", "state_above"]] == "undecided").any(axis=1)
+        ].acceleration.nunique(),
         "aside": None,
     }
     if euler is None:

@@ -17,7 +17,7 @@ TABLES = {
         fields.count("crossing", "number of the change at this conveyor, from below, beginning with 1"),
         fields.text("state_below", "state of motion just below this height"),
         fields.text("state_above", "state of motion just above this height"),
-        fields.flag("is_critical", "whether this is the lowest change out of the first state"),
+        fields.flag("is_critical", "whether this is the lowest change out of the first state, into a known state"),
         fields.text("status", f"ok, or {NOT_LOCATED}: bisection locates only some of many changes at one conveyor"),
     ),
 }
@@ -62,6 +62,6 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
         "crossing": np.arange(len(found.point)) - first_row + 1,
         "state_below": found.below,
         "state_above": found.above,
-        "is_critical": boundary_scan.select_critical(found.point, found.below),
+        "is_critical": boundary_scan.select_critical(found.point, found.below) & (found.above != "undecided"),
         "status": np.where(found.located, "ok", NOT_LOCATED),
     }

@@ -193,7 +193,8 @@ def test_a_map_states_its_undecided_share_and_the_key_that_reduces_it():
 
 
 def test_fig_10_without_a_common_amplitude_or_without_a_critical_height():
-    columns = {"acceleration": [40.0], "z0": [1e-4], "is_critical": [True], "state_above": "second", "status": "ok"}
+    columns = {"acceleration": [40.0], "z0": [1e-4], "is_critical": [True], "status": "ok"}
+    columns |= {"state_below": "first", "state_above": "second"}
     converged, euler = (pd.DataFrame(columns | {"acceleration": [a]}) for a in (30.0, 40.0))
     converged.attrs = {"scan": {"start": 0.0, "stop": 5e-4, "num": 9}, "resolution": 1.0e-9}
     template = (ROOT / "workflow/report/fig10.rst").read_text(encoding="utf-8")
@@ -205,13 +206,18 @@ def test_fig_10_without_a_common_amplitude_or_without_a_critical_height():
         assert ("Triangles" in captions.caption(template, "fig10", tables | {"converged": table}, {})) == returns
     many = back.assign(status="between two heights of the scan")
     assert "known to one step of the scan" in captions.caption(template, "fig10", tables | {"converged": many}, {})
+    open_ = back.assign(state_above="undecided", acceleration=[30.0, 40.0])
+    text = captions.caption(template, "fig10", tables | {"converged": open_}, {})
+    assert "At 2 amplitudes, the search ended before the state of motion was known for all heights." in " ".join(
+        text.split()
+    )
     tables = {"converged": converged[:0], "fit": converged[:0]}
     text = captions.caption(template, "fig10", tables, {}, paper=False)
-    assert "Up to 0.5 mm, no initial height changes the state of motion at any of these amplitudes." in text
+    assert "Up to 0.5 mm, no initial height was found to change the state of motion at any of these amplitudes." in text
     tables["converged"] = converged.assign(is_critical=False)
     tables["converged"].attrs = converged.attrs
     text = captions.caption(template, "fig10", tables, {}, paper=False)
-    assert "Up to 0.5 mm, no initial height ends the first state at any of these amplitudes." in text
+    assert "Up to 0.5 mm, no initial height was found to end the first state at any of these amplitudes." in text
 
 
 def test_a_track_that_is_too_steep_is_named():
@@ -260,7 +266,8 @@ def test_the_operating_chart_says_how_many_amplitudes_a_limit_leaves_open():
 def test_states_change_at_a_critical_height_if_the_first_state_ends():
     table = pd.DataFrame({"acceleration": 40.0, "state": ["chaos", "undecided", "second", "chaos"]})
     assert "no critical height" in caption("fig09", converged=table)
-    assert "no critical height" in caption("fig09", converged=table.assign(state=["first", "undecided"] * 2))
+    text = caption("fig09", converged=table.assign(state=["first", "undecided"] * 2))
+    assert "no critical height is known: the search ended before 50 % of the initial conditions had settled" in text
     assert "jumps at the critical height" in caption("fig09", converged=table.assign(state=["first", "chaos"] * 2))
 
 

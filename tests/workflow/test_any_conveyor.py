@@ -118,7 +118,7 @@ def test_the_default_target_is_built(builds, name):
 def test_captions_say_what_a_conveyor_does_not_have(builds):
     _, runs = builds
     riding = runs["riding"][1]
-    assert "no initial height changes the state of motion at any of these amplitudes" in riding["fig10"]
+    assert "no initial height was found to change the state of motion at any of these amplitudes" in riding["fig10"]
     assert "no critical height" in riding["fig09"]
     assert riding["fig12"].endswith("All initial conditions lead to the first state.")
     assert "None of these orbits folds or doubles its period." in riding["bifurcation"]

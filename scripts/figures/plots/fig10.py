@@ -52,8 +52,8 @@ def plot(
     if nothing:
         axes.set_xlim(*ends_of(converged.attrs["axes"]["acceleration"]))
         axes.set_ylim(top=1e3 * ends_of(converged.attrs["scan"])[1])
-        change = "changes the state of motion" if converged.empty else "ends the first state"
-        style.say(axes, f"no initial height {change}")
+        change = "change the state of motion" if converged.empty else "end the first state"
+        style.say(axes, f"no initial height was found to {change}")
     elif fit.empty:
         count = edge.acceleration.nunique()
         axes.plot([], [], " ", label=f"no fit of Eq. 13 to {count} amplitude{'s' if count != 1 else ''}")
