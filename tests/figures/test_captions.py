@@ -93,7 +93,7 @@ def test_chaos_before_the_accumulation_is_mentioned():
     assert "None of these orbits folds or doubles its period." in text
     none = others | {"branches": orbits[:0], "bifurcations": pd.DataFrame({"kind": []})}
     empty = caption("bifurcation", {"longest_period": 2}, cascade=cascade[:1], **none)
-    assert "No initial condition leads to a stable orbit of up to 4 cycles" in empty
+    assert "No initial condition was found to lead to a stable orbit of up to 4 cycles" in empty
 
 
 def test_costs_cover_all_jobs_behind_a_figure():

@@ -561,8 +561,9 @@ def test_a_table_without_known_amplitudes_gives_no_advice(refined):
     advice_rows.attrs = {"margin": 0.01}
     page = page_of(alone, [rows, advice_rows, changes.iloc[:0]])
     assert "No part could be followed at any amplitude, so there is no advice." in page
-    assert "At no amplitude do all initial conditions reach one velocity" in page
-    assert "No initial condition ends in chaos" in page
+    assert "At no amplitude are all initial conditions known to reach one velocity" in page
+    assert "No initial condition is known to end in chaos." in page
+    assert "Several regular motions of different velocities are not known to exist side by side at any amplitude." in page
     assert "At 20.0 m/s², the state or the velocity of a motion is not known." in page
     assert "| 20.0 | 0.426 | unknown | undecided | not known | not known | not known |" in page
 
