@@ -563,7 +563,9 @@ def test_a_table_without_known_amplitudes_gives_no_advice(refined):
     assert "No part could be followed at any amplitude, so there is no advice." in page
     assert "At no amplitude are all initial conditions known to reach one velocity" in page
     assert "No initial condition is known to end in chaos." in page
-    assert "Several regular motions of different velocities are not known to exist side by side at any amplitude." in page
+    assert (
+        "Several regular motions of different velocities are not known to exist side by side at any amplitude." in page
+    )
     assert "At 20.0 m/s², the state or the velocity of a motion is not known." in page
     assert "| 20.0 | 0.426 | unknown | undecided | not known | not known | not known |" in page
 
