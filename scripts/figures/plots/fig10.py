@@ -53,7 +53,7 @@ def plot(
         axes.set_xlim(*ends_of(converged.attrs["axes"]["acceleration"]))
         axes.set_ylim(top=1e3 * ends_of(converged.attrs["scan"])[1])
         change = "change the state of motion" if converged.empty else "end the first state"
-        style.say(axes, f"no initial height was found to {change}")
+        style.say(axes, f"no initial height was found\nto {change}")
     elif fit.empty:
         count = edge.acceleration.nunique()
         axes.plot([], [], " ", label=f"no fit of Eq. 13 to {count} amplitude{'s' if count != 1 else ''}")
