@@ -8,14 +8,13 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import ndtr
 
 from calibration.measurements import Measurement
 from calibration.predicted import Conditions, conditions_of, log_densities, velocities, widths
-from calibration.sampler import sample
 from calibration.search_space import LOGARITHMIC, bounds_of, values_at
 from conveyor.parameters import UNITS
-from pipeline.importance_sampling import Sample
+from pipeline.credible_intervals import interval, open_ends
+from pipeline.importance_sampling import Sample, sample
 
 DETERMINED, OPEN, NOT_DETERMINED = "determined", "open to one side", "not determined"
 TOO_FEW = "too few effective samples"
@@ -23,7 +22,6 @@ TOO_FEW = "too few effective samples"
 HOPELESS = 30.0
 # The search first takes measurements for less accurate than they are, so that it finds its way from far away.
 INFLATIONS = (1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0)
-OPEN_DENSITY = 0.2  # of the largest density of a parameter: an end of the range with more is open
 WIDE = 0.8  # of the searched range: a wider interval determines nothing
 
 
@@ -97,34 +95,6 @@ def mode(found: Sample) -> int:
     return int(heavy[(np.exp(-0.5 * apart / width**2) @ weights).argmax()])
 
 
-def smoothed_interval(values: np.ndarray, found: Sample, confidence: float) -> tuple[float, float]:
-    """The central interval of a parameter, shape (n,), after smoothing by Silverman's rule.
-
-    Smoothing makes intervals a little wider, and less dependent on the few samples at their ends.
-    """
-    width = smoothing(values, found)
-    grid = np.linspace(values.min() - 4.0 * width, values.max() + 4.0 * width, 2000)
-    below = ndtr((grid[:, None] - values) / width) @ found.weights
-    low, high = np.interp([0.5 - 0.5 * confidence, 0.5 + 0.5 * confidence], below, grid)
-    return float(low), float(high)
-
-
-def smoothing(values: np.ndarray, found: Sample) -> float:
-    """Silverman's width for a weighted sample."""
-    mean = found.weights @ values
-    deviation = math.sqrt(found.weights @ (values - mean) ** 2)
-    return max(1.06 * deviation * found.size**-0.2, 1e-9 * max(abs(mean), 1.0))
-
-
-def open_ends(values: np.ndarray, found: Sample, bounds: tuple[float, float]) -> tuple[bool, bool]:
-    """Whether the density of a searched coordinate, shape (n,), is not small at the lower and at the upper bound."""
-    width = smoothing(values, found)
-    grid = np.linspace(*bounds, 200)
-    density = np.exp(-0.5 * ((grid[:, None] - values) / width) ** 2) @ found.weights
-    # At a bound, half of the smoothed density lies beyond it.
-    return tuple(bool(2.0 * density[end] > OPEN_DENSITY * density.max()) for end in (0, -1))
-
-
 def summarize_parameters(found: Sample, settings: dict) -> list[dict]:
     """The rows of the table of parameters."""
     bounds, best = bounds_of(settings), mode(found)
@@ -136,8 +106,8 @@ def summarize_parameters(found: Sample, settings: dict) -> list[dict]:
         ends[:, column] = bounds[:, column]
         range_low, range_high = values_at(ends, settings)[name]
         own = np.log(values[name]) if is_log else values[name]
-        low, high = smoothed_interval(own, found, settings["confidence"])
-        open_low, open_high = open_ends(found.points[:, column], found, bounds[:, column])
+        low, high = interval(own, found.weights, settings["confidence"])
+        open_low, open_high = open_ends(found.points[:, column], found.weights, bounds[:, column])
         searched_low, searched_high = np.log([range_low, range_high]) if is_log else (range_low, range_high)
         is_wide = high - low > WIDE * (searched_high - searched_low)
         status = (

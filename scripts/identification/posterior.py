@@ -8,7 +8,9 @@ the best parameters miss the changes of state by more than these errors allow, a
 probable.
 """
 
+import math
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -21,7 +23,8 @@ from identification.edges import VERTICAL
 from identification.findings import VELOCITIES, misfit
 from identification.numbers import CONVERGED, EULER, PARAMETERS, SEARCHED, searched, values_of
 from pipeline import fields
-from pipeline.importance_sampling import interval, sample
+from pipeline.credible_intervals import interval, open_ends
+from pipeline.importance_sampling import EXACT, effective_number, sample
 
 EVIDENCE = fields.text("evidence", "set of the paper's numbers: see identification.evidence of the config")
 VALUES = tuple(fields.number(name, unit, "parameter") for name, unit in PARAMETERS.items())
@@ -71,11 +74,6 @@ FRICTIONS = 65  # values of friction in the table `frictions`
 Quantities = Callable[[np.ndarray, str, bool], dict[str, np.ndarray]]
 
 
-def effective_number(weights: pd.Series) -> float:
-    """Effective number of points with these weights."""
-    return float(weights.sum() ** 2 / np.sum(weights**2))
-
-
 def number_rows(name: str, found: dict[str, np.ndarray], numbers: dict[str, dict]) -> pd.DataFrame:
     """Rows of the table of numbers, from quantities of shape (1,)."""
     values = {number: float(found[number][0]) for number in numbers}
@@ -102,16 +100,12 @@ def infer(evidence: dict, shifts: dict[str, float], quantities: Quantities, sett
         return sum(misfit(value, numbers[name]) ** 2 for name, value in moved.items())
 
     def of_states(y: np.ndarray, tension: str) -> np.ndarray:
-        return total(quantities(np.column_stack([np.full(len(y), bounds[0, 0]), y]), tension, False))
+        totals = total(quantities(np.column_stack([np.full(len(y), bounds[0, 0]), y]), tension, False))
+        return -0.5 * totals[None, :, None]
 
-    found = {
-        tension: sample(
-            lambda y, tension=tension: -0.5 * of_states(y, tension),
-            bounds[:, 1:],
-            **{name: options[name] for name in ("points", "rounds", "seed")},
-        )
-        for tension in VERTICAL
-    }
+    search = {"first": options["points"], "enough": math.inf, "widths": EXACT}
+    search |= {name: options[name] for name in ("points", "rounds", "seed")}
+    found = {tension: sample(partial(of_states, tension=tension), bounds[:, 1:], **search) for tension in VERTICAL}
     least = min(-2.0 * one.log_density.max() for one in found.values())
     scale = max(least / (len(numbers) - len(SEARCHED)), 1.0)
     random = np.random.default_rng(options["seed"])
@@ -144,7 +138,7 @@ def infer(evidence: dict, shifts: dict[str, float], quantities: Quantities, sett
         scale=scale,
         region=scale * chi2.ppf(options["confidence"], len(SEARCHED)),
         share=by_tension.sum().to_numpy(),
-        size=by_tension.agg(effective_number).to_numpy(),
+        size=by_tension.agg(lambda weights: effective_number(weights / weights.sum())).to_numpy(),
     )
 
 
@@ -156,15 +150,14 @@ def bounds_of(settings: dict) -> np.ndarray:
 def interval_rows(samples: pd.DataFrame, best: pd.Series, settings: dict) -> pd.DataFrame:
     """The credible interval of each parameter, found on a logarithmic scale; null if there are too few points."""
     ends = values_of(bounds_of(settings), settings["model"])
-    enough = effective_number(samples.weight) >= ENOUGH
-    rows = []
+    weights, rows = samples.weight.to_numpy() / samples.weight.sum(), []
     for name in PARAMETERS:
-        logs, bounds = np.log(samples[name].to_numpy()), tuple(np.log(ends[name]))
-        found = interval(logs, samples.weight.to_numpy(), bounds, settings["search"]["confidence"])
-        covered = (found.high - found.low) / (bounds[1] - bounds[0])
-        row = found._asdict() | {"low": np.exp(found.low), "high": np.exp(found.high), "covered": covered}
-        row |= {} if enough else dict.fromkeys(("low", "high", "covered"), np.nan)
-        rows.append({"parameter": name, "best": best[name]} | row)
+        logs, bounds = np.log(samples[name].to_numpy()), np.log(ends[name])
+        low, high = np.clip(interval(logs, weights, settings["search"]["confidence"]), *bounds)
+        open_low, open_high = open_ends(logs, weights, bounds)
+        row = {"low": np.exp(low), "high": np.exp(high), "covered": (high - low) / np.ptp(bounds)}
+        row |= {} if effective_number(weights) >= ENOUGH else dict.fromkeys(row, np.nan)
+        rows.append({"parameter": name, "best": best[name], **row, "open_low": open_low, "open_high": open_high})
     return pd.DataFrame(rows)
 
 

@@ -1,4 +1,4 @@
-"""The search on factors with a known posterior, and small calibrations of synthetic measurements."""
+"""Small calibrations of synthetic measurements."""
 
 import math
 
@@ -11,46 +11,9 @@ from calibration.calibrate import calibrate
 from calibration.inference import data_of
 from calibration.measurements import parse
 from calibration.model_check import compare_alternatives
-from calibration.sampler import sample
 from calibration.synthetic import csv_text, measure
 from conveyor.parameters import RANGES
 from conveyor.solver.model import ACCELERATION
-
-BOUNDS = np.array([[-5.0, -5.0], [5.0, 5.0]])
-OPTIONS = {"first": 200, "points": 100, "rounds": 12, "enough": 150, "seed": 1}
-FACTORS = 20
-# Each factor limits a combination of both parameters; the sum of their precisions is the inverse of this covariance.
-DIRECTIONS = np.random.default_rng(5).normal(size=(FACTORS, 2)) * 3.0
-COVARIANCE = np.linalg.inv(DIRECTIONS.T @ DIRECTIONS)
-MEAN = np.array([1.0, -2.0])
-
-
-def factors(points, noise=None):
-    """Logarithms of normal factors for three inflations of their standard deviation, shape (3, n, 20)."""
-    squares = ((points - MEAN) @ DIRECTIONS.T) ** 2
-    logs = np.array([-0.5 * squares / inflation**2 for inflation in (1.0, 3.0, 10.0)])
-    return logs if noise is None else logs + noise.normal(-0.5 * 0.6**2, 0.6, squares.shape)
-
-
-@pytest.mark.parametrize("noisy", [False, True])
-def test_the_sample_has_the_moments_of_the_posterior_also_if_factors_are_noisy(noisy):
-    noise = np.random.default_rng(3) if noisy else None
-    found = sample(lambda points: factors(points, noise), BOUNDS, **OPTIONS)
-    assert found.size >= 150
-    assert found.weights @ found.points == pytest.approx(MEAN, abs=0.1)
-    centred = found.points - found.weights @ found.points
-    covariance = (found.weights[:, None] * centred).T @ centred
-    assert np.diag(covariance) == pytest.approx(np.diag(COVARIANCE), rel=0.5)
-    area = np.prod(BOUNDS[1] - BOUNDS[0])
-    assert found.log_evidence == pytest.approx(
-        math.log(2.0 * math.pi / area) + 0.5 * math.log(np.linalg.det(COVARIANCE)), abs=0.7 if noisy else 0.3
-    )
-
-
-def test_the_search_ends_without_enough_samples_after_the_last_round():
-    options = OPTIONS | {"rounds": 1, "enough": 1e6}
-    assert sample(factors, BOUNDS, **options).size < 1e6
-
 
 MODEL = {"frequency": 40.0, "angle": 0.3, "mass": 1e-3, "gravity": 9.81, "exponent": 1.5, "inclination": 0.0}
 MODEL |= {"phase_shift": 0.0}
