@@ -149,15 +149,16 @@ def bounds_of(settings: dict) -> np.ndarray:
 
 def interval_rows(samples: pd.DataFrame, best: pd.Series, settings: dict) -> pd.DataFrame:
     """The credible interval of each parameter, found on a logarithmic scale; null if there are too few points."""
-    ends = values_of(bounds_of(settings), settings["model"])
+    searched_ends = values_of(bounds_of(settings), settings["model"])
     weights, rows = samples.weight.to_numpy() / samples.weight.sum(), []
     for name in PARAMETERS:
-        logs, bounds = np.log(samples[name].to_numpy()), np.log(ends[name])
+        logs, bounds = np.log(samples[name].to_numpy()), np.log(searched_ends[name])
         low, high = np.clip(interval(logs, weights, settings["search"]["confidence"]), *bounds)
         open_low, open_high = open_ends(logs, weights, bounds)
-        row = {"low": np.exp(low), "high": np.exp(high), "covered": (high - low) / np.ptp(bounds)}
-        row |= {} if effective_number(weights) >= ENOUGH else dict.fromkeys(row, np.nan)
-        rows.append({"parameter": name, "best": best[name], **row, "open_low": open_low, "open_high": open_high})
+        ends = {"low": np.exp(low), "high": np.exp(high)}
+        row = {**ends, "open_low": open_low, "open_high": open_high, "covered": (high - low) / np.ptp(bounds)}
+        row |= {} if effective_number(weights) >= ENOUGH else dict.fromkeys((*ends, "covered"), np.nan)
+        rows.append({"parameter": name, "best": best[name], **row})
     return pd.DataFrame(rows)
 
 

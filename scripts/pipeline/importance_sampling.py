@@ -168,7 +168,9 @@ def sample(
             # A proposal counts as one in `mixture`, and stands for as many points as a round has.
             return settled._replace(log_evidence=settled.log_evidence - math.log(points))
         known = flattened(values, mixture, LEAST * dimensions)
-        centres = random.permutation(np.flatnonzero(known > LIGHT * known.max()))[:CENTRES]
+        centres = np.flatnonzero(known > LIGHT * known.max())
+        if len(centres) > CENTRES:
+            centres = random.permutation(centres)[:CENTRES]
         proposals.append(gaussian_kde(x[centres].T, weights=known[centres]))
         new = proposals[-1].resample(points, seed=random).T
         new = new[((new >= low) & (new <= high)).all(axis=1)]
