@@ -15,7 +15,7 @@ CLOSE = 1e-6
 SAME = 1e-4
 # Cycles in a row within chaotic sets after which a trajectory is taken to stay there. On the paper's maps no trajectory
 # that becomes periodic stays for two.
-STAY = 64
+STAY = 48
 
 # Outcomes of a search; GOES_ON is none of them.
 PERIODIC, IN_CHAOTIC_SET, NOT_CONVERGED, FAILED, GOES_ON = range(5)
