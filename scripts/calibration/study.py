@@ -2,6 +2,9 @@
 
 Conveyors are random. `rich` sets have several parts at each of many amplitudes, `poor` ones a few velocities. In the
 other sets, the conveyor differs in one point from the model of the calibration.
+
+Where intervals are wide, the calibration may be poor, or the measurements may leave the parameters open. The likelihood
+from so many parts that it needs no smoothing tells one from the other.
 """
 
 import json
@@ -12,13 +15,19 @@ import pandas as pd
 
 from calibration import prediction
 from calibration.calibrate import calibrate
+from calibration.inference import Data, data_of
 from calibration.measurements import parse
+from calibration.predicted import log_densities, velocities
 from calibration.synthetic import csv_text, measure, true_velocity
 from conveyor.analysis.contact_groups import contact_of_groups
 from conveyor.parameters import RANGES
 from pipeline import grid
 
 PARAMETERS = ("friction", "damping", "stiffness")
+RIGHT = ("rich", "poor")  # kinds of data sets whose model is right
+NARROW = 0.2  # half of an interval, relative to the best value
+# Samples of the posterior that are compared with the true parameters, and parts for their likelihoods.
+COMPARED, MANY = 16, 2048
 
 
 def log_uniform(low: float, high: float, random: np.random.Generator) -> float:
@@ -58,6 +67,23 @@ def measured_conveyor(kind: str, stated: dict, settings: dict) -> tuple[dict, fl
     return (stated | {kind: wrong[kind]} if kind in wrong else stated), 1.0
 
 
+def gain_of_distant(samples: pd.DataFrame, best: dict, true: dict, data: Data, settings: dict, threads: int) -> float:
+    """The largest logarithmic likelihood of distant samples of the posterior, minus that of the true parameters.
+
+    Distant are samples whose friction or damping differs from the best value by more than NARROW; NaN if none does.
+    """
+    far = np.any([np.abs(samples[name] / best[name] - 1.0) > NARROW for name in ("friction", "damping")], axis=0)
+    distant = samples[far]
+    if distant.empty:
+        return math.nan
+    chosen = distant.iloc[np.linspace(0, len(distant) - 1, COMPARED).round().astype(int)]
+    values = {name: np.append(true[name], chosen[name]) for name in PARAMETERS}
+    found = velocities(values, data.conditions, settings, parts=MANY, seed=settings["seed"], threads=threads)
+    arguments = (data.velocity, found[:, data.of], data.sd, data.plate, settings)
+    of_true, *others = log_densities(*arguments, spread=np.zeros(())).sum(axis=1)
+    return float(max(others) - of_true)
+
+
 def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: str | None = None) -> str:
     """The row of one data set, as JSON."""
     random = np.random.default_rng([settings["seed"], number])
@@ -76,7 +102,8 @@ def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: 
     text = csv_text(pairs, "synthetic", duration=lasts, before=lasts)
     model = {name: value for name, value in stated.items() if name not in PARAMETERS}
     own = settings["calibration"] | settings["band"] | box | {"model": model, "static_ratio": 1.0}
-    found = calibrate(parse(text, "synthetic", own, RANGES), own, threads=threads, progress=progress)
+    measured = parse(text, "synthetic", own, RANGES)
+    found = calibrate(measured, own, threads=threads, progress=progress)
     samples, fit = (pd.DataFrame(found[name]) for name in ("samples", "fit"))
     band = prediction.make(samples, fit, own, threads=threads, progress=progress)["prediction"]
     held = random.uniform(amplitudes[0], amplitudes[-1], settings["held_out"])
@@ -92,4 +119,7 @@ def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: 
     row["log_bayes_factor"], row["alternative"] = max(gains, default=(-math.inf, ""))
     row |= {"in_band": float(np.mean((low <= velocity) & (velocity <= high)))}
     row |= {"p_value": float(fit.p_value.iloc[0]), "effective": found["parameters"]["effective"][0]}
+    if kind in RIGHT:
+        best = {name: row[f"{name}_best"] for name in PARAMETERS}
+        row["gain_of_distant"] = gain_of_distant(samples, best, real, data_of(measured, model), own, threads)
     return json.dumps(row)

@@ -30,6 +30,12 @@ TABLES = {
         fields.number("log_bayes_factor", "1", "logarithm of its Bayes factor"),
         fields.flag("explained", "whether the model is said to explain the data"),
         fields.number("effective", "1", "effective number of samples"),
+        fields.number(
+            "gain_of_distant",
+            "1",
+            "largest logarithm of the likelihood, from many parts, of samples whose friction or damping differs from "
+            "the best by more than 20 %, minus that of the true parameters; null for none, and for wrong models",
+        ),
     )
 }
 
@@ -39,5 +45,6 @@ def make(rows: list[str], settings: dict) -> dict[str, list]:
     found = [json.loads(row) for row in rows]
     least, decisive = (settings["calibration"][name] for name in ("significance", "decisive"))
     for row in found:
+        row.setdefault("gain_of_distant", None)
         row["explained"] = row["p_value"] >= least and row["log_bayes_factor"] <= math.log(decisive)
     return fields.columns(found, TABLES["calibration_study"])

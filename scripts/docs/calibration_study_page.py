@@ -2,12 +2,14 @@
 
 import numpy as np
 import pandas as pd
+from scipy.stats import chi2
 
+from calibration.study import MANY, NARROW, PARAMETERS, RIGHT
 from pipeline.templates import render
 
-PARAMETERS = ("friction", "damping", "stiffness")
-RIGHT = ("rich", "poor")
-NARROW = 0.2  # half of an interval, relative to the best value
+# Parameters whose logarithmic likelihood is smaller than that of the true ones by no more than this are in the
+# confidence region (likelihood ratio).
+ALLOWED = 0.5 * chi2.ppf(0.95, len(PARAMETERS))
 
 
 def summarize(kind: str, sets: pd.DataFrame) -> dict:
@@ -18,7 +20,9 @@ def summarize(kind: str, sets: pd.DataFrame) -> dict:
         name: 0.5 * (reliable[f"{name}_high"] - reliable[f"{name}_low"]) / reliable[f"{name}_best"]
         for name in PARAMETERS
     }
-    row["narrow"] = int(((widths["friction"] <= NARROW) & (widths["damping"] <= NARROW)).sum())
+    narrow = (widths["friction"] <= NARROW) & (widths["damping"] <= NARROW)
+    row["narrow"], row["wide"] = int(narrow.sum()), int((~narrow).sum())
+    row["left_open"] = int((reliable.gain_of_distant[~narrow] >= -ALLOWED).sum())
     for name in PARAMETERS:
         true, best, low, high = (reliable[f"{name}{ending}"] for ending in ("", "_best", "_low", "_high"))
         row[name] = {
@@ -46,6 +50,7 @@ def make(template: str, calibration_study: pd.DataFrame) -> str:
             "differences": settings["wrong"],
             "count": len(calibration_study),
             "narrow": NARROW,
+            "many": MANY,
             "right": [summarize(kind, by_kind[kind]) for kind in RIGHT if kind in by_kind],
             "wrong": [summarize(kind, sets) for kind, sets in by_kind.items() if kind not in RIGHT],
         },

@@ -1,4 +1,4 @@
-"""Intervals and open ends of known densities. Smoothing carries an interval to the bounds, or beyond, if the end is open."""
+"""Intervals and open ends of known densities. Smoothing carries an interval to a bound, or beyond, if it is open."""
 
 import numpy as np
 import pytest
