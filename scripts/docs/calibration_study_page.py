@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 from scipy.stats import chi2
 
-from calibration.study import MANY, NARROW, PARAMETERS, RIGHT
+from calibration.study import COMPARED, MANY, NARROW, PARAMETERS, RIGHT
 from pipeline.templates import render
 
 # Parameters whose logarithmic likelihood is smaller than that of the true ones by no more than this are in the
@@ -51,6 +51,7 @@ def make(template: str, calibration_study: pd.DataFrame) -> str:
             "count": len(calibration_study),
             "narrow": NARROW,
             "many": MANY,
+            "compared": COMPARED,
             "right": [summarize(kind, by_kind[kind]) for kind in RIGHT if kind in by_kind],
             "wrong": [summarize(kind, sets) for kind, sets in by_kind.items() if kind not in RIGHT],
         },
