@@ -33,10 +33,10 @@ COARSE = {
     "regressions": {"height": {"evaluations": 500, "valley": {"num": 9}}},
     "signals": {"states": {"times": {"num": 401}}, "long_chaos": {"axes": {"z0": [0.0]}}},
     "dimensions": {"portrait": PORTRAIT, "portrait_correlation": PORTRAIT | {"samples": 1000}},
-    "orbits": {"max_period": 1, "cycles": 300},
+    "orbits": {"max_period": 1, "cycles": 300, "most": 400},
     "attractors": FEW | {"transient": 50, "strobes": 8},
     "lyapunov": {"cycles": 10, "blocks": 4},
-    "sensitivity": {"doublings": 1, "heights": 1, "curves": {"doublings": 1, "points": 10}},
+    "sensitivity": {"most": 1, "doublings": 1, "heights": 1, "curves": {"doublings": 1, "points": 10}},
     "operating": FEW | {"resolution": 10.0, "starts": 16, "followed": 2, "cycles": 20},
     "transit": {"acceleration": {"num": 2}, "longest": 2.0, "parts": 8},
     "drift": {"amplitudes": 1, "runs": 4, "cycles": 256, "lengths": [0.5, 1.0]},
@@ -62,8 +62,8 @@ CONVEYORS = {
         **{"friction": 0.2, "inclination": 0.27},
     },
     "elliptical": {
-        **{"frequency": 30.0, "angle": 0.09, "mass": 0.02, "stiffness": 2.0e4, "exponent": 1.0, "damping": 0.4},
-        **{"friction": 0.4, "phase_shift": 0.7},
+        **{"frequency": 16.6667, "angle": 0.09, "mass": 0.22, "stiffness": 6.8e4, "exponent": 1.0, "damping": 2.4},
+        **{"friction": 0.6, "phase_shift": 0.7},
     },
     "light": {
         **{"frequency": 300.0, "angle": 0.14, "mass": 7.0e-5, "stiffness": 3.0e6, "damping": 0.15},
@@ -73,10 +73,6 @@ CONVEYORS = {
     "undamped": {
         **{"frequency": 50.0, "angle": 0.35, "mass": 0.03, "stiffness": 1.0e8, "damping": 0.05},
         **{"friction": 0.25, "static_friction": 0.35},
-    },
-    "heavy": {
-        **{"frequency": 16.6667, "angle": 0.8, "mass": 0.22, "stiffness": 2.0e6, "damping": 60.0},
-        **{"friction": 0.6, "exponent": 1.5},
     },
 }
 

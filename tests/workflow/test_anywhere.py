@@ -45,8 +45,8 @@ def test_results_go_to_the_working_directory(tmp_path):
 
 def test_captions_and_pages_find_their_templates_from_elsewhere(tmp_path):
     arguments = ("--snakefile", str(ROOT / "Snakefile"), "--directory", str(tmp_path), "--dry-run")
-    for target in ("results/captions/fig01.rst", "docs/companion.html", "article", "site", "all", "archive"):
-        snakemake(ROOT.parent, target, *arguments)
+    targets = ("results/captions/fig01.rst", "docs/companion.html", "article", "site", "all", "archive")
+    snakemake(ROOT.parent, *targets, *arguments)
 
 
 @pytest.mark.parametrize("snakefile", ["Snakefile", "workflow/Snakefile"])
@@ -71,7 +71,7 @@ def test_some_rules_of_the_module(tmp_path):
     assert dict(re.findall(r"^(\w+) +(\d)$", stdout, re.MULTILINE)) == {"motion": "2", "plot": "1", "total": "3"}
 
 
-@pytest.mark.parametrize("rule", ["caption_on_request", "article", "drive", "chart_page", "archive", "all"])
+@pytest.mark.parametrize("rule", ["caption_on_request", "article", "drive", "example_page", "archive", "all"])
 def test_each_rule_of_the_module_works_alone(tmp_path, rule):
     """Also if it resembles another rule, or needs files of other rules."""
     (tmp_path / "Snakefile").write_text(MODULE_OF_THE_PAPER + f"use rule {rule} from conveyor")

@@ -10,6 +10,7 @@ from workflow.config.tables import published_scenes
 DOCS, PROJECT = (result("docs/"), result("docs/")) if PREFIX else ("docs/", "")
 # Begin of the names of pages about another conveyor, which the repository keeps as well.
 EXAMPLE = config["prefix"] and f"{config['prefix']}_"
+EXAMPLE_PAGES = {"calibration": "calibration.md", "chart": "operating/chart.md"}
 SCENES = published_scenes(config)
 SCENE_FILES = [f"{DOCS}benchmark/{scene}.json" for scene in SCENES]
 # Inputs that fill the template of each page.
@@ -261,7 +262,7 @@ rule site:
             f"{DOCS}add_your_solver.md",
         ],
         scenes=SCENE_FILES,
-        examples=sources("docs/bowl_*.png") + sources("docs/feeder_*.*"),
+        examples=[file for name in ("bowl", "feeder", "measured") for file in sources(f"docs/{name}_*.*")],
         style=source("scripts/docs/site.css"),
         pdf=figure_files(),
         png=[*figure_files("png"), *DIAGRAMS.values()],
@@ -330,6 +331,7 @@ rule waiting:
 # The pictures of the README, and what the site shows of other conveyors:
 #   snakemake docs/bowl_operating.png --configfile config/examples/bowl.yaml
 #   snakemake docs/feeder_transit.png docs/feeder_chart.md --configfile workflow/templates/site/feeder.yaml
+#   snakemake docs/measured_calibration.png docs/measured_calibration.md --configfile config/examples/measured.yaml
 rule picture:
     input:
         png=figure_file("{figure}", "png"),
@@ -340,7 +342,7 @@ rule picture:
     benchmark:
         benchmark_file("docs/{figure}")
     wildcard_constraints:
-        figure="operating|transit|basin_stability|drive" if EXAMPLE else "overview|speed_accuracy",
+        figure="operating|transit|basin_stability|drive|calibration" if EXAMPLE else "overview|speed_accuracy",
     params:
         **stage("docs.pictures"),
     message:
@@ -349,16 +351,18 @@ rule picture:
         "../../scripts/make.py"
 
 
-rule chart_page:
+rule example_page:
     input:
-        result("operating/chart.md"),
+        lambda wildcards: result(EXAMPLE_PAGES[wildcards.page]),
     output:
-        f"docs/{EXAMPLE}chart.md",
+        f"docs/{EXAMPLE}{{page}}.md",
     log:
-        log_file("docs/chart"),
+        log_file("docs/{page}"),
     localrule: True
+    wildcard_constraints:
+        page=one_of(EXAMPLE_PAGES),
     message:
-        "The operating chart of an example"
+        "The page {wildcards.page} of an example"
     run:
         Path(output[0]).write_bytes(Path(input[0]).read_bytes())
 
