@@ -358,9 +358,9 @@ rule example_page:
         f"docs/{EXAMPLE}{{page}}.md",
     log:
         log_file("docs/{page}"),
-    localrule: True
     wildcard_constraints:
         page=one_of(EXAMPLE_PAGES),
+    localrule: True
     message:
         "The page {wildcards.page} of an example"
     run:
