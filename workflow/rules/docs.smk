@@ -332,6 +332,7 @@ rule waiting:
 #   snakemake docs/bowl_operating.png --configfile config/examples/bowl.yaml
 #   snakemake docs/feeder_transit.png docs/feeder_chart.md --configfile workflow/templates/site/feeder.yaml
 #   snakemake docs/measured_calibration.png docs/measured_calibration.md --configfile config/examples/measured.yaml
+#   snakemake docs/measured_chart.md --configfile config/examples/measured.yaml results/measured/calibrated.yaml
 rule picture:
     input:
         png=figure_file("{figure}", "png"),
