@@ -31,8 +31,17 @@ def closure(*scripts: str) -> tuple[list[Path], list[str]]:
 
 @cache
 def distributions() -> dict[str, list[str]]:
-    """Names of the distributions that provide each importable top-level name."""
+    """Names of the distributions that provide each importable top-level name; finding them takes 0.3 s."""
     return metadata.packages_distributions()
+
+
+@cache
+def providers(package: str) -> list[str]:
+    """Names of the distributions that provide a top-level name: in most cases, one of the same name."""
+    try:
+        return [metadata.distribution(package).name]
+    except metadata.PackageNotFoundError:
+        return distributions().get(package, [])
 
 
 @cache
@@ -56,7 +65,7 @@ def versions(packages: Iterable[str]) -> list[str]:
     for package in packages:
         if package in sys.stdlib_module_names:
             continue
-        names = distributions().get(package, [])
+        names = providers(package)
         for name in [*names, *(behind for one in names for behind in BEHIND.get(one, ()))]:
             found.add(f"{name}=={version(name)}")
         if not names:

@@ -72,6 +72,24 @@ def test_imports_inside_functions_count(scripts):
     assert modules("late") == {"late.py", "library/deep.py", "library/model.py"}
 
 
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "class A:\n    import library.deep",
+        "if True:\n    pass\nelse:\n    import library.deep",
+        "for x in ():\n    with x:\n        import library.deep",
+        "while False:\n    pass\nelse:\n    import library.deep",
+        "try:\n    import library.deep\nfinally:\n    pass",
+        "try:\n    pass\nexcept OSError:\n    import library.deep",
+        "try:\n    pass\nfinally:\n    import library.deep",
+        "match 1:\n    case 1:\n        import library.deep",
+    ],
+)
+def test_imports_inside_any_statement_count(scripts, statement):
+    (scripts / "some.py").write_text(statement)
+    assert modules("some") == {"some.py", "library/deep.py", "library/model.py"}
+
+
 def test_hash_changes_only_with_imported_files(scripts):
     def write(file: str, text: str) -> None:
         (scripts / file).write_text(text)

@@ -99,7 +99,7 @@ rule archive:
         },
         megabytes=config["archive"]["megabytes"],
         version=__version__,
-        code=source_hash("archive"),
+        code=lambda wildcards: source_hash("archive"),
     message:
         "An archive of the figures, their tables and the sources"
     script:

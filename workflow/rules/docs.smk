@@ -275,7 +275,7 @@ rule site:
     resources:
         mem_mb=1500,
     params:
-        code=source_hash("build_site", *LIBRARY),
+        code=lambda wildcards: source_hash("build_site", *LIBRARY),
     message:
         "The site"
     script:

@@ -46,7 +46,7 @@ rule sweeps:
     params:
         settings=lambda wildcards: settings_of(config, f"sweeps/{wildcards.name}"),
         points=lambda wildcards: PLANS[wildcards.name].points,
-        code=source_hash("gather"),
+        code=lambda wildcards: source_hash("gather"),
     message:
         "Sweep {wildcards.name}, all shards"
     script:
