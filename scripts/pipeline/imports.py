@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 
 
-def statements(node: ast.AST) -> Iterator[ast.stmt]:
+def statements(node: ast.AST) -> Iterator[ast.AST]:
     """All statements within a node. Expressions import nothing, and most of the time would go into them."""
     for part in ("body", "handlers", "orelse", "finalbody", "cases"):
         for inner in getattr(node, part, ()):
