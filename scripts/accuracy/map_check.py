@@ -17,9 +17,9 @@ import numpy as np
 import pandas as pd
 from scipy.ndimage import generate_binary_structure, maximum_filter, minimum_filter
 
-from conveyor.analysis.attractors.convergence import MAX_PERIOD
 from conveyor.analysis.attractors.labels import CHAOS, FIRST, LONG_FLIGHT, SECOND, STATES, UNDECIDED
 from conveyor.analysis.chaos import lyapunov
+from conveyor.analysis.stroboscopic_map import MAX_PERIOD
 from conveyor.methods import modes
 from conveyor.simulation import simulate
 from conveyor.solver import trajectory

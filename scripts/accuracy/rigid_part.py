@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor.analysis.attractors import labels
+from conveyor.analysis.stroboscopic_map import MAX_PERIOD
 from conveyor.methods import rigid_part_motion
 from conveyor.methods.restitution import restitution_coefficients
 from conveyor.methods.rigid_part_orbits import RigidOrbit, rigid_orbit
@@ -31,7 +32,6 @@ TABLES = {
 }
 
 SPEEDS = np.geomspace(1e-3, 1.0, 64)  # m/s, speeds of approach of the table of restitution
-MAX_PERIOD = 64  # excitation cycles, longest period of a periodic motion, as for the contact
 LAST_CYCLE = 50  # samples of the last cycle, for the height of a jump
 # Largest distance from an earlier state, in heights of a jump, that counts as a return: of a sweep, and at a doubling.
 CLOSE, CLOSE_AT_DOUBLING = 1e-2, 1e-3

@@ -4,8 +4,8 @@ import numpy as np
 import pandas as pd
 
 from conveyor.analysis import stroboscopic_map
-from conveyor.analysis.attractors.convergence import MAX_PERIOD
 from conveyor.analysis.chaos.zero_one import zero_one
+from conveyor.analysis.stroboscopic_map import MAX_PERIOD
 from conveyor.solver.parallel import for_each_chunk
 from orbits.attractor_states import parameters_on_attractors
 from pipeline import fields

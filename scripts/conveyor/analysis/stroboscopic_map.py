@@ -42,6 +42,8 @@ from ..solver.vertical import (
     next_piece,
 )
 
+# Longest period of a motion that is looked for, in excitation cycles.
+MAX_PERIOD = 64
 # Features of a cycle.
 IMPACTS, CONTACT_TIME, LONGEST_FLIGHT, AIRBORNE = range(4)
 FEATURES = 4

@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...solver.jit import compiled, compiled_inline
+from ..stroboscopic_map import MAX_PERIOD
 
-MAX_PERIOD = 64
 # A state repeats itself if it comes back to this distance, in units of the part at rest, for a whole period.
 CLOSE = 1e-6
 # Just behind a period doubling a trajectory almost repeats itself after half its period. It counts as the half period

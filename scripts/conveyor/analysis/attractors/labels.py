@@ -39,7 +39,7 @@ class Labels(NamedTuple):
     """The labels of n trajectories; every field has the shape (n,)."""
 
     state: np.ndarray  # str, one of STATES
-    period: np.ndarray  # int64, excitation cycles; 0 for none of up to convergence.MAX_PERIOD
+    period: np.ndarray  # int64, excitation cycles; 0 for none of up to stroboscopic_map.MAX_PERIOD
     longest_flight: np.ndarray  # excitation cycles; NaN for chaos and undecided trajectories
     cycles: np.ndarray  # int64, excitation cycles that the trajectory was followed for
     delta: np.ndarray  # m, the last penetration δ at trajectory.BEGIN_OF_CYCLE

@@ -27,6 +27,7 @@ from ...solver.model import FREQUENCY, PSI0
 from ...solver.parallel import for_each_chunk
 from .. import stroboscopic_map
 from ..dimensionless_groups import units
+from ..stroboscopic_map import MAX_PERIOD
 from . import stretching
 
 # Cycles within which a motion near its attractor repeats itself bit for bit, if it ever does.
@@ -34,7 +35,6 @@ REPEATS_WITHIN = 400
 # A part that rides a stiff contact may never do that. Its motion counts as repeated, with a period of up to MAX_PERIOD
 # cycles, if it differs from itself by no more than ROUNDING, in g/ω² and g/ω, in each of the last WATCHED cycles.
 ROUNDING, WATCHED = 1e-13, 100
-MAX_PERIOD = 64  # as in the search for attractors
 # Excitation cycles after which the sign is decided. Weak chaos shows only after the second number.
 LOOKS = (400, 2000)
 BLOCKS = 20

@@ -199,8 +199,8 @@ def test_longest_flight_covers_the_end_of_the_search():
     flights = features[:, [stroboscopic_map.LONGEST_FLIGHT, stroboscopic_map.AIRBORNE]].max(axis=1)
     found = sampling.follow(parameters[None], state[None], count, 1e-8)
     assert found.outcomes[0] == convergence.NOT_CONVERGED
-    assert flights[: convergence.MAX_PERIOD].max() > 2.0 * flights[-convergence.MAX_PERIOD :].max()
-    assert found.flights[0] == pytest.approx(flights[-convergence.MAX_PERIOD :].max(), rel=1e-6)
+    assert flights[: stroboscopic_map.MAX_PERIOD].max() > 2.0 * flights[-stroboscopic_map.MAX_PERIOD :].max()
+    assert found.flights[0] == pytest.approx(flights[-stroboscopic_map.MAX_PERIOD :].max(), rel=1e-6)
 
 
 def test_motions_of_one_state_differ():
