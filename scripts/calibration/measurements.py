@@ -79,6 +79,9 @@ def unknown_column(name: str, known: Mapping) -> str:
     """Fault and remedy of a column with an unknown name."""
     if not name:
         return "has a column without a name; name it, or delete it"
+    if name in CALIBRATED:  # the others are known
+        remedy = f"delete the column, or take {name} out of calibration.parameters"
+        return f"has the column {name}, but all lines have the one {name} that is searched; {remedy}"
     base = re.split(r"[\s(\[]", name.strip().lower())[0]
     guess = base if base in known else next(iter(difflib.get_close_matches(name.lower(), known, n=1)), None)
     remedy = f"did you mean {guess}?" if guess else f"there are {', '.join(known)}"
@@ -162,7 +165,9 @@ def parse(text: str, path: str | Path, settings: Mapping[str, Any], ranges: Mapp
     known, parameters = known_columns(settings["parameters"], ranges), len(settings["parameters"])
     if "\x00" in text:
         raise MeasurementError([f"{path}:1: is not a CSV text; export the table as CSV"])
-    reader = csv.reader(io.StringIO(text, newline=""), skipinitialspace=True, strict=True)
+    # Quotes in a comment begin no field.
+    lines = ("\n" if line.lstrip().startswith("#") else line for line in io.StringIO(text, newline=""))
+    reader = csv.reader(lines, skipinitialspace=True, strict=True)
     faults, rows, header = [], [], None
     try:
         for fields in reader:

@@ -10,6 +10,7 @@ from calibration.model_check import UNLIKELY
 from pipeline.templates import render
 
 WORST = 8  # rows that are named
+SHOWN = 9  # amplitudes in the table of predicted velocities
 # Names of the parameters in sentences.
 NAMES = {"friction": "friction coefficient", "damping": "contact damping", "stiffness": "contact stiffness"}
 WORTH = 0.02  # expected narrowing from which one more measurement is recommended
@@ -43,6 +44,7 @@ def make(
     best = next.loc[next.narrowing.idxmax()]
     worst = fit.sort_values("p_row").head(WORST)
     bands = prediction.assign(width=prediction.high - prediction.low)
+    shown = np.unique(np.linspace(0, len(prediction) - 1, SHOWN).round().astype(int))
     return render(
         template,
         {
@@ -65,7 +67,7 @@ def make(
             "misfits": int((~fit.fits).sum()),
             "worst": worst[~worst.fits].sort_values("line").to_dict("records"),
             "widest": bands.loc[bands.width.idxmax()].to_dict(),
-            "prediction": prediction.to_dict("records"),
+            "prediction": prediction.iloc[shown].to_dict("records"),
             "next": {"acceleration": float(best.acceleration), "narrowing": float(best.narrowing)},
             "worth": bool(best.narrowing >= WORTH),
             "next_by_name": {row["name"]: float(best[f"narrowing_{row['parameter']}"]) for row in rows},

@@ -13,7 +13,7 @@ import pandas as pd
 
 from conveyor.analysis import throw_theory
 from conveyor.parameters import RANGES
-from operating.parts import VARIED, population
+from operating.parts import VARIED, population, with_calibration
 from operating.transit import MEASURES, follow, measure, summarize
 from pipeline import fields
 
@@ -123,9 +123,20 @@ def describe_states(shares: pd.DataFrame, acceleration: float) -> str:
     return ", ".join(f"{state} {100.0 * share:.0f} %" for state, share in found.items())
 
 
-def make(transit: pd.DataFrame, shares: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, dict]:
-    """The columns of the tables of advice and of changes."""
-    followed, margin = transit.attrs, settings["margin"]
+def make(
+    transit: pd.DataFrame,
+    shares: pd.DataFrame,
+    settings: dict,
+    samples: pd.DataFrame | None = None,
+    overlay: str | None = None,
+    *,
+    threads: int = 1,
+) -> dict[str, dict]:
+    """The columns of the tables of advice and of changes.
+
+    samples, overlay : as in transit.make
+    """
+    followed, margin = with_calibration(transit.attrs, samples, overlay), settings["margin"]
     rows = transit[transit.population == VARIED].reset_index(drop=True)
     unit = throw_theory.throw_number(1.0, **followed["model"])
 

@@ -105,6 +105,7 @@ def make(
         "units": UNITS,
         "options": advice.attrs,
         "forward": (transit.velocity_95 > 0.0).any(),
+        "ends": (transit.acceleration.min(), transit.acceleration.max()),
         "slides": (shares.status == SLIDES_AWAY).all(),
         "merged": len(regimes) - len(merged),
         # The digits to which the ends of intervals of amplitudes are known.

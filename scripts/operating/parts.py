@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 import pandas as pd
+import yaml
 
 from conveyor.solver.model import (
     ACCELERATION,
@@ -73,6 +74,27 @@ def calibrated_factors(samples: pd.DataFrame, settings: dict) -> np.ndarray:
         if name in samples:
             own[:, column] = chosen[name] / settings["model"][name]
     return own
+
+
+def with_calibration(settings: dict, samples: pd.DataFrame | None, overlay: str | None) -> dict:
+    """The settings for `population`, with the factors of calibrated parts if there are samples.
+
+    overlay : text of the overlay that belongs to the samples; its parameters must be those of the model
+
+    Raises
+    ------
+    ValueError
+        if the config has other parameters than the overlay, for example those of an earlier calibration
+    """
+    if samples is None:
+        return settings
+    for name, value in yaml.safe_load(overlay)["model"].items():
+        if (own := settings["model"].get(name)) != value:
+            raise ValueError(
+                f"model.{name} = {own} is not {value}, the calibrated value: name calibrated.yaml behind your config. "
+                "If measurements or settings have changed, it is new now, and the same command will work"
+            )
+    return {**settings, "calibrated": calibrated_factors(samples, settings)}
 
 
 def population(amplitudes: np.ndarray, settings: dict, kind: str = VARIED) -> np.ndarray:

@@ -13,7 +13,7 @@ from scipy.stats.mstats import mjci
 
 from conveyor import ensemble
 from conveyor.solver.model import FREQUENCY
-from operating.parts import IDENTICAL, POPULATIONS, calibrated_factors, population
+from operating.parts import IDENTICAL, POPULATIONS, population, with_calibration
 from pipeline import fields, grid
 
 PROBABILITIES = (0.05, 0.25, 0.5, 0.75, 0.95)
@@ -125,13 +125,17 @@ def measure(amplitudes: np.ndarray, settings: dict, kinds: tuple[str, ...] = POP
 
 
 def make(
-    settings: dict, samples: pd.DataFrame | None = None, *, threads: int = 1, progress: str | None = None
+    settings: dict,
+    samples: pd.DataFrame | None = None,
+    overlay: str | None = None,
+    *,
+    threads: int = 1,
+    progress: str | None = None,
 ) -> pd.DataFrame:
     """The table for the settings of the config.
 
-    samples : of a calibration, from which the parameters of varied parts are drawn, too
+    samples, overlay : of a calibration, from whose samples the parameters of varied parts are drawn, too
     """
-    if samples is not None:
-        settings = {**settings, "calibrated": calibrated_factors(samples, settings)}
+    settings = with_calibration(settings, samples, overlay)
     amplitudes = np.unique(grid.axis_values("acceleration", settings["acceleration"]))
     return measure(amplitudes, settings, threads=threads, progress=progress)

@@ -111,7 +111,7 @@ def settle(
     while True:
         (values,) = smoothed(factors, points, weights, width)
         weights, size = normalize(values - mixture)
-        before, volume = volume, np.linalg.slogdet(np.cov(points.T, aweights=weights, ddof=0))[1]
+        before, volume = volume, np.linalg.slogdet(np.atleast_2d(np.cov(points.T, aweights=weights, ddof=0)))[1]
         if width == 0.0 or size < enough or not volume < before - SAME_VOLUME:
             return Sample(points, values, weights, float(logsumexp(values - mixture)), size)
 

@@ -71,6 +71,13 @@ def test_a_right_model_is_explained_and_its_friction_is_found(found):
     assert np.all(found["fit"]["explained"])
 
 
+def test_a_single_parameter_can_be_searched():
+    stated = {name: value for name, value in CONTACT.items() if name != "friction"}
+    settings = SETTINGS | {"parameters": ["friction"], "model": MODEL | stated}
+    (low,), (high,) = (calibrate(measured(), settings, threads=2)["parameters"][name] for name in ("low", "high"))
+    assert low <= CONTACT["friction"] <= high < 1.2 * low
+
+
 def test_velocities_that_no_parameters_give_are_not_explained():
     wrong = calibrate(measured(factor=-1.0), SETTINGS, threads=2)["fit"]
     assert not np.any(wrong["explained"])

@@ -25,7 +25,11 @@ BAD = {
     "misspelt column": (f"{HEAD},frequncy\n30,0.02,50\n", 1, "did you mean frequency?"),
     "unit in the header": ("acceleration (m/s²),velocity\n30,0.02\n", 1, "did you mean acceleration?"),
     "column twice": (f"{HEAD},velocity\n30,0.02,0.02\n", 1, "has the column velocity twice"),
-    "searched parameter": (f"{HEAD},friction\n30,0.02,0.2\n", 1, "unknown column 'friction'"),
+    "searched parameter": (
+        f"{HEAD},friction\n30,0.02,0.2\n",
+        1,
+        "delete the column, or take friction out of calibration.parameters",
+    ),
     "semicolons": ("acceleration;velocity\n30;0,02\n", 1, "separates columns by semicolons"),
     "tabs": ("acceleration\tvelocity\n30\t0.02\n", 1, "separates columns by tabs"),
     "decimal comma": (f'{HEAD}\n30,0.02\n40,"0,05"\n50,0.06\n', 3, "has a decimal comma; write 0.05"),
@@ -68,6 +72,15 @@ def test_bad_files_are_rejected_with_line_and_remedy(name, tmp_path):
     assert error.value.faults[0].startswith(f"{file}:{line}: ")
     assert message in error.value.faults[0]
     assert all("\n" not in fault for fault in error.value.faults)
+
+
+def test_quotes_in_comments_begin_no_field():
+    text = f'{HEAD}\n25,0.02\n# rail A, "hard\n30,0.03\n  # lining", and "others" of it\n35,0.04\n"# rail B, soft",\n'
+    assert [(row.line, row.acceleration) for row in parse(text, "mine.csv", SETTINGS, RANGES)] == [
+        (2, 25.0),
+        (4, 30.0),
+        (6, 35.0),
+    ]
 
 
 @pytest.mark.parametrize("kind", ["missing", "folder"])

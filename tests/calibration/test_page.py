@@ -111,6 +111,24 @@ def test_a_sample_that_is_too_small_gives_no_intervals():
     assert "points: 192" in text and "lies between" not in text
 
 
+def test_a_wrong_model_may_be_a_search_that_was_too_short():
+    assert "First of all, search longer: the search found 1.5 effective samples instead of 40" in first_screen(
+        explained=False, reliable=False
+    )
+    assert "search longer" not in first_screen(explained=False)
+
+
+def test_a_model_that_needs_many_mistakes_says_so_first():
+    text = first_screen(misfits=2)
+    assert text.startswith("# Calibration\n\n**The model explains the 4 measured velocities only if 2 of them are")
+
+
+def test_measurements_that_determine_nothing_recommend_no_parameters():
+    text = first_screen(status=[NOT_DETERMINED] * 3)
+    assert "What was found: nothing" in text and "measure more velocities, first at **45 m/s²**" in text
+    assert "calibrated.yaml" not in text and "0.24" not in text
+
+
 def test_the_overlay_has_the_best_parameters_and_keeps_the_ratio_of_static_friction():
     found = tables()
     model = yaml.safe_load(overlay.make(found["parameters"], found["fit"]))["model"]

@@ -363,7 +363,8 @@ def test_no_amplitude_is_recommended_where_parts_move_back(refined):
     back.attrs = rows.attrs
     page = page_of(refined, [back, *others])
     assert (
-        "**At least 95 % of the parts move back at every amplitude**, so there is no amplitude to recommend. A" in page
+        "**At no amplitude do more than 5 % of the parts move forward**, so there is no amplitude to recommend. A"
+        in page
     )
     assert "- **Amplitude" not in page and "relative spread is" not in page
     steep = refined.assign(status=regimes.SLIDES_AWAY)
@@ -402,13 +403,26 @@ def test_the_page_says_that_parts_move_back_everywhere(refined):
     assert "All parts have equal parameters" in page
 
 
-def test_large_forces_have_no_exponent_and_unknown_ones_a_dash(refined):
+def test_large_forces_have_no_exponent_and_unknown_ones_are_left_out(refined):
     page = page_of(refined, advised(peak_force=128.0))
     assert "contact force up to 130 N (13000 times the weight of the part)" in page
     tables = advised()
     tables[1] = tables[1].assign(peak_force=math.nan)
     tables[1].attrs = advised()[1].attrs
-    assert "contact force up to – N (– times" in page_of(refined, tables)
+    assert "contact force" not in page_of(refined, tables).split("## What")[0]
+
+
+def test_the_page_says_that_the_range_ends_and_that_parts_do_not_arrive(refined):
+    """The made-up table has the two recommended amplitudes only."""
+    tables = advised()
+    page = page_of(refined, tables)
+    assert page.count("The range of amplitudes ends here") == 2 and "do not arrive" not in page
+    beyond = pd.concat([tables[0], tables[0].assign(acceleration=[20.0, 90.0])])
+    late = tables[1].assign(late=0.9)
+    beyond.attrs, late.attrs = tables[0].attrs, tables[1].attrs
+    page = page_of(refined, [beyond, late, tables[2]])
+    assert "The range of amplitudes ends here" not in page
+    assert "Most parts do not arrive in this time: raise `transit.longest`" in page
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.15])
@@ -479,6 +493,20 @@ def test_advice_has_the_measures_of_its_amplitude_and_of_changed_conveyors():
     assert more.gain == pytest.approx(alone.velocity_05 / own.velocity_05 - 1.0)
     assert more.widening == pytest.approx(alone.spread / own.spread - 1.0)
     assert advice.describe_states(shares_table, 40.0) == "second 70 %, first 30 %"
+
+
+def test_changes_are_for_the_same_calibrated_parts():
+    """A change that changes nothing leaves velocity and spread as they are."""
+    settings = TABLES["operating/transit"](read_config()) | {"starts": 16, "longest": 1.0}
+    samples = pd.DataFrame({"friction": settings["model"]["friction"] * np.array([0.5, 1.0, 2.0])})
+    calibration = samples, f"model: {{friction: {settings['model']['friction']}}}"
+    own = parts.with_calibration(settings, *calibration)
+    table = transit.measure(np.array([40.0, 80.0]), own)
+    table.attrs = settings
+    shares_table = pd.DataFrame({"acceleration": [40.0], "state": ["first"], "share": [1.0]})
+    found = advice.make(table, shares_table, {"margin": 0.0, "changes": {"friction": 0.0}}, *calibration)
+    changes = pd.DataFrame(found["changes"])
+    assert len(changes) > 0 and (changes.gain == 0.0).all() and (changes.widening == 0.0).all()
 
 
 def test_static_friction_keeps_its_ratio_and_values_out_of_range_are_left_out():

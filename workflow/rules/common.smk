@@ -152,9 +152,11 @@ def measurements(wildcards):
     return config["calibration"]["measurements"]
 
 
-def samples_of_parts():
-    """The samples from which the parameters of parts are drawn, if the config says so."""
-    return tables_of("calibration/samples") if config["parts"].get("calibrated") else {}
+def calibration_of_parts():
+    """The samples from which the parameters of parts are drawn, and their overlay, if the config says so."""
+    if not config["parts"].get("calibrated"):
+        return {}
+    return {**tables_of("calibration/samples"), "overlay": result("calibrated.yaml")}
 
 
 def calibration_files():

@@ -21,7 +21,7 @@ rule operating:
 
 rule transit:
     input:
-        **samples_of_parts(),
+        **calibration_of_parts(),
     output:
         **tables_of("operating/transit"),
     log:
@@ -59,6 +59,7 @@ rule drift:
 
 rule advice:
     input:
+        **calibration_of_parts(),
         **tables_of("operating/transit", "operating/shares"),
     output:
         **tables_of("operating/advice", "operating/changes"),

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator, ScalarFormatter
+from matplotlib.ticker import FormatStrFormatter, LogLocator, MaxNLocator, NullFormatter, ScalarFormatter
 
 from calibration.search_space import LOGARITHMIC
 from figures import style
@@ -52,6 +52,9 @@ def scale(axes: Axes, which: str, name: str, values: np.ndarray) -> None:
     axis = getattr(axes, f"{which}axis")
     if name in LOGARITHMIC and values.max() > MUCH * values.min():
         getattr(axes, f"set_{which}scale")("log")
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=4))
+        axis.set_major_formatter(FormatStrFormatter("%g"))
+        axis.set_minor_formatter(NullFormatter())
     else:
         axis.set_major_locator(MaxNLocator(3))
         axis.set_major_formatter(ScalarFormatter(useMathText=True))
@@ -98,7 +101,7 @@ def plot(*, parameters: pd.DataFrame, samples: pd.DataFrame, fit: pd.DataFrame, 
     figure = style.figure(style.PAGE, 62.0 + 32.0 * count)
     above, under = figure.subfigures(2, 1, height_ratios=(62.0, 32.0 * count))
     draw_velocities(above.subplots(), fit, prediction)
-    panels = under.subplots(count, count, squeeze=False)
+    panels = under.subplots(count, count, squeeze=False, sharex="col")
     draw_posterior(panels, parameters, samples)
     under.align_ylabels(panels[:, 0])
     return figure
