@@ -12,7 +12,8 @@ from figures import style
 MISFIT = "#D55E00"
 BAND = "#56B4E9"
 BINS = 18
-MUCH = 12.0  # ratio of values from which their axis is logarithmic
+# Ratios of values from which their axis is logarithmic, and from which only powers of ten are labelled.
+MUCH, MANY = 12.0, 1e3
 
 
 def draw_velocities(axes: Axes, fit: pd.DataFrame, prediction: pd.DataFrame) -> None:
@@ -52,8 +53,11 @@ def scale(axes: Axes, which: str, name: str, values: np.ndarray) -> None:
     axis = getattr(axes, f"{which}axis")
     if name in LOGARITHMIC and values.max() > MUCH * values.min():
         getattr(axes, f"set_{which}scale")("log")
-        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=4))
-        axis.set_major_formatter(FormatStrFormatter("%g"))
+        if values.max() > MANY * values.min():
+            axis.set_major_locator(LogLocator(numticks=4))
+        else:
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=4))
+            axis.set_major_formatter(FormatStrFormatter("%g"))
         axis.set_minor_formatter(NullFormatter())
     else:
         axis.set_major_locator(MaxNLocator(3))
