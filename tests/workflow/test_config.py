@@ -242,6 +242,8 @@ WRONG = [
         }.items()
     ),
     ({"drive": {"recommended": 9, "checked": 8}}, "drive.recommended = 9 is above drive.checked = 8; check more"),
+    ({"calibration": {"effective": 101}}, "calibration.effective = 101 should be at most calibration.enough = 100"),
+    ({"parts": {"calibrated": True}}, "parts.calibrated needs measurements; name the config with"),
     ({"drive": {"velocity": 0}}, "drive.velocity = 0 should be more than 0 (m/s)"),
     ({"drive": {"velocity": 200.0}}, "drive.velocity = 200.0 should be at most 100 (m/s)"),
     ({"drive": {"velocity": "2 cm/s"}}, "drive.velocity = '2 cm/s' should be a valid number (m/s)"),

@@ -310,13 +310,21 @@ def drive(config: dict, defaults: dict) -> Iterator[str]:
 
 
 def calibration(config: dict, defaults: dict) -> Iterator[str]:
-    """The file of measurements, so that a fault in it ends a run before any job starts."""
-    if (path := config["calibration"].get("measurements")) is None:
+    """Settings, and the file of measurements, so that a fault in it ends a run before any job starts."""
+    own = config["calibration"]
+    if own["effective"] > own["enough"]:
+        yield (
+            f"calibration.effective = {own['effective']:g} should be at most calibration.enough = {own['enough']:g}, "
+            "at which the search ends"
+        )
+    if config["parts"].get("calibrated") and "measurements" not in own:
+        yield "parts.calibrated needs measurements; name the config with calibration.measurements as well"
+    if (path := own.get("measurements")) is None:
         return
     if not config["prefix"]:
         yield "calibration.measurements needs a folder for its results; give the config a prefix"
     try:
-        settings = {**config["calibration"], "model": config["model"]}
+        settings = {**own, "model": config["model"]}
         parse(read_text(path), path, settings, RANGES)
     except MeasurementError as error:
         yield from error.faults
