@@ -128,15 +128,15 @@ def make(
     shares: pd.DataFrame,
     settings: dict,
     samples: pd.DataFrame | None = None,
-    overlay: str | None = None,
+    parameters: pd.DataFrame | None = None,
     *,
     threads: int = 1,
 ) -> dict[str, dict]:
     """The columns of the tables of advice and of changes.
 
-    samples, overlay : as in transit.make
+    samples, parameters : as in transit.make
     """
-    followed, margin = with_calibration(transit.attrs, samples, overlay), settings["margin"]
+    followed, margin = with_calibration(transit.attrs, samples, parameters), settings["margin"]
     rows = transit[transit.population == VARIED].reset_index(drop=True)
     unit = throw_theory.throw_number(1.0, **followed["model"])
 

@@ -8,7 +8,6 @@ import math
 
 import numpy as np
 import pandas as pd
-import yaml
 
 from conveyor.solver.model import (
     ACCELERATION,
@@ -27,6 +26,7 @@ from pipeline import grid
 
 # The parameters that differ, in the order of their random numbers.
 COLUMNS = {"friction": FRICTION, "damping": DAMPING, "stiffness": STIFFNESS, "mass": MASS, "acceleration": ACCELERATION}
+DIGITS = 1e-5  # relative error of the calibrated values in an overlay
 IDENTICAL, VARIED = POPULATIONS = ("identical", "varied")
 
 
@@ -76,23 +76,23 @@ def calibrated_factors(samples: pd.DataFrame, settings: dict) -> np.ndarray:
     return own
 
 
-def with_calibration(settings: dict, samples: pd.DataFrame | None, overlay: str | None) -> dict:
+def with_calibration(settings: dict, samples: pd.DataFrame | None, parameters: pd.DataFrame | None) -> dict:
     """The settings for `population`, with the factors of calibrated parts if there are samples.
 
-    overlay : text of the overlay that belongs to the samples; its parameters must be those of the model
+    samples, parameters : tables of a calibration, whose best values must be those of the model
 
     Raises
     ------
     ValueError
-        if the config has other parameters than the overlay, for example those of an earlier calibration
+        if the model has other values, for example those of an earlier calibration
     """
     if samples is None:
         return settings
-    for name, value in yaml.safe_load(overlay)["model"].items():
-        if (own := settings["model"].get(name)) != value:
+    for row in parameters.itertuples():
+        if not math.isclose(own := settings["model"][row.parameter], row.best, rel_tol=DIGITS):
             raise ValueError(
-                f"model.{name} = {own} is not {value}, the calibrated value: name calibrated.yaml behind your config. "
-                "If measurements or settings have changed, it is new now, and the same command will work"
+                f"model.{row.parameter} = {own} is not {row.best:.6g}, the calibrated value; "
+                "name calibrated.yaml behind your config, and if it is there, type the same command again: it is new now"
             )
     return {**settings, "calibrated": calibrated_factors(samples, settings)}
 

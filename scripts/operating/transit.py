@@ -127,15 +127,15 @@ def measure(amplitudes: np.ndarray, settings: dict, kinds: tuple[str, ...] = POP
 def make(
     settings: dict,
     samples: pd.DataFrame | None = None,
-    overlay: str | None = None,
+    parameters: pd.DataFrame | None = None,
     *,
     threads: int = 1,
     progress: str | None = None,
 ) -> pd.DataFrame:
     """The table for the settings of the config.
 
-    samples, overlay : of a calibration, from whose samples the parameters of varied parts are drawn, too
+    samples, parameters : tables of a calibration, from whose samples the parameters of varied parts are drawn, too
     """
-    settings = with_calibration(settings, samples, overlay)
+    settings = with_calibration(settings, samples, parameters)
     amplitudes = np.unique(grid.axis_values("acceleration", settings["acceleration"]))
     return measure(amplitudes, settings, threads=threads, progress=progress)

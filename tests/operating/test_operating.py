@@ -499,7 +499,7 @@ def test_changes_are_for_the_same_calibrated_parts():
     """A change that changes nothing leaves velocity and spread as they are."""
     settings = TABLES["operating/transit"](read_config()) | {"starts": 16, "longest": 1.0}
     samples = pd.DataFrame({"friction": settings["model"]["friction"] * np.array([0.5, 1.0, 2.0])})
-    calibration = samples, f"model: {{friction: {settings['model']['friction']}}}"
+    calibration = samples, pd.DataFrame({"parameter": ["friction"], "best": [settings["model"]["friction"]]})
     own = parts.with_calibration(settings, *calibration)
     table = transit.measure(np.array([40.0, 80.0]), own)
     table.attrs = settings

@@ -228,17 +228,20 @@ def test_a_failed_run_leaves_no_drift():
     assert math.isnan(row["diffusion"])
 
 
+BEST = pd.DataFrame({"parameter": ["friction"], "best": [0.2000001]})
+
+
 @pytest.mark.parametrize("friction", [0.2, 0.25])
 def test_calibrated_parts_belong_to_the_model(friction):
     samples = pd.DataFrame({"friction": [0.1, 0.3]})
     settings = {"model": {"friction": friction}, "starts": 2, "spread": {"seed": 1}}
     assert parts.with_calibration(settings, None, None) == settings
     if friction == 0.2:
-        found = parts.with_calibration(settings, samples, "model: {friction: 2.0e-1}")
+        found = parts.with_calibration(settings, samples, BEST)
         assert sorted(found["calibrated"][:, 0]) == pytest.approx([0.5, 1.5])
     else:
         with pytest.raises(ValueError, match=r"model.friction = 0.25 is not 0.2, the calibrated value"):
-            parts.with_calibration(settings, samples, "model: {friction: 2.0e-1}")
+            parts.with_calibration(settings, samples, BEST)
 
 
 def test_calibrated_parts_have_the_parameters_of_the_samples():

@@ -153,10 +153,13 @@ def measurements(wildcards):
 
 
 def calibration_of_parts():
-    """The samples from which the parameters of parts are drawn, and their overlay, if the config says so."""
-    if not config["parts"].get("calibrated"):
-        return {}
-    return {**tables_of("calibration/samples"), "overlay": result("calibrated.yaml")}
+    """The samples from which the parameters of parts are drawn, and their best values, if the config says so."""
+    return tables_of("calibration/samples", "calibration/parameters") if config["parts"].get("calibrated") else {}
+
+
+def calibrated_overlay():
+    """The overlay that the config contains if parts are calibrated: it exists only if the model is right."""
+    return [result("calibrated.yaml")] if config["parts"].get("calibrated") else []
 
 
 def calibration_files():

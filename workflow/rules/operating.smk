@@ -21,6 +21,7 @@ rule operating:
 
 rule transit:
     input:
+        calibrated_overlay(),
         **calibration_of_parts(),
     output:
         **tables_of("operating/transit"),
@@ -59,6 +60,7 @@ rule drift:
 
 rule advice:
     input:
+        calibrated_overlay(),
         **calibration_of_parts(),
         **tables_of("operating/transit", "operating/shares"),
     output:
