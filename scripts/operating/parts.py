@@ -92,7 +92,7 @@ def with_calibration(settings: dict, samples: pd.DataFrame | None, parameters: p
         if not math.isclose(own := settings["model"][row.parameter], row.best, rel_tol=DIGITS):
             raise ValueError(
                 f"model.{row.parameter} = {own} is not {row.best:.6g}, the calibrated value; "
-                "name calibrated.yaml behind your config, and if it is there, type the same command again: it is new now"
+                "name calibrated.yaml behind your config; if it is there, it is new now, so type the command again"
             )
     return {**settings, "calibrated": calibrated_factors(samples, settings)}
 
