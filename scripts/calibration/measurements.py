@@ -81,7 +81,7 @@ def unknown_column(name: str, known: Mapping) -> str:
         return "has a column without a name; name it, or delete it"
     if name in CALIBRATED:  # the others are known
         remedy = f"delete the column, or take {name} out of calibration.parameters"
-        return f"has the column {name}, but all lines have the one {name} that is searched; {remedy}"
+        return f"has the column {name}, but the calibration searches one {name} for all lines; {remedy}"
     base = re.split(r"[\s(\[]", name.strip().lower())[0]
     guess = base if base in known else next(iter(difflib.get_close_matches(name.lower(), known, n=1)), None)
     remedy = f"did you mean {guess}?" if guess else f"there are {', '.join(known)}"

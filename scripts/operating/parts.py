@@ -26,7 +26,7 @@ from pipeline import grid
 
 # The parameters that differ, in the order of their random numbers.
 COLUMNS = {"friction": FRICTION, "damping": DAMPING, "stiffness": STIFFNESS, "mass": MASS, "acceleration": ACCELERATION}
-DIGITS = 1e-5  # relative error of the calibrated values in an overlay
+ROUNDING = 1e-5  # largest relative error of a calibrated value in an overlay
 IDENTICAL, VARIED = POPULATIONS = ("identical", "varied")
 
 
@@ -89,7 +89,7 @@ def with_calibration(settings: dict, samples: pd.DataFrame | None, parameters: p
     if samples is None:
         return settings
     for row in parameters.itertuples():
-        if not math.isclose(own := settings["model"][row.parameter], row.best, rel_tol=DIGITS):
+        if not math.isclose(own := settings["model"][row.parameter], row.best, rel_tol=ROUNDING):
             raise ValueError(
                 f"model.{row.parameter} = {own} is not {row.best:.6g}, the calibrated value; "
                 "name calibrated.yaml behind your config; if it is there, it is new now, so type the command again"

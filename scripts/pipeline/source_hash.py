@@ -31,7 +31,7 @@ def closure(*scripts: str) -> tuple[list[Path], list[str]]:
 
 @cache
 def distributions() -> dict[str, list[str]]:
-    """Names of the distributions that provide each importable top-level name; finding them takes 0.3 s."""
+    """Names of the distributions that provide each importable top-level name; finding them takes 0.2 s."""
     return metadata.packages_distributions()
 
 

@@ -310,7 +310,7 @@ def drive(config: dict, defaults: dict) -> Iterator[str]:
 
 
 def calibration(config: dict, defaults: dict) -> Iterator[str]:
-    """Settings, and the file of measurements, so that a fault in it ends a run before any job starts."""
+    """Settings that contradict each other, and faults in the file of measurements."""
     own = config["calibration"]
     if own["effective"] > own["enough"]:
         yield (

@@ -158,7 +158,7 @@ def calibration_of_parts():
 
 
 def calibrated_overlay():
-    """The overlay that the config contains if parts are calibrated: it exists only if the model is right."""
+    """The overlay of calibrated parts, which exists only if the model explains the measurements."""
     return [result("calibrated.yaml")] if config["parts"].get("calibrated") else []
 
 
