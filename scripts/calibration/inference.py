@@ -115,9 +115,12 @@ def summarize_parameters(found: Sample, settings: dict) -> list[dict]:
         )
         if is_log:
             low, high = math.exp(low), math.exp(high)
-        # Smoothing may reach beyond a bound. The bounds of the damping belong to the best stiffness only.
-        low = min(low, range_low) if open_low else low if name == "damping" else max(low, range_low)
-        high = max(high, range_high) if open_high else high if name == "damping" else min(high, range_high)
+        # An open end is the bound, beyond which smoothing may reach. The bounds of the damping belong to the best
+        # stiffness only, so that its interval may be longer.
+        low = min(low, range_low) if open_low else low
+        high = max(high, range_high) if open_high else high
+        if name != "damping":
+            low, high = max(low, range_low), min(high, range_high)
         rows.append(
             {
                 "parameter": name,

@@ -8,12 +8,14 @@ import pytest
 
 from calibration import prediction
 from calibration.calibrate import calibrate
-from calibration.inference import data_of
+from calibration.inference import NOT_DETERMINED, OPEN, data_of, summarize_parameters
 from calibration.measurements import parse
 from calibration.model_check import compare_alternatives
+from calibration.search_space import bounds_of
 from calibration.synthetic import csv_text, measure
 from conveyor.parameters import RANGES
 from conveyor.solver.model import ACCELERATION
+from pipeline.importance_sampling import Sample
 
 MODEL = {"frequency": 40.0, "angle": 0.3, "mass": 1e-3, "gravity": 9.81, "exponent": 1.5, "inclination": 0.0}
 MODEL |= {"phase_shift": 0.0}
@@ -76,6 +78,23 @@ def test_a_single_parameter_can_be_searched():
     settings = SETTINGS | {"parameters": ["friction"], "model": MODEL | stated}
     (low,), (high,) = (calibrate(measured(), settings, threads=2)["parameters"][name] for name in ("low", "high"))
     assert low <= CONTACT["friction"] <= high < 1.2 * low
+
+
+def test_an_interval_that_only_the_range_limits_ends_there():
+    low, high = bounds_of(SETTINGS)
+    share = (0.5 + np.arange(400)) / 400
+    # A friction that is large, a damping that is known, and a stiffness of which nothing is.
+    other = np.random.default_rng(1).permutation(share)
+    columns = [high[0] - 0.3 * (high - low)[0] * share, np.full(400, math.log(0.3)), low[2] + (high - low)[2] * other]
+    points = np.column_stack(columns)
+    sample = Sample(points, np.zeros(400), np.full(400, 1 / 400), 0.0, 400.0)
+    rows = {row["parameter"]: row for row in summarize_parameters(sample, SETTINGS)}
+    assert (rows["friction"]["status"], rows["stiffness"]["status"]) == (OPEN, NOT_DETERMINED)
+    assert rows["friction"]["low"] > rows["friction"]["range_low"]
+    assert rows["friction"]["high"] == rows["friction"]["range_high"]
+    assert [rows["stiffness"][end] for end in ("low", "high")] == [
+        rows["stiffness"][end] for end in ("range_low", "range_high")
+    ]
 
 
 def test_velocities_that_no_parameters_give_are_not_explained():
