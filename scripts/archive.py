@@ -15,7 +15,7 @@ from pathlib import Path
 import pyarrow.parquet as pq
 
 from pipeline import fields, tables
-from pipeline.rule_log import logged
+from pipeline.rule_log import JobError, logged
 from pipeline.templates import render
 
 SUMS = "SHA256SUMS"
@@ -50,12 +50,12 @@ def hash_files(folder: Path) -> str:
 
 
 def check_size(folder: Path, limit: float) -> None:
-    """Raise ValueError if a folder has more than `limit` MB; the message names the largest files and the config key."""
+    """Raise JobError if a folder has more than `limit` MB; the message names the largest files and the config key."""
     sizes = sorted(((path.stat().st_size, path) for path in folder.rglob("*") if path.is_file()), reverse=True)
     megabytes = sum(size for size, _ in sizes) / 1e6
     if megabytes > limit:
         largest = ", ".join(f"{path.relative_to(folder).as_posix()} ({size / 1e6:.3g})" for size, path in sizes[:3])
-        raise ValueError(
+        raise JobError(
             f"the archive has {megabytes:.3g} MB, more than archive.megabytes = {limit:g}; largest files: {largest}; "
             "raise that key, or give the sweeps fewer points"
         )

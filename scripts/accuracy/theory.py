@@ -19,6 +19,7 @@ from conveyor.solver import trajectory
 from conveyor.solver.horizontal import CONTACT_FORCE, EVENTS, IMPACT, SEPARATED, VZ
 from conveyor.solver.model import ACCELERATION, GRAVITY, conveyor_motion, pack
 from pipeline import fields, grid
+from pipeline.rule_log import JobError
 
 TABLES = {
     "theory": (
@@ -57,7 +58,7 @@ def simulate_impact(conveyor: Conveyor, speed: float) -> Impact:
 
     Raises
     ------
-    ArithmeticError
+    JobError
         if the part has not separated after RUN durations of an undamped impact
     """
     row = pack(conveyor, Start(z=closed_forms.compression(conveyor, speed), vz=-speed))
@@ -68,7 +69,7 @@ def simulate_impact(conveyor: Conveyor, speed: float) -> Impact:
     samples, _ = trajectory.integrate(row[None], np.array([[end]]), event_times=instants, event_kinds=kinds, **options)
     times = {EVENTS[kind]: time for time, kind in zip(instants[0], kinds[0], strict=True) if kind >= 0}
     if EVENTS[SEPARATED] not in times:
-        raise ArithmeticError(f"an impact at {speed:g} m/s does not end within {end:g} s; take less damping")
+        raise JobError(f"an impact at {speed:g} m/s does not end within {end:g} s; take less damping")
     begin, separation = times[EVENTS[IMPACT]], times[EVENTS[SEPARATED]]
 
     def push(time: float) -> float:
@@ -92,7 +93,7 @@ def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[floa
 
     Raises
     ------
-    ArithmeticError
+    JobError
         if the orbit, its fold or its period doubling is not found
     """
     low, high = closed_forms.rigid_range(restitution)
@@ -105,14 +106,14 @@ def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[floa
     start = Start(z=plate, vz=0.5 * gravity / model["frequency"])
     orbit = periodic_orbit(conveyor, start, transient=CYCLES)
     if orbit is None or orbit.impacts != 1:
-        raise ArithmeticError(f"no orbit with one impact per cycle for e = {restitution:g}; take a stiffer contact")
+        raise JobError(f"no orbit with one impact per cycle for e = {restitution:g}; take a stiffer contact")
     scale = gravity / vertical
     # Each side only as far as its bifurcation: behind the fold, the unstable orbits are not needed up to the doubling.
     sides = (0.9 * low * scale, orbit.acceleration), (orbit.acceleration, FAR_ENOUGH * high * scale)
     branches = [continue_orbit(conveyor, orbit, low=begin, high=end) for begin, end in sides]
     ends = {point.kind: point.orbit.acceleration / scale for branch in branches for point in branch.bifurcations}
     if not {"fold", "period_doubling"} <= ends.keys():
-        raise ArithmeticError(f"the branch of e = {restitution:g} has only {sorted(ends)}; take a stiffer contact")
+        raise JobError(f"the branch of e = {restitution:g} has only {sorted(ends)}; take a stiffer contact")
     return ends["fold"], ends["period_doubling"]
 
 

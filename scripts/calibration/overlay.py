@@ -3,22 +3,19 @@
 import pandas as pd
 
 from calibration.inference import TOO_FEW
+from pipeline.rule_log import JobError
 
 DIGITS = 6
 
 
-class NotCalibratedError(Exception):
-    """There are no parameters that an overlay could have."""
-
-
 def make(parameters: pd.DataFrame, fit: pd.DataFrame) -> str:
-    """The overlay as text; NotCalibratedError says why there is none."""
+    """The overlay as text; JobError says why there is none."""
     settings = parameters.attrs
     page = "the page calibration.md says what to do"
     if not fit.explained.all():
-        raise NotCalibratedError(f"The model does not explain the measurements, so there is no overlay; {page}")
+        raise JobError(f"The model does not explain the measurements, so there is no overlay; {page}")
     if (parameters.status == TOO_FEW).any():
-        raise NotCalibratedError(f"The search has found too few samples for an overlay; {page}")
+        raise JobError(f"The search has found too few samples for an overlay; {page}")
     model = {row.parameter: f"{row.best:.{DIGITS - 1}e}" for row in parameters.itertuples()}
     comments = {
         row.parameter: f"{'1' if row.unit == '1' else row.unit}, {row.status}: {row.low:.3g} to {row.high:.3g}"

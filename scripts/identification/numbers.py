@@ -21,6 +21,7 @@ from conveyor.solver.model import ACCELERATION, ANGLE, TENSION, TENSION_MODES, U
 from identification import edges as edge_search
 from motion.critical import find_states
 from pipeline import grid
+from pipeline.rule_log import JobError
 
 # Parameters of the tables with their units, and searched parameters in order.
 PARAMETERS = {name: UNITS[name] for name in ("friction", "damping", "stiffness", "angle")}
@@ -65,12 +66,12 @@ def interpolate_edges(table: pd.DataFrame) -> dict[str, RegularGridInterpolator]
 
     Raises
     ------
-    ValueError
+    JobError
         if a row of the table has no edge, because the bounds of the config are too wide
     """
     if table.vertical_acceleration.isna().any():
         row = table[table.vertical_acceleration.isna()].iloc[0]
-        raise ValueError(
+        raise JobError(
             f"no edge was found at the loss {row.loss:.3g}, the group {row.group:.3g} and z0 = {row.z0:g} m; narrow "
             "identification.bounds, or widen identification.edges.vertical_acceleration"
         )

@@ -23,6 +23,7 @@ from conveyor.solver.model import (
     Z0,
 )
 from pipeline import grid
+from pipeline.rule_log import JobError
 
 # The parameters that differ, in the order of their random numbers.
 COLUMNS = {"friction": FRICTION, "damping": DAMPING, "stiffness": STIFFNESS, "mass": MASS, "acceleration": ACCELERATION}
@@ -83,14 +84,14 @@ def with_calibration(settings: dict, samples: pd.DataFrame | None, parameters: p
 
     Raises
     ------
-    ValueError
+    JobError
         if the model has other values, for example those of an earlier calibration
     """
     if samples is None:
         return settings
     for row in parameters.itertuples():
         if not math.isclose(own := settings["model"][row.parameter], row.best, rel_tol=ROUNDING):
-            raise ValueError(
+            raise JobError(
                 f"model.{row.parameter} = {own} is not {row.best:.6g}, the calibrated value; "
                 "name calibrated.yaml behind your config; if it is there, it is new now, so type the command again"
             )

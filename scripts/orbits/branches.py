@@ -8,6 +8,7 @@ from conveyor.analysis.bifurcations.continuation import Bifurcation, Branch
 from conveyor.analysis.bifurcations.periodic_orbits import Orbit, ReturnMap
 from orbits.seeds import seeds
 from pipeline import fields, grid
+from pipeline.rule_log import JobError
 
 TABLES = {
     "branches": (
@@ -117,7 +118,7 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
 
     Raises
     ------
-    ValueError
+    JobError
         if the branches do not reach them
     """
     begin = jumping.acceleration
@@ -127,17 +128,17 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
     )
     if first is None:
         end = max((orbit.acceleration for branch in own for orbit in branch.orbits), default=begin)
-        raise ValueError(
+        raise JobError(
             f"the jumping orbit at {begin:g} m/s² (the last of orbits.seeds) does not double its period up to "
             f"{end:g} m/s²; raise the upper value of orbits.limits beyond its first period doubling"
         )
     if (double := continuation.find_doubled_orbit(parameters, first)) is None:
-        raise ValueError(f"no orbit of twice the period was found at the doubling at {first.orbit.acceleration:g} m/s²")
+        raise JobError(f"no orbit of twice the period was found at the doubling at {first.orbit.acceleration:g} m/s²")
     span = (first.orbit.acceleration - 1.0, first.orbit.acceleration + 20.0)
     following = continuation.follow_branch(parameters, double, span)
     second = min(filter(is_doubling, following.bifurcations), key=lambda b: b.orbit.acceleration, default=None)
     if second is None:
-        raise ValueError(
+        raise JobError(
             f"the orbit that doubles its period at {first.orbit.acceleration:g} m/s² does not double it again below "
             f"{span[1]:g} m/s², so that there is no cascade; choose another orbit as the last of orbits.seeds"
         )
@@ -154,7 +155,7 @@ def find_cascade(
     for orbit in sorted(jumps, key=lambda orbit: (orbit.period, orbit.acceleration)):
         try:
             doublings = first_doublings(parameters, branches, orbit)
-        except ValueError:
+        except JobError:
             continue
         return doubling_cascade.doubling_cascade(parameters, *doublings)
     return []

@@ -9,6 +9,7 @@ from conveyor.analysis.attractors import sampling
 from conveyor.analysis.bifurcations import periodic_orbits
 from conveyor.analysis.bifurcations.periodic_orbits import Orbit
 from pipeline import grid
+from pipeline.rule_log import JobError
 
 # Size of the search: amplitudes between the limits, and initial conditions at each.
 AMPLITUDES, INITIAL_CONDITIONS = 15, 8
@@ -20,7 +21,7 @@ def follow_seeds(settings: dict) -> list[Orbit]:
 
     Raises
     ------
-    ValueError
+    JobError
         names the seed that does not lead to a stable orbit
     """
     found = []
@@ -31,7 +32,7 @@ def follow_seeds(settings: dict) -> list[Orbit]:
             row[0], seed["acceleration"], state, range(1, settings["max_period"] + 1), settings["cycles"]
         )
         if orbit is None:
-            raise ValueError(
+            raise JobError(
                 f"orbits.seeds: {seed} leads to no stable orbit of up to {settings['max_period']} cycles; "
                 "choose another amplitude or more cycles"
             )
@@ -59,7 +60,7 @@ def seeds(parameters: np.ndarray, settings: dict) -> list[Orbit]:
 
     Raises
     ------
-    ValueError
+    JobError
         if a seed of the config does not lead to one
     """
     return follow_seeds(settings) if "seeds" in settings else list(search_seeds(parameters, settings))

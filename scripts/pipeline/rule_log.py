@@ -9,6 +9,10 @@ from typing import TextIO
 COMPILED = "Time to compile: "  # a line in the log of a job that compiled functions
 
 
+class JobError(Exception):
+    """A job cannot be done as the config or its files demand; the message says why, and what the user can do."""
+
+
 class Tee:
     """A text stream that writes to a terminal and to a log; the log gets only the final state of a progress bar."""
 
@@ -41,12 +45,18 @@ def visible_text(line: str) -> str:
 
 @contextmanager
 def logged(path: str) -> Iterator[None]:
-    """Copy stderr (progress, warnings) to the file `path`, and write the traceback of an exception to it."""
+    """Copy stderr (progress, warnings) to the file `path`, and write the traceback of an exception to it.
+
+    A JobError ends the script with its message alone, because a traceback tells a user nothing.
+    """
     terminal = sys.stderr
     with open(path, "w", encoding="utf-8") as log, closing(Tee(terminal, log)) as both:
         sys.stderr = both
         try:
             yield
+        except JobError as error:
+            print(error, file=both.log)
+            sys.exit(str(error))
         except BaseException:
             traceback.print_exc(file=both.log)
             raise

@@ -17,6 +17,7 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from pipeline.rule_log import JobError
 from pipeline.sizes import ROW_GROUP
 
 REMEDY = "delete it, and the next run makes it again"
@@ -31,7 +32,7 @@ Expected = Callable[[tuple[int, int]], Mapping[str, np.ndarray]]
 SETTINGS = b"PANDAS_ATTRS"
 
 
-class TableError(Exception):
+class TableError(JobError):
     """A file is not the expected table; the message names the file and the remedy."""
 
 

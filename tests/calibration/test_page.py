@@ -9,6 +9,7 @@ from project import ROOT
 
 from calibration import overlay, page
 from calibration.inference import DETERMINED, NOT_DETERMINED, OPEN, TOO_FEW
+from pipeline.rule_log import JobError
 
 SETTINGS = {
     "measurements": "mine.csv",
@@ -140,5 +141,5 @@ def test_the_overlay_has_the_best_parameters_and_keeps_the_ratio_of_static_frict
 @pytest.mark.parametrize("options", [{"explained": False}, {"alternative": True}, {"reliable": False}])
 def test_there_is_no_overlay_without_parameters_that_can_be_trusted(options):
     found = tables(**options)
-    with pytest.raises(overlay.NotCalibratedError, match=r"no overlay|for an overlay"):
+    with pytest.raises(JobError, match=r"no overlay|for an overlay"):
         overlay.make(found["parameters"], found["fit"])

@@ -24,6 +24,7 @@ from conveyor.solver import model
 from conveyor.solver.model import Conveyor, Start, pack, unpack
 from docs.companion import build
 from pipeline import grid
+from pipeline.rule_log import JobError
 from workflow.config.entries import resolve
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -582,8 +583,8 @@ def test_a_page_with_real_maps_is_small_enough():
 
 def test_a_map_has_two_even_axes(maps):
     table = maps[0].copy()
-    with pytest.raises(ValueError, match="z0 must be evenly spaced"):
+    with pytest.raises(JobError, match="z0 must be evenly spaced"):
         build.encode(table.assign(z0=table.z0.replace(table.z0.max(), 1.0)))
     table.attrs = {**table.attrs, "axes": {"z0": {}}}
-    with pytest.raises(ValueError, match="needs two axes"):
+    with pytest.raises(JobError, match="needs two axes"):
         build.encode(table)

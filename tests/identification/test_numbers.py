@@ -16,6 +16,7 @@ from identification.numbers import packed, searched, values_of
 from identification.settings import NUMBERS_OF_CLAIMS
 from motion import critical
 from pipeline import grid
+from pipeline.rule_log import JobError
 
 CONFIG = read_config()
 MODEL, OWN = CONFIG["model"], CONFIG["identification"]
@@ -222,5 +223,5 @@ def test_a_table_with_a_missing_edge_is_an_error():
     table = pd.DataFrame(
         {"loss": [0.2], "group": [72.0], "tension": ["allow"], "z0": [0.0], "vertical_acceleration": [np.nan]}
     )
-    with pytest.raises(ValueError, match=r"no edge was found at the loss 0\.2"):
+    with pytest.raises(JobError, match=r"no edge was found at the loss 0\.2"):
         numbers.interpolate_edges(table)

@@ -20,6 +20,7 @@ from conveyor.solver.model import (
     unpack,
 )
 from operating import drift, parts, regimes, transit
+from pipeline.rule_log import JobError
 from workflow.config.tables import TABLES
 
 SETTINGS = TABLES["operating/transit"](read_config()) | {"starts": 24, "longest": 5.0}
@@ -240,7 +241,7 @@ def test_calibrated_parts_belong_to_the_model(friction):
         found = parts.with_calibration(settings, samples, BEST)
         assert sorted(found["calibrated"][:, 0]) == pytest.approx([0.5, 1.5])
     else:
-        with pytest.raises(ValueError, match=r"model.friction = 0.25 is not 0.2, the calibrated value"):
+        with pytest.raises(JobError, match=r"model.friction = 0.25 is not 0.2, the calibrated value"):
             parts.with_calibration(settings, samples, BEST)
 
 

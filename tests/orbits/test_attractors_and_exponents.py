@@ -11,6 +11,7 @@ from project import read_config
 from conveyor.analysis.attractors import labels
 from orbits import branches, exponents, seeds, strobes, witnesses
 from pipeline import grid, motions
+from pipeline.rule_log import JobError
 
 MODEL = {
     "acceleration": 40.0,
@@ -122,7 +123,7 @@ def test_searches_of_many_motions_take_as_many_cycles_as_a_map(monkeypatch, sett
 def test_limits_below_the_first_doubling_are_named():
     section = read_config("orbits")["orbits"]
     settings = {**section, "limits": [20.0, 45.0], "max_period": 1, "model": MODEL}
-    with pytest.raises(ValueError, match=r"up to 45\.\d+ m/s².*upper value of orbits\.limits"):
+    with pytest.raises(JobError, match=r"up to 45\.\d+ m/s².*upper value of orbits\.limits"):
         branches.make(settings)
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from conveyor.solver import progress
 from conveyor.solver.parallel import for_each_chunk
-from pipeline.rule_log import logged
+from pipeline.rule_log import JobError, logged
 
 
 class Terminal(io.StringIO):
@@ -68,3 +68,11 @@ def test_a_log_has_the_traceback(monkeypatch, tmp_path):
         raise ValueError("wrong")
     assert "ValueError: wrong" in (tmp_path / "log").read_text()
     assert isinstance(sys.stderr, io.StringIO)
+
+
+def test_what_a_user_can_repair_has_no_traceback(monkeypatch, tmp_path):
+    monkeypatch.setattr(sys, "stderr", io.StringIO())
+    with pytest.raises(SystemExit) as end, logged(str(tmp_path / "log")):
+        raise JobError("give fewer")
+    assert end.value.code == "give fewer"
+    assert (tmp_path / "log").read_text() == "give fewer\n"

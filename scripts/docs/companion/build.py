@@ -9,6 +9,7 @@ import pandas as pd
 
 from conveyor.parameters import PARAMETERS, RANGES, TANGENTIAL
 from figures import style
+from pipeline.rule_log import JobError
 
 HERE = Path(__file__).parent
 # Files inserted into page.html, each in place of the comment with its name.
@@ -31,19 +32,19 @@ def encode(table: pd.DataFrame) -> dict:
 
     Raises
     ------
-    ValueError
+    JobError
         if the table is not a sweep over two parameters with even steps
     """
     names = list(table.attrs["axes"])
     if len(names) != 2:
-        raise ValueError(f"a state map needs two axes, but this sweep has {', '.join(names)}; change companion.maps")
+        raise JobError(f"a state map needs two axes, but this sweep has {', '.join(names)}; change companion.maps")
     y, x = names if names[0] == "psi0" else reversed(names)
     codes = table.assign(code=table.state.map(STATES.index)).pivot(index=y, columns=x, values="code")
     axes = {}
     for place, name, values in (("x", x, codes.columns.to_numpy()), ("y", y, codes.index.to_numpy())):
         even = np.linspace(values[0], values[-1], len(values))
         if len(values) < 2 or not np.allclose(values, even, rtol=0.0, atol=1e-6 * (even[1] - even[0])):
-            raise ValueError(f"the values of {name} must be evenly spaced for a map of the interactive page")
+            raise JobError(f"the values of {name} must be evenly spaced for a map of the interactive page")
         axes[place] = {"name": name, "start": float(values[0]), "stop": float(values[-1]), "num": len(values)}
     bits = np.unpackbits(codes.to_numpy().astype(np.uint8).reshape(-1, 1), axis=1, count=2, bitorder="little")
     packed = np.packbits(bits, bitorder="little")
@@ -59,8 +60,10 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
 
     Raises
     ------
+    JobError
+        if a table is not a state map
     ValueError
-        if a table is not a state map, or a file cannot be inserted into page.html
+        if a file cannot be inserted into page.html
     """
     own = settings["companion"]
     data = {
