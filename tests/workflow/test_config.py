@@ -163,6 +163,7 @@ WRONG = [
         "signals.states.times.stop = 2.0 s is beyond",
     ),
     ({"benchmark": {"cases": {"A": {"compared": 2.0}}}}, "benchmark.cases.A.compared = 2.0 s is beyond the duration"),
+    ({"transit": {"longest": 0.01}}, "transit.longest = 0.01 s is shorter than an excitation cycle (0.02 s)"),
     (
         {"regressions": {"height": {"bounds": {"A": [0.03, 0.0]}}}},
         "regressions.height.bounds.A = [0.03, 0.0] is",

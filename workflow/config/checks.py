@@ -211,6 +211,9 @@ def times(config: dict, defaults: dict) -> Iterator[str]:
         if case["compared"] > duration:
             key = f"benchmark.cases.{name}.compared = {case['compared']!r} s"
             yield f"{key} is beyond the duration of {duration!r} s; give less"
+    cycle = 1.0 / config["model"]["frequency"]
+    if (longest := config["transit"]["longest"]) < cycle:
+        yield f"transit.longest = {longest!r} s is shorter than an excitation cycle ({cycle:.3g} s); give more"
 
 
 def orbits(config: dict, defaults: dict) -> Iterator[str]:
