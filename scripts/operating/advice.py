@@ -14,10 +14,11 @@ import pandas as pd
 from conveyor.analysis import throw_theory
 from conveyor.parameters import RANGES
 from operating.parts import VARIED, population, with_calibration
-from operating.transit import MEASURES, follow, measure, summarize
+from operating.transit import MEASURES, PROBABILITIES, follow, measure, relative_spread, summarize
 from pipeline import fields
 
 FAST, EVEN = "fast", "even"
+RESAMPLES = 400  # of the parts, for the standard errors of changes
 ENOUGH = 0.5  # of the largest 5 % quantile, which an even amplitude must have
 AIM = fields.text("aim", f"{FAST}: largest 5 % quantile of the transit velocity, {EVEN}: least relative spread")
 TABLES = {
@@ -37,7 +38,9 @@ TABLES = {
         fields.number("value", "SI", "its new value"),
         *MEASURES,
         fields.number("gain", "1", "relative change of the 5 % quantile of the velocity, with the same parts"),
+        fields.number("gain_stderr", "1", "its standard error, from resamples of the parts"),
         fields.number("widening", "1", "relative change of the relative spread, with the same parts"),
+        fields.number("widening_stderr", "1", "its standard error, from resamples of the parts"),
     ),
 }
 
@@ -85,34 +88,50 @@ def with_parameter(model: dict, parameter: str, value: float) -> dict:
     return changed
 
 
-def relative_change(after: float, before: float) -> float:
+def relative_change(after: np.ndarray, before: np.ndarray) -> np.ndarray:
     """The change in units of the size before; NaN for a size of 0."""
-    return (after - before) / abs(before) if before else np.nan
+    return (after - before) / np.where(before, np.abs(before), np.nan)
 
 
-def changes_at(row: pd.Series, settings: dict, changes: dict[str, float], *, threads: int = 1) -> list[dict]:
-    """Measures if one parameter at a time is increased or decreased, at the amplitude of a row of the transit table."""
-    model, amplitude, parts = settings["model"], np.array([row.acceleration]), settings["starts"]
+def effects(before: np.ndarray, after: np.ndarray, axis: int = -1) -> np.ndarray:
+    """Relative changes of the 5 % quantile and of the relative spread of velocities of parts, stacked."""
+    old, new = (np.quantile(velocity, PROBABILITIES, axis=axis) for velocity in (before, after))
+    return np.stack([relative_change(new[0], old[0]), relative_change(relative_spread(new), relative_spread(old))])
+
+
+def compare(before: np.ndarray, after: np.ndarray, seed: int) -> dict[str, float]:
+    """The effects of a change on the velocities of parts, shape (n,), and their standard errors.
+
+    Resamples draw the same parts before and after the change (paired bootstrap: Efron and Tibshirani 1993).
+    """
+    if len(before) == 0:
+        return dict.fromkeys(("gain", "widening", "gain_stderr", "widening_stderr"), np.nan)
+    drawn = np.random.default_rng(seed).integers(len(before), size=(RESAMPLES, len(before)))
+    (gain, widening), errors = effects(before, after), effects(before[drawn], after[drawn]).std(axis=-1, ddof=1)
+    return {"gain": gain, "widening": widening, "gain_stderr": errors[0], "widening_stderr": errors[1]}
+
+
+def changes_at(acceleration: float, settings: dict, changes: dict[str, float], *, threads: int = 1) -> list[dict]:
+    """Measures if one parameter at a time is increased or decreased, at an amplitude (m/s²)."""
+    model, amplitude, parts = settings["model"], np.array([acceleration]), settings["starts"]
     changed = [
         (parameter, value)
         for parameter, change in changes.items()
         for value in (model[parameter] - change, model[parameter] + change)
         if RANGES[parameter][0] <= value <= RANGES[parameter][1]
     ]
-    if not changed:
-        return []
-    populations = [population(amplitude, {**settings, "model": with_parameter(model, *one)}) for one in changed]
+    models = [model, *(with_parameter(model, *one) for one in changed)]
+    populations = [population(amplitude, {**settings, "model": one}) for one in models]
     run = follow(np.concatenate(populations), settings, threads=threads)
+    velocity, is_right = run["velocity"][:, 0].reshape(-1, parts), (run["status"] == "ok").reshape(-1, parts)
     rows = []
-    for place, (parameter, value) in enumerate(changed):
-        after = summarize(run, slice(place * parts, (place + 1) * parts))
-        own = {
-            "parameter": parameter,
-            "value": value,
-            "gain": relative_change(after["velocity_05"], row.velocity_05),
-            "widening": relative_change(after["spread"], row.spread),
-        }
-        rows.append(after | own)
+    for place, (parameter, value) in enumerate(changed, start=1):
+        both = is_right[0] & is_right[place]
+        rows.append(
+            summarize(run, slice(place * parts, (place + 1) * parts))
+            | compare(velocity[0, both], velocity[place, both], settings["seed"])
+            | {"parameter": parameter, "value": value}
+        )
     return rows
 
 
@@ -155,7 +174,8 @@ def make(
         }
         own = {"aim": aim, "throw_number": unit * row.acceleration, "states": describe_states(shares, row.acceleration)}
         advice.append(row.to_dict() | worst | own)
-        changes += [{"aim": aim, **one} for one in changes_at(row, followed, settings["changes"], threads=threads)]
+        changed = changes_at(row.acceleration, followed, settings["changes"], threads=threads)
+        changes += [{"aim": aim, **one} for one in changed]
     return {
         "advice": fields.columns(advice, TABLES["advice"]),
         "changes": fields.columns(changes, TABLES["changes"]),

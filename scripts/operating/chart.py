@@ -24,6 +24,7 @@ from pipeline.templates import render
 # -log(0.05) is 2.996.
 RULE_OF_THREE = 3.0
 WORTH_CHANGING = 0.01  # relative change of velocity or spread from which a change of a parameter is named
+CERTAIN = 2.0  # standard errors that it must exceed, too
 MOST_CHANGES = 4  # that are named
 
 
@@ -60,9 +61,10 @@ def summarize_regimes(regimes: pd.DataFrame) -> dict[str, list[dict]]:
 def select_changes(aim: str, changes: pd.DataFrame) -> list[dict]:
     """The changes of one parameter that serve the aim best: more velocity, or less spread."""
     own = changes[changes.aim == aim]
-    effect = own.gain if aim == FAST else -own.widening
-    order = effect[effect > WORTH_CHANGING].sort_values(ascending=False, kind="stable").index
-    return own.loc[order[:MOST_CHANGES]].to_dict("records")
+    effect, error = (own.gain, own.gain_stderr) if aim == FAST else (-own.widening, own.widening_stderr)
+    helps = (effect > WORTH_CHANGING) & (effect > CERTAIN * error)
+    order = effect[helps].sort_values(ascending=False, kind="stable").index
+    return own.loc[order[:MOST_CHANGES]].replace({np.nan: None}).to_dict("records")
 
 
 def spreads_of(settings: dict) -> dict[str, float]:

@@ -73,9 +73,12 @@ def quantiles(velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return found, mjci(velocity - found[2], PROBABILITIES)
 
 
-def relative_spread(found: np.ndarray) -> float:
-    """95 % quantile minus 5 % quantile, over the size of the median; NaN for a median of 0."""
-    return (found[-1] - found[0]) / abs(found[2]) if found[2] else math.nan
+def relative_spread(found: np.ndarray) -> np.ndarray:
+    """95 % quantile minus 5 % quantile, over the size of the median; NaN for a median of 0.
+
+    found : quantiles at PROBABILITIES, shape (5, ...)
+    """
+    return (found[-1] - found[0]) / np.where(found[2], np.abs(found[2]), np.nan)
 
 
 def upper(peaks: np.ndarray) -> float:

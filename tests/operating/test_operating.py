@@ -340,12 +340,13 @@ def advised(**worst: float) -> list[pd.DataFrame]:
     advice_rows = pd.DataFrame([fast, even])
     advice_rows.attrs = {"margin": 0.01, "part_length": 0.02}
     changes = [
-        {"aim": "fast", "parameter": "friction", "value": 0.17, "gain": 0.2, "widening": -0.1},
+        {"aim": "fast", "parameter": "friction", "value": 0.17, "gain": 0.2, "widening": -0.004},
+        {"aim": "fast", "parameter": "friction", "value": 0.13, "gain": 0.05, "widening": -0.1},
         {"aim": "fast", "parameter": "angle", "value": 0.2, "gain": -0.2, "widening": -0.5},
-        {"aim": "fast", "parameter": "angle", "value": 0.24, "gain": 0.1, "widening": 0.3},
+        {"aim": "fast", "parameter": "angle", "value": 0.24, "gain": 0.1, "widening": math.nan},
         {"aim": "even", "parameter": "angle", "value": 0.2, "gain": -0.2, "widening": -0.5},
     ]
-    return [rows, advice_rows, pd.DataFrame(changes)]
+    return [rows, advice_rows, pd.DataFrame(changes).assign(gain_stderr=0.032, widening_stderr=0.01)]
 
 
 def page_of(shares_table: pd.DataFrame, tables: list[pd.DataFrame]) -> str:
@@ -381,8 +382,8 @@ def test_the_page_begins_with_the_advice(refined):
     assert "- Late: 12.5 % of the parts need more than 20 s for 0.5 m. None has moved back\n" in page
     assert "- Impact speed up to 0.1 m/s, contact force up to 0.5 N (50 times the weight of the part)" in page
     assert "- State of motion: first 90 %, second 10 % of the initial conditions\n" in page
-    assert "  - friction of 0.17 (now 0.15): velocity +20 %, spread -10 %\n" in page
-    assert "  - angle of 13.8° (now 12°): velocity +10 %, spread +30 %\n" in page
+    assert "  - friction of 0.17 (now 0.15): velocity +20 ± 4 %, spread +0 ± 1 %\n" in page
+    assert "  - angle of 13.8° (now 12°): velocity +10 ± 4 %\n" in page
     assert page.index("**Even.**") < page.index("- **Amplitude 58 m/s²**") < page.index("## What the conveyor does")
     assert "1.0 % have moved back" in page
     assert page.count("(now ") == 3
@@ -515,8 +516,23 @@ def test_static_friction_keeps_its_ratio_and_values_out_of_range_are_left_out():
     assert advice.with_parameter({"friction": 0.15}, "friction", 0.2) == {"friction": 0.2}
     settings = TABLES["operating/transit"](read_config()) | {"starts": 8, "longest": 0.2}
     settings["model"] = settings["model"] | {"friction": 0.01}
-    row = transit.measure(np.array([40.0]), settings, ("varied",)).iloc[0]
-    assert [change["value"] for change in advice.changes_at(row, settings, {"friction": 0.02})] == [0.03]
+    raised = settings | {"model": settings["model"] | {"friction": 0.03}}
+    (change,) = advice.changes_at(40.0, settings, {"friction": 0.02})
+    assert change["value"] == 0.03
+    velocity = [transit.measure(np.array([40.0]), one, ("varied",)).velocity_05[0] for one in (settings, raised)]
+    assert change["gain"] == pytest.approx((velocity[1] - velocity[0]) / abs(velocity[0]), rel=1e-12)
+
+
+def test_a_change_that_affects_all_parts_equally_has_no_error():
+    """Errors come from the same parts before and after, so that the differences between parts do not count."""
+    before = np.random.default_rng(1).normal(1.0, 0.2, 64)
+    found = advice.compare(before, 1.1 * before, seed=1)
+    assert found["gain"] == pytest.approx(0.1) and found["widening"] == pytest.approx(0.0, abs=1e-12)
+    assert max(found["gain_stderr"], found["widening_stderr"]) < 1e-12
+    other = advice.compare(before, np.random.default_rng(2).normal(1.1, 0.2, 64), seed=1)
+    assert 0.03 < other["gain_stderr"] < 0.4
+    still = advice.compare(np.zeros(64), before, seed=1)
+    assert all(math.isnan(value) for value in still.values())
 
 
 def interval_rows(*rows: tuple[str, float, float]) -> pd.DataFrame:

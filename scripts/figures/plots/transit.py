@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.transforms import nonsingular
 
 from figures import style
 from figures.plots.operating import draw_regimes
@@ -20,9 +21,13 @@ def draw_bands(axes: Axes, transit: pd.DataFrame) -> None:
     for population in POPULATIONS:
         rows, colour = transit[transit.population == population], COLOURS[population]
         label = f"{LABELS[population]}: median, and 5 to 95 %"
-        axes.plot(rows.acceleration, 100.0 * rows.velocity_50, color=colour, label=label, linewidth=1.3)
+        look = "o" if len(rows) == 1 else "-"
+        axes.plot(rows.acceleration, 100.0 * rows.velocity_50, look, color=colour, label=label, linewidth=1.3)
         ends = 100.0 * rows.velocity_05, 100.0 * rows.velocity_95
-        if population == IDENTICAL:
+        if len(rows) == 1:
+            bar = {"linewidth": 8.0, "alpha": 0.35} if population == IDENTICAL else {"linewidth": 1.3}
+            axes.vlines(rows.acceleration, *ends, color=colour, **bar)
+        elif population == IDENTICAL:
             axes.fill_between(rows.acceleration, *ends, color=colour, alpha=0.35, linewidth=0.0)
         else:
             for end in ends:
@@ -66,15 +71,19 @@ def plot(*, transit: pd.DataFrame, shares: pd.DataFrame, regimes: pd.DataFrame, 
     spreads, tracks = below.subplots(1, 2)
     handles = draw_regimes(strip, shares, regimes)
     draw_bands(bands, transit)
-    bands.set_xlim(transit.acceleration.min(), transit.acceleration.max())
+    limits = nonsingular(transit.acceleration.min(), transit.acceleration.max(), expander=0.05)
+    bands.set_xlim(limits)
     bands.set_xlabel(style.AMPLITUDE)
     bands.set_ylabel("transit velocity in cm/s")
     bands.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
     for population in POPULATIONS:
         rows = transit[transit.population == population]
-        spreads.plot(rows.acceleration, rows.spread, color=COLOURS[population])
-    spreads.set_yscale("log")
-    spreads.set_xlim(transit.acceleration.min(), transit.acceleration.max())
+        spreads.plot(rows.acceleration, rows.spread, "o" if len(rows) == 1 else "-", color=COLOURS[population])
+    if (transit.spread > 0.0).any():
+        spreads.set_yscale("log")
+    else:
+        style.say(spreads, "half of the parts have not moved,\nor all velocities are equal")
+    spreads.set_xlim(limits)
     spreads.set_xlabel(style.AMPLITUDE)
     spreads.set_ylabel("relative spread")
     draw_lengths(tracks, lengths)
