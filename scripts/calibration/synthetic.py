@@ -55,4 +55,5 @@ def make(settings: dict) -> str:
     random = np.random.default_rng(settings["seed"])
     accelerations = np.repeat(np.linspace(*settings["acceleration"], settings["amplitudes"]), settings["parts"])
     rows = measure(settings["model"], accelerations, settings, settings["noise"], random)
-    return csv_text(rows, "Synthetic, not measured: made by `snakemake config/examples/measured.csv`, with noise")
+    made_by = "snakemake --force config/examples/measured.csv"
+    return csv_text(rows, f"Synthetic, not measured: made by `{made_by}`, with noise")

@@ -7,6 +7,7 @@ import pandas as pd
 
 from claims.about_proofs import lowest_fold, stable_motions
 from claims.verdicts import VERDICTS
+from conveyor.analysis.stroboscopic_map import MAX_PERIOD
 from figures.captions import accumulation, fig10
 from operating.chart import spreads_of
 from operating.parts import POPULATIONS
@@ -94,6 +95,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         "right_signs": right_signs,
         "paper_two_states": claims.paper["C02"],
         "heights_aside": fig10(converged=tables["edge"], euler=tables["edge_euler"])["aside"],
+        "longest_period": MAX_PERIOD,
         "epsilon": tables["estimate"].attrs["epsilon"],
         "valley": valley(tables["fit"]),
         **accumulation(spectrum=tables["spectrum"], cascade=tables["cascade"]),

@@ -50,12 +50,20 @@ def summarize_shares(shares: pd.DataFrame) -> dict:
     }
 
 
-def summarize_regimes(regimes: pd.DataFrame) -> dict[str, list[dict]]:
-    """The rows of the table of regimes, those with one regime, and the row in which chaos begins."""
+def summarize_regimes(regimes: pd.DataFrame, merged: pd.DataFrame) -> dict[str, list[dict]]:
+    """The rows of the table of merged regimes, by regime, and the row in which chaos begins, of the whole table."""
     names = {"one": ONE, "several": SEVERAL, "only_chaos": CHAOS, "unknown": UNKNOWN}
-    parts = {name: regimes[regimes.regime == regime] for name, regime in names.items()}
-    parts |= {"rows": regimes, "chaos": regimes[regimes.states.str.contains("chaos")].head(1)}
+    parts = {name: merged[merged.regime == regime] for name, regime in names.items()}
+    parts |= {"rows": merged, "chaos": regimes[regimes.states.str.contains("chaos")].head(1)}
     return {name: rows.to_dict("records") for name, rows in parts.items()}
+
+
+def most_frequent(shares: pd.DataFrame, intervals: list[dict]) -> dict:
+    """The amplitude in some intervals with several velocities at which most initial conditions reach the fastest."""
+    amplitudes = summarize_amplitudes(shares, shares.attrs["same_velocity"])
+    inside = [amplitudes.acceleration.between(row["begin"], row["end"]) for row in intervals]
+    own = amplitudes[(amplitudes.regime == SEVERAL) & np.any(inside, axis=0)]
+    return own.loc[own.best_share.idxmax()].to_dict()
 
 
 def select_changes(aim: str, changes: pd.DataFrame) -> list[dict]:
@@ -98,11 +106,9 @@ def make(
 ) -> str:
     """The page from its template and its tables."""
     merged = merge_narrow(regimes, advice.attrs["margin"])
-    values = summarize_advice(transit, advice, changes) | summarize_shares(shares) | summarize_regimes(merged)
+    values = summarize_advice(transit, advice, changes) | summarize_shares(shares) | summarize_regimes(regimes, merged)
     if values["several"]:
-        amplitudes = summarize_amplitudes(shares, shares.attrs["same_velocity"])
-        several = amplitudes[amplitudes.regime == SEVERAL]
-        values["most"] = several.loc[several.best_share.idxmax()].to_dict()
+        values["most"] = most_frequent(shares, values["several"])
     values |= {
         "units": UNITS,
         "options": advice.attrs,

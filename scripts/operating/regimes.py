@@ -105,11 +105,13 @@ def intervals_of(amplitudes: pd.DataFrame, shares: pd.DataFrame) -> pd.DataFrame
 
 
 def join(rows: pd.DataFrame) -> pd.Series:
-    """One interval from neighbouring ones: the regime and the states of the widest, and the range of all velocities."""
-    widest = rows.loc[(rows.right - rows.left).idxmax()]
+    """One interval from neighbouring ones: the regime of the widest, the states and the range of velocities of all."""
+    by_width = rows.loc[(rows.right - rows.left).sort_values(ascending=False, kind="stable").index]
+    widest = by_width.iloc[0]
+    states = dict.fromkeys(", ".join(by_width.states).split(", "))  # each once, in this order
     least = rows[["begin", "left", "velocity_low", "best_low", "best_share_low"]].min(skipna=False)
     most = rows[["end", "right", "step", "best_high", "best_share_high", "best_share_stderr"]].max(skipna=False)
-    return pd.Series({**widest, **least, **most, "amplitudes": rows.amplitudes.sum()})
+    return pd.Series({**widest, **least, **most, "states": ", ".join(states), "amplitudes": rows.amplitudes.sum()})
 
 
 def merge_narrow(regimes: pd.DataFrame, margin: float) -> pd.DataFrame:

@@ -64,7 +64,7 @@ def test_the_page_counts_intervals_that_hold_and_models_that_are_called_wrong():
     assert "| True friction within its 95 % interval | 2 of 3 | 1 of 1 |" in page
     assert "| All true parameters within their intervals | 6 of 9 (67 %) | 3 of 3 (100 %) |" in page
     assert "| Intervals of friction and damping of at most ±20 % | 2 of 3 | 1 of 1 |" in page
-    assert "those that the measurements leave open (see below) | 1 of 1 | 0 of 0 |" in page
+    assert "Wider intervals that the measurements leave open (see below) | 1 of 1 | 0 of 0 |" in page
     assert '| Wrongly called "not explained" | 1 of 3 | 0 of 1 |' in page
     assert "| the track rises by 0.06 rad | 3 | 2 |" in page
 

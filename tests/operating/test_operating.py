@@ -316,7 +316,7 @@ def test_chaos_begins_at_its_lowest_amplitude():
             "end": [29.0, 39.0, 49.0, 60.0],
         }
     )
-    parts = chart.summarize_regimes(found)
+    parts = chart.summarize_regimes(found, found)
     assert [row["begin"] for row in parts["chaos"]] == [30.0]
     assert [(row["begin"], row["end"]) for row in parts["only_chaos"]] == [(50.0, 60.0)]
     assert parts["unknown"] == []
@@ -555,8 +555,32 @@ def test_narrow_intervals_are_merged_into_their_wider_neighbour():
     assert found.end.tolist() == [40.0, 60.1, 61.5]
     assert found.velocity_low.tolist() == [0.05, 0.1, 0.1]
     assert found.amplitudes.tolist() == [6, 4, 2]
+    assert found.states.tolist() == [
+        f"{regimes.ONE}, {regimes.CHAOS}",
+        f"{regimes.SEVERAL}, {regimes.BESIDE}",
+        regimes.CHAOS,
+    ]
     pd.testing.assert_frame_equal(regimes.merge_narrow(table, 1e-6), table)
     assert len(regimes.merge_narrow(table, 0.9)) == 1
+
+
+def test_the_page_says_what_merged_intervals_hide(refined):
+    """With a margin of 30 %, the two intervals with chaos count as a part of their neighbour."""
+    tables = advised()
+    tables[1].attrs["margin"] = 0.3
+    page = page_of(refined, tables)
+    assert (
+        "2 intervals of amplitudes are narrower than 30 % of the amplitude. Here and in the table, they count" in page
+    )
+    assert "Chaos begins at 50." in page
+    table = page[page.index("| Amplitude in m/s² |") :]
+    assert "| several velocities | first, second, chaos |" in table
+
+
+def test_the_largest_share_belongs_to_an_amplitude_that_the_page_names(refined):
+    whole = chart.most_frequent(refined, [{"begin": 20.0, "end": 60.0}])
+    assert whole["acceleration"] >= 40.0 and whole["best_share"] == pytest.approx(0.34)
+    assert chart.most_frequent(refined, [{"begin": 20.0, "end": 36.0}])["best_share"] == pytest.approx(0.3)
 
 
 def test_regimes_and_their_words(refined):

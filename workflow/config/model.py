@@ -150,7 +150,7 @@ class Dimension(Followed):
     samples: whole("number of samples", 8, 10**8)
     estimator: word("estimator of the dimension", "paper", "box", "correlation")
     octaves: NotRequired[whole("box sizes are 1/2 to 1/2^octaves of the extent", 3, 30)]
-    theiler: NotRequired[whole("pairs of samples closer in time than this are left out", 0, 10**8, "samples")]
+    theiler: NotRequired[whole("pairs of samples at most this far apart in time are left out", 0, 10**8, "samples")]
     largest_error: NotRequired[number("estimates with a larger error are left out", gt=0, le=2)]
 
 
@@ -267,8 +267,8 @@ class Uncertainty(TypedDict):
 
 class Goals(TypedDict):
     error: number("relative error of the mean velocity", gt=0, le=1e300)
-    speed: number("speed in units of explicit Euler", gt=0, le=1e300)
-    aim: number("speed in units of explicit Euler", gt=0, le=1e300)
+    speed: number("goal of the speed, in units of explicit Euler's speed", gt=0, le=1e300)
+    aim: number("ambition beyond this goal, in the same units", gt=0, le=1e300)
 
 
 class Case(TypedDict):

@@ -490,7 +490,7 @@ def run_all(parameters: np.ndarray, duration: float, step: float, method: str = 
     Raises
     ------
     ValueError
-        for a duration or step that is not positive, or an unknown method
+        for a duration or step outside (0, LONGEST], a duration that is no whole number of steps, or an unknown method
     """
     n_steps = step_count(duration, step)
     first = min(round((1.0 - LAST) * n_steps), n_steps - 1)
