@@ -194,9 +194,8 @@ def parse(text: str, path: str | Path, settings: Mapping[str, Any], ranges: Mapp
         faults = [f"{path}:{fault}" for fault in unit_faults(rows, settings["model"])]
     if not faults and len(rows) < parameters:
         remedy = "measure more, or calibrate fewer with calibration.parameters"
-        faults = [
-            f"{path}:{reader.line_num}: {len(rows)} measurements cannot determine {parameters} parameters; {remedy}"
-        ]
+        given = f"{len(rows)} measurement{'s' if len(rows) != 1 else ''}"
+        faults = [f"{path}:{reader.line_num}: {given} cannot determine {parameters} parameters; {remedy}"]
     if faults:
         raise MeasurementError(faults)
     return rows

@@ -79,7 +79,7 @@ def make(
 ) -> dict[str, dict]:
     """The tables of predicted velocities and of possible next measurements."""
     low, high = fit.acceleration.min(), fit.acceleration.max()
-    between = np.linspace(low, high, settings["amplitudes"])
+    between = np.unique(np.linspace(low, high, settings["amplitudes"]))
     step = (high - low) / (settings["amplitudes"] - 1) if high > low else 0.05 * low
     count = math.floor(settings["beyond"] * high / step)
     beyond = np.concatenate([low - step * np.arange(1, count + 1), high + step * np.arange(1, count + 1)])

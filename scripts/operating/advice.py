@@ -31,6 +31,7 @@ TABLES = {
         fields.number("spread_worst", "1", "largest relative spread within the margin"),
         fields.number("back_worst", "1", "largest share of parts that have moved back within the margin"),
         fields.text("states", "states of motion at the nearest amplitude of the table of shares, with their shares"),
+        fields.number("states_acceleration", "m/s²", "that amplitude"),
     ),
     "changes": (
         AIM,
@@ -135,11 +136,12 @@ def changes_at(acceleration: float, settings: dict, changes: dict[str, float], *
     return rows
 
 
-def describe_states(shares: pd.DataFrame, acceleration: float) -> str:
-    """The states at the nearest amplitude of the table of shares, "chaos 85 %, second 15 %"."""
+def describe_states(shares: pd.DataFrame, acceleration: float) -> dict[str, str | float]:
+    """The states at the nearest amplitude of the table of shares, "chaos 85 %, second 15 %", and that amplitude."""
     nearest = shares.acceleration.iloc[(shares.acceleration - acceleration).abs().argmin()]
     found = shares[shares.acceleration == nearest].groupby("state").share.sum().sort_values(ascending=False)
-    return ", ".join(f"{state} {100.0 * share:.0f} %" for state, share in found.items())
+    states = ", ".join(f"{state} {100.0 * share:.3g} %" for state, share in found.items())
+    return {"states": states, "states_acceleration": nearest}
 
 
 def make(
@@ -172,7 +174,7 @@ def make(
             "spread_worst": around(place).spread.max(),
             "back_worst": around(place).back.max(),
         }
-        own = {"aim": aim, "throw_number": unit * row.acceleration, "states": describe_states(shares, row.acceleration)}
+        own = {"aim": aim, "throw_number": unit * row.acceleration} | describe_states(shares, row.acceleration)
         advice.append(row.to_dict() | worst | own)
         changed = changes_at(row.acceleration, followed, settings["changes"], threads=threads)
         changes += [{"aim": aim, **one} for one in changed]

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor.parameters import UNITS
-from operating.advice import EVEN, FAST
+from operating.advice import ENOUGH, EVEN, FAST
 from operating.regimes import (
     CHAOS,
     ONE,
@@ -26,6 +26,8 @@ RULE_OF_THREE = 3.0
 WORTH_CHANGING = 0.01  # relative change of velocity or spread from which a change of a parameter is named
 CERTAIN = 2.0  # standard errors that it must exceed, too
 MOST_CHANGES = 4  # that are named
+STILL = 0.01  # of the largest velocity of the plate: slower parts do not count as parts that move forward
+DECIMALS = 6  # of velocities in m/s: smaller ones are rounding errors
 
 
 def summarize_shares(shares: pd.DataFrame) -> dict:
@@ -48,6 +50,13 @@ def summarize_shares(shares: pd.DataFrame) -> dict:
         "step": np.diff(amplitudes).max(initial=0.0),
         "throw_numbers": (shares.vertical.min(), shares.vertical.max()),
     }
+
+
+def moves_forward(transit: pd.DataFrame) -> bool:
+    """Whether more than 5 % of the parts move forward at any amplitude."""
+    model = transit.attrs["model"]
+    plate = transit.acceleration * math.cos(model["angle"]) / (2.0 * math.pi * model["frequency"])
+    return bool((transit.velocity_95 > STILL * plate).any())
 
 
 def summarize_regimes(regimes: pd.DataFrame, merged: pd.DataFrame) -> dict[str, list[dict]]:
@@ -106,13 +115,17 @@ def make(
 ) -> str:
     """The page from its template and its tables."""
     merged = merge_narrow(regimes, advice.attrs["margin"])
+    velocities = ["velocity_low", "best_low", "best_high"]
+    merged[velocities] = merged[velocities].round(DECIMALS) + 0.0  # no negative zero
     values = summarize_advice(transit, advice, changes) | summarize_shares(shares) | summarize_regimes(regimes, merged)
     if values["several"]:
         values["most"] = most_frequent(shares, values["several"])
     values |= {
         "units": UNITS,
         "options": advice.attrs,
-        "forward": (transit.velocity_95 > 0.0).any(),
+        "forward": moves_forward(transit),
+        "still": STILL,
+        "enough": ENOUGH,
         "ends": (transit.acceleration.min(), transit.acceleration.max()),
         "slides": (shares.status == SLIDES_AWAY).all(),
         "merged": len(regimes) - len(merged),

@@ -117,13 +117,13 @@ def join(rows: pd.DataFrame) -> pd.Series:
 def merge_narrow(regimes: pd.DataFrame, margin: float) -> pd.DataFrame:
     """The table of regimes without intervals that are narrower than a relative margin of the amplitude.
 
-    The narrowest interval is merged into its wider neighbour until none is too narrow. An interval ends half-way
-    between computed amplitudes.
+    The narrowest interval is merged into its wider neighbour until none is too narrow. An unknown regime stays, because
+    it is none of its neighbours. An interval ends half-way between computed amplitudes.
     """
     between = 0.5 * (regimes.end.shift() + regimes.begin)
     rows = regimes.assign(left=between.fillna(regimes.begin), right=between.shift(-1).fillna(regimes.end))
     while len(rows) > 1:
-        relative = (rows.right - rows.left) / rows.right
+        relative = ((rows.right - rows.left) / rows.right).where(rows.regime != UNKNOWN, np.inf)
         if relative.min() >= margin:
             break
         place = int(relative.argmin())

@@ -247,6 +247,6 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
         if not wide.any() or len(places) >= len(amplitudes) + MOST_ADDED:
             return {"shares": table, "regimes": regimes.intervals_of(summary, table)}
         between = 0.5 * (places[1:] + places[:-1])[wide]
-        label = progress and f"{progress}, {len(between)} amplitudes between"
+        label = progress and f"{progress}, amplitudes between: {len(between)}"
         new = motions_at(between, settings, threads=threads, progress=label)
         table = pd.concat([table, new]).sort_values(["acceleration", "motion"], ignore_index=True)

@@ -45,6 +45,11 @@ def round_up(value: float) -> str:
     return format_plain(math.ceil(value / unit) * unit, 2)
 
 
+def format_count(count: int, noun: str) -> str:
+    """A number with its noun: "1 design", "1,200 designs"."""
+    return f"{count:,} {noun}{'s' if count != 1 else ''}"
+
+
 def join_list(values: Iterable) -> str:
     """Texts or numbers as a list in a sentence, "a, b and c"."""
     texts = [str(format_field(value)) for value in values]
@@ -59,6 +64,7 @@ ENVIRONMENT.filters |= {
     "significant": format_significant,
     "range": format_range,
     "round_up": round_up,
+    "counted": format_count,
     "thousands": "{:,}".format,
     "listed": join_list,
 }

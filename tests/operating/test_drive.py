@@ -189,11 +189,24 @@ def test_a_seed_that_finds_a_design_late_or_never_is_named(made):
     """Its hypervolume has no relative growth."""
     volumes = growing(0.0, 0.0, 0.0, 1.0), growing(0.0, 0.0, 0.0, 0.0).assign(seed=2)
     page = drive_page.make(TEMPLATE, made["drive_front"], pd.concat(volumes))
-    assert "not every seed had a design within the constraints" in page
-    assert "A seed found no design within the constraints." in page
+    assert "not every seed had a design within the limits" in page
+    assert "A seed found no design within the limits." in page
     assert "inf" not in page
     page = drive_page.make(TEMPLATE, made["drive_front"], growing(0.1, 0.5, 0.9, 1.0))
     assert "not every seed" not in page and "has at least 100 % of the hypervolume" in page
+    page = drive_page.make(TEMPLATE, made["drive_front"], growing(0.0, 0.0, 0.0, 0.0))
+    assert "**Whether the search has settled is not known**" in page and "not every seed" not in page
+
+
+def test_settings_at_which_parts_arrive_late_are_pointed_out(made):
+    front = made["drive_front"].copy()
+    assert "more than half of the parts need longer" not in drive_page.make(
+        TEMPLATE, front, growing(1.0, 1.0, 1.0, 1.0)
+    )
+    front.loc[front.recommended, "checked_late"] = 0.6
+    late = int(front.recommended.sum())
+    page = drive_page.make(TEMPLATE, front, growing(1.0, 1.0, 1.0, 1.0))
+    assert f"**With {late} setting" in page and "m/s in `drive.velocity`" in page
 
 
 def test_a_search_that_finds_nothing_says_so(monkeypatch):

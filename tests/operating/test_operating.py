@@ -276,7 +276,9 @@ SETTINGS = {**BOX, "acceleration": {"start": 20.0, "stop": 60.0, "num": 9}, "res
 def refined(monkeypatch) -> pd.DataFrame:
     monkeypatch.setattr(shares, "motions_at", made_up)
     found = shares.make(SETTINGS)["shares"]
-    found.attrs = SETTINGS | {"model": {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0}}
+    found.attrs = SETTINGS | {
+        "model": {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0, "frequency": 50.0}
+    }
     return found
 
 
@@ -333,10 +335,13 @@ def advised(**worst: float) -> list[pd.DataFrame]:
     """Made-up tables of transit, advice and changes."""
     rows = pd.DataFrame([measures(acceleration=a, population="varied") for a in (31.0, 58.0)])
     rows.attrs = {"length": 0.5, "longest": 20.0, "starts": 256, "spread": {"friction": 0.15, "mass": 0.0, "seed": 1}}
-    rows.attrs["model"] = {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0}
+    rows.attrs["model"] = {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0, "frequency": 50.0}
     common = {"throw_number": 0.66, "velocity_worst": 0.01, "spread_worst": 1.1, "back_worst": 0.0} | worst
-    fast = measures(aim="fast", acceleration=31.0, states="first 90 %, second 10 %", **common)
-    even = measures(aim="even", acceleration=58.0, states="chaos 100 %", **common) | {"spread": 0.2, "back": 0.01}
+    fast = measures(aim="fast", acceleration=31.0, states="first 90 %, second 10 %", states_acceleration=31.1, **common)
+    even = measures(aim="even", acceleration=58.0, states="chaos 100 %", states_acceleration=55.0, **common) | {
+        "spread": 0.2,
+        "back": 0.01,
+    }
     advice_rows = pd.DataFrame([fast, even])
     advice_rows.attrs = {"margin": 0.01, "part_length": 0.02}
     changes = [
@@ -346,7 +351,7 @@ def advised(**worst: float) -> list[pd.DataFrame]:
         {"aim": "fast", "parameter": "angle", "value": 0.24, "gain": 0.1, "widening": math.nan},
         {"aim": "even", "parameter": "angle", "value": 0.2, "gain": -0.2, "widening": -0.5},
     ]
-    return [rows, advice_rows, pd.DataFrame(changes).assign(gain_stderr=0.032, widening_stderr=0.01)]
+    return [rows, advice_rows, pd.DataFrame(changes).assign(gain_stderr=0.032, widening_stderr=0.01, velocity_05=0.03)]
 
 
 def page_of(shares_table: pd.DataFrame, tables: list[pd.DataFrame]) -> str:
@@ -364,8 +369,8 @@ def test_no_amplitude_is_recommended_where_parts_move_back(refined):
     back.attrs = rows.attrs
     page = page_of(refined, [back, *others])
     assert (
-        "**At no amplitude do more than 5 % of the parts move forward**, so there is no amplitude to recommend. A"
-        in page
+        "**At no amplitude do more than 5 % of the parts move forward** (faster than at 1 % of the plate's largest "
+        "velocity), so there is no amplitude to recommend. A" in page
     )
     assert "- **Amplitude" not in page and "relative spread is" not in page
     steep = refined.assign(status=regimes.SLIDES_AWAY)
@@ -382,6 +387,7 @@ def test_the_page_begins_with_the_advice(refined):
     assert "- Late: 12.5 % of the parts need more than 20 s for 0.5 m. None has moved back\n" in page
     assert "- Impact speed up to 0.1 m/s, contact force up to 0.5 N (50 times the weight of the part)" in page
     assert "- State of motion: first 90 %, second 10 % of the initial conditions\n" in page
+    assert "- State of motion at 55 m/s², the nearest amplitude at which it was examined: chaos 100 % of" in page
     assert "  - friction of 0.17 (now 0.15): velocity +20 ± 4 %, spread +0 ± 1 %\n" in page
     assert "  - angle of 13.8° (now 12°): velocity +10 ± 4 %\n" in page
     assert page.index("**Even.**") < page.index("- **Amplitude 58 m/s²**") < page.index("## What the conveyor does")
@@ -493,7 +499,8 @@ def test_advice_has_the_measures_of_its_amplitude_and_of_changed_conveyors():
     assert more.velocity_05 == alone.velocity_05
     assert more.gain == pytest.approx(alone.velocity_05 / own.velocity_05 - 1.0)
     assert more.widening == pytest.approx(alone.spread / own.spread - 1.0)
-    assert advice.describe_states(shares_table, 40.0) == "second 70 %, first 30 %"
+    found = advice.describe_states(shares_table, 40.0)
+    assert found == {"states": "second 70 %, first 30 %", "states_acceleration": 39.0}
 
 
 def test_changes_are_for_the_same_calibrated_parts():

@@ -68,7 +68,7 @@ WRONG = [
     ({"sweeps": {"my sweep": MINE}}, "sweeps has the unknown name 'my sweep'; give a name of letters"),
     (
         {"sweeps": {"mine": {**MINE, "method": "euler", "step": 3.0e-7}}},
-        "sweeps.mine.step = 3e-07 s does not divide its duration of 1.0 s; take 3.0000003",
+        "sweeps.mine.step = 3e-07 s does not divide its duration of 1 s; take 3.0000003e-07, or another duration",
     ),
     (
         {"sweeps": {"mine": {**MINE, "method": "euler", "step": 5.0e-3, "duration": 1.0e-3}}},
@@ -255,6 +255,12 @@ WRONG = [
     ({"figures": {"fig03": {"tables": {"euler": "model/acceleration"}}}}, "euler = 'model/acceleration' is unknown"),
     ({"figures": {"fig03": {"tables": {"euler": "prefix/x"}}}}, "figures.fig03.tables.euler = 'prefix/x' is unknown"),
     ({1: {}}, "config has a key that YAML reads as 1, not as text"),
+    ({"model": {0: None}}, "model has a key that YAML reads as 0, not as text; write decimal points, not commas"),
+    ({"model": {"frequency": "60"}}, "model.frequency = '60' is text to YAML; remove quotes"),
+    ({"model": None}, "model is empty; give keys below it, or delete it"),
+    ({"prefix": 1}, "prefix = 1 is no text to YAML; put it in quotes"),
+    ({"model": {"friction": -0.1}}, "model.friction = -0.1 should be at least 0"),
+    ({"transit": {"acceleration": {"num": 1}}}, "has num: 1 for two ends; give more values, or a list such as [20.0]"),
     ({"solver": {True: 1}}, "solver has a key that YAML reads as True, not as text"),
     (
         {"sweeps": {"heights": {"axes": {"z0": {"num": 1.0e12}}}}},

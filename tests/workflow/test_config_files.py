@@ -21,7 +21,10 @@ FAULTS = [
     ("sweeps:\n  mine:\n    axes: {z0: [0.0, -1:30.5]}\n", ":3: sweeps.mine.axes.z0[1] = -1:30.5 is read as"),
     ("model: &m {mass: *m}\n", ":1: model.mass contains itself through an anchor"),
     ("model: {mass: 0.1\n", ":2: is not YAML: "),
-    ("model:\n\tmass: 0.1\n", ":2: is not YAML: "),
+    (
+        "model:\n\tmass: 0.1\n",
+        ":2: is not YAML: found character that cannot start any token; write spaces in place of tabs",
+    ),
     ("- 1\n", ": has no keys with values"),
     ("", ": has no keys with values"),
     (b"model:\n  # \xe4\n", ":2: is not UTF-8 text"),

@@ -298,3 +298,10 @@ def test_tables_made_from_the_claims_of_the_paper_say_so(built):
     run = built.snakemake("results/identification/numbers.parquet", "--dry-run")
     assert run.returncode == 1
     assert "numbers.parquet needs the paper's claims, which this config lacks; use the paper's config" in run.stdout
+
+
+def test_a_forgotten_prefix_is_named_first():
+    with pytest.raises(ConfigError, match=r"be used:\nmodel is not the paper's, and there is no prefix"):
+        load_config(DEFAULT_FILES, [], {"model": {"frequency": 60.0}})
+    with pytest.raises(ConfigError, match=r"be used:\nmodel.frequency"):
+        load_config(DEFAULT_FILES, [], {"model": {"frequency": -60.0}})

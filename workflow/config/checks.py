@@ -161,7 +161,8 @@ def steps(config: dict, defaults: dict) -> Iterator[str]:
             remedy = f"take at least {duration / MOST_STEPS:g} s"
             yield f"{given} makes {duration / step:.0e} steps of {duration!r} s; {remedy}"
         elif abs(duration / step - whole) > 1e-9 * whole:
-            yield f"{given} does not divide its duration of {duration!r} s; take {duration / whole!r}"
+            remedy = f"take {duration / whole:.12g}, or another duration"
+            yield f"{given} does not divide its duration of {duration:.10g} s; {remedy}"
 
 
 def perturbed_runs(config: dict) -> Iterator[tuple[str, str, float, list]]:

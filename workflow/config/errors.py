@@ -55,7 +55,8 @@ def explain(error: dict) -> str:
     key, above, schema = format_key(path), format_key(path[:-1]), schema_at(path)
     shown = f"{key} = {format_value(value)}"
     if kind == "invalid_key" or (is_name and not isinstance(value, str)):
-        return f"{above} has a key that YAML reads as {value!r}, not as text; put it in quotes"
+        remedy = "write decimal points, not commas" if isinstance(value, int | float) else "put it in quotes"
+        return f"{above} has a key that YAML reads as {value!r}, not as text; {remedy}"
     if is_name:
         names = schema_at(path[:-1])["propertyNames"]
         remedy = suggest_name(value, names["enum"]) if "enum" in names else f"give {names['patternErrorMessage']}"
@@ -70,7 +71,14 @@ def explain(error: dict) -> str:
     if kind == "string_pattern_mismatch":
         return f"{shown} should be {schema['patternErrorMessage']}"
     if kind in ("float_type", "int_type", "form") and isinstance(value, str) and NUMBER.fullmatch(value):
-        return f"{shown} is text to YAML; write it with a decimal point and a signed exponent (1.0e-4)"
+        remedy = (
+            "write it with a decimal point and a signed exponent (1.0e-4)" if "e" in value.lower() else "remove quotes"
+        )
+        return f"{shown} is text to YAML; {remedy}"
+    if kind == "dict_type" and value is None and path:
+        return f"{key} is empty; give keys below it, or delete it"
+    if kind == "string_type" and isinstance(value, int | float):
+        return f"{shown} is no text to YAML; put it in quotes"
     # "Input should be …", "List should have …"
     unit, fault = unit_of(schema), error["msg"].partition(" ")[2]
     for name, bound in error.get("ctx", {}).items():
@@ -78,7 +86,7 @@ def explain(error: dict) -> str:
     fault = fault.replace(" after validation", "").replace("dictionary", "mapping")
     is_degrees = kind == "less_than_equal" and unit == "rad" and value <= 360
     remedy = f"; angles are in radians, {value:g}° are {math.radians(value):.4f} rad" if is_degrees else ""
-    return f"{shown} {fault}{f' ({unit})' if unit else ''}{remedy}"
+    return f"{shown} {fault}{f' ({unit})' if unit not in ('', '1') else ''}{remedy}"
 
 
 def type_problems(config: Any, ignored: str = "") -> list[str]:

@@ -119,7 +119,9 @@ def parse(text: str, source: str) -> tuple[list[str], Any]:
         mark = getattr(error, "problem_mark", None)
         reason = " ".join(str(getattr(error, "problem", error)).split())
         place = f"{source}:{mark.line + 1}" if mark else source
-        return [f"{place}: is not YAML: {reason}; compare it with config/config.yaml"], None
+        has_tab = mark and "\t" in "".join(text.splitlines()[mark.line : mark.line + 1])
+        remedy = "write spaces in place of tabs" if has_tab else "compare it with config/config.yaml"
+        return [f"{place}: is not YAML: {reason}; {remedy}"], None
     if not isinstance(content, dict):
         return [f"{source}: has no keys with values; begin with a section of config/config.yaml"], None
     return [], content

@@ -84,6 +84,8 @@ def check_span(values: dict) -> dict:
     start, stop, num = values["start"], values["stop"], values["num"]
     if start > stop:
         raise ValueError("is reversed: start is above stop; exchange start and stop")
+    if num == 1 and start != stop:
+        raise ValueError(f"has num: 1 for two ends; give more values, or a list such as [{start!r}]")
     if start == stop and num > 1:
         raise ValueError(f"has start = stop for {num} equal values; give num: 1, or another stop")
     return values

@@ -16,9 +16,15 @@ LABELS = {IDENTICAL: "identical parts", VARIED: "varied parts"}
 MARKERS = ("o", "s")
 
 
+def populations_of(transit: pd.DataFrame) -> tuple[str, ...]:
+    """The populations to draw: parts without differences are one population."""
+    identical, varied = (transit.velocity_50[transit.population == one].to_numpy() for one in POPULATIONS)
+    return POPULATIONS[:1] if np.array_equal(identical, varied, equal_nan=True) else POPULATIONS
+
+
 def draw_bands(axes: Axes, transit: pd.DataFrame) -> None:
     """The median, and the band with 90 % of the parts, of each population; the band of varied parts as two lines."""
-    for population in POPULATIONS:
+    for population in populations_of(transit):
         rows, colour = transit[transit.population == population], COLOURS[population]
         label = f"{LABELS[population]}: median, and 5 to 95 %"
         look = "o" if len(rows) == 1 else "-"
@@ -76,7 +82,7 @@ def plot(*, transit: pd.DataFrame, shares: pd.DataFrame, regimes: pd.DataFrame, 
     bands.set_xlabel(style.AMPLITUDE)
     bands.set_ylabel("transit velocity in cm/s")
     bands.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
-    for population in POPULATIONS:
+    for population in populations_of(transit):
         rows = transit[transit.population == population]
         spreads.plot(rows.acceleration, rows.spread, "o" if len(rows) == 1 else "-", color=COLOURS[population])
     if (transit.spread > 0.0).any():
