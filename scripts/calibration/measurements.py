@@ -91,6 +91,8 @@ def unknown_column(name: str, known: Mapping) -> str:
 def check_header(header: list[str], known: Mapping) -> list[str]:
     """The faults of the first line."""
     faults = []
+    if header[0].startswith("sep="):
+        return [f"is not a header but {','.join(header)}, which only Excel reads; delete this line"]
     if len(header) == 1 and (";" in header[0] or "\t" in header[0]):
         kind = "semicolons" if ";" in header[0] else "tabs"
         return [f"separates columns by {kind}; export the table with commas, and with points in numbers (0.05)"]
@@ -117,6 +119,8 @@ def check_value(name: str, text: str, interval: tuple[float, float]) -> tuple[fl
             return None, f"{shown} has a decimal comma; write {text.replace(',', '.')}"
         return None, f"{shown} is text; write a number in SI units, without the unit"
     value, (low, high) = float(text), interval
+    if low == 0.0 and value < 0.0:
+        return None, f"{shown} must not be negative; give its size"
     if not math.isfinite(value) or not low <= value <= high:
         return None, f"{shown} is outside [{low:g}, {high:g}]; give it in SI units (angles in rad)"
     if name in POSITIVE and value == 0.0:
@@ -138,11 +142,16 @@ def largest_velocity(measured: Measurement, model: Mapping[str, Any]) -> float:
 
 
 def unit_faults(rows: list[Measurement], model: Mapping[str, Any]) -> list[str]:
-    """ "LINE: fault" for velocities that no part on this plate can have: other units of velocity or acceleration."""
+    """ "LINE: fault" for velocities that no part on this plate can have, and for their errors: other units."""
     bounds = [largest_velocity(row, model) for row in rows]
     fast = [(row, bound) for row, bound in zip(rows, bounds, strict=True) if abs(row.velocity) > TOO_FAST * bound]
     if not fast:
-        return []
+        return [
+            f"{row.line}: sd = {row.sd:g} m/s is larger than any velocity here ({bound:.3g} m/s); give it in m/s, or "
+            "leave sd empty"
+            for row, bound in zip(rows, bounds, strict=True)
+            if row.sd is not None and row.sd > bound
+        ]
     # The factor by which most velocities exceed half of the plate's velocity, and the unit that explains it.
     factor = median(abs(row.velocity) / (0.5 * bound) for row, bound in fast)
     units = {100.0: "cm/s: divide by 100", 1000.0: "mm/s: divide by 1000", 1000.0 / 60.0: "m/min: divide by 60"}
@@ -206,7 +215,9 @@ def parse_row(
 ) -> tuple[Measurement | None, list[str]]:
     """The measurement of a line, or its faults."""
     if len(fields) != len(header):
+        has_semicolons = any(";" in field for field in fields)
         remedy = "use points, not commas, in numbers, and leave no field out"
+        remedy = "separate columns by commas, not by semicolons" if has_semicolons else remedy
         return None, [f"has {len(fields)} values for {len(header)} columns; {remedy}"]
     values, faults = {}, []
     for name, text in zip(header, fields, strict=True):
