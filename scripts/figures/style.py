@@ -14,6 +14,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullFormatter, NullLocator
+from matplotlib.transforms import nonsingular
 
 mpl.use("Agg")
 
@@ -153,6 +154,11 @@ def class_map(axes: Axes, classes: pd.DataFrame, colours: dict[str, str]) -> Non
 def state_map(axes: Axes, table: pd.DataFrame, x: str, y: str) -> None:
     """Draw a map of the column `state` of a sweep over its axes `x` and `y`, in the units of the table."""
     class_map(axes, table.pivot(index=y, columns=x, values="state"), STATE_COLOURS)
+
+
+def limit_x(axes: Axes, places: Iterable[float]) -> None:
+    """Let the x axis end at the smallest and the largest place; a single one is in the middle of a short axis."""
+    axes.set_xlim(nonsingular(min(places), max(places), expander=0.05))
 
 
 def say(axes: Axes, text: str) -> None:

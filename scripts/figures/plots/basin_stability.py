@@ -46,7 +46,7 @@ def draw_motions(axes: Axes, shares: pd.DataFrame, over: str) -> None:
     colours = shares.state.map(style.STATE_COLOURS)
     # No antialiasing: it would leave hairlines between the pieces.
     axes.add_collection(LineCollection(pieces, linewidths=width(shares.share), colors=colours, antialiaseds=False))
-    axes.set_xlim(places[0], places[-1])
+    style.limit_x(axes, places)
 
 
 def share_handles(shares: pd.DataFrame) -> list[Artist]:
@@ -70,6 +70,8 @@ def plot(*, shares: pd.DataFrame) -> Figure:
         style.say(axes, "no motion has a mean velocity")
         axes.set_yticks([])
     else:
+        if shares.acceleration.nunique() == 1:
+            style.say(axes, "a single amplitude; give more for lines")
         axes.axhline(0.0, color="black", linewidth=0.6, zorder=0)
         handles = share_handles(shares)
         figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), columnspacing=1.2)

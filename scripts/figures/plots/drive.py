@@ -3,6 +3,7 @@
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from figures import style
 
@@ -30,8 +31,11 @@ def plot(*, front: pd.DataFrame, generations: pd.DataFrame) -> Figure:
     pareto.scatter(chosen.checked_impact_speed, 100.0 * chosen.checked_velocity, label="recommended", **ring)
     pareto.set_xlabel("impact speed (95 % quantile) in m/s")
     pareto.set_ylabel("velocity of the slowest 5 % in cm/s")
-    pareto.set_ylim(bottom=0.0)
-    figure.colorbar(points, ax=pareto, label=style.AMPLITUDE)
+    pareto.set_ylim(bottom=min(0.0, 100.0 * front.checked_velocity.min()))
+    if front.empty:
+        style.say(pareto, "no design within the limits")
+    else:
+        figure.colorbar(points, ax=pareto, label=style.AMPLITUDE)
     last = generations.generation.max()
     growth.axvspan(3 * last // 4, last, color="0.92", linewidth=0.0)
     for colour, (seed, rows) in zip(SEEDS, generations.groupby("seed"), strict=False):
@@ -39,6 +43,7 @@ def plot(*, front: pd.DataFrame, generations: pd.DataFrame) -> Figure:
     growth.set_xlabel("generation")
     growth.set_ylabel("hypervolume in % of that of all seeds")
     growth.set_xlim(1, last)
+    growth.xaxis.set_major_locator(MaxNLocator(integer=True))
     growth.set_ylim(0.0, 102.0)
     growth.legend(loc="lower right")
     style.legend_above(figure, pareto, ncols=3)

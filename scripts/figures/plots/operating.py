@@ -61,7 +61,9 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
     share.set_ylim(0.0, 104.0)
     share.set_ylabel("share of the\nfastest motion in %")
     share.set_xlabel(style.AMPLITUDE)
-    share.set_xlim(amplitudes[0], amplitudes[-1])
+    style.limit_x(share, amplitudes)
+    if len(amplitudes) == 1:
+        style.say(velocities, "a single amplitude; give more for lines")
     figure.align_ylabels([velocities, share])
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
     velocities.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4)

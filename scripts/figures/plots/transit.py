@@ -4,7 +4,6 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.transforms import nonsingular
 
 from figures import style
 from figures.plots.operating import draw_regimes
@@ -77,8 +76,7 @@ def plot(*, transit: pd.DataFrame, shares: pd.DataFrame, regimes: pd.DataFrame, 
     spreads, tracks = below.subplots(1, 2)
     handles = draw_regimes(strip, shares, regimes)
     draw_bands(bands, transit)
-    limits = nonsingular(transit.acceleration.min(), transit.acceleration.max(), expander=0.05)
-    bands.set_xlim(limits)
+    style.limit_x(bands, transit.acceleration)
     bands.set_xlabel(style.AMPLITUDE)
     bands.set_ylabel("transit velocity in cm/s")
     bands.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
@@ -89,7 +87,7 @@ def plot(*, transit: pd.DataFrame, shares: pd.DataFrame, regimes: pd.DataFrame, 
         spreads.set_yscale("log")
     else:
         style.say(spreads, "half of the parts have not moved,\nor all velocities are equal")
-    spreads.set_xlim(limits)
+    style.limit_x(spreads, transit.acceleration)
     spreads.set_xlabel(style.AMPLITUDE)
     spreads.set_ylabel("relative spread")
     draw_lengths(tracks, lengths)
