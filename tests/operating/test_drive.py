@@ -222,5 +222,9 @@ def test_a_search_that_finds_nothing_says_so(monkeypatch):
     front = front.astype(dict.fromkeys(("checked", "confirmed", "recommended"), bool))
     front.attrs = SETTINGS
     page = drive_page.make(TEMPLATE, front, generations)
-    assert "found no design within the constraints." in page
+    assert "found no design within the constraints." in page and "too steep" not in page
+    steep = front.copy()
+    steep.attrs = SETTINGS | {"model": SETTINGS["model"] | {"friction": 0.3, "inclination": 0.5}}
+    page = drive_page.make(TEMPLATE, steep, generations)
+    assert "too steep for friction to hold a part" in page and "Widen the bounds" not in page
     assert "inf" not in page

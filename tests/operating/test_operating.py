@@ -571,6 +571,15 @@ def test_narrow_intervals_are_merged_into_their_wider_neighbour():
     assert len(regimes.merge_narrow(table, 0.9)) == 1
 
 
+def test_an_unknown_interval_is_no_part_of_its_neighbour():
+    rows = (regimes.ONE, 20.0, 30.0), (regimes.UNKNOWN, 30.1, 30.1), (regimes.CHAOS, 30.2, 40.0)
+    assert regimes.merge_narrow(interval_rows(*rows), 0.01).regime.tolist() == [
+        regimes.ONE,
+        regimes.UNKNOWN,
+        regimes.CHAOS,
+    ]
+
+
 def test_the_page_says_what_merged_intervals_hide(refined):
     """With a margin of 30 %, the two intervals with chaos count as a part of their neighbour."""
     tables = advised()
