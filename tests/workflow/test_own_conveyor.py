@@ -305,3 +305,16 @@ def test_a_forgotten_prefix_is_named_first():
         load_config(DEFAULT_FILES, [], {"model": {"frequency": 60.0}})
     with pytest.raises(ConfigError, match=r"be used:\nmodel.frequency"):
         load_config(DEFAULT_FILES, [], {"model": {"frequency": -60.0}})
+
+
+@pytest.mark.parametrize("is_calibrated", [False, True])
+def test_transit_and_advice_of_calibrated_parts_depend_on_the_calibration(built, is_calibrated):
+    (built.folder / "measured.csv").write_text("acceleration,velocity\n30,0.02\n40,0.05\n50,0.06\n60,0.07\n")
+    overlay = {"prefix": "measured", "calibration": {"measurements": "measured.csv"}}
+    project = built.under(overlay | {"parts": {"calibrated": is_calibrated}})
+    graph = project.snakemake("results/measured/operating/advice.parquet", "--rulegraph", "dot").stdout
+    rules = dict(re.findall(r'(\d+)\[label = "(\w+)"', graph))
+    edges = {(rules[begin], rules[end]) for begin, end in re.findall(r"(\d+) -> (\d+)", graph)}
+    assert ("transit", "advice") in edges
+    for source in ("calibration", "calibrated"):
+        assert {(source, "transit"), (source, "advice")} <= edges if is_calibrated else source not in rules.values()
