@@ -91,7 +91,7 @@ def unknown_column(name: str, known: Mapping) -> str:
 def check_header(header: list[str], known: Mapping) -> list[str]:
     """The faults of the first line."""
     faults = []
-    if header[0].startswith("sep="):
+    if header[0].lower().startswith("sep="):
         return [f"is not a header but {','.join(header)}, which only Excel reads; delete this line"]
     if len(header) == 1 and (";" in header[0] or "\t" in header[0]):
         kind = "semicolons" if ";" in header[0] else "tabs"
@@ -119,8 +119,8 @@ def check_value(name: str, text: str, interval: tuple[float, float]) -> tuple[fl
             return None, f"{shown} has a decimal comma; write {text.replace(',', '.')}"
         return None, f"{shown} is text; write a number in SI units, without the unit"
     value, (low, high) = float(text), interval
-    if low == 0.0 and value < 0.0:
-        return None, f"{shown} must not be negative; give its size"
+    if name == "acceleration" and value < 0.0:
+        return None, f"{shown} must not be negative; give the amplitude of the vibration"
     if not math.isfinite(value) or not low <= value <= high:
         return None, f"{shown} is outside [{low:g}, {high:g}]; give it in SI units (angles in rad)"
     if name in POSITIVE and value == 0.0:
@@ -147,8 +147,8 @@ def unit_faults(rows: list[Measurement], model: Mapping[str, Any]) -> list[str]:
     fast = [(row, bound) for row, bound in zip(rows, bounds, strict=True) if abs(row.velocity) > TOO_FAST * bound]
     if not fast:
         return [
-            f"{row.line}: sd = {row.sd:g} m/s is larger than any velocity here ({bound:.3g} m/s); give it in m/s, or "
-            "leave sd empty"
+            f"{row.line}: sd = {row.sd:g} m/s is larger than the largest velocity of the plate ({bound:.3g} m/s); give "
+            "it in m/s, or leave sd empty"
             for row, bound in zip(rows, bounds, strict=True)
             if row.sd is not None and row.sd > bound
         ]
@@ -214,10 +214,10 @@ def parse_row(
     fields: list[str], header: list[str], line: int, known: Mapping[str, tuple[float, float]]
 ) -> tuple[Measurement | None, list[str]]:
     """The measurement of a line, or its faults."""
+    if any(";" in field for field in fields):
+        return None, ["has semicolons; separate columns by commas, and write points in numbers (0.05)"]
     if len(fields) != len(header):
-        has_semicolons = any(";" in field for field in fields)
         remedy = "use points, not commas, in numbers, and leave no field out"
-        remedy = "separate columns by commas, not by semicolons" if has_semicolons else remedy
         return None, [f"has {len(fields)} values for {len(header)} columns; {remedy}"]
     values, faults = {}, []
     for name, text in zip(header, fields, strict=True):

@@ -20,7 +20,7 @@ from figures.style import STATE_COLOURS
 from identification import findings
 from operating import drive_page
 from operating.chart import spreads_of, summarize_shares
-from operating.regimes import CHAOS, NOT_ALL_SETTLED, SEVERAL, SLIDES_AWAY
+from operating.regimes import CHAOS, NOT_ALL_SETTLED, SEVERAL, SLIDES_AWAY, slides_away
 from operating.transit import ENDS
 from pipeline.templates import format_number, render
 
@@ -46,11 +46,6 @@ def format_change(least: float, most: float) -> str:
 def name_state(state: str) -> str:
     """A state of motion in a sentence: "the first state", "chaos"."""
     return f"the {state} state" if state in ("first", "second") else state
-
-
-def slides_away(model: dict) -> bool:
-    """Whether a track is too steep for friction to hold a part, so that its velocity grows without end."""
-    return abs(np.tan(model.get("inclination", 0.0))) > model.get("static_friction", model["friction"])
 
 
 def state_map(*, map: pd.DataFrame) -> dict[str, Any]:

@@ -14,7 +14,6 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullFormatter, NullLocator
-from matplotlib.transforms import nonsingular
 
 mpl.use("Agg")
 
@@ -158,7 +157,8 @@ def state_map(axes: Axes, table: pd.DataFrame, x: str, y: str) -> None:
 
 def limit_x(axes: Axes, places: Iterable[float]) -> None:
     """Let the x axis end at the smallest and the largest place; a single one is in the middle of a short axis."""
-    axes.set_xlim(nonsingular(min(places), max(places), expander=0.05))
+    low, high = min(places), max(places)
+    axes.set_xlim((low, high) if low < high else (0.95 * low, 1.05 * high))
 
 
 def say(axes: Axes, text: str) -> None:

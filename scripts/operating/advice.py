@@ -94,9 +94,9 @@ def relative_change(after: np.ndarray, before: np.ndarray) -> np.ndarray:
     return (after - before) / np.where(before, np.abs(before), np.nan)
 
 
-def effects(before: np.ndarray, after: np.ndarray, axis: int = -1) -> np.ndarray:
-    """Relative changes of the 5 % quantile and of the relative spread of velocities of parts, stacked."""
-    old, new = (np.quantile(velocity, PROBABILITIES, axis=axis) for velocity in (before, after))
+def effects(before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """Relative changes of the 5 % quantile and of the relative spread of velocities, shape (..., parts), stacked."""
+    old, new = (np.quantile(velocity, PROBABILITIES, axis=-1) for velocity in (before, after))
     return np.stack([relative_change(new[0], old[0]), relative_change(relative_spread(new), relative_spread(old))])
 
 
@@ -121,6 +121,8 @@ def changes_at(acceleration: float, settings: dict, changes: dict[str, float], *
         for value in (model[parameter] - change, model[parameter] + change)
         if RANGES[parameter][0] <= value <= RANGES[parameter][1]
     ]
+    if not changed:
+        return []
     models = [model, *(with_parameter(model, *one) for one in changed)]
     populations = [population(amplitude, {**settings, "model": one}) for one in models]
     run = follow(np.concatenate(populations), settings, threads=threads)

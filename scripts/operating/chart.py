@@ -26,6 +26,7 @@ RULE_OF_THREE = 3.0
 WORTH_CHANGING = 0.01  # relative change of velocity or spread from which a change of a parameter is named
 CERTAIN = 2.0  # standard errors that it must exceed, too
 MOST_CHANGES = 4  # that are named
+MANY_LATE = 0.5  # share of late parts that a page points out
 STILL = 0.01  # of the largest velocity of the plate: slower parts do not count as parts that move forward
 DECIMALS = 6  # of velocities in m/s: smaller ones are rounding errors
 
@@ -67,12 +68,17 @@ def summarize_regimes(regimes: pd.DataFrame, merged: pd.DataFrame) -> dict[str, 
     return {name: rows.to_dict("records") for name, rows in parts.items()}
 
 
-def most_frequent(shares: pd.DataFrame, intervals: list[dict]) -> dict:
-    """The amplitude in some intervals with several velocities at which most initial conditions reach the fastest."""
+def summarize_fastest(shares: pd.DataFrame, intervals: list[dict]) -> dict:
+    """The fastest motions at the amplitudes with several velocities in some intervals.
+
+    `best` and `best_share` are ranges of their velocities (m/s) and of the shares of initial conditions that reach
+    them, and `most` is the amplitude with the largest share.
+    """
     amplitudes = summarize_amplitudes(shares, shares.attrs["same_velocity"])
     inside = [amplitudes.acceleration.between(row["begin"], row["end"]) for row in intervals]
     own = amplitudes[(amplitudes.regime == SEVERAL) & np.any(inside, axis=0)]
-    return own.loc[own.best_share.idxmax()].to_dict()
+    ranges = {name: (own[name].min(), own[name].max()) for name in ("best", "best_share")}
+    return {**ranges, "most": own.loc[own.best_share.idxmax()].to_dict()}
 
 
 def select_changes(aim: str, changes: pd.DataFrame) -> list[dict]:
@@ -119,16 +125,17 @@ def make(
     merged[velocities] = merged[velocities].round(DECIMALS) + 0.0  # no negative zero
     values = summarize_advice(transit, advice, changes) | summarize_shares(shares) | summarize_regimes(regimes, merged)
     if values["several"]:
-        values["most"] = most_frequent(shares, values["several"])
+        values["fastest"] = summarize_fastest(shares, values["several"])
     values |= {
         "units": UNITS,
         "options": advice.attrs,
         "forward": moves_forward(transit),
         "still": STILL,
         "enough": ENOUGH,
+        "many_late": MANY_LATE,
         "ends": (transit.acceleration.min(), transit.acceleration.max()),
         "slides": (shares.status == SLIDES_AWAY).all(),
-        "merged": len(regimes) - len(merged),
+        "merged": len(merged) < len(regimes),
         # The digits to which the ends of intervals of amplitudes are known.
         "digits": max(0, math.ceil(-math.log10(shares.attrs["resolution"]))),
         "throw_per_amplitude": shares.vertical.iloc[0] / shares.acceleration.iloc[0],

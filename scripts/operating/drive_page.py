@@ -1,15 +1,12 @@
 """The recommended settings of the drive in words."""
 
-import math
-
 import numpy as np
 import pandas as pd
 
-from operating.chart import RULE_OF_THREE, spreads_of
+from operating.chart import MANY_LATE, RULE_OF_THREE, spreads_of
+from operating.regimes import slides_away
 from operating.transit import ENDS
 from pipeline.templates import render
-
-MANY = 0.5  # share of late parts that the page points out
 
 
 def last_growth(generations: pd.DataFrame) -> float:
@@ -43,11 +40,10 @@ def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
 def make(template: str, drive_front: pd.DataFrame, drive_generations: pd.DataFrame) -> str:
     """The page from its template and the tables of the front and of the generations."""
     recommended = drive_front[drive_front.recommended].sort_values("checked_velocity", ascending=False)
-    model = drive_front.attrs["model"]
     values = summarize_search(front=drive_front, generations=drive_generations)
     values |= {
         "rows": recommended.to_dict("records"),
-        "late": (recommended.checked_late > MANY).sum(),
-        "slides": model["friction"] < math.tan(model["inclination"]),
+        "late": (recommended.checked_late > MANY_LATE).sum(),
+        "slides": slides_away(drive_front.attrs["model"]),
     }
     return render(template, values)

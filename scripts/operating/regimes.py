@@ -37,6 +37,11 @@ COLUMNS = (
 )
 
 
+def slides_away(model: dict) -> bool:
+    """Whether a track is too steep for friction to hold a part, so that its velocity grows without end."""
+    return abs(np.tan(model.get("inclination", 0.0))) > model.get("static_friction", model["friction"])
+
+
 def same(velocity: np.ndarray, other: float, share: float) -> np.ndarray:
     """Whether velocities count as equal to another: they differ by at most a share of the larger one."""
     return np.abs(velocity - other) <= share * np.maximum(np.abs(velocity), abs(other))
@@ -117,17 +122,20 @@ def join(rows: pd.DataFrame) -> pd.Series:
 def merge_narrow(regimes: pd.DataFrame, margin: float) -> pd.DataFrame:
     """The table of regimes without intervals that are narrower than a relative margin of the amplitude.
 
-    The narrowest interval is merged into its wider neighbour until none is too narrow. An unknown regime stays, because
-    it is none of its neighbours. An interval ends half-way between computed amplitudes.
+    The narrowest interval is merged into its wider neighbour until none is too narrow. Unknown intervals stay, and take
+    no others, because what happens there may differ from what happens beside them. An interval ends half-way between
+    computed amplitudes.
     """
     between = 0.5 * (regimes.end.shift() + regimes.begin)
     rows = regimes.assign(left=between.fillna(regimes.begin), right=between.shift(-1).fillna(regimes.end))
-    while len(rows) > 1:
-        relative = ((rows.right - rows.left) / rows.right).where(rows.regime != UNKNOWN, np.inf)
+    while True:
+        known = rows.regime != UNKNOWN
+        has_neighbour = known.shift(1, fill_value=False) | known.shift(-1, fill_value=False)
+        relative = ((rows.right - rows.left) / rows.right).where(known & has_neighbour, np.inf)
         if relative.min() >= margin:
             break
         place = int(relative.argmin())
-        beside = [k for k in (place - 1, place + 1) if 0 <= k < len(rows)]
+        beside = [k for k in (place - 1, place + 1) if 0 <= k < len(rows) and known[k]]
         wider = max(beside, key=lambda k: rows.right.iloc[k] - rows.left.iloc[k])
         joined = join(rows.iloc[min(place, wider) : max(place, wider) + 1])
         parts = [rows.iloc[: min(place, wider)], joined.to_frame().T, rows.iloc[max(place, wider) + 1 :]]

@@ -133,7 +133,10 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
             f"{end:g} m/s²; raise the upper value of orbits.limits beyond its first period doubling"
         )
     if (double := continuation.find_doubled_orbit(parameters, first)) is None:
-        raise JobError(f"no orbit of twice the period was found at the doubling at {first.orbit.acceleration:g} m/s²")
+        raise JobError(
+            f"no orbit of twice the period was found at the doubling at {first.orbit.acceleration:g} m/s²; choose "
+            "another orbit as the last of orbits.seeds"
+        )
     span = (first.orbit.acceleration - 1.0, first.orbit.acceleration + 20.0)
     following = continuation.follow_branch(parameters, double, span)
     second = min(filter(is_doubling, following.bifurcations), key=lambda b: b.orbit.acceleration, default=None)

@@ -163,7 +163,10 @@ WRONG = [
         "signals.states.times.stop = 2.0 s is beyond",
     ),
     ({"benchmark": {"cases": {"A": {"compared": 2.0}}}}, "benchmark.cases.A.compared = 2.0 s is beyond the duration"),
-    ({"transit": {"longest": 0.01}}, "transit.longest = 0.01 s is shorter than an excitation cycle (0.02 s)"),
+    (
+        {"transit": {"longest": 0.01}},
+        "transit.longest = 0.01 s is shorter than the longest excitation cycle of model and drive.bounds (0.025 s)",
+    ),
     (
         {"regressions": {"height": {"bounds": {"A": [0.03, 0.0]}}}},
         "regressions.height.bounds.A = [0.03, 0.0] is",
@@ -256,6 +259,9 @@ WRONG = [
     ({"figures": {"fig03": {"tables": {"euler": "prefix/x"}}}}, "figures.fig03.tables.euler = 'prefix/x' is unknown"),
     ({1: {}}, "config has a key that YAML reads as 1, not as text"),
     ({"model": {0: None}}, "model has a key that YAML reads as 0, not as text; write decimal points, not commas"),
+    ({"model": {True: 1}}, "model has a key that YAML reads as True, not as text; put it in quotes"),
+    ({"sweeps": {2024: MINE}}, "sweeps has a key that YAML reads as 2024, not as text; put it in quotes"),
+    ({"model": {"frequency": "6.0e+1"}}, "model.frequency = '6.0e+1' is text to YAML; remove quotes"),
     ({"model": {"frequency": "60"}}, "model.frequency = '60' is text to YAML; remove quotes"),
     ({"model": None}, "model is empty; give keys below it, or delete it"),
     ({"prefix": 1}, "prefix = 1 is no text to YAML; put it in quotes"),

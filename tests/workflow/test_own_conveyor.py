@@ -303,8 +303,9 @@ def test_tables_made_from_the_claims_of_the_paper_say_so(built):
 def test_a_forgotten_prefix_is_named_first():
     with pytest.raises(ConfigError, match=r"be used:\nmodel is not the paper's, and there is no prefix"):
         load_config(DEFAULT_FILES, [], {"model": {"frequency": 60.0}})
-    with pytest.raises(ConfigError, match=r"be used:\nmodel.frequency"):
-        load_config(DEFAULT_FILES, [], {"model": {"frequency": -60.0}})
+    for fault in ({"model": {"frequency": -60.0}}, {"model": {"friction": 0.3}, "transit": {"longest": 0.01}}):
+        with pytest.raises(ConfigError, match=r"be used:\n(model.frequency|transit.longest)"):
+            load_config(DEFAULT_FILES, [], fault)
 
 
 @pytest.mark.parametrize("is_calibrated", [False, True])

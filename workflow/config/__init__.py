@@ -16,7 +16,7 @@ from .own_conveyor import is_own_conveyor, names_conveyor, scale_config
 __all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems", "replace_config"]
 
 
-# The likely reason if settings of the paper do not fit another model.
+# The reason if settings of the paper do not fit another model, but would be scaled to it with a prefix.
 NO_PREFIX = (
     "model is not the paper's, and there is no prefix; for a conveyor of your own, give one, such as prefix: mine"
 )
@@ -74,11 +74,20 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
         whole["uncertainty"] |= {"claims": [name for name in checked if name in whole["claims"]]}
     name_measurements(whole, overlay_files, overlays)
     if errors := problems(whole, paper):
-        is_foreign = whole["model"] != paper["model"] and not any(line.startswith("model") for line in errors)
-        raise ConfigError([NO_PREFIX, *errors] if is_foreign and not whole["prefix"] else errors)
+        lacks_prefix = not whole["prefix"] and fits(default_files, overlay_files, {**config, "prefix": "mine"})
+        raise ConfigError([NO_PREFIX, *errors] if lacks_prefix else errors)
     if "measurements" not in whole["calibration"]:
         whole["figures_on_request"].pop("calibration", None)
     return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_conveyor)
+
+
+def fits(*arguments: Any) -> bool:
+    """Whether `load_config` accepts these arguments."""
+    try:
+        load_config(*arguments)
+    except ConfigError:
+        return False
+    return True
 
 
 def replace_config(workflow: Any, config: dict) -> tuple[Loaded, list[str], dict]:

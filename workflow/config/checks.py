@@ -212,9 +212,14 @@ def times(config: dict, defaults: dict) -> Iterator[str]:
         if case["compared"] > duration:
             key = f"benchmark.cases.{name}.compared = {case['compared']!r} s"
             yield f"{key} is beyond the duration of {duration!r} s; give less"
-    cycle = 1.0 / config["model"]["frequency"]
-    if (longest := config["transit"]["longest"]) < cycle:
-        yield f"transit.longest = {longest!r} s is shorter than an excitation cycle ({cycle:.3g} s); give more"
+    cycle = 1.0 / min(config["model"]["frequency"], config["drive"]["bounds"]["frequency"][0])
+    for key, longest in (
+        ("transit.longest", config["transit"]["longest"]),
+        ("drive.search.longest", config["drive"]["search"]["longest"]),
+    ):
+        if longest < cycle:
+            reason = f"is shorter than the longest excitation cycle of model and drive.bounds ({cycle:.3g} s)"
+            yield f"{key} = {longest!r} s {reason}; give more"
 
 
 def orbits(config: dict, defaults: dict) -> Iterator[str]:

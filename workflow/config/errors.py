@@ -8,6 +8,7 @@ from reprlib import Repr
 from textwrap import shorten
 from typing import Any
 
+import yaml
 from pydantic import ValidationError
 
 from .model import MODEL
@@ -55,7 +56,9 @@ def explain(error: dict) -> str:
     key, above, schema = format_key(path), format_key(path[:-1]), schema_at(path)
     shown = f"{key} = {format_value(value)}"
     if kind == "invalid_key" or (is_name and not isinstance(value, str)):
-        remedy = "write decimal points, not commas" if isinstance(value, int | float) else "put it in quotes"
+        # {frequency: 50,0} has the key 0.
+        has_comma = type(value) is int and any("properties" in option for option in options_of(schema_at(path[:-1])))
+        remedy = "write decimal points, not commas" if has_comma else "put it in quotes"
         return f"{above} has a key that YAML reads as {value!r}, not as text; {remedy}"
     if is_name:
         names = schema_at(path[:-1])["propertyNames"]
@@ -71,9 +74,8 @@ def explain(error: dict) -> str:
     if kind == "string_pattern_mismatch":
         return f"{shown} should be {schema['patternErrorMessage']}"
     if kind in ("float_type", "int_type", "form") and isinstance(value, str) and NUMBER.fullmatch(value):
-        remedy = (
-            "write it with a decimal point and a signed exponent (1.0e-4)" if "e" in value.lower() else "remove quotes"
-        )
+        is_quoted = isinstance(yaml.safe_load(value), int | float)
+        remedy = "remove quotes" if is_quoted else "write it with a decimal point and a signed exponent (1.0e-4)"
         return f"{shown} is text to YAML; {remedy}"
     if kind == "dict_type" and value is None and path:
         return f"{key} is empty; give keys below it, or delete it"

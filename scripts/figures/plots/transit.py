@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 
 from figures import style
 from figures.plots.operating import draw_regimes
+from operating.chart import spreads_of
 from operating.parts import IDENTICAL, POPULATIONS, VARIED
 from operating.regimes import CHAOS
 
@@ -17,8 +18,8 @@ MARKERS = ("o", "s")
 
 def populations_of(transit: pd.DataFrame) -> tuple[str, ...]:
     """The populations to draw: parts without differences are one population."""
-    identical, varied = (transit.velocity_50[transit.population == one].to_numpy() for one in POPULATIONS)
-    return POPULATIONS[:1] if np.array_equal(identical, varied, equal_nan=True) else POPULATIONS
+    is_varied = spreads_of(transit.attrs) or transit.attrs["spread"].get("calibrated")
+    return POPULATIONS if is_varied else POPULATIONS[:1]
 
 
 def draw_bands(axes: Axes, transit: pd.DataFrame) -> None:
@@ -86,7 +87,7 @@ def plot(*, transit: pd.DataFrame, shares: pd.DataFrame, regimes: pd.DataFrame, 
     if (transit.spread > 0.0).any():
         spreads.set_yscale("log")
     else:
-        style.say(spreads, "half of the parts have not moved,\nor all velocities are equal")
+        style.say(spreads, "no part was followed, half of\nthe parts have not moved,\nor all velocities are equal")
     style.limit_x(spreads, transit.acceleration)
     spreads.set_xlabel(style.AMPLITUDE)
     spreads.set_ylabel("relative spread")
