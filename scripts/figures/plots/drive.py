@@ -31,7 +31,7 @@ def plot(*, front: pd.DataFrame, generations: pd.DataFrame) -> Figure:
     pareto.scatter(chosen.checked_impact_speed, 100.0 * chosen.checked_velocity, label="recommended", **ring)
     pareto.set_xlabel("impact speed (95 % quantile) in m/s")
     pareto.set_ylabel("velocity of the slowest 5 % in cm/s")
-    pareto.set_ylim(bottom=min(0.0, 100.0 * front.checked_velocity.min()))
+    pareto.set_ylim(bottom=min(0.0, 105.0 * front.checked_velocity.min()))
     if front.empty:
         style.say(pareto, "no design within the limits")
     else:
@@ -43,7 +43,7 @@ def plot(*, front: pd.DataFrame, generations: pd.DataFrame) -> Figure:
     growth.set_xlabel("generation")
     growth.set_ylabel("hypervolume in % of that of all seeds")
     growth.set_xlim(1, last)
-    growth.xaxis.set_major_locator(MaxNLocator(integer=True))
+    growth.xaxis.set_major_locator(MaxNLocator(6, steps=(1, 2, 5, 10), integer=True))
     growth.set_ylim(0.0, 102.0)
     growth.legend(loc="lower right")
     style.legend_above(figure, pareto, ncols=3)
