@@ -66,6 +66,7 @@ def make(
             "unlikely": UNLIKELY,
             "misfits": int((~fit.fits).sum()),
             "worst": worst[~worst.fits].sort_values("line").to_dict("records"),
+            "step": 0.0 if len(prediction) < 2 else float(prediction.acceleration.diff().max()),
             "widest": bands.loc[bands.width.idxmax()].to_dict(),
             "prediction": prediction.iloc[shown].to_dict("records"),
             "next": {"acceleration": float(best.acceleration), "narrowing": float(best.narrowing)},

@@ -68,15 +68,28 @@ def summarize_regimes(regimes: pd.DataFrame, merged: pd.DataFrame) -> dict[str, 
     return {name: rows.to_dict("records") for name, rows in parts.items()}
 
 
+def amplitudes_inside(shares: pd.DataFrame, intervals: list[dict], regime: str) -> pd.DataFrame:
+    """The amplitudes with a regime in some intervals of merged regimes, as `summarize_amplitudes` describes them."""
+    amplitudes = summarize_amplitudes(shares, shares.attrs["same_velocity"])
+    inside = [amplitudes.acceleration.between(row["begin"], row["end"]) for row in intervals]
+    return amplitudes[(amplitudes.regime == regime) & np.any(inside, axis=0)]
+
+
+def describe_one_velocity(shares: pd.DataFrame, interval: dict) -> dict:
+    """An interval of merged regimes with one velocity: the states and the range of velocities without what it hides."""
+    own = shares[shares.acceleration.isin(amplitudes_inside(shares, [interval], ONE).acceleration)]
+    states = own.groupby("state").starts.sum().sort_values(ascending=False, kind="stable").index
+    ends = own.mean_velocity.min(), own.mean_velocity.max()
+    return {**interval, "states": list(states), "velocity": [round(end, DECIMALS) + 0.0 for end in ends]}
+
+
 def summarize_fastest(shares: pd.DataFrame, intervals: list[dict]) -> dict:
     """The fastest motions at the amplitudes with several velocities in some intervals.
 
     `best` and `best_share` are ranges of their velocities (m/s) and of the shares of initial conditions that reach
     them, and `most` is the amplitude with the largest share.
     """
-    amplitudes = summarize_amplitudes(shares, shares.attrs["same_velocity"])
-    inside = [amplitudes.acceleration.between(row["begin"], row["end"]) for row in intervals]
-    own = amplitudes[(amplitudes.regime == SEVERAL) & np.any(inside, axis=0)]
+    own = amplitudes_inside(shares, intervals, SEVERAL)
     ranges = {name: (own[name].min(), own[name].max()) for name in ("best", "best_share")}
     return {**ranges, "most": own.loc[own.best_share.idxmax()].to_dict()}
 
@@ -96,10 +109,16 @@ def spreads_of(settings: dict) -> dict[str, float]:
     return {name: share for name, share in settings["spread"].items() if name not in others and share > 0.0}
 
 
+def spread_stderr(row: dict) -> float | None:
+    """Standard error of the relative spread of a row of advice, from the quantiles at its ends; None if not known."""
+    errors = [row[f"velocity_{end}_stderr"] for end in ("05", "95")]
+    return None if None in errors or not row["velocity_50"] else math.hypot(*errors) / abs(row["velocity_50"])
+
+
 def summarize_advice(transit: pd.DataFrame, advice: pd.DataFrame, changes: pd.DataFrame) -> dict:
     """The settings of the transit table, how parts differ, and the advice of each aim with its best changes."""
     rows = {
-        row["aim"]: row | {"changes": select_changes(row["aim"], changes)}
+        row["aim"]: row | {"changes": select_changes(row["aim"], changes), "spread_stderr": spread_stderr(row)}
         for row in advice.replace({np.nan: None}).to_dict("records")
     }
     return {
@@ -124,6 +143,7 @@ def make(
     velocities = ["velocity_low", "best_low", "best_high"]
     merged[velocities] = merged[velocities].round(DECIMALS) + 0.0  # no negative zero
     values = summarize_advice(transit, advice, changes) | summarize_shares(shares) | summarize_regimes(regimes, merged)
+    values["one"] = [describe_one_velocity(shares, row) for row in values["one"]]
     if values["several"]:
         values["fastest"] = summarize_fastest(shares, values["several"])
     values |= {

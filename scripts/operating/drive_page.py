@@ -25,6 +25,7 @@ def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
     return {
         "search": front.attrs,
         "spread": spreads_of(front.attrs),
+        "calibrated": front.attrs["spread"].get("calibrated", False),
         "ends": ENDS,
         "unseen_share": RULE_OF_THREE / front.attrs["starts"],
         "found": len(front),
