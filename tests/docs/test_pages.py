@@ -139,9 +139,9 @@ def test_cases_that_miss_a_goal_are_named():
     missed = [{"case": case, "motion": "jumping", "speed": 150.4} for case in goals]
     reached = [f"case {case} (jumping) reached 150× (goal 200×)" for case in goals]
     for rows, sentence in (
-        ([], "It reaches all 3 speed goals."),
-        (missed[:1], f"It misses 1 of its 3 speed goals: {reached[0]}."),
-        (missed, f"It misses 3 of its 3 speed goals: {reached[0]}, {reached[1]} and {reached[2]}."),
+        ([], "The solver reaches all 3 speed goals."),
+        (missed[:1], f"The solver misses 1 of its 3 speed goals: {reached[0]}."),
+        (missed, f"The solver misses 3 of its 3 speed goals: {reached[0]}, {reached[1]} and {reached[2]}."),
     ):
         assert render(text, {"missed": rows, "speed_goals": goals}) == sentence
 
