@@ -92,7 +92,7 @@ def check_header(header: list[str], known: Mapping) -> list[str]:
     """The faults of the first line."""
     faults = []
     if header[0].lower().startswith("sep="):
-        return [f"is not a header but {','.join(header)}, which only Excel reads; delete this line"]
+        return [f"is the line {','.join(header)!r}, which only Excel reads; delete it"]
     if len(header) == 1 and (";" in header[0] or "\t" in header[0]):
         kind = "semicolons" if ";" in header[0] else "tabs"
         return [f"separates columns by {kind}; export the table with commas, and with points in numbers (0.05)"]

@@ -18,6 +18,7 @@ from operating.regimes import (
     merge_narrow,
     summarize_amplitudes,
 )
+from operating.transit import QUANTILES, spread_stderr
 from pipeline.templates import render
 
 # If none of n independent initial conditions does something, then with 95 % confidence at most a share of 3/n does it:
@@ -54,7 +55,7 @@ def summarize_shares(shares: pd.DataFrame) -> dict:
 
 
 def moves_forward(transit: pd.DataFrame) -> bool:
-    """Whether more than 5 % of the parts move forward at any amplitude."""
+    """Whether more than 5 % of the parts move forward, and not only a little, at any amplitude."""
     model = transit.attrs["model"]
     plate = transit.acceleration * math.cos(model["angle"]) / (2.0 * math.pi * model["frequency"])
     return bool((transit.velocity_95 > STILL * plate).any())
@@ -76,7 +77,7 @@ def amplitudes_inside(shares: pd.DataFrame, intervals: list[dict], regime: str) 
 
 
 def describe_one_velocity(shares: pd.DataFrame, interval: dict) -> dict:
-    """An interval of merged regimes with one velocity: the states and the range of velocities without what it hides."""
+    """An interval with one velocity, with its states and velocities, but not those of intervals merged into it."""
     own = shares[shares.acceleration.isin(amplitudes_inside(shares, [interval], ONE).acceleration)]
     states = own.groupby("state").starts.sum().sort_values(ascending=False, kind="stable").index
     ends = own.mean_velocity.min(), own.mean_velocity.max()
@@ -109,16 +110,12 @@ def spreads_of(settings: dict) -> dict[str, float]:
     return {name: share for name, share in settings["spread"].items() if name not in others and share > 0.0}
 
 
-def spread_stderr(row: dict) -> float | None:
-    """Standard error of the relative spread of a row of advice, from the quantiles at its ends; None if not known."""
-    errors = [row[f"velocity_{end}_stderr"] for end in ("05", "95")]
-    return None if None in errors or not row["velocity_50"] else math.hypot(*errors) / abs(row["velocity_50"])
-
-
 def summarize_advice(transit: pd.DataFrame, advice: pd.DataFrame, changes: pd.DataFrame) -> dict:
     """The settings of the transit table, how parts differ, and the advice of each aim with its best changes."""
+    found, errors = (advice[[f"{name}{end}" for name in QUANTILES]].to_numpy().T for end in ("", "_stderr"))
+    advice = advice.assign(spread_stderr=spread_stderr(found, errors))
     rows = {
-        row["aim"]: row | {"changes": select_changes(row["aim"], changes), "spread_stderr": spread_stderr(row)}
+        row["aim"]: row | {"changes": select_changes(row["aim"], changes)}
         for row in advice.replace({np.nan: None}).to_dict("records")
     }
     return {

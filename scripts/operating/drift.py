@@ -15,7 +15,7 @@ from conveyor.solver.model import FREQUENCY
 from conveyor.solver.parallel import for_each_chunk
 from operating.parts import IDENTICAL, population, starts_of_box
 from operating.regimes import CHAOS, SEVERAL
-from operating.transit import PROBABILITIES, follow, quantiles
+from operating.transit import PROBABILITIES, follow, quantiles, spread_stderr
 from operating.transit import relative_spread as spread_of
 from pipeline import fields, grid
 
@@ -132,11 +132,8 @@ def lengths_table(regimes: pd.DataFrame, drifts: pd.DataFrame, settings: dict, *
                         "acceleration": acceleration,
                         "regime": regime,
                         "length": track["lengths"],
-                        "spread": [spread_of(one) for one in found],
-                        "spread_stderr": [
-                            np.hypot(error[0], error[-1]) / abs(one[2]) if one[2] else np.nan
-                            for one, error in zip(found, errors, strict=True)
-                        ],
+                        "spread": spread_of(np.array(found).T),
+                        "spread_stderr": spread_stderr(np.array(found).T, np.array(errors).T),
                         "predicted": predicted,
                         "late": np.isnan(run["arrival"][right]).mean(axis=0),
                     }

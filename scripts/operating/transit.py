@@ -81,6 +81,14 @@ def relative_spread(found: np.ndarray) -> np.ndarray:
     return (found[-1] - found[0]) / np.where(found[2], np.abs(found[2]), np.nan)
 
 
+def spread_stderr(found: np.ndarray, errors: np.ndarray) -> np.ndarray:
+    """Standard error of the relative spread; NaN for a median of 0.
+
+    found, errors : quantiles at PROBABILITIES and their standard errors, shape (5, ...)
+    """
+    return np.hypot(errors[0], errors[-1]) / np.where(found[2], np.abs(found[2]), np.nan)
+
+
 def upper(peaks: np.ndarray) -> float:
     """The 95 % quantile of the known numbers; NaN if there are none."""
     known = peaks[np.isfinite(peaks)]

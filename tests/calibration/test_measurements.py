@@ -54,7 +54,7 @@ BAD = {
         "sd = 0.5 m/s is larger than the largest velocity of the plate",
     ),
     "negative amplitude": (f"{HEAD}\n-30,0.02\n40,0.05\n50,0.06\n", 2, "acceleration = '-30' must not be negative"),
-    "line of Excel": (f"sep=,\n{HEAD}\n30,0.02\n40,0.05\n50,0.06\n", 1, "which only Excel reads; delete this line"),
+    "line of Excel": (f"sep=,\n{HEAD}\n30,0.02\n40,0.05\n50,0.06\n", 1, "which only Excel reads; delete it"),
     "semicolons below commas": (
         f"{HEAD}\n30;0.02\n40;0.05\n50;0,06\n",
         2,

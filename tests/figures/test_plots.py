@@ -12,7 +12,7 @@ import pytest
 from accuracy import precision, speed
 from conveyor.methods import leg
 from figures import style
-from figures.plots import fig08, fig15, speed_accuracy, transit, work_precision
+from figures.plots import drive, fig08, fig15, speed_accuracy, transit, work_precision
 
 
 def sweep(low: float, high: float) -> pd.DataFrame:
@@ -52,6 +52,43 @@ def test_equal_values_stay_below_the_end_of_an_axis_from_zero():
         axes.plot([0.0, 1.0], [0.3, 0.3 + 1e-12])
         style.from_zero(axes)
     assert axes.get_ylim() == pytest.approx((0.0, 0.306))
+
+
+def bands(amplitudes: list[float], **spread: float) -> pd.DataFrame:
+    """A made-up table of transit, of two populations."""
+    table = pd.DataFrame({"acceleration": amplitudes, "velocity_05": 0.01, "velocity_50": 0.02, "velocity_95": 0.03})
+    table = pd.concat([table.assign(population=one) for one in ("identical", "varied")], ignore_index=True)
+    table.attrs = {"spread": {"seed": 1, **spread}}
+    return table
+
+
+@pytest.mark.parametrize(
+    ("spread", "count"), [({"friction": 0.0}, 1), ({"friction": 0.1}, 2), ({"calibrated": True}, 2)]
+)
+def test_equal_parts_are_drawn_once(spread, count):
+    axes = style.figure(50.0, 40.0).subplots()
+    transit.draw_bands(axes, bands([30.0, 40.0], **spread))
+    assert len(axes.get_legend_handles_labels()[1]) == count
+
+
+def test_a_single_amplitude_has_marks_and_bars_within_the_axis():
+    axes = style.figure(50.0, 40.0).subplots()
+    transit.draw_bands(axes, bands([40.0], friction=0.1))
+    style.limit_x(axes, [40.0])
+    assert axes.get_xlim() == pytest.approx((38.0, 42.0))
+    assert {line.get_marker() for line in axes.get_lines() if len(line.get_xdata()) == 1} == {"o"}
+    bars = [path.vertices[:, 1] for one in axes.collections for path in one.get_paths()]
+    np.testing.assert_allclose(bars, [[1.0, 3.0], [1.0, 3.0]])
+
+
+def test_a_search_without_a_design_says_so():
+    names = ["acceleration", "velocity", "impact_speed", "checked_impact_speed"]
+    names += ["checked_velocity", "checked_velocity_95", "checked", "recommended"]
+    front = pd.DataFrame(columns=names, dtype=float).astype({"checked": bool, "recommended": bool})
+    generations = pd.DataFrame({"seed": 1, "generation": [1, 2], "hypervolume": 0.0})
+    with style.applied():
+        pareto = drive.plot(front=front, generations=generations).axes[0]
+    assert [text.get_text() for text in pareto.texts] == ["no design within the constraints"]
 
 
 @pytest.mark.parametrize(("least", "labels"), [(0.11, 2), (0.3, 2), (0.03, 2)])

@@ -253,3 +253,9 @@ def test_calibrated_parts_have_the_parameters_of_the_samples():
     for friction, damping, stiffness, *others in factors:
         assert (damping, stiffness) == ((1.0, 1.0) if friction < 1.0 else (2.0, 2.0))
         assert others == [1.0, 1.0]
+
+
+def test_the_error_of_a_spread_comes_from_both_ends():
+    found = np.array([[0.1, 0.0, 0.2, 0.3, 0.4], [-0.1, 0.0, 0.0, 0.3, 0.4]]).T
+    errors = np.array([[0.03, 9.0, 9.0, 9.0, 0.04]] * 2).T
+    np.testing.assert_allclose(transit.spread_stderr(found, errors), [0.25, np.nan])

@@ -75,7 +75,7 @@ def explain(error: dict) -> str:
         return f"{shown} should be {schema['patternErrorMessage']}"
     if kind in ("float_type", "int_type", "form") and isinstance(value, str) and NUMBER.fullmatch(value):
         is_quoted = isinstance(yaml.safe_load(value), int | float)
-        remedy = "remove quotes" if is_quoted else "write it with a decimal point and a signed exponent (1.0e-4)"
+        remedy = "remove the quotes" if is_quoted else "write it with a decimal point and a signed exponent (1.0e-4)"
         return f"{shown} is text to YAML; {remedy}"
     if kind == "dict_type" and value is None and path:
         return f"{key} is empty; give keys below it, or delete it"

@@ -33,7 +33,7 @@ def plot(*, front: pd.DataFrame, generations: pd.DataFrame) -> Figure:
     pareto.set_ylabel("velocity of the slowest 5 % in cm/s")
     pareto.set_ylim(bottom=min(0.0, 105.0 * front.checked_velocity.min()))
     if front.empty:
-        style.say(pareto, "no design within the limits")
+        style.say(pareto, "no design within the constraints")
     else:
         figure.colorbar(points, ax=pareto, label=style.AMPLITUDE)
     last = generations.generation.max()
