@@ -54,8 +54,13 @@ def log_factors(found: np.ndarray, data: Data, settings: dict, inflations: tuple
     return np.array([log_densities(*arguments, inflation) for inflation in inflations])
 
 
-def search(data: Data, settings: dict, *, threads: int = 1, progress: str | None = None) -> Sample:
-    """A weighted sample of the posterior."""
+def search(
+    data: Data, settings: dict, *, near: np.ndarray | None = None, threads: int = 1, progress: str | None = None
+) -> Sample:
+    """A weighted sample of the posterior.
+
+    near : points of a related posterior, in the coordinates of the search space, shape (n, d)
+    """
     best, rounds = -math.inf, 0
 
     def worth(few: np.ndarray) -> np.ndarray:
@@ -73,7 +78,7 @@ def search(data: Data, settings: dict, *, threads: int = 1, progress: str | None
         return log_factors(found, data, settings, INFLATIONS)
 
     options = {name: settings[name] for name in ("first", "points", "rounds", "seed", "enough")}
-    return sample(follow, bounds_of(settings), **options)
+    return sample(follow, bounds_of(settings), **options, near=near)
 
 
 def draw(found: Sample, count: int) -> np.ndarray:

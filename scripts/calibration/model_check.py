@@ -110,6 +110,7 @@ def compare_alternatives(
 ) -> list[dict]:
     """The rows of the table of alternatives: the posterior with one more parameter, against the one without."""
     stated = {*settings["parameters"], *(name for one in data.measured for name in one.changed)}
+    random = np.random.default_rng(settings["seed"])
     rows = []
     for name, difference in settings["alternatives"].items():
         if name in stated:
@@ -118,7 +119,11 @@ def compare_alternatives(
         own = settings | {"parameters": [*settings["parameters"], name], "ranges": settings["ranges"] | {name: ends}}
         # An evidence needs fewer samples than intervals. A search that has not found them underestimates it.
         own |= {"enough": settings["effective"], "rounds": (settings["rounds"] + 1) // 2}
-        other = search(data, own, threads=threads, progress=progress and f"{progress}: {name.replace('_', ' ')}")
+        # What is found without the alternative shows where to begin, with any value of it.
+        known = found.points[draw(found, settings["samples"])]
+        near = np.column_stack([known, random.uniform(*ends, len(known))])
+        label = progress and f"{progress}: {name.replace('_', ' ')}"
+        other = search(data, own, near=near, threads=threads, progress=label)
         gain = other.log_evidence - found.log_evidence
         rows.append(
             {

@@ -126,6 +126,7 @@ def sample(
     enough: float,
     seed: int,
     widths: tuple[float, ...] = NOISY,
+    near: np.ndarray | None = None,
 ) -> Sample:
     """A sample of the posterior with a constant prior within the bounds.
 
@@ -141,6 +142,7 @@ def sample(
     enough : effective number of points at which the search ends
     seed : of the random numbers
     widths : NOISY or EXACT, for factors with and without noise
+    near : points of a related posterior, shape (k, d), near which the first of the further rounds draws
 
     Raises
     ------
@@ -167,11 +169,14 @@ def sample(
         if settled.size >= enough or len(proposals) == rounds:
             # A proposal counts as one in `mixture`, and stands for as many points as a round has.
             return settled._replace(log_evidence=settled.log_evidence - math.log(points))
-        known = flattened(values, mixture, LEAST * dimensions)
-        centres = np.flatnonzero(known > LIGHT * known.max())
-        if len(centres) > CENTRES:
-            centres = random.permutation(centres)[:CENTRES]
-        proposals.append(gaussian_kde(x[centres].T, weights=known[centres]))
+        if near is not None and not proposals:
+            proposals.append(gaussian_kde(near.T))
+        else:
+            known = flattened(values, mixture, LEAST * dimensions)
+            centres = np.flatnonzero(known > LIGHT * known.max())
+            if len(centres) > CENTRES:
+                centres = random.permutation(centres)[:CENTRES]
+            proposals.append(gaussian_kde(x[centres].T, weights=known[centres]))
         new = proposals[-1].resample(points, seed=random).T
         new = new[((new >= low) & (new <= high)).all(axis=1)]
         of_new = [np.full(len(new), even), *(volume + proposal.logpdf(new.T) for proposal in proposals)]
