@@ -95,3 +95,19 @@ def test_the_sample_has_the_moments_of_the_posterior_also_if_factors_are_noisy(n
 
 def test_the_search_ends_without_enough_samples_after_the_last_round():
     assert sample(factors, BOUNDS[:, :2], **FEW | {"rounds": 1, "enough": 1e6}).size < 1e6
+
+
+def test_points_of_a_related_posterior_lead_to_a_narrow_one():
+    """A peak that fills 3e-8 of the bounds, found from its projection on three of four parameters."""
+
+    def peak(x):
+        return -0.5 * np.sum(((x - [*MEAN, 0.3]) / [0.02, 0.02, 0.02, 1.0]) ** 2, axis=1)
+
+    bounds = np.column_stack([BOUNDS, [-5.0, 5.0]])
+    random = np.random.default_rng(2)
+    near = np.column_stack([random.normal(MEAN, 0.02, (200, 3)), random.uniform(-5.0, 5.0, 200)])
+    options = OPTIONS | {"first": 200, "points": 200, "rounds": 3}
+    found = sample(one_factor(peak), bounds, **options, near=near)
+    evidence = math.log(4.0 * math.pi**2 * 0.02**3 / 1e4)
+    assert found.log_evidence == pytest.approx(evidence, abs=0.3)
+    assert sample(one_factor(peak), bounds, **options).size < 10.0 < found.size
