@@ -22,7 +22,7 @@ from ..arguments import LONGEST, check_array, check_choice, check_time
 from ..parameters import FIXED_STEP_METHODS as METHODS
 from ..parameters import LAST
 from ..solver import model
-from ..solver.contact_lanes import new_memory, place
+from ..solver.contact_lanes import LANES, new_memory, place
 from ..solver.horizontal import IMPACT, SAMPLES, SEPARATED, name_events
 from ..solver.jit import compiled, compiled_inline, compiled_into_callers
 from ..solver.trajectory import NOT_FINITE, OK
@@ -352,7 +352,10 @@ def compiled_for(kind):
     @compiled
     def integrate(parameters, step, n_steps, sample_indices, samples, events, results, work):
         flat, memory = work
-        lanes = 1 if kind.single else memory.shape[1]
+        # LLVM makes faster code for a known number of lanes: sweeps take 0.79 to 0.99 of the time. Not so for
+        # semi-implicit Euler (1.15 if plates are alike) and for powers (up to twice the time).
+        is_known = method != SEMI_IMPLICIT_EULER and not kind.has_powers
+        lanes = 1 if kind.single else LANES if is_known else memory.shape[1]
         running = np.empty(lanes, np.bool_)
         sines, cosines = np.empty(CHECK), np.empty(CHECK)
         for first in range(0, len(parameters), lanes):
