@@ -79,7 +79,7 @@ def run(
     dict of arrays of shape (n,): mean_velocity (m/s, over the last quarter), z_end, vz_end, x_end, vx_end (m, m/s),
     max_gap (m), impacts (int64), contact_fraction (1), impact_speed (m/s) and peak_force (N), the largest speed of
     approach at an impact and the largest contact force over the last quarter (0 if there is none), and status (str;
-    "ok", or why the run ended early; unknown numbers are NaN)
+    "ok", or why the run ended early: impacts are then those up to its end, all other numbers NaN)
 
     Raises
     ------
@@ -112,6 +112,8 @@ def run(
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=chunk, progress=progress)
     columns["impacts"] = columns["impacts"].astype(np.int64)
+    failed = columns["status"] != trajectory.OK
+    columns["max_gap"][failed] = columns["contact_fraction"][failed] = np.nan
     columns["status"] = np.array(STATUS, dtype=object)[columns["status"].astype(np.int64)]
     return columns
 

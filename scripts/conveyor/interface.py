@@ -30,6 +30,7 @@ from .arguments import (
     check_number,
     check_parameters,
     check_threads,
+    check_time,
     check_tolerance,
     check_type,
 )
@@ -55,7 +56,7 @@ class Runs(NamedTuple):
     contact_fraction: np.ndarray  # share of the duration with a contact force
     impact_speed: np.ndarray  # m/s, largest speed of approach at an impact over the last quarter; 0 if there is none
     peak_force: np.ndarray  # N, largest contact force over the last quarter; 0 if there is none
-    status: np.ndarray  # str, "ok", or why the run ended early
+    status: np.ndarray  # str, "ok", or why the run ended early: then impacts are those up to its end, the rest is NaN
 
 
 class Basin(NamedTuple):
@@ -125,6 +126,7 @@ def sweep(
     True
     """
     rows, shape = pack_all(conveyor, start, values)
+    duration = check_time("duration", duration)
     options = {"duration": duration, "method": method, "tolerance": tolerance, "step": step, "threads": threads}
     return reshape(Runs(**ensemble.run(rows, **options)), shape)
 
@@ -302,8 +304,9 @@ def continue_orbit(conveyor: Conveyor, orbit: Orbit, *, low: float, high: float)
     Parameters
     ----------
     conveyor : its amplitude does not matter, because the orbit has its own
-    orbit : from `periodic_orbit`
-    low, high : amplitudes in m/s² at which the branch ends, on either side of the orbit's amplitude
+    orbit : of this conveyor, from `periodic_orbit`
+    low, high : amplitudes in m/s² between which the branch is followed, on either side of the orbit's amplitude; its
+        first and last orbits are at most 0.1 m/s² away from them
 
     Returns
     -------
@@ -333,7 +336,14 @@ def continue_orbit(conveyor: Conveyor, orbit: Orbit, *, low: float, high: float)
         raise ValueError(f"orbit.state must be δ (m) and v (m/s), got the shape {state.shape}")
     low = check_number("low", low, RANGES["acceleration"][0], acceleration, "m/s²")
     high = check_number("high", high, acceleration, RANGES["acceleration"][1], "m/s²")
-    return continuation.follow_branch(pack(conveyor, AT_REST), orbit, (low, high))
+    parameters = pack(conveyor, AT_REST)
+    if not continuation.is_orbit(parameters, orbit):
+        raise ValueError("orbit is no orbit of this conveyor; find one with periodic_orbit(conveyor, ...)")
+    branch = continuation.follow_branch(parameters, orbit, (low, high))
+    return branch._replace(
+        orbits=[one for one in branch.orbits if low <= one.acceleration <= high],
+        bifurcations=[one for one in branch.bifurcations if low <= one.orbit.acceleration <= high],
+    )
 
 
 def box_dimension(points: ArrayLike) -> Dimension:

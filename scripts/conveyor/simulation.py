@@ -1,5 +1,6 @@
 """One call for every method: `simulate` follows one part on one conveyor."""
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -25,7 +26,7 @@ class Run:
     Attributes
     ----------
     conveyor, start, duration, method, tolerance, step, reuse : the arguments of `simulate`
-    status : "ok", or why the run ended early
+    status : "ok", or why the run ended early: impacts are then those up to its end, all other numbers NaN
     z_end, vz_end, x_end, vx_end : state at the end, m and m/s
     impacts : number of impacts
     max_gap : largest distance between part and plate, m
@@ -171,6 +172,8 @@ def simulate(
         status, impacts, max_gap = found.status, found.impacts, found.max_gap
         contact_fraction, work, repeats, event_count = found.contact_fraction, found.evaluations, 0, 0
         peaks = found.impact_speed, found.peak_force
+    if status != trajectory.STATUS[trajectory.OK]:
+        max_gap = contact_fraction = math.nan
     return Run(
         *(conveyor, start, duration, method, tolerance, step, reuse, status),
         *map(float, (x_last, z_end, vz_end, x_end, vx_end)),

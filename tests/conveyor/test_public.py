@@ -242,6 +242,43 @@ def test_an_orbit_with_odd_fields_is_named(changed):
         conveyor.continue_orbit(Conveyor(), ORBIT._replace(**changed), low=39.99, high=40.01)
 
 
+def test_an_orbit_of_another_conveyor_is_refused():
+    with pytest.raises(ValueError, match="orbit is no orbit of this conveyor"):
+        conveyor.continue_orbit(Conveyor(damping=0.31), ORBIT, low=39.99, high=40.01)
+
+
+def test_a_branch_has_only_orbits_and_bifurcations_between_its_ends():
+    """The period doubles at 54.218 m/s², less than a step of the branch beyond the first end."""
+    ends = {}
+    for high in (54.2, 54.22):
+        branch = conveyor.continue_orbit(Conveyor(), ORBIT, low=39.9, high=high)
+        assert 39.9 <= branch.orbits[0].acceleration < 40.0
+        assert high - 0.1 <= branch.orbits[-1].acceleration <= high
+        ends[high] = [point.kind for point in branch.bifurcations]
+    assert ends == {54.2: [], 54.22: ["period_doubling"]}
+
+
+def test_a_sweep_has_one_duration():
+    with pytest.raises(ValueError, match="duration"):
+        conveyor.sweep(Conveyor(), duration=[1.0, 2.0], z=[0.0, 0.0])
+
+
+def test_a_run_that_fails_has_no_numbers():
+    """Its time constant m/d_c is far too short to follow."""
+    runs = conveyor.sweep(Conveyor(damping=1e6), Start(-1e-3), duration=0.01)
+    single = conveyor.simulate(Conveyor(damping=1e6), Start(-1e-3), duration=0.01)
+    assert runs.status == single.status == "contact too stiff"
+    for name in set(runs._fields) - {"status", "impacts", "mean_velocity"}:
+        assert np.isnan(getattr(runs, name)) and np.isnan(getattr(single, name)), name
+    assert np.isnan(runs.mean_velocity) and np.isnan(single.mean_velocity())
+
+
+def test_the_larger_exponent_is_the_first_one():
+    """At rest both are equal but for what a hundred cycles leave of the first tangent vector."""
+    found = conveyor.lyapunov_spectrum(Conveyor(), Start(1e-3), acceleration=[0.0, 5.0, 20.0])
+    assert (found.lambda_1 >= found.lambda_2).all()
+
+
 def test_infinite_points_of_single_precision_are_refused():
     with pytest.raises(ValueError, match="points = inf is outside"):
         conveyor.box_dimension(np.full((50, 2), np.inf, np.float32))

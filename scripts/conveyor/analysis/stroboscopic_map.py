@@ -260,7 +260,7 @@ def follow(parameters, tolerance, state, cycles):
 
 
 @compiled
-def monodromy(parameters, tolerance, state, cycles):
+def monodromy(parameters, tolerance, state, cycles, airborne):
     """Advance `state` by a number of cycles, with the linearisation of each cycle.
 
     The monodromy matrix is the product of the matrices, the last one leftmost; its determinant is the product of their
@@ -269,6 +269,7 @@ def monodromy(parameters, tolerance, state, cycles):
     Parameters
     ----------
     parameters, tolerance, state, cycles : as in `follow`
+    airborne : time since the last separation, s
 
     Returns
     -------
@@ -279,6 +280,7 @@ def monodromy(parameters, tolerance, state, cycles):
     c = contact.constants(parameters, tolerance)
     series = contact.workspace()
     found = np.zeros(FEATURES)
+    found[AIRBORNE] = airborne
     matrices, features = np.zeros((cycles, 2, 2)), np.zeros((cycles, FEATURES))
     for n in range(cycles):
         tangent = np.eye(2)

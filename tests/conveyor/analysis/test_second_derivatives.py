@@ -28,7 +28,7 @@ def velocity(values):
 def linearised(values, tension):
     """(x, y) after a cycle and its derivatives by (x, y), from the module that knows no others."""
     state = velocity(values)
-    status, matrices, _ = stroboscopic_map.monodromy(packed_of(values, tension), TOLERANCE, state, 1)
+    status, matrices, _ = stroboscopic_map.monodromy(packed_of(values, tension), TOLERANCE, state, 1, 0.0)
     assert status == OK
     return np.array([state[0], state[1] + values[3] * max(state[0], 0.0)]), matrices[0]
 

@@ -69,7 +69,7 @@ def test_linearised_map_is_the_derivative_of_the_map(tension, exponent):
         return np.array([delta, v + decay * max(delta, 0.0)])
 
     here = np.array([-2e-4, 0.05])
-    _, matrices, features = stroboscopic_map.monodromy(parameters, 1e-13, here.copy(), 1)
+    _, matrices, features = stroboscopic_map.monodromy(parameters, 1e-13, here.copy(), 1, 0.0)
     assert features[0, stroboscopic_map.IMPACTS] > 0
     for column, step in enumerate((1e-9, 1e-6)):
         ahead = np.zeros(2)

@@ -43,7 +43,7 @@ def after_a_cycle(conveyor: Conveyor, state: np.ndarray) -> tuple[np.ndarray, np
     returns = ReturnMap(row, 1)
     unknown = np.append(state, conveyor.acceleration)
     end = returns.state(unknown)
-    _, matrices, features = stroboscopic_map.monodromy(row, RUN, end, 1)
+    _, matrices, features = stroboscopic_map.monodromy(row, RUN, end, 1, 0.0)
     unit = returns.unit[:2]
     return returns.scaled(conveyor.acceleration, end)[:2], matrices[0] * unit / unit[:, None], features[0]
 

@@ -133,7 +133,7 @@ def linearise(parameters: np.ndarray, tolerance: float, point: np.ndarray, perio
     """
     damping = contact.constants(parameters, tolerance).damping
     state = np.array([point[0], point[1] - damping * max(point[0], 0.0)])
-    status, matrices, _ = stroboscopic_map.monodromy(parameters, tolerance, state, period)
+    status, matrices, _ = stroboscopic_map.monodromy(parameters, tolerance, state, period, 0.0)
     if status != OK:
         return None
     end = np.array([state[0], state[1] + damping * max(state[0], 0.0)])

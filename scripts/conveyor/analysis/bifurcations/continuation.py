@@ -100,6 +100,14 @@ def _follow(parameters, orbit, limits, direction):
     return orbits, bifurcations, "step", None
 
 
+def is_orbit(parameters: np.ndarray, orbit: Orbit) -> bool:
+    """Whether an Orbit is one of `parameters`, shape (16,); its amplitude is ignored."""
+    returns = ReturnMap(parameters, orbit.period)
+    given = returns.scaled(orbit.acceleration, orbit.state)
+    found = returns.newton(given)
+    return found is not None and bool(np.linalg.norm(found - given) < SAME)
+
+
 def bifurcations_between(parameters: np.ndarray, before: Orbit, after: Orbit) -> list[Bifurcation]:
     """Bifurcations between two neighbouring orbits of a branch, in the order in which they are met."""
     returns = ReturnMap(parameters, before.period)

@@ -76,10 +76,13 @@ class ReturnMap:
         _, states, _ = stroboscopic_map.follow(row, TOLERANCE, self.state(unknown), self.period)
         return np.array([self.scaled(unknown[2], state) for state in states])
 
-    def linearised(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """(δ, Y) after n cycles in their units, the matrices (SI units) and the features of all cycles."""
+    def linearised(self, unknown: np.ndarray, airborne: float = 0.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """(δ, Y) after n cycles in their units, the matrices (SI units) and the features of all cycles.
+
+        airborne : time since the last separation, s
+        """
         row, state = with_amplitude(self.parameters, unknown[2]), self.state(unknown)
-        status, matrices, features = stroboscopic_map.monodromy(row, TOLERANCE, state, self.period)
+        status, matrices, features = stroboscopic_map.monodromy(row, TOLERANCE, state, self.period, airborne)
         if status != OK:
             return np.full(2, np.nan), np.full((self.period, 2, 2), np.nan), features
         return self.scaled(unknown[2], state)[:2], matrices, features
@@ -123,13 +126,15 @@ class ReturnMap:
 
     def describe(self, unknown: np.ndarray) -> Orbit:
         """The Orbit of a fixed point."""
-        _, matrices, features = self.linearised(unknown)
+        _, _, features = self.linearised(unknown)
+        # The period may begin in the flight in which it ends.
+        _, matrices, features = self.linearised(unknown, features[-1, stroboscopic_map.AIRBORNE])
         matrix = reduce(lambda product, following: following @ product, matrices)
         trace, determinant = float(np.trace(matrix)), float(np.prod(np.linalg.det(matrices)))
         root = cmath.sqrt(0.25 * trace * trace - determinant)
         first = max(0.5 * trace + root, 0.5 * trace - root, key=abs)
         second = determinant / first if first != 0.0 else 0.0j
-        flights = features[:, [stroboscopic_map.LONGEST_FLIGHT, stroboscopic_map.AIRBORNE]]
+        flights = features[:, stroboscopic_map.LONGEST_FLIGHT]
         return Orbit(
             acceleration=float(unknown[2]),
             state=self.state(unknown),

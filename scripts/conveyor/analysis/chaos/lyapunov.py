@@ -154,9 +154,11 @@ def spectrum(
     values, errors = stretching.exponents(stretches, blocks)
     # Where damping is so strong that a perturbation underflows within a cycle, no exponent is known.
     codes[(codes == trajectory.OK) & ~np.isfinite(values).all(axis=1)] = trajectory.NOT_FINITE
-    lambda_1, lambda_2 = (values / period[:, None]).T
+    # Where both exponents are equal, the first tangent vector may have grown a little less.
+    order = np.argsort(-values, axis=1)
+    values, errors = (np.take_along_axis(found / period[:, None], order, axis=1) for found in (values, errors))
     contact_fraction = contact_times.mean(axis=1) / period
-    return Spectrum(lambda_1, lambda_2, errors[:, 0] / period, contact_fraction, np.array(trajectory.STATUS)[codes])
+    return Spectrum(*values.T, errors[:, 0], contact_fraction, np.array(trajectory.STATUS)[codes])
 
 
 def spectrum_from(
@@ -224,7 +226,7 @@ def repeating_motion(
     period = find_period(strobes, np.array(units(parameters))) if status == trajectory.OK else 0
     if not period:
         return nothing
-    status, matrices, features = stroboscopic_map.monodromy(parameters, tolerance, state, period)
+    status, matrices, features = stroboscopic_map.monodromy(parameters, tolerance, state, period, 0.0)
     logarithms = stretching.log_multipliers(matrices)
     if status != trajectory.OK or not math.isfinite(logarithms[0]):
         return nothing

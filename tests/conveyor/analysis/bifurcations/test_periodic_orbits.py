@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from conveyor import Conveyor, Start
+from conveyor import Conveyor, Start, classify, periodic_orbit, simulate
 from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.bifurcations import continuation, doubling_cascade, periodic_orbits
 from conveyor.solver.model import pack
@@ -184,3 +184,19 @@ def test_a_grazing_has_its_larger_multiplier():
     for one in grazings:
         assert abs(one.multiplier) == pytest.approx(max(abs(value.real) for value in one.orbit.multipliers))
         assert abs(one.orbit.multipliers[0] - one.orbit.multipliers[1]) > 1e-3
+
+
+@pytest.mark.parametrize(("acceleration", "period"), [(40.0, 1), (57.0, 2)])
+def test_the_longest_flight_does_not_depend_on_the_phase_at_which_the_period_begins(acceleration, period):
+    """In the first case the part flies whenever it does not touch: it has one impact per cycle."""
+    conveyor, start = Conveyor(acceleration=acceleration), Start(3e-4)
+    labelled = classify(conveyor, start).longest_flight
+    run = simulate(conveyor, start, duration=5.0)
+    found = []
+    for time in np.linspace(4.9, 4.92, 6):
+        (z,), (vz,) = (run.sample(np.array([time]))[name] for name in ("z", "vz"))
+        later = Conveyor(acceleration=acceleration, psi0=float(2.0 * np.pi * (50.0 * time % 1.0)))
+        orbit = periodic_orbit(later, Start(z, vz), period=period, transient=0)
+        found.append(orbit.longest_flight)
+        assert period > 1 or orbit.longest_flight == pytest.approx(1.0 - 50.0 * orbit.contact_time, abs=1e-9)
+    assert found == pytest.approx(len(found) * [float(labelled)], abs=1e-6)
