@@ -22,7 +22,7 @@ from calibration.inference import Data, draw, mode, search
 from calibration.predicted import deviations, log_densities, velocities, widths
 from calibration.search_space import values_at
 from conveyor.parameters import UNITS
-from pipeline.importance_sampling import Sample
+from pipeline.importance_sampling import LEAST, Sample
 
 UNLIKELY = 0.01  # share of replicates below which a single measurement does not fit
 
@@ -119,9 +119,11 @@ def compare_alternatives(
         own = settings | {"parameters": [*settings["parameters"], name], "ranges": settings["ranges"] | {name: ends}}
         # An evidence needs fewer samples than intervals. A search that has not found them underestimates it.
         own |= {"enough": settings["effective"], "rounds": (settings["rounds"] + 1) // 2}
-        # What is found without the alternative shows where to begin, with any value of it.
-        known = found.points[draw(found, settings["samples"])]
-        near = np.column_stack([known, random.uniform(*ends, len(known))])
+        near = None
+        if found.size >= LEAST * len(settings["parameters"]):
+            # What is found without the alternative shows where to begin, with any value of it.
+            known = found.points[draw(found, settings["samples"])]
+            near = np.column_stack([known, random.uniform(*ends, len(known))])
         label = progress and f"{progress}: {name.replace('_', ' ')}"
         other = search(data, own, near=near, threads=threads, progress=label)
         gain = other.log_evidence - found.log_evidence

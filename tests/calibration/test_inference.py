@@ -117,6 +117,14 @@ def test_alternatives_are_also_searched_in_a_single_round():
     assert len(calibrate(measured(), settings, threads=2)["alternatives"]["parameter"]) == 1
 
 
+def test_alternatives_are_also_searched_if_the_search_without_them_ends_at_a_single_point():
+    points = np.repeat(bounds_of(SETTINGS).mean(axis=0)[None], 5, axis=0)
+    found = Sample(points, np.zeros(5), np.array([1.0, 0.0, 0.0, 0.0, 0.0]), 0.0, 1.0)
+    settings = SETTINGS | {"rounds": 1, "alternatives": {"inclination": 0.2}}
+    (row,) = compare_alternatives(found, data_of(measured(), MODEL), settings, threads=2)
+    assert row["parameter"] == "inclination" and np.isfinite(row["log_bayes_factor"])
+
+
 def test_a_parameter_that_the_measurements_state_is_no_alternative():
     stated = [one._replace(changed={"inclination": 0.0}) for one in measured()]
     data = data_of(stated, MODEL)
