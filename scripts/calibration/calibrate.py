@@ -29,6 +29,7 @@ TABLES = {
         fields.count("line", "line of the file of measurements"),
         fields.number("acceleration", "m/s²", "amplitude of the excitation"),
         fields.number("velocity", "m/s", "measured velocity"),
+        fields.flag("changed", "whether this line gives the conveyor another parameter than the config"),
         fields.number("sd", "m/s", "standard deviation of the measurement"),
         fields.number("low", "m/s", "5 % quantile of what the best parameters give, noise included"),
         fields.number("median", "m/s", "median of what the best parameters give"),

@@ -62,7 +62,7 @@ def read_text(path: str | Path) -> str:
             raise MeasurementError([f"{path}: is larger than {MOST_BYTES:,} bytes; give a CSV file of measurements"])
         return Path(path).read_bytes().decode("utf-8-sig")
     except OSError as error:
-        remedy = "calibration.measurements names a CSV file, relative to its config file"
+        remedy = "calibration.measurements names a CSV file, relative to its overlay, or else to the working directory"
         raise MeasurementError([f"{path}: {error.strerror}; {remedy}"]) from error
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1

@@ -94,6 +94,7 @@ def check_fit(found: Sample, data: Data, settings: dict, *, threads: int = 1, pr
         "line": [one.line for one in data.measured],
         "acceleration": [one.acceleration for one in data.measured],
         "velocity": data.velocity,
+        "changed": [bool(one.changed) for one in data.measured],
         "sd": deviations(data.velocity, data.sd, data.plate, settings["noise"]),
         "low": low,
         "median": middle,

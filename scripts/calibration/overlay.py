@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from calibration.inference import TOO_FEW
+from calibration.inference import NOT_DETERMINED, TOO_FEW
 from pipeline.rule_log import JobError
 
 DIGITS = 6
@@ -16,6 +16,8 @@ def make(parameters: pd.DataFrame, fit: pd.DataFrame) -> str:
         raise JobError(f"The model does not explain the measurements, so there is no overlay; {page}")
     if (parameters.status == TOO_FEW).any():
         raise JobError(f"The search has found too few samples for an overlay; {page}")
+    if (parameters.status == NOT_DETERMINED).all():
+        raise JobError(f"The measurements determine no parameter, so there is no overlay; {page}")
     model = {row.parameter: f"{row.best:.{DIGITS - 1}e}" for row in parameters.itertuples()}
     comments = {
         row.parameter: f"{'1' if row.unit == '1' else row.unit}, {row.status}: {row.low:.3g} to {row.high:.3g}"

@@ -6,8 +6,9 @@ import numpy as np
 import pandas as pd
 
 from calibration.inference import DETERMINED, NOT_DETERMINED, OPEN, TOO_FEW
+from calibration.measurements import DEFAULTS
 from calibration.model_check import UNLIKELY
-from pipeline.templates import render
+from pipeline.templates import format_significant, render
 
 WORST = 8  # rows that are named
 SHOWN = 9  # amplitudes in the table of predicted velocities
@@ -18,7 +19,7 @@ WORTH = 0.02  # expected narrowing from which one more measurement is recommende
 
 def power_of_ten(decades: float) -> str:
     """A factor in words, from its decimal logarithm; factors that no reader compares are powers of ten."""
-    return f"{10.0**decades:.2g}" if abs(decades) < 3.0 else f"10^{decades:.0f}"
+    return format_significant(10.0**decades, 2) if abs(decades) < 3.0 else f"10^{decades:.0f}"
 
 
 def make(
@@ -63,6 +64,8 @@ def make(
             "preferred": [row for row in others if row["preferred"]],
             "p_value": float(fit.p_value.iloc[0]),
             "count": len(fit),
+            "changed": int(fit.changed.sum()),
+            "defaults": DEFAULTS,
             "unlikely": UNLIKELY,
             "misfits": int((~fit.fits).sum()),
             "worst": worst[~worst.fits].sort_values("line").to_dict("records"),

@@ -80,7 +80,8 @@ def make(
     """The tables of predicted velocities and of possible next measurements."""
     low, high = fit.acceleration.min(), fit.acceleration.max()
     between = np.unique(np.linspace(low, high, settings["amplitudes"]))
-    step = (high - low) / (settings["amplitudes"] - 1) if high > low else 0.05 * low
+    # Amplitudes that are nearly equal would otherwise ask for any number of further ones.
+    step = max((high - low) / (settings["amplitudes"] - 1), settings["beyond"] * high / settings["amplitudes"])
     count = math.floor(settings["beyond"] * high / step)
     beyond = np.concatenate([low - step * np.arange(1, count + 1), high + step * np.arange(1, count + 1)])
     amplitudes = np.concatenate([between, beyond[beyond > (1.0 - settings["beyond"]) * low]])

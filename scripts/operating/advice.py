@@ -7,6 +7,8 @@ relative margin of the amplitude, because no drive holds its amplitude exactly. 
 
 from collections.abc import Callable
 from functools import cache
+from itertools import compress
+from operator import not_
 
 import numpy as np
 import pandas as pd
@@ -112,15 +114,17 @@ def compare(before: np.ndarray, after: np.ndarray, seed: int) -> dict[str, float
     return {"gain": gain, "widening": widening, "gain_stderr": errors[0], "widening_stderr": errors[1]}
 
 
+def neighbours(model: dict, changes: dict[str, float]) -> tuple[list[tuple[str, float]], list[tuple[str, float]]]:
+    """Parameters with their values after changes up and down: those in the range of the model, and the others."""
+    values = [(name, model[name] + sign * change) for name, change in changes.items() for sign in (-1.0, 1.0)]
+    inside = [RANGES[name][0] <= value <= RANGES[name][1] for name, value in values]
+    return list(compress(values, inside)), list(compress(values, map(not_, inside)))
+
+
 def changes_at(acceleration: float, settings: dict, changes: dict[str, float], *, threads: int = 1) -> list[dict]:
     """Measures if one parameter at a time is increased or decreased, at an amplitude (m/s²)."""
     model, amplitude, parts = settings["model"], np.array([acceleration]), settings["starts"]
-    changed = [
-        (parameter, value)
-        for parameter, change in changes.items()
-        for value in (model[parameter] - change, model[parameter] + change)
-        if RANGES[parameter][0] <= value <= RANGES[parameter][1]
-    ]
+    changed, _ = neighbours(model, changes)
     if not changed:
         return []
     models = [model, *(with_parameter(model, *one) for one in changed)]

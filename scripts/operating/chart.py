@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor.parameters import UNITS
-from operating.advice import ENOUGH, EVEN, FAST
+from operating.advice import ENOUGH, EVEN, FAST, neighbours
 from operating.regimes import (
     CHAOS,
     ONE,
@@ -18,7 +18,7 @@ from operating.regimes import (
     merge_narrow,
     summarize_amplitudes,
 )
-from operating.transit import QUANTILES, spread_stderr
+from operating.transit import QUANTILES, spread_stderr, time_of_drop
 from pipeline.templates import render
 
 # If none of n independent initial conditions does something, then with 95 % confidence at most a share of 3/n does it:
@@ -118,8 +118,12 @@ def summarize_advice(transit: pd.DataFrame, advice: pd.DataFrame, changes: pd.Da
         row["aim"]: row | {"changes": select_changes(row["aim"], changes)}
         for row in advice.replace({np.nan: None}).to_dict("records")
     }
+    tested, untested = neighbours(transit.attrs["model"], advice.attrs["changes"])
     return {
         "track": transit.attrs,
+        "dropped": float(time_of_drop(transit.attrs["model"]["frequency"], transit.attrs["longest"])),
+        "tested": tested,
+        "untested": untested,
         "spread": spreads_of(transit.attrs),
         "calibrated": transit.attrs["spread"].get("calibrated", False),
         "fast": rows.get(FAST),

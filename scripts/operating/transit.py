@@ -53,6 +53,11 @@ TABLES = {
 }
 
 
+def time_of_drop(frequency: np.ndarray, longest: float) -> np.ndarray:
+    """Time (s) from which impacts and forces count, for frequencies in Hz and the longest time of a part (s)."""
+    return np.minimum(DROP / frequency, 0.5 * longest)
+
+
 def follow(
     rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None, **track: np.ndarray
 ) -> dict[str, np.ndarray]:
@@ -61,7 +66,7 @@ def follow(
     track : `lengths` (m) and `longest` (s), shape (k,), if they are not those of the settings
     """
     track = {"lengths": np.array([settings["length"]]), "longest": np.array([settings["longest"]])} | track
-    begin = np.minimum(DROP / rows[:, FREQUENCY], 0.5 * track["longest"][0])
+    begin = time_of_drop(rows[:, FREQUENCY], track["longest"][0])
     options = {"tolerance": settings["tolerance"], "threads": threads, "progress": progress}
     return ensemble.transits(rows, begin=begin, **track, **options)
 

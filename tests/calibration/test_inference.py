@@ -148,6 +148,20 @@ def test_the_prediction_covers_the_measured_amplitudes_and_the_next_measurement_
     assert (candidates.narrowing < 1.0).all() and candidates.narrowing_angle.isna().all()
 
 
+@pytest.mark.parametrize("highest", [44.0, 44.001, 60.0])
+def test_nearly_equal_amplitudes_ask_for_few_predictions(highest, monkeypatch):
+    followed = []
+
+    def nothing(values, conditions, settings, *, parts, **options):
+        followed.append(len(conditions.rows))
+        return np.ones((len(values["friction"]), len(conditions.rows), parts))
+
+    monkeypatch.setattr(prediction, "velocities", nothing)
+    samples = pd.DataFrame({name: value * np.linspace(0.9, 1.1, 40) for name, value in CONTACT.items()})
+    prediction.make(samples, pd.DataFrame({"acceleration": [44.0, highest]}), SETTINGS)
+    assert 3 <= followed[0] <= 3 * SETTINGS["amplitudes"]
+
+
 def test_the_band_between_two_rows_contains_a_motion_that_begins_there(monkeypatch):
     def step(values, conditions, settings, *, parts, seed, **options):
         random = np.random.default_rng(seed)

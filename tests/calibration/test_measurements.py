@@ -6,10 +6,13 @@ import sys
 import time
 
 import pytest
+import yaml
 from project import ROOT
 
 from calibration.measurements import MeasurementError, parse, read_text
 from conveyor.parameters import RANGES
+from workflow.config import load_config
+from workflow.config.files import DEFAULT_FILES, merge
 
 MODEL = {"frequency": 60.0, "angle": 0.35, "mass": 2e-3, "gravity": 9.81, "inclination": 0.0}
 SETTINGS = {"parameters": ["friction", "damping", "stiffness"], "model": MODEL}
@@ -155,6 +158,20 @@ def test_a_bad_file_ends_snakemake_before_any_job(tmp_path):
     (tmp_path / "other.yaml").write_text("prefix: 1\n")
     _, other = run_snakemake(tmp_path / "other.yaml", "results/mine/calibration.md")
     assert seconds < 2.0 * other + 1.0
+
+
+def test_a_file_of_measurements_on_the_command_line_replaces_that_of_the_overlay(tmp_path):
+    overlay = {"prefix": "mine", "model": {"frequency": 60.0}, "calibration": {"measurements": "mine.csv"}}
+    (tmp_path / "mine.yaml").write_text(yaml.safe_dump(overlay))
+    for name in ("mine.csv", "other.csv"):
+        (tmp_path / name).write_text(f"{HEAD}\n{GOOD}")
+    files = [tmp_path / "mine.yaml"]
+    assert load_config(DEFAULT_FILES, files, overlay).config["calibration"]["measurements"] == str(
+        tmp_path / "mine.csv"
+    )
+    given = {"calibration": {"measurements": str(tmp_path / "other.csv")}}
+    loaded = load_config(DEFAULT_FILES, files, merge(overlay, given))
+    assert loaded.config["calibration"]["measurements"] == str(tmp_path / "other.csv")
 
 
 @pytest.mark.parametrize(

@@ -37,6 +37,7 @@ def tables(
     alternative=False,
     reliable=True,
     misfits=0,
+    changed=0,
     narrowing=0.1,
     status=(DETERMINED, OPEN, NOT_DETERMINED),
 ):
@@ -56,6 +57,7 @@ def tables(
     )
     fit = pd.DataFrame({"line": [2, 3, 4, 5], "acceleration": [30.0, 40.0, 50.0, 60.0], "velocity": 0.05})
     fit = fit.assign(low=0.01, high=0.02, p_row=[0.5, 0.001, 0.002, 0.4], p_value=0.3 if explained else 5e-4)
+    fit = fit.assign(changed=[False] * (4 - changed) + [True] * changed)
     fit = fit.assign(fits=[True] * (4 - misfits) + [False] * misfits, explained=explained and not alternative)
     prediction = pd.DataFrame({"acceleration": [30.0, 60.0], "low": 0.01, "median": 0.02, "high": [0.03, 0.04]})
     alternatives = pd.DataFrame({"parameter": ["inclination", "phase_shift"], "unit": "rad", "value": [0.06, 0.3]})
@@ -68,9 +70,13 @@ def tables(
     return found | {"prediction": prediction, "next": next_}
 
 
-def first_screen(**options):
+def whole_page(**options):
     template = (ROOT / "workflow/templates/calibration.md").read_text(encoding="utf-8")
-    return page.make(template, **tables(**options), prefix="mine").partition("## Parameters")[0]
+    return page.make(template, **tables(**options), prefix="mine")
+
+
+def first_screen(**options):
+    return whole_page(**options).partition("## Parameters")[0]
 
 
 def test_the_page_begins_with_what_was_found_how_sure_it_is_and_what_to_do():
@@ -83,6 +89,17 @@ def test_the_page_begins_with_what_was_found_how_sure_it_is_and_what_to_do():
     assert "measure one more velocity at **45 m/s²**" in text and "10 % on average" in text
     assert "snakemake results/mine/calibrated.yaml" in text
     assert "the contact damping and the contact stiffness reach the end of the searched range" in text
+
+
+def test_the_page_says_for_which_conditions_the_predicted_velocities_hold():
+    stated = "These are means over 1 s, after 1 s on the track, for random initial conditions."
+    assert stated in whole_page() and "other conditions" not in whole_page()
+    text = whole_page(changed=2)
+    assert stated in text and "2 lines of mine.csv were measured under other conditions" in text
+
+
+def test_factors_below_a_thousand_have_no_exponent():
+    assert [page.power_of_ten(one) for one in (2.0, 2.9, -1.5, -2.5, 5.2)] == ["100", "790", "0.032", "0.0032", "10^5"]
 
 
 def test_the_page_asks_for_no_check_if_all_parameters_are_determined():
@@ -138,7 +155,10 @@ def test_the_overlay_has_the_best_parameters_and_keeps_the_ratio_of_static_frict
     assert yaml.safe_load(overlay.make(found["parameters"], found["fit"]))["parts"] == {"calibrated": True}
 
 
-@pytest.mark.parametrize("options", [{"explained": False}, {"alternative": True}, {"reliable": False}])
+@pytest.mark.parametrize(
+    "options",
+    [{"explained": False}, {"alternative": True}, {"reliable": False}, {"status": [NOT_DETERMINED] * 3}],
+)
 def test_there_is_no_overlay_without_parameters_that_can_be_trusted(options):
     found = tables(**options)
     with pytest.raises(JobError, match=r"no overlay|for an overlay"):

@@ -343,7 +343,7 @@ def advised(**worst: float) -> list[pd.DataFrame]:
         "back": 0.01,
     }
     advice_rows = pd.DataFrame([fast, even])
-    advice_rows.attrs = {"margin": 0.01, "part_length": 0.02}
+    advice_rows.attrs = {"margin": 0.01, "part_length": 0.02, "changes": {"friction": 0.02, "angle": 0.02}}
     changes = [
         {"aim": "fast", "parameter": "friction", "value": 0.17, "gain": 0.2, "widening": -0.004},
         {"aim": "fast", "parameter": "friction", "value": 0.13, "gain": 0.05, "widening": -0.1},
@@ -416,7 +416,37 @@ def test_large_forces_have_no_exponent_and_unknown_ones_are_left_out(refined):
     tables = advised()
     tables[1] = tables[1].assign(peak_force=math.nan)
     tables[1].attrs = advised()[1].attrs
-    assert "contact force" not in page_of(refined, tables).split("## What")[0]
+    page = page_of(refined, tables).split("## What")[0]
+    assert "contact force" not in page
+    assert "Impacts and forces are not known: all parts arrive within 0.4 s" in page
+
+
+def test_the_page_says_which_parts_its_forces_belong_to(refined):
+    """Twenty cycles of 50 Hz take 0.4 s."""
+    assert "for 95 % of the parts that need more than 0.4 s\n" in page_of(refined, advised())
+
+
+def test_the_page_names_changes_that_the_model_does_not_allow(refined):
+    tables = advised()
+    tables[1].attrs["changes"] = {"friction": 0.2}
+    page = page_of(refined, tables)
+    assert "- Not tested, because the model does not allow this value: friction of -0.05\n" in page
+    tables[1].attrs["changes"] = {"friction": 1e6}
+    page = page_of(refined, [*tables[:2], tables[2].iloc[:0]])
+    assert "these values: friction of -1000000 and friction of 1000000\n" in page
+    assert "No tested change" not in page
+
+
+def test_a_spread_without_a_known_error_is_given(refined):
+    assert "(relative spread 1)" in page_of(refined, advised(velocity_05_stderr=math.nan))
+
+
+def test_the_page_says_that_fast_parts_slide_away(refined):
+    steep = refined.assign(status=regimes.SLIDES_AWAY)
+    steep.attrs = refined.attrs
+    page = page_of(steep, advised())
+    assert page.index("**Fast for nearly all parts.**") < page.index("too steep") < page.index("- **Amplitude")
+    assert "too steep" not in page_of(refined, advised())
 
 
 def test_the_page_says_that_the_range_ends_and_that_parts_do_not_arrive(refined):
@@ -653,7 +683,7 @@ def test_a_table_without_known_amplitudes_gives_no_advice(refined):
     alone = refined[refined.acceleration == 20.0].assign(state="undecided", mean_velocity=np.nan)
     rows, advice_rows, changes = advised()
     advice_rows = advice_rows.iloc[:0]
-    advice_rows.attrs = {"margin": 0.01}
+    advice_rows.attrs = {"margin": 0.01, "changes": {}}
     page = page_of(alone, [rows, advice_rows, changes.iloc[:0]])
     assert "No part could be followed at any amplitude, so there is no advice." in page
     assert "At no amplitude are all initial conditions known to reach one velocity" in page

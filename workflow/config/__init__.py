@@ -39,10 +39,14 @@ def canonical(config: dict) -> dict:
 
 
 def name_measurements(config: dict, files: Sequence[str | Path], contents: list[dict]) -> None:
-    """Replace the name of the file of measurements, relative to the overlay that names it, by its path."""
+    """Replace the name of the file of measurements, relative to the overlay that names it, by its path.
+
+    A name that no overlay gives, such as one from the command line, is relative to the working directory.
+    """
+    given = config["calibration"].get("measurements")
     for file, content in zip(files, contents, strict=True):
         section = content.get("calibration")
-        if isinstance(section, dict) and isinstance(section.get("measurements"), str):
+        if isinstance(section, dict) and isinstance(given, str) and section.get("measurements") == given:
             config["calibration"]["measurements"] = os.path.join(os.path.dirname(file), section["measurements"])
 
 

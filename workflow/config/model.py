@@ -517,7 +517,7 @@ class Parts(TypedDict):
 
 class Transit(TypedDict):
     acceleration: Accelerations
-    length: number("length of the track", "m", gt=0, le=1e4)
+    length: number("length of the track", "m", ge=1e-3, le=1e4)
     longest: number("time after which a part is late", "s", gt=0, le=1e5)
     parts: whole("parts with random initial conditions per amplitude", 8, 10**6)
 
@@ -597,7 +597,7 @@ RANGES_OF_CALIBRATION = {
 
 class Calibration(TypedDict):
     measurements: NotRequired[
-        Annotated[Line, Field(description="CSV file of measured velocities, relative to this config file")]
+        Annotated[Line, Field(description="CSV file of measured velocities, relative to this overlay")]
     ]
     parameters: many(word("parameter that is searched", *CALIBRATED), "parameters that are searched")
     alternatives: mapping(

@@ -99,23 +99,42 @@ def stage(module, reference=None):
         return source_hash("make", module.format(**wildcards).replace(".", "/"))
 
     def settings(wildcards):
-        section, name = reference.format(**wildcards).split("/")
-        if section in ENTRIES and name not in config[section]:
-            raise WorkflowError(f"the config has no entry {section}.{name}; add it, or name another entry")
-        if section == "identification" and name != "edges" and not HAS_ALL_CLAIMS:
-            raise WorkflowError(
-                f"{table(f'{section}/{name}')} needs the paper's claims, which this config lacks; use the paper's config"
-            )
-        return settings_of(config, f"{section}/{name}")
+        return settings_of_table(reference.format(**wildcards))
 
     params = {"stage": module, "code": code, "expected": expected}
     return params | {"settings": settings} if reference else params
 
 
+def settings_of_table(reference):
+    """The settings of the table SECTION/NAME; an error if this config has none."""
+    section, name = reference.split("/")
+    if section in ENTRIES and name not in config[section]:
+        raise WorkflowError(f"the config has no entry {section}.{name}; add it, or name another entry")
+    if section == "identification" and name != "edges":
+        check_claims(table(reference))
+    return settings_of(config, reference)
+
+
+def check_claims(target):
+    """An error for a target that needs all claims of the paper, if this config lacks them."""
+    if not HAS_ALL_CLAIMS:
+        raise WorkflowError(f"{target} needs the paper's claims, which this config lacks; use the paper's config")
+
+
+def from_paper(tables):
+    """Inputs of a page with the paper's results; an error for a config without the paper's claims."""
+
+    def inputs(wildcards):
+        check_claims("a page with the paper's results")
+        return tables
+
+    return inputs
+
+
 def expected(wildcards, input):
     """A param: kind and settings that each input table must have, so that no other table is read in its place."""
     references = {file: reference_of(file) for file in input if file.endswith(".parquet")}
-    return {file: [kind_of(name), settings_of(config, name)] for file, name in references.items()}
+    return {file: [kind_of(name), settings_of_table(name)] for file, name in references.items()}
 
 
 # -- sweeps ------------------------------------------------------------------------------------------------------------

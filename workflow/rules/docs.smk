@@ -145,7 +145,7 @@ rule companion:
 
 rule findings:
     input:
-        **FACTS,
+        unpack(from_paper(FACTS)),
         templates=[source("workflow/templates/findings.md")],
     output:
         result("findings.md"),
@@ -165,7 +165,7 @@ rule findings:
 # The README, the form of the journal ReScience, and the manifest of CODECHECK.
 rule kept_pages:
     input:
-        **FACTS,
+        unpack(from_paper(FACTS)),
         templates=[source(f"workflow/templates/{name}") for name in KEPT_PAGES],
         findings=result("findings.md"),
         costs=result("costs.json"),
@@ -188,7 +188,7 @@ rule kept_pages:
 rule article:
     input:
         figure_files(),
-        **FACTS,
+        unpack(from_paper(FACTS)),
         **ARTICLE_PARTS,
         templates=[ARTICLE],
         frame=source("workflow/templates/article.typ"),
@@ -212,7 +212,7 @@ rule article:
 
 rule site_pages:
     input:
-        **FACTS,
+        unpack(from_paper(FACTS)),
         **ARTICLE_PARTS,
         templates=SITE_TEMPLATES,
         schema=source("config/schema.json"),

@@ -28,13 +28,15 @@ def draw_velocities(axes: Axes, fit: pd.DataFrame, prediction: pd.DataFrame) -> 
         label="predicted for one part, 5 % to 95 %",
     )
     axes.plot(prediction.acceleration, prediction["median"], color=style.CONVERGED, linewidth=0.8, label="median")
-    for fits, look in (
-        (True, {"color": "black", "label": "measured"}),
-        (False, {"color": MISFIT, "label": "does not fit"}),
+    fitting = {"color": "black", "marker": "o", "markersize": 2.6}
+    for chosen, look in (
+        (fit.fits & ~fit.changed, {**fitting, "label": "measured"}),
+        (fit.fits & fit.changed, {**fitting, "markerfacecolor": "white", "label": "measured under other conditions"}),
+        (~fit.fits, {"color": MISFIT, "marker": "X", "markersize": 4.0, "label": "does not fit"}),
     ):
-        own = fit[fit.fits == fits]
+        own = fit[chosen]
         if len(own):
-            options = {"linestyle": "none", "marker": "o" if fits else "X", "markersize": 2.6 if fits else 4.0}
+            options = {"linestyle": "none", "markeredgewidth": 0.6}
             axes.errorbar(own.acceleration, own.velocity, yerr=2.0 * own.sd, elinewidth=0.6, **options, **look)
     axes.axhline(0.0, color="black", linewidth=0.4, zorder=0)
     axes.set_xlabel(style.AMPLITUDE)
