@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 from pymoo.algorithms.soo.nonconvex.cmaes import CMAES
-from pymoo.core.callback import Callback
 from pymoo.core.problem import Problem
 from pymoo.optimize import minimize
 from scipy.optimize import least_squares
@@ -119,27 +118,18 @@ def fit_pymoo(
         def _evaluate(self, x, out):
             out["F"] = mean_squared_error(acceleration, height, low + x * (high - low)) / unit
 
+    history = []
+
+    def record(algorithm):
+        history.append((algorithm.evaluator.n_eval, float(algorithm.opt[0].F[0]) * unit))
+
     # The strategy draws from NumPy's global generator and takes seed 0 as a request to seed from the clock.
-    history = History()
     result = minimize(
-        Error(), CMAES(x0=np.full(3, 0.5), sigma=0.3), ("n_eval", evaluations), seed=seed + 1, callback=history
+        Error(), CMAES(x0=np.full(3, 0.5), sigma=0.3), ("n_eval", evaluations), seed=seed + 1, callback=record
     )
-    best = np.array(history.best)
-    best[:, 1] *= unit
     parameters = low + result.X * (high - low)
     error = float(mean_squared_error(acceleration, height, parameters))
-    return Fit(Hyperbola(*map(float, parameters)), error, int(result.algorithm.evaluator.n_eval), best)
-
-
-class History(Callback):
-    """Keeps (number of evaluations, best objective so far) after each generation."""
-
-    def __init__(self):
-        super().__init__()
-        self.best = []
-
-    def update(self, algorithm):
-        self.best.append((algorithm.evaluator.n_eval, float(algorithm.opt[0].F[0])))
+    return Fit(Hyperbola(*map(float, parameters)), error, int(result.algorithm.evaluator.n_eval), np.array(history))
 
 
 def check_data(
