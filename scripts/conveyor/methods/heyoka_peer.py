@@ -14,27 +14,6 @@ from ..solver.model import EXPONENT, PARAMETERS, TENSION, TENSION_ALLOW
 from .leg import BACKWARD, FLIGHT, FORWARD, STICK, Leg, Mode, Task
 
 
-def quantities(state: tuple) -> tuple[dict[str, Any], Any, Any, Any, Any]:
-    """Quantities of the model as expressions of x, ẋ, z and ż.
-
-    Returns
-    -------
-    p, gap, rate, slip, forward : the parameters by their names; gap (m), its rate (m/s), slip velocity (m/s) and
-        acceleration of the plate along x (m/s²)
-    """
-    import heyoka as hy
-
-    _, vx, z, vz = state
-    p = {name: hy.par[k] for k, name in enumerate(PARAMETERS)}
-    omega = 2.0 * np.pi * p["frequency"]
-    phase = omega * hy.time + p["psi0"]
-    a_x, a_z = p["acceleration"] * hy.cos(p["angle"]), p["acceleration"] * hy.sin(p["angle"])
-    gap = z + a_z / omega**2 * hy.cos(phase)
-    rate = vz - a_z / omega * hy.sin(phase)
-    along = phase + p["phase_shift"]
-    return p, gap, rate, a_x / omega * hy.sin(along) - vx, a_x * hy.cos(along)
-
-
 @lru_cache(maxsize=64)
 def systems(exponent: float, tolerance: float) -> dict[int, Any]:
     """Compiled integrators by mode; their parameters are set when they are used.
@@ -43,9 +22,15 @@ def systems(exponent: float, tolerance: float) -> dict[int, Any]:
     """
     import heyoka as hy
 
-    state = hy.make_vars("x", "vx", "z", "vz")
-    x, vx, z, vz = state
-    p, gap, rate, slip, forward = quantities(state)
+    x, vx, z, vz = hy.make_vars("x", "vx", "z", "vz")
+    p = {name: hy.par[k] for k, name in enumerate(PARAMETERS)}
+    omega = 2.0 * np.pi * p["frequency"]
+    phase = omega * hy.time + p["psi0"]
+    along = phase + p["phase_shift"]
+    a_x, a_z = p["acceleration"] * hy.cos(p["angle"]), p["acceleration"] * hy.sin(p["angle"])
+    # Gap and its rate, slip velocity, and the acceleration of the plate along the track, as expressions.
+    gap, rate = z + a_z / omega**2 * hy.cos(phase), vz - a_z / omega * hy.sin(phase)
+    slip, forward = a_x / omega * hy.sin(along) - vx, a_x * hy.cos(along)
     push = spring_and_damper(p["stiffness"] * (-gap) ** exponent, p["damping"], -rate) / p["mass"]
     rub = p["friction"] * push
     up, down = hy.event_direction.positive, hy.event_direction.negative
