@@ -346,7 +346,7 @@ def record_events(method, first, memory, running, events, time):
 
 @functools.cache
 def compiled_for(kind):
-    """The compiled part of `integrate` for a Kind."""
+    """The compiled part of `follow` for a Kind."""
     method = kind.method
 
     @compiled
@@ -403,30 +403,6 @@ def kind_of(method: int, parameters: np.ndarray) -> Kind:
     )
 
 
-def integrate(parameters, step, n_steps, method, sample_indices, samples, events, results):
-    """Follow n trajectories from t = 0 over `n_steps` steps.
-
-    Parameters
-    ----------
-    parameters : float64, shape (n, 16), rows packed as in `model.PARAMETERS`
-    step : Δt, s
-    n_steps : number of steps
-    method : the code of one of METHODS
-    sample_indices : int64, shape (k,), ascending step numbers in [0, n_steps] to be sampled
-    samples : float64, shape (n, k, 6), filled with x, vx, z, vz (m, m/s), contact and friction force (N); rows behind
-        the check that finds a state not finite are left unchanged
-    events : float64, shape (n, m, 2), filled with time (s) and kind of the first m events of each trajectory; an event
-        has the time of the first step at which the other side of q = 0 is seen
-    results : float64, shape (n, RESULTS), filled with x (m), vx (m/s), z (m), vz (m/s) at the last step; number of
-        events; impacts; time with contact force (s); largest gap (m) at the steps; number of force evaluations; status;
-        largest speed of approach at an impact (m/s) and largest contact force (N) since the last sample
-    """
-    if method not in range(len(METHODS)):
-        raise ValueError(f"method: there is no code {method!r}")
-    follow = compiled_for(kind_of(method, parameters))
-    follow(parameters, step, n_steps, sample_indices, samples, events, results, new_memory(ROWS))
-
-
 class Summary(NamedTuple):
     """The result of a run: its last state, and totals over the run."""
 
@@ -464,14 +440,30 @@ def step_count(duration: float, step: float) -> int:
 
 
 def follow(parameters, step, n_steps, method, indices=(), n_events=0):
-    """Follow trajectories, shape (n, 16). Returns results as lists, samples (NaN where not reached) and events."""
+    """Follow n trajectories, shape (n, 16), from t = 0 over `n_steps` steps (s) by one of METHODS.
+
+    Parameters
+    ----------
+    indices : ascending step numbers in [0, n_steps] to be sampled, shape (k,)
+    n_events : number m of events of each trajectory that are wanted
+
+    Returns
+    -------
+    results : n lists of RESULTS numbers: x (m), vx (m/s), z (m), vz (m/s) at the last step; number of events; impacts;
+        time with contact force (s); largest gap (m) at the steps; number of force evaluations; status; largest speed of
+        approach at an impact (m/s) and largest contact force (N) since the last sample
+    samples : float64, shape (n, k, 6), x, vx, z, vz (m, m/s), contact and friction force (N); NaN behind the check that
+        finds a state not finite
+    events : float64, shape (n, m, 2), time (s) and kind of the first m events, or NaN; an event has the time of the
+        first step at which the other side of q = 0 is seen
+    """
     check_choice("method", method, METHODS)
     indices = np.asarray(indices, dtype=np.int64)
     n = len(parameters)
-    samples = np.full((n, len(indices), len(SAMPLES)), math.nan)
-    events = np.empty((n, n_events, 2))
-    results = np.empty((n, RESULTS))
-    integrate(parameters, float(step), n_steps, METHODS.index(method), indices, samples, events, results)
+    samples, results = np.full((n, len(indices), len(SAMPLES)), math.nan), np.empty((n, RESULTS))
+    events = np.full((n, n_events, 2), math.nan)
+    integrate = compiled_for(kind_of(METHODS.index(method), parameters))
+    integrate(parameters, float(step), n_steps, indices, samples, events, results, new_memory(ROWS))
     return results.tolist(), samples, events
 
 

@@ -254,16 +254,6 @@ def test_many_are_followed_as_one_is(method):
         assert signal.tolist() == fixed_step.sample(row, indices * step, step, method)["vx"].tolist()
 
 
-@pytest.mark.parametrize("code", [-1, len(fixed_step.METHODS)])
-def test_an_unknown_method_raises_an_error(code):
-    parameters = np.array([pack(Conveyor(), Start())])
-    indices, samples, events, results = np.empty(0, int), np.empty((1, 0, 6)), np.empty((1, 0, 2)), np.empty((1, 12))
-    with pytest.raises(ValueError, match="method"):
-        fixed_step.integrate(parameters, 1e-5, 10, code, indices, samples, events, results)
-    with pytest.raises(ValueError):
-        ensemble.run(parameters, method="unheard")
-
-
 def test_samples_keep_the_order_and_shape_of_the_times():
     parameters = pack(Conveyor(), Start(z=3e-4))
     times = np.array([[0.02, 0.0], [0.01, 0.02]])
@@ -379,11 +369,7 @@ def test_a_run_lasts_for_its_duration():
         lambda: fixed_step.run(pack(Conveyor(), Start()), 0.01, 1e-5, "unheard"),
         lambda: ensemble.run(pack(Conveyor(), Start())[None], duration=0.01, method="unheard"),
         lambda: simulate(Conveyor(), duration=0.01, method="unheard"),
-        lambda: fixed_step.integrate(
-            pack(Conveyor(), Start())[None],
-            *(1e-5, 10, 7, np.empty(0, int)),
-            *(np.empty((1, 0, 6)), np.empty((1, 0, 2)), np.empty((1, 10))),
-        ),
+        lambda: fixed_step.follow(pack(Conveyor(), Start())[None], 1e-5, 10, "unheard"),
     ],
 )
 def test_an_unknown_method_never_runs_as_another(call):

@@ -34,12 +34,9 @@ TILTED = {"inclination": 0.1, "phase_shift": -0.8, "friction": 0.3, "static_fric
 
 def follow(parameters, step=STEP, n_steps=5000, indices=INDICES, n_events=20, method=EULER):
     """Samples, events and results of trajectories; NaN where nothing was written."""
-    n = len(parameters)
-    samples, events = np.full((n, len(indices), 6), math.nan), np.full((n, n_events, 2), math.nan)
-    results = np.full((n, fixed_step.RESULTS), math.nan)
-    indices = np.asarray(indices, dtype=np.int64)
-    fixed_step.integrate(parameters, step, n_steps, method, indices, samples, events, results)
-    return samples, events, results
+    method = fixed_step.METHODS[method]
+    results, samples, events = fixed_step.follow(parameters, step, n_steps, method, indices, n_events)
+    return samples, events, np.array(results)
 
 
 def bits(found):
