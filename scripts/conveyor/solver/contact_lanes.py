@@ -131,23 +131,6 @@ def can_follow(c):
     return contact_law.is_hertz(c) and c.tension == model.TENSION_ALLOW
 
 
-@compiled
-def is_same_conveyor(row, other):
-    """Whether two packed parameters differ in the initial height and velocity only."""
-    different = 0
-    for k in range(model.Z0):
-        different += row[k] != other[k]
-    return different == 0
-
-
-@compiled_into_callers
-def constants_of(parameters, i, tolerance, before):
-    """The contact.Constants of row i; `before` holds the Constants of the row before."""
-    if i > 0 and is_same_conveyor(parameters[i], parameters[i - 1]):
-        return before
-    return contact.constants(parameters[i], tolerance)
-
-
 @compiled_into_callers
 def refill(lane, trajectories, waiting, running, count):
     """Give a lane the next trajectory, or NONE.

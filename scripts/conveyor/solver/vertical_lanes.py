@@ -25,7 +25,6 @@ from .contact_lanes import (
     V,
     W,
     can_follow,
-    constants_of,
     copy_series,
     new_memory,
     refill,
@@ -229,8 +228,7 @@ def follow(parameters, tolerance, times, samples, results, left, work):
     """
     parameters, times, samples, results, left = no_refcount((parameters, times, samples, results, left))
     memory, steps, runs, rows, series, kept_steps = no_refcount(work)
-    latest = contact.constants(parameters[0], tolerance)
-    constants = [latest] * LANES
+    constants = [contact.constants(parameters[0], tolerance)] * LANES
     motions = [motion_at(constants[0], 0.0, 0.0, 0.0, 0.0)] * LANES
     waiting = running = 0
     stopped = 0  # a bit for each lane
@@ -255,7 +253,7 @@ def follow(parameters, tolerance, times, samples, results, left, work):
                     i = rows[lane]
                     if i == NONE:
                         break
-                    c = constants[lane] = latest = constants_of(parameters, i, tolerance, latest)
+                    c = constants[lane] = contact.constants(parameters[i], tolerance)
                     if can_follow(c):
                         motion = begin_run(c, parameters[i], times[i], run, steps, lane, kept)
                         answer = GOES_ON

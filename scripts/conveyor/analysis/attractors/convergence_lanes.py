@@ -24,7 +24,6 @@ from ...solver.contact_lanes import (
     V,
     W,
     can_follow,
-    constants_of,
     copy_series,
     new_memory,
     refill,
@@ -155,8 +154,7 @@ def follow(parameters, tolerance, search, found, side_by_side, work):
     """
     parameters, search, found = no_refcount((parameters, search, found))
     memory, steps, cycle, trajectories, series, histories, counters = no_refcount(work)
-    latest = contact.constants(parameters[0], tolerance)
-    constants = [latest] * LANES
+    constants = [contact.constants(parameters[0], tolerance)] * LANES
     waiting = running = 0
     stopped = (1 << LANES) - 1  # a bit for each lane
     while True:
@@ -183,7 +181,7 @@ def follow(parameters, tolerance, search, found, side_by_side, work):
                     i = trajectories[lane]
                     if i == NONE:
                         break
-                    c = constants[lane] = latest = constants_of(parameters, i, tolerance, latest)
+                    c = constants[lane] = contact.constants(parameters[i], tolerance)
                     motion = begin_trajectory(c, parameters[i], lane, steps, cycle, counts)
                 if side_by_side and can_follow(c) and motion.touching and not is_grazing(c, motion):
                     set_motion(motion, lane, steps)
