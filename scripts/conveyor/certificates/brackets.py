@@ -60,11 +60,6 @@ def bracket_doubling(shooting: Shooting, acceleration: float, strobes: np.ndarra
     acceleration : approximate amplitude, m/s²
     strobes : (δ, Y) of the orbit there in units of the law, shape (period, 2)
     half_width : of the bracket, m/s²
-
-    Raises
-    ------
-    Refused
-        with the reason
     """
 
     def orbit_at(amplitude: arb) -> ProvedOrbit:
@@ -96,11 +91,6 @@ def bracket_fold(shooting: Shooting, acceleration: float, strobes: np.ndarray, h
     acceleration : approximate amplitude, m/s²
     strobes : (δ, Y) of the orbit there in units of the law, shape (period, 2)
     half_arc : half the length of the arc, in the units of the unknowns
-
-    Raises
-    ------
-    Refused
-        with the reason
     """
     gamma = shooting.law.gamma(exactly(acceleration)).mid()
     # Newton's iteration at a fixed amplitude would diverge near the fold, so that the approximation is not corrected.

@@ -118,11 +118,6 @@ def prove_horseshoe(system: System, points: np.ndarray, axes: list[np.ndarray]) 
     ----------
     system : the motion at an amplitude, and the accuracy of its steps
     points, axes : centres and axes of N0 … Nm in units of the law, as from `excursion.plan_sets`
-
-    Raises
-    ------
-    Refused
-        with the reason
     """
     sets = [Parallelogram(exact(point[:, None]), exact(frame)) for point, frame in zip(points, axes, strict=True)]
     for part in sets[1:]:

@@ -118,11 +118,6 @@ def prove_orbit(shooting: Shooting, gamma: arb, strobes: np.ndarray) -> ProvedOr
     shooting : period and accuracy
     gamma : amplitudes, a ball; there is an orbit for each of them
     strobes : (δ, Y) in units of the law, shape (period, 2)
-
-    Raises
-    ------
-    Refused
-        with the reason
     """
     equations = equations_at(shooting, gamma)
     near = correct(equations, launch(shooting, gamma, strobes), shooting.least)
