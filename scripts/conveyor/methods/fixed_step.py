@@ -502,14 +502,9 @@ def run_all(parameters: np.ndarray, duration: float, step: float, method: str = 
 
 
 def sample(parameters: np.ndarray, times: np.ndarray, step: float, method: str = "euler") -> dict[str, np.ndarray]:
-    """States and forces of one trajectory at the steps nearest to `times`.
+    """States and forces of one trajectory at the steps nearest to `times` (s, not negative, any shape and order).
 
-    Parameters
-    ----------
-    parameters : float64, shape (16,), from `model.pack`
-    times : s, not negative, any shape and order
-    step : Δt, s
-    method : one of METHODS
+    The other parameters are as in `run`.
 
     Returns
     -------
