@@ -100,19 +100,6 @@ def length_within(allowed, last, before):
     return length
 
 
-@compiled_inline
-def step_length(c, series, at, w0, v0):
-    """Length of the step in the variable s up to which its series holds."""
-    first, lanes = np.uint64(at), np.uint64(1)
-    length = length_within(*last_terms(series, first, lanes, c.tolerance, c.scale_v, c.stiffness, c.exponent, w0, v0))
-    if c.edge_w > 0.0 and series[at + SPRING] > 0.0:
-        # Beyond the radius of convergence of w^(2p+1), v may still be right, but the sign of the force is not.
-        of_spring = c.stiffness * abs(series[at + SPRING + ORDER - 1])
-        allowed = c.tolerance * (c.stiffness * series[at + SPRING] + w0 * (c.damping * abs(v0) + c.gravity))
-        length = min(length, (allowed / of_spring) ** (1.0 / (ORDER - 1)))
-    return length
-
-
 @compiled_into_callers
 def begin_step(c, series, at, w0, v0, sine0, cosine0, pulled):
     """Expand the motion from w0 ≥ 0, v0: the length in the variable s up to which its series is good.
@@ -123,7 +110,14 @@ def begin_step(c, series, at, w0, v0, sine0, cosine0, pulled):
     pulled : whether the contact force is negative; matters for `frictionless` and `clip` only
     """
     expand(c, series, at, w0, v0, sine0, cosine0, pulled and c.tension == model.TENSION_CLIP)
-    return step_length(c, series, at, w0, v0)
+    first, lanes = np.uint64(at), np.uint64(1)
+    length = length_within(*last_terms(series, first, lanes, c.tolerance, c.scale_v, c.stiffness, c.exponent, w0, v0))
+    if c.edge_w > 0.0 and series[at + SPRING] > 0.0:
+        # Beyond the radius of convergence of w^(2p+1), v may still be right, but the sign of the force is not.
+        of_spring = c.stiffness * abs(series[at + SPRING + ORDER - 1])
+        allowed = c.tolerance * (c.stiffness * series[at + SPRING] + w0 * (c.damping * abs(v0) + c.gravity))
+        length = min(length, (allowed / of_spring) ** (1.0 / (ORDER - 1)))
+    return length
 
 
 @compiled_into_callers
