@@ -71,12 +71,6 @@ def largest_force(c, series, at, low, high):
     return largest
 
 
-@compiled_into_callers
-def largest_force_at_ends(c, motion, piece):
-    """The larger F_c/m (m/s²) at the ends of a whole contact step."""
-    return max(force(c, motion.w, motion.v), force(c, piece.w, piece.v))
-
-
 @compiled
 def largest_force_between(c, series, at, piece, first, last):
     """Largest F_c/m (m/s²) of a contact step between the times `first` and `last` (s) since it began."""

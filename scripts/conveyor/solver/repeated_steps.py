@@ -10,7 +10,7 @@ from collections import namedtuple
 import numpy as np
 
 from . import peaks
-from .contact_law import FIRST, STEP
+from .contact_law import FIRST, STEP, force
 from .jit import compiled_into_callers
 from .vertical import CONTACT, Piece
 
@@ -106,5 +106,5 @@ def known_peak(c, kept, place, motion, piece):
     """Largest F_c/m (m/s²) of a whole contact step if it is kept, or is at an end of the step; NaN otherwise."""
     peak = kept.steps[place, PEAK]
     if np.isnan(peak) and peaks.is_monotonic(c, motion, piece):
-        return peaks.largest_force_at_ends(c, motion, piece)
+        return max(force(c, motion.w, motion.v), force(c, piece.w, piece.v))
     return peak
