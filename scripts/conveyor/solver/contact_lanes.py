@@ -82,12 +82,9 @@ def step(memory, lanes):
     # A loop of its own, because powers take one number at a time.
     for k in range(lanes):
         lane = np.uint64(k)
-        allowed, last, before = (
-            memory[place(ALLOWED, lane)],
-            memory[place(LAST, lane)],
-            memory[place(BEFORE, lane)],
+        memory[place(LENGTH, lane)] = contact.length_within(
+            memory[place(ALLOWED, lane)], memory[place(LAST, lane)], memory[place(BEFORE, lane)]
         )
-        memory[place(LENGTH, lane)] = contact.length_within(allowed, last, before)
     stopped = np.uint64(0)
     for k in range(lanes):
         lane = np.uint64(k)
