@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from . import contact, peaks, repeated_steps, trajectory
+from . import contact, contact_law, peaks, repeated_steps, trajectory
 from .contact import NOTHING
 from .contact_lanes import (
     COSINE,
@@ -95,7 +95,7 @@ def find_series(c, kept, again, run, steps, lane):
     """Write the series of a lane's last step into the workspace; a repeated step (`again`) is expanded anew."""
     if again:
         w, v, sine, cosine = repeated_steps.beginning(kept, int(run[PLACE]))
-        contact.begin_step(c, kept.series, FIRST, w, v, sine, cosine, False)
+        contact_law.expand(c, kept.series, FIRST, w, v, sine, cosine, False)
     else:
         copy_series(steps, lane, kept.series, FIRST)
 
