@@ -43,10 +43,6 @@ def find_crossings(
     decide : gives the state of motion, str, shape (m,), for parameters of shape (m, 16)
     resolution : width of the interval that encloses a change, m
 
-    Returns
-    -------
-    Crossings, sorted by conveyor and height
-
     Raises
     ------
     ValueError

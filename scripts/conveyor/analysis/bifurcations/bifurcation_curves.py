@@ -132,14 +132,10 @@ def eigenvectors(matrix: np.ndarray, sign: float) -> tuple[np.ndarray, np.ndarra
 
 
 def normal_form(point: Point, along: np.ndarray) -> tuple[float, np.ndarray]:
-    """The coefficient whose zero is a cusp or a generalised doubling (Kuznetsov 2004, Sect. 5.4).
+    """The coefficient whose zero is a cusp or a generalised doubling (Kuznetsov 2004, Sect. 5.4), and r.
 
     For a fold it is l·D²Pⁿ(r, r)/2, with the sign of r chosen so that r·`along` ≥ 0. For a doubling it is the cubic
     coefficient, which is positive in the supercritical case: the doubled orbit is then stable if the single orbit was.
-
-    Returns
-    -------
-    coefficient, r
     """
     state = point.unknown[:2]
     found = derivatives(point.groups, state, point.period)

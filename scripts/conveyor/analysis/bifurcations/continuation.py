@@ -52,17 +52,13 @@ def doubling_test(orbit: Orbit) -> float:
 
 
 def follow_branch(parameters: np.ndarray, orbit: Orbit, limits: tuple[float, float]) -> Branch:
-    """Follow the branch of `orbit` in â to both sides by pseudo-arclength.
+    """Follow the branch of `orbit` in â to both sides; bifurcations are located to about 1e-9 m/s².
 
     Parameters
     ----------
     parameters : float64, shape (16,); its amplitude is ignored
     orbit : an orbit within the limits
     limits : lowest and highest â, m/s²
-
-    Returns
-    -------
-    Branch, with folds, period doublings and grazings located to about 1e-9 m/s²
     """
     upwards = np.array([0.0, 0.0, 1.0])
     orbits, found, last, parent = _follow(parameters, orbit, limits, upwards)

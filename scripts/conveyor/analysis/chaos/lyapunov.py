@@ -250,10 +250,6 @@ def spectrum_on_attractors(
     Parameters
     ----------
     parameters, cycles, blocks, tolerance, threads, progress : as in `spectrum`
-
-    Returns
-    -------
-    Spectrum of the n trajectories, exponents in 1/s
     """
     states = stroboscopic_map.initial_states(parameters, tolerance)
     logarithms, contact_times = np.empty((len(parameters), 2)), np.empty(len(parameters))
