@@ -10,7 +10,7 @@ from collections import namedtuple
 import numpy as np
 
 from . import peaks
-from .contact_law import FIRST, STEP, force
+from .contact_law import FIRST, STEP, expand, force
 from .jit import compiled_into_callers
 from .vertical import CONTACT, Piece
 
@@ -87,10 +87,10 @@ def keep(kept, place, motion, piece):
 
 
 @compiled_into_callers
-def beginning(kept, place):
-    """w, v, sine and cosine from which the series of a kept step is expanded."""
+def expand_again(c, kept, place, at):
+    """Write the series of a kept step into its workspace, from row `at` on."""
     step = kept.steps[place]
-    return step[BEGIN_W], step[BEGIN_V], step[BEGIN_SINE], step[BEGIN_COSINE]
+    expand(c, kept.series, at, step[BEGIN_W], step[BEGIN_V], step[BEGIN_SINE], step[BEGIN_COSINE], False)
 
 
 @compiled_into_callers

@@ -149,11 +149,16 @@ def record_end(record, events, time, piece, pulled, motion):
 
 
 @compiled_into_callers
-def peak_of_step(c, kept, place, at, motion, piece, first, last):
-    """Largest F_c/m (m/s²) of the contact step in a place, from `first` to `last` (s) after its beginning."""
+def peak_of_step(c, kept, place, at, has_series, motion, piece, first, last):
+    """Largest F_c/m (m/s²) of the contact step in a place, from `first` to `last` (s) after its beginning.
+
+    at, has_series : row in the workspace, and whether the series of the step is there; else it is written there
+    """
     is_whole = first <= 0.0 and last >= piece.duration
     found = repeated_steps.known_peak(c, kept, place, motion, piece) if is_whole else math.nan
     if math.isnan(found):
+        if not has_series:
+            repeated_steps.expand_again(c, kept, place, at)
         found = peaks.largest_force_between(c, kept.series, at, piece, first, last)
     if is_whole:
         kept.steps[place, repeated_steps.PEAK] = found
@@ -277,7 +282,7 @@ def follow(parameters, options, records, results, room, distances):
                     lasts = c.period - motion.t if piece.end == LIMIT else piece.duration
                     contact_time += min(lasts, end - begins)
                     if ends > since:
-                        force = peak_of_step(c, kept, place, at, motion, piece, since - begins, end - begins)
+                        force = peak_of_step(c, kept, place, at, True, motion, piece, since - begins, end - begins)
                         peak_force = max(peak_force, force)
                 place = min(place + 1, repeated_steps.PLACES - 1)
                 step = Step(kept.series, at, motion, piece, begins)

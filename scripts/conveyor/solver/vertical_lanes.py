@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from . import contact, contact_law, peaks, repeated_steps, trajectory
+from . import contact, repeated_steps, trajectory
 from .contact import NOTHING
 from .contact_lanes import (
     COSINE,
@@ -37,7 +37,7 @@ from .flight import highest_gap
 from .horizontal import SAMPLES, Horizontal, Step, first_segment, sample_contact
 from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import VZ0, Z0
-from .trajectory import BEGIN_OF_CYCLE, MAX_PIECES, next_cycle, sample_flight, time_into_cycle
+from .trajectory import BEGIN_OF_CYCLE, MAX_PIECES, next_cycle, peak_of_step, sample_flight, time_into_cycle
 from .vertical import (
     CONTACT,
     FLIGHT,
@@ -91,41 +91,16 @@ def begin_run(c, parameters, times, run, steps, lane, kept):
 
 
 @compiled_into_callers
-def find_series(c, kept, again, run, steps, lane):
-    """Write the series of a lane's last step into the workspace; a repeated step (`again`) is expanded anew."""
-    if again:
-        w, v, sine, cosine = repeated_steps.beginning(kept, int(run[PLACE]))
-        contact_law.expand(c, kept.series, FIRST, w, v, sine, cosine, False)
-    else:
-        copy_series(steps, lane, kept.series, FIRST)
-
-
-@compiled_into_callers
-def peak_of_step(c, kept, motion, piece, again, run, steps, lane):
-    """Largest F_c/m (m/s²) of a lane's contact step within the times that count, see trajectory.peak_of_step."""
-    begins, place = run[BASE] + motion.t, int(run[PLACE])
-    first, last = run[SINCE] - begins, run[DURATION] - begins
-    is_whole = first <= 0.0 and last >= piece.duration
-    found = repeated_steps.known_peak(c, kept, place, motion, piece) if is_whole else math.nan
-    if math.isnan(found):
-        find_series(c, kept, again, run, steps, lane)
-        found = peaks.largest_force_between(c, kept.series, FIRST, piece, first, last)
-    if is_whole:
-        kept.steps[place, repeated_steps.PEAK] = found
-    return found
-
-
-@compiled_into_callers
-def finish_contact(c, kept, motion, piece, again, run, steps, lane, sample):
+def finish_contact(c, kept, motion, piece, run, sample):
     """Sample a run that ends within a contact step."""
-    find_series(c, kept, again, run, steps, lane)
+    repeated_steps.expand_again(c, kept, int(run[PLACE]), FIRST)
     begins = run[BASE] + motion.t
     segment = first_segment(c, motion, Horizontal(0.0, 0.0, 0.0))
     sample_contact(c, Step(kept.series, FIRST, motion, piece, begins), segment, run[DURATION] - begins, sample)
 
 
 @compiled_into_callers
-def count(c, kept, motion, piece, again, run, steps, lane, sample):
+def count(c, kept, motion, piece, run, sample):
     """Count a Piece as trajectory.follow does. Returns GOES_ON, OVER or FAILED."""
     begins = run[BASE] + motion.t
     ends, end = begins + piece.duration, run[DURATION]
@@ -144,9 +119,11 @@ def count(c, kept, motion, piece, again, run, steps, lane, sample):
         lasts = c.period - motion.t if piece.end == LIMIT else piece.duration
         run[CONTACT_TIME] += min(lasts, end - begins)
         if ends > run[SINCE]:
-            run[PEAK_FORCE] = max(run[PEAK_FORCE], peak_of_step(c, kept, motion, piece, again, run, steps, lane))
+            first, place = run[SINCE] - begins, int(run[PLACE])
+            force = peak_of_step(c, kept, place, FIRST, False, motion, piece, first, end - begins)
+            run[PEAK_FORCE] = max(run[PEAK_FORCE], force)
         if ends >= end:
-            finish_contact(c, kept, motion, piece, again, run, steps, lane, sample)
+            finish_contact(c, kept, motion, piece, run, sample)
             return OVER
         run[PLACE] = min(run[PLACE] + 1.0, repeated_steps.PLACES - 1)
     # A run that scalar code may give up is left to scalar code.
@@ -154,9 +131,9 @@ def count(c, kept, motion, piece, again, run, steps, lane, sample):
 
 
 @compiled_into_callers
-def advance(c, kept, motion, piece, again, run, steps, lane, sample):
+def advance(c, kept, motion, piece, run, steps, lane, sample):
     """GOES_ON, OVER or FAILED after a Piece that begins with `motion`, and the Motion at its end."""
-    answer = count(c, kept, motion, piece, again, run, steps, lane, sample)
+    answer = count(c, kept, motion, piece, run, sample)
     if answer == GOES_ON:
         motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
         if not is_finite(motion):
@@ -236,14 +213,13 @@ def follow(parameters, tolerance, times, samples, results, left, work):
         for lane in range(LANES):
             i, c, motion, run = rows[lane], constants[lane], motions[lane], runs[lane]
             kept = repeated_steps.KeptSteps(series, kept_steps[lane])
-            again = False
             piece = NO_PIECE
             if i != NONE:
                 piece = step_of_lane(c, kept, motion, run, steps, lane, (stopped >> lane) & 1)
             while True:
                 answer = OVER
                 if i != NONE:
-                    answer, motion = advance(c, kept, motion, piece, again, run, steps, lane, samples[i])
+                    answer, motion = advance(c, kept, motion, piece, run, steps, lane, samples[i])
                     if answer == FAILED:
                         left[i] = True
                     elif answer == OVER:
@@ -264,8 +240,7 @@ def follow(parameters, tolerance, times, samples, results, left, work):
                 if motion.touching:
                     motion = repeat_steps(c, kept, motion, run)
                 place = int(run[PLACE])
-                again = motion.touching and repeated_steps.repeats(c, kept, place, motion)
-                if again:
+                if motion.touching and repeated_steps.repeats(c, kept, place, motion):
                     piece = repeated_steps.recall(kept, place)
                 elif not motion.touching:
                     piece = fly(c, motion, run[DURATION] - (run[BASE] + motion.t))
