@@ -9,8 +9,7 @@ from collections import namedtuple
 
 import numpy as np
 
-from . import peaks
-from .contact_law import FIRST, STEP, expand, force
+from .contact_law import FIRST, STEP, expand
 from .jit import compiled_into_callers
 from .vertical import CONTACT, Piece
 
@@ -99,12 +98,3 @@ def recall(kept, place):
     step = kept.steps[place]
     end = int(step[END])
     return Piece(CONTACT, step[DURATION], step[LENGTH], end, step[END_W], step[END_V], step[END_SINE], step[END_COSINE])
-
-
-@compiled_into_callers
-def known_peak(c, kept, place, motion, piece):
-    """Largest F_c/m (m/s²) of a whole contact step if it is kept, or is at an end of the step; NaN otherwise."""
-    peak = kept.steps[place, PEAK]
-    if np.isnan(peak) and peaks.is_monotonic(c, motion, piece):
-        return max(force(c, motion.w, motion.v), force(c, piece.w, piece.v))
-    return peak

@@ -155,7 +155,9 @@ def peak_of_step(c, kept, place, at, has_series, motion, piece, first, last):
     at, has_series : row in the workspace, and whether the series of the step is there; else it is written there
     """
     is_whole = first <= 0.0 and last >= piece.duration
-    found = repeated_steps.known_peak(c, kept, place, motion, piece) if is_whole else math.nan
+    found = kept.steps[place, repeated_steps.PEAK] if is_whole else math.nan
+    if is_whole and math.isnan(found) and peaks.is_monotonic(c, motion, piece):
+        found = max(contact_law.force(c, motion.w, motion.v), contact_law.force(c, piece.w, piece.v))
     if math.isnan(found):
         if not has_series:
             repeated_steps.expand_again(c, kept, place, at)
