@@ -56,20 +56,6 @@ def motion_at(c, q, rate, t, theta):
     return Motion(t, theta, sine, cosine, touching, w, v, pulled, z, vz, q, rate)
 
 
-@compiled_into_callers
-def press_on(c, cosine):
-    """√penetration, speed of approach and elapsed time just after a part at relative rest begins to sink in.
-
-    The equations in s have a fixed point at w = v = 0. The motion leaves it as δ = a τ²/2 with a = g + a_z cos θ. The
-    plate does not turn in the elapsed time, so that slip velocities are off by its product with ẍ_s: below 1e-9 m/s
-    for the paper's contact, more for contacts that are softer by far.
-    """
-    acceleration = c.gravity + c.a_z * cosine
-    w = 1e-9 * c.scale_w
-    v = math.sqrt(2.0 * acceleration) * w
-    return w, v, v / acceleration
-
-
 @compiled
 def invert_time(series, at, length, tau):
     """The s in [0, length] that a contact step reaches at the time `tau` (s) after its beginning."""
@@ -133,10 +119,17 @@ def is_grazing(c, motion):
 
 @compiled_into_callers
 def graze(c, motion):
-    """The Piece of a part for which `is_grazing` holds."""
-    if c.gravity + c.a_z * motion.cosine > 0.0:
-        w, v, lapse = press_on(c, motion.cosine)
-        return Piece(GRAZE, lapse, 0.0, NOTHING, w, v, motion.sine, motion.cosine)
+    """The Piece of a part for which `is_grazing` holds.
+
+    The equations in s have a fixed point at w = v = 0. A part that is pressed on leaves it as δ = a τ²/2 with
+    a = g + a_z cos θ. The plate does not turn in this time, so that slip velocities are off by its product with ẍ_s:
+    below 1e-9 m/s for the paper's contact, more for contacts that are softer by far.
+    """
+    acceleration = c.gravity + c.a_z * motion.cosine
+    if acceleration > 0.0:
+        w = 1e-9 * c.scale_w
+        v = math.sqrt(2.0 * acceleration) * w
+        return Piece(GRAZE, v / acceleration, 0.0, NOTHING, w, v, motion.sine, motion.cosine)
     return Piece(GRAZE, 0.0, 0.0, SEPARATION, 0.0, 0.0, motion.sine, motion.cosine)
 
 
