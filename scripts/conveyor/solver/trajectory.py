@@ -136,19 +136,6 @@ def sample_flight(c, motion, horizontal, tau, sample):
 
 
 @compiled_into_callers
-def record_end(record, events, time, piece, pulled, motion):
-    """Record the event that ends a contact step, if any. Returns the number of events so far.
-
-    pulled, motion : whether the force pulled before the end, and the Motion after it
-    """
-    if piece.end == SEPARATION and not motion.touching:
-        return record_event(record, events, time, SEPARATED)
-    if piece.end == FORCE_SIGN:
-        return record_event(record, events, time, TENSION_ENDS if pulled else TENSION_BEGINS)
-    return events
-
-
-@compiled_into_callers
 def peak_of_step(c, kept, place, at, has_series, motion, piece, first, last):
     """Largest F_c/m (m/s²) of the contact step in a place, from `first` to `last` (s) after its beginning.
 
@@ -311,7 +298,10 @@ def follow(parameters, options, records, results, room, distances):
             if not is_finite(motion):
                 status = NOT_FINITE
                 break
-            events = record_end(record, events, ends, piece, pulled, motion)
+            if piece.end == SEPARATION and not motion.touching:
+                events = record_event(record, events, ends, SEPARATED)
+            elif piece.end == FORCE_SIGN:
+                events = record_event(record, events, ends, TENSION_ENDS if pulled else TENSION_BEGINS)
             # Each cycle begins with a step of its own, so that its steps can be compared with the last cycle.
             motion, cycles = next_cycle(c, motion, piece)
             if cycles > 0:
