@@ -91,15 +91,6 @@ def begin_run(c, parameters, times, run, steps, lane, kept):
 
 
 @compiled_into_callers
-def finish_contact(c, kept, motion, piece, run, sample):
-    """Sample a run that ends within a contact step."""
-    repeated_steps.expand_again(c, kept, int(run[PLACE]), FIRST)
-    begins = run[BASE] + motion.t
-    segment = first_segment(c, motion, Horizontal(0.0, 0.0, 0.0))
-    sample_contact(c, Step(kept.series, FIRST, motion, piece, begins), segment, run[DURATION] - begins, sample)
-
-
-@compiled_into_callers
 def count(c, kept, motion, piece, run, sample):
     """Count a Piece as trajectory.follow does. Returns GOES_ON, OVER or FAILED."""
     begins = run[BASE] + motion.t
@@ -123,7 +114,9 @@ def count(c, kept, motion, piece, run, sample):
             force = peak_of_step(c, kept, place, FIRST, False, motion, piece, first, end - begins)
             run[PEAK_FORCE] = max(run[PEAK_FORCE], force)
         if ends >= end:
-            finish_contact(c, kept, motion, piece, run, sample)
+            repeated_steps.expand_again(c, kept, int(run[PLACE]), FIRST)
+            segment = first_segment(c, motion, Horizontal(0.0, 0.0, 0.0))
+            sample_contact(c, Step(kept.series, FIRST, motion, piece, begins), segment, end - begins, sample)
             return OVER
         run[PLACE] = min(run[PLACE] + 1.0, repeated_steps.PLACES - 1)
     # A run that scalar code may give up is left to scalar code.
