@@ -105,12 +105,6 @@ def count_piece(piece, lane, steps, cycle):
 
 
 @compiled_into_callers
-def has_failed(motion, piece, lane, steps):
-    """Whether a trajectory cannot be followed beyond a piece, which ends with `motion`."""
-    return piece.end == LOST or not is_finite(motion) or steps[STEPS, lane] > MAX_PIECES
-
-
-@compiled_into_callers
 def end_cycle(c, i, lane, motion, cycle, search, past, counts, found):
     """Whether the search of trajectory i is over with the `motion` at the end of a cycle."""
     state = found.states[i]
@@ -172,7 +166,7 @@ def follow(parameters, tolerance, search, found, side_by_side, work):
                 if not over:
                     count_piece(piece, lane, steps, cycle)
                     motion = arrive(c, motion, piece, cycle[ORIGIN, lane])
-                    over = has_failed(motion, piece, lane, steps)
+                    over = piece.end == LOST or not is_finite(motion) or steps[STEPS, lane] > MAX_PIECES
                     if piece.end == LIMIT and not over:
                         over = end_cycle(c, i, lane, motion, cycle, search, past, counts, found)
                         motion = begin_cycle(c, found.states[i], lane, steps, cycle)
