@@ -50,8 +50,9 @@ def normal_force(parameters, t, state):
 
 
 @compiled
-def rates(t, state, parameters, mode):
-    """Derivative of the state (x, ẋ, z, ż), shape (4,)."""
+def counted_rates(derivatives, t, state, parameters, mode):
+    """Fill in the derivatives of the state (x, ẋ, z, ż), shape (4,); an additional last parameter counts the calls."""
+    parameters[-1] += 1.0
     gap, push = normal_force(parameters, t, state)
     if mode == FLIGHT or (mode == SIGN and gap > 0.0):
         push = 0.0
@@ -67,14 +68,7 @@ def rates(t, state, parameters, mode):
             slip = -1.0
         rub = friction_acceleration(push, slip, parameters[model.FRICTION], least_rub(parameters[model.TENSION]))
         forward = rub - downhill
-    return np.array([state[1], forward, state[3], push - normal])
-
-
-@compiled
-def counted_rates(derivatives, t, state, parameters, mode):
-    """Fill in `rates`; an additional last parameter counts the calls."""
-    parameters[-1] += 1.0
-    copy(derivatives, rates(t, state, parameters, mode))
+    copy(derivatives, (state[1], forward, state[3], push - normal))
 
 
 @compiled
