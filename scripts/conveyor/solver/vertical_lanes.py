@@ -156,9 +156,9 @@ def step_of_lane(c, kept, motion, run, steps, lane, is_stopped):
 def repeat_steps(c, kept, motion, run):
     """The Motion after all kept steps that repeat one after the other and only need to be counted.
 
-    Without this loop, `advance` would take these steps, and a map would take 8 % longer, one of settled runs of 4 s 47 %. The loop leaves a step to
-    `advance` if an event, the cycle or the run ends in it, or if its peak is not known yet. A known peak is already in
-    the run's largest force.
+    Without this loop, `advance` would take these steps, and a map would take 8 % longer, settled runs of 4 s 47 %. The
+    loop leaves a step to `advance` if an event, the cycle or the run ends in it, or if its peak is not known yet. A
+    known peak is already in the run's largest force.
     """
     contact_time = run[CONTACT_TIME]
     first = place = int(run[PLACE])
