@@ -423,7 +423,7 @@ def test_large_forces_have_no_exponent_and_unknown_ones_are_left_out(refined):
 
 def test_the_page_says_which_parts_its_forces_belong_to(refined):
     """Twenty cycles of 50 Hz take 0.4 s."""
-    assert "for 95 % of the parts that need more than 0.4 s\n" in page_of(refined, advised())
+    assert "for 95 % of the parts that are on the track for more than 0.4 s\n" in page_of(refined, advised())
 
 
 def test_the_page_names_changes_that_the_model_does_not_allow(refined):
