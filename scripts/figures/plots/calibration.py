@@ -41,7 +41,7 @@ def draw_velocities(axes: Axes, fit: pd.DataFrame, prediction: pd.DataFrame) -> 
     axes.axhline(0.0, color="black", linewidth=0.4, zorder=0)
     axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel(style.VELOCITY)
-    axes.legend(loc="upper left")
+    axes.legend(loc="best")
 
 
 def label_of(row: pd.Series) -> str:
