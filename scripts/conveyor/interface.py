@@ -305,8 +305,8 @@ def continue_orbit(conveyor: Conveyor, orbit: Orbit, *, low: float, high: float)
     ----------
     conveyor : its amplitude does not matter, because the orbit has its own
     orbit : of this conveyor, from `periodic_orbit`
-    low, high : amplitudes in m/s² between which the branch is followed, on either side of the orbit's amplitude; its
-        first and last orbits are at most 0.1 m/s² away from them
+    low, high : amplitudes in m/s² between which the branch is followed, on either side of the orbit's amplitude; a
+        branch that reaches one of them ends at most 0.1 m/s² before it
 
     Returns
     -------

@@ -7,8 +7,6 @@ relative margin of the amplitude, because no drive holds its amplitude exactly. 
 
 from collections.abc import Callable
 from functools import cache
-from itertools import compress
-from operator import not_
 
 import numpy as np
 import pandas as pd
@@ -117,8 +115,8 @@ def compare(before: np.ndarray, after: np.ndarray, seed: int) -> dict[str, float
 def neighbours(model: dict, changes: dict[str, float]) -> tuple[list[tuple[str, float]], list[tuple[str, float]]]:
     """Parameters with their values after changes up and down: those in the range of the model, and the others."""
     values = [(name, model[name] + sign * change) for name, change in changes.items() for sign in (-1.0, 1.0)]
-    inside = [RANGES[name][0] <= value <= RANGES[name][1] for name, value in values]
-    return list(compress(values, inside)), list(compress(values, map(not_, inside)))
+    inside = [(name, value) for name, value in values if RANGES[name][0] <= value <= RANGES[name][1]]
+    return inside, [one for one in values if one not in inside]
 
 
 def changes_at(acceleration: float, settings: dict, changes: dict[str, float], *, threads: int = 1) -> list[dict]:

@@ -151,8 +151,8 @@ def box_dimension(points: np.ndarray) -> Dimension:
     Counts are means over shifted grids, which makes N(ε)ε² the area of the set dilated by a box of size ε. Boxes that
     stay empty because the sample is finite are extrapolated: counts of n, n/2 and n/4 points, drawn at random with a
     fixed seed, are continued as a geometric series (Aitken), by no more than their last increment. The slope of this
-    correction enters the error. Not so what thin tails hide, such as those of a normal distribution: their boxes are
-    found so rarely that the dimension comes out too small by more than its error. Correlation sums do not need them.
+    correction enters the error. Points with thin tails, such as normal ones, have boxes that are found too rarely for
+    this: their dimension comes out too small, by more than its error. Correlation sums do not need such boxes.
 
     Samples that repeat resolve nothing: sample a periodic orbit at times incommensurate with its period.
     """
