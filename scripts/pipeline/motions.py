@@ -236,8 +236,10 @@ def motions_of_starts(
     batches, parts = batches_by_conveyor(parameters), []
     table = table or Table(parameters, parameters[:starts], (max(len(parameters) // max(starts, 1), 1), starts))
     options, of_all = {"threads": threads}, None
-    if table.counts[0] <= SAMPLED_CONVEYORS:
-        of_all = shared_attractors(table.conveyors, table.counts, settings, **options, progress=progress)
+    is_whole = len(batches) == 1 and len(parameters) == math.prod(table.counts)
+    if is_whole or table.counts[0] <= SAMPLED_CONVEYORS:
+        conveyors = parameters if is_whole else table.conveyors
+        of_all = shared_attractors(conveyors, table.counts, settings, **options, progress=progress)
     slow = is_slow(table, settings, known=of_all, **options)
     for number, rows in enumerate(batches, start=1):
         label = progress and (f"{progress} ({number} of {len(batches)})" if len(batches) > 1 else progress)

@@ -38,7 +38,7 @@ PATIENCE = 4.0
 SMALLEST, LARGEST = 1e-3, 64.0
 # Spectral radii of a linearisation: a smaller one counts as FASTEST; above SLOW, no curve halves in PERIODS; above
 # SLOWEST, checking a curve takes seconds.
-LEAST_GROWTH = 1.05  # from one ellipse to the next; the first ones are twice as large as the ones before
+LEAST_GROWTH = 1.3  # from one ellipse to the next; the first ones are twice as large as the ones before
 FASTEST, SLOW, SLOWEST = 1e-4, 0.98, 0.9995
 REFINEMENTS = 4  # steps of Newton's iteration
 FAR = 0.01  # in g/ω² and g/ω, farther than Newton's iteration moves to the orbit that it begins at
@@ -79,14 +79,15 @@ def comes_inside(parameters, tolerance, centre, factor, period, radius, inner, p
                 if status != OK:
                     return False, n * period * POINTS
             images[i, 0], images[i, 1] = distance_components(c, centre, factor, states[i])
-            size = max(size, math.hypot(images[i, 0], images[i, 1]))
+            distance = math.hypot(images[i, 0], images[i, 1])
+            # A curve that is far outside itself and does not come back is most likely outside the basin.
+            if distance > 2.0 * radius and distance >= before:
+                return False, n * period * POINTS
+            size = max(size, distance)
         for i in range(POINTS):
             gap = max(gap, math.hypot(images[i, 0] - images[i - 1, 0], images[i, 1] - images[i - 1, 1]))
         if size + gap <= inner:
             return True, n * period * POINTS
-        # A curve that is far outside itself and does not come back is most likely outside the basin.
-        if size > 2.0 * radius and size >= before:
-            return False, n * period * POINTS
         before = size
     return False, periods * period * POINTS
 
