@@ -19,6 +19,7 @@ from .polynomial import ORDER, SIZE
 NOTHING, SEPARATION, FORCE_SIGN = range(3)
 # A step that begins with an impact has w = 0 there. The search for its separation begins after this part of the step.
 LEAVE_IMPACT = 1e-6
+BEFORE_LAST = ORDER - 1
 
 # The constants of one conveyor in the equations of motion, SI units, forces per mass. Gravity has the component
 # `gravity`, g cos α, normal to the track, and `downhill`, g sin α, against the feeding direction. A part at rest has
@@ -77,27 +78,22 @@ def workspace():
 
 
 @compiled_inline
-def last_terms(series, at, lanes, tolerance, scale_v, stiffness, exponent, w0, v0):
-    """The error that a step allows (m/s), and the last two terms of its series at s = 1 (m/s), the last one first.
+def limiting_term(series, at, lanes, tolerance, scale_v, stiffness, exponent, w0, v0):
+    """What limits a step: the error that it allows divided by a term of its series at s = 1, and 1/n for order n.
 
-    The series of v and of the excitation's phase count; w = ∫ v/2 ds follows v. The scale of v is the speed of an
-    impact with the present energy, but at least scale_v (m/s). `at` and `lanes` as in contact_law.hertz_source.
+    The first number to the power of the second is the length in the variable s up to which this term is below that
+    error. The last two terms count, of the series of v and of the excitation's phase; w = ∫ v/2 ds follows v. The scale
+    of v is the speed of an impact with the present energy, but at least scale_v (m/s). `at` and `lanes` as in
+    contact_law.hertz_source.
     """
     v = series[at + np.uint64(V + ORDER) * lanes]
     turn = max(abs(series[at + np.uint64(SINE + ORDER) * lanes]), abs(series[at + np.uint64(COSINE + ORDER) * lanes]))
     scale = max(math.sqrt(v0 * v0 + twice_elastic_energy(stiffness, exponent, w0)), scale_v)
-    return tolerance * scale, max(abs(v), scale * turn), abs(series[at + np.uint64(V + ORDER - 1) * lanes])
-
-
-@compiled_inline
-def length_within(allowed, last, before):
-    """Length of the step in the variable s up to which the `last_terms` of its series are below the `allowed` error."""
-    length = 1e300
-    if before > 0.0:
-        length = (allowed / before) ** (1.0 / (ORDER - 1))
-    if last * length > before:
-        length = min(length, (allowed / last) ** (1.0 / ORDER))
-    return length
+    allowed = tolerance * scale
+    last, before = max(abs(v), scale * turn), abs(series[at + np.uint64(V + ORDER - 1) * lanes])
+    # Whether the last term is the larger one where the one before reaches the error.
+    is_last = (last / before) ** BEFORE_LAST * allowed > before
+    return allowed / (last if is_last else before), 1.0 / ORDER if is_last else 1.0 / BEFORE_LAST
 
 
 @compiled_into_callers
@@ -111,7 +107,8 @@ def begin_step(c, series, at, w0, v0, sine0, cosine0, pulled):
     """
     expand(c, series, at, w0, v0, sine0, cosine0, pulled and c.tension == model.TENSION_CLIP)
     first, lanes = np.uint64(at), np.uint64(1)
-    length = length_within(*last_terms(series, first, lanes, c.tolerance, c.scale_v, c.stiffness, c.exponent, w0, v0))
+    ratio, root = limiting_term(series, first, lanes, c.tolerance, c.scale_v, c.stiffness, c.exponent, w0, v0)
+    length = ratio**root
     if c.edge_w > 0.0 and series[at + SPRING] > 0.0:
         # Beyond the radius of convergence of w^(2p+1), v may still be right, but the sign of the force is not.
         of_spring = c.stiffness * abs(series[at + SPRING + ORDER - 1])

@@ -22,9 +22,9 @@ W, V, SINE, COSINE, GRAVITY, A_Z, OMEGA, STIFFNESS, DAMPING = range(9)
 # Further constants; the time and the end of the motion (s); the number of steps taken, up to MAX_PIECES; the length of
 # the step in the variable s up to which the series holds, and the time (s) that a step of this length takes.
 TOLERANCE, SCALE_V, TIME, END, STEPS, LENGTH, LAPSE = range(9, 16)
-ALLOWED, LAST, BEFORE = range(16, 19)  # contact.last_terms
+RATIO, ROOT = range(16, 18)  # contact.limiting_term
 # Row SERIES + row + n holds coefficient n of a row of a workspace's step.
-SERIES = 19
+SERIES = 18
 KEPT = (contact_law.W, contact_law.T, contact_law.V, contact_law.SINE, contact_law.COSINE)
 ROWS = SERIES + SIZE * len(KEPT)
 
@@ -75,16 +75,12 @@ def step(memory, lanes):
             False,
         )
         tolerance, scale_v = memory[place(TOLERANCE, lane)], memory[place(SCALE_V, lane)]
-        allowed, last, before = contact.last_terms(memory, at, stride, tolerance, scale_v, stiffness, 1.5, w, v)
-        memory[place(ALLOWED, lane)] = allowed
-        memory[place(LAST, lane)] = last
-        memory[place(BEFORE, lane)] = before
+        ratio, root = contact.limiting_term(memory, at, stride, tolerance, scale_v, stiffness, 1.5, w, v)
+        memory[place(RATIO, lane)], memory[place(ROOT, lane)] = ratio, root
     # A loop of its own, because powers take one number at a time.
     for k in range(lanes):
         lane = np.uint64(k)
-        memory[place(LENGTH, lane)] = contact.length_within(
-            memory[place(ALLOWED, lane)], memory[place(LAST, lane)], memory[place(BEFORE, lane)]
-        )
+        memory[place(LENGTH, lane)] = memory[place(RATIO, lane)] ** memory[place(ROOT, lane)]
     stopped = np.uint64(0)
     for k in range(lanes):
         lane = np.uint64(k)
