@@ -159,10 +159,8 @@ def widths(velocities: np.ndarray) -> np.ndarray:
         above = ascending[..., rank:] - ascending[..., inside]
         spans[..., inside] = np.maximum(below, above)
         distance = np.fmin(distance, spans)
-    with np.errstate(invalid="ignore"):
-        most = OF_ALL * np.sqrt(
-            np.nanvar(np.where(np.isfinite(velocities), velocities, np.nan), axis=-1, keepdims=True)
-        )
+    variance = np.ma.masked_invalid(velocities).var(axis=-1, keepdims=True).filled(np.nan)
+    most = OF_ALL * np.sqrt(variance)
     found = np.empty_like(velocities)
     np.put_along_axis(found, order, np.minimum(WIDENED * distance, most), axis=-1)
     return found

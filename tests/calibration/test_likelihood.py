@@ -56,6 +56,7 @@ def test_widths_are_distances_to_the_fourth_neighbour_in_any_order():
                 assert width == pytest.approx(min(1.5 * np.sort(np.abs(known - value))[4], most))
 
 
+@pytest.mark.filterwarnings("error")
 def test_parts_that_cannot_be_followed_do_not_support_a_velocity():
     parts = np.full(24, 0.05)
     half = np.where(np.arange(24) < 12, np.nan, parts)
