@@ -2,11 +2,13 @@
 
     python scripts/compare_builds.py results ../other/results --tolerance 1e-9
 
-Columns are compared exactly first, then within the relative tolerance. The exit status is 0 if all columns are equal or
-within the tolerance, and 1 otherwise. Tables with measured times, which manifest.sha256 lists, are ignored.
+The settings of the tables are compared exactly, their columns also within the relative tolerance. The exit status is 0
+if all settings are equal, and all columns equal or within the tolerance, and 1 otherwise. Tables with measured times,
+which manifest.sha256 lists, are ignored, and so are shards and the results of other prefixes in the same folder.
 """
 
 import argparse
+import json
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -27,7 +29,17 @@ def timed_files(folder: Path) -> list[str]:
 
 
 def tables_below(folder: Path) -> set[str]:
-    return {path.relative_to(folder).as_posix() for path in folder.rglob("*.parquet")}
+    """The tables NAME and SECTION/NAME; only shards and the results of other prefixes have folders of their own."""
+    paths = [path.relative_to(folder) for path in folder.rglob("*.parquet")]
+    others = {path.parts[0] for path in paths if len(path.parts) > 2}
+    return {path.as_posix() for path in paths if path.parts[0] not in others}
+
+
+def compare_settings(one: pa.Table, other: pa.Table) -> list[str]:
+    """A line for each setting that differs; pandas keeps the settings of a table as its attrs."""
+    here, there = (json.loads((table.schema.metadata or {}).get(b"PANDAS_ATTRS", b"{}")) for table in (one, other))
+    names = [name for name in sorted(here | there) if here.get(name) != there.get(name)]
+    return [f"setting {name}: {here.get(name)} and {there.get(name)}" for name in names]
 
 
 def compare_column(name: str, one: pa.ChunkedArray, other: pa.ChunkedArray, tolerance: float) -> tuple[str, str]:
@@ -57,12 +69,14 @@ def compare_tables(one: pa.Table, other: pa.Table, tolerance: float) -> tuple[st
         return DIFFERENT, [
             f"columns: {', '.join(f'{field.name}: {field.type}' for field in set(one.schema) ^ set(other.schema))}"
         ]
+    settings = compare_settings(one, other)
     if len(one) != len(other):
-        return DIFFERENT, [f"rows: {len(one)} and {len(other)}"]
+        return DIFFERENT, [*settings, f"rows: {len(one)} and {len(other)}"]
     unequal = [name for name in one.column_names if not one[name].equals(other[name])]
     found = [compare_column(name, one[name], other[name], tolerance) for name in unequal]
-    verdicts = {verdict for verdict, _ in found}
-    return next((verdict for verdict in (DIFFERENT, WITHIN) if verdict in verdicts), EQUAL), [text for _, text in found]
+    verdicts = {verdict for verdict, _ in found} | ({DIFFERENT} if settings else set())
+    verdict = next((verdict for verdict in (DIFFERENT, WITHIN) if verdict in verdicts), EQUAL)
+    return verdict, [*settings, *(text for _, text in found)]
 
 
 def compare(one: Path, other: Path, tolerance: float) -> Iterator[tuple[str, str, list[str]]]:

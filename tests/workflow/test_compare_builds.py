@@ -64,6 +64,28 @@ def test_a_difference_is_named(folders, columns, message):
     assert message in found.stdout
 
 
+def test_a_setting_that_differs_is_named(folders):
+    folder = folders()
+    for name, duration in (("one", 0.5), ("other", 0.6)):
+        frame = pa.table(TABLE).to_pandas()
+        frame.attrs = {"duration": duration, "step": 1e-6}
+        frame.to_parquet(folder / name / "sweeps/a.parquet")
+    found = run(folder)
+    assert found.returncode == 1
+    assert found.stdout.startswith("sweeps/a.parquet: DIFFERENT\n    setting duration: 0.5 and 0.6\n1 tables")
+
+
+def test_shards_and_other_prefixes_do_not_count(folders):
+    folder = folders()
+    for name in ("shards/a", "reduced/sweeps"):
+        (folder / "other" / name).mkdir(parents=True)
+        pq.write_table(pa.table(TABLE), folder / "other" / name / "0.parquet")
+    pq.write_table(pa.table(TABLE), folder / "other/reduced/claims.parquet")
+    found = run(folder)
+    assert found.returncode == 0
+    assert found.stdout == "1 tables: 1 equal\n"
+
+
 def test_a_table_of_one_build_only(folders):
     found = run(folders("sweeps/b.parquet"))
     assert found.returncode == 1
