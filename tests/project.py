@@ -11,6 +11,7 @@ from pathlib import Path
 
 import yaml
 
+from workflow.config.entries import ENTRIES
 from workflow.config.files import merge as merged
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -19,41 +20,6 @@ PARTS = ("Snakefile", "workflow", "profiles", "config", "scripts")
 FIGURES = ("fig03", "fig08", "fig22")
 TARGETS = tuple(f"figures/{figure}.pdf" for figure in FIGURES)
 CAPTIONS = tuple(f"results/captions/{figure}.rst" for figure in FIGURES)
-# Sections whose entries are not tables.
-SINGLE = (
-    "orbits",
-    "certificates",
-    "attractors",
-    "lyapunov",
-    "witnesses",
-    "uncertainty",
-    "benchmark",
-    "precision",
-    "published_scenes",
-    "precision_estimates",
-    "stability",
-    "stability_estimates",
-    "scene_budget",
-    "settling_times",
-    "rigid_part",
-    "theory",
-    "map_check",
-    "scaling",
-    "companion",
-    "archive",
-    "sensitivity",
-    "operating",
-    "calibration",
-    "calibration_study",
-    "throws",
-    "drive",
-    "track",
-    "advice",
-    "parts",
-    "transit",
-    "drift",
-    "identification",
-)
 COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.1}
 COARSE_PAIRS = {"axes": {"acceleration": {"num": 3}}, "duration": 0.1}
 TINY = {
@@ -96,7 +62,7 @@ def small_config() -> dict:
     config["uncertainty"]["claims"] = []
     used = {table for entry in config["figures"].values() for table in entry["tables"].values()}
     used.add(f"critical/{config['sensitivity']['critical']}")
-    for section in set(config) - {"prefix", "model", "solver", "sharing", "figures", *SINGLE}:
+    for section in (*ENTRIES, "claims", "figures_on_request"):
         config[section] = {name: entry for name, entry in config[section].items() if f"{section}/{name}" in used}
     reasons = config["scene_budget"]["reasons"]
     config["scene_budget"]["reasons"] = {table: reason for table, reason in reasons.items() if table in used}

@@ -49,8 +49,9 @@ def characteristic(stiffness: float, damping: float, mass: float) -> tuple[compl
 
 
 def stability_limit(method: str, stiffness: float, damping: float, mass: float) -> float:
-    """Largest stable step h (s) of a method in a linear contact with k (N/m), d (N s/m) and m (kg); NaN for `event`.
+    """Largest stable step h (s) of a method in a linear contact with k (N/m), d (N s/m) and m (kg).
 
+    NaN for `event` and for methods without a stability polynomial.
     Semi-implicit Euler: h² k/m + 2 h d/m = 4, near 2/ω. Other methods: |R(hλ)| = 1 with the stability polynomial R;
     explicit Euler: h = d/k for an oscillation, RK4: near 2.78/ω.
     """
@@ -62,6 +63,8 @@ def stability_limit(method: str, stiffness: float, damping: float, mass: float) 
     if method == "semi_implicit_euler":
         rate, square = damping / mass, stiffness / mass
         return (math.sqrt(rate * rate + 4.0 * square) - rate) / square
+    if fixed_step.GROWTH[method] is None:
+        return math.nan
     if method == "euler":
         return min(-2.0 * root.real / abs(root) ** 2 for root in roots)
 

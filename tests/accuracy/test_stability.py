@@ -27,6 +27,11 @@ def test_an_unknown_method_has_no_limit():
         stability.stability_limit("unheard", 1e5, 0.3, MASS)
 
 
+def test_a_method_without_a_stability_polynomial_has_no_limit(monkeypatch):
+    monkeypatch.setitem(stability.fixed_step.GROWTH, "rk4", None)
+    assert math.isnan(stability.stability_limit("rk4", 1e5, 0.3, MASS))
+
+
 def test_limit_of_an_impact_by_euler_weights_the_stiffness_with_the_speed():
     conveyor, speed = Conveyor(acceleration=0.0), 0.1
     share = (np.arange(200_000) + 0.5) / 200_000

@@ -14,5 +14,6 @@ CLAIMS = read_config("claims")["claims"]
 def test_a_finding_takes_the_tables_and_settings_of_its_claim(claim):
     entry = CLAIMS[claim]
     module, function = entry["finding"].split(".")
+    assert module in FINDINGS, f"add {module} to FINDINGS in scripts/claims/verdicts.py"
     signature = inspect.signature(getattr(FINDINGS[module], function))
     signature.bind(**dict.fromkeys([*entry["tables"], *entry.get("settings", {})]))

@@ -194,8 +194,8 @@ def test_no_choice_is_more_than_a_notch_tighter_than_it_must_be(result):
         many = chosen["shows"] in ("samples", "spectrum", "strobes")
         limit = table.attrs["pixels"] if many else max(table.attrs["pixels"], 1.0 / chosen.points)
         loosest = np.sort(rows[rows.changed <= limit].tolerance)[::-1]
-        allowed = loosest[min(1, len(loosest) - 1)]
-        assert chosen.tolerance >= allowed, f"{name}: give it tolerance = {allowed:g}, or a reason in scene_budget.reasons"
+        least = loosest[min(1, len(loosest) - 1)]
+        assert chosen.tolerance >= least, f"{name}: take tolerance = {least:g}, or add it to scene_budget.reasons"
 
 
 def test_maps_are_computed_without_the_horizontal_motion(result):

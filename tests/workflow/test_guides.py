@@ -1,15 +1,18 @@
-"""Files and names in CONTRIBUTING, pre-commit, GitHub Actions and the workflow catalogue exist."""
+"""Files, names and commands in guides, pre-commit, GitHub Actions and the workflow catalogue exist."""
 
 import re
+import shlex
 import tomllib
 
 import pytest
 import yaml
 from project import ROOT, Project
+from snakemake.cli import parse_args
 
 from conveyor import __version__
 
 CI = (ROOT / ".ci/run").read_text()
+GUIDES = ("CONTRIBUTING.md", *(str(file.relative_to(ROOT)) for file in ROOT.glob("workflow/templates/**/*.md")))
 
 
 def test_files_that_the_guide_names_exist():
@@ -19,6 +22,18 @@ def test_files_that_the_guide_names_exist():
     assert [
         name for name in sorted(named) if not list(ROOT.glob(name)) and not name.startswith(("figures", "results"))
     ] == []
+
+
+@pytest.mark.parametrize("guide", GUIDES)
+def test_snakemake_takes_the_commands_of_a_guide(guide):
+    """Options with several values would swallow a target that follows them."""
+    text = (ROOT / guide).read_text().replace("\\\n", " ")
+    for block in re.findall(r"```bash\n(.*?)```", text, re.DOTALL):
+        for command in re.findall(r"^(?:\S*/)?snakemake (?!--version)(.*)", block, re.MULTILINE):
+            words = shlex.split(command, comments=True)
+            _, parsed = parse_args(words)
+            targets = {word for word in words if re.fullmatch(r"(figures|results|docs)/.*(?<!yaml)", word)}
+            assert targets <= set(parsed.targets), command
 
 
 def test_names_that_the_guide_says_to_edit_exist():

@@ -277,6 +277,8 @@ def settings_of(config: dict, reference: str) -> dict:
         return TABLES[reference](config)
     if section in ("precision", "precision_times"):
         return precision_settings(config, name)
+    if section not in ENTRIES:
+        raise ValueError(f"{reference} is no table; add it to TABLES in workflow/config/tables.py")
     return config[section][name] if section == "regressions" else resolve(config, section, name)
 
 
