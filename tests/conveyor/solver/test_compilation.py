@@ -59,6 +59,12 @@ def test_functions_of_others_give_no_notice(run):
     assert run(OTHER).stderr == ""
 
 
+@pytest.mark.parametrize("switch", ["enable", "disable"])
+def test_the_garbage_collector_is_left_as_it_was(run, switch):
+    found = run(f"import gc\ngc.{switch}(){OTHER}print(gc.isenabled())")
+    assert found.stdout.split()[-1] == str(switch == "enable")
+
+
 def test_functions_that_numba_cannot_keep_are_compiled(run):
     """Without optimisation, numba keeps no machine code that refers to arrays of a module."""
     assert float(run(ROOT_OF_LINE, NUMBA_OPT="0").stdout.split()[0]) == 0.5

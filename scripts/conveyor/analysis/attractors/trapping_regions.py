@@ -38,7 +38,7 @@ PATIENCE = 4.0
 SMALLEST, LARGEST = 1e-3, 64.0
 # Spectral radii of a linearisation: a smaller one counts as FASTEST; above SLOW, no curve halves in PERIODS; above
 # SLOWEST, checking a curve takes seconds.
-LEAST_GROWTH = 1.3  # from one ellipse to the next; the first ones are twice as large as the ones before
+LEAST_GROWTH = 1.05  # from one ellipse to the next; the first ones are twice as large as the ones before
 FASTEST, SLOW, SLOWEST = 1e-4, 0.98, 0.9995
 REFINEMENTS = 4  # steps of Newton's iteration
 FAR = 0.01  # in g/ω² and g/ω, farther than Newton's iteration moves to the orbit that it begins at
