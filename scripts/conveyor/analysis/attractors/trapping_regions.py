@@ -36,8 +36,8 @@ PERIODS = 32  # in which a curve must come inside the one before
 PATIENCE = 4.0
 # Lengths of the longer half-axes of the ellipses, in g/ω² and g/ω.
 SMALLEST, LARGEST = 1e-3, 64.0
-# Least growth from one ellipse to the next; the first ones are twice as large as the ones before. The finer one counts up
-# to this share of the cycles that the search may take: many conveyors with few trajectories each need no larger regions.
+# Least growth from one ellipse to the next; the first ones are twice as large as the ones before. The finer growth counts
+# up to a share of the cycles that the search may take: many conveyors with few trajectories each gain little from it.
 FINE_GROWTH, LEAST_GROWTH, FINE_SHARE = 1.05, 1.3, 0.01
 # Spectral radii of a linearisation: a smaller one counts as FASTEST; above SLOW, no curve halves in PERIODS; above
 # SLOWEST, checking a curve takes seconds.
@@ -192,7 +192,7 @@ def find_trapping_region(
         return None, 0
     factor = (norm / unit)[np.triu_indices(2)]
     radius, growth, spent = 0.5 * SMALLEST, 2.0, 0
-    while spent < most and growth * radius <= LARGEST:
+    while growth * radius <= LARGEST and spent < most:
         if growth <= (FINE_GROWTH if spent < FINE_SHARE * most else LEAST_GROWTH):
             break
         inside, cycles = comes_inside(parameters, tolerance, centre, factor, period, growth * radius, radius, periods)
