@@ -36,7 +36,7 @@ PERIODS = 32  # in which a curve must come inside the one before
 PATIENCE = 4.0
 # Lengths of the longer half-axes of the ellipses, in g/ω² and g/ω.
 SMALLEST, LARGEST = 1e-3, 64.0
-# Least growth from one ellipse to the next; the first ones are twice as large as the ones before. The finer growth counts
+# Least growth from one ellipse to the next; the first ones are twice as large as the ones before. The finer one counts
 # up to a share of the cycles that the search may take: many conveyors with few trajectories each gain little from it.
 FINE_GROWTH, LEAST_GROWTH, FINE_SHARE = 1.05, 1.3, 0.01
 # Spectral radii of a linearisation: a smaller one counts as FASTEST; above SLOW, no curve halves in PERIODS; above
