@@ -31,7 +31,7 @@ def systems(exponent: float, tolerance: float) -> dict[int, Any]:
     # Gap and its rate, slip velocity, and the acceleration of the plate along the track, as expressions.
     gap, rate = z + a_z / omega**2 * hy.cos(phase), vz - a_z / omega * hy.sin(phase)
     slip, forward = a_x / omega * hy.sin(along) - vx, a_x * hy.cos(along)
-    push = spring_and_damper(p["stiffness"] / p["mass"] * (-gap) ** exponent, p["damping"] / p["mass"], -rate)
+    push = spring_and_damper(p["stiffness"] * (-gap) ** exponent, p["damping"], -rate) / p["mass"]
     rub = p["friction"] * push
     up, down = hy.event_direction.positive, hy.event_direction.negative
 
