@@ -381,6 +381,11 @@ def test_an_entry_depends_on_what_it_uses_only():
     assert "tolerance" not in euler
 
 
+def test_a_table_that_is_not_declared_is_named():
+    with pytest.raises(ValueError, match="operating/counted is no table; add it to TABLES"):
+        settings_of(CONFIG, "operating/counted")
+
+
 ALONG = {"friction": 0.2, "phase_shift": 0.4, "static_friction": 0.3}
 NORMAL = ("orbits/branches", "orbits/certificates", "attractors/strobes", "lyapunov/spectrum")
 
