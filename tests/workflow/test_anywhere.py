@@ -49,6 +49,13 @@ def test_captions_and_pages_find_their_templates_from_elsewhere(tmp_path):
     snakemake(ROOT.parent, *targets, *arguments)
 
 
+@pytest.mark.parametrize("file", ["config/schema.json", "config/examples/measured.csv"])
+def test_files_of_the_repository_are_not_made_again_from_elsewhere(tmp_path, file):
+    """They are made in the working directory, also if a rule reads the file of the repository."""
+    arguments = ("--snakefile", str(ROOT / "Snakefile"), "--directory", str(tmp_path), "--dry-run")
+    assert "output files have to be generated" in snakemake(ROOT.parent, file, *arguments)
+
+
 @pytest.mark.parametrize("snakefile", ["Snakefile", "workflow/Snakefile"])
 def test_the_workflow_is_a_module(tmp_path, snakefile):
     (tmp_path / "Snakefile").write_text(MODULE.format(snakefile=ROOT / snakefile))

@@ -119,7 +119,7 @@ if not HAS_MEASUREMENTS:
 
     rule measured_example:
         output:
-            measurements=source("config/examples/measured.csv"),
+            measurements="config/examples/measured.csv",
         log:
             log_file("calibration/measured_example"),
         benchmark:
