@@ -30,7 +30,7 @@ from workflow.config.entries import resolve
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG = read_config()
 TOLERANCE = CONFIG["companion"]["tolerance"]
-MAPS = ("map_height", "map_amplitude")
+MAPS = ("map_height", "map_amplitude", "map_velocity")
 # Largest relative change of a regular run's numbers if the phase changes by 1e-9: errors grow by at most 100.
 SENSITIVITY = 1e-7
 PHONE, DESKTOP = (360, 740), (1280, 900)
@@ -91,6 +91,11 @@ class Browser:
 
     def text(self, name: str) -> str:
         return self.run("return document.getElementById(arguments[0]).textContent", name)
+
+    def change(self, name: str, value: float) -> None:
+        """Enter a value into a field, or choose an option."""
+        script = "const field = document.getElementById(arguments[0]); field.value = arguments[1];"
+        self.run(script + "field.dispatchEvent(new Event('change'))", name, value)
 
     def number(self, name: str) -> float:
         """The number that a result shows."""
@@ -293,6 +298,23 @@ def test_shows_what_the_library_finds(browser):
         assert [float(row) for row in rows] == pytest.approx(impacts.tolist(), abs=1e-9)
 
 
+@pytest.mark.parametrize("start", [Start("conveyor"), Start("conveyor", vz=-0.1)])
+@pytest.mark.parametrize("psi0", [0.5, 2.0, 4.0])
+def test_a_part_that_starts_on_the_plate_is_as_sharp_as_another(browser, start, psi0):
+    browser.open(f"#acceleration=40&z0=conveyor&psi0={psi0}&vz0={start.vz}")
+    run = simulate(Conveyor(psi0=psi0), start, duration=CONFIG["solver"]["duration"], tolerance=TOLERANCE)
+    assert "rounding" not in browser.text("velocity") + browser.text("impacts-note")
+    assert browser.velocity() == pytest.approx(run.mean_velocity(), rel=1e-6)
+
+
+def test_nothing_moves_a_part_along_a_plate_at_rest(browser):
+    browser.open("#acceleration=0&z0=0.0003")
+    assert browser.velocity() == 0.0
+    case = [parameters_of(Conveyor(acceleration=0.0), Start(3e-4)), 0.1]
+    (found,) = browser.run(FOLLOW, [case], TOLERANCE, build.LAST)
+    assert [found["values"][k] for k in (0, 3, 4)] == [0.0, 0.0, 0.0]
+
+
 def test_slow_convergence_is_not_called_chaos(browser):
     browser.open("#acceleration=80")
     assert browser.text("state").startswith("Not converged within")
@@ -330,6 +352,13 @@ def coloured_pixels(browser: Browser, name: str, colour: str) -> int:
     return browser.run(script, name, colour)
 
 
+def test_chaos_has_no_deviation_of_euler(browser):
+    browser.open("#acceleration=80")
+    browser.driver.find_element(By.ID, "euler").click()
+    browser.until("return !document.getElementById('euler-velocity').textContent.includes('…')")
+    assert re.fullmatch(r"0\.0*\d{1,2} m/s", browser.text("euler-velocity"))
+
+
 def test_curves_have_the_colour_of_the_state(browser):
     for choice, state in (("#z0=0&vz0=0&damping=0.3&mass=0.0007", "first"), ("#z0=0.0003", "second")):
         browser.open(choice)
@@ -354,6 +383,7 @@ def test_an_euler_that_blows_up_is_not_drawn(browser):
         browser.driver.find_element(By.ID, "euler").click()
         browser.until("return !document.getElementById('euler-velocity').textContent.includes('…')")
         assert ("blows up" in browser.text("euler-velocity")) != drawn
+        assert ("%" in browser.text("euler-velocity")) == drawn
         assert ("Euler" in browser.text("legend")) == drawn
         assert (coloured_pixels(browser, "plot-height", build.style.EULER) > 20) == drawn
 
@@ -500,6 +530,16 @@ def test_a_preset_shows_a_map_of_its_conveyor(browser):
     assert "chaos" in browser.text("map-here")
 
 
+def test_a_map_takes_an_initial_velocity_of_zero(browser):
+    browser.open("#damping=0.2")
+    browser.change("map-choice", 2)
+    assert browser.text("map-axes").startswith("Initial velocity")
+    browser.driver.find_element(By.ID, "map-take").click()
+    browser.until("return document.getElementById('map-other').hidden")
+    assert browser.chosen("damping") == 0.3
+    assert browser.chosen("vz0") == 0.0
+
+
 def test_a_wrong_value_is_named_and_changes_nothing(browser):
     browser.open()
     before = browser.velocity()
@@ -511,6 +551,18 @@ def test_a_wrong_value_is_named_and_changes_nothing(browser):
     assert "from 0 m/s² to 10000 m/s²" in message.text
     assert entry.get_attribute("aria-invalid") == "true"
     assert browser.velocity() == before
+
+
+def test_a_wrong_duration_is_named_and_changes_nothing(browser):
+    browser.open()
+    before = browser.velocity()
+    browser.change("duration", 6)
+    message = browser.driver.find_element(By.ID, "duration-wrong")
+    assert message.is_displayed()
+    assert message.text == "The duration must be from 0.1 to 5 s. The page keeps 1 s."
+    assert browser.velocity() == before
+    browser.change("duration", 2)
+    assert not message.is_displayed()
 
 
 def test_static_friction_equals_sliding_friction_by_default(browser):

@@ -86,11 +86,13 @@ def slip_end(c, step, segment, slip, leave):
 def stick_end(c, step, segment):
     """The s in the rest of a contact step at which |ẍ_s + g sin α| exceeds μ_s F_c/m; whether it does so to the end.
 
-    The s is infinite if the part sticks to the end of the step. While |ẍ_s + g sin α| > μ_s F_c/m the slip that begins
+    The s is infinite if the part sticks to the end of the step, or if nothing moves it along the track. While |ẍ_s + g sin α| > μ_s F_c/m the slip that begins
     cannot end. On a level track the margin in a direction stays positive if cos(θ + ε) has its sign at both ends.
     """
     series, at, length = step.series, step.at, step.piece.length
     end, lasting = math.inf, False
+    if c.a_x == 0.0 and c.downhill == 0.0:
+        return end, lasting
     first, last = along(c, segment.sine, segment.cosine)[1], along(c, step.piece.sine, step.piece.cosine)[1]
     for direction in (-1.0, 1.0):
         if c.downhill != 0.0 or direction * first <= 0.0 or direction * last <= 0.0:
@@ -112,6 +114,7 @@ def direction_at_rest(c, pull, force, mu):
     pull : ẍ_s + g sin α, m/s²; force : F_c/m, m/s²; mu : coefficient of static friction that acts
     """
     # The tolerance rest_force keeps a part that barely touches from alternating between stick and slip without end.
-    if mu > 0.0 and abs(pull) <= mu * (force + c.rest_force):
+    # Without a pull the part stays, also where the contact force is negative: in Eq. 12, sign(0) is 0.
+    if pull == 0.0 or (mu > 0.0 and abs(pull) <= mu * (force + c.rest_force)):
         return 0.0
     return math.copysign(1.0, pull)

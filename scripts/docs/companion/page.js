@@ -6,10 +6,12 @@ const CYCLES_IN_VIEW = [2, 4, 10, 25, Infinity];
 // Excitation cycles by which a step button moves, and impacts that the table shows.
 const STEP = 0.02;
 const ROWS = 1000;
-// An impact time counts as determined by the initial condition if it changes by less than SHARP (s) when the part
-// starts higher by BLUR (m), which is about the rounding error of a height.
+// An impact time counts as determined by the initial condition if it changes by less than SHARP (s) when the height at
+// the start changes by BLUR (m), which is about the rounding error of a height.
 const BLUR = 1e-13;
 const SHARP = 1e-6;
+// A smaller velocity (m/s) or force (N) is a rounding error.
+const ROUNDING = 1e-12;
 
 // ----------------------------------------------------------------------------------------------------------- computing
 
@@ -42,7 +44,8 @@ function compute() {
   twin = undefined;
   if (run.status === "ok") {
     settled = solver.settle(chosen, data.cycles, options);
-    known = countKnown(run.impacts(), higher(BLUR).impacts());
+    // A part that starts on the plate must not start above it, where it would have one more impact.
+    known = countKnown(run.impacts(), higher(height > plateHeight() ? BLUR : -BLUR).impacts());
     if (byId("second").checked) twin = higher(Number(byId("separation").value));
     if (byId("euler").checked) later("euler", 150, computeEuler);
   }
@@ -76,6 +79,9 @@ function countKnown(impacts, blurred) {
   const apart = impacts.findIndex(({ time }, k) => !blurred[k] || Math.abs(time - blurred[k].time) > SHARP);
   return apart < 0 ? impacts.length : apart;
 }
+
+/* Whether the initial condition determines all impacts: where it does not, values belong to one trajectory of many. */
+const isSharp = () => known === run.impacts().length;
 
 /* Explicit Euler takes millions of steps, so it waits until the sliders rest. */
 function computeEuler() {
@@ -112,11 +118,9 @@ function showResults() {
   const ok = run.status === "ok";
   const note = element("small", { textContent: stated.note });
   byId("state").replaceChildren(swatch(colours[stated.name]), stated.text, note);
-  // Where rounding determines the impacts, the values belong to one trajectory among many.
-  const sharp = ok && known === run.impacts().length;
-  const doubt = sharp || !ok ? "" : "of this trajectory only: rounding decides";
+  const doubt = !ok || isSharp() ? "" : "of this trajectory only: rounding decides";
   const show = (id, number, unit, count) => {
-    const text = ok ? `${signed(digits(number(), sharp ? count : 2))} ${unit}`.trim() : "not known";
+    const text = ok ? `${significant(number(), count)} ${unit}` : "not known";
     byId(id).replaceChildren(text, element("small", { textContent: doubt }));
     return text;
   };
@@ -140,12 +144,17 @@ function showResults() {
 /* Whether Euler's trajectory can be drawn: it may blow up. */
 const eulerDrawn = () => eulerRun && eulerRun.status === "ok";
 
+/* A result with a number of digits, or with two where it belongs to one trajectory of many. */
+const significant = (value, count) =>
+  signed(digits(Math.abs(value) < ROUNDING ? 0 : value, isSharp() ? count : 2));
+
 function eulerText() {
   if (!eulerRun) return "computing …";
   if (!eulerDrawn()) return eulerRun.status;
   const [found, exact] = [eulerRun, run].map((one) => one.meanVelocity(data.last));
-  const deviation = Math.abs(exact) > 1e-9 ? ` (${signed(digits((100 * (found - exact)) / exact, 2))} %)` : "";
-  return `${signed(digits(found, 7))} m/s${deviation}`;
+  const comparable = isSharp() && Math.abs(exact) > 1e-9;
+  const deviation = comparable ? ` (${signed(digits((100 * (found - exact)) / exact, 2))} %)` : "";
+  return `${significant(found, 7)} m/s${deviation}`;
 }
 
 function showImpacts() {
@@ -161,8 +170,8 @@ function showImpacts() {
   const notes = [];
   if (impacts.length > ROWS) notes.push(`The table lists the first ${ROWS} of ${impacts.length} impacts.`);
   if (known < impacts.length) {
-    const blur = `an initial height ${power10(Math.log10(BLUR))} m larger`;
-    notes.push(`From No. ${known + 1} on, rounding decides: ${blur} moves these times by more than ${1e6 * SHARP} µs.`);
+    const blur = `${power10(Math.log10(BLUR))} m in the initial height`;
+    notes.push(`From No. ${known + 1} on, rounding decides: ${blur} move these times by more than ${1e6 * SHARP} µs.`);
   }
   byId("impacts-note").textContent = notes.join(" ");
 }
@@ -251,6 +260,8 @@ function changeDuration({ target }) {
   const { value, min, max } = target;
   const right = Number(value) >= Number(min) && Number(value) <= Number(max);
   target.setAttribute("aria-invalid", String(!right));
+  byId("duration-wrong").hidden = right;
+  byId("duration-wrong").textContent = `The duration must be from ${min} to ${max} s. The page keeps ${duration} s.`;
   if (!right) return;
   duration = Number(value);
   time = Math.min(time, duration);
@@ -264,7 +275,7 @@ function connect() {
     showOnMap(maps[Number(target.value)]);
     showMap();
   });
-  on("map-take", "click", () => moveTo(...[map.x, map.y].map((axis) => onAxis(axis) || axis.start)));
+  on("map-take", "click", () => moveTo(...[map.x, map.y].map(valueOn)));
   on("map", "click", clickMap);
   on("map", "pointermove", (event) => {
     if (event.pointerType === "mouse" && event.buttons === 1) clickMap(event);

@@ -4,6 +4,9 @@ let extent; // ranges of the run's plots, see `measureExtent`
 let drawnWindow = "";
 let phaseFrame;
 
+// Space around the plot area, in pixels, for ticks and labels.
+const MARGIN = { left: 68, right: 18, top: 24, bottom: 38 };
+
 const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
 /* Clear a canvas at the resolution of the screen; its plot area and the scales of both axes. */
@@ -15,8 +18,8 @@ function frame(canvas, xRange, yRange, log = false) {
   const context = canvas.getContext("2d");
   context.scale(ratio, ratio);
   context.font = "12px system-ui, sans-serif";
-  const [left, top] = [52, 24];
-  const [width, height] = [clientWidth - left - 18, clientHeight - top - 38];
+  const { left, top } = MARGIN;
+  const [width, height] = [clientWidth - left - MARGIN.right, clientHeight - top - MARGIN.bottom];
   const x = (value) => left + ((value - xRange[0]) / (xRange[1] - xRange[0])) * width;
   const y = log
     ? (value) => top + height - (Math.log10(value / yRange[0]) / Math.log10(yRange[1] / yRange[0])) * height
@@ -34,6 +37,12 @@ function ticks(low, high, count) {
   return found;
 }
 
+/* The number at a tick; a long one with a power of ten, so that it fits beside the axis. */
+function tickText(tick) {
+  const text = String(tick);
+  return signed(text.length > 7 ? tick.toExponential() : text);
+}
+
 function axes(shape, xLabel, yLabel, { xFactor = 1, yFactor = 1 } = {}) {
   const { context, left, top, width, height, xRange, yRange, log } = shape;
   context.lineWidth = 1;
@@ -45,7 +54,7 @@ function axes(shape, xLabel, yLabel, { xFactor = 1, yFactor = 1 } = {}) {
   for (const tick of ticks(xRange[0] * xFactor, xRange[1] * xFactor, Math.max(3, width / 60))) {
     const x = shape.x(tick / xFactor);
     context.fillRect(x - 0.5, top + height, 1, 4);
-    context.fillText(signed(String(tick)), x, top + height + 6);
+    context.fillText(tickText(tick), x, top + height + 6);
   }
   context.fillText(xLabel, left + width / 2, top + height + 22);
   context.textAlign = "right";
@@ -55,7 +64,7 @@ function axes(shape, xLabel, yLabel, { xFactor = 1, yFactor = 1 } = {}) {
     if (log && !Number.isInteger(tick)) continue;
     const y = shape.y(log ? 10 ** tick : tick / yFactor);
     context.fillRect(left - 4, y - 0.5, 4, 1);
-    context.fillText(log ? power10(tick) : signed(String(tick)), left - 7, y);
+    context.fillText(log ? power10(tick) : tickText(tick), left - 7, y);
   }
   context.textAlign = "left";
   context.textBaseline = "bottom";
@@ -209,7 +218,7 @@ function drawDistance() {
   const shape = frame(canvas, [0, 1e3 * duration], decades, true);
   axes(shape, "time t in ms", "distance in m");
   draw(shape, [{ xs: times.map((one) => 1e3 * one), ys: apart, look: { ...looks().part, width: 1.5 } }]);
-  const [first, last] = [seen[0], seen.at(-1)].map((one) => digits(one || 0, 2));
+  const [first, last] = [apart[0], apart.at(-1)].map((one) => digits(one || 0, 2));
   const text = twin ? `distance of both parts: ${first} m at first, ${last} m at last` : "no second part";
   canvas.setAttribute("aria-label", text);
   if (twin) return;
@@ -222,7 +231,8 @@ function placeCursors() {
   const [from, to] = timeWindow();
   const place = (id, share) => {
     const canvas = byId(id);
-    canvas.nextElementSibling.style.left = `${52 + Math.min(Math.max(share, 0), 1) * (canvas.clientWidth - 70)}px`;
+    const width = canvas.clientWidth - MARGIN.left - MARGIN.right;
+    canvas.nextElementSibling.style.left = `${MARGIN.left + Math.min(Math.max(share, 0), 1) * width}px`;
   };
   for (const id of ["velocity", "height", "contact", "friction"]) place(`plot-${id}`, (time - from) / (to - from));
   place("plot-distance", time / duration);

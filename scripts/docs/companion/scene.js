@@ -7,7 +7,8 @@ function drawScene() {
   const radius = 0.09 * (high - low);
   const margin = 0.3 * (high - low);
   const span = high + 2 * radius - low + margin;
-  const width = (span * (canvas.clientWidth - 70)) / (canvas.clientHeight - 62);
+  const width =
+    (span * (canvas.clientWidth - MARGIN.left - MARGIN.right)) / (canvas.clientHeight - MARGIN.top - MARGIN.bottom);
   const { period } = run.c;
   const xAt = (one) => run.at(Math.min(Math.max(one, 0), duration)).x;
   const centre = 0.5 * (xAt(time - 0.5 * period) + xAt(time + 0.5 * period));

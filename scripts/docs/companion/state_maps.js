@@ -29,6 +29,8 @@ const cell = (axis) => (axis.stop - axis.start) / (axis.num - 1);
 /* The chosen value on an axis of a map; phases are reduced to one turn. */
 const onAxis = (axis) =>
   axis.name === "psi0" ? ((chosen.psi0 % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI) : Number(chosen[axis.name]);
+/* The same, or the least value of the axis for a choice that is no number: a part on the plate. */
+const valueOn = (axis) => (Number.isFinite(onAxis(axis)) ? onAxis(axis) : axis.start);
 /* Range of an axis that its cells cover: grid points are the centres of their cells. */
 const reach = (axis) => [axis.start - 0.5 * cell(axis), axis.stop + 0.5 * cell(axis)];
 const within = (axis) => onAxis(axis) >= reach(axis)[0] && onAxis(axis) <= reach(axis)[1];
@@ -141,7 +143,6 @@ function steerMap(event) {
   if (!steps || event.ctrlKey || event.altKey || event.metaKey) return;
   event.preventDefault();
   const cells = event.shiftKey ? 10 : 1;
-  const at = (axis) => (Number.isFinite(onAxis(axis)) ? onAxis(axis) : axis.start);
-  moveTo(at(map.x) + steps[0] * cells * cell(map.x), at(map.y) + steps[1] * cells * cell(map.y));
+  moveTo(valueOn(map.x) + steps[0] * cells * cell(map.x), valueOn(map.y) + steps[1] * cells * cell(map.y));
 }
 

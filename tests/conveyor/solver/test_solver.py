@@ -193,6 +193,15 @@ def test_start_inside_the_plate():
     assert "separation" in run.events["kind"]
 
 
+@pytest.mark.parametrize("tension", ["allow", "frictionless", "clip"])
+@pytest.mark.parametrize("z", [3e-4, -1e-4])
+def test_nothing_moves_a_part_along_a_plate_at_rest(tension, z):
+    run = simulate(replace(AT_REST, tension=tension), Start(z), duration=0.2)
+    samples = run.sample(np.linspace(0.0, 0.2, 2001))
+    assert (samples["contact_force"].min() < 0.0) == (tension != "clip")
+    assert not (samples["x"].any() or samples["vx"].any() or samples["friction_force"].any())
+
+
 def test_samples_do_not_disturb_a_run():
     """Any set of sample times gives bit for bit the same motion, in the requested order."""
     run = simulate(Conveyor(acceleration=80.0), Start(), duration=0.5)

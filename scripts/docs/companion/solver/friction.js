@@ -23,6 +23,7 @@ function slipEnd(c, step, start, slip, sigma, mu, leave) {
 function stickEnd(c, step, start) {
   let end = Infinity;
   let lasting = false;
+  if (c.aX === 0 && c.downhill === 0) return [end, lasting];
   for (const direction of [-1, 1]) {
     expandForce(c, c.staticFriction);
     for (let n = 0; n < ORDER; n++) {
@@ -42,8 +43,9 @@ function stickEnd(c, step, start) {
 /* Sign of the slip that follows when the slip velocity is zero, or 0 for stick (Filippov's condition). `holding` is
    the friction force per mass that stick takes, `grip` the coefficient of static friction that acts. */
 function directionAtRest(c, holding, contactForce, grip) {
-  // The slack in the force keeps a part that barely touches from sticking and slipping without end.
-  if (grip > 0 && Math.abs(holding) <= grip * (contactForce + c.restForce)) return 0;
+  // The slack in the force keeps a part that barely touches from sticking and slipping without end. Without a pull the
+  // part stays, also where the contact force is negative.
+  if (holding === 0 || (grip > 0 && Math.abs(holding) <= grip * (contactForce + c.restForce))) return 0;
   return holding < 0 ? -1 : 1;
 }
 
