@@ -162,9 +162,10 @@ def predicted_onset(
         )
     unknown = converged[converged.dimension.isna()].acceleration
     note = (
-        f"By the converged dimension, chaos begins at {format_amplitude(dimension_onset(converged))}, and by the "
-        f"converged estimate of Fig. 22 at {format_amplitude(positive_onset(converged_exponent))}. By the paper's "
-        f"method, it begins at {format_amplitude(dimension_onset(euler))} and "
+        "An onset is the amplitude with the fewest exceptions, which are chaos below it and none above it. By the "
+        f"converged dimension, chaos begins at {format_amplitude(dimension_onset(converged))}, and by the converged "
+        f"estimate of Fig. 22 at {format_amplitude(positive_onset(converged_exponent))}. By the paper's method, it "
+        f"begins at {format_amplitude(dimension_onset(euler))} and "
         f"{format_amplitude(positive_onset(euler_exponent))}, where the second state begins, because its box counting "
         f"gives {dimension_range(euler, states, 'second')} in the second state and "
         f"{dimension_range(euler, states, 'chaos')} in chaos. Converged phase portraits have no scaling region at "

@@ -49,8 +49,8 @@ def interval(
     first = at_end[at_end.state == "first"]
     note = (
         f"With the initial heights of the config, both states exist from {format_amplitude(low)} to "
-        f"{format_amplitude(high)}. At the upper end, {len(first)} of {len(at_end)} initial heights still lead to the "
-        f"first state; the largest of them is {MM * first.z0.max():.3g} mm"
+        f"{format_amplitude(high)}. At the upper end, the first state is still reached from {len(first)} of "
+        f"{len(at_end)} initial heights; the largest of them is {MM * first.z0.max():.3g} mm"
     )
     if tension is not None:
         found = describe_tensions(tension, lambda rows: "{:g} to {:g} m/s²".format(*two_states(rows)))
@@ -209,7 +209,8 @@ def one_onset(*, converged: pd.DataFrame) -> Finding:
     onsets = np.array([onset(rows.acceleration, rows.state == "chaos") for _, rows in heights])
     share = (converged.state == "chaos").groupby(converged.acceleration).mean()
     coexisting = find_runs(share.index, (share > 0.0) & (share < 1.0))
-    note = f"The onsets lie between {format_amplitude(onsets.min())} and {format_amplitude(onsets.max())}"
+    note = "An onset is the amplitude with the fewest exceptions, which are chaos below it and none above it. "
+    note += f"The onsets lie between {format_amplitude(onsets.min())} and {format_amplitude(onsets.max())}"
     if coexisting:
         note += f". Chaos and regular motion coexist, depending on the initial height, at {format_runs(coexisting)}"
     if (share < 1.0).any():

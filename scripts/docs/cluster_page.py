@@ -11,13 +11,13 @@ NODES = 50  # at a time, in the example of the page
 
 
 def total_costs(table: pd.DataFrame) -> pd.DataFrame:
-    """The costs of each whole sweep, in proportion to its points if not all of its shards were computed."""
+    """The costs of each whole sweep and of a full shard, in proportion to the points of the computed shards."""
     rows = table[table.varied == "points"].sort_values("points")
     seconds_of_row = (rows.gathering_seconds / rows.gathered).iloc[-1]
     return rows.assign(
         microseconds=1e6 * rows.computing_seconds / rows.computed,
         core_hours=rows.points / rows.computed * rows.shard_seconds * rows.threads / 3600.0,
-        job_seconds=rows.shard_seconds / rows.measured,
+        job_seconds=rows.shard_seconds / rows.computed * rows.rows,
         minutes=np.where(rows.gathered == rows.points, rows.gathering_seconds, rows.points * seconds_of_row) / 60.0,
         gigabytes=rows.points * rows.bytes / 1e9,
     )

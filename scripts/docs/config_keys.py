@@ -110,16 +110,17 @@ def comment_above(lines: list[str], line: int) -> str:
 
 
 def parse_file(text: str) -> Iterator[FileKey]:
-    """All keys at the beginning of a line in the text of a YAML file."""
+    """All keys in the text of a YAML file. Comments belong to the first key of their line."""
     lines = text.splitlines()
 
     def parse_node(node: yaml.Node, path: tuple[str, ...]) -> Iterator[FileKey]:
         for key, value in node.value if isinstance(node, yaml.MappingNode) else ():
             line, column = key.start_mark.line, key.start_mark.column
             is_block = isinstance(value, yaml.CollectionNode) and not value.flow_style
-            if not lines[line][:column].strip():
-                source = "" if is_block else " ".join(text[value.start_mark.index : value.end_mark.index].split())
-                yield FileKey((*path, key.value), source, comment_of(lines[line]), comment_above(lines, line))
+            source = "" if is_block else " ".join(text[value.start_mark.index : value.end_mark.index].split())
+            is_first = not lines[line][:column].strip()
+            comments = (comment_of(lines[line]), comment_above(lines, line)) if is_first else ("", "")
+            yield FileKey((*path, key.value), source, *comments)
             # The value of an alias is at its anchor, elsewhere in the file.
             if value.start_mark.index > key.start_mark.index:
                 yield from parse_node(value, (*path, key.value))

@@ -19,7 +19,6 @@ SETTINGS = {
     "myst_enable_extensions": ["colon_fence", "dollarmath"],
     "myst_heading_anchors": 3,
     "html_theme": "furo",
-    "html_theme_options": {"navigation_with_keys": True},
     "html_copy_source": False,
     "html_show_copyright": False,
     "html_last_updated_fmt": None,

@@ -156,6 +156,7 @@ def test_comments_belong_to_their_keys():
         (("first",), "", 'beside "first"', ""),
         (("first", "second"), '"a # b"', "c", "above it"),
         (("first", "third"), "{x: 1}", "", ""),
+        (("first", "third", "x"), "1", "", ""),
     ]
 
 

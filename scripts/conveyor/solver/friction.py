@@ -86,8 +86,9 @@ def slip_end(c, step, segment, slip, leave):
 def stick_end(c, step, segment):
     """The s in the rest of a contact step at which |ẍ_s + g sin α| exceeds μ_s F_c/m; whether it does so to the end.
 
-    The s is infinite if the part sticks to the end of the step, or if nothing moves it along the track. While |ẍ_s + g sin α| > μ_s F_c/m the slip that begins
-    cannot end. On a level track the margin in a direction stays positive if cos(θ + ε) has its sign at both ends.
+    The s is infinite if the part sticks to the end of the step, or if nothing moves it along the track. While
+    |ẍ_s + g sin α| > μ_s F_c/m the slip that begins cannot end. On a level track the margin in a direction stays
+    positive if cos(θ + ε) has its sign at both ends.
     """
     series, at, length = step.series, step.at, step.piece.length
     end, lasting = math.inf, False
