@@ -20,7 +20,7 @@ from figures.style import STATE_COLOURS
 from identification import findings
 from operating import drive_page
 from operating.chart import spreads_of, summarize_shares
-from operating.regimes import CHAOS, NOT_ALL_SETTLED, SEVERAL, SLIDES_AWAY, slides_away
+from operating.regimes import CHAOS, NOT_ALL_SETTLED, SEVERAL, SLIDES_AWAY, is_steep
 from operating.transit import ENDS
 from pipeline.templates import format_number, render
 
@@ -322,7 +322,7 @@ def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings:
         numbers = function(**{name: values[name] for name in parameters if name in values})
     conveyor = "the paper's conveyor" if paper else "this conveyor"
     models = [table.attrs["model"] for table in tables.values() if "friction" in table.attrs.get("model", {})]
-    about = {"paper": paper, "conveyor": conveyor, "slides": any(map(slides_away, models))}
+    about = {"paper": paper, "conveyor": conveyor, "slides": any(map(is_steep, models))}
     return render(template, values | numbers | about)
 
 

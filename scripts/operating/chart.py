@@ -92,6 +92,7 @@ def summarize_fastest(shares: pd.DataFrame, intervals: list[dict]) -> dict:
     """
     own = amplitudes_inside(shares, intervals, SEVERAL)
     ranges = {name: (own[name].min(), own[name].max()) for name in ("best", "best_share")}
+    ranges["best"] = [round(end, DECIMALS) + 0.0 for end in ranges["best"]]
     return {**ranges, "most": own.loc[own.best_share.idxmax()].to_dict()}
 
 
@@ -155,7 +156,7 @@ def make(
         "enough": ENOUGH,
         "many_late": MANY_LATE,
         "ends": (transit.acceleration.min(), transit.acceleration.max()),
-        "slides": (shares.status == SLIDES_AWAY).all(),
+        "slides": (shares.status == SLIDES_AWAY).any(),
         "merged": len(merged) < len(regimes),
         # The digits to which the ends of intervals of amplitudes are known.
         "digits": max(0, math.ceil(-math.log10(shares.attrs["resolution"]))),

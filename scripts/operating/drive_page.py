@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from operating.chart import MANY_LATE, RULE_OF_THREE, spreads_of
-from operating.regimes import slides_away
+from operating.regimes import is_steep
 from operating.transit import ENDS
 from pipeline.templates import render
 
@@ -45,6 +45,7 @@ def make(template: str, drive_front: pd.DataFrame, drive_generations: pd.DataFra
     values |= {
         "rows": recommended.to_dict("records"),
         "late": (recommended.checked_late > MANY_LATE).sum(),
-        "slides": slides_away(drive_front.attrs["model"]),
+        "slides": is_steep(drive_front.attrs["model"]),
+        "friction": drive_front.attrs["model"]["friction"],
     }
     return render(template, values)

@@ -1,8 +1,11 @@
 """Regimes: intervals of amplitudes with one velocity, with several velocities, with chaos."""
 
+import math
+
 import numpy as np
 import pandas as pd
 
+from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, INCLINATION, STATIC_FRICTION
 from pipeline import fields
 
 ONE, SEVERAL, BESIDE, CHAOS, UNKNOWN = REGIMES = (
@@ -37,9 +40,29 @@ COLUMNS = (
 )
 
 
-def slides_away(model: dict) -> bool:
-    """Whether a track is too steep for friction to hold a part, so that its velocity grows without end."""
-    return abs(np.tan(model.get("inclination", 0.0))) > model.get("static_friction", model["friction"])
+def is_steep(model: dict) -> bool:
+    """Whether a track is too steep for friction to stop a part that slides."""
+    return abs(np.tan(model.get("inclination", 0.0))) > model["friction"]
+
+
+def plate_speed(rows: np.ndarray) -> np.ndarray:
+    """The largest velocity of the plate along the track (m/s) for packed parameters, shape (n, 16)."""
+    return rows[:, ACCELERATION] * np.cos(rows[:, ANGLE]) / (2.0 * math.pi * rows[:, FREQUENCY])
+
+
+def slides_away(rows: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+    """Whether parts slide downhill faster and faster, so that they have no mean velocity.
+
+    On average, the contact force is m g cos α. On a track that is too steep for sliding friction, a part is safe only
+    as long as it sticks again and again. It never sticks where static friction cannot hold it either, and no longer
+    once it is faster than the plate ever is.
+
+    rows : packed parameters, shape (n, 16)
+    velocity : mean velocities, m/s, shape (n,); NaN where none is known yet
+    """
+    slope = np.abs(np.tan(rows[:, INCLINATION]))
+    faster = np.abs(velocity) > plate_speed(rows)
+    return (slope > rows[:, STATIC_FRICTION]) | ((slope > rows[:, FRICTION]) & faster)
 
 
 def same(velocity: np.ndarray, other: float, share: float) -> np.ndarray:

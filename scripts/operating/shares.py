@@ -13,7 +13,7 @@ from conveyor import ensemble
 from conveyor.analysis.attractors.labels import Labels, continued
 from conveyor.simulation import LAST
 from conveyor.solver import horizontal, trajectory
-from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, GRAVITY, INCLINATION, STATIC_FRICTION
+from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, GRAVITY, INCLINATION
 from conveyor.solver.parallel import for_each_chunk
 from operating import regimes
 from operating.parts import parameters_of, starts_of_box
@@ -47,6 +47,7 @@ MOST_ADDED = 200
 # A mean velocity counts as converged if a run twice as long agrees within this fraction of the plate's largest
 # velocity.
 SETTLED = 1e-3
+ROUNDING = 1e-9  # in units of the plate's largest velocity: a smaller mean velocity is zero
 RUNS = 6  # each twice as long as the one before
 MOST_CYCLES = 4000  # upper limit of cycles of a brief run
 FORGOTTEN = 200  # excitation cycles, at least, for the transient of the feeding motion
@@ -111,8 +112,9 @@ def velocities(
     force (N) over the same cycles, whole periods of the motion, shape (n, 2); and the status.
 
     Each trajectory is followed until it has settled, and then twice as long, until both mean velocities agree. They
-    never agree in chaos, where the mean is taken over the longer run. In all, they are followed for at most as many
-    cycles as the searches for a map; the velocities of the slowest ones are then not known.
+    never agree in chaos, where the mean is taken over the longer run. On a track that is too steep for sliding friction
+    they must agree in chaos, too, because the part may be about to slide away. In all, they are followed for at most as
+    many cycles as the searches for a map; the velocities of the slowest ones are then not known.
 
     parameters, found : packed, shape (n, 16), and the labels of the trajectories
     """
@@ -121,13 +123,13 @@ def velocities(
     settled = np.where(period > 0, found.cycles, np.minimum(found.cycles, settings["cycles"]))
     velocity, status = np.full(n, np.nan), np.full(n, regimes.UNSETTLED, dtype=object)
     peaks = np.full((n, 2), np.nan)
-    plate = parameters[:, ACCELERATION] * np.cos(parameters[:, ANGLE]) / (2.0 * math.pi * parameters[:, FREQUENCY])
+    plate = regimes.plate_speed(parameters)
     # A mean over whole periods; the last quarter of a run is what a mean is taken over.
     step = np.maximum(period, 1)
     quarter = np.maximum(np.maximum(settings["cycles"], np.ceil((settled + FORGOTTEN) / 3.0)), step)
-    # Friction cannot hold a part on such a track, so that its velocity grows without end.
-    steep = np.abs(np.tan(parameters[:, INCLINATION])) > parameters[:, STATIC_FRICTION]
-    status[steep], open_ = regimes.SLIDES_AWAY, np.flatnonzero(~steep)
+    steep = np.abs(np.tan(parameters[:, INCLINATION])) > parameters[:, FRICTION]
+    away = regimes.slides_away(parameters, velocity)
+    status[away], open_ = regimes.SLIDES_AWAY, np.flatnonzero(~away)
     left = mean_settling(settings) * WHOLE_MAP
     # Every trajectory needs the second run, which contains the first; one integration gives both.
     for doublings in ([0, 1], *([doubling] for doubling in range(2, RUNS))):
@@ -143,9 +145,12 @@ def velocities(
         for mean in means.T:
             close = np.abs(mean - velocity[open_]) <= SETTLED * plate[open_]
             velocity[open_] = mean
-        known = ~failed & (close | (period[open_] == 0))
+        away = ~failed & regimes.slides_away(parameters[open_], velocity[open_])
+        status[open_[away]] = regimes.SLIDES_AWAY
+        known = ~failed & ~away & (close | ((period[open_] == 0) & ~steep[open_]))
         status[open_[known]] = "ok"
-        open_ = open_[~failed & ~known]
+        open_ = open_[~failed & ~away & ~known]
+    velocity[np.abs(velocity) <= ROUNDING * plate] = 0.0
     velocity[status != "ok"] = peaks[status != "ok"] = np.nan
     return velocity, peaks, status
 

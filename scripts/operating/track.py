@@ -3,8 +3,7 @@
 The motion normal to the track depends on the inclination, through g cos α, and not on the phase shift. Therefore each
 state is computed once per inclination; for each phase shift, only the feeding motion is followed from there.
 
-On average over a period, the contact force is m g cos α. Where |tan α| exceeds the friction coefficient, friction
-cannot hold a part in any periodic motion: it slides downhill faster and faster, and has no mean velocity.
+Where the track is too steep for friction, a part slides downhill faster and faster, and has no mean velocity.
 """
 
 import numpy as np
@@ -12,7 +11,7 @@ import numpy as np
 from conveyor import ensemble
 from conveyor.solver.model import PHASE_SHIFT
 from operating.parts import parameters_of, starts_of_box
-from operating.regimes import NOT_ALL_SETTLED, SLIDES_AWAY
+from operating.regimes import NOT_ALL_SETTLED, SLIDES_AWAY, slides_away
 from operating.shares import FORGOTTEN, brief_durations, continue_normal
 from pipeline import fields, grid
 from pipeline.motions import motions_of_starts
@@ -69,11 +68,13 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     velocity, period = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64)
     velocity[number, state] = run["mean_velocity"].reshape(len(settled), len(shifts))
     period[number, state] = of_motion[:, None]
-    model = settings["model"]
     missing = np.where(is_open, NOT_ALL_SETTLED, NOT_REACHED)[:, None, None]
     status = np.where(period > 0, "ok", missing).astype(object)
-    steep = np.abs(np.tan(inclinations)) > model.get("static_friction", model["friction"])
-    velocity[steep], status[steep] = np.nan, SLIDES_AWAY
+    model = settings["model"]
+    held = np.abs(np.tan(inclinations)) <= model.get("static_friction", model["friction"])
+    away = np.repeat(~held, len(STATES) * len(shifts)).reshape(shape)
+    away[number, state] |= slides_away(rows, run["mean_velocity"]).reshape(len(settled), len(shifts))
+    velocity[away], status[away] = np.nan, SLIDES_AWAY
     alpha, state, shift = np.indices(shape)
     return {
         "inclination": inclinations[alpha.ravel()],

@@ -222,9 +222,9 @@ def test_fig_10_without_a_common_amplitude_or_without_a_critical_height():
 
 
 def test_a_track_that_is_too_steep_is_named():
-    """Friction 0.3 holds a part up to 0.29 rad, static friction 0.4 up to 0.38 rad."""
+    """Friction 0.3 stops a part up to 0.29 rad. Static friction holds a part on a steeper track, but stops none."""
     table = pd.DataFrame({"z0": [0.0], "mean_velocity": [-0.3], "state": "first"})
-    for inclination, static, steep in ((0.2, None, False), (0.32, None, True), (0.32, 0.4, False), (-0.5, 0.4, True)):
+    for inclination, static, steep in ((0.2, None, False), (0.32, None, True), (0.32, 0.4, True), (-0.5, 0.4, True)):
         model = {"friction": 0.3, "inclination": inclination} | ({"static_friction": static} if static else {})
         table.attrs |= {"model": model, "duration": 1.0}
         template = (ROOT / "workflow/report/fig03.rst").read_text(encoding="utf-8")

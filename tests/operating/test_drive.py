@@ -226,5 +226,5 @@ def test_a_search_that_finds_nothing_says_so(monkeypatch):
     steep = front.copy()
     steep.attrs = SETTINGS | {"model": SETTINGS["model"] | {"friction": 0.3, "inclination": 0.5}}
     page = drive_page.make(TEMPLATE, steep, generations)
-    assert "too steep for friction to hold a part" in page and "Widen the bounds" not in page
+    assert "too steep for friction to stop a part" in page and "Widen the bounds" not in page
     assert "inf" not in page

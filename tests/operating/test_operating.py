@@ -1,6 +1,7 @@
 """Shares of initial conditions: the box, its motions and their velocities, and the chart in words."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -114,6 +115,18 @@ def test_velocities_wait_for_a_slow_horizontal_motion():
     found, status = velocity(Conveyor(friction=1e-5), Start(3e-4), 1, cycles=20)
     assert np.isnan(found)
     assert status == "mean velocity not settled"
+
+
+@pytest.mark.parametrize(("acceleration", "z", "period"), [(40.0, 3e-4, 1), (80.0, 3e-4, 0)])
+def test_a_part_that_slides_on_a_steep_track_has_no_velocity(acceleration, z, period):
+    """Sliding friction takes less than the slope gives, whatever the static friction is."""
+    conveyor = Conveyor(acceleration=acceleration, inclination=-0.2, friction=0.15, static_friction=0.5)
+    found, status = velocity(conveyor, Start(z), period, cycles=20)
+    assert np.isnan(found)
+    assert status == regimes.SLIDES_AWAY
+    # A part that never slides stays.
+    found, status = velocity(replace(conveyor, acceleration=0.5), Start("conveyor"), 1, cycles=20)
+    assert (found, status) == (0.0, "ok")
 
 
 def test_velocities_are_means_over_whole_periods():
@@ -375,7 +388,7 @@ def test_no_amplitude_is_recommended_where_parts_move_back(refined):
     assert "- **Amplitude" not in page and "relative spread is" not in page
     steep = refined.assign(status=regimes.SLIDES_AWAY)
     steep.attrs = refined.attrs
-    assert "too steep for friction to hold a part" in page_of(steep, [back, *others])
+    assert "too steep for friction to stop a part" in page_of(steep, [back, *others])
 
 
 def test_the_page_begins_with_the_advice(refined):

@@ -70,9 +70,21 @@ def test_velocities_settle_on_tracks_that_are_nearly_too_steep():
     assert found == pytest.approx((x[1] - x[0]) / 10.0, abs=2e-3)
 
 
-def test_static_friction_holds_parts_on_steeper_tracks():
-    found = make(inclination=[0.2], phase_shift=[0.0], model={"friction": 0.15, "static_friction": 0.3})
-    assert (found.status != track.SLIDES_AWAY).all()
+def test_static_friction_does_not_stop_a_part_that_slides():
+    """At 40 m/s² parts slide, and friction takes less than the slope gives: g (sin α - μ cos α) is 0.5 m/s²."""
+    steep = {"friction": 0.15, "static_friction": 0.3}
+    found = make(inclination=[0.2], phase_shift=[0.0], model=steep)
+    assert (found.status == track.SLIDES_AWAY).all()
+    run = simulate(Conveyor(acceleration=40.0, inclination=0.2, **steep), Start(3e-4), duration=20.0)
+    assert run.vx_end == pytest.approx(-20.0 * 9.81 * (math.sin(0.2) - 0.15 * math.cos(0.2)), rel=0.01)
+
+
+def test_static_friction_holds_a_part_that_does_not_slide():
+    found = make(
+        inclination=[0.2], phase_shift=[0.0], acceleration=0.5, model={"friction": 0.15, "static_friction": 0.3}
+    )
+    assert found.status[0.2, "first", 0.0] == "ok"
+    assert found.mean_velocity[0.2, "first", 0.0] == pytest.approx(0.0, abs=1e-9)
 
 
 def test_a_state_is_not_ruled_out_where_the_search_ended_early():

@@ -115,7 +115,7 @@ def direction_at_rest(c, pull, force, mu):
     pull : ẍ_s + g sin α, m/s²; force : F_c/m, m/s²; mu : coefficient of static friction that acts
     """
     # The tolerance rest_force keeps a part that barely touches from alternating between stick and slip without end.
-    # Without a pull the part stays, also where the contact force is negative: in Eq. 12, sign(0) is 0.
-    if pull == 0.0 or (mu > 0.0 and abs(pull) <= mu * (force + c.rest_force)):
+    # Where nothing drives a part along the track it stays, also if the contact pulls: in Eq. 12, sign(0) is 0.
+    if (c.a_x == 0.0 and pull == 0.0) or (mu > 0.0 and abs(pull) <= mu * (force + c.rest_force)):
         return 0.0
     return math.copysign(1.0, pull)

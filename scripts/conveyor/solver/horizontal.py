@@ -162,7 +162,8 @@ def follow_horizontal(c, step, horizontal, feeding, record, sampled, events):
     segment = first_segment(c, motion, horizontal)
     x, vx, sigma = horizontal
     fastest = max(-motion.v, -piece.v, 0.0)
-    released = not feeding
+    # Without any friction the slip changes nothing.
+    released = not feeding or c.static_friction == 0.0
     segments, leave = 0, LEAVE
     while True:
         segments += 1

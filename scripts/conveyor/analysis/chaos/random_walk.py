@@ -45,18 +45,22 @@ def standard_error(values: np.ndarray) -> float:
 
 
 def uncorrelated_window(fluctuations: np.ndarray) -> int:
-    """The shortest window, a power of two times DEFAULT_WINDOW, without correlations; 0 if there is none.
+    """The shortest window from which on none has correlations, DEFAULT_WINDOW times a power of two; 0 if there is none.
+
+    In longer windows, correlations may come back: a displacement that is bounded has negative ones only there.
 
     fluctuations : displacements in single cycles without their mean, shape (n, k)
     """
-    window = DEFAULT_WINDOW
-    while fluctuations.shape[1] // (LONGER * window) >= LEAST_WINDOWS:
+    found, window = 0, DEFAULT_WINDOW
+    while fluctuations.shape[1] // window >= LEAST_WINDOWS:
         sums = sums_over(fluctuations, window)
         neighbours = sums[:, 1:] * sums[:, :-1]
-        if abs(neighbours.mean()) <= (DECAYED + 2.0 / np.sqrt(neighbours.size)) * (sums**2).mean():
-            return window
+        if abs(neighbours.mean()) > (DECAYED + 2.0 / np.sqrt(neighbours.size)) * (sums**2).mean():
+            found = 0
+        elif found == 0:
+            found = window
         window *= 2
-    return 0
+    return found if LONGER * found < window else 0
 
 
 def random_walk(displacements: np.ndarray, period: float) -> RandomWalk:

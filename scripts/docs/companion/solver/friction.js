@@ -43,9 +43,9 @@ function stickEnd(c, step, start) {
 /* Sign of the slip that follows when the slip velocity is zero, or 0 for stick (Filippov's condition). `holding` is
    the friction force per mass that stick takes, `grip` the coefficient of static friction that acts. */
 function directionAtRest(c, holding, contactForce, grip) {
-  // The slack in the force keeps a part that barely touches from sticking and slipping without end. Without a pull the
-  // part stays, also where the contact force is negative.
-  if (holding === 0 || (grip > 0 && Math.abs(holding) <= grip * (contactForce + c.restForce))) return 0;
+  // The slack in the force keeps a part that barely touches from sticking and slipping without end. Where nothing drives
+  // a part along the track it stays, also if the contact pulls.
+  if ((c.aX === 0 && holding === 0) || (grip > 0 && Math.abs(holding) <= grip * (contactForce + c.restForce))) return 0;
   return holding < 0 ? -1 : 1;
 }
 

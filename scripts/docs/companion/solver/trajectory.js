@@ -228,7 +228,8 @@ function feed(run, motion, step, end, feeding) {
   const [mu, grip] = pulled ? [0, 0] : [c.friction, c.staticFriction];
   let here = { s: 0, t: 0, w: motion.w, v: motion.v, sine: motion.sine, cosine: motion.cosine };
   let { x, vx, sigma } = motion;
-  let released = !feeding;
+  // Without any friction the slip changes nothing.
+  let released = !feeding || c.staticFriction === 0;
   let leave = LEAVE;
   for (;;) {
     const { sine, cosine } = here;

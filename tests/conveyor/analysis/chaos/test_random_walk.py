@@ -49,6 +49,14 @@ def test_a_search_for_uncorrelated_windows_that_fails_says_so():
     assert np.isnan(found.diffusion)
 
 
+def test_correlations_that_come_back_in_longer_windows_are_found():
+    """The displacement is bounded, and neighbouring windows are hardly correlated while they are short."""
+    position = autoregressive(0.98)
+    found = random_walk(1e-3 + np.diff(position, axis=1), PERIOD)
+    assert found.status == CORRELATED
+    assert np.isnan(found.diffusion)
+
+
 def test_a_regular_motion_has_no_fluctuations():
     found = random_walk(np.full((4, 512), 1e-3), PERIOD)
     assert found.status == AT_REST
