@@ -44,6 +44,11 @@ def data_of(measured: list[Measurement], model: dict) -> Data:
     return Data(measured, conditions, of, velocity, sd, conditions.plate[of])
 
 
+def samples_of_interval(confidence: float) -> float:
+    """The effective number of samples of which one lies outside an interval with this confidence."""
+    return 1.0 / (1.0 - confidence)
+
+
 def log_factors(found: np.ndarray, data: Data, settings: dict, inflations: tuple[float, ...]) -> np.ndarray:
     """Logarithm of the density of each measurement for each inflation of its standard deviation, shape (m, n, r).
 

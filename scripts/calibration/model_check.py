@@ -19,6 +19,7 @@ import numpy as np
 from scipy.stats import rankdata
 
 from calibration.inference import Data, draw, mode, search
+from calibration.measurements import Measurement
 from calibration.predicted import deviations, log_densities, velocities, widths
 from calibration.search_space import values_at
 from conveyor.parameters import UNITS
@@ -78,6 +79,11 @@ def compare(
     return min(1.0, len(of_all) * of_all.min()), shares[0], drawn
 
 
+def differs(measured: Measurement, model: dict) -> bool:
+    """Whether a measurement was made under other conditions than those of the model."""
+    return any(model.get(name) != value for name, value in measured.changed.items())
+
+
 def check_fit(found: Sample, data: Data, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict:
     """The columns of the table of the fit."""
     places = np.concatenate([[mode(found)], draw(found, settings["checked"])])
@@ -94,7 +100,7 @@ def check_fit(found: Sample, data: Data, settings: dict, *, threads: int = 1, pr
         "line": [one.line for one in data.measured],
         "acceleration": [one.acceleration for one in data.measured],
         "velocity": data.velocity,
-        "changed": [bool(one.changed) for one in data.measured],
+        "changed": [differs(one, settings["model"]) for one in data.measured],
         "sd": deviations(data.velocity, data.sd, data.plate, settings["noise"]),
         "low": low,
         "median": middle,

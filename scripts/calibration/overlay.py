@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from calibration.inference import NOT_DETERMINED, TOO_FEW
+from calibration.inference import NOT_DETERMINED, TOO_FEW, samples_of_interval
 from pipeline.rule_log import JobError
 
 DIGITS = 6
@@ -23,13 +23,12 @@ def make(parameters: pd.DataFrame, fit: pd.DataFrame) -> str:
         row.parameter: f"{'1' if row.unit == '1' else row.unit}, {row.status}: {row.low:.3g} to {row.high:.3g}"
         for row in parameters.itertuples()
     }
-    if "friction" in model and settings["static_ratio"] != 1.0:
-        model["static_friction"] = f"{settings['static_ratio'] * float(model['friction']):.{DIGITS - 1}e}"
-        comments["static_friction"] = "1, in the same ratio to the friction as before"
     lines = [f"  {name}: {value}   # {comments[name]}" for name, value in model.items()]
     head = (
         f"# Calibrated from {settings['measurements']}. Name this file behind the overlay that names the measurements."
     )
+    if settings["effective"] < samples_of_interval(settings["confidence"]):
+        head += "\n# A quick trial with too few samples for intervals: do not use these values."
     parts = (
         "parts: {calibrated: true}   # the transit of parts draws these parameters from the samples of the calibration"
     )

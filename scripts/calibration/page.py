@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from calibration.inference import DETERMINED, NOT_DETERMINED, OPEN, TOO_FEW
+from calibration.inference import DETERMINED, NOT_DETERMINED, OPEN, TOO_FEW, samples_of_interval
 from calibration.measurements import DEFAULTS
 from calibration.model_check import UNLIKELY
 from pipeline.templates import format_significant, render
@@ -58,6 +58,7 @@ def make(
             },
             "reliable": not (parameters.status == TOO_FEW).any(),
             "effective": float(parameters.effective.iloc[0]),
+            "resolved": samples_of_interval(parameters.attrs["confidence"]),
             "explained": bool(fit.explained.all()),
             "fits": bool(fit.p_value.iloc[0] >= parameters.attrs["significance"]),
             "alternatives": others,

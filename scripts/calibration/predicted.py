@@ -14,7 +14,7 @@ from scipy.stats import qmc
 
 from calibration.measurements import INITIAL, Measurement
 from conveyor.solver import horizontal, trajectory
-from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, PSI0, VZ0, Z0, set_columns
+from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, PSI0, STATIC_FRICTION, VZ0, Z0, set_columns
 from conveyor.solver.parallel import for_each_chunk
 from pipeline import grid
 
@@ -92,7 +92,7 @@ def velocities(
     Parameters
     ----------
     values : of parameters of the model, by name, each of shape (n,)
-    settings : the box of initial conditions, and `static_ratio`, static friction in units of friction
+    settings : the box of initial conditions, and `static_friction`, which is at least the friction
     parts : number of parts per set and condition
     worth : function of the velocities of the first parts, shape (n, k, FIRST), which returns whether a set of
         parameters is worth following more parts, shape (n,), and whose first parts count several times if it is not
@@ -102,8 +102,6 @@ def velocities(
     shift = random.random((n, k, 3))
     points = qmc.Sobol(3, scramble=False).random(1 << (parts - 1).bit_length())[:parts]
     low, high = np.array([settings[name] for name in ("height", "vz0", "psi0")], dtype=np.float64).T
-    if "friction" in values:
-        values = {**values, "static_friction": settings["static_ratio"] * values["friction"]}
 
     def follow(sets: np.ndarray, of: np.ndarray, begin: int, end: int, label: str) -> np.ndarray:
         """The velocities of the parts begin to end for pairs of sets and conditions, shape (m, end - begin)."""
@@ -112,6 +110,7 @@ def velocities(
         height, speed, phase = np.moveaxis(low + (high - low) * drawn, -1, 0).reshape(3, -1)
         rows, times = (np.repeat(own[of], count, axis=0) for own in conditions)
         set_columns(rows, {name: np.repeat(column[sets], count) for name, column in values.items()})
+        rows[:, STATIC_FRICTION] = np.maximum(rows[:, FRICTION], settings["static_friction"])
         rows[:, PSI0] = np.where(np.isnan(rows[:, PSI0]), phase, rows[:, PSI0])
         rows[:, VZ0] = np.where(np.isnan(rows[:, VZ0]), speed, rows[:, VZ0])
         stroke = rows[:, ACCELERATION] * np.sin(rows[:, ANGLE]) / (2.0 * math.pi * rows[:, FREQUENCY]) ** 2

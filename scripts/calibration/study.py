@@ -101,7 +101,7 @@ def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: 
     pairs = [(factor * acceleration, velocity) for acceleration, velocity in rows]
     text = csv_text(pairs, "synthetic", duration=lasts, before=lasts)
     model = {name: value for name, value in stated.items() if name not in PARAMETERS}
-    own = settings["calibration"] | settings["band"] | box | {"model": model, "static_ratio": 1.0}
+    own = settings["calibration"] | settings["band"] | box | {"model": model, "static_friction": 0.0}
     measured = parse(text, "synthetic", own, RANGES)
     found = calibrate(measured, own, threads=threads, progress=progress)
     samples, fit = (pd.DataFrame(found[name]) for name in ("samples", "fit"))

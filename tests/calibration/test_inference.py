@@ -29,7 +29,7 @@ SETTINGS = {
     "vz0": [-0.2, 0.2],
     "psi0": [0.0, 2.0 * math.pi],
     "model": MODEL,
-    "static_ratio": 1.0,
+    "static_friction": 0.0,
     "measurements": "mine.csv",
     "noise": 0.02,
     "outliers": 0.02,

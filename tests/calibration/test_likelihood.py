@@ -12,7 +12,7 @@ from calibration.search_space import bounds_of, values_at
 from conveyor import Conveyor, Start, simulate
 
 SETTINGS = {"noise": 0.02, "outliers": 0.01}
-BOX = {"height": [0.0, 5e-4], "vz0": [-0.2, 0.2], "psi0": [0.0, 2.0 * math.pi], "static_ratio": 1.0}
+BOX = {"height": [0.0, 5e-4], "vz0": [-0.2, 0.2], "psi0": [0.0, 2.0 * math.pi], "static_friction": 0.0}
 MODEL = {"frequency": 50.0, "angle": 0.2094, "mass": 0.7e-3, "gravity": 9.81, "inclination": 0.0, "phase_shift": 0.0}
 CONTACT = {"friction": 0.15, "damping": 0.3, "stiffness": 5e5}
 PLATE = np.array([0.13])
@@ -93,6 +93,18 @@ def test_a_motion_with_a_small_share_is_not_missed_because_the_first_parts_are_a
     rare = found[:, 0] < 0.09
     assert 0.1 < rare.mean() < 0.3
     assert np.count_nonzero(~rare.any(axis=1)) <= 3
+
+
+def test_static_friction_is_as_stated_or_equal_to_friction():
+    measured = [Measurement(1, 20.0, 0.0, None, 0.2, 0.2, {"z0": 0.0}), Measurement(2, 20.0, 0.0, None, 0.2, 0.2, {})]
+    conditions, _ = conditions_of(measured, MODEL)
+    values = {name: np.full(2, value) for name, value in CONTACT.items()} | {"friction": np.array([0.15, 0.4])}
+    free, equal, held = (
+        velocities(values, conditions, BOX | {"static_friction": static}, parts=4, seed=3) for static in (0.0, 0.1, 0.4)
+    )
+    np.testing.assert_array_equal(free, equal)
+    np.testing.assert_array_equal(free[1], held[1])
+    assert (free[0] != held[0]).any()
 
 
 def test_no_set_may_be_worth_more_parts():

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from calibration.inference import Data
-from calibration.model_check import compare
+from calibration.measurements import Measurement
+from calibration.model_check import compare, differs
 
 SETTINGS = {"noise": 0.02, "outliers": 0.02, "replicates": 500}
 CONDITIONS, REPEATS, PARTS = 6, 3, 64
@@ -63,3 +64,10 @@ def test_one_mistake_is_noticed_but_does_not_reject_the_model():
         p, shares = p_value(seed, mistaken)
         assert p > 0.03
         assert shares.argmin() == 4 and shares[4] < 0.01
+
+
+def test_a_stated_value_of_the_model_is_no_other_condition():
+    one = Measurement(2, 40.0, 0.06, None, 1.0, 1.0, {"mass": 1e-3})
+    assert not differs(one, {"mass": 1e-3})
+    assert differs(one, {"mass": 2e-3})
+    assert differs(one._replace(changed={"z0": 0.0}), {"mass": 1e-3})

@@ -72,7 +72,7 @@ def test_the_page_counts_intervals_that_hold_and_models_that_are_called_wrong():
 MODEL = {"frequency": 40.0, "angle": 0.3, "mass": 1e-3, "gravity": 9.81, "exponent": 1.5}
 TRUE_CONTACT = {"friction": 0.25, "damping": 0.3, "stiffness": 3e5}
 BOX = {"height": [0.0, 5e-4], "vz0": [-0.2, 0.2], "psi0": [0.0, 2.0 * math.pi]}
-OWN = BOX | {"model": MODEL, "static_ratio": 1.0, "noise": 0.02, "outliers": 0.02, "seed": 1}
+OWN = BOX | {"model": MODEL, "static_friction": 0.0, "noise": 0.02, "outliers": 0.02, "seed": 1}
 OWN |= {"parameters": list(TRUE_CONTACT)}
 
 

@@ -247,6 +247,14 @@ WRONG = [
     ),
     ({"drive": {"recommended": 9, "checked": 8}}, "drive.recommended = 9 is above drive.checked = 8; check more"),
     ({"calibration": {"effective": 101}}, "calibration.effective = 101 should be at most calibration.enough = 100"),
+    (
+        {
+            "prefix": "mine",
+            "model": {"friction": 0.02, "static_friction": 0.03},
+            "calibration": {"measurements": str(ROOT / "config/examples/measured.csv")},
+        },
+        "model.static_friction = 0.03 leaves no friction to search, because calibration.ranges.friction begins at 0.04",
+    ),
     ({"parts": {"calibrated": True}}, "parts.calibrated needs measurements; name the config with"),
     ({"drive": {"velocity": 0}}, "drive.velocity = 0 should be more than 0 (m/s)"),
     ({"drive": {"velocity": 200.0}}, "drive.velocity = 200.0 should be at most 100 (m/s)"),

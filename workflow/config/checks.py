@@ -330,6 +330,12 @@ def calibration(config: dict, defaults: dict) -> Iterator[str]:
         yield "parts.calibrated needs measurements; name the config with calibration.measurements as well"
     if (path := own.get("measurements")) is None:
         return
+    static, lowest = config["model"].get("static_friction"), own["ranges"]["friction"][0]
+    if "friction" in own["parameters"] and static is not None and static <= lowest:
+        yield (
+            f"model.static_friction = {static!r} leaves no friction to search, because calibration.ranges.friction "
+            f"begins at {lowest!r}; begin lower, or take friction out of calibration.parameters"
+        )
     if not config["prefix"]:
         yield "calibration.measurements needs a folder for its results; give the config a prefix"
     try:

@@ -67,17 +67,20 @@ def drive_settings(config: dict) -> dict:
 
 
 def calibration_settings(config: dict) -> dict:
-    """The search leaves the values of the searched parameters in the model open, except for the static friction, which
-    keeps its ratio to the friction. A config to which calibrated parameters are added has the same settings.
+    """The search leaves the values of the searched parameters in the model open. The static friction stays as stated
+    and limits the friction; 0 stands for none. A config to which calibrated parameters are added has the same settings.
     """
     own, model = config["calibration"], model_of(config)
-    ratio = model.get("static_friction", model["friction"]) / model["friction"]
+    static_friction = model.get("static_friction", 0.0)
+    ranges = {name: own["ranges"][name] for name in own["parameters"]}
+    if static_friction and "friction" in ranges:
+        ranges["friction"] = [ranges["friction"][0], min(ranges["friction"][1], static_friction)]
     stated = ("psi0", "z0", "vz0", "static_friction", *own["parameters"])
     return {
         **{name: config["operating"][name] for name in ("height", "vz0", "psi0")},
         **own,
-        "ranges": {name: own["ranges"][name] for name in own["parameters"]},
-        "static_ratio": float(f"{ratio:.4g}"),
+        "ranges": ranges,
+        "static_friction": static_friction,
         "model": {name: value for name, value in model.items() if name not in stated},
     }
 

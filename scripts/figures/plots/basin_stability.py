@@ -13,6 +13,7 @@ from figures import style
 
 THICKEST = 6.0  # points: line width for all initial conditions
 THINNEST = 0.5  # points, so that the rarest motion is visible
+ALONE = 0.02  # half of the relative width of a single amplitude
 SHOWN = (0.05, 0.5, 1.0)  # shares in the legend
 
 
@@ -22,7 +23,12 @@ def width(share: np.ndarray | float) -> np.ndarray:
 
 
 def ends_of(amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Ends of the interval around each of some ascending amplitudes, shape (m,): half-way to its neighbours."""
+    """Ends of the interval around each of some ascending amplitudes, shape (m,): half-way to its neighbours.
+
+    A single amplitude has an interval that is wide enough to be seen.
+    """
+    if len(amplitudes) == 1:
+        return (1.0 - ALONE) * amplitudes, (1.0 + ALONE) * amplitudes
     between = 0.5 * (amplitudes[1:] + amplitudes[:-1])
     return np.concatenate([amplitudes[:1], between]), np.concatenate([between, amplitudes[-1:]])
 

@@ -8,16 +8,22 @@ from matplotlib.ticker import FormatStrFormatter, LogLocator, MaxNLocator, NullF
 
 from calibration.search_space import LOGARITHMIC
 from figures import style
+from figures.plots.basin_stability import ends_of
 
 MISFIT = "#D55E00"
 BAND = "#56B4E9"
 BINS = 18
 # Ratios of values from which their axis is logarithmic, and from which only powers of ten are labelled.
 MUCH, MANY = 12.0, 1e3
+LONG = 1e4  # numbers from which on only powers of ten are labelled, too
 
 
 def draw_velocities(axes: Axes, fit: pd.DataFrame, prediction: pd.DataFrame) -> None:
     """Measured velocities over the predicted band."""
+    if len(prediction) == 1:
+        # All measurements have one amplitude, where a band has no width.
+        below, above = ends_of(prediction.acceleration.to_numpy())
+        prediction = pd.concat([prediction.assign(acceleration=below), prediction.assign(acceleration=above)])
     axes.fill_between(
         prediction.acceleration,
         prediction.low,
@@ -55,7 +61,7 @@ def scale(axes: Axes, which: str, name: str, values: np.ndarray) -> None:
     axis = getattr(axes, f"{which}axis")
     if name in LOGARITHMIC and values.max() > MUCH * values.min():
         getattr(axes, f"set_{which}scale")("log")
-        if values.max() > MANY * values.min():
+        if values.max() > MANY * values.min() or values.max() >= LONG:
             axis.set_major_locator(LogLocator(numticks=4))
         else:
             axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=4))
