@@ -47,7 +47,7 @@ MOST_ADDED = 200
 # A mean velocity counts as converged if a run twice as long agrees within this fraction of the plate's largest
 # velocity.
 SETTLED = 1e-3
-ROUNDING = 1e-9  # in units of the plate's largest velocity: a smaller mean velocity is zero
+NEGLIGIBLE = 1e-6  # of the plate's largest velocity; a smaller mean velocity is an error of the solver
 RUNS = 6  # each twice as long as the one before
 MOST_CYCLES = 4000  # upper limit of cycles of a brief run
 FORGOTTEN = 200  # excitation cycles, at least, for the transient of the feeding motion
@@ -150,7 +150,7 @@ def velocities(
         known = ~failed & ~away & (close | ((period[open_] == 0) & ~steep[open_]))
         status[open_[known]] = "ok"
         open_ = open_[~failed & ~away & ~known]
-    velocity[np.abs(velocity) <= ROUNDING * plate] = 0.0
+    velocity[np.abs(velocity) <= NEGLIGIBLE * plate] = 0.0
     velocity[status != "ok"] = peaks[status != "ok"] = np.nan
     return velocity, peaks, status
 
