@@ -43,6 +43,11 @@ def draw_bands(axes: Axes, transit: pd.DataFrame) -> None:
 
 def draw_lengths(axes: Axes, lengths: pd.DataFrame) -> None:
     """The relative spread over the length at each amplitude, with the spread that drift and diffusion predict."""
+    if not (lengths.spread > 0.0).any():
+        few = "at no amplitude of the table do\nmotions coexist or is chaos alone"
+        style.say(axes, "all velocities are equal,\nor half of the parts do not move" if len(lengths) else few)
+        axes.set(xticks=[], yticks=[])
+        return
     numbers = dict.fromkeys(lengths.regime, 0)
     for (acceleration, regime), rows in lengths.groupby(["acceleration", "regime"]):
         colour = style.STATE_COLOURS["chaos"] if regime == CHAOS else style.STATE_COLOURS["first"]
@@ -58,15 +63,10 @@ def draw_lengths(axes: Axes, lengths: pd.DataFrame) -> None:
         axes.plot([], [], label="by drift and diffusion", **look)
         ends, highest = np.array([lengths.length.min(), lengths.length.max()]), lengths.predicted.max()
         axes.plot(ends, 1.5 * highest * (ends / ends[0]) ** -0.5, color="0.5", linewidth=0.8, label="slope −1/2")
-    if len(lengths):
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xticks(lengths.length.unique(), [f"{length:g}" for length in lengths.length.unique()])
-        axes.xaxis.minorticks_off()
-    else:
-        text = "at no amplitude of the table do\nmotions coexist or is chaos alone"
-        style.say(axes, text)
-        axes.set(xticks=[], yticks=[])
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xticks(lengths.length.unique(), [f"{length:g}" for length in lengths.length.unique()])
+    axes.xaxis.minorticks_off()
 
 
 def plot(*, transit: pd.DataFrame, shares: pd.DataFrame, regimes: pd.DataFrame, lengths: pd.DataFrame) -> Figure:
