@@ -51,10 +51,7 @@ def is_real(value: object) -> bool:
 def check_number(name: str, value: object, low: float, high: float, unit: str = "", *, above: bool = False) -> float:
     """`value` as a float; it must lie in [low, high], or in (low, high] where it has to lie `above` the lower end.
 
-    Raises
-    ------
-    ValueError
-        names the argument, its unit and its interval
+    ValueError names the argument, its unit and its interval.
     """
     if not (is_real(value) and low <= value <= high) or (above and value == low):
         interval = f"{'(' if above else '['}{low:g}, {high:g}] {unit}".rstrip()
@@ -129,14 +126,9 @@ def check_threads(threads: object) -> int:
 def check_parameters(values: dict[str, object], names: Collection[str]) -> dict[str, np.ndarray]:
     """`values` of parameters as float64 arrays, broadcast to one shape.
 
-    names : the admissible names; `z` and `vz` have the ranges of z0 and vz0 in parameters.RANGES
+    TypeError for another name. ValueError names the array that cannot be used, or the arrays whose shapes do not fit.
 
-    Raises
-    ------
-    TypeError
-        for another name
-    ValueError
-        names the array that cannot be used, or the arrays whose shapes do not fit
+    names : the admissible names; `z` and `vz` have the ranges of z0 and vz0 in parameters.RANGES
     """
     for name in values:
         if name not in names:

@@ -65,6 +65,8 @@ def run(
 ) -> dict[str, np.ndarray]:
     """Follow every point for `duration` (s). The event-driven method also takes one duration per point, shape (n,).
 
+    ValueError names the argument that cannot be used.
+
     Parameters
     ----------
     parameters : float64, shape (n, 16), rows as from model.pack
@@ -80,11 +82,6 @@ def run(
     max_gap (m), impacts (int64), contact_fraction (1), impact_speed (m/s) and peak_force (N), the largest speed of
     approach at an impact and the largest contact force over the last quarter (0 if there is none), and status (str;
     "ok", or why the run ended early: impacts are then those up to its end, all other numbers NaN)
-
-    Raises
-    ------
-    ValueError
-        names the argument that cannot be used
     """
     check_choice("needs", needs, NEEDS)
     threads = check_threads(threads)
@@ -130,6 +127,8 @@ def transits(
 ) -> dict[str, np.ndarray]:
     """Follow every part along tracks of several lengths, on each until it arrives or its longest time has passed.
 
+    ValueError names the argument that cannot be used.
+
     Parameters
     ----------
     parameters : float64, shape (n, 16), rows as from model.pack
@@ -144,11 +143,6 @@ def transits(
     late, shape (n, k); `velocity` (m/s), of late parts what they have travelled over the longest time, shape (n, k);
     `impact_speed` (m/s) and `peak_force` (N), the largest ones from `begin` on, NaN for parts that arrive earlier,
     shape (n,); `status`, shape (n,): "ok", or why the run ended early. Numbers of failed runs are NaN.
-
-    Raises
-    ------
-    ValueError
-        names the argument that cannot be used
     """
     lengths = check_array("lengths", lengths, np.finfo(np.float64).tiny, np.inf, "m")
     longest = check_array("longest", longest, np.finfo(np.float64).tiny, LONGEST, "s")

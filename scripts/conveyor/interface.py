@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import ensemble
+from . import arguments, ensemble
 from .analysis import stroboscopic_map
 from .analysis.attractors import labels, search
 from .analysis.attractors.labels import Labels
@@ -22,18 +22,7 @@ from .analysis.chaos import lyapunov
 from .analysis.chaos.lyapunov import Spectrum
 from .analysis.fractals import box_counting, correlation_sum
 from .analysis.fractals.scaling_region import Dimension
-from .arguments import (
-    LARGEST_COORDINATE,
-    MOST_CYCLES,
-    check_array,
-    check_count,
-    check_number,
-    check_parameters,
-    check_threads,
-    check_time,
-    check_tolerance,
-    check_type,
-)
+from .arguments import LARGEST_COORDINATE, MOST_CYCLES
 from .parameters import RANGES
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE
 from .solver.model import Conveyor, Start, pack, set_columns
@@ -70,9 +59,9 @@ class Basin(NamedTuple):
 
 def pack_all(conveyor: Conveyor, start: Start, values: dict[str, ArrayLike]) -> tuple[np.ndarray, tuple[int, ...]]:
     """Packed parameters, shape (n, 16), one row for each point of the `values`, and the shape of the points."""
-    check_type("conveyor", conveyor, Conveyor)
-    check_type("start", start, Start)
-    arrays = check_parameters(values, AXES)
+    arguments.check_type("conveyor", conveyor, Conveyor)
+    arguments.check_type("start", start, Start)
+    arrays = arguments.check_parameters(values, AXES)
     shape = next(iter(arrays.values())).shape if arrays else ()
     columns = {{"z": "z0", "vz": "vz0"}.get(name, name): array.ravel() for name, array in arrays.items()}
     if conveyor.static_friction is not None:
@@ -126,7 +115,7 @@ def sweep(
     True
     """
     rows, shape = pack_all(conveyor, start, values)
-    duration = check_time("duration", duration)
+    duration = arguments.check_time("duration", duration)
     options = {"duration": duration, "method": method, "tolerance": tolerance, "step": step, "threads": threads}
     return reshape(Runs(**ensemble.run(rows, **options)), shape)
 
@@ -163,8 +152,8 @@ def classify(
     >>> list(zip(found.state.tolist(), found.period.tolist()))
     [('second', 1), ('second', 2), ('chaos', 0)]
     """
-    cycles = check_count("cycles", cycles, 1, MOST_CYCLES)
-    tolerance, threads = check_tolerance(tolerance), check_threads(threads)
+    cycles = arguments.check_count("cycles", cycles, 1, MOST_CYCLES)
+    tolerance, threads = arguments.check_tolerance(tolerance), arguments.check_threads(threads)
     rows, shape = pack_all(conveyor, start, values)
     return reshape(labels.classify(rows, cycles=cycles, tolerance=tolerance, threads=threads), shape)
 
@@ -204,20 +193,17 @@ def basin(
     >>> found.state[:, 0].tolist()
     ['first', 'second', 'second']
     """
-    check_type("conveyor", conveyor, Conveyor)
-    heights, speeds = (
-        np.atleast_1d(check_array(name, values, *RANGES[f"{name}0"], unit))
-        for name, values, unit in (("z", z, "m"), ("vz", vz, "m/s"))
-    )
+    heights, speeds = np.atleast_1d(arguments.check_numbers("z", z), arguments.check_numbers("vz", vz))
     for name, array in (("z", heights), ("vz", speeds)):
         if array.ndim > 1:
             raise ValueError(f"{name} must be a number or of shape (n,), got the shape {array.shape}")
-    cycles = check_count("cycles", cycles, 1, MOST_CYCLES)
-    tolerance, threads = check_tolerance(tolerance), check_threads(threads)
+    cycles = arguments.check_count("cycles", cycles, 1, MOST_CYCLES)
+    tolerance, threads = arguments.check_tolerance(tolerance), arguments.check_threads(threads)
     rows, shape = pack_all(conveyor, AT_REST, {"z": heights[:, None], "vz": speeds})
     attractors = search.find_attractors(rows[:1], cycles=cycles, tolerance=tolerance, threads=threads)
     found = labels.classify(rows, cycles=cycles, attractors=attractors, tolerance=tolerance, threads=threads)
-    return Basin(heights, speeds, found.state.reshape(shape), found.period.reshape(shape))
+    grid = heights.astype(np.float64), speeds.astype(np.float64)
+    return Basin(*grid, found.state.reshape(shape), found.period.reshape(shape))
 
 
 def lyapunov_spectrum(
@@ -290,8 +276,8 @@ def periodic_orbit(
     >>> orbit.period, orbit.impacts, orbit.stable
     (1, 1, True)
     """
-    period = check_count("period", period, 1, LARGEST_PERIOD)
-    transient = check_count("transient", transient, 0, MOST_CYCLES)
+    period = arguments.check_count("period", period, 1, LARGEST_PERIOD)
+    transient = arguments.check_count("transient", transient, 0, MOST_CYCLES)
     rows, _ = pack_all(conveyor, start, {})
     (state,) = stroboscopic_map.initial_states(rows, periodic_orbits.TOLERANCE)
     stroboscopic_map.follow(rows[0], periodic_orbits.TOLERANCE, state, transient)
@@ -324,18 +310,18 @@ def continue_orbit(conveyor: Conveyor, orbit: Orbit, *, low: float, high: float)
     >>> [(point.kind, round(point.orbit.acceleration, 2)) for point in branch.bifurcations]
     [('period_doubling', 54.22)]
     """
-    check_type("conveyor", conveyor, Conveyor)
-    check_type("orbit", orbit, Orbit)
-    acceleration = check_number("orbit.acceleration", orbit.acceleration, *RANGES["acceleration"], "m/s²")
-    check_count("orbit.period", orbit.period, 1, LARGEST_PERIOD)
-    check_count("orbit.impacts", orbit.impacts, 0, LARGEST_PERIOD * MOST_CYCLES)
+    arguments.check_type("conveyor", conveyor, Conveyor)
+    arguments.check_type("orbit", orbit, Orbit)
+    acceleration = arguments.check_number("orbit.acceleration", orbit.acceleration, *RANGES["acceleration"], "m/s²")
+    arguments.check_count("orbit.period", orbit.period, 1, LARGEST_PERIOD)
+    arguments.check_count("orbit.impacts", orbit.impacts, 0, LARGEST_PERIOD * MOST_CYCLES)
     if np.shape(orbit.multipliers) != (2,) or np.asarray(orbit.multipliers).dtype.kind not in "iufc":
         raise ValueError(f"orbit.multipliers must be two numbers, got {orbit.multipliers!r}")
-    state = check_array("orbit.state", orbit.state, -LARGEST_COORDINATE, LARGEST_COORDINATE)
+    state = arguments.check_array("orbit.state", orbit.state, -LARGEST_COORDINATE, LARGEST_COORDINATE)
     if state.shape != (2,):
         raise ValueError(f"orbit.state must be δ (m) and v (m/s), got the shape {state.shape}")
-    low = check_number("low", low, RANGES["acceleration"][0], acceleration, "m/s²")
-    high = check_number("high", high, acceleration, RANGES["acceleration"][1], "m/s²")
+    low = arguments.check_number("low", low, RANGES["acceleration"][0], acceleration, "m/s²")
+    high = arguments.check_number("high", high, acceleration, RANGES["acceleration"][1], "m/s²")
     parameters = pack(conveyor, AT_REST)
     if not continuation.is_orbit(parameters, orbit):
         raise ValueError("orbit is no orbit of this conveyor; find one with periodic_orbit(conveyor, ...)")
@@ -393,12 +379,12 @@ def correlation_dimension(points: ArrayLike, theiler: int = 0) -> Dimension:
     True
     """
     points = check_points(points)
-    return correlation_sum.correlation_dimension(points, check_count("theiler", theiler, 0, len(points) - 1))
+    return correlation_sum.correlation_dimension(points, arguments.check_count("theiler", theiler, 0, len(points) - 1))
 
 
 def check_points(points: ArrayLike) -> np.ndarray:
     """`points` as a float64 array of the shape (n, 2); ValueError for another shape or values not finite."""
-    points = check_array("points", points, -LARGEST_COORDINATE, LARGEST_COORDINATE)
+    points = arguments.check_array("points", points, -LARGEST_COORDINATE, LARGEST_COORDINATE)
     if points.ndim != 2 or points.shape[1] != 2:
         raise ValueError(f"points must have the shape (n, 2), got {points.shape}")
     return points

@@ -16,31 +16,13 @@ import math
 
 import numpy as np
 
-from ..solver import contact, contact_law, polynomial
+from ..solver import contact, contact_law, polynomial, vertical
 from ..solver.contact_law import FIRST, row_of
 from ..solver.jit import compiled, compiled_inline, copy
 from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
 from ..solver.polynomial import ORDER, SIZE
-from ..solver.trajectory import (
-    IMPACT_LOST,
-    MAX_PIECES,
-    NOT_FINITE,
-    OK,
-    TOO_STIFF,
-)
-from ..solver.vertical import (
-    CONTACT,
-    FLIGHT,
-    IMPACT,
-    LIMIT,
-    LOST,
-    arrive,
-    begin,
-    cut_step,
-    is_finite,
-    motion_at,
-    next_piece,
-)
+from ..solver.trajectory import IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF
+from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST
 
 # Longest period of a motion that is looked for, in excitation cycles.
 MAX_PERIOD = 64
@@ -57,7 +39,7 @@ def initial_states(parameters, tolerance):
     states = np.empty((len(parameters), 2))
     for i in range(len(parameters)):
         c = contact.constants(parameters[i], tolerance)
-        q, rate = begin(c, parameters[i, Z0], parameters[i, VZ0], c.psi0)
+        q, rate = vertical.begin(c, parameters[i, Z0], parameters[i, VZ0], c.psi0)
         states[i, 0], states[i, 1] = -q, -rate
     return states
 
@@ -141,7 +123,7 @@ def advance_tangent(c, series, tangent, expansions, motion, piece):
     longest = tangent_length(c, expansions)
     if longest < piece.length:
         duration = polynomial.value(series, FIRST + contact_law.T, longest)
-        piece = cut_step(series, FIRST, longest, duration, contact.NOTHING)
+        piece = vertical.cut_step(series, FIRST, longest, duration, contact.NOTHING)
     for i in range(tangent.shape[0]):
         tangent[i, 0] = polynomial.value(expansions[i, ETA], 0, piece.length)
         tangent[i, 1] = polynomial.value(expansions[i, ZETA], 0, piece.length)
@@ -188,11 +170,11 @@ def advance(c, series, state, phase, duration, tangent, features):
     # Numbers of both perturbations lie side by side, so that one instruction works on both.
     expansions = np.zeros((SIZE, 3, tangent.shape[0])).T
     features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = 0.0
-    motion = motion_at(c, -state[0], -state[1], 0.0, phase)
+    motion = vertical.motion_at(c, -state[0], -state[1], 0.0, phase)
     if motion.pulled:
         switch_damping(c, tangent, True)
     for _ in range(MAX_PIECES):
-        piece = next_piece(c, series, FIRST, motion, duration - motion.t)
+        piece = vertical.next_piece(c, series, FIRST, motion, duration - motion.t)
         piece = advance_tangent(c, series, tangent, expansions, motion, piece)
         if piece.kind == FLIGHT:
             if piece.end == LOST:
@@ -204,8 +186,8 @@ def advance(c, series, state, phase, duration, tangent, features):
                 features[AIRBORNE] = 0.0
         elif piece.kind == CONTACT and not (motion.pulled and c.tension == TENSION_CLIP):
             features[CONTACT_TIME] += piece.duration
-        motion = arrive(c, motion, piece, phase)
-        if not is_finite(motion):
+        motion = vertical.arrive(c, motion, piece, phase)
+        if not vertical.is_finite(motion):
             return NOT_FINITE
         if piece.end == LIMIT:
             if motion.pulled:

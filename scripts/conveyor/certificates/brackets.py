@@ -31,10 +31,7 @@ class Bracket(NamedTuple):
 def check_within(zero: Zero, branch: Zero) -> None:
     """Prove that a zero lies on a branch: its parameter value lies in the ball of the branch's parameter values.
 
-    Raises
-    ------
-    Refused
-        if the zero's enclosure is not inside the box that contains exactly one zero for each of these values
+    Refused if the zero's enclosure is not inside the box that contains exactly one zero for each of these values.
     """
     pairs = zip(branch.box.entries(), zero.enclosure.entries(), strict=True)
     if not all(box.contains(point) for box, point in pairs):

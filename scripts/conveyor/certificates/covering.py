@@ -62,12 +62,9 @@ def carry_set(system: System, centre: arb_mat, deviation: arb_mat) -> tuple[arb_
 def check_covering(image: tuple[arb_mat, arb_mat], source: Parallelogram, target: Parallelogram) -> None:
     """Prove that one parallelogram covers another.
 
-    image : of the centre of `source`, and the derivative over all of it, as from `carry_set`
+    Refused, with the side that is missed, if the proof fails.
 
-    Raises
-    ------
-    Refused
-        says which side is missed
+    image : of the centre of `source`, and the derivative over all of it, as from `carry_set`
     """
     point, matrix = image
     centre = target.axes.inv() * (point - target.centre)
@@ -87,10 +84,7 @@ def check_covering(image: tuple[arb_mat, arb_mat], source: Parallelogram, target
 def check_apart(one: Parallelogram, other: Parallelogram) -> None:
     """Prove that two parallelograms are disjoint.
 
-    Raises
-    ------
-    Refused
-        if they may have a point in common
+    Refused if they may have a point in common.
     """
     inverse = one.axes.inv()
     seen = inverse * (other.centre - one.centre) + inverse * other.axes * arb_mat([[UNIT], [UNIT]])

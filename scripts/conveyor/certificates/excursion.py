@@ -44,10 +44,7 @@ def differentiate(parameters: np.ndarray, amplitude: float, point: np.ndarray) -
 def find_saddle(parameters: np.ndarray, amplitude: float, point: np.ndarray) -> Saddle:
     """Multipliers and directions of a fixed point.
 
-    Raises
-    ------
-    Refused
-        if the fixed point is no saddle
+    Refused if the fixed point is no saddle.
     """
     multipliers, vectors = np.linalg.eig(differentiate(parameters, amplitude, point))
     if np.iscomplexobj(multipliers) or not np.abs(multipliers).max() > 1.0 > np.abs(multipliers).min():
@@ -82,10 +79,7 @@ def crossings(saddle: Saddle, longest: int) -> Iterator[tuple[int, float, float]
 def find_excursion(saddle: Saddle, longest: int) -> np.ndarray:
     """The shortest excursion that leaves along the unstable and returns along the stable direction, shape (n, 2).
 
-    Raises
-    ------
-    Refused
-        if no excursion of up to `longest` cycles returns
+    Refused if no excursion of up to `longest` cycles returns.
     """
     for cycles, low, high in crossings(saddle, longest):
         sign = project(saddle, leave(saddle, low, longest))[cycles, 0]
@@ -132,6 +126,8 @@ def plan_sets(
 ) -> tuple[np.ndarray, list[np.ndarray]]:
     """Centres and axes of parallelograms around a fixed point and along an excursion from it.
 
+    Refused if the point is no saddle, or no excursion is found.
+
     Parameters
     ----------
     parameters : packed conveyor
@@ -143,11 +139,6 @@ def plan_sets(
     Returns
     -------
     centres, axes : shape (n, 2), and n matrices of shape (2, 2); the first ones belong to the fixed point
-
-    Raises
-    ------
-    Refused
-        if the point is no saddle, or no excursion is found
     """
     saddle = find_saddle(parameters, fixed[2], fixed[:2])
     path = find_excursion(saddle, longest)

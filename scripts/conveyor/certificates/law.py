@@ -64,10 +64,7 @@ def read_angle(angle: float) -> arb:
 def law_of(conveyor: Conveyor) -> Law:
     """The law of a conveyor; each of its floats stands for its shortest decimal.
 
-    Raises
-    ------
-    ValueError
-        for a treatment of tension or an exponent with which the equations are not polynomial in w
+    ValueError for a treatment of tension or an exponent with which the equations are not polynomial in w.
     """
     if conveyor.tension != "allow":
         raise ValueError(f"certificates are for tension = allow, not {conveyor.tension}")

@@ -51,17 +51,14 @@ class _Contact(NamedTuple):
 def follow(system: System, begin: arb, end: arb, delta: arb, y: arb, columns: int = 0) -> Arrival:
     """The motion from the phase `begin` to the phase `end`, for all states and amplitudes of the given balls.
 
+    Refused if the order of events is not the same for all states and amplitudes, or an event grazes.
+
     Parameters
     ----------
     system : the motion at an amplitude, and the accuracy of its steps
     begin, end : phases, rad
     delta, y : state at `begin`
     columns : 0 for no derivative, 2 for the derivative by (δ, Y), 3 for the derivative by γ too
-
-    Raises
-    ------
-    Refused
-        if the order of events is not the same for all states and amplitudes, or an event grazes
     """
     matrix = arb_mat([[1, 0, 0][:columns], [0, 1, 0][:columns]])
     impacts: list[Impact] = []

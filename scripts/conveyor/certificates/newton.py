@@ -47,10 +47,7 @@ def exact(values: np.ndarray) -> arb_mat:
 def approximate_inverse(slope: arb_mat) -> arb_mat:
     """The inverse of a matrix in floating point; a preconditioner need not be exact.
 
-    Raises
-    ------
-    Refused
-        if the matrix is singular in floating point
+    Refused if the matrix is singular in floating point.
     """
     try:
         inverse = np.linalg.inv(midpoints(slope))
@@ -64,10 +61,7 @@ def approximate_inverse(slope: arb_mat) -> arb_mat:
 def correct(equations: Equations, near: Approximation, least: float) -> Approximation:
     """Improve an approximation until Newton's correction is within its own radius and `least`; nothing is proved here.
 
-    Raises
-    ------
-    Refused
-        if there is no zero nearby
+    Refused if there is no zero nearby.
     """
     last = math.inf
     for _ in range(CORRECTIONS):
@@ -107,12 +101,8 @@ def prove_zero(equations: Equations, near: Approximation, least: float) -> Zero:
     """Exactly one zero in a box around the centre of an approximation.
 
     The radii of the box are twice Newton's correction plus `least`. A parameter with a wide ball makes this correction
-    wide. If the image of the box does not lie inside the box, the box is enlarged to contain the image.
-
-    Raises
-    ------
-    Refused
-        if the box holds no zero, or no enlarged box contains its image
+    wide. If the image of the box does not lie inside the box, the box is enlarged to contain the image. Refused if the
+    box holds no zero, or no enlarged box contains its image.
     """
     centre, value, inverse = near
     radii = [2 * abs(step).upper() + least for step in (inverse * value).entries()]

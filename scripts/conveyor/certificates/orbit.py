@@ -69,10 +69,7 @@ class ProvedOrbit(NamedTuple):
     def multipliers(self) -> list[tuple[arb, arb]]:
         """Real and imaginary parts of both multipliers, the larger modulus first.
 
-        Raises
-        ------
-        Refused
-            if the proof does not show whether they are real, or which one has the larger modulus
+        Refused if the proof does not show whether they are real, or which one has the larger modulus.
         """
         half = self.trace / 2
         square = half * half - self.determinant
@@ -131,12 +128,7 @@ def check_period(orbit: ProvedOrbit) -> None:
     """Prove that the period n is the least period.
 
     The least period divides n. If it were smaller, n/p would be a period for some prime p, and states n/p cycles apart
-    would be equal.
-
-    Raises
-    ------
-    Refused
-        if the orbit may repeat itself earlier
+    would be equal. Refused if the orbit may repeat itself earlier.
     """
     period = orbit.shooting.period
     for prime in range(2, period + 1):
@@ -149,10 +141,7 @@ def check_period(orbit: ProvedOrbit) -> None:
 def check_near(orbit: ProvedOrbit, strobes: np.ndarray, closeness: float) -> float:
     """The distance between the orbit and approximate states at the beginnings of its cycles, in units of the law.
 
-    Raises
-    ------
-    Refused
-        if it is larger than `closeness`: the proof is for another orbit
+    Refused if it is larger than `closeness`: the proof is for another orbit.
     """
     enclosed = np.array([[float(value) for value in orbit.strobe(cycle)] for cycle in range(orbit.shooting.period)])
     distance = float(np.abs(enclosed - strobes).max())

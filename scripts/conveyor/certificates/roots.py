@@ -19,6 +19,8 @@ def bracket_first_root(
 ) -> tuple[arb, arb] | None:
     """Ends of an interval that holds the first zero in (0, end]; None if there is none, by proof.
 
+    Refused where no sign can be proved: the function grazes zero, or the enclosures are too wide.
+
     Parameters
     ----------
     value, slope : enclosures of the function and of its derivative over a ball of arguments
@@ -29,11 +31,6 @@ def bracket_first_root(
     Returns
     -------
     low, high : exact; the function is positive on (0, low], falls on [low, high] and is negative at `high`
-
-    Raises
-    ------
-    Refused
-        where no sign can be proved: the function grazes zero, or the enclosures are too wide
     """
     low, length = arb(0), end
     while rises_from_zero:

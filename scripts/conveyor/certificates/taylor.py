@@ -100,18 +100,13 @@ def expand(system: System, initial: Sequence[arb], columns: int) -> tuple[list[a
 
     Picard's operator T(x) = x0 + ∫ rates(x) ds is applied once to the candidates from `double_double`. If they contain
     the result, they contain the exact coefficients: the first coefficient is given, and the coefficient of order n + 1
-    of T follows from the coefficients up to order n. The result then contains the exact coefficients, too.
+    of T follows from the coefficients up to order n. The result then contains the exact coefficients, too. ValueError
+    if the context (see balls.precision) truncates series before this order, which would make the remainder wrong.
+    Refused if the candidates do not contain the result.
 
     Returns
     -------
     series, and bounds on the moduli of their coefficients, float64, shape (components, order + 1)
-
-    Raises
-    ------
-    ValueError
-        if the context (see balls.precision) truncates series before this order, which would make the remainder wrong
-    Refused
-        if the candidates do not contain the result
     """
     law, gamma, (order, _) = system
     if ctx.cap <= order:
@@ -179,16 +174,13 @@ def bound_remainders(
 def make_step(system: System, initial: Sequence[arb], columns: int) -> Step:
     """A step of the contact with proved remainders.
 
+    Refused if no length is found for which the remainder has a bound.
+
     Parameters
     ----------
     system : the motion at an amplitude, and the accuracy of its steps
     initial : w, Y and φ; the step holds for all points of these balls
     columns : 0; 2 for the derivative by (δ, Y); 3 for the derivative by γ too
-
-    Raises
-    ------
-    Refused
-        if no length is found for which the remainder has a bound
     """
     w, y, phase = initial
     sine, cosine = phase.sin_cos()

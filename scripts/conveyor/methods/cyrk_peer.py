@@ -7,24 +7,25 @@ ends a solve, and `peers` chooses the next mode.
 
 import numpy as np
 
-from .leg import Leg, Mode, Task
+from .leg import Leg, Task
+from .modes import counted_rates, terminal_events
 
 # Evaluations in a step of the cheapest method. The limit of evaluations divided by it is a limit of steps.
 FEWEST = 6
 
 
-def follow(method: str, mode: Mode, task: Task) -> Leg:
-    """Follow one leg by a `method` of CyRK."""
+def follow(method: str, parameters: np.ndarray, mode: int, task: Task) -> Leg:
+    """Follow one leg in a mode by a `method` of CyRK."""
     from CyRK import pysolve_ivp
 
-    parameters = mode.counting_parameters()
+    counting = np.append(parameters, 0.0)
     found = pysolve_ivp(
-        mode.counted_rates,
+        counted_rates,
         (task.t, task.end),
         task.state,
         method=method,
-        events=mode.terminal_events() or None,
-        args=(parameters, mode.number),
+        events=terminal_events(parameters, mode) or None,
+        args=(counting, mode),
         rtol=task.rtol,
         atol=task.atol,
         max_num_steps=task.limit // FEWEST + 1,
@@ -35,4 +36,4 @@ def follow(method: str, mode: Mode, task: Task) -> Leg:
     passed = task.times[task.times <= t]
     samples = found.call_vectorize(passed).T if len(passed) else np.empty((0, 4))
     ended = found.event_terminate_index if found.success and found.event_terminated else None
-    return Leg(t, found.y[:, -1].copy(), ended, samples, int(parameters[-1]))
+    return Leg(t, found.y[:, -1].copy(), ended, samples, int(counting[-1]))

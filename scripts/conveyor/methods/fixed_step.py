@@ -264,10 +264,8 @@ def prepare(parameters, method, memory, lane):
     memory[OMEGA, lane], memory[PSI0, lane] = omega, parameters[model.PSI0]
     memory[PLATE_Z, lane], memory[PLATE_VZ, lane] = a_z / (omega * omega), a_z / omega
     memory[PLATE_VX, lane], memory[PLATE_AX, lane] = a_x / omega, a_x
-    memory[STIFFNESS, lane], memory[DAMPING, lane] = (
-        parameters[model.STIFFNESS] / mass,
-        parameters[model.DAMPING] / mass,
-    )
+    memory[STIFFNESS, lane] = parameters[model.STIFFNESS] / mass
+    memory[DAMPING, lane] = parameters[model.DAMPING] / mass
     memory[EXPONENT, lane] = parameters[model.EXPONENT]
     memory[FRICTION, lane] = parameters[model.FRICTION]
     memory[STATIC_FRICTION, lane] = parameters[model.STATIC_FRICTION]
@@ -423,10 +421,7 @@ class Summary(NamedTuple):
 def step_count(duration: float, step: float) -> int:
     """The number of steps (s) in `duration` (s).
 
-    Raises
-    ------
-    ValueError
-        if either is not a time in (0, LONGEST], or if the duration is no whole number of steps
+    ValueError if either is not a time in (0, LONGEST], or if the duration is no whole number of steps.
     """
     duration, step = check_time("duration", duration), check_time("step", step)
     count = round(duration / step)
@@ -475,17 +470,15 @@ def run(parameters: np.ndarray, duration: float, step: float, method: str = "eul
 def run_all(parameters: np.ndarray, duration: float, step: float, method: str = "euler") -> list[Summary]:
     """Integrate trajectories from t = 0; together they take less time than one by one, with the same bits.
 
+    ValueError for a duration or step outside (0, LONGEST], a duration that is no whole number of steps, or an unknown
+    method.
+
     Parameters
     ----------
     parameters : float64, shape (n, 16), rows from `model.pack`
     duration : s, a whole number of steps
     step : Δt, s
     method : one of METHODS
-
-    Raises
-    ------
-    ValueError
-        for a duration or step outside (0, LONGEST], a duration that is no whole number of steps, or an unknown method
     """
     n_steps = step_count(duration, step)
     first = min(round((1.0 - LAST) * n_steps), n_steps - 1)
@@ -504,18 +497,14 @@ def run_all(parameters: np.ndarray, duration: float, step: float, method: str = 
 def sample(parameters: np.ndarray, times: np.ndarray, step: float, method: str = "euler") -> dict[str, np.ndarray]:
     """States and forces of one trajectory at the steps nearest to `times` (s, not negative, any shape and order).
 
-    The other parameters are as in `run`.
+    The other parameters are as in `run`. ValueError for a negative time, a step that is not positive or an unknown
+    method.
 
     Returns
     -------
     dict
         x, z (m), vx, vz (m/s), contact_force, friction_force (N), float64, shape of `times`; NaN after a state that is
         not finite
-
-    Raises
-    ------
-    ValueError
-        for a negative time, a step that is not positive or an unknown method
     """
     times, step = check_array("times", times, 0.0, LONGEST, "s", least=0), check_time("step", step)
     indices, place = np.unique(np.rint(times / step).astype(np.int64), return_inverse=True)

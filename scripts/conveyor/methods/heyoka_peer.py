@@ -11,7 +11,8 @@ import numpy as np
 
 from ..solver.contact_law import spring_and_damper
 from ..solver.model import EXPONENT, PARAMETERS, TENSION, TENSION_ALLOW
-from .leg import BACKWARD, FLIGHT, FORWARD, STICK, Leg, Mode, Task
+from .leg import BACKWARD, FLIGHT, FORWARD, STICK, Leg, Task
+from .modes import ENDS
 
 
 @lru_cache(maxsize=64)
@@ -53,12 +54,11 @@ def systems(exponent: float, tolerance: float) -> dict[int, Any]:
     }
 
 
-def follow(mode: Mode, task: Task) -> Leg:
-    """Follow one leg. A step of order n counts n evaluations: it finds n derivatives of the force."""
-    parameters = mode.parameters
+def follow(parameters: np.ndarray, mode: int, task: Task) -> Leg:
+    """Follow one leg in a mode. A step of order n counts n evaluations: it finds n derivatives of the force."""
     if parameters[TENSION] != TENSION_ALLOW:
         raise ValueError("heyoka follows the contact with tension = allow only")
-    integrator = systems(float(parameters[EXPONENT]), task.rtol)[mode.number]
+    integrator = systems(float(parameters[EXPONENT]), task.rtol)[mode]
     integrator.pars[:] = parameters[: len(integrator.pars)]
     integrator.time = task.t
     integrator.state[:] = task.state
@@ -70,7 +70,7 @@ def follow(mode: Mode, task: Task) -> Leg:
     state, evaluations = integrator.state.copy(), steps * integrator.order
     # Outcomes from -1 downwards are the numbers of terminal events.
     event = -1 - int(outcome)
-    ended = min(event, len(mode.ends) - 1) if event < len(integrator.t_events) else None
+    ended = min(event, len(ENDS[mode]) - 1) if event < len(integrator.t_events) else None
     if not np.isfinite(state).all():
         return Leg(task.t, state, None, np.empty((0, 4)), evaluations)
     passed = task.times[task.times <= integrator.time]

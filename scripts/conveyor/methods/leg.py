@@ -1,6 +1,5 @@
 """Input and output of an integrator that follows the motion in one mode: flight, slip forward or backward, stick."""
 
-from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -15,33 +14,6 @@ OK, GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST, NOT_FINITE, NOT_INSTALLED = STAT
 
 class Failed(Exception):
     """A run does not reach its end; the arguments are its status and the evaluations of the leg that has not ended."""
-
-
-class Mode(NamedTuple):
-    """The equations of motion in one mode, and the events that end it."""
-
-    counted_rates: Callable  # (derivatives, t, state, parameters, mode): fills derivatives, counts in parameters[-1]
-    parameters: np.ndarray  # from `model.pack`, shape (16,)
-    number: int  # of the mode, the last argument of `counted_rates`
-    ends: Sequence[tuple[Callable, float]]  # event functions (t, state, parameters), and the directions of their zeros
-
-    def counting_parameters(self) -> np.ndarray:
-        """The parameters with a counter behind them, which is zero, shape (17,)."""
-        return np.append(self.parameters, 0.0)
-
-    def terminal_events(self) -> list[Callable]:
-        """The events as functions (t, state, …) that end a solve, with the attributes that scipy and CyRK read."""
-        return [terminal_event(function, self.parameters, direction) for function, direction in self.ends]
-
-
-def terminal_event(function: Callable, parameters: np.ndarray, direction: float) -> Callable:
-    """An event that ends a solve where a `function` of (t, state, parameters) passes zero in a direction."""
-
-    def event(t, state, *_):
-        return function(t, state, parameters)
-
-    event.terminal, event.direction = True, int(direction)
-    return event
 
 
 class Task(NamedTuple):
@@ -61,6 +33,6 @@ class Leg(NamedTuple):
 
     t: float  # s, where it stopped
     state: np.ndarray  # x, ẋ, z, ż there, shape (4,)
-    ended: int | None  # the event that ended it, a place among the mode's `ends`; None where there is none
+    ended: int | None  # the event that ended it, a place among modes.ENDS of the mode; None where there is none
     samples: np.ndarray  # states at the wanted times up to `t`, shape (k, 4)
     evaluations: int  # of the right-hand side

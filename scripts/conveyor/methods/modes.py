@@ -106,6 +106,19 @@ ENDS: dict[int, tuple[tuple[Callable, float], ...]] = {
 }
 
 
+def terminal_events(parameters: np.ndarray, mode: int) -> list[Callable]:
+    """The events of a mode as functions (t, state, …) that end a solve, with the attributes of scipy and CyRK."""
+
+    def terminal(function, direction):
+        def event(t, state, *_):
+            return function(t, state, parameters)
+
+        event.terminal, event.direction = True, int(direction)
+        return event
+
+    return [terminal(*end) for end in ENDS[mode]]
+
+
 def next_mode(parameters: np.ndarray, t: float, state: np.ndarray, ended: Callable | None, mode: int) -> int:
     """The mode that follows `mode` after the event `ended`; None for both at the start."""
     z, _, vx, _ = plate_motion(parameters, t)

@@ -13,6 +13,7 @@ The right-hand sides are compiled, so that methods are compared, not Python with
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -21,14 +22,12 @@ import numpy as np
 from ..parameters import LAST
 from ..solver import model
 from . import cyrk_peer, heyoka_peer, scipy_peer, sundials_peer
-from .leg import GAVE_UP, NOT_FINITE, NOT_INSTALLED, OK, SIGN, STEP_TOO_SMALL, STUCK, Failed, Leg, Mode, Task
-from .modes import ENDS, counted_rates, gap_of, next_mode, plate_motion, put_beside, scales
+from .leg import GAVE_UP, NOT_FINITE, NOT_INSTALLED, OK, SIGN, STEP_TOO_SMALL, STUCK, Failed, Leg, Task
+from .modes import ENDS, gap_of, next_mode, plate_motion, put_beside, scales
 from .rivals import RIVALS, installed_version
 
 HEYOKA = "heyoka"
-INTEGRATORS = tuple(RIVALS)
 TREATMENTS = ("sign", "events", "modes")
-NO_TIMES = np.empty(0)
 
 # Where "modes" puts the variable of an event, in units of the plate's motion: a few rounding errors beside zero. At
 # zero or on the wrong side the integrator finds the same event again, or never again, and the part falls through.
@@ -70,18 +69,18 @@ class Trajectory:
 
 def leg_of(trajectory: Trajectory, task: Task) -> Leg:
     """Follow the part in its present mode by the trajectory's integrator."""
-    number = trajectory.mode
-    mode = Mode(counted_rates, trajectory.parameters, number, ENDS[number])
+    parameters, mode = trajectory.parameters, trajectory.mode
     _, module, method, _ = RIVALS[trajectory.integrator]
     if module == "scipy":
-        return scipy_peer.follow(method, mode, task)
+        return scipy_peer.follow(method, parameters, mode, task)
     if module == "CyRK":
-        return cyrk_peer.follow(method, mode, task)
+        return cyrk_peer.follow(method, parameters, mode, task)
     if module == "heyoka":
-        return heyoka_peer.follow(mode, task)
-    if number not in trajectory.solvers:
-        trajectory.solvers[number] = sundials_peer.solver_of(method, mode, task._replace(limit=trajectory.limit))
-    return sundials_peer.follow(trajectory.solvers[number], task)
+        return heyoka_peer.follow(parameters, mode, task)
+    if mode not in trajectory.solvers:
+        whole = task._replace(limit=trajectory.limit)
+        trajectory.solvers[mode] = sundials_peer.solver_of(method, parameters, mode, whole)
+    return sundials_peer.follow(trajectory.solvers[mode], task)
 
 
 def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, treatment: str, rtol: float):
@@ -127,28 +126,25 @@ def run(
     treatment: str,
     tolerance: float,
     max_evaluations: int,
-    times: np.ndarray = NO_TIMES,
+    times: Sequence[float] = (),
 ) -> Summary:
     """Integrate one trajectory from t = 0.
+
+    ValueError for an unknown integrator or treatment.
 
     Parameters
     ----------
     parameters : float64, shape (16,), from `model.pack`
     duration : s
-    integrator : one of INTEGRATORS
+    integrator : one of RIVALS
     treatment : one of TREATMENTS; heyoka knows "modes" only
     tolerance : relative tolerance; the absolute one is `tolerance` times `scales`
     max_evaluations : of the right-hand side, after which a run is given up
     times : s, ascending, above 0 and within the duration, at which states are wanted: they are interpolated (CVODE
         chooses the first step of a leg by the first of them)
-
-    Raises
-    ------
-    ValueError
-        for an unknown integrator or treatment
     """
-    if integrator not in INTEGRATORS or treatment not in TREATMENTS:
-        raise ValueError(f"{integrator!r} with {treatment!r} is none of {INTEGRATORS} with {TREATMENTS}")
+    if integrator not in RIVALS or treatment not in TREATMENTS:
+        raise ValueError(f"{integrator!r} with {treatment!r} is none of {tuple(RIVALS)} with {TREATMENTS}")
     if integrator == HEYOKA and treatment != "modes":
         raise ValueError(f"heyoka handles events by modes, not by {treatment}")
     trajectory = Trajectory(parameters, integrator, max_evaluations, np.asarray(times, dtype=np.float64))

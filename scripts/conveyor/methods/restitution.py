@@ -16,12 +16,7 @@ def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
     """Speed of separation over `speed` of approach (m/s) in the compliant contact, without gravity and excitation.
 
     The solver's contact steps follow the impact. The coefficient is 0 if the contact is so damped that it creeps back
-    without a separation.
-
-    Raises
-    ------
-    ArithmeticError
-        if the impact does not end within MAX_CONTACT_STEPS
+    without a separation. ArithmeticError if the impact does not end within MAX_CONTACT_STEPS.
     """
     alone = contact.constants(parameters, CONTACT_TOLERANCE)._replace(gravity=0.0, a_z=0.0, scale_v=speed)
     share = 1.0 / (alone.exponent + 1.0)

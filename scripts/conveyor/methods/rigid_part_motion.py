@@ -20,17 +20,8 @@ from ..solver.flight import Flight, gap, highest_gap, next_impact
 from ..solver.horizontal import slide
 from ..solver.jit import compiled, compiled_into_callers, copy
 from ..solver.trajectory import IMPACT_LOST, OK, STATUS, TOO_MANY_EVENTS
+from . import rigid_part_rest
 from .restitution import restitution_at
-from .rigid_part_rest import (
-    plate_height,
-    plate_rise,
-    plate_speed,
-    rest_end,
-    rest_motion,
-    slip_direction,
-    slip_end,
-    stick_end,
-)
 
 SAMPLE_COLUMNS = ("x", "vx", "z", "vz")
 IMPACT_DTYPE = np.dtype([("time", np.float64), ("speed", np.float64)])
@@ -59,9 +50,9 @@ def safe_flight(theta, omega):
 @compiled_into_callers
 def first_motion(c, z0, vz0, theta):
     """The Motion at an initial condition (m, m/s, rad)."""
-    z = plate_height(c, theta)
+    z = rigid_part_rest.plate_height(c, theta)
     q = max(z0 - z, 0.0) if z0 == z0 else 0.0  # z0 is NaN for a part that starts on the plate
-    rate = vz0 - plate_rise(c, theta)
+    rate = vz0 - rigid_part_rest.plate_rise(c, theta)
     kind = ARRIVING if q == 0.0 and rate <= 0.0 else FLYING
     return Motion(kind, 0.0, 0.0, 0.0, z + q, vz0, q, rate, 0.0)
 
@@ -79,18 +70,18 @@ def bounce(c, motion, theta, coefficient):
     rate = coefficient * speed
     vx = motion.vx
     bound = c.friction * (1.0 + coefficient) * speed
-    slip = plate_speed(c, theta) - vx
+    slip = rigid_part_rest.plate_speed(c, theta) - vx
     if abs(slip) <= bound:
         vx += slip
         slip = 0.0
     else:
         vx += math.copysign(bound, slip)
     pressure = c.gravity + c.a_z * math.cos(theta)
-    sigma = slip_direction(c, theta, slip)
+    sigma = rigid_part_rest.slip_direction(c, theta, slip)
     if pressure > 0.0 and 2.0 * c.omega * rate <= COLLAPSE * pressure:
         return rest(motion.x, vx, sigma)
     skip = 0.0 if pressure > 0.0 else safe_flight(theta, c.omega)
-    z, vz = plate_height(c, theta), plate_rise(c, theta) + rate
+    z, vz = rigid_part_rest.plate_height(c, theta), rigid_part_rest.plate_rise(c, theta) + rate
     return Motion(FLYING, motion.x, vx, sigma, z, vz, 0.0, rate, skip)
 
 
@@ -100,26 +91,26 @@ def rest_duration(c, motion, theta, left):
 
     left : remaining time of the run (s)
     """
-    leave = rest_end(c, theta) / c.omega
+    leave = rigid_part_rest.rest_end(c, theta) / c.omega
     if motion.sigma == 0.0:
-        change = stick_end(c, theta) / c.omega
+        change = rigid_part_rest.stick_end(c, theta) / c.omega
     else:
-        slip = plate_speed(c, theta) - motion.vx
-        change = slip_end(c, theta, slip, motion.sigma, c.omega * min(leave, left)) / c.omega
+        slip = rigid_part_rest.plate_speed(c, theta) - motion.vx
+        change = rigid_part_rest.slip_end(c, theta, slip, motion.sigma, c.omega * min(leave, left)) / c.omega
     return min(leave, change), leave <= change
 
 
 @compiled_into_callers
 def end_rest(c, motion, theta, tau, leaves):
     """The Motion after a rest of `tau` (s), which the plate ends if it `leaves` the part."""
-    x, vx = rest_motion(c, theta, motion.x, motion.vx, motion.sigma, tau)
+    x, vx = rigid_part_rest.rest_motion(c, theta, motion.x, motion.vx, motion.sigma, tau)
     theta += c.omega * tau
     if leaves:
-        z, vz = plate_height(c, theta), plate_rise(c, theta)
+        z, vz = rigid_part_rest.plate_height(c, theta), rigid_part_rest.plate_rise(c, theta)
         return Motion(FLYING, x, vx, motion.sigma, z, vz, 0.0, 0.0, safe_flight(theta, c.omega))
     if motion.sigma == 0.0:
         return rest(x, vx, math.copysign(1.0, friction.pull(c, math.sin(theta), math.cos(theta))))
-    return rest(x, plate_speed(c, theta), slip_direction(c, theta, 0.0))
+    return rest(x, rigid_part_rest.plate_speed(c, theta), rigid_part_rest.slip_direction(c, theta, 0.0))
 
 
 @compiled_into_callers
@@ -129,8 +120,10 @@ def sample_motion(c, motion, theta, base, t, tau, times, samples, sampled):
         ahead = times[sampled] - base - t
         if motion.kind == RESTING:
             phase = theta + c.omega * ahead
-            x, vx = rest_motion(c, theta, motion.x, motion.vx, motion.sigma, ahead)
-            copy(samples[sampled], (x, vx, plate_height(c, phase), plate_rise(c, phase)))
+            x, vx = rigid_part_rest.rest_motion(c, theta, motion.x, motion.vx, motion.sigma, ahead)
+            copy(
+                samples[sampled], (x, vx, rigid_part_rest.plate_height(c, phase), rigid_part_rest.plate_rise(c, phase))
+            )
         else:
             x, vx = slide(c, motion.x, motion.vx, ahead)
             z = motion.z + (motion.vz - 0.5 * c.gravity * ahead) * ahead
@@ -192,7 +185,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
                 q, rate = gap(flight, skip)
                 if q <= 0.0:
                     # The plate is back before it has really left.
-                    x, vx = rest_motion(c, theta, x, vx, sigma, skip)
+                    x, vx = rigid_part_rest.rest_motion(c, theta, x, vx, sigma, skip)
                     motion = rest(x, vx, sigma)
                     t += skip
                     continue
@@ -241,16 +234,13 @@ def _follow(parameters, restitution, times, n_impacts=0):
 def run(parameters: np.ndarray, duration: float, restitution) -> Summary:
     """Follow one rigid part from t = 0, at rest in x.
 
+    ValueError names the argument that cannot be used.
+
     Parameters
     ----------
     parameters : float64, shape (16,), from `model.pack`; stiffness, damping, mass, exponent and tension have no effect
     duration : s
     restitution : coefficient of restitution in [0, 1], or a pair of arrays (speeds of approach in m/s, coefficients)
-
-    Raises
-    ------
-    ValueError
-        names the argument that cannot be used
     """
     duration = check_time("duration", duration)
     times = np.array([(1.0 - LAST) * duration, duration])

@@ -123,10 +123,7 @@ def slip_direction(c, theta, slip):
     if slip != 0.0:
         return math.copysign(1.0, slip)
     sine, cosine = math.sin(theta), math.cos(theta)
-    pull = friction.pull(c, sine, cosine)
-    if abs(pull) <= c.static_friction * (c.gravity + c.a_z * cosine):
-        return 0.0
-    return math.copysign(1.0, pull)
+    return friction.direction_at_rest(c, friction.pull(c, sine, cosine), c.gravity + c.a_z * cosine, c.static_friction)
 
 
 @compiled

@@ -3,36 +3,34 @@
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from .leg import EVENT_LOST, GAVE_UP, Failed, Leg, Mode, Task
+from .leg import EVENT_LOST, GAVE_UP, Failed, Leg, Task
+from .modes import counted_rates, terminal_events
 
 
-def follow(method: str, mode: Mode, task: Task) -> Leg:
-    """Follow one leg by a `method` of solve_ivp.
+def follow(method: str, parameters: np.ndarray, mode: int, task: Task) -> Leg:
+    """Follow one leg in a mode by a `method` of solve_ivp.
 
-    Raises
-    ------
-    Failed
-        at the limit of evaluations, or if the interpolant of LSODA does not meet its own steps
+    Failed at the limit of evaluations, or if the interpolant of LSODA does not meet its own steps.
     """
-    parameters = mode.counting_parameters()
-    derivatives = np.empty(4)
+    counting, derivatives = np.append(parameters, 0.0), np.empty(4)
 
     def right_side(t, state):
-        if parameters[-1] >= task.limit:
+        if counting[-1] >= task.limit:
             raise Failed(GAVE_UP, task.limit)
-        mode.counted_rates(derivatives, t, state, parameters, mode.number)
+        counted_rates(derivatives, t, state, counting, mode)
         return derivatives.copy()
 
     options = {"method": method, "rtol": task.rtol, "atol": task.atol, "dense_output": len(task.times) > 0}
     try:
         # Radau's numerical Jacobian of a part that never moves sideways overflows; peers.run checks the result.
         with np.errstate(over="ignore", invalid="ignore"):
-            found = solve_ivp(right_side, (task.t, task.end), task.state, events=mode.terminal_events(), **options)
+            events = terminal_events(parameters, mode)
+            found = solve_ivp(right_side, (task.t, task.end), task.state, events=events, **options)
     except ValueError as error:
-        raise Failed(EVENT_LOST, int(parameters[-1])) from error
+        raise Failed(EVENT_LOST, int(counting[-1])) from error
     ended = None
     if found.status == 1:
         ended = next(place for place, times in enumerate(found.t_events) if len(times))
     passed = task.times[task.times <= found.t[-1]]
     samples = found.sol(passed).T if len(passed) else np.empty((0, 4))
-    return Leg(float(found.t[-1]), found.y[:, -1].copy(), ended, samples, int(parameters[-1]))
+    return Leg(float(found.t[-1]), found.y[:, -1].copy(), ended, samples, int(counting[-1]))

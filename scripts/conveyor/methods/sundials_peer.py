@@ -9,28 +9,29 @@ from typing import Any
 
 import numpy as np
 
-from .leg import Leg, Mode, Task
+from .leg import Leg, Task
+from .modes import counted_rates, terminal_events
 
 ROOT_FOUND = 2  # CV_ROOT_RETURN
 
 
-def solver_of(method: str, mode: Mode, task: Task) -> Any:
+def solver_of(method: str, parameters: np.ndarray, mode: int, task: Task) -> Any:
     """A solver of one mode by the `method` Adams or BDF, with the tolerances and the limit of a task."""
     from sksundae.cvode import CVODE
 
-    parameters = mode.counting_parameters()
+    counting = np.append(parameters, 0.0)
 
     def right_side(t, state, derivatives):
-        mode.counted_rates(derivatives, t, state, parameters, mode.number)
+        counted_rates(derivatives, t, state, counting, mode)
 
     def events(t, state, values):
         for place, event in enumerate(events.functions):
             values[place] = event(t, state)
 
-    events.functions = mode.terminal_events()
+    events.functions = terminal_events(parameters, mode)
     events.terminal = [event.terminal for event in events.functions]
     events.direction = [event.direction for event in events.functions]
-    watched = {"eventsfn": events, "num_events": len(mode.ends)} if mode.ends else {}
+    watched = {"eventsfn": events, "num_events": len(events.functions)} if events.functions else {}
     return CVODE(right_side, method=method, rtol=task.rtol, atol=task.atol, max_num_steps=task.limit, **watched)
 
 

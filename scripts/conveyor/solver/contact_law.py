@@ -81,12 +81,6 @@ def next_speed(inverse, w, cosine_w, spring, square, gravity, a_z, stiffness, da
     return fma(-damping, square, rate * inverse)
 
 
-@compiled_inline
-def is_hertz(c):
-    """Whether `expand_hertz` holds for this contact."""
-    return c.exponent == 1.5
-
-
 def hertz_source() -> str:
     """Source of `expand_hertz`, which fills the rows of a step for p = 3/2.
 
@@ -188,7 +182,7 @@ def expand(c, series, at, w0, v0, sine0, cosine0, free):
     """Fill the rows of a step from their values at s = 0; `free` leaves the contact force out."""
     stiffness = 0.0 if free else c.stiffness
     damping = 0.0 if free else c.damping
-    if is_hertz(c):
+    if c.exponent == 1.5:
         expand_one_hertz(w0, v0, sine0, cosine0, c.gravity, c.a_z, c.omega, stiffness, damping, series, at)
     else:
         expand_other(

@@ -21,24 +21,8 @@ import numpy as np
 
 from ..parameters import PARAMETERS, RANGES, TENSION_MODES, UNITS
 
-(
-    ACCELERATION,
-    ANGLE,
-    FREQUENCY,
-    PSI0,
-    STIFFNESS,
-    DAMPING,
-    FRICTION,
-    MASS,
-    EXPONENT,
-    GRAVITY,
-    INCLINATION,
-    PHASE_SHIFT,
-    STATIC_FRICTION,
-    TENSION,
-    Z0,
-    VZ0,
-) = range(len(PARAMETERS))
+ACCELERATION, ANGLE, FREQUENCY, PSI0, STIFFNESS, DAMPING, FRICTION, MASS = range(8)
+EXPONENT, GRAVITY, INCLINATION, PHASE_SHIFT, STATIC_FRICTION, TENSION, Z0, VZ0 = range(8, len(PARAMETERS))
 # The parameters of a Conveyor that are numbers, in this order.
 numbers_of = attrgetter(*PARAMETERS[:TENSION])
 TENSION_ALLOW, TENSION_FRICTIONLESS, TENSION_CLIP = range(len(TENSION_MODES))

@@ -32,9 +32,11 @@ def is_monotonic(c, motion, piece):
     return force_rate(c, motion.w, motion.v, motion.cosine) <= 0.0 and motion.w != 0.0
 
 
-@compiled_into_callers
-def largest_force(c, series, at, low, high):
-    """Largest F_c/m (m/s²) between the places `low` and `high` of a contact step."""
+@compiled
+def largest_force(c, series, at, piece, first, last):
+    """Largest F_c/m (m/s²) of a contact step between the times `first` and `last` (s) since it began."""
+    low = 0.0 if first <= 0.0 else invert_time(series, at, piece.length, first)
+    high = piece.length if last >= piece.duration else invert_time(series, at, piece.length, last)
     force_low, rate_low = force_and_rate(c, series, at, low)
     force_high, rate_high = force_and_rate(c, series, at, high)
     largest = max(force_low, force_high)
@@ -69,11 +71,3 @@ def largest_force(c, series, at, low, high):
             rate_low *= 0.5 if side == -1 else 1.0
             side = -1
     return largest
-
-
-@compiled
-def largest_force_between(c, series, at, piece, first, last):
-    """Largest F_c/m (m/s²) of a contact step between the times `first` and `last` (s) since it began."""
-    low = 0.0 if first <= 0.0 else invert_time(series, at, piece.length, first)
-    high = piece.length if last >= piece.duration else invert_time(series, at, piece.length, last)
-    return largest_force(c, series, at, low, high)

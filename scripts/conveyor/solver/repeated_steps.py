@@ -31,7 +31,7 @@ KeptSteps = namedtuple("KeptSteps", "series steps")
 
 def new_arrays() -> tuple[np.ndarray, np.ndarray]:
     """New arrays for the two fields of KeptSteps."""
-    return np.empty(FIRST + PLACES * STEP), np.full((PLACES, COLUMNS), np.inf)
+    return np.zeros(FIRST + PLACES * STEP), np.full((PLACES, COLUMNS), np.inf)
 
 
 @compiled_into_callers
@@ -41,24 +41,6 @@ def forget(kept):
         if kept.steps[place, BEGIN_T] == np.inf:
             break
         kept.steps[place, BEGIN_T] = np.inf
-
-
-@compiled_into_callers
-def clear(kept):
-    """Forget all steps, and zero the rows that all steps share."""
-    for k in range(FIRST):
-        kept.series[k] = 0.0
-    forget(kept)
-
-
-@compiled_into_callers
-def first_row(kept, place):
-    """The first row of a step's series. A place is zeroed when it is first used, because most places never are."""
-    first = FIRST + place * STEP
-    if kept.steps[place, BEGIN_T] == np.inf:
-        for k in range(first, first + STEP):
-            kept.series[k] = 0.0
-    return first
 
 
 @compiled_into_callers

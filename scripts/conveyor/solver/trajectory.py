@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from . import contact, contact_law, peaks, repeated_steps
+from . import contact, contact_law, peaks, repeated_steps, vertical
 from .contact import FORCE_SIGN, SEPARATION
 from .flight import highest_gap
 from .horizontal import (
@@ -34,19 +34,7 @@ from .horizontal import (
 )
 from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import TENSION_CLIP, VZ0, Z0
-from .vertical import (
-    CONTACT,
-    FLIGHT,
-    LIMIT,
-    LOST,
-    arrive,
-    begin,
-    flight_from,
-    in_cycle,
-    is_finite,
-    motion_at,
-    next_piece,
-)
+from .vertical import CONTACT, FLIGHT, LIMIT, LOST
 
 # Phase at which a cycle begins, rad: the plate is at its top, where a part that leaves the plate is in the air.
 BEGIN_OF_CYCLE = -math.pi
@@ -148,7 +136,7 @@ def peak_of_step(c, kept, place, at, has_series, motion, piece, first, last):
     if math.isnan(found):
         if not has_series:
             repeated_steps.expand_again(c, kept, place, at)
-        found = peaks.largest_force_between(c, kept.series, at, piece, first, last)
+        found = peaks.largest_force(c, kept.series, at, piece, first, last)
     if is_whole:
         kept.steps[place, repeated_steps.PEAK] = found
     return found
@@ -161,7 +149,7 @@ def next_cycle(c, motion, piece):
         return motion, 0
     cycles = 1 if piece.end == LIMIT else int(motion.t / c.period)
     t = 0.0 if piece.end == LIMIT else max(motion.t - cycles * c.period, 0.0)
-    return in_cycle(c, motion, t, BEGIN_OF_CYCLE), cycles
+    return vertical.in_cycle(c, motion, t, BEGIN_OF_CYCLE), cycles
 
 
 @compiled_into_callers
@@ -218,13 +206,13 @@ def follow(parameters, options, records, results, room, distances):
     for i in range(parameters.shape[0]):
         record = Record(times[i], samples[i], event_times[i], event_kinds[i])
         row, result, arrival = parameters[i], no_refcount(results[i]), no_refcount(arrivals[i])
-        repeated_steps.clear(kept)
+        repeated_steps.forget(kept)
         c = contact.constants(row, tolerance)
         end, since = record.times[-1], record.times[-2] if record.times.size > 1 else 0.0
         offset = time_into_cycle(c)
         cycle, base = 0, -offset
-        q, rate = begin(c, row[Z0], row[VZ0], c.psi0)
-        motion = motion_at(c, q, rate, offset, c.psi0)
+        q, rate = vertical.begin(c, row[Z0], row[VZ0], c.psi0)
+        motion = vertical.motion_at(c, q, rate, offset, c.psi0)
         horizontal = Horizontal(0.0, 0.0, 0.0)
         if motion.touching:
             horizontal = touch_down(c, motion, horizontal)
@@ -239,14 +227,14 @@ def follow(parameters, options, records, results, room, distances):
             if pieces > MAX_PIECES:
                 status = TOO_STIFF
                 break
-            at = repeated_steps.first_row(kept, place)
+            at = contact_law.FIRST + place * contact_law.STEP
             begins, x_before = base + motion.t, horizontal.x
             is_kept = reuse and motion.touching and repeated_steps.repeats(c, kept, place, motion)
             if is_kept:
                 piece = repeated_steps.recall(kept, place)
             else:
                 limit = c.period - motion.t if motion.touching else end - begins
-                piece = next_piece(c, kept.series, at, motion, limit)
+                piece = vertical.next_piece(c, kept.series, at, motion, limit)
                 if piece.kind == CONTACT:
                     repeated_steps.keep(kept, place, motion, piece)
             ends = begins + piece.duration
@@ -254,7 +242,7 @@ def follow(parameters, options, records, results, room, distances):
                 if piece.end == LOST:
                     status = IMPACT_LOST
                     break
-                max_gap = max(max_gap, highest_gap(flight_from(c, motion), piece.duration))
+                max_gap = max(max_gap, highest_gap(vertical.flight_from(c, motion), piece.duration))
                 while sampled < record.times.size and (ends >= record.times[sampled] or piece.end == LIMIT):
                     sample_flight(c, motion, horizontal, record.times[sampled] - begins, record.samples[sampled])
                     sampled += 1
@@ -294,8 +282,8 @@ def follow(parameters, options, records, results, room, distances):
             if arrived > 0 and arrived == arrival.size:
                 break
             pulled = motion.pulled
-            motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
-            if not is_finite(motion):
+            motion = vertical.arrive(c, motion, piece, BEGIN_OF_CYCLE)
+            if not vertical.is_finite(motion):
                 status = NOT_FINITE
                 break
             if piece.end == SEPARATION and not motion.touching:

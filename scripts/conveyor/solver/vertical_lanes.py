@@ -10,50 +10,16 @@ import math
 
 import numpy as np
 
-from . import contact, repeated_steps, trajectory
+from . import contact, contact_lanes, repeated_steps, trajectory, vertical
 from .contact import NOTHING
-from .contact_lanes import (
-    COSINE,
-    END,
-    LANES,
-    LAPSE,
-    LENGTH,
-    NONE,
-    ROWS,
-    SINE,
-    STEPS,
-    V,
-    W,
-    can_follow,
-    copy_series,
-    new_memory,
-    refill,
-    set_constants,
-    set_motion,
-    step,
-)
+from .contact_lanes import COSINE, END, LANES, LAPSE, LENGTH, NONE, ROWS, SINE, STEPS, V, W
 from .contact_law import FIRST
 from .flight import highest_gap
 from .horizontal import SAMPLES, Horizontal, Step, first_segment, sample_contact
 from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import VZ0, Z0
 from .trajectory import BEGIN_OF_CYCLE, MAX_PIECES, next_cycle, peak_of_step, sample_flight, time_into_cycle
-from .vertical import (
-    CONTACT,
-    FLIGHT,
-    LIMIT,
-    LOST,
-    Piece,
-    arrive,
-    begin,
-    flight_from,
-    fly,
-    graze,
-    is_finite,
-    is_grazing,
-    motion_at,
-    press,
-)
+from .vertical import CONTACT, FLIGHT, LIMIT, LOST, Piece
 
 # The state of a lane's run: when it ends (s); the time at which its present cycle begins (s), and the number of the
 # cycle; pieces in the cycle, contact steps among them; time with contact force (s), largest gap (m), impacts; the time
@@ -81,13 +47,13 @@ def begin_cycle(c, run, steps, lane):
 def begin_run(c, parameters, times, run, steps, lane, kept):
     """The Motion at the initial condition of `parameters`, shape (16,); resets all that is known of the lane."""
     repeated_steps.forget(kept)
-    set_constants(steps, lane, c)
-    q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)
+    contact_lanes.set_constants(steps, lane, c)
+    q, rate = vertical.begin(c, parameters[Z0], parameters[VZ0], c.psi0)
     run[SINCE], run[DURATION] = times
     run[CYCLE] = run[CONTACT_TIME] = run[IMPACTS] = run[IMPACT_SPEED] = run[PEAK_FORCE] = 0.0
     run[MAX_GAP] = max(q, 0.0)
     begin_cycle(c, run, steps, lane)
-    return motion_at(c, q, rate, time_into_cycle(c), c.psi0)
+    return vertical.motion_at(c, q, rate, time_into_cycle(c), c.psi0)
 
 
 @compiled_into_callers
@@ -99,7 +65,7 @@ def count(c, kept, motion, piece, run, sample):
     if piece.kind == FLIGHT:
         if piece.end == LOST:
             return FAILED
-        run[MAX_GAP] = max(run[MAX_GAP], highest_gap(flight_from(c, motion), piece.duration))
+        run[MAX_GAP] = max(run[MAX_GAP], highest_gap(vertical.flight_from(c, motion), piece.duration))
         if ends >= end or piece.end == LIMIT:
             sample_flight(c, motion, Horizontal(0.0, 0.0, 0.0), end - begins, sample)
             return OVER
@@ -128,8 +94,8 @@ def advance(c, kept, motion, piece, run, steps, lane, sample):
     """GOES_ON, OVER or FAILED after a Piece that begins with `motion`, and the Motion at its end."""
     answer = count(c, kept, motion, piece, run, sample)
     if answer == GOES_ON:
-        motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
-        if not is_finite(motion):
+        motion = vertical.arrive(c, motion, piece, BEGIN_OF_CYCLE)
+        if not vertical.is_finite(motion):
             answer = FAILED
     if answer == GOES_ON:
         motion, cycles = next_cycle(c, motion, piece)
@@ -143,8 +109,8 @@ def advance(c, kept, motion, piece, run, steps, lane, sample):
 def step_of_lane(c, kept, motion, run, steps, lane, is_stopped):
     """The contact step that a lane took with the others, or takes alone if it `is_stopped`; keeps it."""
     if is_stopped:
-        copy_series(steps, lane, kept.series, FIRST)
-        piece = press(c, kept.series, FIRST, motion, steps[LENGTH, lane], c.period - motion.t)
+        contact_lanes.copy_series(steps, lane, kept.series, FIRST)
+        piece = vertical.press(c, kept.series, FIRST, motion, steps[LENGTH, lane], c.period - motion.t)
     else:
         w, v, sine, cosine = steps[W, lane], steps[V, lane], steps[SINE, lane], steps[COSINE, lane]
         piece = Piece(CONTACT, steps[LAPSE, lane], steps[LENGTH, lane], NOTHING, w, v, sine, cosine)
@@ -170,7 +136,7 @@ def repeat_steps(c, kept, motion, run):
         if ends > run[SINCE] and math.isnan(peak):
             break
         contact_time += piece.duration
-        motion = arrive(c, motion, piece, BEGIN_OF_CYCLE)
+        motion = vertical.arrive(c, motion, piece, BEGIN_OF_CYCLE)
         place += 1
     run[PIECES], run[PLACE], run[CONTACT_TIME] = run[PIECES] + (place - first), place, contact_time
     return motion
@@ -199,7 +165,7 @@ def follow(parameters, tolerance, times, samples, results, left, work):
     parameters, times, samples, results, left = no_refcount((parameters, times, samples, results, left))
     memory, steps, runs, rows, series, kept_steps = no_refcount(work)
     constants = [contact.constants(parameters[0], tolerance)] * LANES
-    motions = [motion_at(constants[0], 0.0, 0.0, 0.0, 0.0)] * LANES
+    motions = [vertical.motion_at(constants[0], 0.0, 0.0, 0.0, 0.0)] * LANES
     waiting = running = 0
     stopped = 0  # a bit for each lane
     while True:
@@ -218,12 +184,12 @@ def follow(parameters, tolerance, times, samples, results, left, work):
                     elif answer == OVER:
                         write_result(c, run, results[i])
                 while answer != GOES_ON:
-                    waiting, running = refill(lane, rows, waiting, running, len(parameters))
+                    waiting, running = contact_lanes.refill(lane, rows, waiting, running, len(parameters))
                     i = rows[lane]
                     if i == NONE:
                         break
                     c = constants[lane] = contact.constants(parameters[i], tolerance)
-                    if can_follow(c):
+                    if contact_lanes.can_follow(c):
                         motion = begin_run(c, parameters[i], times[i], run, steps, lane, kept)
                         answer = GOES_ON
                     else:
@@ -236,16 +202,16 @@ def follow(parameters, tolerance, times, samples, results, left, work):
                 if motion.touching and repeated_steps.repeats(c, kept, place, motion):
                     piece = repeated_steps.recall(kept, place)
                 elif not motion.touching:
-                    piece = fly(c, motion, run[DURATION] - (run[BASE] + motion.t))
-                elif is_grazing(c, motion):
-                    piece = graze(c, motion)
+                    piece = vertical.fly(c, motion, run[DURATION] - (run[BASE] + motion.t))
+                elif vertical.is_grazing(c, motion):
+                    piece = vertical.graze(c, motion)
                 else:
-                    set_motion(motion, lane, steps)
+                    contact_lanes.set_motion(motion, lane, steps)
                     motions[lane] = motion
                     break
         if running == 0:
             return
-        stopped = step(memory, LANES) & running
+        stopped = contact_lanes.step(memory, LANES) & running
 
 
 def integrate(parameters: np.ndarray, times: np.ndarray, *, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
@@ -259,7 +225,13 @@ def integrate(parameters: np.ndarray, times: np.ndarray, *, tolerance: float) ->
     left = np.full(n, n < LANES)
     if n >= LANES:
         steps = np.full((LANES, repeated_steps.PLACES, repeated_steps.COLUMNS), np.inf)
-        work = (*new_memory(ROWS), np.empty((LANES, COUNTS)), np.full(LANES, NONE), contact.workspace(), steps)
+        work = (
+            *contact_lanes.new_memory(ROWS),
+            np.empty((LANES, COUNTS)),
+            np.full(LANES, NONE),
+            contact.workspace(),
+            steps,
+        )
         follow(parameters, tolerance, times, samples, results, left, work)
     if left.any():
         found, results[left] = trajectory.integrate(parameters[left], times[left], tolerance=tolerance, feeding=False)

@@ -5,8 +5,8 @@ import pytest
 from project import read_config
 
 from conveyor import simulate
-from conveyor.methods import leg, modes, peers, rivals
-from conveyor.methods.leg import Failed, Leg, Mode, Task
+from conveyor.methods import leg, modes, peers, rivals, scipy_peer
+from conveyor.methods.leg import Failed, Leg, Task
 from pipeline import grid
 
 CONFIG = read_config()
@@ -20,7 +20,7 @@ def scene(name):
 def test_a_run_that_finds_the_same_event_for_ever_says_so(monkeypatch):
     """Whether SciPy finds an event again depends on last digits, so an integrator that always does takes its place."""
 
-    def same_event(method, mode, task):
+    def same_event(method, parameters, mode, task):
         return Leg(max(task.t, 0.1), task.state.copy(), 0, np.empty((0, 4)), 1)
 
     monkeypatch.setattr(peers.scipy_peer, "follow", same_event)
@@ -42,7 +42,7 @@ def test_a_run_whose_event_is_not_found_says_so_and_counts_its_evaluations(monke
     assert (run.status, run.evaluations) == (leg.EVENT_LOST, 7)
 
 
-def test_scipy_makes_as_many_evaluations_as_allowed():
+def test_scipy_makes_as_many_evaluations_as_allowed(monkeypatch):
     calls = []
 
     def counted_rates(derivatives, t, state, parameters, mode):
@@ -50,10 +50,10 @@ def test_scipy_makes_as_many_evaluations_as_allowed():
         parameters[-1] += 1.0
         derivatives[:] = state
 
-    mode = Mode(counted_rates, scene("riding"), leg.SIGN, ())
+    monkeypatch.setattr(scipy_peer, "counted_rates", counted_rates)
     task = Task(0.0, 1.0, np.ones(4), np.empty(0), 1e-12, np.full(4, 1e-12), 100)
     with pytest.raises(Failed, match=leg.GAVE_UP):
-        peers.scipy_peer.follow("RK45", mode, task)
+        scipy_peer.follow("RK45", scene("riding"), leg.SIGN, task)
     assert len(calls) == 100
 
 

@@ -20,10 +20,12 @@ STAY = 48
 # Outcomes of a search; GOES_ON is none of them.
 PERIODIC, IN_CHAOTIC_SET, NOT_CONVERGED, FAILED, GOES_ON = range(5)
 
-# The history of a search: δ (m) and v (m/s) at the ends of the last PAST cycles, and the longest flights in them (s).
+# The history of a search, shape (3, PAST): δ (m) and v (m/s) at the ends of the last PAST cycles, and the longest
+# flights in them (s).
 PAST = 2 * MAX_PERIOD
 DELTA, V, FLIGHTS = range(3)
-# Its counters: cycles followed, the last period found, cycles for which it has held, cycles in a row in chaotic sets.
+# Its counters, int64, shape (4,): cycles followed, the last period found, cycles for which it has held, cycles in a row
+# in chaotic sets.
 FOLLOWED, CANDIDATE, REPEATS, STAYED = range(4)
 # The cycles that a search has followed before its first whole cycle begins.
 BEFORE_FIRST_CYCLE = -1
@@ -78,19 +80,6 @@ def is_in_chaotic_set(state, chaotic, first, behind):
         if 0.0 <= i < rows and 0.0 <= j < columns and chaotic.cells[k, int(i), int(j)]:
             return True
     return False
-
-
-def new_searches(count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Histories and counters of a number of searches: float64, shape (count, 3, PAST), and int64, shape (count, 4)."""
-    return np.empty((count, 3, PAST)), np.empty((count, 4), np.int64)
-
-
-@compiled_inline
-def reset_search(counts):
-    """Set the counters of a search back, so that its history counts no longer."""
-    for k in range(4):
-        counts[k] = 0
-    counts[FOLLOWED] = BEFORE_FIRST_CYCLE
 
 
 @compiled_inline

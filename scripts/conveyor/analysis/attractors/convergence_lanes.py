@@ -10,57 +10,16 @@ from collections import namedtuple
 
 import numpy as np
 
-from ...solver import contact
-from ...solver.contact_lanes import (
-    COSINE,
-    END,
-    LANES,
-    LENGTH,
-    NONE,
-    ROWS,
-    SINE,
-    STEPS,
-    TIME,
-    V,
-    W,
-    can_follow,
-    copy_series,
-    new_memory,
-    refill,
-    set_constants,
-    set_motion,
-    step,
-)
+from ...solver import contact, contact_lanes, vertical
+from ...solver.contact_lanes import COSINE, END, LANES, LENGTH, NONE, ROWS, SINE, STEPS, TIME, V, W
 from ...solver.contact_law import FIRST
 from ...solver.jit import compiled, compiled_into_callers, no_refcount
 from ...solver.model import VZ0, Z0
 from ...solver.trajectory import BEGIN_OF_CYCLE, MAX_PIECES, time_to_next_cycle
-from ...solver.vertical import (
-    FLIGHT,
-    GRAZE,
-    IMPACT,
-    LIMIT,
-    LOST,
-    Motion,
-    Piece,
-    arrive,
-    begin,
-    is_finite,
-    is_grazing,
-    motion_at,
-    next_piece,
-    press,
-)
+from ...solver.vertical import FLIGHT, GRAZE, IMPACT, LIMIT, LOST, Motion, Piece
 from ..stroboscopic_map import delta_and_v
-from .convergence import (
-    BEFORE_FIRST_CYCLE,
-    FOLLOWED,
-    GOES_ON,
-    check_convergence,
-    new_searches,
-    new_trajectories,
-    reset_search,
-)
+from . import convergence
+from .convergence import BEFORE_FIRST_CYCLE, FOLLOWED, GOES_ON, PAST
 
 # The smallest number of trajectories in lanes: a single one takes about a tenth less time in scalar code.
 SIDE_BY_SIDE = 2
@@ -76,14 +35,15 @@ Search = namedtuple("Search", "max_cycles attractors rows strobes")
 @compiled_into_callers
 def begin_trajectory(c, parameters, lane, steps, cycle, counts):
     """The Motion at the initial condition of `parameters`, shape (16,); resets all that is known of the lane."""
-    set_constants(steps, lane, c)
-    reset_search(counts)
+    contact_lanes.set_constants(steps, lane, c)
+    for k in range(4):
+        counts[k] = BEFORE_FIRST_CYCLE if k == FOLLOWED else 0
     # The first whole cycle begins within one cycle.
     steps[END, lane] = time_to_next_cycle(c)
     steps[STEPS, lane] = cycle[LONGEST, lane] = cycle[AIRBORNE, lane] = 0.0
     cycle[ORIGIN, lane] = c.psi0
-    q, rate = begin(c, parameters[Z0], parameters[VZ0], c.psi0)
-    return motion_at(c, q, rate, 0.0, c.psi0)
+    q, rate = vertical.begin(c, parameters[Z0], parameters[VZ0], c.psi0)
+    return vertical.motion_at(c, q, rate, 0.0, c.psi0)
 
 
 @compiled_into_callers
@@ -113,7 +73,7 @@ def end_cycle(c, i, lane, motion, cycle, search, past, counts, found):
     if 0 <= cycles < search.strobes.shape[1]:
         search.strobes[i, cycles, 0], search.strobes[i, cycles, 1] = state[0], state[1]
     flight = max(cycle[LONGEST, lane], cycle[AIRBORNE, lane])
-    outcome, period, longest = check_convergence(
+    outcome, period, longest = convergence.check_convergence(
         c, state, flight, search.max_cycles, search.attractors, search.rows[i], past, counts
     )
     found.followed[i] = counts[FOLLOWED]
@@ -131,7 +91,7 @@ def begin_cycle(c, state, lane, steps, cycle):
     steps[STEPS, lane] = cycle[LONGEST, lane] = 0.0
     steps[END, lane] = c.period
     cycle[ORIGIN, lane] = BEGIN_OF_CYCLE
-    return motion_at(c, -state[0], -state[1], 0.0, BEGIN_OF_CYCLE)
+    return vertical.motion_at(c, -state[0], -state[1], 0.0, BEGIN_OF_CYCLE)
 
 
 @compiled
@@ -144,7 +104,7 @@ def follow(parameters, tolerance, search, found, side_by_side, work):
     found : convergence.new_trajectories, filled
     side_by_side : whether lanes take contact steps together; otherwise one trajectory follows the other
     work : the memory of contact_lanes, the state of each lane's cycle, shape (3, LANES), the trajectory of each lane,
-        a contact.workspace, and convergence.new_searches
+        a contact.workspace, and history and counters of each lane's search
     """
     parameters, search, found = no_refcount((parameters, search, found))
     memory, steps, cycle, trajectories, series, histories, counters = no_refcount(work)
@@ -159,33 +119,38 @@ def follow(parameters, tolerance, search, found, side_by_side, work):
             motion = stopped_motion(lane, steps)
             piece = Piece(GRAZE, 0.0, 0.0, LIMIT, 0.0, 0.0, 0.0, 0.0)
             if i != NONE:
-                copy_series(steps, lane, series, FIRST)
-                piece = press(c, series, FIRST, motion, steps[LENGTH, lane], steps[END, lane] - motion.t)
+                contact_lanes.copy_series(steps, lane, series, FIRST)
+                piece = vertical.press(c, series, FIRST, motion, steps[LENGTH, lane], steps[END, lane] - motion.t)
             while True:
                 over = i == NONE
                 if not over:
                     count_piece(piece, lane, steps, cycle)
-                    motion = arrive(c, motion, piece, cycle[ORIGIN, lane])
-                    over = piece.end == LOST or not is_finite(motion) or steps[STEPS, lane] > MAX_PIECES
+                    motion = vertical.arrive(c, motion, piece, cycle[ORIGIN, lane])
+                    over = piece.end == LOST or not vertical.is_finite(motion) or steps[STEPS, lane] > MAX_PIECES
                     if piece.end == LIMIT and not over:
                         over = end_cycle(c, i, lane, motion, cycle, search, past, counts, found)
                         motion = begin_cycle(c, found.states[i], lane, steps, cycle)
                 if over:
-                    waiting, running = refill(lane, trajectories, waiting, running, len(parameters))
+                    waiting, running = contact_lanes.refill(lane, trajectories, waiting, running, len(parameters))
                     i = trajectories[lane]
                     if i == NONE:
                         break
                     c = constants[lane] = contact.constants(parameters[i], tolerance)
                     motion = begin_trajectory(c, parameters[i], lane, steps, cycle, counts)
-                if side_by_side and can_follow(c) and motion.touching and not is_grazing(c, motion):
-                    set_motion(motion, lane, steps)
+                if (
+                    side_by_side
+                    and contact_lanes.can_follow(c)
+                    and motion.touching
+                    and not vertical.is_grazing(c, motion)
+                ):
+                    contact_lanes.set_motion(motion, lane, steps)
                     break
-                piece = next_piece(c, series, FIRST, motion, steps[END, lane] - motion.t)
+                piece = vertical.next_piece(c, series, FIRST, motion, steps[END, lane] - motion.t)
         if running == 0:
             return
         stopped = 0
         while stopped == 0:
-            stopped = step(memory, LANES) & running
+            stopped = contact_lanes.step(memory, LANES) & running
 
 
 def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows, strobes=None):
@@ -199,10 +164,17 @@ def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows
     attractors, rows : an AttractorTable, and its `rows_of` the parameters, shape (n, 4)
     strobes : float64, shape (n, m, 2), filled with the states after each of the first m cycles
     """
-    found = new_trajectories(len(parameters))
+    found = convergence.new_trajectories(len(parameters))
     if len(parameters) > 0:
         strobes = np.empty((len(parameters), 0, 2)) if strobes is None else strobes
         trajectories, side_by_side = np.full(LANES, NONE), len(parameters) >= SIDE_BY_SIDE
-        work = (*new_memory(ROWS), np.zeros((3, LANES)), trajectories, contact.workspace(), *new_searches(LANES))
+        work = (
+            *contact_lanes.new_memory(ROWS),
+            np.zeros((3, LANES)),
+            trajectories,
+            contact.workspace(),
+            np.empty((LANES, 3, PAST)),
+            np.empty((LANES, 4), np.int64),
+        )
         follow(parameters, tolerance, Search(max_cycles, attractors, rows, strobes), found, side_by_side, work)
     return found

@@ -18,17 +18,9 @@ from ...solver.model import PSI0
 from ...solver.trajectory import BEGIN_OF_CYCLE, OK
 from .. import stroboscopic_map
 from ..dimensionless_groups import units
-from . import sampling
+from . import convergence, sampling
 from .attractor_table import NO_ATTRACTORS, AttractingOrbits, AttractorTable, ChaoticSets, append_row
-from .convergence import (
-    IN_CHAOTIC_SET,
-    NOT_CONVERGED,
-    PERIODIC,
-    STAY,
-    Trajectories,
-    distance_components,
-    find_reached_orbit,
-)
+from .convergence import IN_CHAOTIC_SET, NOT_CONVERGED, PERIODIC, STAY, Trajectories
 
 POINTS = 32  # of a curve
 PERIODS = 32  # in which a curve must come inside the one before
@@ -80,7 +72,7 @@ def comes_inside(parameters, tolerance, centre, factor, period, radius, inner, p
                 status = stroboscopic_map.advance(c, series, states[i], BEGIN_OF_CYCLE, c.period, no_tangent, features)
                 if status != OK:
                     return False, n * period * POINTS
-            images[i, 0], images[i, 1] = distance_components(c, centre, factor, states[i])
+            images[i, 0], images[i, 1] = convergence.distance_components(c, centre, factor, states[i])
             distance = math.hypot(images[i, 0], images[i, 1])
             # A curve that is far outside itself and does not come back is most likely outside the basin.
             if distance > 2.0 * radius and distance >= before:
@@ -247,7 +239,7 @@ def find_attracting_orbits(
         if late.outcomes[0] == NOT_CONVERGED:
             break
         constants = contact.constants(parameters, tolerance)
-        is_new = find_reached_orbit(constants, late.states[0], found, 0, len(found.periods)) < 0
+        is_new = convergence.find_reached_orbit(constants, late.states[0], found, 0, len(found.periods)) < 0
         if late.outcomes[0] == PERIODIC and is_new:
             add(late.states[0], int(late.periods[0]), late.flights[0])
     return found

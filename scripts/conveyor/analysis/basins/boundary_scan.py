@@ -27,14 +27,12 @@ class Crossings(NamedTuple):
 
 
 def find_crossings(
-    parameters: np.ndarray,
-    heights: np.ndarray,
-    decide: Callable[[np.ndarray], np.ndarray],
-    resolution: float = 1e-9,
+    parameters: np.ndarray, heights: np.ndarray, decide: Callable[[np.ndarray], np.ndarray], resolution: float = 1e-9
 ) -> Crossings:
     """All changes of state that a scan of z0 shows; bisection locates at most MOST of each conveyor.
 
-    The critical one and the lowest ones are located.
+    The critical one and the lowest ones are located. ValueError if the heights are not ascending, or the resolution is
+    finer than double precision.
 
     Parameters
     ----------
@@ -42,11 +40,6 @@ def find_crossings(
     heights : z0 of the scan, m, ascending, shape (h,); the scan may miss stripes narrower than their distance
     decide : gives the state of motion, str, shape (m,), for parameters of shape (m, 16)
     resolution : width of the interval that encloses a change, m
-
-    Raises
-    ------
-    ValueError
-        if the heights are not ascending, or the resolution is finer than double precision
     """
     heights = np.asarray(heights, dtype=np.float64)
     if heights.ndim != 1 or len(heights) < 2 or not (np.diff(heights) > 0.0).all():

@@ -58,15 +58,12 @@ def profile(acceleration: np.ndarray, height: np.ndarray, b: np.ndarray) -> tupl
 def fit_least_squares(acceleration: np.ndarray, height: np.ndarray, bounds: tuple[float, float]) -> Fit:
     """Least-squares fit with B within `bounds` (m/s²), A and C free: the lowest minimum that a scan of B shows.
 
+    ValueError if the data or the bounds cannot be used.
+
     Parameters
     ----------
     acceleration, height : data, m/s² and m, shape (n,), n ≥ 3
     bounds : B + â must not change its sign over the data: the pole of Eq. 13 lies outside them
-
-    Raises
-    ------
-    ValueError
-        if the data or the bounds cannot be used
     """
     acceleration, height = check_data(acceleration, height, bounds)
     starts = np.linspace(*bounds, STARTS)
@@ -87,24 +84,17 @@ def fit_least_squares(acceleration: np.ndarray, height: np.ndarray, bounds: tupl
 
 
 def fit_pymoo(
-    acceleration: np.ndarray,
-    height: np.ndarray,
-    bounds: dict[str, tuple[float, float]],
-    seed: int,
-    evaluations: int,
+    acceleration: np.ndarray, height: np.ndarray, bounds: dict[str, tuple[float, float]], seed: int, evaluations: int
 ) -> Fit:
     """Fit by CMA-ES (pymoo), which learns the direction of the narrow, curved valley; same seed, same result.
+
+    ValueError if the data or the bounds cannot be used.
 
     Parameters
     ----------
     acceleration, height : data, m/s² and m, shape (n,), n ≥ 3
     bounds : low and high of "A" (m²/s²), "B" (m/s²) and "C" (m); see `fit_least_squares` for B
     evaluations : largest number of triples to try
-
-    Raises
-    ------
-    ValueError
-        if the data or the bounds cannot be used
     """
     acceleration, height = check_data(acceleration, height, bounds["B"])
     low, high = np.array([bounds[name] for name in Hyperbola._fields], dtype=np.float64).T

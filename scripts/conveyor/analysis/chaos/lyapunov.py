@@ -9,17 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...arguments import (
-    LARGEST_COORDINATE,
-    MOST_BLOCKS,
-    MOST_CYCLES,
-    MOST_VALUES,
-    check_count,
-    check_numbers,
-    check_packed,
-    check_threads,
-    check_tolerance,
-)
+from ... import arguments
+from ...arguments import LARGEST_COORDINATE, MOST_BLOCKS, MOST_CYCLES, MOST_VALUES
 from ...simulation import DEFAULT_TOLERANCE
 from ...solver import contact, trajectory
 from ...solver.jit import compiled
@@ -103,6 +94,8 @@ def spectrum(
 ) -> Spectrum:
     """Both vertical Lyapunov exponents from the variational equation.
 
+    ValueError names the argument that cannot be used.
+
     Parameters
     ----------
     parameters : float64, shape (n, 16), rows as from model.pack
@@ -116,25 +109,20 @@ def spectrum(
     Returns
     -------
     Spectrum of the n trajectories, exponents in 1/s; NaN for a failure
-
-    Raises
-    ------
-    ValueError
-        names the argument that cannot be used
     """
-    parameters = check_packed(parameters)
-    tolerance = check_tolerance(tolerance)
-    threads = check_threads(threads)
-    check_count("transient", transient, 0, MOST_CYCLES)
-    check_count("cycles", cycles, 1, MOST_CYCLES)
-    check_count("blocks", blocks, 2, MOST_BLOCKS)
+    parameters = arguments.check_packed(parameters)
+    tolerance = arguments.check_tolerance(tolerance)
+    threads = arguments.check_threads(threads)
+    arguments.check_count("transient", transient, 0, MOST_CYCLES)
+    arguments.check_count("cycles", cycles, 1, MOST_CYCLES)
+    arguments.check_count("blocks", blocks, 2, MOST_BLOCKS)
     if len(parameters) * blocks * cycles > MOST_VALUES:
         counted = f"blocks = {blocks} of cycles = {cycles} for {len(parameters)} trajectories"
         raise ValueError(f"{counted} are more than {MOST_VALUES:g} cycles; take fewer of them")
     if states is None:
         states = stroboscopic_map.initial_states(parameters, tolerance)
     else:
-        states = check_numbers("states", states).astype(np.float64)
+        states = arguments.check_numbers("states", states).astype(np.float64)
         if states.shape != (len(parameters), 2):
             raise ValueError(f"states must have the shape ({len(parameters)}, 2), got {states.shape}")
         if (np.abs(states) > LARGEST_COORDINATE).any():  # NaN is the state of a motion that failed

@@ -66,15 +66,12 @@ def uncorrelated_window(fluctuations: np.ndarray) -> int:
 def random_walk(displacements: np.ndarray, period: float) -> RandomWalk:
     """The drift and the diffusion coefficient of a motion.
 
+    ValueError for fewer than two runs.
+
     Parameters
     ----------
     displacements : along the track in each excitation cycle, m, of n independent runs over k cycles, shape (n, k)
     period : of the excitation, s
-
-    Raises
-    ------
-    ValueError
-        for fewer than two runs
     """
     displacements = np.asarray(displacements, dtype=np.float64)
     if displacements.ndim != 2 or len(displacements) < 2:

@@ -14,18 +14,14 @@ def zero_one(series: np.ndarray, seed: int, resolution: float = 0.0) -> float:
     Best is a series of stroboscopic samples, because oversampled motion looks regular. The series drives
     z(n + 1) = z(n) + φ(n) e^(icn) in the plane, for random c in (π/5, 4π/5). Regular motion leaves z bounded, chaos
     makes it diffuse. K is the median over c of K_c, the correlation of the mean square displacement with the lag. φ is
-    centred, which removes the oscillating term V_osc of the paper (its Eq. 2.8) where it arises.
+    centred, which removes the oscillating term V_osc of the paper (its Eq. 2.8) where it arises. ValueError if the
+    series is not one-dimensional, too short or not finite.
 
     Parameters
     ----------
     series : float64, shape (n,), at least 100 samples
     seed : of the random c
     resolution : a series that varies by no more than this is constant, K = 0; give the accuracy of the samples
-
-    Raises
-    ------
-    ValueError
-        if the series is not one-dimensional, too short or not finite
     """
     series = np.asarray(series, dtype=np.float64)
     if series.ndim != 1 or len(series) < 100 or not np.isfinite(series).all():

@@ -10,14 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...solver.jit import compiled, compiled_inline
-from .scaling_region import (
-    SAMPLES_PER_BOX,
-    SCALES,
-    SCALES_PER_OCTAVE,
-    Dimension,
-    normalise,
-    scaling_region,
-)
+from .scaling_region import SAMPLES_PER_BOX, SCALES, SCALES_PER_OCTAVE, Dimension, normalise, scaling_region
 
 # Nested parts of a set of points: all, half, a quarter. A point of h halvings belongs to the first h + 1 parts.
 PARTS = 3

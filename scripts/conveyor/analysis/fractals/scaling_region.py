@@ -43,10 +43,7 @@ class Dimension(NamedTuple):
 def normalise(points: np.ndarray) -> np.ndarray:
     """The points, shape (n, 2), scaled axis by axis to the unit square; an axis without extent becomes zero.
 
-    Raises
-    ------
-    ValueError
-        if the points have another shape, are none, or are not finite
+    ValueError if the points have another shape, are none, or are not finite.
     """
     points = np.asarray(points, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] != 2 or not len(points) or not np.isfinite(points).all():
