@@ -27,7 +27,7 @@ def make(parameters: pd.DataFrame, fit: pd.DataFrame) -> str:
     head = (
         f"# Calibrated from {settings['measurements']}. Name this file behind the overlay that names the measurements."
     )
-    if settings["effective"] < samples_of_interval(settings["confidence"]):
+    if parameters.effective.iloc[0] < samples_of_interval(settings["confidence"]):
         head += "\n# A quick trial with too few samples for intervals: do not use these values."
     parts = (
         "parts: {calibrated: true}   # the transit of parts draws these parameters from the samples of the calibration"

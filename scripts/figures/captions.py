@@ -13,6 +13,7 @@ from accuracy.stability import PANELS, VELOCITY
 from claims.about_chaos import positive_onset
 from claims.about_proofs import lowest_fold
 from claims.about_states import find_runs, format_runs, second_from_rest
+from conveyor.analysis.chaos.random_walk import AT_REST
 from figures.plots.fig10 import ends_of
 from figures.plots.speed_accuracy import method_name
 from figures.plots.throw import proved_fold
@@ -274,7 +275,8 @@ def transit(*, transit: pd.DataFrame, lengths: pd.DataFrame, drift: pd.DataFrame
         "calibrated": transit.attrs["spread"].get("calibrated", False),
         "coexisting": amplitudes.get(SEVERAL, []),
         "chaotic": amplitudes.get(CHAOS, []),
-        "uncertain": int((drift.status != "ok").sum()),
+        "uncertain": int((~drift.status.isin(("ok", AT_REST))).sum()),
+        "spreads": bool((lengths.spread > 0.0).any()),
         "ends": ENDS,
         "middle": ENDS[1] - ENDS[0],
     }

@@ -15,6 +15,7 @@ from operating.regimes import (
     UNDECIDED,
     UNKNOWN,
     UNSETTLED,
+    is_frictionless,
     merge_narrow,
     summarize_amplitudes,
 )
@@ -156,10 +157,11 @@ def make(
         "enough": ENOUGH,
         "many_late": MANY_LATE,
         "ends": (transit.acceleration.min(), transit.acceleration.max()),
+        "frictionless": is_frictionless(transit.attrs["model"]),
         "slides": (shares.status == SLIDES_AWAY).any(),
         "merged": len(merged) < len(regimes),
         # The digits to which the ends of intervals of amplitudes are known.
         "digits": max(0, math.ceil(-math.log10(shares.attrs["resolution"]))),
-        "throw_per_amplitude": shares.vertical.iloc[0] / shares.acceleration.iloc[0],
+        "throw_per_amplitude": shares.vertical.iloc[-1] / shares.acceleration.iloc[-1],
     }
     return render(template, values)

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from operating.chart import MANY_LATE, RULE_OF_THREE, spreads_of
-from operating.regimes import is_steep
+from operating.regimes import is_frictionless, is_steep
 from operating.transit import ENDS
 from pipeline.templates import render
 
@@ -46,6 +46,6 @@ def make(template: str, drive_front: pd.DataFrame, drive_generations: pd.DataFra
         "rows": recommended.to_dict("records"),
         "late": (recommended.checked_late > MANY_LATE).sum(),
         "slides": is_steep(drive_front.attrs["model"]),
-        "friction": drive_front.attrs["model"]["friction"],
+        "frictionless": is_frictionless(drive_front.attrs["model"]),
     }
     return render(template, values)

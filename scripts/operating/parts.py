@@ -109,9 +109,12 @@ def population(amplitudes: np.ndarray, settings: dict, kind: str = VARIED) -> np
     _, conveyors = grid.product({"acceleration": list(amplitudes)}, settings["model"])
     rows = np.repeat(conveyors, len(starts), axis=0)
     if kind == VARIED:
-        each = factors(settings["spread"], len(starts)) * settings.get("calibrated", 1.0)
-        own = np.tile(each, (len(amplitudes), 1))
-        rows[:, list(COLUMNS.values())] *= own
-        rows[:, STATIC_FRICTION] *= own[:, list(COLUMNS).index("friction")]
+        spread = factors(settings["spread"], len(starts))
+        each = spread * settings.get("calibrated", 1.0)
+        # A calibration keeps a stated static friction. Otherwise it is equal to the friction.
+        of_static = spread if "static_friction" in settings["model"] else each
+        rows[:, list(COLUMNS.values())] *= np.tile(each, (len(amplitudes), 1))
+        rows[:, STATIC_FRICTION] *= np.tile(of_static[:, list(COLUMNS).index("friction")], len(amplitudes))
+        rows[:, STATIC_FRICTION] = np.maximum(rows[:, STATIC_FRICTION], rows[:, FRICTION])
     set_starts(rows, np.tile(starts, (len(amplitudes), 1)))
     return rows

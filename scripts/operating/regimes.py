@@ -45,24 +45,26 @@ def is_steep(model: dict) -> bool:
     return abs(np.tan(model.get("inclination", 0.0))) > model["friction"]
 
 
+def is_frictionless(model: dict) -> bool:
+    """Whether nothing moves a part along a level track."""
+    return model.get("static_friction", model["friction"]) == 0.0
+
+
 def plate_speed(rows: np.ndarray) -> np.ndarray:
     """The largest velocity of the plate along the track (m/s) for packed parameters, shape (n, 16)."""
     return rows[:, ACCELERATION] * np.cos(rows[:, ANGLE]) / (2.0 * math.pi * rows[:, FREQUENCY])
 
 
-def slides_away(rows: np.ndarray, velocity: np.ndarray) -> np.ndarray:
-    """Whether parts slide downhill faster and faster, so that they have no mean velocity.
+def steepness(rows: np.ndarray) -> np.ndarray:
+    """How steep tracks are, int64, shape (n,): 0 where friction stops a part that slides, 2 where it does not even hold
+    a part at rest, 1 between, where only parts that stick again and again have a mean velocity.
 
-    On average, the contact force is m g cos α. On a track that is too steep for sliding friction, a part is safe only
-    as long as it sticks again and again. It never sticks where static friction cannot hold it either, and no longer
-    once it is faster than the plate ever is.
+    On average, the contact force is m g cos α. Sliding friction takes at most μ times as much.
 
     rows : packed parameters, shape (n, 16)
-    velocity : mean velocities, m/s, shape (n,); NaN where none is known yet
     """
     slope = np.abs(np.tan(rows[:, INCLINATION]))
-    faster = np.abs(velocity) > plate_speed(rows)
-    return (slope > rows[:, STATIC_FRICTION]) | ((slope > rows[:, FRICTION]) & faster)
+    return (slope > rows[:, FRICTION]).astype(np.int64) + (slope > rows[:, STATIC_FRICTION])
 
 
 def same(velocity: np.ndarray, other: float, share: float) -> np.ndarray:

@@ -127,9 +127,8 @@ def velocities(
     # A mean over whole periods; the last quarter of a run is what a mean is taken over.
     step = np.maximum(period, 1)
     quarter = np.maximum(np.maximum(settings["cycles"], np.ceil((settled + FORGOTTEN) / 3.0)), step)
-    steep = np.abs(np.tan(parameters[:, INCLINATION])) > parameters[:, FRICTION]
-    away = regimes.slides_away(parameters, velocity)
-    status[away], open_ = regimes.SLIDES_AWAY, np.flatnonzero(~away)
+    steep = regimes.steepness(parameters)
+    status[steep == 2], open_ = regimes.SLIDES_AWAY, np.flatnonzero(steep < 2)
     left = mean_settling(settings) * WHOLE_MAP
     # Every trajectory needs the second run, which contains the first; one integration gives both.
     for doublings in ([0, 1], *([doubling] for doubling in range(2, RUNS))):
@@ -145,9 +144,10 @@ def velocities(
         for mean in means.T:
             close = np.abs(mean - velocity[open_]) <= SETTLED * plate[open_]
             velocity[open_] = mean
-        away = ~failed & regimes.slides_away(parameters[open_], velocity[open_])
+        # A part that does not settle, and is faster than the plate ever is, does not stick again.
+        away = ~failed & ~close & (steep[open_] == 1) & (np.abs(velocity[open_]) > plate[open_])
         status[open_[away]] = regimes.SLIDES_AWAY
-        known = ~failed & ~away & (close | ((period[open_] == 0) & ~steep[open_]))
+        known = ~failed & (close | ((period[open_] == 0) & (steep[open_] == 0)))
         status[open_[known]] = "ok"
         open_ = open_[~failed & ~away & ~known]
     velocity[np.abs(velocity) <= NEGLIGIBLE * plate] = 0.0

@@ -11,8 +11,8 @@ import numpy as np
 from conveyor import ensemble
 from conveyor.solver.model import PHASE_SHIFT
 from operating.parts import parameters_of, starts_of_box
-from operating.regimes import NOT_ALL_SETTLED, SLIDES_AWAY, slides_away
-from operating.shares import FORGOTTEN, brief_durations, continue_normal
+from operating.regimes import NOT_ALL_SETTLED, SLIDES_AWAY, plate_speed, steepness
+from operating.shares import FORGOTTEN, SETTLED, brief_durations, continue_normal
 from pipeline import fields, grid
 from pipeline.motions import motions_of_starts
 
@@ -73,7 +73,12 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     model = settings["model"]
     held = np.abs(np.tan(inclinations)) <= model.get("static_friction", model["friction"])
     away = np.repeat(~held, len(STATES) * len(shifts)).reshape(shape)
-    away[number, state] |= slides_away(rows, run["mean_velocity"]).reshape(len(settled), len(shifts))
+    # Where only static friction holds a part, its velocity may not settle.
+    doubtful = np.flatnonzero(steepness(rows) == 1)
+    longer = ensemble.run(rows[doubtful], duration=2.0 * durations[doubtful], **options)["mean_velocity"]
+    unsettled = np.zeros(len(rows), dtype=bool)
+    unsettled[doubtful] = np.abs(longer - run["mean_velocity"][doubtful]) > SETTLED * plate_speed(rows[doubtful])
+    away[number, state] |= unsettled.reshape(len(settled), len(shifts))
     velocity[away], status[away] = np.nan, SLIDES_AWAY
     alpha, state, shift = np.indices(shape)
     return {

@@ -38,7 +38,7 @@ def tables(
     reliable=True,
     misfits=0,
     changed=0,
-    enough=40.0,
+    found=100.0,
     narrowing=0.1,
     status=(DETERMINED, OPEN, NOT_DETERMINED),
 ):
@@ -53,7 +53,7 @@ def tables(
             "range_low": [0.03, 0.02, 1e4],
             "range_high": [1.2, 10.0, 1e9],
             "status": status,
-            "effective": 100.0 if reliable else 1.5,
+            "effective": found if reliable else 1.5,
         }
     )
     fit = pd.DataFrame({"line": [2, 3, 4, 5], "acceleration": [30.0, 40.0, 50.0, 60.0], "velocity": 0.05})
@@ -66,9 +66,9 @@ def tables(
     alternatives = alternatives.assign(preferred=[alternative, False])
     next_ = pd.DataFrame({"acceleration": [30.0, 45.0], "narrowing": [0.0, narrowing]})
     next_ = next_.assign(**{f"narrowing_{name}": [0.0, narrowing] for name in parameters.parameter})
-    parameters.attrs = SETTINGS | {"effective": enough}
-    found = {"parameters": parameters, "fit": fit, "alternatives": alternatives}
-    return found | {"prediction": prediction, "next": next_}
+    parameters.attrs = SETTINGS
+    known = {"parameters": parameters, "fit": fit, "alternatives": alternatives}
+    return known | {"prediction": prediction, "next": next_}
 
 
 def whole_page(**options):
@@ -144,9 +144,10 @@ def test_a_model_that_needs_many_mistakes_says_so_first():
 
 def test_a_trial_with_few_samples_says_so():
     assert "quick trial" not in first_screen()
-    text = first_screen(enough=2.0)
-    assert "This is a quick trial" in text and "intervals need 20 at least" in text
-    few = tables(enough=2.0)
+    text = first_screen(found=5.0)
+    assert "This is a quick trial" in text and "found 5 effective samples" in text
+    assert "intervals need 20 at least" in text
+    few = tables(found=5.0)
     assert "do not use these values" in overlay.make(few["parameters"], few["fit"])
 
 

@@ -129,6 +129,16 @@ def test_a_part_that_slides_on_a_steep_track_has_no_velocity(acceleration, z, pe
     assert (found, status) == (0.0, "ok")
 
 
+def test_a_part_that_sticks_in_every_cycle_has_a_velocity_on_a_steep_track():
+    """Its mean velocity is larger than the largest velocity of the plate."""
+    amplitude = 7.0 / math.sin(0.5)
+    conveyor = Conveyor(angle=0.5, acceleration=amplitude, inclination=-0.2, friction=0.2, static_friction=0.5)
+    found, status = velocity(conveyor, Start("conveyor"), 1, cycles=20)
+    assert status == "ok"
+    assert found == pytest.approx(simulate(conveyor, Start("conveyor"), duration=8.0).mean_velocity(), rel=1e-7)
+    assert found > amplitude * math.cos(0.5) / (100.0 * math.pi)
+
+
 def test_velocities_are_means_over_whole_periods():
     """A motion with a period of four cycles, over a number of cycles that is not a multiple of four."""
     conveyor = Conveyor(acceleration=61.8)

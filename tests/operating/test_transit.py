@@ -245,6 +245,18 @@ def test_calibrated_parts_belong_to_the_model(friction):
             parts.with_calibration(settings, samples, BEST)
 
 
+@pytest.mark.parametrize("static", [None, 0.3])
+def test_calibrated_parts_keep_a_stated_static_friction(static):
+    stated = {} if static is None else {"static_friction": static}
+    samples = pd.DataFrame({"friction": [0.2, 0.25, 0.28]})
+    model = SETTINGS["model"] | {"friction": 0.25} | stated
+    settings = {**SETTINGS, "spread": EQUAL, "model": model, "starts": 3}
+    settings["calibrated"] = parts.calibrated_factors(samples, settings)
+    rows = parts.population(np.array([40.0]), settings)
+    assert sorted(rows[:, FRICTION]) == pytest.approx([0.2, 0.25, 0.28])
+    assert rows[:, STATIC_FRICTION] == pytest.approx(rows[:, FRICTION] if static is None else np.full(3, static))
+
+
 def test_calibrated_parts_have_the_parameters_of_the_samples():
     samples = pd.DataFrame({"friction": [0.1, 0.3], "damping": [0.3, 0.6], "stiffness": [5e5, 1e6]})
     settings = {"model": {"friction": 0.2, "damping": 0.3, "stiffness": 5e5}, "starts": 4, "spread": {"seed": 1}}

@@ -100,7 +100,7 @@ def friction(config: dict, defaults: dict) -> Iterator[str]:
             if min(static) < max(sliding):
                 yield (
                     f"{key} has static_friction = {min(static)!r} below friction = {max(sliding)!r}; give a larger "
-                    "static_friction, or leave it out to make both equal"
+                    "static_friction, or leave it out to make both equal, or give a smaller friction"
                 )
 
 

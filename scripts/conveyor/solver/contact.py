@@ -40,6 +40,8 @@ def constants(parameters, tolerance):
     exponent = parameters[model.EXPONENT]
     stiffness = parameters[model.STIFFNESS] / mass
     static_penetration = (gravity / stiffness) ** (1.0 / exponent)
+    # cos(π/2) is not zero in floating point.
+    along = math.cos(parameters[model.ANGLE]) if parameters[model.ANGLE] < 0.5 * math.pi else 0.0
     edge_w = 0.0
     if exponent != 1.5 and exponent != 1.0:
         edge_w = (tolerance * gravity / stiffness) ** (0.5 / exponent)
@@ -47,7 +49,7 @@ def constants(parameters, tolerance):
         omega,
         1.0 / parameters[model.FREQUENCY],
         parameters[model.PSI0],
-        parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE]),
+        parameters[model.ACCELERATION] * along,
         parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]),
         gravity,
         parameters[model.GRAVITY] * math.sin(parameters[model.INCLINATION]),

@@ -162,8 +162,7 @@ def follow_horizontal(c, step, horizontal, feeding, record, sampled, events):
     segment = first_segment(c, motion, horizontal)
     x, vx, sigma = horizontal
     fastest = max(-motion.v, -piece.v, 0.0)
-    # Without any friction the slip changes nothing.
-    released = not feeding or c.static_friction == 0.0
+    released = not feeding
     segments, leave = 0, LEAVE
     while True:
         segments += 1
@@ -201,4 +200,7 @@ def follow_horizontal(c, step, horizontal, feeding, record, sampled, events):
         # The part has the velocity of the plate here, exactly.
         vx = speed_x * friction.along(c, sine, cosine)[0]
         segment = Segment(sigma, segment.mu, x, vx, s, t, sine, cosine, z, vz, w, v)
+    if feeding and c.static_friction == 0.0:
+        # Without friction the part does not take over the error of the moment at which the slip vanishes.
+        x, vx = slide(c, horizontal.x, horizontal.vx, piece.duration)
     return Horizontal(x, vx, sigma), sampled, events, segments

@@ -76,8 +76,6 @@ def plot(*, shares: pd.DataFrame) -> Figure:
         style.say(axes, "no motion has a mean velocity")
         axes.set_yticks([])
     else:
-        if shares.acceleration.nunique() == 1:
-            style.say(axes, "a single amplitude; give more for lines")
         axes.axhline(0.0, color="black", linewidth=0.6, zorder=0)
         handles = share_handles(shares)
         figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), columnspacing=1.2)

@@ -202,6 +202,25 @@ def test_nothing_moves_a_part_along_a_plate_at_rest(tension, z):
     assert not (samples["x"].any() or samples["vx"].any() or samples["friction_force"].any())
 
 
+def test_a_vertical_plate_moves_no_part_along_the_track():
+    run = simulate(Conveyor(acceleration=12.0, angle=0.5 * math.pi), Start(3e-4), duration=1.0)
+    assert run.impacts > 10
+    assert run.x_end == run.vx_end == 0.0
+
+
+@pytest.mark.parametrize("inclination", [0.0, 0.1])
+def test_without_friction_only_gravity_acts_along_the_track(inclination):
+    run = simulate(Conveyor(friction=0.0, inclination=inclination), Start(3e-4), duration=1.0)
+    fall = 9.81 * math.sin(inclination)
+    assert run.vx_end == pytest.approx(-fall, rel=1e-12)
+    assert run.x_end == pytest.approx(-0.5 * fall, rel=1e-12)
+
+
+def test_the_slip_changes_its_sign_without_friction_too():
+    run = simulate(Conveyor(friction=0.0, acceleration=20.0), duration=0.2)
+    assert np.sum(run.events["kind"] == "slip reversal") >= 18
+
+
 def test_samples_do_not_disturb_a_run():
     """Any set of sample times gives bit for bit the same motion, in the requested order."""
     run = simulate(Conveyor(acceleration=80.0), Start(), duration=0.5)

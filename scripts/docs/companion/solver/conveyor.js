@@ -3,7 +3,8 @@ const TENSIONS = ["allow", "frictionless", "clip"];
 /* The constants of one conveyor that the equations need, with forces per mass. */
 function constants(parameters, tolerance) {
   const omega = 2 * Math.PI * parameters.frequency;
-  const aX = parameters.acceleration * Math.cos(parameters.angle);
+  // cos(π/2) is not zero in floating point.
+  const aX = parameters.angle < 0.5 * Math.PI ? parameters.acceleration * Math.cos(parameters.angle) : 0;
   const aZ = parameters.acceleration * Math.sin(parameters.angle);
   const { mass, exponent, friction, tension, psi0, inclination, phase_shift: shift } = parameters;
   const gravity = parameters.gravity * Math.cos(inclination);

@@ -228,8 +228,7 @@ function feed(run, motion, step, end, feeding) {
   const [mu, grip] = pulled ? [0, 0] : [c.friction, c.staticFriction];
   let here = { s: 0, t: 0, w: motion.w, v: motion.v, sine: motion.sine, cosine: motion.cosine };
   let { x, vx, sigma } = motion;
-  // Without any friction the slip changes nothing.
-  let released = !feeding || c.staticFriction === 0;
+  let released = !feeding;
   let leave = LEAVE;
   for (;;) {
     const { sine, cosine } = here;
@@ -258,6 +257,11 @@ function feed(run, motion, step, end, feeding) {
       const kind = piece.sigma === 0 ? "slip" : sigma === 0 ? "stick" : "slip reversal";
       run.record({ time: base + t + here.t, kind });
     }
+  }
+  if (feeding && c.staticFriction === 0) {
+    // Without friction the part does not take over the error of the moment at which the slip vanishes.
+    x = motion.x + (motion.vx - 0.5 * c.downhill * end.t) * end.t;
+    vx = motion.vx - c.downhill * end.t;
   }
   Object.assign(motion, { x, vx, sigma });
 }
