@@ -35,7 +35,7 @@ def ends_of(amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def throw_axis(axes: Axes, shares: pd.DataFrame) -> Axis:
     """Add an axis for the throw number above the panel."""
-    unit = shares.acceleration.iloc[0] / shares.vertical.iloc[0]
+    unit = shares.acceleration.iloc[-1] / shares.vertical.iloc[-1]
     above = axes.secondary_xaxis("top", functions=(lambda x: x / unit, lambda x: x * unit))
     above.set_xlabel(style.THROW_NUMBER)
     return above
