@@ -150,12 +150,12 @@ def test_cases_that_miss_a_goal_are_named():
 
 
 def test_comments_belong_to_their_keys():
-    text = '# of the file\n\nfirst:   # beside "first"\n  # above\n  # it\n  second: "a # b"   # c\n  third: {x: 1}\n'
+    text = '# file\n\nfirst:   # beside "first"\n  # above\n  # it\n  second: "a # b"   # c\n  third: {x: 1}   # d\n'
     found = list(parse_file(text))
     assert [tuple(key) for key in found] == [
         (("first",), "", 'beside "first"', ""),
         (("first", "second"), '"a # b"', "c", "above it"),
-        (("first", "third"), "{x: 1}", "", ""),
+        (("first", "third"), "{x: 1}", "d", ""),
         (("first", "third", "x"), "1", "", ""),
     ]
 
