@@ -4,7 +4,8 @@ Conveyors are random. `rich` sets have several parts at each of many amplitudes,
 other sets, the conveyor differs in one point from the model of the calibration.
 
 Where intervals are wide, the calibration may be poor, or the measurements may leave the parameters open. The likelihood
-from so many parts that it needs no smoothing tells one from the other.
+from so many parts that it needs no smoothing tells one from the other. Where a wrong model is not noticed, the evidence
+of the true one says whether any test could have noticed it.
 """
 
 import json
@@ -15,7 +16,7 @@ import pandas as pd
 
 from calibration import prediction
 from calibration.calibrate import calibrate
-from calibration.inference import Data, data_of
+from calibration.inference import Data, data_of, search
 from calibration.measurements import parse
 from calibration.predicted import log_densities, velocities
 from calibration.synthetic import csv_text, measure, true_velocity
@@ -84,6 +85,11 @@ def gain_of_distant(samples: pd.DataFrame, best: dict, true: dict, data: Data, s
     return float(max(others) - of_true)
 
 
+def stated_model(conveyor: dict) -> dict:
+    """What a user states of a conveyor: all but the parameters that are searched."""
+    return {name: value for name, value in conveyor.items() if name not in PARAMETERS}
+
+
 def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: str | None = None) -> str:
     """The row of one data set, as JSON."""
     random = np.random.default_rng([settings["seed"], number])
@@ -98,11 +104,15 @@ def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: 
     amplitudes = amplitudes.round(3)
     lasts = settings["duration"]
     rows = measure(real, amplitudes, box, settings["calibration"]["noise"], random, duration=lasts)
-    pairs = [(factor * acceleration, velocity) for acceleration, velocity in rows]
-    text = csv_text(pairs, "synthetic", duration=lasts, before=lasts)
-    model = {name: value for name, value in stated.items() if name not in PARAMETERS}
-    own = settings["calibration"] | settings["band"] | box | {"model": model, "static_friction": 0.0}
-    measured = parse(text, "synthetic", own, RANGES)
+
+    def stated_as(conveyor: dict, factor: float) -> tuple[list, dict]:
+        """The measurements and the settings if a conveyor, and amplitudes with a factor, are stated."""
+        model = stated_model(conveyor)
+        own = settings["calibration"] | settings["band"] | box | {"model": model, "static_friction": 0.0}
+        pairs = [(factor * acceleration, velocity) for acceleration, velocity in rows]
+        return parse(csv_text(pairs, "synthetic", duration=lasts, before=lasts), "synthetic", own, RANGES), own
+
+    measured, own = stated_as(stated, factor)
     found = calibrate(measured, own, threads=threads, progress=progress)
     samples, fit = (pd.DataFrame(found[name]) for name in ("samples", "fit"))
     band = prediction.make(samples, fit, own, threads=threads, progress=progress)["prediction"]
@@ -121,5 +131,12 @@ def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: 
     row |= {"p_value": float(fit.p_value.iloc[0]), "effective": found["parameters"]["effective"][0]}
     if kind in RIGHT:
         best = {name: row[f"{name}_best"] for name in PARAMETERS}
-        row["gain_of_distant"] = gain_of_distant(samples, best, real, data_of(measured, model), own, threads)
+        row["gain_of_distant"] = gain_of_distant(samples, best, real, data_of(measured, own["model"]), own, threads)
+    else:
+        options = {"threads": threads, "progress": progress}
+        assumed, true = (
+            search(data_of(of, by["model"]), by, **options).log_evidence
+            for of, by in ((measured, own), stated_as(real, 1.0))
+        )
+        row["gain_of_truth"] = true - assumed
     return json.dumps(row)

@@ -36,6 +36,11 @@ TABLES = {
             "largest logarithm of the likelihood, from many parts, of samples whose friction or damping differs from "
             "the best by more than 20 %, minus that of the true parameters; null for none, and for wrong models",
         ),
+        fields.number(
+            "gain_of_truth",
+            "1",
+            "logarithm of the evidence of the true model minus that of the assumed one; null for right models",
+        ),
     )
 }
 
@@ -45,6 +50,6 @@ def make(rows: list[str], settings: dict) -> dict[str, list]:
     found = [json.loads(row) for row in rows]
     least, decisive = (settings["calibration"][name] for name in ("significance", "decisive"))
     for row in found:
-        row.setdefault("gain_of_distant", None)
+        row |= {name: row.get(name) for name in ("gain_of_distant", "gain_of_truth")}
         row["explained"] = row["p_value"] >= least and row["log_bayes_factor"] <= math.log(decisive)
     return fields.columns(found, TABLES["calibration_study"])

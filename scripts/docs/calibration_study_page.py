@@ -1,5 +1,7 @@
 """The page of the simulation study of the calibration."""
 
+import math
+
 import numpy as np
 import pandas as pd
 from scipy.stats import chi2
@@ -31,6 +33,7 @@ def summarize(kind: str, sets: pd.DataFrame) -> dict:
             "error": float(np.abs(best / true - 1.0).median()),
         }
     return row | {
+        "decades": [float(end) / math.log(10.0) for end in (sets.gain_of_truth.min(), sets.gain_of_truth.max())],
         "covered": sum(row[name]["covered"] for name in PARAMETERS),
         "in_band": float(sets.in_band.mean()),
     }

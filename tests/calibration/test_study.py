@@ -18,11 +18,11 @@ from docs import calibration_study_page
 TRUE = {"friction": 0.2, "damping": 1.0, "stiffness": 1e5}
 
 
-def row(number, kind, p_value, half=0.1, error=0.0, gain=-3.0, distant=math.nan):
+def row(number, kind, p_value, half=0.1, error=0.0, gain=-3.0, **others):
     """A data set whose best values have a relative error, with intervals of a relative half width."""
     found = {"number": number, "kind": kind, "frequency": 50.0, "angle": 0.3, "mass": 1e-3, "measurements": 30}
     found |= {"in_band": 0.9, "p_value": p_value, "effective": 100.0}
-    found |= {"alternative": "inclination", "log_bayes_factor": gain, "gain_of_distant": distant}
+    found |= {"alternative": "inclination", "log_bayes_factor": gain, **others}
     for name, value in TRUE.items():
         best = (1.0 + error) * value
         found |= {name: value, f"{name}_best": best}
@@ -52,10 +52,13 @@ def test_the_page_counts_intervals_that_hold_and_models_that_are_called_wrong():
     rows = [
         row(0, "rich", 0.4),
         row(1, "rich", 0.02),
-        row(2, "rich", 0.5, half=0.3, error=0.5, distant=-1.0),
+        row(2, "rich", 0.5, half=0.3, error=0.5, gain_of_distant=-1.0),
         row(3, "poor", 0.9),
     ]
-    rows += [row(4, "inclination", 0.001), row(5, "inclination", 0.04), row(6, "inclination", 0.9, gain=6.0)]
+    # Evidences of the true model: e^6.9, e^-0.46 and e^2.3 times as large.
+    wrong = [(0.001, -3.0, 6.9), (0.04, -3.0, -0.46), (0.9, 6.0, 2.3)]
+    for number, (p_value, gain, of_truth) in enumerate(wrong, start=4):
+        rows.append(row(number, "inclination", p_value, gain=gain, gain_of_truth=of_truth))
     table = pd.DataFrame(study_table.make(rows, SETTINGS))
     assert list(table.explained) == [True, False, True, True, False, True, False]
     table.attrs = SETTINGS
@@ -66,7 +69,7 @@ def test_the_page_counts_intervals_that_hold_and_models_that_are_called_wrong():
     assert "| Intervals of friction and damping of at most ±20 % | 2 of 3 | 1 of 1 |" in page
     assert "Wider intervals that the measurements leave open (see below) | 1 of 1 | 0 of 0 |" in page
     assert '| Wrongly called "not explained" | 1 of 3 | 0 of 1 |' in page
-    assert "| the track rises by 0.06 rad | 3 | 2 |" in page
+    assert "| the track rises by 0.06 rad | 3 | 2 | -0.2 to 3.0 |" in page
 
 
 MODEL = {"frequency": 40.0, "angle": 0.3, "mass": 1e-3, "gravity": 9.81, "exponent": 1.5}
