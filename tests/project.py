@@ -25,7 +25,7 @@ COARSE_PAIRS = {"axes": {"acceleration": {"num": 3}}, "duration": 0.1}
 TINY = {
     "attractors": {"acceleration": {"num": 3}, "transient": 20, "strobes": 8},
     "lyapunov": {"cycles": 20, "blocks": 5},
-    "sweeps": {"amplitudes": COARSE},
+    "sweeps": {"amplitudes": COARSE, "on_plate": {"axes": {"acceleration": {"num": 3}}}},
     "estimates": {"phase": COARSE_PAIRS},
 }
 
@@ -60,7 +60,8 @@ def small_config() -> dict:
     config["companion"]["maps"] = config["map_check"]["maps"] = ["amplitudes"]
     config["map_check"] |= {"points": 4, "cycles": 512}
     config["uncertainty"]["claims"] = []
-    used = {table for entry in config["figures"].values() for table in entry["tables"].values()}
+    tables = ("tables", "caption_tables")
+    used = {table for entry in config["figures"].values() for key in tables for table in entry.get(key, {}).values()}
     used.add(f"critical/{config['sensitivity']['critical']}")
     for section in (*ENTRIES, "claims", "figures_on_request"):
         config[section] = {name: entry for name, entry in config[section].items() if f"{section}/{name}" in used}

@@ -67,6 +67,16 @@ def positive_onset(table: pd.DataFrame) -> float:
     return onset(table.acceleration, table["lambda"] > 0.0)
 
 
+def with_settled_motion(table: pd.DataFrame, states: pd.DataFrame) -> pd.DataFrame:
+    """The rows with the state and the period of the motion to which each trajectory settles, and whether it is chaos.
+
+    states : settled motions over the amplitude, of the same initial condition; those of the nearest amplitude are taken
+    """
+    settled = states.sort_values("acceleration")[["acceleration", "state", "period"]]
+    rows = pd.merge_asof(table.sort_values("acceleration"), settled, on="acceleration", direction="nearest")
+    return rows.assign(chaotic=rows.state == "chaos")
+
+
 def phase_estimate(
     *,
     euler: pd.DataFrame,
@@ -81,8 +91,7 @@ def phase_estimate(
     def between(table: pd.DataFrame) -> pd.DataFrame:
         return table[table.acceleration.between(begin, end, inclusive="left")]
 
-    settled = between(states)
-    settled = settled[settled.z0 == settled.z0.min()]
+    settled = with_settled_motion(converged, states)
     found = by_method(lambda table: between(table)["lambda"], euler, converged)
     texts = [
         f"{100 * (values > 0.0).mean():.0f} % of the amplitudes by the {METHODS[method]} (median "
@@ -91,8 +100,9 @@ def phase_estimate(
     ]
     note = (
         f"Between {format_amplitude(begin)} and {format_amplitude(end)}, the estimate is positive at {texts[0]} and at "
-        f"{texts[1]}, but {100 * (settled.period > 0).mean():.0f} % of the motions are periodic. "
-        f"{describe_perturbations(estimates)}"
+        f"{texts[1]}. There, {100 * (between(settled).period > 0).mean():.0f} % of these trajectories settle to a "
+        "periodic motion. The lowest amplitude at which one stays chaotic is "
+        f"{format_amplitude(settled[settled.chaotic].acceleration.min())}. {describe_perturbations(estimates)}"
     )
     return Finding({"amplitude": begin}, {"amplitude": end}, note + about_proofs.describe_periodic(certificates, begin))
 
@@ -176,7 +186,6 @@ def predicted_onset(
 
 def dimension_range(euler: pd.DataFrame, states: pd.DataFrame, state: str) -> str:
     """Least and largest dimension, by box counting as in the paper, of the motions that settle to a state."""
-    states = states[states.z0 == states.z0.min()].sort_values("acceleration")[["acceleration", "state"]]
-    rows = pd.merge_asof(euler.sort_values("acceleration"), states, on="acceleration", direction="nearest")
+    rows = with_settled_motion(euler, states)
     found = rows[rows.state == state].dimension
     return f"{found.min():.2f} to {found.max():.2f}"

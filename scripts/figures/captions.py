@@ -10,7 +10,7 @@ import pandas as pd
 from accuracy import speed
 from accuracy.rigid_part import CONTACT, RIGID
 from accuracy.stability import PANELS, VELOCITY
-from claims.about_chaos import positive_onset
+from claims.about_chaos import positive_onset, with_settled_motion
 from claims.about_proofs import lowest_fold
 from claims.about_states import find_runs, format_runs, second_from_rest
 from conveyor.analysis.chaos.random_walk import AT_REST
@@ -89,9 +89,14 @@ def fig17(*, converged: pd.DataFrame) -> dict[str, list[str]]:
     return {"states": [name_state(state) for state in STATE_COLOURS if (converged.state == state).any()]}
 
 
-def fig22(*, converged: pd.DataFrame, spectrum: pd.DataFrame, euler: pd.DataFrame | None = None) -> dict[str, float]:
+def fig22(
+    *, converged: pd.DataFrame, spectrum: pd.DataFrame, states: pd.DataFrame, euler: pd.DataFrame | None = None
+) -> dict[str, float]:
+    settled = with_settled_motion(converged, states)
+    positive = settled[settled["lambda"] > 0.0]
+    found = {"positive": len(positive), "periodic": int((positive.period > 0).sum())}
     if euler is None:
-        return {}
+        return found
     up = spectrum[(spectrum.branch == "up")].sort_values("acceleration")
     joined = pd.merge_asof(
         converged.sort_values("acceleration"),
@@ -100,7 +105,8 @@ def fig22(*, converged: pd.DataFrame, spectrum: pd.DataFrame, euler: pd.DataFram
         direction="nearest",
     )
     joined = joined[joined.chaotic]
-    return {
+    return found | {
+        "lowest_chaos": settled[settled.chaotic].acceleration.min(),
         "euler_positive": positive_onset(euler),
         "converged_positive": positive_onset(converged),
         "plateau": joined["lambda"].median(),

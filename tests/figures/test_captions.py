@@ -53,11 +53,15 @@ def test_plateau_and_exponent_of_fig_22():
     spectrum = pd.DataFrame(
         {"acceleration": acceleration, "branch": "up", "lambda_1": np.where(chaotic, 36.0, -20.0), "stderr": 1.0}
     )
-    text = caption("fig22", converged=estimate, euler=estimate, spectrum=spectrum)
+    states = pd.DataFrame({"acceleration": acceleration, "state": np.where(acceleration >= 61.0, "chaos", "first")})
+    states = states.assign(period=np.where(acceleration >= 61.0, 0, 2))
+    text = caption("fig22", converged=estimate, euler=estimate, spectrum=spectrum, states=states)
     assert "phases differ by 1e-8 rad. With" in text
-    assert "is positive from 59 m/s² on, where" in text
-    assert "is positive only from 59 m/s² on. This" in text
-    assert "the plateau of 17 1/s" in text
+    assert "is positive from 59 m/s² on. The reason" in text
+    assert "is positive only from 59 m/s² on. The lowest amplitude" in text
+    assert "stays chaotic is 61" in text
+    assert "At 2 of the 32 amplitudes with a positive estimate" in text
+    assert "The plateau of 17 1/s" in text
     assert "motion there is 36 1/s." in text
 
 

@@ -23,6 +23,7 @@ COARSE = {
         "heights": {"axes": {"acceleration": [29.0, 38.0, 47.0], "z0": {"num": 5}}},
         "heights_chaos": {"axes": {"z0": {"num": 5}}},
         "map_amplitude": {"axes": FEW | {"z0": {"num": 5}}},
+        "on_plate": {"axes": FEW},
         "map_height": {"axes": PHASE_AND_HEIGHT},
         "map_velocity": {"axes": PHASE_AND_VELOCITY},
         "map_height_chaos": {"axes": PHASE_AND_HEIGHT},
