@@ -158,6 +158,7 @@ def predicted_onset(
     euler_exponent: pd.DataFrame,
     converged_exponent: pd.DataFrame,
     states: pd.DataFrame,
+    states_of_exponent: pd.DataFrame,
 ) -> Finding:
     """Distance (m/s²) between the onsets by dimension and by the exponent of Fig. 22, and fluctuation of the dimension.
 
@@ -171,6 +172,8 @@ def predicted_onset(
             {"distance": abs(by_dimension - by_exponent), "largest_step": float(steps.max()) if len(steps) else NONE}
         )
     unknown = converged[converged.dimension.isna()].acceleration
+    states = states[states.z0 == states.z0.min()].sort_values("acceleration")
+    chaos = [onset(table.acceleration, table.state == "chaos") for table in (states, states_of_exponent)]
     note = (
         "An onset is the amplitude with the fewest exceptions, which are chaos below it and none above it. By the "
         f"converged dimension, chaos begins at {format_amplitude(dimension_onset(converged))}, and by the converged "
@@ -179,7 +182,9 @@ def predicted_onset(
         f"{format_amplitude(positive_onset(euler_exponent))}, where the second state begins, because its box counting "
         f"gives {dimension_range(euler, states, 'second')} in the second state and "
         f"{dimension_range(euler, states, 'chaos')} in chaos. Converged phase portraits have no scaling region at "
-        f"{len(unknown)} of {len(converged)} amplitudes"
+        f"{len(unknown)} of {len(converged)} amplitudes. The figures begin with different initial conditions: chaos "
+        f"begins at {format_amplitude(chaos[0])} for the one of Fig. 24, and at {format_amplitude(chaos[1])} for the "
+        "one of Fig. 22, on the plate"
     )
     return Finding(*found, note)
 

@@ -477,10 +477,12 @@ def test_onset_by_dimension():
         "converged_exponent": exponents(59.0),
         "euler_exponent": exponents(62.0),
         "states": sweep(lambda a, z: "chaos" if a >= 63.0 else "second"),
+        "states_of_exponent": sweep(lambda a, z: "chaos" if a >= 58.0 else "second"),
     }
     finding = about_chaos.predicted_onset(**tables)
     assert (numbers(finding.euler), numbers(finding.converged)) == ((0.0, 1.0), (3.0, 1.0))
     assert "1.00 to 2.00 in the second state and 2.00 to 2.00 in chaos" in finding.note
+    assert "begins at 63 m/s² for the one of Fig. 24, and at 58 m/s² for the one of Fig. 22" in finding.note
 
 
 def test_the_onset_by_dimension_is_half_way_between_both_ends():
