@@ -55,7 +55,7 @@ def find_state(row: np.ndarray, restitution: tuple[np.ndarray, np.ndarray], cycl
     duration, cycle = cycles / row[FREQUENCY], 1.0 / row[FREQUENCY]
     times = sample_times(row, duration, MAX_PERIOD)
     samples, hits = rigid_part_motion.samples_and_impacts(row, times, restitution)
-    flights = np.diff(hits[hits["time"] > duration - 2.0 * MAX_PERIOD * cycle]["time"])
+    flights = hits["flight"][hits["time"] > duration - 2.0 * MAX_PERIOD * cycle]
     if len(flights) == 0 or flights.max() < labels.LONG_FLIGHT * cycle:
         return "first"
     return "second" if find_period(samples["z"], range(1, MAX_PERIOD + 1)) else "undecided"

@@ -24,7 +24,7 @@ from . import rigid_part_rest
 from .restitution import restitution_at
 
 SAMPLE_COLUMNS = ("x", "vx", "z", "vz")
-IMPACT_DTYPE = np.dtype([("time", np.float64), ("speed", np.float64)])
+IMPACT_DTYPE = np.dtype([("time", np.float64), ("speed", np.float64), ("flight", np.float64)])
 
 COLLAPSE = 1e-6  # rad; a bounce shorter than this is the last one
 MAX_EVENTS = 100_000  # within one excitation cycle
@@ -142,7 +142,8 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
     speeds, coefficients : float64, shape (k,), ascending speeds of approach (m/s), their coefficients of restitution
     times : float64, shape (n,), s, ascending
     samples : float64, shape (n, 4), filled in the order of SAMPLE_COLUMNS (m, m/s)
-    impacts : float64, shape (m, 2), filled with time (s) and speed of approach (m/s) of the first m impacts
+    impacts : float64, shape (m, 3), filled with time (s) and speed of approach (m/s) of the first m impacts, and with
+        the duration (s) of the flight that each of them ends
 
     Returns
     -------
@@ -156,6 +157,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
     # Whole cycles and a time in the cycle keep the phase precise in long runs.
     cycle, t = 0, 0.0
     sampled = n_impacts = n_events = 0
+    airborne = 0.0
     while sampled < len(times):
         while t >= period:
             t -= period
@@ -170,7 +172,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
         if motion.kind == ARRIVING:
             if motion.rate < 0.0:
                 if n_impacts < len(impacts):
-                    impacts[n_impacts, 0], impacts[n_impacts, 1] = base + t, -motion.rate
+                    copy(impacts[n_impacts], (base + t, -motion.rate, airborne))
                 n_impacts += 1
             motion = bounce(c, motion, theta, restitution_at(-motion.rate, speeds, coefficients))
         elif motion.kind == RESTING:
@@ -201,6 +203,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
             sampled = sample_motion(c, motion, theta, base, t, tau, times, samples, sampled)
             x, vx = slide(c, x, vx, tau)
             motion = Motion(ARRIVING, x, vx, sigma, z, vz, 0.0, -speed, 0.0)
+            airborne = tau
             t += tau
     return n_impacts, max_gap, OK
 
@@ -226,7 +229,7 @@ def _follow(parameters, restitution, times, n_impacts=0):
     if speeds.shape != coefficients.shape or speeds.ndim != 1 or not (np.diff(speeds) > 0.0).all():
         raise ValueError("restitution must be a number or two columns of equal length, the speeds ascending")
     samples = np.empty((len(times), len(SAMPLE_COLUMNS)))
-    impacts = np.empty((n_impacts, 2))
+    impacts = np.empty((n_impacts, len(IMPACT_DTYPE)))
     result = follow(parameters, speeds, coefficients, times, samples, impacts)
     return result, samples, impacts
 
@@ -258,10 +261,12 @@ def sample(parameters: np.ndarray, times: np.ndarray, restitution) -> dict[str, 
 def samples_and_impacts(
     parameters: np.ndarray, times: np.ndarray, restitution
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """As `sample`, and the impacts up to the last of `times`: time (s) and speed of approach (m/s), of IMPACT_DTYPE."""
+    """As `sample`, and the impacts up to the last of `times`, of IMPACT_DTYPE: time (s), speed of approach (m/s), and
+    the duration (s) of the flight before.
+    """
     times = check_array("times", times, 0.0, LONGEST, "s", least=0)
     moments, place = np.unique(times, return_inverse=True)
-    samples, hits = np.empty((0, len(SAMPLE_COLUMNS))), np.empty((0, 2))
+    samples, hits = np.empty((0, len(SAMPLE_COLUMNS))), np.empty((0, len(IMPACT_DTYPE)))
     if moments.size:
         room = math.ceil(IMPACTS_OF_CYCLE * (1.0 + parameters[model.FREQUENCY] * moments[-1]))
         (n_impacts, *_), samples, hits = _follow(parameters, restitution, moments, room)
