@@ -12,7 +12,8 @@ from accuracy.rigid_part import CONTACT, RIGID
 from accuracy.stability import PANELS, VELOCITY
 from claims.about_chaos import positive_onset, with_settled_motion
 from claims.about_proofs import lowest_fold
-from claims.about_states import find_runs, format_runs, second_from_rest
+from claims.about_states import find_runs, format_runs
+from claims.finding import onset
 from conveyor.analysis.chaos.random_walk import AT_REST
 from figures.plots.fig10 import ends_of
 from figures.plots.speed_accuracy import method_name
@@ -149,16 +150,16 @@ def overview(*, bifurcations: pd.DataFrame, estimate: pd.DataFrame) -> dict[str,
 
 
 def rigid_part(*, rigid: pd.DataFrame) -> dict[str, float]:
-    velocities = rigid[rigid.kind == "velocity"]
-    compliant, bouncing = (velocities[velocities.model == model] for model in (CONTACT, RIGID))
-    leaves = second_from_rest(bouncing)
-    both = pd.merge(compliant, bouncing, on=["acceleration", "z0"], suffixes=("_contact", ""))
-    later = both[(both.z0 == 0.0) & (both.acceleration >= leaves)]
-    arrived = later[(later.mean_velocity > 0.5 * later.mean_velocity_contact) & (later.state_contact != "first")]
+    from_rest = rigid[(rigid.kind == "velocity") & (rigid.z0 == 0.0)].sort_values("acceleration")
+    leaves = {model: onset(rows.acceleration, rows.state != "first") for model, rows in from_rest.groupby("model")}
+    first = rigid[rigid.kind.isin(("fold", "period doubling")) & (rigid.number == 1)]
+    places = first.pivot_table(index="model", columns="kind", values="acceleration")
+    later = 100.0 * (places.loc[RIGID] / places.loc[CONTACT] - 1.0)
     return {
-        "leaves": second_from_rest(compliant),
-        "rigid_leaves": leaves,
-        "arrives": arrived.acceleration.min(),
+        "leaves": leaves[CONTACT],
+        "rigid_leaves": leaves[RIGID],
+        "fold_later": later["fold"],
+        "doubling_later": later["period doubling"],
     }
 
 

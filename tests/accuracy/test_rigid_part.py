@@ -14,6 +14,13 @@ def test_states_of_parts_that_move_along_jump_and_jump_without_end():
     assert (found.mean_velocity > 0.0).all()
 
 
+def test_rest_on_the_plate_is_no_flight():
+    """In each cycle, this part makes some small bounces and rests for more than half of the cycle."""
+    axes = {"acceleration": [48.0], "z0": [0.0]}
+    found = rigid_part.sweep({"axes": axes, "model": {}, "duration": 0.1}, cycles=400)
+    assert found.state.tolist() == ["first"]
+
+
 @pytest.mark.parametrize(("period", "found"), [(1, 1), (3, 3), (5, 0)])
 def test_the_period_is_the_first_after_which_heights_repeat(period, found):
     row = np.zeros(16)

@@ -23,7 +23,7 @@ def vertical(acceleration, **others):
 
 
 def impacts_of(parameters, duration, restitution):
-    """Times (s) and speeds (m/s) of all impacts of a run."""
+    """Times (s) and speeds (m/s) of all impacts of a run, and the flights (s) before them."""
     return rigid_part_motion.samples_and_impacts(parameters, np.array([duration]), restitution)[1]
 
 
@@ -40,6 +40,7 @@ def test_bouncing_on_a_plate_at_rest(e):
     np.testing.assert_allclose(impacts["speed"], speed * e**k, rtol=1e-5)
     times = speed / G * (1.0 + 2.0 * e * (1.0 - e**k) / (1.0 - e))
     np.testing.assert_allclose(impacts["time"], times, rtol=1e-10)
+    np.testing.assert_allclose(impacts["flight"], np.diff(times, prepend=0.0), rtol=1e-5)
     run = rigid_part_motion.run(parameters, 1.5 * collapse, e)
     assert (run.z, run.vz, run.max_gap, run.status) == (0.0, 0.0, height, "ok")
 
