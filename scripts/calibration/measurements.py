@@ -6,6 +6,7 @@ The Snakefile imports this module to check the file before any job starts, so it
 import csv
 import difflib
 import io
+import itertools
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -67,6 +68,12 @@ def read_text(path: str | Path) -> str:
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
         raise MeasurementError([f"{path}:{line}: is not UTF-8 text; export the table as CSV with UTF-8"]) from error
+
+
+def first_comments(text: str) -> list[str]:
+    """The comments before the header of a file of measurements."""
+    lines = itertools.takewhile(lambda line: line.startswith("#"), text.splitlines())
+    return [comment for line in lines if (comment := line.strip("# "))]
 
 
 def known_columns(parameters: Sequence[str], ranges: Mapping) -> dict[str, tuple[float, float]]:

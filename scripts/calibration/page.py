@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from calibration.inference import DETERMINED, NOT_DETERMINED, OPEN, TOO_FEW, samples_of_interval
-from calibration.measurements import DEFAULTS
+from calibration.measurements import DEFAULTS, first_comments
 from calibration.model_check import UNLIKELY
 from pipeline.templates import format_significant, render
 
@@ -29,9 +29,10 @@ def make(
     alternatives: pd.DataFrame,
     prediction: pd.DataFrame,
     next: pd.DataFrame,
+    measurements: str,
     prefix: str,
 ) -> str:
-    """The page from its template and the tables of the calibration."""
+    """The page from its template, the tables of the calibration and the text of the file of measurements."""
     rows = [
         {**row, "name": NAMES.get(row["parameter"], row["parameter"].replace("_", " "))}
         for row in parameters.replace({np.nan: None}).to_dict("records")
@@ -51,6 +52,7 @@ def make(
         {
             "settings": parameters.attrs,
             "prefix": prefix,
+            "comments": first_comments(measurements),
             "parameters": rows,
             "by_status": {
                 status: [row for row in rows if row["status"] == status]

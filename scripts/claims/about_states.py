@@ -182,7 +182,7 @@ def fit(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
     note = (
         f"A, B and C are poorly determined. On the converged heights, the paper's values have the error "
         f"{paper_error:.3g} m², and the best values {found['converged']['error']:.3g} m². Every B from "
-        f"{valley.B.min():.3g} to {valley.B.max():.3g} m/s² with its best A and C fits no worse than the paper's"
+        f"{valley.B.min():.4g} to {valley.B.max():.4g} m/s² with its best A and C fits no worse than the paper's"
     )
     return Finding(found["euler"], found["converged"], note)
 
@@ -211,7 +211,9 @@ def one_onset(*, converged: pd.DataFrame) -> Finding:
     share = (converged.state == "chaos").groupby(converged.acceleration).mean()
     coexisting = find_runs(share.index, (share > 0.0) & (share < 1.0))
     note = "An onset is the amplitude with the fewest exceptions, which are chaos below it and none above it. "
-    note += f"The onsets lie between {format_amplitude(onsets.min())} and {format_amplitude(onsets.max())}"
+    note += f"The onsets lie between {format_amplitude(onsets.min())} and {format_amplitude(onsets.max())}, and the "
+    note += f"amplitudes of the map {np.diff(share.index).max():.2g} m/s² apart. All parts start at rest at one phase; "
+    note += "parts that start on the plate become chaotic elsewhere (C21)"
     if coexisting:
         note += f". Chaos and regular motion coexist, depending on the initial height, at {format_runs(coexisting)}"
     if (share < 1.0).any():

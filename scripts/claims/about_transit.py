@@ -29,6 +29,11 @@ def even_feeding(*, drift: pd.DataFrame, lengths: pd.DataFrame) -> Finding:
         if found
     ]
     note = f"Exponents of the spread: {' and '.join(texts)}" if texts else "No exponent of the spread is known"
+    if len(known):
+        note += (
+            f". The velocities are compared at {known.acceleration.min():g} to {known.acceleration.max():g} m/s², "
+            "where all motions are chaotic. Where chaos exists beside other motions, the initial condition decides"
+        )
     numbers = {
         "sets": float(apart.max()) if len(apart) else NONE,
         "exponent": farthest,

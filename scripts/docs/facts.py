@@ -9,9 +9,11 @@ from claims.about_proofs import lowest_fold, stable_motions
 from claims.verdicts import VERDICTS
 from conveyor.analysis.stroboscopic_map import MAX_PERIOD
 from figures.captions import accumulation, fig10
+from figures.plots.fit_valley import flat_part
 from operating.chart import spreads_of
 from operating.parts import POPULATIONS
 from operating.regimes import SEVERAL
+from operating.transit import ENDS
 
 
 def margin(value: float, low: float, high: float) -> float:
@@ -58,12 +60,6 @@ def summarize_speed(benchmark: pd.DataFrame) -> dict[str, Any]:
     }
 
 
-def valley(fit: pd.DataFrame) -> pd.Series:
-    """The values of B (m/s²) with which Eq. 13 fits no worse than with the paper's parameters."""
-    paper = fit[fit.fit == "paper"].iloc[0]
-    return fit.B[(fit.fit == "valley") & (fit.error <= paper.error)]
-
-
 def summarize_transit(transit: pd.DataFrame, lengths: pd.DataFrame) -> dict[str, Any]:
     """Where identical parts differ most in their velocity, where varied parts differ least, and the track's length."""
     widest = lengths[lengths.regime == SEVERAL].sort_values(["spread", "length"]).acceleration.iloc[-1]
@@ -72,6 +68,7 @@ def summarize_transit(transit: pd.DataFrame, lengths: pd.DataFrame) -> dict[str,
         "uneven": identical.loc[(identical.acceleration - widest).abs().idxmin()],
         "even": varied.loc[varied.spread.idxmin()],
         "track": transit.attrs["length"],
+        "middle": ENDS[1] - ENDS[0],
         "differences": spreads_of(transit.attrs),
     }
 
@@ -81,7 +78,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
 
     Parameters
     ----------
-    tables : claims, benchmark, edge, edge_euler, estimate, estimate_euler, spectrum, cascade, certificates,
+    tables : claims, benchmark, edge, edge_euler, estimate, estimate_euler, on_plate, spectrum, cascade, certificates,
         certified_bifurcations, certified_chaos, fit, transit and lengths
     """
     claims = tables["claims"].set_index("id")
@@ -89,6 +86,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
     return {
         "euler_positive": claims.paper_method["C19"][0],
         "converged_positive": claims.converged["C19"][0],
+        "lowest_chaos": tables["on_plate"].acceleration[tables["on_plate"].state == "chaos"].min(),
         "scatter": claims.converged["C03"][0],
         "first_error": first_error,
         "second_error": second_error,
@@ -97,7 +95,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         "heights_aside": fig10(converged=tables["edge"], euler=tables["edge_euler"])["aside"],
         "longest_period": MAX_PERIOD,
         "epsilon": tables["estimate"].attrs["epsilon"],
-        "valley": valley(tables["fit"]),
+        "valley": flat_part(tables["fit"]).B,
         **accumulation(spectrum=tables["spectrum"], cascade=tables["cascade"]),
         **names_by_verdict(tables["claims"]),
         **summarize_proofs(tables["certificates"], tables["certified_bifurcations"], tables["certified_chaos"]),

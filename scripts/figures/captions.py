@@ -14,8 +14,10 @@ from claims.about_chaos import positive_onset, with_settled_motion
 from claims.about_proofs import lowest_fold
 from claims.about_states import find_runs, format_runs
 from claims.finding import onset
+from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
 from conveyor.analysis.chaos.random_walk import AT_REST
 from figures.plots.fig10 import ends_of
+from figures.plots.fit_valley import flat_part
 from figures.plots.speed_accuracy import method_name
 from figures.plots.throw import proved_fold
 from figures.style import STATE_COLOURS
@@ -84,6 +86,13 @@ def fig10(
     if change.empty:
         return found
     return found | {"aside": format_change(change.max(), change.min()), "most_at": change.idxmin()}
+
+
+def fit_valley(*, fit: pd.DataFrame) -> dict[str, float]:
+    flat = flat_part(fit)
+    amplitudes = np.linspace(*fit.attrs["acceleration"], 200)
+    heights = [critical_height(amplitudes, Hyperbola(row.A, row.B, row.C)) for row in flat.itertuples()]
+    return {"apart": 1e6 * np.ptp(heights, axis=0).max(), "factor": flat.A.max() / flat.A.min()}
 
 
 def fig17(*, converged: pd.DataFrame) -> dict[str, list[str]]:
@@ -296,6 +305,7 @@ NUMBERS: dict[str, Callable[..., dict[str, Any]]] = {
     **dict.fromkeys(("fig12", "fig13", "fig14", "fig18", "fig19"), state_map),
     "fig17": fig17,
     "fig22": fig22,
+    "fit_valley": fit_valley,
     "identification": identification,
     "overview": overview,
     "bifurcation": bifurcation,

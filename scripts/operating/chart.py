@@ -130,6 +130,8 @@ def summarize_advice(transit: pd.DataFrame, advice: pd.DataFrame, changes: pd.Da
         "calibrated": transit.attrs["spread"].get("calibrated", False),
         "fast": rows.get(FAST),
         "even": rows.get(EVEN),
+        # Two standard errors of the difference between both spreads.
+        "unequal": CERTAIN * math.sqrt(np.square(advice.spread_stderr).sum()),
     }
 
 

@@ -73,7 +73,8 @@ def tables(
 
 def whole_page(**options):
     template = (ROOT / "workflow/templates/calibration.md").read_text(encoding="utf-8")
-    return page.make(template, **tables(**options), prefix="mine")
+    text = "# Synthetic, not measured\nacceleration,velocity\n"
+    return page.make(template, **tables(**options), measurements=text, prefix="mine")
 
 
 def first_screen(**options):
@@ -89,6 +90,7 @@ def test_the_page_begins_with_what_was_found_how_sure_it_is_and_what_to_do():
     assert "the measurements say nothing about the contact stiffness" in text
     assert "measure one more velocity at **45 m/s²**" in text and "10 % on average" in text
     assert "snakemake results/mine/calibrated.yaml" in text
+    assert text.endswith('mine.csv begins with the comment "Synthetic, not measured".\n\n')
     assert "the contact damping and the contact stiffness reach the end of the searched range" in text
 
 

@@ -446,7 +446,18 @@ def test_large_forces_have_no_exponent_and_unknown_ones_are_left_out(refined):
 
 def test_the_page_says_which_parts_its_forces_belong_to(refined):
     """Twenty cycles of 50 Hz take 0.4 s."""
-    assert "for 95 % of the parts that are on the track for more than 0.4 s\n" in page_of(refined, advised())
+    assert "for 95 % of the parts that are on the track for more than 0.4 s, the time" in page_of(refined, advised())
+
+
+@pytest.mark.parametrize(("stderr", "unsure"), [(0.0, False), (0.01, True)])
+def test_the_page_says_if_the_even_amplitude_is_not_known_to_be_more_even(refined, stderr, unsure):
+    rows, advice_rows, changes = advised()
+    attrs, advice_rows = advice_rows.attrs, advice_rows.assign(spread_worst=[1.1, 1.0])
+    advice_rows[[name for name in advice_rows if name.endswith("_stderr")]] = stderr
+    advice_rows.attrs = attrs
+    page = page_of(refined, [rows, advice_rows, changes])
+    assert "**Even.**" in page
+    assert ("the first amplitude may be as even:" in page) == unsure
 
 
 def test_the_page_names_changes_that_the_model_does_not_allow(refined):

@@ -43,6 +43,7 @@ rule calibration_prediction:
 rule calibration_page:
     input:
         **tables_of(*(f"calibration/{name}" for name in ("parameters", "fit", "alternatives", "prediction", "next"))),
+        measurements=measurements,
         template=source("workflow/templates/calibration.md"),
     output:
         page=result("calibration.md"),

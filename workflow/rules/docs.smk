@@ -34,6 +34,7 @@ FACTS = {
     "edge_euler": table("critical/edge_euler"),
     "estimate": table("estimates/phase"),
     "estimate_euler": table("estimates/phase_euler"),
+    "on_plate": table("sweeps/on_plate"),
     "fit": table("regressions/height"),
     "transit": table("operating/transit"),
     "lengths": table("operating/track_lengths"),

@@ -29,11 +29,17 @@ def marks(fit: pd.DataFrame) -> list[tuple[pd.Series, dict, str]]:
     ]
 
 
+def flat_part(fit: pd.DataFrame) -> pd.DataFrame:
+    """The fits of the valley whose error on the same heights is at most the error of the paper's triple."""
+    paper = fit[fit.fit == "paper"].iloc[0]
+    return fit[(fit.fit == "valley") & (fit.error <= paper.error)]
+
+
 def draw_errors(axes: Axes, fit: pd.DataFrame, fit_euler: pd.DataFrame, paper_error: float) -> None:
-    """Draw the smallest error for each B, and the error of the paper's fit (m²)."""
+    """Draw the smallest error for each B, and the error that the paper prints (m²)."""
     paper = 1e6 * paper_error**0.5
     axes.axhline(paper, color="black", linewidth=0.6, linestyle=":")
-    style.note(axes, "paper's fit", (1.0, paper), (0, -2), xycoords=("axes fraction", "data"), ha="right", va="top")
+    style.note(axes, "printed error", (1.0, paper), (0, -2), xycoords=("axes fraction", "data"), ha="right", va="top")
     fits = (
         (fit, style.CONVERGED, "fit to the converged solution"),
         (fit_euler, style.EULER, "fit to the paper's method"),
@@ -56,7 +62,7 @@ def draw_parameters(axes: Axes, fit: pd.DataFrame, flat: pd.DataFrame) -> None:
     """Draw A and C of the best fit for each B, wide for the fits in `flat`."""
     valley = fit[fit.fit == "valley"]
     axes.plot(1e3 * valley.A, 1e3 * valley.C, color="0.6", linewidth=0.8, label="best $A$ and $C$ for each $B$")
-    axes.plot(1e3 * flat.A, 1e3 * flat.C, color="0.6", linewidth=4.0, alpha=0.5, label="error ≤ paper's fit")
+    axes.plot(1e3 * flat.A, 1e3 * flat.C, color="0.6", linewidth=4.0, alpha=0.5, label="error ≤ paper's triple")
     for row, look, label in marks(fit):
         axes.plot(1e3 * row.A, 1e3 * row.C, **look, label=label)
     axes.set_xlabel("$A$ in 10$^{-3}$ m²/s²")
@@ -83,10 +89,10 @@ def draw_heights(axes: Axes, converged: pd.DataFrame, flat: pd.DataFrame, accele
 
 
 def plot(*, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame, paper_error: float) -> Figure:
-    """Draw the fits of the critical heights `converged`, and mark the error `paper_error` (m²)."""
+    """Draw the fits of the critical heights `converged`, and mark the printed error `paper_error` (m²)."""
     figure = style.figure(style.PAGE, 62.0)
     panels = figure.subplots(1, 3)
-    flat = fit[(fit.fit == "valley") & (fit.error <= paper_error)]
+    flat = flat_part(fit)
     draw_errors(panels[0], fit, fit_euler, paper_error)
     draw_parameters(panels[1], fit, flat)
     draw_heights(panels[2], converged, flat, fit.attrs["acceleration"])

@@ -60,7 +60,7 @@ def plot(
         axes.axvline(accumulation, color="black", linewidth=0.6, linestyle=":")
     top, middle = {"xycoords": ("data", "axes fraction"), "va": "top"}, 0.5 * (critical_acceleration + accumulation)
     style.note(diagram, "two attractors coexist", (fold, 0.97), (2, 0), **top)
-    text = "doublings\naccumulate:\nonset of chaos"
+    text = "doublings of\nthe jumps\naccumulate"
     style.note(diagram, text, (accumulation, 0.97), (-2, 0), ha="right", **top)
     style.note(below, "chaos in\nthe paper", (middle, 0.97), ha="center", **top)
     diagram.tick_params(labelbottom=False)
