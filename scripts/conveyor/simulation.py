@@ -68,7 +68,7 @@ class Run:
         return (self.x_end - x_before) / (last * self.duration)
 
     def sample(self, times: np.ndarray) -> dict[str, np.ndarray]:
-        """The motion at `times` (s, any shape and order, within the run).
+        """The motion at `times` (s, any shape and order, within the run); of a fixed-step method, at the nearest step.
 
         Returns
         -------

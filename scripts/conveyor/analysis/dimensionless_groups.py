@@ -134,15 +134,13 @@ def slopes(parameters: np.ndarray) -> dict[str, np.ndarray]:
 def derivatives_of(moved: str, parameters: np.ndarray, by: np.ndarray) -> dict[str, float]:
     """Derivatives of a parameter that an equation between the groups determines, by each of the other parameters.
 
+    Returns them by the names of the parameters, in units of `moved` per unit of the parameter.
+
     Parameters
     ----------
     moved : a name in GROUP_OF
     parameters : packed, shape (16,), at which the equation holds
     by : derivatives of the group of `moved`, Γ or z0 ω²/g, by all groups in the order of NAMES, shape (7,); its own 0
-
-    Returns
-    -------
-    by the names of the parameters, in units of `moved` per unit of the parameter
     """
     of, own = slopes(parameters), GROUP_OF[moved]
     return {name: float((by @ slope - slope[own]) / of[moved][own]) for name, slope in of.items() if name != moved}

@@ -221,16 +221,14 @@ def press(c, series, first, second, motion, piece, count):
 def cycle(parameters, tolerance, state, first, second, count):
     """Advance `state` by one excitation cycle, and fill the first coefficients of `first` and `second`.
 
+    Returns a code of trajectory.STATUS and the number of impacts.
+
     Parameters
     ----------
     parameters, tolerance, state : see `cycles`
     first : float64, shape (6, 2, SIZE), filled with the derivatives of δ and Y by each quantity
     second : float64, shape (2, 6, 2, SIZE), filled with those by a state and a quantity
     count : number of quantities that are wanted; p, the last one, takes several times as long as the others
-
-    Returns
-    -------
-    status code of trajectory.STATUS, number of impacts
     """
     c = contact.constants(parameters, tolerance)
     series = contact.workspace()

@@ -152,7 +152,7 @@ def delta_and_v(motion):
 
 @compiled
 def advance(c, series, state, phase, duration, tangent, features):
-    """Advance `state` from a phase of the excitation by a time of at most one cycle.
+    """Advance `state` from a phase of the excitation by a time of at most one cycle; a code of trajectory.STATUS.
 
     Parameters
     ----------
@@ -162,10 +162,6 @@ def advance(c, series, state, phase, duration, tangent, features):
     tangent : float64, shape (2, 2), two perturbations of (δ, Y), replaced; shape (0, 2) for none
     features : float64, shape (4,), replaced: number of impacts, time with contact force (s), longest flight that ended
         (s); AIRBORNE, the time (s) since the last separation, goes on from its last value
-
-    Returns
-    -------
-    status code of trajectory.STATUS
     """
     # Numbers of both perturbations lie side by side, so that one instruction works on both.
     expansions = np.zeros((SIZE, 3, tangent.shape[0])).T

@@ -497,14 +497,9 @@ def run_all(parameters: np.ndarray, duration: float, step: float, method: str = 
 def sample(parameters: np.ndarray, times: np.ndarray, step: float, method: str = "euler") -> dict[str, np.ndarray]:
     """States and forces of one trajectory at the steps nearest to `times` (s, not negative, any shape and order).
 
-    The other parameters are as in `run`. ValueError for a negative time, a step that is not positive or an unknown
-    method.
-
-    Returns
-    -------
-    dict
-        x, z (m), vx, vz (m/s), contact_force, friction_force (N), float64, shape of `times`; NaN after a state that is
-        not finite
+    Returns x, z (m), vx, vz (m/s), contact_force, friction_force (N), float64, shape of `times`; NaN after a state that
+    is not finite. The other parameters are as in `run`. ValueError for a negative time, a step that is not positive or
+    an unknown method.
     """
     times, step = check_array("times", times, 0.0, LONGEST, "s", least=0), check_time("step", step)
     indices, place = np.unique(np.rint(times / step).astype(np.int64), return_inverse=True)

@@ -24,6 +24,7 @@ from . import rigid_part_rest
 from .restitution import restitution_at
 
 SAMPLE_COLUMNS = ("x", "vx", "z", "vz")
+# Time (s) and speed of approach (m/s) of an impact, and the duration (s) of the flight that it ends.
 IMPACT_DTYPE = np.dtype([("time", np.float64), ("speed", np.float64), ("flight", np.float64)])
 
 COLLAPSE = 1e-6  # rad; a bounce shorter than this is the last one
@@ -134,7 +135,7 @@ def sample_motion(c, motion, theta, base, t, tau, times, samples, sampled):
 
 @compiled
 def follow(parameters, speeds, coefficients, times, samples, impacts):
-    """Follow one part until the last of `times`.
+    """Follow one part until the last of `times`: number of impacts, largest gap (m), code of STATUS.
 
     Parameters
     ----------
@@ -142,12 +143,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
     speeds, coefficients : float64, shape (k,), ascending speeds of approach (m/s), their coefficients of restitution
     times : float64, shape (n,), s, ascending
     samples : float64, shape (n, 4), filled in the order of SAMPLE_COLUMNS (m, m/s)
-    impacts : float64, shape (m, 3), filled with time (s) and speed of approach (m/s) of the first m impacts, and with
-        the duration (s) of the flight that each of them ends
-
-    Returns
-    -------
-    number of impacts, largest gap (m), status
+    impacts : float64, shape (m, 3), filled for the first m impacts, with the numbers of IMPACT_DTYPE
     """
     c = contact.constants(parameters, 0.0)
     omega, gravity, a_z = c.omega, c.gravity, c.a_z
@@ -155,9 +151,8 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
     motion = first_motion(c, parameters[model.Z0], parameters[model.VZ0], psi0)
     max_gap = motion.q
     # Whole cycles and a time in the cycle keep the phase precise in long runs.
-    cycle, t = 0, 0.0
+    cycle, t, airborne = 0, 0.0, 0.0
     sampled = n_impacts = n_events = 0
-    airborne = 0.0
     while sampled < len(times):
         while t >= period:
             t -= period
@@ -261,9 +256,7 @@ def sample(parameters: np.ndarray, times: np.ndarray, restitution) -> dict[str, 
 def samples_and_impacts(
     parameters: np.ndarray, times: np.ndarray, restitution
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """As `sample`, and the impacts up to the last of `times`, of IMPACT_DTYPE: time (s), speed of approach (m/s), and
-    the duration (s) of the flight before.
-    """
+    """As `sample`, and the impacts up to the last of `times`, of IMPACT_DTYPE."""
     times = check_array("times", times, 0.0, LONGEST, "s", least=0)
     moments, place = np.unique(times, return_inverse=True)
     samples, hits = np.empty((0, len(SAMPLE_COLUMNS))), np.empty((0, len(IMPACT_DTYPE)))

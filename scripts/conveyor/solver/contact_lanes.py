@@ -126,17 +126,13 @@ def can_follow(c):
 
 @compiled_into_callers
 def refill(lane, trajectories, waiting, running, count):
-    """Give a lane the next trajectory, or NONE.
+    """Give a lane the next trajectory, or NONE; returns the new `waiting` and `running`.
 
     Parameters
     ----------
     trajectories : int64, shape (lanes,), the number of the trajectory that each lane follows; changed
     waiting, running : the first trajectory that no lane has had yet; a bit for each lane with a trajectory
     count : the number of trajectories
-
-    Returns
-    -------
-    waiting, running : from now on
     """
     if waiting == count:
         trajectories[lane] = NONE

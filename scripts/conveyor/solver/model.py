@@ -103,7 +103,8 @@ class Conveyor:
 class Start:
     """Initial conditions of the part: height z (m, or "conveyor" to start on the plate, Eq. 15) and velocity vz (m/s).
 
-    Time starts at 0, the horizontal position and velocity at zero.
+    Time starts at 0, the horizontal position and velocity at zero. A part on the plate does not press on it yet, so
+    that it slips first; to start at rest in the plate, give z = -(m g cos α/k_c)^(1/p) below the plate.
     """
 
     z: float | str = 0.0
@@ -130,12 +131,8 @@ def pack(conveyor: Conveyor, start: Start) -> np.ndarray:
 def set_columns(rows: np.ndarray, values: dict[str, np.ndarray | float]) -> None:
     """Write `values` of parameters, numbers or of shape (n,), into packed parameters, shape (n, 16).
 
-    A new friction without a new static_friction is the static friction, too.
-
-    Raises
-    ------
-    ValueError
-        for a static_friction below friction
+    A new friction without a new static_friction is the static friction, too. ValueError for a static_friction below
+    friction.
     """
     for name, column in values.items():
         rows[:, PARAMETERS.index(name)] = column

@@ -244,7 +244,7 @@ def _side(equations, begin, direction, limits, longest_step, most):
 
 def _meetings(equations, unknowns, forms, rights, impacts, ends) -> Iterable[CodimensionTwoPoint]:
     """Points of codimension two on a curve, and grazings at its ends."""
-    if ends[0] == STEP:
+    if ends[0] == STEP and len(unknowns) > 1:
         yield from _grazings(equations, *unknowns[1::-1], "the curve ends here")
     for n in range(len(unknowns) - 1):
         begin, end = unknowns[n], unknowns[n + 1]
@@ -253,7 +253,7 @@ def _meetings(equations, unknowns, forms, rights, impacts, ends) -> Iterable[Cod
             yield from found or [CodimensionTwoPoint(GRAZING, equations.point(end), float(end[3]), "not located")]
         if np.sign(forms[n]) * np.sign(forms[n + 1]) < 0.0:
             yield _degenerate(equations, begin, end, lambda one, along=rights[n]: normal_form(one, along)[0])
-    if ends[1] == STEP:
+    if ends[1] == STEP and len(unknowns) > 1:
         yield from _grazings(equations, *unknowns[-2:], "the curve ends here")
 
 

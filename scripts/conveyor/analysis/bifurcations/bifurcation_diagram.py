@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ...arguments import MOST_CYCLES, check_count, check_packed, check_tolerance
 from ...solver import trajectory
 from .. import stroboscopic_map
 
@@ -22,7 +23,9 @@ def follow_attractor(
     -------
     states, status : δ (m) and v (m/s) at the phase ψ0, shape (n, strobes, 2), and str, shape (n,); behind a failure NaN
     """
-    parameters = np.ascontiguousarray(parameters, dtype=np.float64)
+    parameters, tolerance = check_packed(parameters), check_tolerance(tolerance)
+    check_count("transient", transient, 0, MOST_CYCLES)
+    check_count("strobes", strobes, 1, MOST_CYCLES)
     states = np.full((len(parameters), strobes, 2), np.nan)
     codes = np.full(len(parameters), trajectory.NOT_FINITE)
     (state,) = stroboscopic_map.initial_states(parameters[:1], tolerance)

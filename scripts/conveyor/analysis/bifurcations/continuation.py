@@ -20,6 +20,7 @@ DOUBLED = 0.02  # distance from a period doubling to the orbit of twice the peri
 LARGEST_STEP, FIRST_STEP, SMALLEST_STEP = 0.1, 1e-3, 1e-7
 STRAIGHT = 0.95  # cosine of the largest turn of a branch within one step
 MAX_ORBITS = 5000
+JUMP = 1e-4  # largest value of a test function at its zero, over its change within the step
 
 
 class Bifurcation(NamedTuple):
@@ -35,7 +36,8 @@ class Branch(NamedTuple):
 
     orbits: list[Orbit]
     bifurcations: list[Bifurcation]
-    ends: tuple[str, str]  # at the first and at the last orbit: limit, closed, period halving, step, length
+    # At the first and at the last orbit: limit, closed, period halving, step (no step is small enough), length (MAX_ORBITS).
+    ends: tuple[str, str]
     parent: Orbit | None  # the orbit of half the period where it ends in one
 
 
@@ -118,6 +120,8 @@ def bifurcations_between(parameters: np.ndarray, before: Orbit, after: Orbit) ->
     for kind, test, sign in (("fold", fold_test, 1.0), ("period_doubling", doubling_test, -1.0)):
         if test(before) * test(after) < 0.0 and (part := _zero(at, test)) is not None:
             orbit = at(part)
+            if abs(test(orbit)) > JUMP * abs(test(after) - test(before)):
+                continue  # the multipliers jump at a grazing
             multiplier = min(orbit.multipliers, key=lambda value, sign=sign: abs(value - sign))
             found.append((part, Bifurcation(kind, orbit, multiplier.real)))
     if before.impacts != after.impacts:

@@ -11,7 +11,7 @@ SECANT_STEPS = 12  # after which a doubling of the cascade is not resolved
 
 
 def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurcation) -> list[Bifurcation]:
-    """The period doublings that follow two successive ones, as far as double precision resolves them.
+    """Two successive period doublings and those that follow them, as far as double precision resolves them.
 
     The distance between doublings shrinks by Feigenbaum's ratio each time. Halfway to the next doubling the doubled
     orbit is about superstable, so that a trajectory reaches it at once. Newton's iteration follows it in â from there
@@ -21,10 +21,6 @@ def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurca
     ----------
     parameters : float64, shape (16,); its amplitude is ignored
     first, second : period doublings, the second one of the doubled orbit
-
-    Returns
-    -------
-    All doublings of the cascade in order, with both given ones
     """
     cascade = [first, second]
     while True:
@@ -57,7 +53,9 @@ def ratios(amplitudes: np.ndarray) -> np.ndarray:
 
 
 def accumulation(amplitudes: np.ndarray) -> tuple[float, float]:
-    """Limit of successive doublings by Aitken's process, and its error: the change due to the last doubling."""
+    """Limit of successive doublings by Aitken's process, and its error, the change by the last one; NaN for none."""
+    if not (np.abs(ratios(amplitudes)[-2:]) > 1.0).all():
+        return np.nan, np.nan
     before, gap = amplitudes[:-2], np.diff(amplitudes)
     limits = before - gap[:-1] ** 2 / (gap[1:] - gap[:-1])
     return float(limits[-1]), float(abs(limits[-1] - limits[-2]))

@@ -15,6 +15,7 @@ from ...parameters import RANGES
 from ...solver.model import ACCELERATION, DAMPING, FREQUENCY, MASS
 from ...solver.trajectory import OK
 from .. import stroboscopic_map
+from ..chaos.stretching import HIDDEN
 from ..dimensionless_groups import units
 from .newton import newton
 
@@ -130,7 +131,11 @@ class ReturnMap:
         # The period may begin in the flight in which it ends.
         _, matrices, features = self.linearised(unknown, features[-1, stroboscopic_map.AIRBORNE])
         matrix = reduce(lambda product, following: following @ product, matrices)
-        trace, determinant = float(np.trace(matrix)), float(np.prod(np.linalg.det(matrices)))
+        contact_times, determinants = features[:, stroboscopic_map.CONTACT_TIME], np.linalg.det(matrices)
+        # The trace formula of the flow gives determinants that are lost in rounding.
+        hidden = determinants < HIDDEN * np.abs(matrices[:, 0] * matrices[:, 1, ::-1]).sum(axis=1)
+        determinants = np.where(hidden, np.exp(-self.damping * contact_times), determinants)
+        trace, determinant = float(np.trace(matrix)), float(np.prod(determinants))
         root = cmath.sqrt(0.25 * trace * trace - determinant)
         first = max(0.5 * trace + root, 0.5 * trace - root, key=abs)
         second = determinant / first if first != 0.0 else 0.0j
@@ -142,7 +147,7 @@ class ReturnMap:
             multipliers=(first, second),
             determinant=determinant,
             impacts=int(features[:, stroboscopic_map.IMPACTS].sum()),
-            contact_time=float(features[:, stroboscopic_map.CONTACT_TIME].sum()),
+            contact_time=float(contact_times.sum()),
             longest_flight=float(flights.max() / (1.0 / self.parameters[FREQUENCY])),
         )
 
@@ -150,7 +155,8 @@ class ReturnMap:
 def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, period: int) -> Orbit | None:
     """The orbit of `period` cycles that Newton's iteration finds from `state`, or None.
 
-    An orbit whose period divides `period` is an orbit of `period` cycles, too.
+    An orbit whose period divides `period` is an orbit of `period` cycles, too. ValueError names the argument that
+    cannot be used.
 
     Parameters
     ----------
@@ -158,11 +164,6 @@ def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, p
     acceleration : amplitude, m/s²
     state : δ (m) and v (m/s) at the phase ψ0, shape (2,)
     period : excitation cycles
-
-    Raises
-    ------
-    ValueError
-        names the argument that cannot be used
     """
     (parameters,) = check_packed([parameters])
     acceleration = check_number("acceleration", acceleration, *RANGES["acceleration"], "m/s²")

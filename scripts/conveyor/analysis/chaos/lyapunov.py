@@ -29,6 +29,8 @@ ROUNDING, WATCHED = 1e-13, 100
 # Excitation cycles after which the sign is decided. Weak chaos shows only after the second number.
 LOOKS = (400, 2000)
 BLOCKS = 20
+# A second stretch that is smaller than the first by more than this logarithm is lost in rounding; λ1 + λ2 gives it.
+HIDDEN = -20.0
 SIGNIFICANT = 3.0  # standard errors by which an exponent with a sign differs from zero
 
 
@@ -74,7 +76,11 @@ def stretches_of(parameters, state, tolerance, phase, transient, cycles):
             return status, stretches, contact_times
         for k in range(2):
             tangent[k, 1] /= c.omega
-        stretching.orthonormalise(tangent, stretches[n] if n >= 0 else discarded)
+        found = stretches[n] if n >= 0 else discarded
+        stretching.orthonormalise(tangent, found)
+        if found[1] < found[0] + HIDDEN:
+            found[1] = -c.damping * features[stroboscopic_map.CONTACT_TIME] - found[0]
+            tangent[1, 0], tangent[1, 1] = -tangent[0, 1], tangent[0, 0]
         if n >= 0:
             contact_times[n] = features[stroboscopic_map.CONTACT_TIME]
     return trajectory.OK, stretches, contact_times
@@ -108,7 +114,8 @@ def spectrum(
 
     Returns
     -------
-    Spectrum of the n trajectories, exponents in 1/s; NaN for a failure
+    Spectrum of the n trajectories, exponents in 1/s; NaN for a failure. The means of the blocks count as independent:
+        where correlations last longer than a block, the standard error is too small.
     """
     parameters = arguments.check_packed(parameters)
     tolerance = arguments.check_tolerance(tolerance)
@@ -142,6 +149,7 @@ def spectrum(
     values, errors = stretching.exponents(stretches, blocks)
     # Where damping is so strong that a perturbation underflows within a cycle, no exponent is known.
     codes[(codes == trajectory.OK) & ~np.isfinite(values).all(axis=1)] = trajectory.NOT_FINITE
+    values[codes != trajectory.OK] = np.nan
     # Where both exponents are equal, the first tangent vector may have grown a little less.
     order = np.argsort(-values, axis=1)
     values, errors = (np.take_along_axis(found / period[:, None], order, axis=1) for found in (values, errors))
@@ -215,7 +223,8 @@ def repeating_motion(
     if not period:
         return nothing
     status, matrices, features = stroboscopic_map.monodromy(parameters, tolerance, state, period, 0.0)
-    logarithms = stretching.log_multipliers(matrices)
+    damping = contact.constants(parameters, tolerance).damping
+    logarithms = stretching.log_multipliers(matrices, -damping * features[:, stroboscopic_map.CONTACT_TIME])
     if status != trajectory.OK or not math.isfinite(logarithms[0]):
         return nothing
     return period, logarithms, float(features[:, stroboscopic_map.CONTACT_TIME].cumsum()[-1])

@@ -66,6 +66,8 @@ def finite_difference_estimate(
 ) -> np.ndarray:
     """The paper's estimate of the Lyapunov exponent, (1/t) log(|Δ output| / ε) (Eq. 23), averaged over a run's end.
 
+    Returns float64, shape (n,), 1/s. A difference below the resolution of the signal counts as that resolution.
+
     Parameters
     ----------
     parameters, perturbed : float64, shape (n, 16): the trajectories and their neighbours
@@ -73,10 +75,6 @@ def finite_difference_estimate(
     output : the signal that is compared, one of horizontal.SAMPLES
     last, samples : the mean is taken over `samples` equidistant times in the last part of the run
     duration, method, tolerance, step, threads, progress : as in ensemble.run
-
-    Returns
-    -------
-    float64, shape (n,), 1/s. A difference below the resolution of the signal counts as that resolution.
     """
     if not 0.0 < last < 1.0:
         raise ValueError(f"last = {last!r} must be a share of the run in (0, 1): at its beginning Eq. 23 has no value")

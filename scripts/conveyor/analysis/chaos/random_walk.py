@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...arguments import LARGEST_COORDINATE, check_array, check_time
+
 # Largest correlation of the displacements in neighbouring windows that counts as none, besides two standard errors.
 DECAYED = 0.05
 # The window is this many times longer than the shortest one without correlations, because they decay with its length.
@@ -66,14 +68,15 @@ def uncorrelated_window(fluctuations: np.ndarray) -> int:
 def random_walk(displacements: np.ndarray, period: float) -> RandomWalk:
     """The drift and the diffusion coefficient of a motion.
 
-    ValueError for fewer than two runs.
+    ValueError for fewer than two runs, and for values that cannot be used.
 
     Parameters
     ----------
     displacements : along the track in each excitation cycle, m, of n independent runs over k cycles, shape (n, k)
     period : of the excitation, s
     """
-    displacements = np.asarray(displacements, dtype=np.float64)
+    displacements = check_array("displacements", displacements, -LARGEST_COORDINATE, LARGEST_COORDINATE, "m")
+    period = check_time("period", period)
     if displacements.ndim != 2 or len(displacements) < 2:
         raise ValueError(f"displacements must have the shape (n, k) with n >= 2, got {displacements.shape}")
     of_run = displacements.mean(axis=1) / period

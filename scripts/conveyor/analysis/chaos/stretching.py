@@ -6,6 +6,8 @@ import numpy as np
 
 from ...solver.jit import compiled
 
+HIDDEN = 1e-6  # a determinant that is a smaller share of its two products is lost in rounding
+
 
 @compiled
 def orthonormalise(tangent, stretches):
@@ -31,10 +33,11 @@ def orthonormalise(tangent, stretches):
 
 
 @compiled
-def log_multipliers(matrices):
+def log_multipliers(matrices, log_determinants):
     """Logarithms of the moduli of both eigenvalues of a product, the larger first; NaN where rounding hides them.
 
     matrices : float64, shape (n, 2, 2), of positive determinants; the last one stands leftmost
+    log_determinants : float64, shape (n,), of the matrices whose own determinant is lost in rounding
     """
     a, b, c, d = 1.0, 0.0, 0.0, 1.0
     size = both = 0.0  # logarithms of the product's size and determinant, either of which may be too small for a float
@@ -49,8 +52,9 @@ def log_multipliers(matrices):
         largest = max(abs(a), abs(b), abs(c), abs(d))
         a, b, c, d = a / largest, b / largest, c / largest, d / largest
         size += math.log(largest)
-        determinant = m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0]
-        both += math.log(determinant) if determinant > 0.0 else math.nan
+        along, across = m[0, 0] * m[1, 1], m[0, 1] * m[1, 0]
+        hidden = along - across < HIDDEN * (abs(along) + abs(across))
+        both += log_determinants[k] if hidden else math.log(along - across)
     half = 0.5 * (a + d)
     square = half * half - math.exp(both - 2.0 * size)
     larger = size + math.log(abs(half) + math.sqrt(square)) if square > 0.0 else 0.5 * both

@@ -26,6 +26,12 @@ def fold_over_damping():
     return follow(point, Path(1.0, 0.0), reach=(-0.5, np.log(8.0)), **LIMITS)
 
 
+def test_a_curve_whose_first_step_fails_is_its_first_point():
+    point = find_bifurcation("fold", 1, FOLD, GROUPS)
+    curve = follow(point, Path(1.0, 0.0), reach=(-0.5, 0.5), **LIMITS | {"longest_step": 0.0})
+    assert (len(curve.points), curve.ends, curve.meetings) == (1, ("step", "step"), [])
+
+
 @pytest.mark.parametrize("kind", ["fold", "period_doubling"])
 @pytest.mark.parametrize("path", [Path(0.0, 1.0), Path(-1.0, -3.0)])
 def test_every_point_of_a_curve_is_a_bifurcation(kind, path):

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from conveyor import Conveyor, Start, classify, periodic_orbit, simulate
+from conveyor import Conveyor, Start, classify, continue_orbit, periodic_orbit, simulate
 from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.bifurcations import continuation, doubling_cascade, periodic_orbits
 from conveyor.solver.model import pack
@@ -154,6 +154,11 @@ def test_error_of_the_accumulation_is_the_change_due_to_the_last_doubling():
     assert error == pytest.approx(abs(limit - before))
 
 
+def test_doublings_whose_distances_do_not_shrink_have_no_accumulation():
+    for amplitudes in (np.array([0.0, 1.0, 3.0, 7.0, 15.0]), np.arange(5.0)):
+        assert all(math.isnan(value) for value in doubling_cascade.accumulation(amplitudes))
+
+
 def test_feigenbaums_ratio_of_the_logistic_map():
     """From the parameters a of 1 - a x² at which 0 returns to itself after 2, 4, … cycles."""
     superstable = [0.0, 1.0, 1.31]
@@ -200,3 +205,22 @@ def test_the_longest_flight_does_not_depend_on_the_phase_at_which_the_period_beg
         found.append(orbit.longest_flight)
         assert period > 1 or orbit.longest_flight == pytest.approx(1.0 - 50.0 * orbit.contact_time, abs=1e-9)
     assert found == pytest.approx(len(found) * [float(labelled)], abs=1e-6)
+
+
+def test_a_jump_of_the_multipliers_at_a_grazing_is_no_fold():
+    """Without tension, the multipliers of this jumping motion jump past 1 and -1 where an impact begins."""
+    contact = {"angle": 0.5, "mass": 1e-3, "stiffness": 5939725.0, "damping": 2.51, "tension": "clip"}
+    conveyor = Conveyor(acceleration=31.0, **contact)
+    found = continue_orbit(conveyor, periodic_orbit(conveyor, Start(3e-3)), low=1.0, high=100.0).bifurcations
+    assert [one.kind for one in found if one.kind == "grazing"] == ["grazing"]
+    for one in found:
+        if one.kind != "grazing":
+            assert abs(abs(one.multiplier) - 1.0) < 1e-6
+
+
+@pytest.mark.parametrize("conveyor", [{"damping": 10.0}, {"mass": 1e-5}])
+def test_the_product_of_multipliers_is_not_rounding_where_damping_is_strong(conveyor):
+    conveyor = Conveyor(acceleration=20.0, **conveyor)
+    orbit = periodic_orbit(conveyor, Start())
+    expected = -conveyor.damping / conveyor.mass * orbit.contact_time
+    assert math.log(orbit.determinant) == pytest.approx(expected, rel=1e-6)

@@ -27,6 +27,20 @@ def test_sum_of_exponents_follows_from_the_time_in_contact(tension):
     assert (found.lambda_1 >= found.lambda_2 - 0.5).all()
 
 
+@pytest.mark.parametrize("conveyor", [{"damping": 20.0}, {"damping": 3.0}, {"mass": 1e-5}])
+@pytest.mark.parametrize("acceleration", [20.0, 80.0])
+def test_the_smaller_exponent_is_not_rounding_where_damping_is_strong(conveyor, acceleration):
+    """Within a cycle, one perturbation becomes smaller than the rounding errors of the other one."""
+    rows = points((acceleration, 3e-4), **conveyor)
+    decay = Conveyor(**conveyor).damping / Conveyor(**conveyor).mass
+    for found in (
+        lyapunov.spectrum(rows, cycles=10, blocks=4, transient=20),
+        lyapunov.spectrum_on_attractors(rows, cycles=10, blocks=4),
+    ):
+        assert found.status.tolist() == ["ok"]
+        assert found.lambda_1 + found.lambda_2 == pytest.approx(-decay * found.contact_fraction, rel=1e-6)
+
+
 def test_chaos_regular_motion_and_a_pair_of_trajectories():
     """Comparison with two trajectories whose distance is reset in each cycle, without variational equations."""
     rows = points((62.0, 0.0), (80.0, 0.0))
