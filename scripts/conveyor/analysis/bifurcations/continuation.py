@@ -36,7 +36,7 @@ class Branch(NamedTuple):
 
     orbits: list[Orbit]
     bifurcations: list[Bifurcation]
-    # At the first and at the last orbit: limit, closed, period halving, step (no step is small enough), length (MAX_ORBITS).
+    # At the first and last orbit: limit, closed, period halving, step (none is small enough), length (MAX_ORBITS).
     ends: tuple[str, str]
     parent: Orbit | None  # the orbit of half the period where it ends in one
 
