@@ -103,8 +103,8 @@ class Conveyor:
 class Start:
     """Initial conditions of the part: height z (m, or "conveyor" to start on the plate, Eq. 15) and velocity vz (m/s).
 
-    Time starts at 0, the horizontal position and velocity at zero. A part on the plate does not press on it yet, so
-    that it slips first; to start at rest in the plate, give z = -(m g cos α/k_c)^(1/p) below the plate.
+    Time starts at 0, the horizontal position and velocity at zero. A part on the plate does not press on it yet, and so
+    cannot stick; a z that is lower by (m g cos α/k_c)^(1/p) begins with the weight of the part on the contact.
     """
 
     z: float | str = 0.0

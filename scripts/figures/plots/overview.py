@@ -42,7 +42,7 @@ def plot(
     critical_acceleration: float,
     lowest_exponent: float,
 ) -> Figure:
-    """Draw exponents above `lowest_exponent` (1/s); shade from `critical_acceleration` (m/s²) to the onset of chaos."""
+    """Draw exponents above `lowest_exponent` (1/s); shade from `critical_acceleration` (m/s²) to the accumulation."""
     figure = style.figure(style.PAGE, 96.0)
     grid = figure.add_gridspec(1, 2, width_ratios=(2.0, 1.0))
     left = grid[0].subgridspec(2, 1, height_ratios=(1.5, 1.0))
