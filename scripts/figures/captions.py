@@ -287,6 +287,7 @@ def transit(*, transit: pd.DataFrame, lengths: pd.DataFrame, drift: pd.DataFrame
     }
     return {
         "search": transit.attrs,
+        "backwards": transit.sort_values("back", kind="stable").iloc[-1].to_dict(),
         "spread": spreads_of(transit.attrs),
         "calibrated": transit.attrs["spread"].get("calibrated", False),
         "coexisting": amplitudes.get(SEVERAL, []),
