@@ -27,7 +27,7 @@ def read(path: str, expected: dict[str, list]) -> Any:
     """An input: a table, a text, or the path of a picture."""
     if path.endswith(".parquet"):
         return tables.read(path, *expected[path])
-    return path if path.endswith(".png") else Path(path).read_text(encoding="utf-8")
+    return path if path.endswith(".png") else Path(path).read_text(encoding="utf-8-sig")
 
 
 def read_inputs(paths: dict[str, Any], expected: dict[str, list]) -> dict[str, Any]:

@@ -72,8 +72,9 @@ def read_text(path: str | Path) -> str:
 
 def first_comments(text: str) -> list[str]:
     """The comments before the header of a file of measurements."""
-    lines = itertools.takewhile(lambda line: line.startswith("#"), text.splitlines())
-    return [comment for line in lines if (comment := line.strip("# "))]
+    lines = [stripped for line in text.splitlines() if (stripped := line.strip())]
+    before = itertools.takewhile(lambda line: line.startswith("#"), lines)
+    return [comment for line in before if (comment := line.strip("# "))]
 
 
 def known_columns(parameters: Sequence[str], ranges: Mapping) -> dict[str, tuple[float, float]]:

@@ -105,14 +105,14 @@ def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: 
     lasts = settings["duration"]
     rows = measure(real, amplitudes, box, settings["calibration"]["noise"], random, duration=lasts)
 
-    def stated_as(conveyor: dict, factor: float) -> tuple[list, dict]:
-        """The measurements and the settings if a conveyor, and amplitudes with a factor, are stated."""
+    def as_stated(conveyor: dict, scale: float) -> tuple[list, dict]:
+        """The measurements and the settings if a conveyor, and amplitudes times `scale`, are stated."""
         model = stated_model(conveyor)
         own = settings["calibration"] | settings["band"] | box | {"model": model, "static_friction": 0.0}
-        pairs = [(factor * acceleration, velocity) for acceleration, velocity in rows]
+        pairs = [(scale * acceleration, velocity) for acceleration, velocity in rows]
         return parse(csv_text(pairs, "synthetic", duration=lasts, before=lasts), "synthetic", own, RANGES), own
 
-    measured, own = stated_as(stated, factor)
+    measured, own = as_stated(stated, factor)
     found = calibrate(measured, own, threads=threads, progress=progress)
     samples, fit = (pd.DataFrame(found[name]) for name in ("samples", "fit"))
     band = prediction.make(samples, fit, own, threads=threads, progress=progress)["prediction"]
@@ -135,8 +135,8 @@ def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: 
     else:
         options = {"threads": threads, "progress": progress}
         assumed, true = (
-            search(data_of(of, by["model"]), by, **options).log_evidence
-            for of, by in ((measured, own), stated_as(real, 1.0))
+            search(data_of(rows_of, with_settings["model"]), with_settings, **options).log_evidence
+            for rows_of, with_settings in ((measured, own), as_stated(real, 1.0))
         )
         row["gain_of_truth"] = true - assumed
     return json.dumps(row)

@@ -169,6 +169,12 @@ def second_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd
     return Finding(*({"fall": lower - upper} for lower, upper in ends.values()), note)
 
 
+def flat_part(fit: pd.DataFrame) -> pd.DataFrame:
+    """The fits of the valley whose error on the same heights is at most the error of the paper's triple."""
+    paper = fit[fit.fit == "paper"].iloc[0]
+    return fit[(fit.fit == "valley") & (fit.error <= paper.error)]
+
+
 def fit(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
     """A (m²/s²), B (m/s²) and C (m) of the best fit of Eq. 13, and its mean squared error (m²)."""
 
@@ -178,7 +184,7 @@ def fit(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
 
     found = by_method(best, euler, converged)
     paper_error = float(converged.set_index("fit").loc["paper"].error)
-    valley = converged[(converged.fit == "valley") & (converged.error <= paper_error)]
+    valley = flat_part(converged)
     note = (
         f"A, B and C are poorly determined. On the converged heights, the paper's values have the error "
         f"{paper_error:.3g} m², and the best values {found['converged']['error']:.3g} m². Every B from "
@@ -201,7 +207,7 @@ def format_runs(runs: list[tuple[float, float]], most: int = 4) -> str:
     return text if len(runs) <= most else f"{text} and {len(runs) - most} shorter ones"
 
 
-def one_onset(*, converged: pd.DataFrame) -> Finding:
+def one_onset(*, converged: pd.DataFrame, on_plate: pd.DataFrame) -> Finding:
     """Distance (m/s²) between the lowest and the highest onset of chaos of all initial heights.
 
     There is no number by the paper's method, because the converged solution determines the states of both methods.
@@ -211,9 +217,12 @@ def one_onset(*, converged: pd.DataFrame) -> Finding:
     share = (converged.state == "chaos").groupby(converged.acceleration).mean()
     coexisting = find_runs(share.index, (share > 0.0) & (share < 1.0))
     note = "An onset is the amplitude with the fewest exceptions, which are chaos below it and none above it. "
-    note += f"The onsets lie between {format_amplitude(onsets.min())} and {format_amplitude(onsets.max())}, and the "
-    note += f"amplitudes of the map {np.diff(share.index).max():.2g} m/s² apart. All parts start at rest at one phase; "
-    note += "parts that start on the plate become chaotic elsewhere (C21)"
+    lower = onset(on_plate.acceleration, on_plate.state == "chaos")
+    note += (
+        f"The onsets lie between {format_amplitude(onsets.min())} and {format_amplitude(onsets.max())}, for initial "
+        f"heights from {MM * converged.z0.min():g} to {MM * converged.z0.max():g} mm. For a part that starts on the "
+        f"plate, and so lower, the onset is {format_amplitude(lower)}"
+    )
     if coexisting:
         note += f". Chaos and regular motion coexist, depending on the initial height, at {format_runs(coexisting)}"
     if (share < 1.0).any():
@@ -303,14 +312,13 @@ def euler_error(
     estimates = [with_settled_motion(table, states) for table in (euler_exponent, converged_exponent)]
     known = [table[table.chaotic | (table.period > 0)] for table in estimates]
     wrong = [table[(table["lambda"] > 0.0) != table.chaotic].acceleration for table in known]
+    middle = ""
+    if len(wrong[0]):
+        middle = f", half of them between {wrong[0].quantile(0.25):.1f} and {wrong[0].quantile(0.75):.1f} m/s²,"
     note = (
         f"Explicit Euler underestimates the mean velocity in {(signed < 0.0).sum()} of {len(signed)} runs of period 1. "
         f"The sign of the estimate is wrong at {len(wrong[0])} of {len(known[0])} amplitudes by the paper's method"
-        + (
-            f", half of them between {wrong[0].quantile(0.25):.1f} and {wrong[0].quantile(0.75):.1f} m/s²,"
-            * (len(wrong[0]) > 0)
-        )
-        + f" and at {len(wrong[1])} by the converged solution"
+        f"{middle} and at {len(wrong[1])} by the converged solution"
     )
     found = {"first_error": float(errors["first"]), "second_error": float(errors["second"])}
     right = 1.0 - len(wrong[0]) / len(known[0]) if len(known[0]) else NONE

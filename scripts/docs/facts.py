@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 
 from claims.about_proofs import lowest_fold, stable_motions
+from claims.about_states import flat_part
 from claims.verdicts import VERDICTS
 from conveyor.analysis.stroboscopic_map import MAX_PERIOD
 from figures.captions import accumulation, fig10
-from figures.plots.fit_valley import flat_part
 from operating.chart import spreads_of
 from operating.parts import POPULATIONS
 from operating.regimes import SEVERAL

@@ -12,12 +12,11 @@ from accuracy.rigid_part import CONTACT, RIGID
 from accuracy.stability import PANELS, VELOCITY
 from claims.about_chaos import positive_onset, with_settled_motion
 from claims.about_proofs import lowest_fold
-from claims.about_states import find_runs, format_runs
+from claims.about_states import find_runs, flat_part, format_runs
 from claims.finding import onset
 from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
 from conveyor.analysis.chaos.random_walk import AT_REST
 from figures.plots.fig10 import ends_of
-from figures.plots.fit_valley import flat_part
 from figures.plots.speed_accuracy import method_name
 from figures.plots.throw import proved_fold
 from figures.style import STATE_COLOURS
@@ -287,7 +286,7 @@ def transit(*, transit: pd.DataFrame, lengths: pd.DataFrame, drift: pd.DataFrame
     }
     return {
         "search": transit.attrs,
-        "backwards": transit.sort_values("back", kind="stable").iloc[-1].to_dict(),
+        "backwards": transit.sort_values("back", na_position="first", kind="stable").iloc[-1].to_dict(),
         "spread": spreads_of(transit.attrs),
         "calibrated": transit.attrs["spread"].get("calibrated", False),
         "coexisting": amplitudes.get(SEVERAL, []),

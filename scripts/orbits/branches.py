@@ -172,7 +172,7 @@ def cascade_rows(cascade: list[Bifurcation]) -> list[dict]:
     ratios = [np.nan, *doubling_cascade.ratios(amplitudes), np.nan]
     rows = []
     for n, (bifurcation, ratio) in enumerate(zip(cascade, ratios, strict=True), start=1):
-        limit, error = doubling_cascade.accumulation(amplitudes[:n]) if n >= 4 else (np.nan, np.nan)
+        limit, error = doubling_cascade.accumulation(amplitudes[:n])
         about = {"number": n, "multiplier": bifurcation.multiplier, "ratio": ratio}
         rows.append({**describe(bifurcation.orbit), **about, "accumulation": limit, "accumulation_error": error})
     return rows

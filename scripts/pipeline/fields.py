@@ -80,7 +80,11 @@ ORBIT = (
     number("multiplier_1_imag", "1", "Floquet multiplier of larger modulus, imaginary part"),
     number("multiplier_2_real", "1", "Floquet multiplier of smaller modulus, real part"),
     number("multiplier_2_imag", "1", "Floquet multiplier of smaller modulus, imaginary part"),
-    number("determinant", "1", "product of the multipliers, from the monodromy matrix; exp(-(d_c/m) contact_time)"),
+    number(
+        "determinant",
+        "1",
+        "product of the multipliers, from the monodromy matrix unless rounding hides it; exp(-(d_c/m) contact_time)",
+    ),
     number("contact_time", "s", "time with contact force in a period"),
     count("impacts", "impacts in a period"),
     number("longest_flight", "1", "longest flight, in excitation cycles"),

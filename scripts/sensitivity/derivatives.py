@@ -122,17 +122,18 @@ def aitken_weights(a: float, b: float, c: float) -> np.ndarray:
 
 
 def differentiate_accumulation(parameters: np.ndarray, doublings: list[CriticalPoint]) -> CriticalPoint | None:
-    """The accumulation point of period doublings; None with fewer than four of them, or without their derivatives."""
-    if len(doublings) < 4 or any(doubling.derivatives is None for doubling in doublings):
-        return None
+    """The accumulation point of period doublings; None where there is none, or without their derivatives."""
     last = doublings[-4:]
     amplitudes = np.array([doubling.parameters[ACCELERATION] for doubling in last])
+    limit, _ = doubling_cascade.accumulation(amplitudes)
+    if np.isnan(limit) or any(doubling.derivatives is None for doubling in doublings):
+        return None
     derivatives = aitken_weights(*amplitudes[1:]) @ np.array([doubling.derivatives for doubling in last[1:]])
 
     def solve(row):
         return doubling_cascade.accumulation(np.array([doubling.solve(row) for doubling in last]))[0]
 
-    here = with_amplitude(parameters, doubling_cascade.accumulation(amplitudes)[0])
+    here = with_amplitude(parameters, limit)
     return CriticalPoint("accumulation", 0, here, "acceleration", derivatives=derivatives, solve=solve)
 
 

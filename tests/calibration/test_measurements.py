@@ -9,7 +9,8 @@ import pytest
 import yaml
 from project import ROOT
 
-from calibration.measurements import MeasurementError, parse, read_text
+import make
+from calibration.measurements import MeasurementError, first_comments, parse, read_text
 from conveyor.parameters import RANGES
 from workflow.config import load_config
 from workflow.config.files import DEFAULT_FILES, merge
@@ -100,6 +101,18 @@ def test_quotes_in_comments_begin_no_field():
         (4, 30.0),
         (6, 35.0),
     ]
+
+
+def test_comments_before_the_header_are_quoted():
+    text = f"\n# rail A\n  #  hard lining \n#\n{HEAD}\n# not this one\n25,0.02\n"
+    assert first_comments(text) == ["rail A", "hard lining"]
+
+
+def test_jobs_read_the_text_that_was_checked(tmp_path):
+    """Excel begins UTF-8 files with a mark."""
+    path = tmp_path / "mine.csv"
+    path.write_bytes(b"\xef\xbb\xbf" + f"{HEAD}\n25,0.02\n".encode())
+    assert make.read(str(path), {}) == read_text(path)
 
 
 @pytest.mark.parametrize("kind", ["missing", "folder"])

@@ -301,21 +301,31 @@ def test_fit_comes_from_the_regression():
     assert "Every B from -18 to -18" in finding.note
 
 
+def onset_of(table):
+    """C11 for a map over the initial height, and parts on the plate that become chaotic at 59 m/s²."""
+    on_plate = sweep(lambda a, z: "chaos" if a >= 59.0 else "first", heights=(-1e-4,))
+    return about_states.one_onset(converged=table, on_plate=on_plate)
+
+
 def test_spread_of_onsets():
-    straight = about_states.one_onset(converged=sweep(lambda a, z: "chaos" if a >= 60.0 else "second"))
+    straight = onset_of(sweep(lambda a, z: "chaos" if a >= 60.0 else "second"))
     assert (numbers(straight.euler), numbers(straight.converged)) == ((), (0.0,))
     slanted = sweep(lambda a, z: "chaos" if a >= 60.0 + 2e4 * z else "second")
-    assert numbers(about_states.one_onset(converged=slanted).converged) == (2.0,)
+    assert numbers(onset_of(slanted).converged) == (2.0,)
 
 
 def test_early_chaos_of_some_heights_is_noted():
     early = sweep(lambda a, z: "chaos" if a >= 63.0 or (a == 53.0 and z == 0.0) else "second")
-    finding = about_states.one_onset(converged=early)
+    finding = onset_of(early)
     assert numbers(finding.converged) == (0.0,)
     assert "Chaos and regular motion coexist, depending on the initial height, at 53.00 m/s²" in finding.note
+    assert (
+        "heights from 0 to 0.1 mm. For a part that starts on the plate, and so lower, the onset is 59 m/s²"
+        in finding.note
+    )
     assert finding.note.endswith("regular motion remains nowhere")
     windows = sweep(lambda a, z: "chaos" if a >= 63.0 and a not in (71.0, 72.0) else "second")
-    assert about_states.one_onset(converged=windows).note.endswith("in windows only: 71.00 to 72.00 m/s²")
+    assert onset_of(windows).note.endswith("in windows only: 71.00 to 72.00 m/s²")
 
 
 def test_impact_line():

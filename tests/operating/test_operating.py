@@ -457,7 +457,7 @@ def test_the_page_says_if_the_even_amplitude_is_not_known_to_be_more_even(refine
     advice_rows.attrs = attrs
     page = page_of(refined, [rows, advice_rows, changes])
     assert "**Even.**" in page
-    assert ("the first amplitude may be as even:" in page) == unsure
+    assert ("the first amplitude may be as even." in page) == unsure
 
 
 def test_the_page_names_changes_that_the_model_does_not_allow(refined):

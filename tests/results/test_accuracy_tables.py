@@ -222,7 +222,7 @@ def test_parts_stick_where_velocities_are_drawn(result):
     assert (velocities.sticks > 0.0).all()
 
 
-def test_rigid_part_doubles_near_the_contact_but_rides_up_to_larger_amplitudes(result):
+def test_rigid_part_doubles_near_the_contact_but_jumps_from_rest_at_larger_amplitudes_only(result):
     table = result("rigid_part")
     places = table[table.kind != "velocity"].pivot_table(
         index=["kind", "number"], columns="model", values="acceleration"

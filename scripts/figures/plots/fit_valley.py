@@ -6,6 +6,7 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from claims.about_states import flat_part
 from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
 from figures import style
 
@@ -27,12 +28,6 @@ def marks(fit: pd.DataFrame) -> list[tuple[pd.Series, dict, str]]:
         )
         for name, (marker, colour, label) in MARKERS.items()
     ]
-
-
-def flat_part(fit: pd.DataFrame) -> pd.DataFrame:
-    """The fits of the valley whose error on the same heights is at most the error of the paper's triple."""
-    paper = fit[fit.fit == "paper"].iloc[0]
-    return fit[(fit.fit == "valley") & (fit.error <= paper.error)]
 
 
 def draw_errors(axes: Axes, fit: pd.DataFrame, fit_euler: pd.DataFrame, paper_error: float) -> None:

@@ -1,8 +1,9 @@
 """Branches of periodic orbits in the amplitude â, and the bifurcations on them.
 
 Pseudo-arclength (Keller 1977) follows a branch past its folds. A branch folds where a multiplier passes +1. Its period
-doubles where a multiplier passes -1. An impact grazes where a contact begins or ceases to exist. The product of the
-multipliers is positive and at most 1, so that no other bifurcation of a single orbit is generic.
+doubles where a multiplier passes -1. An impact grazes where a contact begins or ceases to exist; only this is reported
+where the multipliers jump past ±1 at a grazing, although the branch may turn there. The product of the multipliers is
+positive and at most 1, so that no other bifurcation of a single orbit is generic.
 """
 
 from collections.abc import Callable, Iterable

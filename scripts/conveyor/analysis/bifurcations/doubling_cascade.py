@@ -54,7 +54,7 @@ def ratios(amplitudes: np.ndarray) -> np.ndarray:
 
 def accumulation(amplitudes: np.ndarray) -> tuple[float, float]:
     """Limit of successive doublings by Aitken's process, and its error, the change by the last one; NaN for none."""
-    if not (np.abs(ratios(amplitudes)[-2:]) > 1.0).all():
+    if len(amplitudes) < 4 or not (np.diff(np.abs(np.diff(amplitudes[-4:]))) < 0.0).all():
         return np.nan, np.nan
     before, gap = amplitudes[:-2], np.diff(amplitudes)
     limits = before - gap[:-1] ** 2 / (gap[1:] - gap[:-1])

@@ -15,7 +15,7 @@ from ...parameters import RANGES
 from ...solver.model import ACCELERATION, DAMPING, FREQUENCY, MASS
 from ...solver.trajectory import OK
 from .. import stroboscopic_map
-from ..chaos.stretching import HIDDEN
+from ..chaos.stretching import hides_determinant
 from ..dimensionless_groups import units
 from .newton import newton
 
@@ -32,7 +32,7 @@ class Orbit(NamedTuple):
     state: np.ndarray  # (δ in m, v in m/s) at the phase ψ0
     period: int  # excitation cycles
     multipliers: tuple[complex, complex]  # Floquet multipliers, the larger modulus first
-    determinant: float  # their product, from the monodromy matrix
+    determinant: float  # their product, from the monodromy matrix, or from the trace formula where rounding hides it
     impacts: int  # per period
     contact_time: float  # s per period
     longest_flight: float  # excitation cycles
@@ -131,10 +131,10 @@ class ReturnMap:
         # The period may begin in the flight in which it ends.
         _, matrices, features = self.linearised(unknown, features[-1, stroboscopic_map.AIRBORNE])
         matrix = reduce(lambda product, following: following @ product, matrices)
-        contact_times, determinants = features[:, stroboscopic_map.CONTACT_TIME], np.linalg.det(matrices)
+        contact_times = features[:, stroboscopic_map.CONTACT_TIME]
         # The trace formula of the flow gives determinants that are lost in rounding.
-        hidden = determinants < HIDDEN * np.abs(matrices[:, 0] * matrices[:, 1, ::-1]).sum(axis=1)
-        determinants = np.where(hidden, np.exp(-self.damping * contact_times), determinants)
+        hidden = [hides_determinant(one) for one in matrices]
+        determinants = np.where(hidden, np.exp(-self.damping * contact_times), np.linalg.det(matrices))
         trace, determinant = float(np.trace(matrix)), float(np.prod(determinants))
         root = cmath.sqrt(0.25 * trace * trace - determinant)
         first = max(0.5 * trace + root, 0.5 * trace - root, key=abs)

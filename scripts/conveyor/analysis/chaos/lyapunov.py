@@ -30,7 +30,7 @@ ROUNDING, WATCHED = 1e-13, 100
 LOOKS = (400, 2000)
 BLOCKS = 20
 # A second stretch that is smaller than the first by more than this logarithm is lost in rounding; λ1 + λ2 gives it.
-HIDDEN = -20.0
+LOST = -20.0
 SIGNIFICANT = 3.0  # standard errors by which an exponent with a sign differs from zero
 
 
@@ -78,7 +78,7 @@ def stretches_of(parameters, state, tolerance, phase, transient, cycles):
             tangent[k, 1] /= c.omega
         found = stretches[n] if n >= 0 else discarded
         stretching.orthonormalise(tangent, found)
-        if found[1] < found[0] + HIDDEN:
+        if found[1] < found[0] + LOST:
             found[1] = -c.damping * features[stroboscopic_map.CONTACT_TIME] - found[0]
             tangent[1, 0], tangent[1, 1] = -tangent[0, 1], tangent[0, 0]
         if n >= 0:

@@ -33,6 +33,13 @@ def orthonormalise(tangent, stretches):
 
 
 @compiled
+def hides_determinant(matrix):
+    """Whether the determinant of a matrix, shape (2, 2), is lost in rounding, or is not positive."""
+    along, across = matrix[0, 0] * matrix[1, 1], matrix[0, 1] * matrix[1, 0]
+    return along - across <= HIDDEN * (abs(along) + abs(across))
+
+
+@compiled
 def log_multipliers(matrices, log_determinants):
     """Logarithms of the moduli of both eigenvalues of a product, the larger first; NaN where rounding hides them.
 
@@ -52,9 +59,7 @@ def log_multipliers(matrices, log_determinants):
         largest = max(abs(a), abs(b), abs(c), abs(d))
         a, b, c, d = a / largest, b / largest, c / largest, d / largest
         size += math.log(largest)
-        along, across = m[0, 0] * m[1, 1], m[0, 1] * m[1, 0]
-        hidden = along - across < HIDDEN * (abs(along) + abs(across))
-        both += log_determinants[k] if hidden else math.log(along - across)
+        both += log_determinants[k] if hides_determinant(m) else math.log(m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0])
     half = 0.5 * (a + d)
     square = half * half - math.exp(both - 2.0 * size)
     larger = size + math.log(abs(half) + math.sqrt(square)) if square > 0.0 else 0.5 * both

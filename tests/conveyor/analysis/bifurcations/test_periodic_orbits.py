@@ -155,7 +155,7 @@ def test_error_of_the_accumulation_is_the_change_due_to_the_last_doubling():
 
 
 def test_doublings_whose_distances_do_not_shrink_have_no_accumulation():
-    for amplitudes in (np.array([0.0, 1.0, 3.0, 7.0, 15.0]), np.arange(5.0)):
+    for amplitudes in (np.array([0.0, 1.0, 3.0, 7.0, 15.0]), np.arange(5.0), np.ones(4), np.array([0.0, 1.0, 1.2])):
         assert all(math.isnan(value) for value in doubling_cascade.accumulation(amplitudes))
 
 

@@ -107,6 +107,11 @@ def test_eigenvalues_of_a_product(size, turn):
     assert log_multipliers(many, known) == pytest.approx(200.0 * np.array(truth), abs=1e-9)
 
 
+def test_a_determinant_that_underflows_is_the_known_one():
+    matrix = np.diag([1e-200, 1e-200])[None]
+    assert log_multipliers(matrix, np.array([-921.0])) == pytest.approx((-460.5, -460.5), abs=0.1)
+
+
 @pytest.mark.parametrize("lost", [0.0, 1e-12, -1e-12])
 def test_a_determinant_that_rounding_hides_is_the_known_one(lost):
     matrix = np.array([[[1.0, 1.0], [1.0, 1.0 + lost]]])
