@@ -41,7 +41,7 @@ def hides_determinant(matrix):
 
 @compiled
 def log_multipliers(matrices, log_determinants):
-    """Logarithms of the moduli of both eigenvalues of a product, the larger first; NaN where rounding hides them.
+    """Logarithms of the moduli of both eigenvalues of a product, the larger first.
 
     matrices : float64, shape (n, 2, 2), of positive determinants; the last one stands leftmost
     log_determinants : float64, shape (n,), of the matrices whose own determinant is lost in rounding
