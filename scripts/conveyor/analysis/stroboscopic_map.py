@@ -26,6 +26,7 @@ from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST
 
 # Longest period of a motion that is looked for, in excitation cycles.
 MAX_PERIOD = 64
+HIDDEN = 1e-6  # a determinant that is a smaller share of its two products is lost in rounding
 # Features of a cycle.
 IMPACTS, CONTACT_TIME, LONGEST_FLIGHT, AIRBORNE = range(4)
 FEATURES = 4
@@ -235,6 +236,13 @@ def follow(parameters, tolerance, state, cycles):
         if n == 2 * mark + 1:
             mark = n
     return OK, strobes, features
+
+
+@compiled
+def hides_determinant(matrix):
+    """Whether the determinant of a matrix, shape (2, 2), is lost in rounding, or is not positive."""
+    along, across = matrix[0, 0] * matrix[1, 1], matrix[0, 1] * matrix[1, 0]
+    return along - across <= HIDDEN * (abs(along) + abs(across))
 
 
 @compiled

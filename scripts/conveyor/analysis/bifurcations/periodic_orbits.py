@@ -15,7 +15,6 @@ from ...parameters import RANGES
 from ...solver.model import ACCELERATION, DAMPING, FREQUENCY, MASS
 from ...solver.trajectory import OK
 from .. import stroboscopic_map
-from ..chaos.stretching import hides_determinant
 from ..dimensionless_groups import units
 from .newton import newton
 
@@ -133,7 +132,7 @@ class ReturnMap:
         matrix = reduce(lambda product, following: following @ product, matrices)
         contact_times = features[:, stroboscopic_map.CONTACT_TIME]
         # The trace formula of the flow gives determinants that are lost in rounding.
-        hidden = [hides_determinant(one) for one in matrices]
+        hidden = [stroboscopic_map.hides_determinant(one) for one in matrices]
         determinants = np.where(hidden, np.exp(-self.damping * contact_times), np.linalg.det(matrices))
         trace, determinant = float(np.trace(matrix)), float(np.prod(determinants))
         root = cmath.sqrt(0.25 * trace * trace - determinant)

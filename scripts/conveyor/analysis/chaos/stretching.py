@@ -5,8 +5,7 @@ import math
 import numpy as np
 
 from ...solver.jit import compiled
-
-HIDDEN = 1e-6  # a determinant that is a smaller share of its two products is lost in rounding
+from ..stroboscopic_map import hides_determinant
 
 
 @compiled
@@ -30,13 +29,6 @@ def orthonormalise(tangent, stretches):
         stretches[i] = math.log(length)
         for k in range(dimension):
             tangent[i, k] /= length
-
-
-@compiled
-def hides_determinant(matrix):
-    """Whether the determinant of a matrix, shape (2, 2), is lost in rounding, or is not positive."""
-    along, across = matrix[0, 0] * matrix[1, 1], matrix[0, 1] * matrix[1, 0]
-    return along - across <= HIDDEN * (abs(along) + abs(across))
 
 
 @compiled
