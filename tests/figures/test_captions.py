@@ -335,3 +335,16 @@ def test_a_search_that_ended_early_does_not_rule_out_that_parts_climb():
     assert "At 25 % of the inclinations, the search ended before all initial conditions had settled." in text
     assert "solver.mean_settling" in text
     assert "No state that was found climbs." in text and "Parts climb on none" not in text
+
+
+def test_the_largest_share_of_parts_that_move_back_is_named_although_runs_failed_at_one_amplitude():
+    table = pd.DataFrame({"acceleration": [30.0, 60.0, 70.0], "population": "varied", "back": [0.0, 0.2, np.nan]})
+    table.attrs = {"spread": {}, "starts": 64, "length": 0.5, "longest": 20.0}
+    lengths = pd.DataFrame({"regime": [], "acceleration": [], "spread": [], "predicted": []})
+    tables = {"lengths": lengths, "drift": pd.DataFrame({"status": []})}
+    assert "Some parts move back: at most 20 %, of varied parts at 60 m/s²." in caption(
+        "transit", transit=table, **tables
+    )
+    still = table.assign(back=0.0)
+    still.attrs = table.attrs
+    assert "move back" not in caption("transit", transit=still, **tables)

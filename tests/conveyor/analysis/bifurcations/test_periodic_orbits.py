@@ -7,7 +7,7 @@ import pytest
 
 from conveyor import Conveyor, Start, classify, continue_orbit, periodic_orbit, simulate
 from conveyor.analysis import stroboscopic_map
-from conveyor.analysis.bifurcations import continuation, doubling_cascade, periodic_orbits
+from conveyor.analysis.bifurcations import bifurcation_diagram, continuation, doubling_cascade, periodic_orbits
 from conveyor.solver.model import pack
 
 CONVEYOR = Conveyor()
@@ -224,3 +224,10 @@ def test_the_product_of_multipliers_is_not_rounding_where_damping_is_strong(conv
     orbit = periodic_orbit(conveyor, Start())
     expected = -conveyor.damping / conveyor.mass * orbit.contact_time
     assert math.log(orbit.determinant) == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize(("name", "count"), [("transient", -3), ("strobes", 0)])
+def test_counts_of_cycles_that_cannot_be_followed_are_named(name, count):
+    rows = pack(Conveyor(acceleration=80.0), Start(3e-4))[None]
+    with pytest.raises(ValueError, match=f"^{name}"):
+        bifurcation_diagram.follow_attractor(rows, **{"transient": 1, "strobes": 4, "tolerance": 1e-10, name: count})
