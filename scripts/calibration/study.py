@@ -85,11 +85,6 @@ def gain_of_distant(samples: pd.DataFrame, best: dict, true: dict, data: Data, s
     return float(max(others) - of_true)
 
 
-def stated_model(conveyor: dict) -> dict:
-    """What a user states of a conveyor: all but the parameters that are searched."""
-    return {name: value for name, value in conveyor.items() if name not in PARAMETERS}
-
-
 def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: str | None = None) -> str:
     """The row of one data set, as JSON."""
     random = np.random.default_rng([settings["seed"], number])
@@ -107,7 +102,7 @@ def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: 
 
     def as_stated(conveyor: dict, scale: float) -> tuple[list, dict]:
         """The measurements and the settings if a conveyor, and amplitudes times `scale`, are stated."""
-        model = stated_model(conveyor)
+        model = {name: value for name, value in conveyor.items() if name not in PARAMETERS}
         own = settings["calibration"] | settings["band"] | box | {"model": model, "static_friction": 0.0}
         pairs = [(scale * acceleration, velocity) for acceleration, velocity in rows]
         return parse(csv_text(pairs, "synthetic", duration=lasts, before=lasts), "synthetic", own, RANGES), own
