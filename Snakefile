@@ -33,6 +33,7 @@ include: "workflow/rules/dimensions.smk"
 include: "workflow/rules/fit.smk"
 include: "workflow/rules/sensitivity.smk"
 include: "workflow/rules/operating.smk"
+include: "workflow/rules/excitation.smk"
 include: "workflow/rules/calibration.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/claims.smk"
@@ -47,6 +48,7 @@ rule all:
     default_target: True
     input:
         figure_files(),
+        excitation_files(),
         calibration_files(),
         caption_files(),
         CLAIM_FILES,

@@ -38,6 +38,7 @@ STAGES = (
     "fit",
     "sensitivity",
     "operating",
+    "excitation",
     "calibration",
     "accuracy",
     "claims",

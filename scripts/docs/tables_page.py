@@ -19,6 +19,7 @@ from accuracy import (
 from calibration import calibrate, prediction, study_table
 from claims import verdicts
 from dimensions import portraits
+from excitation import measure
 from fit import regressions
 from identification import edges, posterior
 from motion import critical, impacts, signals, spectra
@@ -39,6 +40,7 @@ MODULES = {
     "fit": [regressions],
     "sensitivity": [derivatives, curves],
     "operating": [shares, transit, drift, advice, throws, track, drive],
+    "excitation": [measure],
     "calibration": [calibrate, prediction, study_table],
     "accuracy": [
         *(benchmark, precision, reference_check, precision_estimates, stability, stability_estimates),

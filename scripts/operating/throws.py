@@ -39,7 +39,9 @@ def settings_of_conveyor(settings: dict, model: dict) -> dict:
 def make(examples: list[str], settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
     """The shares at each throw number, for the conveyors of the config and of the `examples` (YAML texts)."""
     conveyors = {"paper": {}} | {
-        one["prefix"]: one["model"] for one in map(yaml.safe_load, examples) if "calibration" not in one
+        one["prefix"]: one["model"]
+        for one in map(yaml.safe_load, examples)
+        if "model" in one and "calibration" not in one
     }
     throws = np.linspace(*(settings["throw_number"][key] for key in ("start", "stop", "num")))
     tables = []

@@ -20,8 +20,12 @@ from workflow.config.own_conveyor import (
 from workflow.config.tables import TABLES, references, settings_of
 
 CONFIG = canonical(read_config())
-# The examples that describe a whole conveyor; the contact of `measured` is not known.
-EXAMPLES = {path.stem: path for path in sorted((ROOT / "config/examples").glob("*.yaml")) if path.stem != "measured"}
+# The examples that describe a whole conveyor: the contact of `measured` is not known, nor the drive of `accelerometer`.
+EXAMPLES = {
+    path.stem: path
+    for path in sorted((ROOT / "config/examples").glob("*.yaml"))
+    if path.stem not in ("measured", "accelerometer")
+}
 # Figures for any conveyor.
 ANY = {f"fig{number:02d}" for number in (3, 8, 9, 10, 12, 13, 14, 17, 18, 19, 20, 22, 23, 24)}
 ANY |= {"bifurcation", "operating", "basin_stability"}

@@ -38,16 +38,21 @@ def canonical(config: dict) -> dict:
     return MODEL.validate_python(config)
 
 
+# Files of measurements that an overlay may name: section and key.
+MEASURED_FILES = (("calibration", "measurements"), ("excitation", "measured"))
+
+
 def name_measurements(config: dict, files: Sequence[str | Path], contents: list[dict]) -> None:
-    """Replace the name of the file of measurements, relative to the overlay that names it, by its path.
+    """Replace the names of files of measurements, relative to the overlay that names them, by their paths.
 
     A name that no overlay gives, such as one from the command line, is relative to the working directory.
     """
-    given = config["calibration"].get("measurements")
-    for file, content in zip(files, contents, strict=True):
-        section = content.get("calibration")
-        if isinstance(section, dict) and isinstance(given, str) and section.get("measurements") == given:
-            config["calibration"]["measurements"] = os.path.join(os.path.dirname(file), section["measurements"])
+    for section, key in MEASURED_FILES:
+        given = config[section].get(key)
+        for file, content in zip(files, contents, strict=True):
+            own = content.get(section)
+            if isinstance(own, dict) and isinstance(given, str) and own.get(key) == given:
+                config[section][key] = os.path.join(os.path.dirname(file), own[key])
 
 
 def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str | Path], config: dict) -> Loaded:
@@ -80,8 +85,9 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
     if errors := problems(whole, paper):
         lacks_prefix = not whole["prefix"] and fits(default_files, overlay_files, {**config, "prefix": "mine"})
         raise ConfigError([NO_PREFIX, *errors] if lacks_prefix else errors)
-    if "measurements" not in whole["calibration"]:
-        whole["figures_on_request"].pop("calibration", None)
+    for section, key in MEASURED_FILES:
+        if key not in whole[section]:
+            whole["figures_on_request"].pop(section, None)
     return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_conveyor)
 
 

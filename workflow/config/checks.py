@@ -345,6 +345,22 @@ def calibration(config: dict, defaults: dict) -> Iterator[str]:
         yield from error.faults
 
 
+def excitation(config: dict, defaults: dict) -> Iterator[str]:
+    """Faults in the file of an accelerometer and in its signal."""
+    own = config["excitation"]
+    if (path := own.get("measured")) is None:
+        return
+    # Only configs with such a file need NumPy and SciPy.
+    from scripts.excitation.faults import RecordingError, checked, read_text
+
+    if not config["prefix"]:
+        yield "excitation.measured needs a folder for its results; give the config a prefix"
+    try:
+        checked(read_text(path), path, own, config["model"]["frequency"])
+    except RecordingError as error:
+        yield from error.faults
+
+
 def precision(config: dict, defaults: dict) -> Iterator[str]:
     if is_own_conveyor(defaults, config):
         return
@@ -361,7 +377,8 @@ def precision(config: dict, defaults: dict) -> Iterator[str]:
 
 CHECKS = (
     *(prefix, methods, axes, friction, sweeps, steps, perturbations, critical, times, orbits, dimensions),
-    *(unknown_references, figures, unused_keys, identification, calibration, precision, drive),
+    *(unknown_references, figures, unused_keys, identification, excitation, calibration),
+    *(precision, drive),
 )
 
 

@@ -585,6 +585,12 @@ class Drive(TypedDict):
     recommended: whole("recommended settings", 1, 100)
 
 
+class Excitation(TypedDict):
+    measured: NotRequired[Annotated[Line, Field(description="CSV file of an accelerometer, relative to this overlay")]]
+    unit: word("unit of the accelerations in the file", "m/s²", "g")
+    mount: number("angle of the sensor's axis x above the track, for columns x and z", "rad", ge=-3.1416, le=3.1416)
+
+
 POSITIVE_GROUPS = ("friction", "damping", "stiffness", "exponent")
 RANGES_OF_CALIBRATION = {
     name: interval(
@@ -802,6 +808,7 @@ class Config(TypedDict):
     track: Annotated[Track, Field(description="velocity over inclination and phase shift")]
     throws: Annotated[Throws, Field(description="comparison with the textbook theory of throw conveyors")]
     drive: Annotated[Drive, Field(description="search for the settings of the drive")]
+    excitation: Annotated[Excitation, Field(description="the drive from an accelerometer file")]
     calibration: Annotated[Calibration, Field(description="parameters from measured velocities")]
     calibration_study: Annotated[CalibrationStudy, Field(description="simulation study of the calibration")]
     identification: Annotated[Identification, Field(description="parameters that the paper's numbers imply")]

@@ -204,6 +204,7 @@ def identification_table_settings(table: str, config: dict) -> dict:
 
 
 FOLLOWED = ("tolerance", "settling", "mean_settling")
+EXCITATION_TABLES = ("parameters", "harmonics", "quality", "samples", "waveform", "spectrum")
 CALIBRATION_TABLES = ("parameters", "samples", "fit", "alternatives", "prediction", "next")
 # The tables that are not entries, and the function that returns the settings of each.
 TABLES = {
@@ -234,6 +235,7 @@ TABLES = {
     "operating/drive_front": drive_settings,
     "operating/drive_generations": drive_settings,
     **{f"identification/{name}": partial(identification_table_settings, name) for name in ("edges", *POSTERIOR)},
+    **dict.fromkeys((f"excitation/{name}" for name in EXCITATION_TABLES), itemgetter("excitation")),
     **dict.fromkeys((f"calibration/{name}" for name in CALIBRATION_TABLES), calibration_settings),
     "results/claims": lambda config: {"claims": config["claims"]},
     "results/benchmark": benchmark_settings,
@@ -251,7 +253,11 @@ TABLES = {
     "results/scaling": lambda config: {**config["scaling"], "sharing": config["sharing"]},
 }
 # Tables that only an explicit target makes.
-ON_REQUEST = ("results/scaling", "results/calibration_study", *(f"calibration/{name}" for name in CALIBRATION_TABLES))
+ON_REQUEST = (
+    *("results/scaling", "results/calibration_study"),
+    *(f"excitation/{name}" for name in EXCITATION_TABLES),
+    *(f"calibration/{name}" for name in CALIBRATION_TABLES),
+)
 
 
 def references(config: dict) -> list[str]:

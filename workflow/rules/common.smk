@@ -7,7 +7,7 @@ from scripts.pipeline.source_hash import source_hash
 from workflow.config.entries import ENTRIES, resolve
 from workflow.config.files import DEFAULT_FILES, ROOT
 from workflow.config.sharing import THREADS, plan
-from workflow.config.tables import kind_of, settings_of
+from workflow.config.tables import EXCITATION_TABLES, kind_of, settings_of
 
 # Keep pyarrow's allocator from huge pages: clearing one takes 5 to 14 ms on a virtual machine, and joining shards takes 8 % more
 # memory with them.
@@ -154,6 +154,29 @@ def rows_of_shard(wildcards):
     return [first, min(first + sweep.rows, sweep.points)]
 
 
+# -- excitation --------------------------------------------------------------------------------------------------------
+
+HAS_RECORDING = "measured" in config["excitation"]
+NO_RECORDING = (
+    "a measured drive needs the file of an accelerometer; give an overlay with a prefix that names a CSV file, relative to itself: "
+    "excitation: {measured: FILE.csv}"
+)
+
+
+def recording(wildcards):
+    """The accelerometer file; an error for a config without one."""
+    if not HAS_RECORDING:
+        raise WorkflowError(NO_RECORDING)
+    return config["excitation"]["measured"]
+
+
+def excitation_files():
+    """What a config with an accelerometer file makes beside all figures."""
+    if not HAS_RECORDING:
+        return []
+    return [result("excitation.md"), result("measured_drive.yaml"), figure_file("excitation")]
+
+
 # -- calibration -------------------------------------------------------------------------------------------------------
 
 
@@ -200,6 +223,8 @@ NO_FIGURES = {
     for name, entry in (PAPER["figures"] | PAPER["figures_on_request"]).items()
     if "paper_only" in entry and name not in FIGURES
 }
+if not HAS_RECORDING:
+    NO_FIGURES["excitation"] = NO_RECORDING
 if not HAS_MEASUREMENTS:
     NO_FIGURES["calibration"] = NO_MEASUREMENTS
 

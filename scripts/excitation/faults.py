@@ -1,0 +1,171 @@
+"""Signals that cannot be used: too few cycles, aliasing, clipping, a second frequency, an impossible unit.
+
+The config check calls `faults` before any job starts.
+"""
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from .harmonics import Fit, duration_of, fit, orders_of, sampling_rate, spectrum, strongest
+from .reading import STANDARD_GRAVITY, UNITS, Recording, RecordingError, line_of_sample, parse, read_text
+
+__all__ = ["RecordingError", "checked", "first_fit", "read_text"]
+
+LEAST_CYCLES = 8
+LEAST_PER_CYCLE = 8  # samples; with fewer, harmonics of low orders are aliased
+CHECKED = 2**15  # samples that are searched for lines: more cost seconds at every start
+CHECKED_ORDERS = 8
+# Amplitudes (m/s²) of which one unit or the other is wrong: no plate has less to convey with, or survives more.
+LEAST_ACCELERATION, MOST_ACCELERATION = 0.05, 1500.0
+MOST_DISPLACEMENT = 0.1  # m
+# A further line counts from this share of the fundamental, if its power is this multiple of the noise's median power.
+SHARE, OUT_OF_NOISE = 0.05, 40.0
+MOST_SUBHARMONIC = 4  # the fundamental may be weaker than its harmonics up to this order
+NO_FUNDAMENTAL = 0.005  # share of the whole amplitude below which an axis does not vibrate
+# A clipped signal stays at its extreme value far longer than near it.
+NEAR, SPIKE, PLATEAU, FLAT = 0.002, 4.0, 3.0, 0.03
+
+
+def first_clipped(values: np.ndarray, quantum: float) -> int | None:
+    """The first sample at the largest value if the values are cut off there, else None."""
+    extreme, width = values.max(), max(1.5 * quantum, NEAR * np.ptp(values))
+    at = values >= extreme - 1e-9 * np.ptp(values)
+    near = np.count_nonzero((values >= extreme - width) & ~at)
+    count, plateaus = np.count_nonzero(at), np.count_nonzero(np.diff(at.astype(np.int8), prepend=0) == 1)
+    # Samples of every cycle at the same phases repeat an extreme value, too, but then all values repeat.
+    is_varied = len(np.unique(values[~at])) > 0.5 * len(values)
+    is_flat = count >= PLATEAU * plateaus or (is_varied and count >= FLAT * len(values))
+    return int(np.argmax(at)) if plateaus > 1 and is_flat and count > SPIKE * near else None
+
+
+def clipped(readings: np.ndarray, quantum: float) -> int | None:
+    """The first sample at which readings are cut off, above or below; None if they are not."""
+    found = [first_clipped(values, quantum) for values in (readings, -readings)]
+    return min((sample for sample in found if sample is not None), default=None)
+
+
+def further_line(time: np.ndarray, found: Fit) -> tuple[float, float] | None:
+    """Frequency (Hz) and amplitude (m/s²) of the strongest line that is no multiple of the fundamental, or None."""
+    frequencies, amplitudes = spectrum(time, found.residual)
+    power, resolution = (amplitudes**2).sum(axis=0), 1.0 / duration_of(time)
+    multiple = np.round(frequencies / found.frequency)
+    # Where an amplitude drifts, its line has a foot.
+    own = (np.abs(frequencies - multiple * found.frequency) < 3.0 * resolution) & (multiple > 0.0)
+    searched = ~own & (frequencies > max(found.frequency / (MOST_SUBHARMONIC + 0.5), 3.0 * resolution))
+    if not searched.any():
+        return None
+    place = int(np.argmax(np.where(searched, power, 0.0)))
+    fundamental = (np.abs(found.amplitudes[:, 0]) ** 2).sum()
+    counts = power[place] > SHARE**2 * fundamental and power[place] > OUT_OF_NOISE * np.median(power[searched])
+    return (float(frequencies[place]), math.sqrt(power[place])) if counts else None
+
+
+def first_fit(time: np.ndarray, signals: np.ndarray, orders: int = CHECKED_ORDERS) -> tuple[Fit, tuple | None]:
+    """The harmonics, and a line that is no multiple of their frequency, or None."""
+    rate = sampling_rate(time)
+
+    def fitted(guess: float) -> Fit:
+        return fit(time, signals, guess, min(orders, orders_of(rate, guess)))
+
+    found = fitted(strongest(time, signals)[0])
+    other = further_line(time, found)
+    # The strongest line may be a harmonic of a weaker fundamental.
+    for order in range(2, MOST_SUBHARMONIC + 1) if other else ():
+        if abs(order * other[0] - found.frequency) < 1.0 / duration_of(time):
+            found = fitted(found.frequency / order)
+            return found, further_line(time, found)
+    return found, other
+
+
+def unit_faults(acceleration: float, frequency: float, offsets: np.ndarray, unit: str) -> Iterator[str]:
+    """Amplitude (m/s²), frequency (Hz) and offsets (m/s²) that no plate has."""
+    given = acceleration / UNITS[unit]
+    shown = f"vibrates with {given:.3g} {unit}" + (f", which is {acceleration:.3g} m/s²" if unit == "g" else "")
+    if acceleration > MOST_ACCELERATION:
+        if unit == "g" and given < MOST_ACCELERATION:
+            yield f"{shown}; no conveyor does: leave excitation.unit out if the file is in m/s²"
+        else:
+            yield f"{shown}; no conveyor does: divide values in mm/s² or in thousandths of g by 1000"
+    elif acceleration < LEAST_ACCELERATION:
+        remedy = "set excitation.unit: g if the file is in g" if unit == "m/s²" else "give g or m/s², not a voltage"
+        yield f"{shown}; that moves no part: {remedy}, and record while the drive is on"
+    elif (displacement := acceleration / (2.0 * math.pi * frequency) ** 2) > MOST_DISPLACEMENT:
+        yield (
+            f"{shown}, at {frequency:.3g} Hz; the plate would move by {displacement:.3g} m: write the time in s "
+            "(divide milliseconds by 1000)"
+        )
+    elif unit == "g" and abs(math.hypot(*offsets) / STANDARD_GRAVITY**2 - 1.0) < 0.03:
+        yield "shows gravity as 9.81, so its values are in m/s²; leave excitation.unit out"
+
+
+def signal_faults(recording: Recording, unit: str, stated: float | None) -> Iterator[tuple[int | None, str]]:
+    """Sample (None for the whole file) and description of each fault; `stated` is the frequency of the config (Hz)."""
+    time, signals = recording.time[:CHECKED], recording.acceleration[:, :CHECKED]
+    for name, readings in zip(recording.columns, recording.readings, strict=True):
+        if np.ptp(readings) == 0.0:
+            yield None, f"has the same value in every line of the column {name}; check the sensor and its channel"
+            return
+        if (sample := clipped(readings, recording.quanta.max())) is not None:
+            yield (
+                sample,
+                f"{name} = {readings[sample] / UNITS[unit]:.4g} is cut off there and in other cycles; record again "
+                "with a larger range of the sensor",
+            )
+    found, other = first_fit(time, signals)
+    rate, frequency = sampling_rate(recording.time), found.frequency
+    cycles, per_cycle = duration_of(recording.time) * frequency, rate / frequency
+    if cycles < LEAST_CYCLES - 0.1:
+        yield None, f"holds {cycles:.2g} cycles of {frequency:.3g} Hz; record at least {LEAST_CYCLES}"
+        return
+    if per_cycle < LEAST_PER_CYCLE - 0.1:
+        yield (
+            None,
+            f"has {per_cycle:.2g} samples in a cycle of {frequency:.4g} Hz, or the drive is faster and aliased; sample "
+            f"at least {LEAST_PER_CYCLE} times in a cycle, with the sensor's anti-aliasing filter",
+        )
+        return
+    if stated and stated > 0.5 * rate and abs(abs(stated - round(stated / rate) * rate) - frequency) < 0.02 * frequency:
+        yield (
+            None,
+            f"is sampled at {rate:.4g} Hz, at which a drive of {stated:g} Hz (model.frequency) looks like one of "
+            f"{frequency:.3g} Hz (aliasing); sample at {LEAST_PER_CYCLE * stated:g} Hz or more",
+        )
+        return
+    if other:
+        yield (
+            None,
+            f"vibrates at {frequency:.4g} Hz and, with {other[1]:.2g} m/s², at {other[0]:.4g} Hz, no multiple of it; "
+            "record one drive alone, and use the sensor's anti-aliasing filter, because a harmonic above half the "
+            "sampling rate looks like such a line",
+        )
+        return
+    sizes = np.abs(found.amplitudes[:, 0])
+    yield from ((None, fault) for fault in unit_faults(float(np.hypot(*sizes)), frequency, found.offsets, unit))
+    noise = np.sqrt(4.0 * (found.residual**2).mean(axis=1) / len(time))
+    for axis, name in enumerate(("along", "normal")):
+        if sizes[axis] < max(NO_FUNDAMENTAL * np.hypot(*sizes), 4.0 * noise[axis]):
+            direction = f"{name} the track" if name == "along" else "normal to the track"
+            yield (
+                None,
+                f"shows no vibration {direction} at {frequency:.4g} Hz ({sizes[axis]:.2g} m/s²), to which shares of "
+                "harmonics and phases refer; check the columns, and excitation.mount",
+            )
+
+
+def checked(text: str, path: str | Path, settings: dict, stated: float | None = None) -> Recording:
+    """The recording in a text; RecordingError names all faults of the text or of the signal, with file and line.
+
+    settings : as in `parse`
+    stated : frequency of the config, Hz
+    """
+    recording = parse(text, path, settings)
+    faults = [
+        f"{path}{'' if sample is None else f':{line_of_sample(text, sample)}'}: {fault}"
+        for sample, fault in signal_faults(recording, settings["unit"], stated)
+    ]
+    if faults:
+        raise RecordingError(faults)
+    return recording

@@ -1,0 +1,121 @@
+"""A periodic signal in noise: its frequency by least squares, and its harmonics as complex amplitudes.
+
+Both axes of a recording are the sum of an offset, a linear drift of the offset, and harmonics with one frequency:
+a_j(t) = o_j + d_j t + Re Σ_k Z_jk exp(i k ω t), with t from the middle of the recording. For a given frequency, the
+rest is linear, so only the frequency is searched (variable projection, Golub and Pereyra 1973). Nothing here needs
+even sampling, except for the first estimate of the frequency, which interpolates.
+
+The config check uses this module, too; SciPy's optimisers are imported when they are needed.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+MOST_ORDER = 20  # harmonics of higher orders move the plate by less than 1/400 of their share of the acceleration
+HIGHEST = 0.45  # frequency up to which harmonics are fitted, in units of the sampling rate: below 1/2
+PADDING = 4  # the first estimate of the frequency is on a grid of 1/4 of the resolution 1/T
+SEARCHED = 0.6  # half width of the searched frequencies around it, in units of 1/T: less than to the next minimum
+
+
+class Fit(NamedTuple):
+    """Harmonics of both axes with one frequency."""
+
+    frequency: float  # Hz
+    middle: float  # s, the time at which the phases are stated
+    amplitudes: np.ndarray  # m/s², complex, Z_jk of axis j and order k = 1, 2, …, shape (2, K)
+    offsets: np.ndarray  # m/s², shape (2,)
+    residual: np.ndarray  # m/s², shape (2, n)
+
+    @property
+    def orders(self) -> int:
+        return self.amplitudes.shape[1]
+
+
+def sampling_rate(time: np.ndarray) -> float:
+    """Mean number of samples per second."""
+    return (len(time) - 1) / (time[-1] - time[0])
+
+
+def duration_of(time: np.ndarray) -> float:
+    """Duration of a recording (s), with the interval that its last sample stands for."""
+    return len(time) / sampling_rate(time)
+
+
+def orders_of(rate: float, frequency: float) -> int:
+    """Highest order whose frequency the sampling resolves."""
+    return max(1, min(MOST_ORDER, math.floor(HIGHEST * rate / frequency)))
+
+
+def powers(time: np.ndarray, frequency: float, orders: int) -> np.ndarray:
+    """exp(i k ω t) for the orders k = 1, 2, …, shape (orders, n)."""
+    first = np.exp(2j * math.pi * frequency * time)
+    return np.cumprod(np.broadcast_to(first, (orders, len(time))), axis=0)
+
+
+def design_of(centred: np.ndarray, frequency: float, orders: int) -> np.ndarray:
+    """The columns of the linear least squares as rows: offset, drift, cosines and sines, shape (2 + 2 K, n)."""
+    waves = powers(centred, frequency, orders)
+    return np.vstack([np.ones_like(centred), centred / centred[-1], waves.real, waves.imag])
+
+
+def project(design: np.ndarray, signals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients, shape (2 + 2 K, 2), and residual, shape (2, n). The rows of the design are nearly orthogonal, so
+    the normal equations lose no digits."""
+    values = np.linalg.solve(design @ design.T, design @ signals.T)
+    return values, signals - values.T @ design
+
+
+def slope_of(values: np.ndarray, design: np.ndarray, centred: np.ndarray) -> np.ndarray:
+    """Derivative of the harmonics with respect to the frequency (m/s²/Hz), shape (2, n)."""
+    orders = len(design) // 2 - 1
+    each = 2.0 * math.pi * np.arange(1, orders + 1)[:, None]
+    cosines, sines = values[2 : 2 + orders], values[2 + orders :]
+    return centred * ((each * sines).T @ design[2 : 2 + orders] - (each * cosines).T @ design[2 + orders :])
+
+
+def fit(time: np.ndarray, signals: np.ndarray, guess: float, orders: int) -> Fit:
+    """The frequency near a first estimate (Hz), and the harmonics; `signals` has the shape (2, n)."""
+    from scipy.optimize import least_squares
+
+    resolution, middle = 1.0 / duration_of(time), 0.5 * (time[0] + time[-1])
+    centred = time - middle
+
+    def residual(shift: np.ndarray) -> np.ndarray:
+        return project(design_of(centred, guess + shift[0] * resolution, orders), signals)[1].ravel()
+
+    def jacobian(shift: np.ndarray) -> np.ndarray:
+        """The derivative without what the linear coefficients compensate (Kaufman 1975)."""
+        design = design_of(centred, guess + shift[0] * resolution, orders)
+        slope = slope_of(project(design, signals)[0], design, centred)
+        return -resolution * project(design, slope)[1].reshape(-1, 1)
+
+    options = {"xtol": 1e-10, "ftol": 1e-12, "gtol": None, "max_nfev": 12}
+    found = least_squares(residual, [0.0], jacobian, bounds=(-SEARCHED, SEARCHED), **options)
+    frequency = guess + float(found.x[0]) * resolution
+    values, rest = project(design_of(centred, frequency, orders), signals)
+    amplitudes = (values[2 : 2 + orders] - 1j * values[2 + orders :]).T
+    return Fit(frequency, middle, amplitudes, values[0], rest)
+
+
+def spectrum(time: np.ndarray, signals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies (Hz), shape (m,), and amplitudes of sines at these frequencies, shape (2, m), with a Hann window.
+
+    Uneven samples are interpolated, which only spectra for the eye and first estimates may do.
+    """
+    count = len(time)
+    even = np.linspace(time[0], time[-1], count)
+    window = np.hanning(count)
+    length = PADDING * 2 ** math.ceil(math.log2(count))
+    values = np.array([np.interp(even, time, one - one.mean()) for one in signals])
+    frequencies = np.fft.rfftfreq(length, 1.0 / sampling_rate(time))
+    return frequencies, 2.0 / window.sum() * np.abs(np.fft.rfft(window * values, length))
+
+
+def strongest(time: np.ndarray, signals: np.ndarray) -> tuple[float, float]:
+    """Frequency (Hz) and amplitude (m/s²) of the strongest line of both axes together."""
+    frequencies, amplitudes = spectrum(time, signals)
+    power = np.where(frequencies > 0.0, (amplitudes**2).sum(axis=0), 0.0)
+    place = int(np.argmax(power))
+    return float(frequencies[place]), math.sqrt(power[place])

@@ -1,0 +1,199 @@
+"""What an accelerometer file says about the drive: parameters, harmonics, and how clean and steady the drive is."""
+
+import math
+
+import numpy as np
+from scipy.ndimage import median_filter
+
+from excitation.estimates import PARAMETERS, harmonics, noise_of, parameters
+from excitation.faults import first_fit
+from excitation.harmonics import Fit, duration_of, fit, orders_of, powers, sampling_rate, spectrum
+from excitation.reading import Recording, parse
+from pipeline import fields
+
+AXES = ("along", "normal")
+DIGITS = 10  # of all numbers; further digits depend on the processor, and no sensor has them
+SAMPLES, POINTS, BINS = 2000, 257, 2000  # of the figure
+PIECE = 4  # cycles, at least, of a piece of the recording whose amplitude is measured
+MOST_PIECES = 50
+
+
+def by_axis(name: str, unit: str, description: str) -> tuple:
+    """The columns of both axes."""
+    return (
+        fields.number(f"along{name}", unit, f"{description} along the track"),
+        fields.number(f"normal{name}", unit, f"{description} normal to the track"),
+    )
+
+
+def share_fields(axis: str) -> tuple:
+    """The columns of the harmonics of one axis."""
+    of = f"harmonic {'along' if axis == 'along' else 'normal to'} the track"
+    return (
+        fields.number(axis, "1", f"amplitude of the {of}, over the fundamental of this axis"),
+        fields.number(f"{axis}_stderr", "1", "its standard error"),
+        fields.number(f"{axis}_phase", "rad", f"phase of the {of}; the fundamental normal to the track has phase 0"),
+        fields.number(f"{axis}_phase_stderr", "rad", "its standard error; 1.6 for any phase"),
+        fields.flag(f"{axis}_above_noise", f"whether the {of} is above the noise"),
+    )
+
+
+TABLES = {
+    "parameters": (
+        fields.text("parameter", ", ".join(PARAMETERS)),
+        fields.number("value", "as stated in `unit`", "measured value"),
+        fields.number("stderr", "as stated in `unit`", "its standard error"),
+        fields.text("unit", "unit of the value"),
+    ),
+    "harmonics": (
+        fields.count("order", "frequency in units of the fundamental's"),
+        *share_fields("along"),
+        *share_fields("normal"),
+        fields.flag("above_noise", "whether the harmonic is above the noise in at least one direction"),
+    ),
+    "quality": (
+        fields.count("samples", "samples of the recording"),
+        fields.number("sampling_rate", "Hz", "mean number of samples per second"),
+        fields.number("cycles", "1", "excitation cycles of the recording"),
+        *by_axis("_offset", "m/s²", "gravity and offset of the sensor"),
+        *by_axis("_noise", "m/s²", "root mean square of what no harmonic explains,"),
+        *by_axis("_distortion", "1", "root sum of squares of the shares above the noise,"),
+        fields.number(
+            "other_frequency", "Hz", "strongest line that is no multiple of the frequency; null if none counts"
+        ),
+        fields.number("other_amplitude", "m/s²", "its amplitude"),
+        fields.count("pieces", "pieces of the recording, each with its own amplitude"),
+        fields.number("deviation", "1", "relative standard deviation of the amplitude over the pieces"),
+        fields.number("deviation_of_noise", "1", "this deviation if only the noise caused it"),
+        fields.number("drift", "1", "relative change of the amplitude from begin to end, by a straight line"),
+    ),
+    "samples": (
+        fields.number("cycle", "1", "phase of a sample in cycles, from 0 to 1"),
+        *by_axis("", "m/s²", "acceleration without offset"),
+    ),
+    "waveform": (
+        fields.number("cycle", "1", "phase in cycles, from 0 to 1"),
+        *by_axis("", "m/s²", "fitted acceleration with the harmonics above the noise,"),
+        *by_axis("_fundamental", "m/s²", "fitted acceleration without harmonics,"),
+        *by_axis("_displacement", "m", "displacement with these harmonics,"),
+        *by_axis("_displacement_fundamental", "m", "displacement without harmonics,"),
+    ),
+    "spectrum": (
+        fields.number("frequency", "Hz", "frequency"),
+        *by_axis("", "m/s²", "amplitude"),
+        *by_axis("_floor", "m/s²", "median amplitude of the noise nearby,"),
+    ),
+}
+
+
+def rounded(columns: dict) -> dict:
+    """The columns with DIGITS significant digits."""
+
+    def shorten(value: float) -> float:
+        return float(f"{value:.{DIGITS - 1}e}")
+
+    return {
+        name: [shorten(value) if isinstance(value, float) else value for value in np.asarray(values).tolist()]
+        for name, values in columns.items()
+    }
+
+
+def cycles_of(recording: Recording, found: Fit) -> np.ndarray:
+    """Phase of every sample in cycles; the fundamental normal to the track has its maximum at whole numbers."""
+    zero = np.angle(found.amplitudes[1, 0]) / (2.0 * math.pi)
+    return (recording.time - found.middle) * found.frequency + zero
+
+
+def steadiness(recording: Recording, found: Fit) -> dict[str, float]:
+    """How the amplitude of the fundamental changes from piece to piece of the recording."""
+    cycles = found.frequency * duration_of(recording.time)
+    pieces = max(2, min(MOST_PIECES, math.floor(cycles / PIECE)))
+    time = recording.time - found.middle
+    begins = np.searchsorted(time, np.linspace(time[0], time[-1], pieces, endpoint=False))
+    sizes = np.diff([*begins, len(time)])
+    waves = np.conj(powers(time, found.frequency, 1)[0])
+    weights = np.abs(found.amplitudes[:, 0]) ** 2
+    errors = 2.0 * np.add.reduceat(found.residual * waves, begins, axis=1) / sizes / found.amplitudes[:, :1]
+    amplitude = weights @ errors.real / weights.sum()
+    noise = (found.residual**2).mean(axis=1) * 2.0 / sizes.mean()
+    middles = np.add.reduceat(time, begins) / sizes
+    return {
+        "pieces": pieces,
+        "deviation": float(amplitude.std(ddof=1)),
+        "deviation_of_noise": math.sqrt(float(weights @ noise)) / float(weights.sum()),
+        "drift": float(np.polyfit(middles, amplitude, 1)[0] * (time[-1] - time[0])),
+    }
+
+
+def waveform(found: Fit, above: np.ndarray) -> dict[str, np.ndarray]:
+    """One cycle of the plate; `above` says which harmonics of orders 2, 3, … of each axis count, shape (2, K - 1)."""
+    cycle = np.linspace(0.0, 1.0, POINTS)
+    orders = np.arange(1, found.orders + 1)
+    zero = np.angle(found.amplitudes[1, 0])
+    waves = np.exp(1j * np.outer(orders, 2.0 * math.pi * cycle - zero))
+    used = found.amplitudes * np.hstack([np.ones((2, 1)), above])
+    squares = (2.0 * math.pi * found.frequency * orders) ** 2
+    columns = {"cycle": cycle}
+    for axis, name in enumerate(AXES):
+        columns[name] = (used[axis] @ waves).real
+        columns[f"{name}_fundamental"] = (used[axis, :1] @ waves[:1]).real
+        columns[f"{name}_displacement"] = -(used[axis] / squares @ waves).real
+        columns[f"{name}_displacement_fundamental"] = -(used[axis, :1] / squares[0] @ waves[:1]).real
+    return columns
+
+
+def spectra(recording: Recording, found: Fit) -> dict[str, np.ndarray]:
+    """Amplitude spectra up to a little beyond the highest order, as the maximum of groups of frequencies, and the floor
+    of the noise."""
+    frequencies, amplitudes = spectrum(recording.time, recording.acceleration - found.offsets[:, None])
+    noise = spectrum(recording.time, found.residual)[1]
+    count = np.searchsorted(frequencies, (found.orders + 0.5) * found.frequency)
+    begins = np.unique(np.linspace(0, count, min(count, BINS), endpoint=False).astype(np.int64))
+    width = max(3, round(len(begins) / (found.orders + 0.5)))  # one frequency of the drive
+    columns = {"frequency": frequencies[begins]}
+    for axis, name in enumerate(AXES):
+        columns[name] = np.maximum.reduceat(amplitudes[axis, :count], begins)
+        columns[f"{name}_floor"] = median_filter(noise[axis, :count], max(3, width * count // len(begins)))[begins]
+    return columns
+
+
+def make(measured: str, settings: dict) -> dict[str, dict]:
+    """The tables from the text of the accelerometer file."""
+    recording = parse(measured, settings["measured"], settings)
+    rate = sampling_rate(recording.time)
+    first, other = first_fit(recording.time, recording.acceleration)
+    found = fit(recording.time, recording.acceleration, first.frequency, orders_of(rate, first.frequency))
+    noise = noise_of(recording, found)
+    shares = harmonics(found, noise)
+    above = np.array([shares[f"{axis}_above_noise"] for axis in AXES])
+    distortion = np.sqrt((np.array([shares[axis] for axis in AXES]) ** 2 * above).sum(axis=1))
+    values, errors = zip(*parameters(recording, found, noise).values(), strict=True)
+    cycle = cycles_of(recording, found)
+    chosen = np.unique(np.linspace(0, len(cycle) - 1, SAMPLES).round().astype(np.int64))
+    quality = {
+        "samples": len(recording.time),
+        "sampling_rate": rate,
+        "cycles": found.frequency * duration_of(recording.time),
+        "other_frequency": other[0] if other else math.nan,
+        "other_amplitude": other[1] if other else math.nan,
+        **steadiness(recording, found),
+    }
+    for axis, name in enumerate(AXES):
+        quality[f"{name}_offset"] = found.offsets[axis]
+        quality[f"{name}_noise"] = math.sqrt((found.residual[axis] ** 2).mean())
+        quality[f"{name}_distortion"] = distortion[axis]
+    samples = recording.acceleration[:, chosen] - found.offsets[:, None]
+    tables = {
+        "parameters": {
+            "parameter": list(PARAMETERS),
+            "value": values,
+            "stderr": errors,
+            "unit": list(PARAMETERS.values()),
+        },
+        "harmonics": shares,
+        "quality": {name: [value] for name, value in quality.items()},
+        "samples": {"cycle": np.mod(cycle[chosen], 1.0), **dict(zip(AXES, samples, strict=True))},
+        "waveform": waveform(found, above),
+        "spectrum": spectra(recording, found),
+    }
+    return {name: rounded(columns) for name, columns in tables.items()}

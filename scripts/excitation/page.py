@@ -1,0 +1,42 @@
+"""The measured drive in words, with all numbers from the tables."""
+
+import math
+
+import pandas as pd
+
+from excitation.estimates import CHANCE
+from pipeline.templates import render
+
+DIRECTIONS = {"along": "along", "normal": "normal to"}
+
+
+def largest_share(harmonics: pd.DataFrame) -> dict | None:
+    """The largest share above the noise, its order and its direction; None if all are below it."""
+    shares = [
+        {"share": row[axis], "order": row["order"], "direction": direction}
+        for row in harmonics.to_dict("records")
+        for axis, direction in DIRECTIONS.items()
+        if row[f"{axis}_above_noise"]
+    ]
+    return max(shares, key=lambda one: one["share"], default=None)
+
+
+def make(template: str, parameters: pd.DataFrame, harmonics: pd.DataFrame, quality: pd.DataFrame, prefix: str) -> str:
+    """The page from its template and the tables of the drive."""
+    drive = parameters.set_index("parameter").to_dict("index")
+    found = quality.iloc[0].to_dict()
+    return render(
+        template,
+        {
+            "settings": parameters.attrs,
+            "prefix": prefix,
+            "drive": drive,
+            "backwards": abs(drive["phase_shift"]["value"]) > 0.5 * math.pi,
+            "harmonics": harmonics[harmonics.above_noise].to_dict("records"),
+            "largest": largest_share(harmonics),
+            "orders": int(harmonics.order.max()) if len(harmonics) else 1,
+            "quality": found,
+            "other": not math.isnan(found["other_frequency"]),
+            "chance": CHANCE,
+        },
+    )

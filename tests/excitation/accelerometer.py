@@ -1,0 +1,81 @@
+"""Accelerometer files of drives whose truth is known."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from excitation.reading import STANDARD_GRAVITY
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A drive in the conventions of the model, and the sensor that records it."""
+
+    acceleration: float = 40.0  # m/s²
+    frequency: float = 50.0  # Hz
+    angle: float = 0.3  # rad
+    phase_shift: float = 0.2  # rad
+    harmonics: tuple = ()  # (order, along, along_phase, normal, normal_phase)
+    psi0: float = 1.1  # rad
+    cycles: float = 60.0
+    rate: float = 2000.0  # samples per second
+    noise: float = 0.3  # m/s², standard deviation
+    colour: float = 0.0  # correlation of the noise from sample to sample
+    offsets: tuple = (0.4, 9.81)  # m/s², of the sensor's columns: gravity and bias
+    mount: float = 0.0  # rad
+    jitter: float = 0.0  # of the sampling times, in units of the interval
+    quantum: float = 0.0  # m/s², step of the converter
+    drift: float = 0.0  # relative change of the amplitude from begin to end
+    limit: float = np.inf  # m/s², at which the sensor clips
+    unit: str = "m/s²"
+    also: dict = field(default_factory=dict)  # frequency (Hz): amplitude (m/s²) of further sines normal to the track
+
+    def plate(self, time: np.ndarray) -> np.ndarray:
+        """Acceleration along and normal to the track (m/s²), shape (2, n)."""
+        theta = 2.0 * np.pi * self.frequency * time + self.psi0
+        along, normal = np.cos(theta + self.phase_shift), np.cos(theta)
+        for order, share_along, phase_along, share_normal, phase_normal in self.harmonics:
+            along = along + share_along * np.cos(order * theta + phase_along)
+            normal = normal + share_normal * np.cos(order * theta + phase_normal)
+        steady = 1.0 + self.drift * (time / time[-1] - 0.5)
+        both = steady * self.acceleration * np.array([np.cos(self.angle) * along, np.sin(self.angle) * normal])
+        for frequency, amplitude in self.also.items():
+            both[1] += amplitude * np.sin(2.0 * np.pi * frequency * time)
+        return both
+
+    def record(self, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
+        """Times (s) and readings (m/s²) of the columns along, normal, or, with a mount, x, z."""
+        random = np.random.default_rng(seed)
+        count = round(self.cycles / self.frequency * self.rate)
+        time = np.cumsum(1.0 + self.jitter * random.uniform(-1.0, 1.0, count)) / self.rate
+        along, normal = self.plate(time)
+        cosine, sine = np.cos(self.mount), np.sin(self.mount)
+        readings = np.array([along * cosine + normal * sine, -along * sine + normal * cosine])
+        white = random.standard_normal((2, count))
+        noise = white.copy()
+        for place in range(1, count):
+            noise[:, place] = self.colour * noise[:, place - 1] + np.sqrt(1.0 - self.colour**2) * white[:, place]
+        readings = readings + np.array(self.offsets)[:, None] + self.noise * noise
+        if self.quantum:
+            readings = self.quantum * np.round(readings / self.quantum)
+        return time, np.clip(readings, -self.limit, self.limit)
+
+    def text(self, seed: int = 0) -> str:
+        """The file."""
+        time, readings = self.record(seed)
+        names = ("x", "z") if self.mount else ("along", "normal")
+        scale = STANDARD_GRAVITY if self.unit == "g" else 1.0
+        rows = [f"{t:.7g},{a:.8g},{b:.8g}" for t, (a, b) in zip(time, readings.T / scale, strict=True)]
+        return "\n".join([f"time,{names[0]},{names[1]}", *rows, ""])
+
+    @property
+    def settings(self) -> dict:
+        return {"unit": self.unit, "mount": self.mount}
+
+    def truth(self) -> dict[str, float]:
+        """The parameters of the drive and the harmonics, by name and by name and order."""
+        values = {name: getattr(self, name) for name in ("acceleration", "frequency", "angle", "phase_shift")}
+        for order, *shares in self.harmonics:
+            names = ("along", "along_phase", "normal", "normal_phase")
+            values |= {f"{name}_{order}": value for name, value in zip(names, shares, strict=True)}
+        return values

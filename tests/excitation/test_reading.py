@@ -1,0 +1,232 @@
+"""Accelerometer files: good ones in several spellings, and bad ones, each rejected with file, line and remedy."""
+
+import os
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import yaml
+from project import ROOT
+
+import make
+from accelerometer import Drive
+from excitation.faults import RecordingError, checked
+from excitation.reading import STANDARD_GRAVITY, parse, read_text
+from workflow.config import ConfigError, load_config
+from workflow.config.files import DEFAULT_FILES, merge, read_all
+
+DRIVE = Drive(cycles=20.0)
+GOOD = DRIVE.text()
+LINES = GOOD.splitlines()
+
+
+def with_line(number: int, content: str) -> str:
+    """The good file with another line; lines are numbered from 1."""
+    return "\n".join([*LINES[: number - 1], content, *LINES[number:], ""])
+
+
+# Text of the file (bytes where it is not text), line of the fault (None for the whole file), and a part of its message.
+BAD_TEXTS = {
+    "empty": ("", 1, "is empty"),
+    "only a comment": ("# measured in May\n", 1, "is empty"),
+    "no header": ("\n".join(LINES[1:]), 1, "the first line must name the columns"),
+    "no normal": (GOOD.replace("normal", "y", 1), 1, "has no column normal; add it"),
+    "no time": (GOOD.replace("time", "sample", 1), 1, "has no column time"),
+    "only x": (GOOD.replace("along,normal", "x,y", 1), 1, "has no column z"),
+    "unit in the header": (GOOD.replace("time", "Time (s)", 1), 1, "rename 'time (s)' to time, without a unit"),
+    "misspelt column": (GOOD.replace("normal", "nromal", 1), 1, "rename 'nromal' to normal"),
+    "column twice": (GOOD.replace("normal", "along", 1), 1, "has the column along twice"),
+    "four columns": ("time,along,normal,x,z\n0,1,2,3,4\n", 1, "has both along, normal and x, z"),
+    "text": (with_line(7, "0.0025,fast,1"), 7, "along = 'fast' is text"),
+    "nan": (with_line(9, "0.004,1,NaN"), 9, "is not a measured number; delete the line"),
+    "infinite": (with_line(9, "0.004,-inf,1"), 9, "is not a measured number; delete the line"),
+    "too large for a number": (with_line(9, "0.004,1e999,1"), 9, "is not a measured number"),
+    "empty field": (with_line(5, "0.002,,1"), 5, "has no along; delete the line"),
+    "missing field": (with_line(5, "0.002,1"), 5, "has 2 values for 3 columns"),
+    "time goes back": (with_line(20, LINES[11]), 20, "is not later than the line before"),
+    "equal times": (with_line(20, LINES[18]), 20, "is not later than the line before"),
+    "decimal commas": (
+        "time,along,normal\n"
+        + "\n".join(line.replace(",", "#").replace(".", ",").replace("#", ",") for line in LINES[1:]),
+        2,
+        "perhaps because of decimal commas; export with semicolons",
+    ),
+    "quoted decimal comma": (with_line(3, '0.001,"1;5",2').replace("1;5", "1,5"), 3, "has a decimal comma; write 1.5"),
+    "a spreadsheet": (b"PK\x03\x04\x14\x00\x06\x00\xff\xfe" + bytes(300), 1, "is not UTF-8 text"),
+    "Latin-1": ("time,along,normal\n# m/s²\n".encode("latin-1"), 2, "export the table as CSV with UTF-8"),
+    "UTF-16": (GOOD.encode("utf-16"), 1, "export the table as CSV with UTF-8"),
+    "zero bytes": (GOOD.replace("0.0", "0.\x000", 1), 1, "is not a CSV text"),
+    "short": ("\n".join(LINES[:40]), 40, "ends after 39 samples"),
+}
+# Drive of the file, and a part of the message.
+BAD_SIGNALS = {
+    "few cycles": (replace(DRIVE, cycles=6.0), "holds 6 cycles of 50 Hz; record at least 8"),
+    "slow sampling": (replace(DRIVE, rate=300.0), "has 6 samples in a cycle of 50 Hz"),
+    "aliased": (replace(DRIVE, rate=80.0, cycles=100.0), "anti-aliasing"),
+    "aliased to a slow drive": (replace(DRIVE, rate=45.0, cycles=100.0), "looks like one of 5 Hz (aliasing)"),
+    "an aliased harmonic": (
+        replace(DRIVE, rate=520.0, cycles=60.0, harmonics=((8, 0.2, 0.0, 0.2, 0.0),)),
+        "at 120",
+    ),
+    "two frequencies": (replace(DRIVE, also={77.0: 8.0}), "Hz, no multiple of it; record one drive alone"),
+    "4000 m/s²": (replace(DRIVE, acceleration=4000.0), "divide values in mm/s² or in thousandths of g by 1000"),
+    "4000 g": (replace(DRIVE, acceleration=4000.0, unit="g"), "leave excitation.unit out if the file is in m/s²"),
+    "thousandths of g": (replace(DRIVE, acceleration=4000.0 * STANDARD_GRAVITY, unit="g"), "thousandths of g by 1000"),
+    "a voltage": (replace(DRIVE, acceleration=0.03, noise=1e-4), "that moves no part: set excitation.unit: g"),
+    "milliseconds": (replace(DRIVE, frequency=0.05, rate=2.0), "divide milliseconds by 1000"),
+    "m/s² called g": (
+        replace(DRIVE, unit="g", offsets=(0.0, STANDARD_GRAVITY * STANDARD_GRAVITY)),
+        "leave excitation.unit out",
+    ),
+    "no motion along the track": (replace(DRIVE, angle=1.5707), "shows no vibration along the track"),
+    "no motion normal to it": (replace(DRIVE, angle=1e-4), "shows no vibration normal to the track"),
+}
+
+
+def faults_of(text: str, unit: str = "m/s²", mount: float = 0.0) -> list[str]:
+    try:
+        checked(text, "mine.csv", {"unit": unit, "mount": mount}, stated=50.0)
+    except RecordingError as error:
+        return error.faults
+    return []
+
+
+@pytest.mark.parametrize("name", BAD_TEXTS)
+def test_bad_texts_are_rejected_with_line_and_remedy(name, tmp_path):
+    content, line, message = BAD_TEXTS[name]
+    file = tmp_path / "mine.csv"
+    file.write_bytes(content if isinstance(content, bytes) else content.encode())
+    with pytest.raises(RecordingError) as error:
+        parse(read_text(file), file, DRIVE.settings)
+    assert error.value.faults[0].startswith(f"{file}:{line}: ")
+    assert message in error.value.faults[0]
+    assert all("\n" not in fault for fault in error.value.faults)
+
+
+@pytest.mark.parametrize("name", BAD_SIGNALS)
+def test_bad_signals_are_rejected_with_a_remedy(name):
+    drive, message = BAD_SIGNALS[name]
+    assert message in "".join(faults_of(drive.text(), drive.unit))
+
+
+@pytest.mark.parametrize(("limit", "noise"), [(15.0, 0.3), (30.0, 0.3), (36.5, 0.1), (30.0, 0.0)])
+@pytest.mark.parametrize("mount", [0.0, 0.2])
+def test_clipped_signals_are_rejected_with_their_first_line(limit, noise, mount):
+    drive = replace(DRIVE, limit=limit, noise=noise, mount=mount)
+    fault = faults_of(drive.text(), mount=mount)[0]
+    assert "is cut off there" in fault
+    header, *rows = drive.text().splitlines()
+    column = header.split(",").index(fault.split()[1])
+    at_limit = [abs(float(row.split(",")[column])) == limit for row in rows]
+    assert at_limit.index(True) + 2 == int(fault.split(":")[1])
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"acceleration": 0.1 * STANDARD_GRAVITY, "unit": "g", "noise": 0.01},
+        {"cycles": 8.0, "rate": 400.0, "noise": 2.0, "angle": 0.6},
+        {"quantum": 1.0, "noise": 0.02},
+        {"noise": 0.0, "rate": 400.0},
+        {"noise": 0.0, "rate": 800.0, "psi0": 0.0, "phase_shift": 0.0},
+        {"drift": 0.3},
+        {"jitter": 0.9, "mount": 0.3},
+        {"also": {77.0: 0.5}},
+        {"also": {2.0: 5.0}},
+        {"harmonics": ((2, 0.6, 1.0, 0.9, 0.0), (3, 0.3, 1.0, 0.9, 2.0))},
+        {"phase_shift": 3.1},
+    ],
+)
+def test_good_signals_are_accepted(changes):
+    drive = replace(DRIVE, **changes)
+    assert faults_of(drive.text(), drive.unit, drive.mount) == []
+
+
+def test_a_weak_fundamental_is_found_below_its_second_harmonic():
+    drive = replace(DRIVE, harmonics=((2, 3.0, 0.0, 3.0, 0.5),), cycles=40.0)
+    assert faults_of(drive.text()) == []
+
+
+@pytest.mark.parametrize("mount", [0.0, 0.7])
+@pytest.mark.parametrize("unit", ["g", "m/s²"])
+def test_columns_are_turned_and_scaled(unit, mount):
+    drive = replace(DRIVE, unit=unit, mount=mount, noise=0.0, offsets=(0.0, 0.0))
+    found = parse(drive.text(), "mine.csv", drive.settings)
+    np.testing.assert_allclose(found.acceleration, drive.plate(found.time), atol=2e-3)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: "\ufeff" + text,
+        lambda text: text.replace("\n", "\r\n"),
+        lambda text: "# rail A\n\n" + text.replace("\n", "\n# a note; with, signs\n", 2),
+        lambda text: text.replace(",", ";").replace(".", ","),
+        lambda text: "sep=;\n" + text.replace(",", ";").replace(".", ","),
+        lambda text: text.replace(",", "\t"),
+        lambda text: text.replace("\n", ",\n").replace("normal,", "normal,y").replace(",\n", ",3.5\n"),
+        lambda text: text.replace("time,along,normal", " Time , Along , Normal "),
+        lambda text: text.replace("time,along,normal", '"time","along","normal"'),
+        lambda text: text.replace("\n", ",a note\n").replace("normal,a note", "normal,remark"),
+    ],
+    ids=["mark", "CRLF", "comments", "semicolons", "sep", "tabs", "further", "capitals", "quotes", "remarks"],
+)
+def test_other_spellings_of_a_file_are_read(change, tmp_path):
+    file = tmp_path / "mine.csv"
+    file.write_bytes(change(GOOD).encode())
+    found = parse(read_text(file), file, DRIVE.settings)
+    np.testing.assert_array_equal(found.acceleration, parse(GOOD, "mine.csv", DRIVE.settings).acceleration)
+    assert make.read(str(file), {}).splitlines() == read_text(file).splitlines()
+
+
+def test_a_mount_belongs_to_the_columns_of_a_sensor():
+    assert "turns the columns x, z only" in faults_of(GOOD, mount=0.1)[0]
+
+
+def load(tmp_path, overlay, *others):
+    """The config of an overlay in a folder of its own, and of further ones, as on the command line."""
+    files = []
+    for place, content in enumerate((overlay, *others)):
+        folder = tmp_path / f"folder_{place}"
+        folder.mkdir(exist_ok=True)
+        files.append(folder / "mine.yaml")
+        files[-1].write_text(yaml.safe_dump(content))
+    return load_config(DEFAULT_FILES, files, merge(*read_all(files))).config
+
+
+def test_the_file_is_relative_to_its_overlay(tmp_path):
+    (tmp_path / "folder_0").mkdir()
+    (tmp_path / "folder_0/mine.csv").write_text(GOOD)
+    overlay = {"prefix": "mine", "excitation": {"measured": "mine.csv"}}
+    for others in ((), ({"model": {"frequency": 49.9, "angle": 0.3}},)):
+        config = load(tmp_path, overlay, *others)
+        assert os.path.samefile(config["excitation"]["measured"], tmp_path / "folder_0/mine.csv")
+        assert "excitation" in config["figures_on_request"]
+
+
+@pytest.mark.parametrize(
+    ("overlay", "message"),
+    [
+        ({"prefix": "mine", "excitation": {"measured": "none.csv"}}, "none.csv: No such file or directory"),
+        ({"excitation": {"measured": "mine.csv"}}, "give the config a prefix"),
+        ({"prefix": "mine", "excitation": {"measured": "mine.csv", "unit": "V"}}, "excitation.unit = 'V'"),
+        ({"prefix": "mine", "excitation": {"measured": "mine.csv", "mount": 90.0}}, "excitation.mount = 90.0"),
+        ({"prefix": "mine", "excitation": {"measured": "mine.csv", "mount": 0.5}}, "turns the columns x, z only"),
+    ],
+)
+def test_faults_end_the_run_before_any_job(overlay, message, tmp_path):
+    (tmp_path / "folder_0").mkdir()
+    (tmp_path / "folder_0/mine.csv").write_text(GOOD)
+    with pytest.raises(ConfigError) as error:
+        load(tmp_path, overlay)
+    assert message in str(error.value)
+
+
+def test_configs_without_a_file_need_no_slow_packages():
+    """Every Snakemake process imports the checks."""
+    code = "import sys, workflow.config as c; c.problems(c.checks.default_config()); print('scipy' in sys.modules)"
+    run = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert run.stdout.split() == ["False"]

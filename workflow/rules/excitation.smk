@@ -1,0 +1,73 @@
+# The drive from the file of an accelerometer. Only a config with `excitation.measured` has these targets. The file of the example is
+# made on request.
+
+
+rule excitation:
+    input:
+        measured=recording,
+    output:
+        **tables_of(*(f"excitation/{name}" for name in EXCITATION_TABLES)),
+    log:
+        log_file("excitation/parameters"),
+    benchmark:
+        benchmark_file("excitation/parameters")
+    params:
+        **stage("excitation.measure", "excitation/parameters"),
+    message:
+        "Parameters and harmonics of the measured drive"
+    script:
+        "../../scripts/make.py"
+
+
+rule excitation_page:
+    input:
+        **tables_of(*(f"excitation/{name}" for name in ("parameters", "harmonics", "quality"))),
+        template=source("workflow/templates/excitation.md"),
+    output:
+        page=result("excitation.md"),
+    log:
+        log_file("excitation/page"),
+    benchmark:
+        benchmark_file("excitation/page")
+    params:
+        **stage("excitation.page"),
+        prefix=config["prefix"],
+    message:
+        "The measured drive in words"
+    script:
+        "../../scripts/make.py"
+
+
+rule measured_drive:
+    input:
+        **tables_of("excitation/parameters", "excitation/harmonics"),
+    output:
+        overlay=result("measured_drive.yaml"),
+    log:
+        log_file("excitation/measured_drive"),
+    benchmark:
+        benchmark_file("excitation/measured_drive")
+    params:
+        **stage("excitation.overlay"),
+    message:
+        "An overlay with the measured drive"
+    script:
+        "../../scripts/make.py"
+
+
+# Not for a config with an accelerometer file, which reads this file at its start.
+if not HAS_RECORDING:
+
+    rule accelerometer_example:
+        output:
+            recording="config/examples/accelerometer.csv",
+        log:
+            log_file("excitation/accelerometer_example"),
+        benchmark:
+            benchmark_file("excitation/accelerometer_example")
+        params:
+            **stage("excitation.synthetic"),
+        message:
+            "A synthetic accelerometer file for the example"
+        script:
+            "../../scripts/make.py"
