@@ -65,8 +65,9 @@ def split(line: str, separator: str) -> list[str]:
 def fields_of(text: str, first: int, separator: str) -> Iterator[tuple[int, list[str]]]:
     """Line number and fields of each line from line `first` on, without comments and empty lines."""
     for line, content in enumerate(text.splitlines(), 1):
-        if line >= first and (content := content.strip()) and not content.startswith("#"):
-            yield line, split(content, separator)
+        stripped = content.strip()
+        if line >= first and stripped and stripped[0] != "#":
+            yield line, split(stripped, separator)
 
 
 def header_of(text: str) -> tuple[int, list[str], str]:
