@@ -14,7 +14,7 @@ from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from pathlib import Path
 
-from conveyor.solver.progress import bar
+from conveyor import progress_bar
 from draw import draw
 from figures import style
 
@@ -50,7 +50,9 @@ def main(archive: Path) -> str | None:
     figures = json.loads((archive / "figures.json").read_text(encoding="utf-8"))
     with ProcessPoolExecutor(os.cpu_count()) as pool:
         hashes = pool.map(partial(redraw, archive), figures, figures.values())
-        redrawn = dict(zip(figures, bar(hashes, total=len(figures), label="drawn", unit="figures"), strict=True))
+        redrawn = dict(
+            zip(figures, progress_bar(hashes, total=len(figures), label="drawn", unit="figures"), strict=True)
+        )
     if different := [file for file, digest in redrawn.items() if digest != originals[file]]:
         return f"{len(different)} of {len(figures)} figures differ from the archive: {', '.join(different)}"
     print(f"{len(figures)} figures drawn in {time.perf_counter() - begin:.0f} s, equal to the archive")

@@ -10,10 +10,8 @@ from time import perf_counter
 import numpy as np
 import pandas as pd
 
+from conveyor import ORDER, Run, progress_bar, simulate
 from conveyor.methods import peers
-from conveyor.simulation import Run, simulate
-from conveyor.solver.polynomial import ORDER
-from conveyor.solver.progress import bar
 from pipeline import fields, grid
 from pipeline.templates import render
 
@@ -65,7 +63,7 @@ def measure_times(cases: list[dict], repeats: int, progress: str | None) -> np.n
     The first round, which compiles code, does not count.
     """
     spent = [[[], [], []] for _ in cases]
-    for turn in bar(range(repeats + 1), label=progress, unit="rounds"):
+    for turn in progress_bar(range(repeats + 1), label=progress, unit="rounds"):
         for case, times in zip(cases, spent, strict=True):
             solver = [time_run(case, case["duration"], "event")[0] for _ in range(RUNS)]
             without = [time_run(case, case["duration"], "event", reuse=False)[0] for _ in range(RUNS)]
@@ -92,7 +90,7 @@ def columns(cases: dict[str, dict], tolerance: float, repeats: int, *, progress:
     runs = [time_run(case, case["duration"], "event")[1] for case in rows]
     eulers = [time_run(case, case["duration"], "euler")[1] for case in rows]
     truths = {
-        name: peers.run(grid.packed(case["model"]), case["compared"], **TRUTH).mean_velocity
+        name: peers.run(grid.row_of(case["model"]), case["compared"], **TRUTH).mean_velocity
         for name, case in cases.items()
     }
     truth = np.array([truths[case["case"]] for case in rows])

@@ -4,7 +4,7 @@ import math
 
 from scipy.integrate import solve_ivp
 
-from conveyor.solver.model import Conveyor
+from conveyor import Conveyor
 
 SCIPY = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-15}  # options of SciPy for the dimensionless impact
 

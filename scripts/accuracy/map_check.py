@@ -17,15 +17,16 @@ import numpy as np
 import pandas as pd
 from scipy.ndimage import generate_binary_structure, maximum_filter, minimum_filter
 
-from conveyor.analysis.attractors.labels import CHAOS, FIRST, LONG_FLIGHT, SECOND, STATES, UNDECIDED
-from conveyor.analysis.chaos import lyapunov
-from conveyor.analysis.stroboscopic_map import MAX_PERIOD
+from conveyor import (
+    LONG_FLIGHT,
+    MAX_PERIOD,
+    conveyor_and_start,
+    for_each_chunk,
+    lyapunov_spectrum,
+    sample_runs,
+    simulate,
+)
 from conveyor.methods import modes
-from conveyor.simulation import simulate
-from conveyor.solver import trajectory
-from conveyor.solver.horizontal import VZ, Z
-from conveyor.solver.model import FREQUENCY, VZ0, Z0, unpack
-from conveyor.solver.parallel import for_each_chunk
 from pipeline import fields, grid
 
 TABLES = {
@@ -51,15 +52,15 @@ class Settled(NamedTuple):
 
     period: int  # cycles; 0 for none
     cycles: int  # simulated cycles
-    end: np.ndarray  # z (m), ż (m/s)
+    end: np.ndarray  # the parameters that continue the motion
 
 
 def is_near_boundary(labels: np.ndarray) -> np.ndarray:
     """Whether one of the four neighbours in a map of labels, shape (n, m), has another label."""
-    codes = np.unique(labels, return_inverse=True)[1].reshape(labels.shape)
+    states = np.unique(labels, return_inverse=True)[1].reshape(labels.shape)
     cross = generate_binary_structure(2, 1)
     # The filters continue the map with the labels of its edge, so that no boundary appears there.
-    return maximum_filter(codes, footprint=cross) != minimum_filter(codes, footprint=cross)
+    return maximum_filter(states, footprint=cross) != minimum_filter(states, footprint=cross)
 
 
 def draw_rows(near: np.ndarray, points: int, share: float, random: np.random.Generator) -> np.ndarray:
@@ -86,34 +87,34 @@ def repeated_period(strobes: np.ndarray, scale: np.ndarray, close: float, repeat
 
 
 def simulate_until_settled(row: np.ndarray, settings: dict) -> Settled:
-    """Simulate the motion of a parameter vector, shape (16,), until it repeats itself."""
-    row = row.copy()
+    """Simulate the motion of a row of a table until it repeats itself."""
+    row = np.array(row)
     scale = modes.scales(row)[2:]
-    times = np.arange(1, BLOCK + 1)[None] / row[FREQUENCY]
-    options = {"tolerance": settings["tolerance"], "feeding": False, "reuse": False}
+    times = np.arange(1, BLOCK + 1)[None] / row["frequency"]
+    options = {"columns": ["z", "vz"], "tolerance": settings["tolerance"], "reuse": False}
     period = cycles = 0
     while not period and cycles < settings["cycles"]:
-        samples, results = trajectory.integrate(row[None], times, **options)
-        if results[0, trajectory.CODE] != trajectory.OK:
+        run = sample_runs(row[None], times, **options)
+        if run.status[0] != "ok":
             break
-        strobes = samples[0][:, [Z, VZ]]
-        row[Z0], row[VZ0] = strobes[-1]
+        strobes = np.column_stack([run.z[0], run.vz[0]])
+        row["z0"], row["vz0"] = strobes[-1]
         cycles += BLOCK
         period = repeated_period(strobes, scale, settings["close"], settings["repeats"])
-    return Settled(period, cycles, row[[Z0, VZ0]])
+    return Settled(period, cycles, row)
 
 
 def longest_flight(row: np.ndarray, period: int, tolerance: float) -> float:
-    """The longest flight (excitation cycles) of the periodic motion from a parameter vector on its orbit."""
+    """The longest flight (excitation cycles) of the periodic motion from parameters on its orbit."""
     cycles = 2 * period + 1  # a flight may begin before the initial time and be longer than a cycle
-    run = simulate(*unpack(row), duration=cycles / row[FREQUENCY], tolerance=tolerance, reuse=False)
+    run = simulate(*conveyor_and_start(row), duration=cycles / row["frequency"], tolerance=tolerance, reuse=False)
     changes = run.events[np.isin(run.events["kind"], ["impact", "separation"])]
     flights = np.diff(changes["time"])[changes["kind"][1:] == "impact"]
-    return flights.max(initial=0.0) * row[FREQUENCY]
+    return flights.max(initial=0.0) * row["frequency"]
 
 
 def brute_force(rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict:
-    """State, period, simulated cycles and exponent of each parameter vector, rows of shape (n, 16)."""
+    """State, period, simulated cycles and exponent of each row of a table of parameters."""
     found: list[Settled] = [None] * len(rows)
     flights = np.zeros(len(rows))
     ends = rows.copy()
@@ -121,22 +122,22 @@ def brute_force(rows: np.ndarray, settings: dict, *, threads: int = 1, progress:
     def work(begin, end):
         for k in range(begin, end):
             found[k] = simulate_until_settled(rows[k], settings)
-            ends[k, [Z0, VZ0]] = found[k].end
+            ends[k] = found[k].end
             if found[k].period:
                 flights[k] = longest_flight(ends[k], found[k].period, settings["tolerance"])
 
     for_each_chunk(work, len(rows), threads=threads, chunk=1, progress=progress)
     period = np.array([one.period for one in found])
-    codes = np.where(flights >= LONG_FLIGHT, SECOND, FIRST)
+    states = np.where(flights >= LONG_FLIGHT, "second", "first").astype(object)
     exponent, error = np.full((2, len(rows)), np.nan)
     open_rows = np.flatnonzero(period == 0)
     if len(open_rows):
-        spectrum = lyapunov.spectrum(ends[open_rows], **EXPONENT, tolerance=settings["tolerance"], threads=threads)
+        spectrum = lyapunov_spectrum(ends[open_rows], **EXPONENT, tolerance=settings["tolerance"], threads=threads)
         exponent[open_rows], error[open_rows] = spectrum.lambda_1, spectrum.stderr
         is_chaos = spectrum.lambda_1 > settings["significant"] * spectrum.stderr
-        codes[open_rows] = np.where(is_chaos, CHAOS, UNDECIDED)
+        states[open_rows] = np.where(is_chaos, "chaos", "undecided")
     return {
-        "state": np.array(STATES, dtype=object)[codes],
+        "state": states,
         "period": period,
         "cycles": np.array([one.cycles for one in found]),
         "exponent": exponent,

@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 from mpmath import mp, mpf
 
-from conveyor.solver.model import Conveyor, Start
+from conveyor import Conveyor, Start
 
 ORDER = 24
 CLOSE = 1e-12  # m: in contacts shallower than this, the spring changes the velocity by less than one part in 1e18

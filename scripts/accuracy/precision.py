@@ -16,12 +16,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis.attractors import labels
+from conveyor import ORDER, Run, classify, continued, conveyor_motion, parameter_table, progress_bar, simulate
 from conveyor.methods import fixed_step, modes, peers
-from conveyor.simulation import Run, simulate
-from conveyor.solver.model import conveyor_motion, pack
-from conveyor.solver.polynomial import ORDER
-from conveyor.solver.progress import bar
 from pipeline import fields, grid
 
 RUN = (
@@ -101,7 +97,7 @@ def run_method(method: Method, settings: dict) -> Result:
     if method.treatment in peers.TREATMENTS:
         name, treatment, tolerance, _ = method
         limit = settings["max_evaluations"]
-        run = peers.run(pack(conveyor, start), settings["duration"], name, treatment, tolerance, limit)
+        run = peers.run(parameter_table(conveyor, start), settings["duration"], name, treatment, tolerance, limit)
         return Result(run.mean_velocity, np.array([run.vx, run.z, run.vz]), run.evaluations, 0, run.status, None)
     accuracy = {"tolerance": method.tolerance} if method.step is None else {"step": method.step}
     reuse = method.treatment != NO_REUSE
@@ -132,7 +128,7 @@ def sample_trajectory(method: Method, run: Run | None, settings: dict) -> tuple[
         # Twice as many, because interpolation may need evaluations.
         limit = 2 * settings["max_evaluations"]
         name, treatment, tolerance, _ = method
-        parameters = grid.packed(settings["model"])
+        parameters = grid.row_of(settings["model"])
         found = peers.run(parameters, settings["duration"], name, treatment, tolerance, limit, times)
         return found.samples[:, [0, 2]], found.events
     samples = run.sample(times)
@@ -144,7 +140,7 @@ def trajectory_errors(
 ) -> tuple[float, float]:
     """RMS error of x and z in units of the plate's motion, and largest error of an event time in cycles."""
     positions, events = sample_trajectory(method, run, settings)
-    scale = modes.scales(grid.packed(settings["model"]))[[0, 2]]
+    scale = modes.scales(grid.row_of(settings["model"]))[[0, 2]]
     error = math.sqrt(np.mean(((positions - truth[0]) / scale) ** 2))
     if len(events) != len(truth[1]):
         return error, math.nan
@@ -153,9 +149,9 @@ def trajectory_errors(
 
 def find_state(settings: dict, end: np.ndarray) -> str:
     """The state of motion that a run leads to, from its `end`, shape (3,)."""
-    parameters = grid.packed(settings["model"])[None]
-    later = labels.continued(parameters, end[1:2], end[2:3], settings["duration"])
-    return str(labels.classify(later).state[0])
+    parameters = grid.row_of(settings["model"])[None]
+    later = continued(parameters, end[1:2], end[2:3], settings["duration"])
+    return str(classify(later).state[0])
 
 
 def judge_run(result: Result, error: float, settings: dict, state: str) -> str:
@@ -182,7 +178,7 @@ def run_in_turns(
     """
     results: list[Any] = [None] * len(runs)
     times: list[list[float]] = [[] for _ in runs]
-    for place in bar([*range(len(runs))] * repeats, label=progress, unit="turns"):
+    for place in progress_bar([*range(len(runs))] * repeats, label=progress, unit="turns"):
         spent = times[place]
         turn_ends = min(sum(spent) + TURN, seconds)
         while sum(spent) < turn_ends:
@@ -199,7 +195,7 @@ def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[s
     """
     reference_method = Method("event", NO_REUSE, TRUTH, None)
     truth = run_method(reference_method, settings)
-    _, *scale = modes.scales(grid.packed(settings["model"]))
+    _, *scale = modes.scales(grid.row_of(settings["model"]))
     listed = methods(settings)
     for method in listed:
         run_method(method, settings | SHORT)

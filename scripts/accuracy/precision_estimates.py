@@ -5,14 +5,21 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis import stroboscopic_map
-from conveyor.analysis.basins import hyperbola_fit
-from conveyor.analysis.bifurcations import periodic_orbits
-from conveyor.analysis.chaos import lyapunov, pairs
-from conveyor.analysis.fractals import box_counting, correlation_sum
-from conveyor.analysis.fractals.reference_sets import DIMENSIONS
-from conveyor.parameters import normal_gravity
-from conveyor.solver.model import Z0
+from conveyor import (
+    REFERENCE_DIMENSIONS,
+    box_dimension,
+    box_dimension_of_paper,
+    correlation_dimension,
+    finite_difference_exponent,
+    fit_hyperbola,
+    fit_hyperbola_by_pymoo,
+    initial_states,
+    lyapunov_spectrum,
+    normal_gravity,
+    renormalised_exponent,
+    settled_orbit,
+    start_at,
+)
 from pipeline import fields, grid
 
 TABLES = {
@@ -32,28 +39,28 @@ EVALUATIONS = 1000  # largest number of evaluations of a fit
 
 def exponent_rows(settings: dict, model: dict) -> list[dict]:
     """Three estimates of the exponent of a periodic orbit, whose true value follows from its Floquet multiplier."""
-    row = grid.packed(model | {name: settings[name] for name in ("acceleration", "z0")})
-    state = stroboscopic_map.initial_states(row[None], TOLERANCE)[0]
-    orbit = periodic_orbits.settled_orbit(row, settings["acceleration"], state, (1, 2, 4), 1000)
+    row = grid.row_of(model | {name: settings[name] for name in ("acceleration", "z0")})
+    state = initial_states(row[None], TOLERANCE)[0]
+    orbit = settled_orbit(row, settings["acceleration"], state, (1, 2, 4), 1000)
     cycle = 1.0 / model["frequency"]
     truth = math.log(abs(orbit.multipliers[0])) / (orbit.period * cycle)
-    here = stroboscopic_map.pack_states(row[None], orbit.state[None], TOLERANCE)
+    here = start_at(row[None], orbit.state[None], TOLERANCE)
     there = here.copy()
     unit = normal_gravity(model) / (2.0 * math.pi * model["frequency"]) ** 2
-    there[:, Z0] += EPSILON * unit
+    there["z0"] += EPSILON * unit
     # Without renormalisation, only the end of the run is compared.
     pair = {"output": "z", "last": AT_END, "samples": 1, "tolerance": TOLERANCE}
     found = []
     for duration in settings["durations"]:
         cycles = round(duration / cycle)
         estimates = {
-            "pair of trajectories": pairs.finite_difference_estimate(
-                here, there, EPSILON * unit, duration=duration, **pair
-            )[0],
-            "pair, set back each cycle": pairs.renormalised_estimate(
+            "pair of trajectories": finite_difference_exponent(here, there, EPSILON * unit, duration=duration, **pair)[
+                0
+            ],
+            "pair, set back each cycle": renormalised_exponent(
                 here[0], orbit.state, distance=EPSILON, transient=0, cycles=cycles, tolerance=TOLERANCE
             ),
-            "variational equation": lyapunov.spectrum(
+            "variational equation": lyapunov_spectrum(
                 here, orbit.state[None], transient=0, cycles=cycles // 2, blocks=2, tolerance=TOLERANCE
             ).lambda_1[0],
         }
@@ -67,9 +74,9 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
 def dimension_rows(settings: dict, seed: int) -> list[dict]:
     """Median errors of the estimators of the dimension over sets of known dimension."""
     estimators = {
-        "boxes": box_counting.box_dimension,
-        "boxes, as in the paper": box_counting.box_dimension_of_paper,
-        "correlation sum": lambda points: correlation_sum.correlation_dimension(points, 0),
+        "boxes": box_dimension,
+        "boxes, as in the paper": box_dimension_of_paper,
+        "correlation sum": lambda points: correlation_dimension(points, 0),
     }
     found = []
     for name, estimate in estimators.items():
@@ -78,7 +85,7 @@ def dimension_rows(settings: dict, seed: int) -> list[dict]:
             errors = [
                 abs(estimate(draw(rng, count)).value - truth)
                 for _ in range(settings["repeats"])
-                for draw, truth in DIMENSIONS.items()
+                for draw, truth in REFERENCE_DIMENSIONS.items()
             ]
             found.append({"quantity": "dimension", "estimator": name, "work": count, "error": np.nanmedian(errors)})
     return found
@@ -91,8 +98,8 @@ def fit_rows(data: pd.DataFrame, regression: dict, seed: int) -> list[dict]:
     values = rows.acceleration.to_numpy(), rows.z0.to_numpy()
     bounds = {name: tuple(interval) for name, interval in regression["bounds"].items()}
     found = {
-        "CMA-ES (pymoo)": hyperbola_fit.fit_pymoo(*values, bounds, seed, EVALUATIONS),
-        "least squares": hyperbola_fit.fit_least_squares(*values, bounds["B"]),
+        "CMA-ES (pymoo)": fit_hyperbola_by_pymoo(*values, bounds, seed, EVALUATIONS),
+        "least squares": fit_hyperbola(*values, bounds["B"]),
     }
     best = min(one.error for one in found.values())
     return [

@@ -4,10 +4,8 @@ import json
 
 import numpy as np
 
+from conveyor import DESCRIPTIONS, PARAMETERS, UNITS, Run, parameter_table, simulate
 from conveyor.methods import modes
-from conveyor.parameters import DESCRIPTIONS, PARAMETERS, UNITS
-from conveyor.simulation import Run, simulate
-from conveyor.solver.model import pack
 from pipeline import grid
 
 STATE = {"x": "m", "vx": "m/s", "z": "m", "vz": "m/s"}
@@ -42,7 +40,7 @@ def describe_scene(settings: dict) -> dict:
     times = np.linspace(0.0, settings["duration"], SAMPLES + 1)[1:]
     initial = run.sample(np.zeros(1))
     reference, *compared = (one.sample(times) for one in (run, *others))
-    scales = dict(zip(STATE, modes.scales(pack(conveyor, start)).tolist(), strict=True))
+    scales = dict(zip(STATE, modes.scales(parameter_table(conveyor, start)).tolist(), strict=True))
     parameters = {name: getattr(conveyor, name) for name in PARAMETERS if name not in ("z0", "vz0")}
     return {
         "scene": settings["scene"],

@@ -4,8 +4,8 @@ import numpy as np
 
 from accuracy import multiprecision
 from accuracy.precision import TRUTH, contact_changes, sample_times
+from conveyor import simulate
 from conveyor.methods import modes
-from conveyor.simulation import simulate
 from pipeline import fields, grid
 
 TABLES = {
@@ -31,7 +31,7 @@ def make(settings: dict) -> dict[str, np.ndarray]:
     states, events = multiprecision.simulate(conveyor, start, times, settings["digits"])
     run = simulate(conveyor, start, duration=settings["duration"], tolerance=TRUTH)
     own = run.sample(times)
-    scales = modes.scales(grid.packed(settings["model"]))
+    scales = modes.scales(grid.row_of(settings["model"]))
     rows = [
         {"quantity": name, "time": time, "value": value, "difference": (there - value) / scale}
         for name, scale, column in zip(("x", "vx", "z", "vz"), scales, states.T, strict=True)

@@ -10,13 +10,10 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis.attractors import labels
-from conveyor.analysis.stroboscopic_map import MAX_PERIOD
+from conveyor import LONG_FLIGHT, MAX_PERIOD, Conveyor, Start, parameter_table, progress_bar
 from conveyor.methods import rigid_part_motion
 from conveyor.methods.restitution import restitution_coefficients
 from conveyor.methods.rigid_part_orbits import RigidOrbit, rigid_orbit
-from conveyor.solver.model import ACCELERATION, FREQUENCY, PARAMETERS, Conveyor, Start, pack
-from conveyor.solver.progress import bar
 from pipeline import fields, grid
 
 TABLES = {
@@ -38,7 +35,7 @@ CLOSE, CLOSE_AT_DOUBLING = 1e-2, 1e-3
 DOUBLINGS = 3  # first period doublings that are compared
 CYCLES = 2000  # simulated cycles, after which a motion without a period is undecided
 # Parameters that determine the restitution.
-CONTACT_PARAMETERS = [PARAMETERS.index(name) for name in ("stiffness", "damping", "mass", "exponent", "tension")]
+CONTACT_PARAMETERS = ["stiffness", "damping", "mass", "exponent", "tension"]
 CONTACT, RIGID, ONE_NUMBER = "contact", "rigid part, e(u)", "rigid part, one e"
 
 
@@ -52,11 +49,11 @@ def find_state(row: np.ndarray, restitution: tuple[np.ndarray, np.ndarray], cycl
 
     A motion without a period is `undecided`, because the exponents of a rigid part are not computed.
     """
-    duration, cycle = cycles / row[FREQUENCY], 1.0 / row[FREQUENCY]
+    duration, cycle = cycles / row["frequency"], 1.0 / row["frequency"]
     times = sample_times(row, duration, MAX_PERIOD)
     samples, hits = rigid_part_motion.samples_and_impacts(row, times, restitution)
     flights = hits["flight"][hits["time"] > duration - 2.0 * MAX_PERIOD * cycle]
-    if len(flights) == 0 or flights.max() < labels.LONG_FLIGHT * cycle:
+    if len(flights) == 0 or flights.max() < LONG_FLIGHT * cycle:
         return "first"
     return "second" if find_period(samples["z"], range(1, MAX_PERIOD + 1)) else "undecided"
 
@@ -64,7 +61,7 @@ def find_state(row: np.ndarray, restitution: tuple[np.ndarray, np.ndarray], cycl
 def sample_times(row: np.ndarray, duration: float, longest: int) -> np.ndarray:
     """Times (s) of the samples for `find_period`: strobes over twice the `longest` period, then the last cycle."""
     cycles = np.concatenate([np.arange(2 * longest), np.linspace(0.0, 1.0, LAST_CYCLE)])
-    return duration - cycles / row[FREQUENCY]
+    return duration - cycles / row["frequency"]
 
 
 def find_period(height: np.ndarray, periods: Sequence[int], close: float = CLOSE) -> int:
@@ -83,7 +80,7 @@ def sweep(settings: dict, cycles: int = CYCLES) -> pd.DataFrame:
     """Mean velocities (m/s) of rigid parts and states of motion after some cycles, for the settings of a sweep."""
     axes, parameters = grid.product(settings["axes"], settings["model"])
     # Rows with the same contact share a table of restitution.
-    _, first, contact = np.unique(parameters[:, CONTACT_PARAMETERS], axis=0, return_index=True, return_inverse=True)
+    _, first, contact = np.unique(parameters[CONTACT_PARAMETERS], return_index=True, return_inverse=True)
     contact_tables = [tabulate_restitution(row) for row in parameters[first]]
     restitution = [contact_tables[k] for k in contact]
     duration = settings["duration"]
@@ -104,8 +101,7 @@ def find_doubling(conveyor: Conveyor, restitution, period: int, low: float, sett
     """
 
     def repeats(acceleration: float) -> bool:
-        row = pack(conveyor, Start(settings["z0"]))
-        row[ACCELERATION] = acceleration
+        row = parameter_table(conveyor, Start(settings["z0"]), acceleration=acceleration)
         times = sample_times(row, settings["duration"], period)
         height = rigid_part_motion.sample(row, times, restitution)["z"]
         return find_period(height, (period,), CLOSE_AT_DOUBLING) > 0
@@ -151,7 +147,7 @@ def make(
 ) -> dict[str, np.ndarray]:
     """The columns of the table of the rigid part, from the tables of the compliant contact."""
     conveyor, _ = grid.conveyor_and_start(amplitudes.attrs["model"])
-    speed_dependent = tabulate_restitution(pack(conveyor, Start()))
+    speed_dependent = tabulate_restitution(parameter_table(conveyor))
     constant = SPEEDS, np.full(len(SPEEDS), find_orbit(conveyor, speed_dependent).restitution)
 
     rows = []
@@ -171,7 +167,7 @@ def make(
         for row in doublings.itertuples()
     ]
     models = {RIGID: speed_dependent, ONE_NUMBER: constant}
-    for model, restitution in bar(models.items(), label=progress, unit="models"):
+    for model, restitution in progress_bar(models.items(), label=progress, unit="models"):
         rows += bifurcation_rows(model, conveyor, restitution, settings)
     # Columns of velocities only are null for bifurcations.
     return pd.DataFrame(rows, columns=[column.name for column in TABLES["rigid_part"]]).to_dict("list")

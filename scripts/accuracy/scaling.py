@@ -22,8 +22,7 @@ from typing import Any
 
 import pyarrow.parquet as pq
 
-from conveyor.solver import contact_lanes
-from conveyor.solver.progress import bar
+from conveyor import LANES, progress_bar
 from pipeline import fields, tables
 from sweeps import shards
 
@@ -32,7 +31,7 @@ SCRIPTS = Path(__file__).resolve().parents[1]
 ROUNDS, ENOUGH = 5, 30.0
 MOST_GATHERED = 3  # most copies of a shard that are joined
 # With fewer first points, the code for several initial conditions side by side would not be loaded.
-FIRST_POINTS = int(contact_lanes.LANES)
+FIRST_POINTS = int(LANES)
 
 TABLES = {
     "scaling": (
@@ -169,7 +168,7 @@ def make(settings: dict, cases: list[dict], *, progress: str | None = None) -> d
             rows = [0, min(FIRST_POINTS, one["plan"]["points"])]
             measure_job(settings=one["settings"], threads=1, rows=rows, path=f"{folder}/one.parquet")
     times, gathering = [[] for _ in cases], {}
-    for number, k in bar(list(product(range(ROUNDS), range(len(cases)))), label=progress, unit="sweeps"):
+    for number, k in progress_bar(list(product(range(ROUNDS), range(len(cases)))), label=progress, unit="sweeps"):
         if math.fsum(one["whole"] for shards in times[k] for one in shards) >= ENOUGH:
             continue
         with tempfile.TemporaryDirectory() as folder:

@@ -16,9 +16,7 @@ import pandas as pd
 
 from accuracy import observables, rigid_part
 from accuracy.observables import SHOWN
-from conveyor.simulation import simulate
-from conveyor.solver.model import FREQUENCY, unpack
-from conveyor.solver.parallel import for_each_chunk
+from conveyor import conveyor_and_start, for_each_chunk, simulate
 from pipeline import fields, grid
 
 TABLES = {
@@ -112,7 +110,7 @@ def variants_of(section: str, settings: dict, tolerances: list[float]) -> list[t
 
 def measure_work(parameters: np.ndarray, tolerance: float) -> tuple[float, float]:
     """Mean number of Taylor steps per second of the motion, and the share of points whose part sticks."""
-    runs = [simulate(*unpack(row), tolerance=tolerance) for row in parameters]
+    runs = [simulate(*conveyor_and_start(row), tolerance=tolerance) for row in parameters]
     return float(np.mean([run.work for run in runs])), float(np.mean(["stick" in run.events["kind"] for run in runs]))
 
 
@@ -125,7 +123,7 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
         shown = shown._replace(drawn=("state",), what="state", settled=True)
     thinned = observables.thin_axes(settings["axes"], budget["points"][section])
     _, parameters = grid.product(thinned, settings["model"])
-    portrait = {"begin": CYCLES / float(parameters[0, FREQUENCY]), "samples": SAMPLES}
+    portrait = {"begin": CYCLES / float(parameters["frequency"][0]), "samples": SAMPLES}
     settings = settings | {"axes": thinned} | (portrait if section == "dimensions" else {"settling": CYCLES})
     full_settings = settings | {"needs": "feeding", "tolerance": TIGHT}
     # Runs without timing come first, because they compile or load all code that the variants use.

@@ -9,10 +9,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from conveyor.methods import fixed_step
-from conveyor.solver import trajectory
-from conveyor.solver.horizontal import EVENTS, SAMPLES
-from conveyor.solver.model import Conveyor, Start, pack
+from conveyor import Conveyor, Start, parameter_table
+from conveyor.methods import event_driven, fixed_step
 
 Solver = Callable[[dict, float], dict]
 
@@ -124,20 +122,16 @@ def score_file(scenes: dict[str, dict], file: Path) -> list[dict]:
 
 
 def pack_scene(scene: dict) -> np.ndarray:
-    """The parameter vector of a scene, shape (16,)."""
+    """The parameters of a scene."""
     parameters = {name: entry["value"] for name, entry in scene["parameters"].items()}
-    return pack(Conveyor(**parameters), Start(z=scene["initial"]["z"], vz=scene["initial"]["vz"]))
+    return parameter_table(Conveyor(**parameters), Start(z=scene["initial"]["z"], vz=scene["initial"]["vz"]))
 
 
 def solve_by_events(scene: dict, tolerance: float) -> dict:
     """Solve a scene with this project's solver, without reuse of steps."""
     room = 2 * len(scene["events"])  # a loose tolerance may find more events than the reference has
-    times, kinds = np.empty((1, room)), np.full((1, room), -1, np.int8)
-    options = {"tolerance": tolerance, "reuse": False, "event_times": times, "event_kinds": kinds}
-    samples, _ = trajectory.integrate(pack_scene(scene)[None], np.array([scene["times"]]), **options)
-    # A generator, because the time of this function is measured.
-    events = ((time, EVENTS[kind]) for time, kind in zip(times[0], kinds[0], strict=True) if kind >= 0)
-    return {name: samples[0, :, SAMPLES.index(name)] for name in COMPARED} | {"events": events}
+    samples, events = event_driven.follow(pack_scene(scene), np.array(scene["times"]), tolerance, room)
+    return {name: samples[name] for name in COMPARED} | {"events": events}
 
 
 def solve_by_euler(scene: dict, step: float) -> dict:

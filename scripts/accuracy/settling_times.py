@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 
-from conveyor.analysis.attractors import labels
-from conveyor.solver.model import PSI0, Z0
+from conveyor import classify
 from pipeline import fields, grid
 
 TABLES = {
@@ -23,18 +22,18 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     """The columns of the table of settling times, from the section of the config with model and tolerance."""
     amplitudes, starts = settings["acceleration"], settings["starts"]
     _, conveyors = grid.product({"acceleration": amplitudes}, settings["model"])
-    parameters = np.repeat(conveyors, starts, axis=0)
+    parameters = np.repeat(conveyors, starts)
     # Random heights and phases, the same at every amplitude.
     generator = np.random.default_rng(settings["seed"])
-    parameters[:, Z0] = np.tile(generator.uniform(*settings["z0"], starts), len(amplitudes))
-    parameters[:, PSI0] = np.tile(generator.uniform(0.0, 2.0 * math.pi, starts), len(amplitudes))
-    found = labels.classify(
+    parameters["z0"] = np.tile(generator.uniform(*settings["z0"], starts), len(amplitudes))
+    parameters["psi0"] = np.tile(generator.uniform(0.0, 2.0 * math.pi, starts), len(amplitudes))
+    found = classify(
         parameters, cycles=settings["cycles"], tolerance=settings["tolerance"], threads=threads, progress=progress
     )
     return {
         "acceleration": np.repeat(amplitudes, starts),
-        "z0": parameters[:, Z0],
-        "psi0": parameters[:, PSI0],
+        "z0": parameters["z0"],
+        "psi0": parameters["psi0"],
         "state": found.state,
         "period": found.period,
         "cycles": found.cycles,

@@ -9,10 +9,8 @@ from scipy.optimize import brentq
 from scipy.special import beta
 
 from accuracy.closed_forms import compression, undamped_duration
+from conveyor import DEFAULT_TOLERANCE, Conveyor, Run, Start, conveyor_motion, parameter_table, progress_bar, simulate
 from conveyor.methods import fixed_step, peers
-from conveyor.simulation import DEFAULT_TOLERANCE, Run, simulate
-from conveyor.solver.model import Conveyor, Start, conveyor_motion, pack
-from conveyor.solver.progress import bar
 from pipeline import fields, grid
 
 TABLES = {
@@ -90,7 +88,7 @@ def run_to_end(
     if method == "event":
         run = simulate(conveyor, start, duration=duration, tolerance=tolerance)
         return run.z_end, run.vz_end, run.max_gap
-    found = fixed_step.run(pack(conveyor, start), whole_steps(duration, step), step, method)
+    found = fixed_step.run(parameter_table(conveyor, start), whole_steps(duration, step), step, method)
     return found.z, found.vz, found.max_gap
 
 
@@ -177,7 +175,7 @@ Experiment = tuple[Callable[[float], str], float]
 def conveyor_experiments(method: str, values: np.ndarray, z0: float, duration: float) -> list[Experiment]:
     """Experiments on the vibrating plate; for each step, parts at all amplitudes are simulated side by side."""
     conveyors, start = [Conveyor(acceleration=value) for value in values], Start(z0)
-    parameters = np.array([pack(conveyor, start) for conveyor in conveyors])
+    parameters = np.stack([parameter_table(conveyor, start) for conveyor in conveyors])
     runs = cache(lambda step: fixed_step.run_all(parameters, whole_steps(duration, step), step, method))
 
     def experiment(place: int, conveyor: Conveyor) -> Experiment:
@@ -227,7 +225,7 @@ def region_rows(settings: dict, progress: str | None) -> list[dict]:
                 found = [rest_experiment(panel, method, value, settings) for value in values]
             lines += [(panel, method, value, *one) for value, one in zip(values, found, strict=True)]
     rows = []
-    for panel, method, value, outcome, theory in bar(lines, label=progress, unit="lines"):
+    for panel, method, value, outcome, theory in progress_bar(lines, label=progress, unit="lines"):
         rows += [row(panel, method, step, value, outcome(step), theory) for step in steps]
         # Elsewhere, the theoretical limit is only an estimate.
         if panel in ("stiffness", "damping") or (panel, method) == ("impact velocity", "euler"):
@@ -292,13 +290,13 @@ def hard_rows(settings: dict, step: float, rivals: dict) -> list[dict]:
         error = abs(own.z_end - truth.z_end) / scale
         fine = own.status == truth.status == "ok" and own.event_count == truth.event_count and error < FINE
         rows.append(row(panel, "event", own.event_count, error, RIGHT if fine else WRONG))
-        euler = fixed_step.run(pack(conveyor, start), whole_steps(duration, step), step)
+        euler = fixed_step.run(parameter_table(conveyor, start), whole_steps(duration, step), step)
         error = abs(euler.z - truth.z_end) / scale
         outcome = outcome_of_steps(euler, truth, 1.1, error < COARSE)
         rows.append(row(panel, "euler", truth.event_count, error, outcome))
         for name in rivals["integrators"]:
             budget = rivals["tolerance"], rivals["max_evaluations"]
-            run = peers.run(pack(conveyor, start), duration, name, "modes", *budget)
+            run = peers.run(parameter_table(conveyor, start), duration, name, "modes", *budget)
             error = abs(run.z - truth.z_end) / scale
             rows.append(row(panel, name, truth.event_count, error, outcome_of_rival(run, error, truth)))
     return rows

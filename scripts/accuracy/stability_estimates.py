@@ -8,15 +8,21 @@ import math
 
 import numpy as np
 
-from conveyor.analysis import stroboscopic_map
-from conveyor.analysis.bifurcations import periodic_orbits
-from conveyor.analysis.chaos import lyapunov, pairs
-from conveyor.analysis.fractals import box_counting, correlation_sum
-from conveyor.analysis.fractals.reference_sets import DIMENSIONS
-from conveyor.analysis.fractals.scaling_region import Dimension
-from conveyor.simulation import DEFAULT_TOLERANCE, simulate
-from conveyor.solver.model import PARAMETERS, unpack
-from conveyor.solver.progress import bar
+from conveyor import (
+    DEFAULT_TOLERANCE,
+    REFERENCE_DIMENSIONS,
+    Dimension,
+    box_dimension,
+    box_dimension_of_paper,
+    conveyor_and_start,
+    correlation_dimension,
+    finite_difference_exponent,
+    initial_states,
+    lyapunov_spectrum,
+    progress_bar,
+    settled_orbit,
+    simulate,
+)
 from pipeline import fields, grid
 
 TABLES = {
@@ -47,8 +53,8 @@ NONE = {"epsilon": math.nan, "duration": math.nan, "step": math.nan, "samples": 
 
 
 def parameters_of(case: dict, model: dict) -> np.ndarray:
-    """The parameter vector of a case, shape (1, 16)."""
-    return grid.packed(model | {name: case[name] for name in ("acceleration", "z0")})[None]
+    """The parameters of a case, shape (1,)."""
+    return grid.row_of(model | {name: case[name] for name in ("acceleration", "z0")})[None]
 
 
 def true_exponent(case: dict, parameters: np.ndarray, model: dict) -> float:
@@ -57,10 +63,10 @@ def true_exponent(case: dict, parameters: np.ndarray, model: dict) -> float:
     On a periodic orbit, a perturbation of the phase is a shift in time, which neither grows nor decays; any other
     perturbation follows the larger Floquet multiplier. In chaos, both follow the largest Lyapunov exponent.
     """
-    state = stroboscopic_map.initial_states(parameters, DEFAULT_TOLERANCE)[0]
-    orbit = periodic_orbits.settled_orbit(parameters[0], case["acceleration"], state, PERIODS, SETTLING)
+    state = initial_states(parameters, DEFAULT_TOLERANCE)[0]
+    orbit = settled_orbit(parameters[0], case["acceleration"], state, PERIODS, SETTLING)
     if orbit is None:
-        return float(lyapunov.spectrum(parameters, state[None]).lambda_1[0])
+        return float(lyapunov_spectrum(parameters, state[None]).lambda_1[0])
     if case["perturb"] == "psi0":
         return 0.0
     return math.log(abs(orbit.multipliers[0])) * model["frequency"] / orbit.period
@@ -68,7 +74,7 @@ def true_exponent(case: dict, parameters: np.ndarray, model: dict) -> float:
 
 def saturated_estimate(parameters: np.ndarray, output: str, epsilon: float, duration: float) -> float:
     """The estimate (1/s) of a pair whose separation has saturated at the range of the signal."""
-    conveyor, start = unpack(parameters[0])
+    conveyor, start = conveyor_and_start(parameters[0])
     signal = simulate(conveyor, start, duration=duration).sample(np.linspace(0.0, duration, 5001))[output]
     return math.log(np.ptp(signal) / epsilon) * math.log(1.0 / (1.0 - LAST)) / (LAST * duration)
 
@@ -86,12 +92,12 @@ def exponent_rows(settings: dict, model: dict, progress: str | None) -> list[dic
         here = parameters_of(case, model)
         truth = true_exponent(case, here, model)
         for panel, runs in varied.items():
-            for run in bar(runs, label=progress and f"{progress}: {name}, {panel}", unit="runs"):
+            for run in progress_bar(runs, label=progress and f"{progress}: {name}, {panel}", unit="runs"):
                 there = here.copy()
-                there[:, PARAMETERS.index(case["perturb"])] += run["epsilon"]
+                there[case["perturb"]] += run["epsilon"]
                 bound = saturated_estimate(here, case["output"], run["epsilon"], run["duration"])
                 for method in ("event", "euler"):
-                    value = pairs.finite_difference_estimate(
+                    value = finite_difference_exponent(
                         here, there, **run, output=case["output"], last=LAST, samples=SAMPLES, method=method
                     )[0]
                     found = run | {"value": float(value), "error": math.nan, "truth": truth, "bound": bound}
@@ -101,7 +107,7 @@ def exponent_rows(settings: dict, model: dict, progress: str | None) -> list[dic
 
 def portrait(parameters: np.ndarray, times: np.ndarray, method: str) -> np.ndarray:
     """Points (z_p in m, ż_p in m/s) of one trajectory, shape (len(times), 2)."""
-    conveyor, start = unpack(parameters)
+    conveyor, start = conveyor_and_start(parameters)
     motion = simulate(conveyor, start, duration=times[-1], method=method).sample(times)
     return np.stack([motion["z"], motion["vz"]], axis=1)
 
@@ -109,11 +115,11 @@ def portrait(parameters: np.ndarray, times: np.ndarray, method: str) -> np.ndarr
 def estimate_dimensions(points: np.ndarray, theiler: int, most: int) -> dict[str, Dimension]:
     """The dimension of points by all estimators; the correlation sum only of at most `most` points."""
     found = {
-        "boxes": box_counting.box_dimension(points),
-        "boxes, as in the paper": box_counting.box_dimension_of_paper(points),
+        "boxes": box_dimension(points),
+        "boxes, as in the paper": box_dimension_of_paper(points),
     }
     if len(points) <= most:
-        found["correlation sum"] = correlation_sum.correlation_dimension(points, theiler)
+        found["correlation sum"] = correlation_dimension(points, theiler)
     return found
 
 
@@ -128,9 +134,9 @@ def dimension_rows(settings: dict, model: dict, seed: int, progress: str | None)
             for name, one in found.items()
         )
 
-    for count in bar(settings["samples"], label=progress and f"{progress}: points", unit="sizes"):
+    for count in progress_bar(settings["samples"], label=progress and f"{progress}: points", unit="sizes"):
         rng = np.random.default_rng(seed)
-        for draw, truth in DIMENSIONS.items():
+        for draw, truth in REFERENCE_DIMENSIONS.items():
             found = estimate_dimensions(draw(rng, count), 0, settings["correlated"])
             add("known set", draw.__name__, found, truth, samples=count)
         for name, case in settings["portraits"].items():
@@ -143,7 +149,7 @@ def dimension_rows(settings: dict, model: dict, seed: int, progress: str | None)
             count = round(duration * model["frequency"] / PAPER_INTERVAL) + 1
             times = np.linspace(0.0, duration, count)
             points = portrait(parameters_of(case, model)[0], times, "euler")
-            found = {"boxes, as in the paper": box_counting.box_dimension_of_paper(points)}
+            found = {"boxes, as in the paper": box_dimension_of_paper(points)}
             add("run time", name, found, CURVE[name], samples=count, duration=duration)
     return rows
 

@@ -13,11 +13,8 @@ import pandas as pd
 from scipy.optimize import minimize_scalar
 
 from accuracy import closed_forms
-from conveyor import Conveyor, Start, continue_orbit, periodic_orbit
-from conveyor.parameters import normal_gravity
-from conveyor.solver import trajectory
-from conveyor.solver.horizontal import CONTACT_FORCE, EVENTS, IMPACT, SEPARATED, VZ
-from conveyor.solver.model import ACCELERATION, GRAVITY, conveyor_motion, pack
+from conveyor import Conveyor, Start, continue_orbit, conveyor_motion, normal_gravity, parameter_table, periodic_orbit
+from conveyor.methods import event_driven
 from pipeline import fields, grid
 from pipeline.rule_log import JobError
 
@@ -61,22 +58,20 @@ def simulate_impact(conveyor: Conveyor, speed: float) -> Impact:
     JobError
         if the part has not separated after RUN durations of an undamped impact
     """
-    row = pack(conveyor, Start(z=closed_forms.compression(conveyor, speed), vz=-speed))
-    row[ACCELERATION] = row[GRAVITY] = 0.0  # a Conveyor must have gravity, but the solver does not need it
+    row = parameter_table(conveyor, Start(z=closed_forms.compression(conveyor, speed), vz=-speed))
+    row["acceleration"] = row["gravity"] = 0.0  # a Conveyor must have gravity, but the solver does not need it
     end = RUN * closed_forms.undamped_duration(conveyor, speed)
-    instants, kinds = np.empty((1, 8)), np.full((1, 8), -1, np.int8)
-    options = {"tolerance": TOLERANCE, "reuse": False}
-    samples, _ = trajectory.integrate(row[None], np.array([[end]]), event_times=instants, event_kinds=kinds, **options)
-    times = {EVENTS[kind]: time for time, kind in zip(instants[0], kinds[0], strict=True) if kind >= 0}
-    if EVENTS[SEPARATED] not in times:
+    samples, events = event_driven.follow(row, np.array([end]), TOLERANCE, room=8)
+    times = {kind: time for time, kind in events}
+    if "separation" not in times:
         raise JobError(f"an impact at {speed:g} m/s does not end within {end:g} s; take less damping")
-    begin, separation = times[EVENTS[IMPACT]], times[EVENTS[SEPARATED]]
+    begin, separation = times["impact"], times["separation"]
 
     def push(time: float) -> float:
-        return -trajectory.integrate(row[None], np.array([[time]]), **options)[0][0, 0, CONTACT_FORCE]
+        return -event_driven.follow(row, np.array([time]), TOLERANCE, room=0)[0]["contact_force"][0]
 
     peak = -minimize_scalar(push, bounds=(begin, separation), method="bounded", options={"xatol": 1e-9 * end}).fun
-    return Impact(separation - begin, peak, samples[0, 0, VZ] / speed)
+    return Impact(separation - begin, peak, samples["vz"][0] / speed)
 
 
 def linear_contact(model: dict, stiffness: float, restitution: float, **changes: float | str) -> Conveyor:

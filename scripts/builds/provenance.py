@@ -17,7 +17,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from conveyor.methods import rivals
+from conveyor import record_rivals
 
 ROOT = Path(__file__).resolve().parents[2]
 UNKNOWN = "unknown"
@@ -92,6 +92,6 @@ def make(files: list[str], timed: list[str], config: str, benchmarks: str, *, th
         "threads": threads,
         "seconds": seconds(Path(benchmarks)),
         "versions": versions(),
-        "rivals": rivals.record(),
+        "rivals": record_rivals(),
     }
     return {"manifest": list_files(files, timed), "provenance": json.dumps(provenance, indent=2) + "\n"}

@@ -6,7 +6,7 @@ from calibration.inference import DETERMINED, NOT_DETERMINED, OPEN, TOO_FEW, dat
 from calibration.measurements import CALIBRATED, Measurement, parse
 from calibration.model_check import check_fit, compare_alternatives
 from calibration.search_space import values_at
-from conveyor.parameters import RANGES, UNITS
+from conveyor import RANGES, UNITS
 from pipeline import fields
 
 TABLES = {

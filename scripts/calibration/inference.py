@@ -12,7 +12,7 @@ import numpy as np
 from calibration.measurements import Measurement
 from calibration.predicted import Conditions, conditions_of, log_densities, velocities, widths
 from calibration.search_space import LOGARITHMIC, bounds_of, values_at
-from conveyor.parameters import UNITS
+from conveyor import UNITS
 from pipeline.credible_intervals import interval, open_ends
 from pipeline.importance_sampling import Sample, sample
 

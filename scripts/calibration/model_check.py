@@ -22,7 +22,7 @@ from calibration.inference import Data, draw, mode, search
 from calibration.measurements import Measurement
 from calibration.predicted import deviations, log_densities, velocities, widths
 from calibration.search_space import values_at
-from conveyor.parameters import UNITS
+from conveyor import UNITS
 from pipeline.importance_sampling import LEAST, Sample
 
 UNLIKELY = 0.01  # share of replicates below which a single measurement does not fit

@@ -13,9 +13,7 @@ import numpy as np
 from scipy.stats import qmc
 
 from calibration.measurements import INITIAL, Measurement
-from conveyor.solver import horizontal, trajectory
-from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, PSI0, STATIC_FRICTION, VZ0, Z0, set_columns
-from conveyor.solver.parallel import for_each_chunk
+from conveyor import INITIAL_CONDITION, sample_runs, set_parameters
 from pipeline import grid
 
 TOLERANCE = 1e-5  # per contact step: errors of velocities stay far below those of a measurement
@@ -31,14 +29,14 @@ FIRST = 8  # parts that are followed first
 class Conditions(NamedTuple):
     """Under which conditions parts are followed; k different ones."""
 
-    rows: np.ndarray  # packed parameters, shape (k, 16), with NaN for unknown initial conditions
+    rows: np.ndarray  # table of parameters, shape (k,), with NaN for unknown initial conditions
     times: np.ndarray  # begin and end of the measurement (s), shape (k, 2)
 
     @property
     def plate(self) -> np.ndarray:
         """Largest velocity of the plate along the track (m/s), shape (k,)."""
         rows = self.rows
-        return rows[:, ACCELERATION] * np.cos(rows[:, ANGLE]) / (2.0 * math.pi * rows[:, FREQUENCY])
+        return rows["acceleration"] * np.cos(rows["angle"]) / (2.0 * math.pi * rows["frequency"])
 
 
 def conditions_at(
@@ -55,8 +53,9 @@ def conditions_at(
     rows = []
     for acceleration, own in zip(accelerations, changed, strict=True):
         known = {name: value for name, value in own.items() if name not in INITIAL}
-        row = grid.packed({**model, **known, "acceleration": acceleration})
-        row[[Z0, VZ0, PSI0]] = [own.get(name, math.nan) for name in ("z0", "vz0", "psi0")]
+        row = grid.row_of({**model, **known, "acceleration": acceleration})
+        for name in INITIAL_CONDITION:
+            row[name] = own.get(name, math.nan)
         rows.append(row)
     before, lasts = np.array(times, dtype=np.float64).T
     return Conditions(np.array(rows), np.column_stack([before, before + lasts]))
@@ -109,13 +108,13 @@ def velocities(
         drawn = (points[begin:end] + shift[sets, of][:, None]) % 1.0
         height, speed, phase = np.moveaxis(low + (high - low) * drawn, -1, 0).reshape(3, -1)
         rows, times = (np.repeat(own[of], count, axis=0) for own in conditions)
-        set_columns(rows, {name: np.repeat(column[sets], count) for name, column in values.items()})
-        rows[:, STATIC_FRICTION] = np.maximum(rows[:, FRICTION], settings["static_friction"])
-        rows[:, PSI0] = np.where(np.isnan(rows[:, PSI0]), phase, rows[:, PSI0])
-        rows[:, VZ0] = np.where(np.isnan(rows[:, VZ0]), speed, rows[:, VZ0])
-        stroke = rows[:, ACCELERATION] * np.sin(rows[:, ANGLE]) / (2.0 * math.pi * rows[:, FREQUENCY]) ** 2
-        height -= stroke * np.cos(rows[:, PSI0])  # Eq. 4
-        rows[:, Z0] = np.where(np.isnan(rows[:, Z0]), height, rows[:, Z0])
+        set_parameters(rows, {name: np.repeat(column[sets], count) for name, column in values.items()})
+        rows["static_friction"] = np.maximum(rows["friction"], settings["static_friction"])
+        rows["psi0"] = np.where(np.isnan(rows["psi0"]), phase, rows["psi0"])
+        rows["vz0"] = np.where(np.isnan(rows["vz0"]), speed, rows["vz0"])
+        stroke = rows["acceleration"] * np.sin(rows["angle"]) / (2.0 * math.pi * rows["frequency"]) ** 2
+        height -= stroke * np.cos(rows["psi0"])  # Eq. 4
+        rows["z0"] = np.where(np.isnan(rows["z0"]), height, rows["z0"])
         return mean_velocities(rows, times, threads, progress and f"{progress}{label}").reshape(-1, count)
 
     first = parts if worth is None else min(FIRST, parts)
@@ -130,18 +129,11 @@ def velocities(
 
 
 def mean_velocities(rows: np.ndarray, times: np.ndarray, threads: int, progress: str | None) -> np.ndarray:
-    """Mean feeding velocity (m/s) between two times (s), shape (n, 2), of packed parameters, shape (n, 16)."""
-    means = np.empty(len(rows))
-
-    def work(begin: int, end: int) -> None:
-        own = slice(begin, end)
-        samples, results = trajectory.integrate(rows[own], times[own], tolerance=TOLERANCE)
-        x = samples[:, :, horizontal.X]
-        is_known = results[:, trajectory.CODE] == trajectory.OK
-        means[own] = np.where(is_known, (x[:, 1] - x[:, 0]) / (times[own, 1] - times[own, 0]), np.nan)
-
-    for_each_chunk(work, len(rows), threads=threads, chunk=256, progress=progress)
-    return means
+    """Mean feeding velocity (m/s) between two times (s), shape (n, 2), of a table of parameters, shape (n,)."""
+    options = {"tolerance": TOLERANCE, "threads": threads, "chunk": 256, "progress": progress}
+    runs = sample_runs(rows, times, columns=["x"], **options)
+    means = (runs.x[:, 1] - runs.x[:, 0]) / (times[:, 1] - times[:, 0])
+    return np.where(runs.status == "ok", means, np.nan)
 
 
 def widths(velocities: np.ndarray) -> np.ndarray:

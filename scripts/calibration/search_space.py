@@ -1,13 +1,12 @@
 """The searched parameters and their ranges: logarithms of dimensionless groups, so that the ranges fit any conveyor.
 
-The damping is searched as the loss group L and the stiffness as the group K, see conveyor.analysis.contact_groups. The
+The damping is searched as the loss group L and the stiffness as the group K, see `groups_of_contact`. The
 other parameters are searched as they are; angles and phases without the logarithm.
 """
 
 import numpy as np
 
-from conveyor.analysis.contact_groups import contact_of_groups, groups_of_contact
-from conveyor.solver.model import DAMPING, STIFFNESS, set_columns
+from conveyor import contact_of_groups, groups_of_contact, set_parameters
 from pipeline import grid
 
 LOGARITHMIC = ("friction", "damping", "stiffness", "exponent")
@@ -33,8 +32,8 @@ def values_at(coordinates: np.ndarray, settings: dict) -> dict[str, np.ndarray]:
         name: np.exp(column) if name in LOGARITHMIC else column
         for name, column in zip(settings["parameters"], coordinates.T, strict=True)
     }
-    rows = np.tile(grid.packed(settings["model"]), (len(coordinates), 1))
-    set_columns(rows, {name: found[name] for name in ("exponent", "inclination") if name in found})
-    group, loss = groups_of_contact(rows[:, STIFFNESS], rows[:, DAMPING], rows)
+    rows = np.full(len(coordinates), grid.row_of(settings["model"]))
+    set_parameters(rows, {name: found[name] for name in ("exponent", "inclination") if name in found})
+    group, loss = groups_of_contact(rows["stiffness"], rows["damping"], rows)
     contact = contact_of_groups(found.get("stiffness", group), found.get("damping", loss), rows)
     return found | {name: one for name, one in zip(("stiffness", "damping"), contact, strict=True) if name in found}

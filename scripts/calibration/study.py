@@ -20,8 +20,7 @@ from calibration.inference import Data, data_of, search
 from calibration.measurements import parse
 from calibration.predicted import log_densities, velocities
 from calibration.synthetic import csv_text, measure, true_velocity
-from conveyor.analysis.contact_groups import contact_of_groups
-from conveyor.parameters import RANGES
+from conveyor import RANGES, contact_of_groups
 from pipeline import grid
 
 PARAMETERS = ("friction", "damping", "stiffness")
@@ -45,7 +44,7 @@ def random_conveyor(settings: dict, random: np.random.Generator) -> tuple[dict, 
         "friction": random.uniform(*ranges["friction"]),
     }
     group, loss = log_uniform(*ranges["stiffness"], random), log_uniform(*ranges["damping"], random)
-    stiffness, damping = contact_of_groups(group, loss, grid.packed(model))
+    stiffness, damping = contact_of_groups(group, loss, grid.row_of(model))
     ratio = settings["model"]["frequency"] / model["frequency"]
     box = {
         "height": [ratio**2 * end for end in settings["height"]],

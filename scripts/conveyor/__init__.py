@@ -1,46 +1,10 @@
 """Dynamics of a point mass on a vibratory conveyor: exact events, and the analysis of the motion.
 
-`README.md` beside this file says how the library works and what to read first.
+The public names are those in `__init__.pyi`; each is imported when it is first used, so that a program which needs
+names and units alone does not wait for NumPy and Numba. `README.md` says how the library works and what to read first.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+import lazy_loader
 
-if TYPE_CHECKING:
-    from .interface import (
-        basin,
-        box_dimension,
-        classify,
-        continue_orbit,
-        correlation_dimension,
-        lyapunov_spectrum,
-        periodic_orbit,
-        sweep,
-    )
-    from .simulation import Run, simulate
-    from .solver.model import Conveyor, Start
-
-__all__ = [
-    "Conveyor",
-    "Run",
-    "Start",
-    "basin",
-    "box_dimension",
-    "classify",
-    "continue_orbit",
-    "correlation_dimension",
-    "lyapunov_spectrum",
-    "periodic_orbit",
-    "simulate",
-    "sweep",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 __version__ = "1.0.0"
-
-_MODULES = {"Conveyor": ".solver.model", "Start": ".solver.model", "Run": ".simulation", "simulate": ".simulation"}
-
-
-def __getattr__(name: str) -> Any:
-    """Import the public names on first use, so that `conveyor.parameters` can be imported without NumPy and Numba."""
-    if name not in __all__:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(_MODULES.get(name, ".interface"), __name__), name)

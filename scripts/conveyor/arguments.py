@@ -91,23 +91,6 @@ def check_array(name: str, values: object, low: float, high: float, unit: str = 
     return numbers
 
 
-def check_packed(rows: object) -> np.ndarray:
-    """Packed `parameters` as a float64 array; ValueError unless it has the shape (n, 16) and values in range.
-
-    z0 may be NaN, for a part that starts on the plate; z0 and vz0 may be NaN for a run that continues a failed one.
-    """
-    array = check_numbers("parameters", rows)
-    if array.ndim != 2 or array.shape[1] != len(PARAMETERS):
-        raise ValueError(f"parameters must have the shape (n, {len(PARAMETERS)}), got the shape {array.shape}")
-    outside = ~((array >= LOW) & (array <= HIGH)) & ~(MAY_BE_NAN & np.isnan(array))
-    if outside.any():
-        row, column = np.argwhere(outside)[0]
-        name = PARAMETERS[column]
-        interval = f"[{LOW[column]:g}, {HIGH[column]:g}] {UNITS[name]}".rstrip()
-        raise ValueError(f"parameters[{row}]: {name} = {array[row, column]!s} is outside {interval}")
-    return np.ascontiguousarray(array, dtype=np.float64)
-
-
 def check_time(name: str, value: object) -> float:
     """`value`, a duration or a step (s), as a float; ValueError unless it is positive and at most LONGEST."""
     return check_number(name, value, 0.0, LONGEST, "s", above=True)
@@ -123,20 +106,16 @@ def check_threads(threads: object) -> int:
     return check_count("threads", threads, 1, MOST_THREADS)
 
 
-def check_parameters(values: dict[str, object], names: Collection[str]) -> dict[str, np.ndarray]:
+def check_parameters(values: dict[str, object]) -> dict[str, np.ndarray]:
     """`values` of parameters as float64 arrays, broadcast to one shape.
 
-    TypeError for another name. ValueError names the array that cannot be used, or the arrays whose shapes do not fit.
-
-    names : the admissible names; `z` and `vz` have the ranges of z0 and vz0 in parameters.RANGES
+    TypeError for a name that is not in parameters.RANGES. ValueError names the array that cannot be used, or the arrays
+    whose shapes do not fit.
     """
     for name in values:
-        if name not in names:
-            raise TypeError(f"{name} is not one of {', '.join(names)}")
-    arrays = []
-    for name, value in values.items():
-        parameter = {"z": "z0", "vz": "vz0"}.get(name, name)
-        arrays.append(check_array(name, value, *RANGES[parameter], UNITS[parameter]))
+        if name not in RANGES:
+            raise TypeError(f"{name} is not one of {', '.join(RANGES)}")
+    arrays = [check_array(name, value, *RANGES[name], UNITS[name]) for name, value in values.items()]
     try:
         shape = np.broadcast_shapes(*(array.shape for array in arrays))
     except ValueError:

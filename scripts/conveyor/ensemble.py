@@ -1,13 +1,18 @@
 """Many trajectories: one row per point, in the order of the points, also where a run fails."""
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 
-from .arguments import LONGEST, check_array, check_choice, check_count, check_packed, check_threads, check_tolerance
+from .arguments import LONGEST, check_array, check_choice, check_count, check_threads, check_tolerance
+from .columns import Columns
 from .methods import fixed_step
+from .packing import as_rows, check_rows
+from .parallel import for_each_chunk
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, check_run
 from .solver import trajectory, vertical_lanes
-from .solver.horizontal import VX, VZ, X, Z
-from .solver.parallel import for_each_chunk
+from .solver.horizontal import SAMPLES, VX, VZ, X, Z
 
 STATUS = trajectory.STATUS
 NEEDS = ("feeding", "vertical")
@@ -19,7 +24,7 @@ COLUMNS = (
 
 
 def follow_by_events(parameters, durations, tolerance, feeding):
-    """The columns of `run`, each of shape (n,), for `parameters`, shape (n, 16), and `durations` (s), by events."""
+    """The columns of `sweep`, each of shape (n,), for `parameters`, shape (n, 16), and `durations` (s), by events."""
     times = np.column_stack([(1.0 - LAST) * durations, durations])
     if feeding:
         samples, results = trajectory.integrate(parameters, times, tolerance=tolerance)
@@ -42,7 +47,7 @@ def follow_by_events(parameters, durations, tolerance, feeding):
 
 
 def follow_by_steps(parameters, duration, step, method, feeding):
-    """The columns of `run`, each of shape (n,), for `parameters`, shape (n, 16), with a fixed-step method."""
+    """The columns of `sweep`, each of shape (n,), for `parameters`, shape (n, 16), with a fixed-step method."""
     runs = fixed_step.run_all(parameters, duration, step, method)
     fields = {"z_end": "z", "vz_end": "vz", "x_end": "x", "vx_end": "vx"}
     columns = {name: np.array([getattr(run, fields.get(name, name)) for run in runs]) for name in COLUMNS}
@@ -51,7 +56,7 @@ def follow_by_steps(parameters, duration, step, method, feeding):
     return columns | {"status": np.array([STATUS.index(run.status) for run in runs])}
 
 
-def run(
+def sweep(
     parameters: np.ndarray,
     *,
     duration: float | np.ndarray = 1.0,
@@ -62,26 +67,38 @@ def run(
     threads: int = 1,
     chunk: int = 4096,
     progress: str | None = None,
-) -> dict[str, np.ndarray]:
-    """Follow every point for `duration` (s). The event-driven method also takes one duration per point, shape (n,).
-
-    ValueError names the argument that cannot be used.
+) -> Columns:
+    """Follow a part for each row of a table of parameters.
 
     Parameters
     ----------
-    parameters : float64, shape (n, 16), rows as from model.pack
-    duration, method, tolerance, step : as in simulation.simulate
+    parameters : from `parameter_table`, of any shape s
+    duration, method, tolerance, step : as in `simulate`; the event-driven method also takes durations of the shape s
     needs : "feeding"; or "vertical" for NaN in the columns of the horizontal motion, which saves time with the
         event-driven method
-    threads, chunk : number of threads, and points that a thread takes at a time; the result does not depend on them
-    progress : name of a progress bar on stderr, or None
+    threads, chunk : number of threads, and rows that a thread takes at a time; the result does not depend on them
+    progress : label of a progress bar on stderr, or None
 
     Returns
     -------
-    dict of arrays of shape (n,): mean_velocity (m/s, over the last quarter), z_end, vz_end, x_end, vx_end (m, m/s),
+    columns of the shape s: mean_velocity (m/s, over the last quarter), z_end, vz_end, x_end, vx_end (m, m/s),
     max_gap (m), impacts (int64), contact_fraction (1), impact_speed (m/s) and peak_force (N), the largest speed of
     approach at an impact and the largest contact force over the last quarter (0 if there is none), and status (str;
     "ok", or why the run ended early: impacts are then those up to its end, all other numbers NaN)
+
+    Raises
+    ------
+    ValueError, TypeError
+        name the argument that cannot be used
+
+    Examples
+    --------
+    >>> parameters = parameter_table(Conveyor(), acceleration=np.array([20.0, 40.0])[:, None], z0=[0.0, 3e-4])
+    >>> runs = sweep(parameters, duration=0.5)
+    >>> runs.status.tolist()
+    [['ok', 'ok'], ['ok', 'ok']]
+    >>> bool(runs.mean_velocity[1, 1] > runs.mean_velocity[1, 0])  # at 40 m/s² a part that jumps is faster
+    True
     """
     check_choice("needs", needs, NEEDS)
     threads = check_threads(threads)
@@ -89,30 +106,116 @@ def run(
     durations = check_array("duration", duration, np.finfo(np.float64).tiny, LONGEST, "s", least=0)
     _, tolerance, step = check_run(durations.max() if durations.size else LONGEST, method, tolerance, step)
     if method != "event" and durations.ndim > 0:
-        raise ValueError("duration: only the event-driven method takes one for each point")
-    parameters = check_packed(parameters)
-    if durations.ndim > 0 and durations.shape != (len(parameters),):
-        raise ValueError(f"duration has the shape {durations.shape}, but there are {len(parameters)} points")
+        raise ValueError("duration: only the event-driven method takes one for each row")
+    rows, shape = check_rows(parameters)
+    if durations.ndim > 0 and durations.shape != shape:
+        raise ValueError(f"duration has the shape {durations.shape}, but parameters have the shape {shape}")
     feeding = needs == "feeding"
-    durations = np.broadcast_to(durations, len(parameters)).copy()
-    columns = {name: np.empty(len(parameters)) for name in (*COLUMNS, "status")}
+    durations = np.broadcast_to(durations, shape).flatten()
+    columns = {name: np.empty(len(rows)) for name in (*COLUMNS, "status")}
 
     def work(begin, end):
-        rows = slice(begin, end)
+        part = slice(begin, end)
         if method == "event":
-            found = follow_by_events(parameters[rows], durations[rows], tolerance, feeding)
+            some = follow_by_events(rows[part], durations[part], tolerance, feeding)
         else:
-            found = follow_by_steps(parameters[rows], durations[begin], step, method, feeding)
-        for name, values in found.items():
-            columns[name][rows] = values
-        return np.count_nonzero(columns["status"][rows] != trajectory.OK)
+            some = follow_by_steps(rows[part], durations[begin], step, method, feeding)
+        for name, values in some.items():
+            columns[name][part] = values
+        return np.count_nonzero(columns["status"][part] != trajectory.OK)
 
-    for_each_chunk(work, len(parameters), threads=threads, chunk=chunk, progress=progress)
+    for_each_chunk(work, len(rows), threads=threads, chunk=chunk, progress=progress)
     columns["impacts"] = columns["impacts"].astype(np.int64)
     failed = columns["status"] != trajectory.OK
     columns["max_gap"][failed] = columns["contact_fraction"][failed] = np.nan
     columns["status"] = np.array(STATUS, dtype=object)[columns["status"].astype(np.int64)]
-    return columns
+    return Columns({name: column.reshape(shape) for name, column in columns.items()})
+
+
+def sample_runs(
+    parameters: np.ndarray,
+    times: np.ndarray,
+    *,
+    columns: Sequence[str] = SAMPLES,
+    method: str = "event",
+    tolerance: float = DEFAULT_TOLERANCE,
+    step: float = DEFAULT_STEP,
+    reuse: bool = True,
+    threads: int = 1,
+    chunk: int = 64,
+    progress: str | None = None,
+) -> Columns:
+    """Follow a part for each row of a table of parameters, and sample its motion at times of its own.
+
+    Parameters
+    ----------
+    parameters : from `parameter_table`, shape (n,); they are not checked
+    times : s, ascending, shape (n, k)
+    columns : those of the samples that are wanted, among x, z (m), vx, vz (m/s), contact_force, friction_force (N);
+        without x, vx and friction_force the horizontal motion is not followed
+    method, tolerance, step, reuse : as in `simulate`
+    threads, chunk, progress : as in `sweep`
+
+    Returns
+    -------
+    the `columns`, shape (n, k), NaN after the point where a run ended early; and of the shape (n,) impact_speed (m/s)
+    and peak_force (N), the largest ones between the last two times, NaN for the methods with a fixed step, and status,
+    "ok" or why the run ended early
+
+    Examples
+    --------
+    >>> parameters = parameter_table(Conveyor(), z0=[0.0, 3e-4])
+    >>> sample_runs(parameters, np.array([[0.0, 0.5], [0.0, 0.7]]), columns=["x"]).x.shape
+    (2, 2)
+    """
+    rows, times = as_rows(parameters), np.ascontiguousarray(times, dtype=np.float64)
+    samples = {name: np.empty(times.shape) for name in columns}
+    peaks, codes = np.full((2, len(rows)), np.nan), np.zeros(len(rows), np.int64)
+    feeding = not {"x", "vx", "friction_force"}.isdisjoint(columns)
+
+    def work(begin, end):
+        part = slice(begin, end)
+        if method != "event":
+            for k in range(begin, end):
+                for name, values in fixed_step.sample(rows[k], times[k], step, method).items():
+                    if name in samples:
+                        samples[name][k] = values
+            return
+        motion, results = trajectory.integrate(
+            rows[part], times[part], tolerance=tolerance, feeding=feeding, reuse=reuse
+        )
+        for name, values in samples.items():
+            values[part] = motion[:, :, SAMPLES.index(name)]
+        peaks[:, part] = results[:, [trajectory.IMPACT_SPEED, trajectory.PEAK_FORCE]].T
+        codes[part] = results[:, trajectory.CODE]
+
+    for_each_chunk(work, len(rows), threads=threads, chunk=chunk, progress=progress)
+    impact_speed, peak_force = peaks
+    status = np.array(STATUS, dtype=object)[codes]
+    return Columns(samples | {"impact_speed": impact_speed, "peak_force": peak_force, "status": status})
+
+
+def continued(
+    parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, duration: float | np.ndarray
+) -> np.ndarray:
+    """The table of trajectories that continue runs of `parameters`.
+
+    z_end, vz_end : where the runs ended, m and m/s, in the shape of `parameters`
+    duration : of the runs, s, a number or an array
+
+    Examples
+    --------
+    >>> parameters = parameter_table(Conveyor(), z0=[0.0, 3e-4])
+    >>> runs = sweep(parameters, duration=0.5)
+    >>> continued(parameters, runs.z_end, runs.vz_end, 0.5)["psi0"].tolist()  # after 25 cycles
+    [0.0, 0.0]
+    """
+    later = parameters.copy()
+    cycles = parameters["frequency"] * duration
+    later["psi0"] = (parameters["psi0"] + 2.0 * math.pi * (cycles - np.floor(cycles))) % (2.0 * math.pi)
+    later["z0"] = z_end
+    later["vz0"] = vz_end
+    return later
 
 
 def transits(
@@ -124,25 +227,34 @@ def transits(
     tolerance: float = DEFAULT_TOLERANCE,
     threads: int = 1,
     progress: str | None = None,
-) -> dict[str, np.ndarray]:
+) -> Columns:
     """Follow every part along tracks of several lengths, on each until it arrives or its longest time has passed.
-
-    ValueError names the argument that cannot be used.
 
     Parameters
     ----------
-    parameters : float64, shape (n, 16), rows as from model.pack
+    parameters : from `parameter_table`, shape (n,)
     lengths : of the tracks, m, ascending, shape (k,)
     longest : longest time on each track, s, ascending, shape (k,)
     begin : time (s), at most the first of `longest`, from which impacts and forces count on a single track, shape (n,)
-    tolerance, threads, progress : as in `run`
+    tolerance, threads, progress : as in `sweep`
 
     Returns
     -------
-    dict of arrays: `arrival`, the time (s) at which a part has travelled each length for the first time, NaN if it is
+    columns `arrival`, the time (s) at which a part has travelled each length for the first time, NaN if it is
     late, shape (n, k); `velocity` (m/s), of late parts what they have travelled over the longest time, shape (n, k);
     `impact_speed` (m/s) and `peak_force` (N), the largest ones from `begin` on, NaN for parts that arrive earlier,
     shape (n,); `status`, shape (n,): "ok", or why the run ended early. Numbers of failed runs are NaN.
+
+    Raises
+    ------
+    ValueError, TypeError
+        name the argument that cannot be used
+
+    Examples
+    --------
+    >>> parameters = parameter_table(Conveyor(), z0=[0.0, 3e-4])
+    >>> transits(parameters, np.array([0.02]), np.array([1.0]), begin=np.array(0.2)).arrival[:, 0].round(1)  # s
+    array([nan, 0.3])
     """
     lengths = check_array("lengths", lengths, np.finfo(np.float64).tiny, np.inf, "m")
     longest = check_array("longest", longest, np.finfo(np.float64).tiny, LONGEST, "s")
@@ -151,8 +263,11 @@ def transits(
     for name, values in (("lengths", lengths), ("longest", longest)):
         if (np.diff(values) <= 0.0).any():
             raise ValueError(f"{name} must ascend")
-    parameters, threads, tolerance = check_packed(parameters), check_threads(threads), check_tolerance(tolerance)
-    begin = np.broadcast_to(check_array("begin", begin, 0.0, longest[0], "s", least=0), len(parameters))
+    (parameters, _), threads, tolerance = check_rows(parameters), check_threads(threads), check_tolerance(tolerance)
+    begin = check_array("begin", begin, 0.0, longest[0], "s", least=0)
+    if begin.ndim > 0 and begin.shape != (len(parameters),):
+        raise ValueError(f"begin has the shape {begin.shape}, but there are {len(parameters)} parts")
+    begin = np.broadcast_to(begin, len(parameters))
     times = np.column_stack([begin, np.tile(longest, (len(parameters), 1))])
     arrival, travelled = np.empty((2, len(parameters), len(lengths)))
     peaks, codes = np.empty((len(parameters), 2)), np.empty(len(parameters), dtype=np.int64)
@@ -173,7 +288,5 @@ def transits(
     peaks[arrival[:, -1] <= begin] = np.nan
     impact_speed, peak_force = peaks.T
     status = np.array(STATUS, dtype=object)[codes]
-    return {
-        **{"arrival": arrival, "velocity": velocity, "status": status},
-        **{"impact_speed": impact_speed, "peak_force": peak_force},
-    }
+    columns = {"arrival": arrival, "velocity": velocity, "status": status}
+    return Columns(columns | {"impact_speed": impact_speed, "peak_force": peak_force})

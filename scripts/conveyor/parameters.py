@@ -6,6 +6,8 @@ This module imports nothing slow, so that a program can check its settings witho
 import math
 from collections.abc import Mapping
 
+DEFAULT_TOLERANCE = 3e-10  # relative error per Taylor step
+DEFAULT_STEP = 5e-7  # s, Sect. 3 of the paper
 LAST = 0.25  # share of the run over which the paper takes mean values (Sect. 3.1)
 TENSION_MODES = ("allow", "frictionless", "clip")
 # Compiled functions receive a conveyor and an initial condition as one vector of parameters, in this order.

@@ -8,14 +8,12 @@ import numpy as np
 
 from .arguments import check_array, check_choice, check_flag, check_number, check_time, check_tolerance, check_type
 from .methods import fixed_step
-from .parameters import LAST
+from .parameters import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST
 from .solver import trajectory
 from .solver.horizontal import SAMPLES, name_events
 from .solver.model import Conveyor, Start, pack
 
 METHODS = ("event", *fixed_step.METHODS)
-DEFAULT_TOLERANCE = 3e-10
-DEFAULT_STEP = 5e-7  # s, Sect. 3 of the paper
 MOST_STEPS = 10**10  # fixed steps of a run, which take minutes
 
 

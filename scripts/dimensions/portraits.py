@@ -4,14 +4,14 @@ import math
 
 import numpy as np
 
-from conveyor.analysis.fractals import box_counting, correlation_sum
-from conveyor.analysis.fractals.scaling_region import Dimension
-from conveyor.methods import fixed_step
-from conveyor.simulation import DEFAULT_STEP, DEFAULT_TOLERANCE
-from conveyor.solver import trajectory
-from conveyor.solver.horizontal import VZ, Z
-from conveyor.solver.model import FREQUENCY
-from conveyor.solver.parallel import for_each_chunk
+from conveyor import (
+    Dimension,
+    box_dimension,
+    box_dimension_of_paper,
+    correlation_dimension,
+    for_each_chunk,
+    sample_runs,
+)
 from pipeline import fields, grid
 
 TABLES = {
@@ -27,25 +27,21 @@ TABLES = {
 
 def portrait(parameters: np.ndarray, settings: dict) -> np.ndarray:
     """Consecutive points (z_p in m, ż_p in m/s) of one trajectory, shape (samples, 2)."""
-    times = settings["begin"] + settings["interval"] * np.arange(settings["samples"]) / parameters[FREQUENCY]
-    if settings["method"] == "event":
-        # Cheaper than `simulate`, which also integrates the horizontal motion.
-        tolerance = settings.get("tolerance", DEFAULT_TOLERANCE)
-        (motion,), _ = trajectory.integrate(parameters[None], times[None], tolerance=tolerance, feeding=False)
-        return motion[:, [Z, VZ]]
-    motion = fixed_step.sample(parameters, times, settings.get("step", DEFAULT_STEP), settings["method"])
-    return np.stack([motion["z"], motion["vz"]], axis=1)
+    times = settings["begin"] + settings["interval"] * np.arange(settings["samples"]) / parameters["frequency"]
+    options = {name: settings[name] for name in ("method", "tolerance", "step") if name in settings}
+    motion = sample_runs(parameters[None], times[None], columns=["z", "vz"], **options)
+    return np.stack([motion.z[0], motion.vz[0]], axis=1)
 
 
 def estimate(points: np.ndarray, settings: dict) -> Dimension:
     """The dimension of a portrait by the estimator of the settings."""
     match settings["estimator"]:
         case "paper":
-            return box_counting.box_dimension_of_paper(points, 0.5 ** np.arange(1, settings["octaves"] + 1))
+            return box_dimension_of_paper(points, 0.5 ** np.arange(1, settings["octaves"] + 1))
         case "box":
-            return box_counting.box_dimension(points)
+            return box_dimension(points)
         case "correlation":
-            return correlation_sum.correlation_dimension(points, settings["theiler"])
+            return correlation_dimension(points, settings["theiler"])
     raise ValueError(f"estimator = {settings['estimator']!r} is not one of paper, box, correlation")
 
 

@@ -6,9 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from PIL import Image
 
-from conveyor import Conveyor, Start, simulate
-from conveyor.simulation import Run
-from conveyor.solver.model import conveyor_motion
+from conveyor import Conveyor, Run, Start, conveyor_motion, simulate
 from figures import style
 
 JUMPING = Start(z=3e-4)

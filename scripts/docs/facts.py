@@ -8,7 +8,7 @@ import pandas as pd
 from claims.about_proofs import lowest_fold, stable_motions
 from claims.about_states import flat_part
 from claims.verdicts import VERDICTS
-from conveyor.analysis.stroboscopic_map import MAX_PERIOD
+from conveyor import MAX_PERIOD
 from figures.captions import accumulation, fig10
 from operating.chart import spreads_of
 from operating.parts import POPULATIONS

@@ -14,8 +14,7 @@ from claims.about_chaos import positive_onset, with_settled_motion
 from claims.about_proofs import lowest_fold
 from claims.about_states import find_runs, flat_part, format_runs
 from claims.finding import onset
-from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
-from conveyor.analysis.chaos.random_walk import AT_REST
+from conveyor import NO_FLUCTUATIONS, Hyperbola, critical_height
 from figures.plots.fig10 import ends_of
 from figures.plots.speed_accuracy import method_name
 from figures.plots.throw import proved_fold
@@ -291,7 +290,7 @@ def transit(*, transit: pd.DataFrame, lengths: pd.DataFrame, drift: pd.DataFrame
         "calibrated": transit.attrs["spread"].get("calibrated", False),
         "coexisting": amplitudes.get(SEVERAL, []),
         "chaotic": amplitudes.get(CHAOS, []),
-        "uncertain": int((~drift.status.isin(("ok", AT_REST))).sum()),
+        "uncertain": int((~drift.status.isin(("ok", NO_FLUCTUATIONS))).sum()),
         "spreads": bool((lengths.spread > 0.0).any()),
         "ends": ENDS,
         "middle": ENDS[1] - ENDS[0],

@@ -3,8 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis.basins import hyperbola_fit
-from conveyor.analysis.basins.hyperbola import Hyperbola, mean_squared_error
+from conveyor import Hyperbola, fit_hyperbola, fit_hyperbola_by_pymoo, hyperbola_profile, mean_squared_error
 from pipeline import fields
 
 TABLES = {
@@ -36,9 +35,9 @@ def make(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
         valley["start"] = -BELOW * data[0].min()
         bounds["B"] = valley["start"], bounds["B"][1]
     valley = np.linspace(valley["start"], valley["stop"], int(valley["num"]))
-    pymoo = hyperbola_fit.fit_pymoo(*data, bounds, settings["seed"], settings["evaluations"])
-    least_squares = hyperbola_fit.fit_least_squares(*data, bounds["B"])
-    valley, errors = hyperbola_fit.profile(*data, valley)
+    pymoo = fit_hyperbola_by_pymoo(*data, bounds, settings["seed"], settings["evaluations"])
+    least_squares = fit_hyperbola(*data, bounds["B"])
+    valley, errors = hyperbola_profile(*data, valley)
     rows = [("pymoo", *pymoo.parameters, pymoo.error, pymoo.evaluations)]
     rows.append(("least_squares", *least_squares.parameters, least_squares.error, least_squares.evaluations))
     if "paper" in settings:

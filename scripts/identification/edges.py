@@ -9,9 +9,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from conveyor.analysis.attractors.labels import classify
-from conveyor.analysis.contact_groups import contact_of_groups
-from conveyor.solver.model import ACCELERATION, TENSION, TENSION_MODES, set_columns
+from conveyor import classify, contact_of_groups, replace_parameters, set_parameters
 from pipeline import fields, grid
 
 TABLES = {
@@ -52,19 +50,18 @@ def find_edges(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 16), rows as from model.pack; their acceleration is not used
+    parameters : table, shape (n,); their acceleration is not used
     scan : ascending amplitudes, m/s², shape (k,), or (k, n) for a scan of each row
     further : distances above an edge at which the first state may return, m/s², shape (s,)
     resolution : largest width of the final bracket, m/s²
-    decide : function from parameters, shape (m, 16), to states of motion, str, shape (m,)
+    decide : function from a table of parameters, shape (m,), to states of motion, str, shape (m,)
     """
     n = len(parameters)
     scan = np.broadcast_to(scan.T, (n, len(scan))).T
     low, high = np.full(n, np.nan), np.full(n, np.nan)
 
     def is_first(rows: np.ndarray, amplitude: np.ndarray) -> np.ndarray:
-        selected = np.array(parameters[rows], dtype=np.float64)
-        selected[:, ACCELERATION] = amplitude
+        selected = replace_parameters(parameters[rows], acceleration=amplitude)
         return decide(selected) == "first"
 
     def bisect(rows: np.ndarray) -> None:
@@ -95,7 +92,7 @@ def find_edges(
 
 
 def conveyors(settings: dict) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """The columns of the table before the search, shape (n,), and the parameters of its rows, shape (n, 16).
+    """The columns of the table before the search, shape (n,), and the parameters of its rows, shape (n,).
 
     The plate moves vertically, so that the amplitude is the vertical amplitude.
     """
@@ -103,11 +100,10 @@ def conveyors(settings: dict) -> tuple[dict[str, np.ndarray], np.ndarray]:
     axes = {name: np.geomspace(*settings["bounds"][name], number) for name, number in settings["contacts"].items()}
     axes |= {"tension": np.array(VERTICAL), "z0": np.array(settings["heights"], dtype=np.float64)}
     columns = dict(zip(axes, map(np.ravel, np.meshgrid(*axes.values(), indexing="ij")), strict=True))
-    row = grid.packed(model | {"angle": 0.5 * np.pi})
+    row = grid.row_of(model | {"angle": 0.5 * np.pi})
     columns["stiffness"], columns["damping"] = contact_of_groups(columns["group"], columns["loss"], row)
-    parameters = np.tile(row, (len(columns["loss"]), 1))
-    parameters[:, TENSION] = [TENSION_MODES.index(mode) for mode in columns["tension"]]
-    set_columns(parameters, {name: columns[name] for name in ("stiffness", "damping", "z0")})
+    parameters = np.full(len(columns["loss"]), row)
+    set_parameters(parameters, {name: columns[name] for name in ("stiffness", "damping", "z0", "tension")})
     return columns, parameters
 
 

@@ -13,11 +13,18 @@ import pandas as pd
 from scipy.interpolate import CubicSpline, RegularGridInterpolator
 from scipy.sparse.linalg import spsolve
 
-from conveyor import ensemble
-from conveyor.analysis.attractors.attractor_table import NO_ATTRACTORS
-from conveyor.analysis.basins.hyperbola import Hyperbola, mean_squared_error
-from conveyor.analysis.contact_groups import contact_of_groups, groups_of_contact
-from conveyor.solver.model import ACCELERATION, ANGLE, TENSION, TENSION_MODES, UNITS, Z0, set_columns
+from conveyor import (
+    LAST,
+    NO_ATTRACTORS,
+    UNITS,
+    Hyperbola,
+    contact_of_groups,
+    groups_of_contact,
+    mean_squared_error,
+    sample_runs,
+    set_parameters,
+    sweep,
+)
 from identification import edges as edge_search
 from motion.critical import find_states
 from pipeline import grid
@@ -40,24 +47,23 @@ Follow = Callable[[np.ndarray], np.ndarray]
 def values_of(x: np.ndarray, model: dict) -> dict[str, np.ndarray]:
     """The parameters, each of shape (n,), from logarithms of the searched parameters, shape (n, 4)."""
     friction, loss, group, angle = np.exp(x).T
-    stiffness, damping = contact_of_groups(group, loss, grid.packed(model))
+    stiffness, damping = contact_of_groups(group, loss, grid.row_of(model))
     return {"friction": friction, "damping": damping, "stiffness": stiffness, "angle": angle}
 
 
 def searched(model: dict) -> np.ndarray:
     """Logarithms of the searched parameters of a model, shape (1, 4)."""
-    group, loss = groups_of_contact(model["stiffness"], model["damping"], grid.packed(model))
+    group, loss = groups_of_contact(model["stiffness"], model["damping"], grid.row_of(model))
     return np.log([[model["friction"], loss, group, model["angle"]]])
 
 
-def packed(x: np.ndarray, tension: str, model: dict) -> np.ndarray:
-    """Parameter vectors, shape (n, 16), of a model with other searched parameters, shape (n, 4), and tension mode."""
-    rows = np.tile(grid.packed(model | {"z0": 0.0}), (len(x), 1))
+def parameters_at(x: np.ndarray, tension: str, model: dict) -> np.ndarray:
+    """A table of parameters, shape (n,), of a model with other searched parameters, shape (n, 4), and tension mode."""
+    rows = np.full(len(x), grid.row_of(model | {"z0": 0.0}))
     columns = values_of(x, model)
     if "static_friction" in model:
         columns["static_friction"] = np.maximum(model["static_friction"], columns["friction"])
-    set_columns(rows, columns)
-    rows[:, TENSION] = TENSION_MODES.index(tension)
+    set_parameters(rows, columns | {"tension": tension})
     return rows
 
 
@@ -113,13 +119,15 @@ class Curve(NamedTuple):
 
 
 def converged_velocities(rows: np.ndarray) -> np.ndarray:
-    """Mean feeding velocities (m/s), shape (n,), of parameter vectors, shape (n, 16), by the converged solution."""
-    # The overhead of ensemble.run would add a seventh to a search that needs four trajectories at a time.
-    return ensemble.follow_by_events(rows, np.full(len(rows), DURATION), TOLERANCE, True)["mean_velocity"]
+    """Mean feeding velocities (m/s), shape (n,), of a table of parameters, shape (n,), by the converged solution."""
+    # The checks of `sweep` would add a seventh to a search that needs four trajectories at a time.
+    times = np.full((len(rows), 2), [(1.0 - LAST) * DURATION, DURATION])
+    x = sample_runs(rows, times, columns=["x"], tolerance=TOLERANCE).x
+    return (x[:, 1] - x[:, 0]) / (LAST * DURATION)
 
 
 def parameters_of_both_states(parameters: np.ndarray, found: Curve, interval: list[float], inside: float) -> np.ndarray:
-    """Parameter vectors that lead to each state at both ends of the interval of Fig. 9: shape (n, 2, 2, 16).
+    """Parameter vectors that lead to each state at both ends of the interval of Fig. 9: shape (n, 2, 2).
 
     The axes after the first one are state and end. If both states do not coexist at an end, the nearest amplitude at
     which they do replaces it, moved inside by a step of the amplitude axis. The initial height of the first state is
@@ -128,10 +136,10 @@ def parameters_of_both_states(parameters: np.ndarray, found: Curve, interval: li
     low, high = interval
     low = np.maximum(low, found.amplitudes.min(axis=1) + inside)
     high = np.minimum(high, found.amplitudes.max(axis=1) - inside)
-    rows = np.tile(parameters[:, None, None, :], (1, 2, 2, 1))
-    rows[..., 0, ACCELERATION], rows[..., 1, ACCELERATION] = low[:, None], high[:, None]
-    rows[:, 0, :, Z0] = 0.5 * found.critical_height(np.stack([low, high], axis=1))
-    rows[:, 1, :, Z0] = found.heights[found.amplitudes.argmin(axis=1)][:, None]
+    rows = np.tile(parameters[:, None, None], (1, 2, 2))
+    rows["acceleration"][..., 0], rows["acceleration"][..., 1] = low[:, None], high[:, None]
+    rows["z0"][:, 0] = 0.5 * found.critical_height(np.stack([low, high], axis=1))
+    rows["z0"][:, 1] = found.heights[found.amplitudes.argmin(axis=1)][:, None]
     return rows
 
 
@@ -166,7 +174,7 @@ def measure(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 16), rows as from model.pack; their acceleration and initial condition are not used
+    parameters : table, shape (n,); their acceleration and initial condition are not used
     edges : vertical amplitudes at the edges of the heights of the settings, m/s², shape (n, h)
     settings : of the rule
     follow : function from parameter vectors to mean velocities (m/s); None for the changes of state only
@@ -174,12 +182,12 @@ def measure(
     measured, inside = settings["measured"], settings["inside"]
     fine = np.linspace(settings["heights"][0], settings["heights"][-1], FINE)
     splines = CubicSpline(settings["heights"], edges, axis=1)
-    found = Curve(fine, splines(fine) / np.sin(parameters[:, ANGLE])[:, None])
+    found = Curve(fine, splines(fine) / np.sin(parameters["angle"])[:, None])
     changes = changes_of_state(found, measured, inside)
     if follow is None:
         return changes
     rows = parameters_of_both_states(parameters, found, measured["interval"], inside)
-    first, second = np.moveaxis(CM * follow(rows.reshape(-1, rows.shape[-1])).reshape(rows.shape[:3]), 1, 0)
+    first, second = np.moveaxis(CM * follow(rows.ravel()).reshape(rows.shape), 1, 0)
     return changes | {
         "C05.velocity_at_lower_end": first[:, 0],
         "C05.velocity_at_upper_end": first[:, 1],
@@ -196,7 +204,7 @@ def measure_by_table(
 ) -> dict[str, np.ndarray]:
     """The quantities at searched parameters, shape (n, 4), with interpolated edges and by the converged solution."""
     edges = splines[edge_search.VERTICAL_OF[tension]](x[:, CONTACT])
-    return measure(packed(x, tension, settings["model"]), edges, settings, follow)
+    return measure(parameters_at(x, tension, settings["model"]), edges, settings, follow)
 
 
 def edges_directly(x: np.ndarray, method: str, settings: dict, threads: int) -> np.ndarray:
@@ -205,8 +213,8 @@ def edges_directly(x: np.ndarray, method: str, settings: dict, threads: int) -> 
     The paper's method runs for its duration, and the converged solution continues from there, as in the claims.
     """
     model, heights, euler = settings["model"], settings["heights"], settings["euler"]
-    rows = np.repeat(packed(x, model["tension"], model), len(heights), axis=0)
-    rows[:, ANGLE], rows[:, Z0] = 0.5 * np.pi, heights
+    rows = np.repeat(parameters_at(x, model["tension"], model), len(heights))
+    rows["angle"], rows["z0"] = 0.5 * np.pi, heights
     converged = edge_search.search_edges(rows, settings, edge_search.converged_states(threads))
     if method == CONVERGED:
         return converged[None]
@@ -222,8 +230,8 @@ def measure_directly(x: np.ndarray, method: str, settings: dict, threads: int) -
     run = {name: settings["euler"][name] for name in ("duration", "method", "step")}
 
     def follow_by_euler(rows: np.ndarray) -> np.ndarray:
-        return ensemble.run(rows, chunk=1, threads=threads, **run)["mean_velocity"]
+        return sweep(rows, chunk=1, threads=threads, **run)["mean_velocity"]
 
     follow = converged_velocities if method == CONVERGED else follow_by_euler
-    parameters = packed(x, settings["model"]["tension"], settings["model"])
+    parameters = parameters_at(x, settings["model"]["tension"], settings["model"])
     return measure(parameters, edges_directly(x, method, settings, threads), settings, follow)

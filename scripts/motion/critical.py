@@ -2,11 +2,15 @@
 
 import numpy as np
 
-from conveyor import ensemble
-from conveyor.analysis.attractors.attractor_table import AttractorTable
-from conveyor.analysis.attractors.labels import continued
-from conveyor.analysis.basins import boundary_scan
-from conveyor.solver.model import Z0
+from conveyor import (
+    AttractorTable,
+    continued,
+    count_decisions,
+    find_crossings,
+    replace_parameters,
+    select_critical,
+    sweep,
+)
 from pipeline import fields, grid
 from pipeline.motions import Limits, Table, find_limits, follow, is_slow, shared_attractors
 
@@ -26,13 +30,13 @@ TABLES = {
 def find_states(
     parameters: np.ndarray, settings: dict, known: AttractorTable, limits: Limits | None, threads: int
 ) -> np.ndarray:
-    """The state of motion that each initial condition leads to, str, shape (n,), for parameters of shape (n, 16).
+    """The state of motion that each initial condition leads to, str, shape (n,), for a table of parameters.
 
     A fixed-step method runs for the duration, as in the paper, and the converged solution continues from its end.
     """
     if settings["method"] != "event":
         run = {name: settings[name] for name in ("duration", "method", "step")}
-        runs = ensemble.run(parameters, needs="vertical", chunk=8, threads=threads, **run)
+        runs = sweep(parameters, needs="vertical", chunk=8, threads=threads, **run)
         parameters = continued(parameters, runs["z_end"], runs["vz_end"], settings["duration"])
     return follow(parameters, known, settings, limits=limits, threads=threads).state
 
@@ -45,14 +49,13 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     axes, parameters = grid.product(settings["axes"], settings["model"])
     heights = grid.axis_values("z0", settings["scan"])
     known = shared_attractors(parameters, (len(parameters), len(heights)), settings, threads=threads)
-    starts = np.tile(parameters[0], (len(heights), 1))
-    starts[:, Z0] = heights
+    starts = replace_parameters(np.full(len(heights), parameters[0]), z0=heights)
     # Bisection takes searches, too.
-    decisions = boundary_scan.count_decisions(heights, settings["resolution"])
+    decisions = count_decisions(heights, settings["resolution"])
     table = Table(parameters, starts, (len(parameters), decisions))
     slow = is_slow(table, settings, known=known, threads=threads)
     limits = find_limits(parameters, table, known, settings, threads=threads) if slow else None
-    found = boundary_scan.find_crossings(
+    found = find_crossings(
         parameters, heights, lambda rows: find_states(rows, settings, known, limits, threads), settings["resolution"]
     )
     first_row = np.searchsorted(found.point, found.point)
@@ -62,6 +65,6 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
         "crossing": np.arange(len(found.point)) - first_row + 1,
         "state_below": found.below,
         "state_above": found.above,
-        "is_critical": boundary_scan.select_critical(found.point, found.below) & (found.above != "undecided"),
+        "is_critical": select_critical(found.point, found.below) & (found.above != "undecided"),
         "status": np.where(found.located, "ok", NOT_LOCATED),
     }

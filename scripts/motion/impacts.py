@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from conveyor.analysis.basins.first_impact import first_impacts, on_conveyor
+from conveyor import first_impacts, on_conveyor
 from pipeline import fields, grid
 from pipeline.motions import motions
 

@@ -2,17 +2,15 @@
 
 import numpy as np
 
-from conveyor.analysis.attractors.labels import Labels
-from conveyor.simulation import Run, simulate
-from conveyor.solver.model import unpack
+from conveyor import Columns, Run, conveyor_and_start, simulate
 from pipeline import grid
 from pipeline.motions import motions_after
 
 
-def simulate_entry(settings: dict, threads: int = 1) -> tuple[dict[str, np.ndarray], list[Run], Labels]:
+def simulate_entry(settings: dict, threads: int = 1) -> tuple[dict[str, np.ndarray], list[Run], Columns]:
     """Axes, runs and states of motion of all points of an entry of the config."""
     options = {name: settings[name] for name in ("duration", "method", "tolerance", "step") if name in settings}
     axes, parameters = grid.product(settings["axes"], settings["model"])
-    runs = [simulate(*unpack(row), **options) for row in parameters]
+    runs = [simulate(*conveyor_and_start(row), **options) for row in parameters]
     ends = np.array([(run.z_end, run.vz_end) for run in runs]).T
     return axes, runs, motions_after(parameters, *ends, settings, threads=threads)

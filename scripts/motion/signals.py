@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from conveyor.simulation import Run
-from conveyor.solver.model import conveyor_motion
+from conveyor import Run, conveyor_motion
 from motion.runs import simulate_entry
 from pipeline import fields
 

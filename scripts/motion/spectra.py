@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from conveyor.analysis.amplitude_spectrum import Spectrum, harmonics, windowed
-from conveyor.simulation import Run
+from conveyor import AmplitudeSpectrum, Run, harmonic_spectrum, windowed_spectrum
 from motion.runs import simulate_entry
 from pipeline import fields
 
@@ -18,7 +17,7 @@ TABLES = {
 SIGNALS = ("vx", "vz")
 
 
-def spectra_of_end(run: Run, period: int, last: float, samples_per_cycle: int) -> dict[str, Spectrum]:
+def spectra_of_end(run: Run, period: int, last: float, samples_per_cycle: int) -> dict[str, AmplitudeSpectrum]:
     """Spectra of the velocities over the last period of a run, or over its last part if there is no period.
 
     period : excitation cycles; 0 for none
@@ -27,7 +26,7 @@ def spectra_of_end(run: Run, period: int, last: float, samples_per_cycle: int) -
     duration = period / run.conveyor.frequency if period else last * run.duration
     count = round(samples_per_cycle * run.conveyor.frequency * duration)
     motion = run.sample(run.duration - duration + np.arange(count) * duration / count)
-    return {name: (harmonics if period else windowed)(motion[name], duration) for name in SIGNALS}
+    return {name: (harmonic_spectrum if period else windowed_spectrum)(motion[name], duration) for name in SIGNALS}
 
 
 def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:

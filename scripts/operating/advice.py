@@ -11,8 +11,7 @@ from functools import cache
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis import throw_theory
-from conveyor.parameters import RANGES
+from conveyor import RANGES, throw_number
 from operating.parts import VARIED, population, with_calibration
 from operating.transit import MEASURES, PROBABILITIES, follow, measure, relative_spread, summarize
 from pipeline import fields
@@ -163,7 +162,7 @@ def make(
     """
     followed, margin = with_calibration(transit.attrs, samples, parameters), settings["margin"]
     rows = transit[transit.population == VARIED].reset_index(drop=True)
-    unit = throw_theory.throw_number(1.0, **followed["model"])
+    unit = throw_number(1.0, **followed["model"])
 
     @cache
     def around(place: int) -> pd.DataFrame:

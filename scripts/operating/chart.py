@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor.parameters import UNITS
+from conveyor import UNITS
 from operating.advice import ENOUGH, EVEN, FAST, neighbours
 from operating.regimes import (
     CHAOS,

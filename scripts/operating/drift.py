@@ -9,10 +9,7 @@ from statistics import NormalDist
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis.chaos.random_walk import STATUS, random_walk, relative_spread
-from conveyor.solver import horizontal, trajectory
-from conveyor.solver.model import FREQUENCY
-from conveyor.solver.parallel import for_each_chunk
+from conveyor import RANDOM_WALK_STATUS, random_walk, relative_spread, sample_runs
 from operating.parts import IDENTICAL, population, starts_of_box
 from operating.regimes import CHAOS, SEVERAL
 from operating.transit import PROBABILITIES, follow, quantiles, spread_stderr
@@ -33,7 +30,7 @@ TABLES = {
         fields.number("diffusion", "m²/s", "diffusion coefficient: the variance of the displacement grows as 2 D t"),
         fields.number("diffusion_stderr", "m²/s", "its standard error, from independent runs"),
         fields.count("window", "excitation cycles over which correlations have decayed; 0 for none"),
-        fields.text("status", f"{', '.join(STATUS)} or {RUN_FAILED}"),
+        fields.text("status", f"{', '.join(RANDOM_WALK_STATUS)} or {RUN_FAILED}"),
     ),
     "track_lengths": (
         fields.number("acceleration", "m/s²", "amplitude of the excitation"),
@@ -64,16 +61,9 @@ def spaced(amplitudes: np.ndarray, count: int) -> np.ndarray:
 def positions(rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> np.ndarray:
     """Positions x (m) of parts, shape (n, cycles + 1), once per excitation cycle; NaN where a run failed."""
     cycles = settings["forgotten"] + np.arange(settings["cycles"] + 1)
-    times = cycles / rows[:, FREQUENCY, None]
-    found = np.empty(times.shape)
-
-    def work(begin, end):
-        part = slice(begin, end)
-        samples, _ = trajectory.integrate(rows[part], times[part], tolerance=settings["tolerance"])
-        found[part] = samples[:, :, horizontal.X]
-
-    for_each_chunk(work, len(rows), threads=threads, chunk=8, progress=progress)
-    return found
+    times = cycles / rows["frequency"][:, None]
+    options = {"tolerance": settings["tolerance"], "threads": threads, "chunk": 8, "progress": progress}
+    return sample_runs(rows, times, columns=["x"], **options).x
 
 
 def drift_at(acceleration: float, x: np.ndarray, is_low: np.ndarray, period: float) -> dict:

@@ -12,7 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pandas as pd
 
-from conveyor.solver.progress import bar
+from conveyor import progress_bar
 from operating.parts import population
 from operating.transit import follow, summarize
 from pipeline import fields, pareto
@@ -198,7 +198,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     few = {**settings, "starts": settings["search"]["parts"], "longest": settings["search"]["longest"]}
     # One thread for each seed: the designs of one generation are too few for several threads.
     total = len(settings["seeds"]) * settings["generations"]
-    with bar(total=total, label=progress, unit="generations") as shown, ThreadPoolExecutor(threads) as pool:
+    with progress_bar(total=total, label=progress, unit="generations") as shown, ThreadPoolExecutor(threads) as pool:
         searches = {seed: pool.submit(search, few, seed, shown.update) for seed in settings["seeds"]}
     fronts = {seed: one.result() for seed, one in searches.items()}
     designs, objectives = pareto.best_of(

@@ -9,24 +9,11 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor.solver.model import (
-    ACCELERATION,
-    ANGLE,
-    DAMPING,
-    FREQUENCY,
-    FRICTION,
-    MASS,
-    PSI0,
-    STATIC_FRICTION,
-    STIFFNESS,
-    VZ0,
-    Z0,
-)
 from pipeline import grid
 from pipeline.rule_log import JobError
 
 # The parameters that differ, in the order of their random numbers.
-COLUMNS = {"friction": FRICTION, "damping": DAMPING, "stiffness": STIFFNESS, "mass": MASS, "acceleration": ACCELERATION}
+COLUMNS = ("friction", "damping", "stiffness", "mass", "acceleration")
 ROUNDING = 1e-5  # largest relative error of a calibrated value in an overlay
 IDENTICAL, VARIED = POPULATIONS = ("identical", "varied")
 
@@ -38,17 +25,17 @@ def starts_of_box(settings: dict) -> np.ndarray:
 
 
 def set_starts(rows: np.ndarray, starts: np.ndarray) -> None:
-    """Write initial conditions, shape (n, 3), into packed parameters, shape (n, 16)."""
+    """Write initial conditions, shape (n, 3), into a table of parameters, shape (n,)."""
     height, velocity, phase = starts.T
-    stroke = rows[:, ACCELERATION] * np.sin(rows[:, ANGLE]) / (2.0 * math.pi * rows[:, FREQUENCY]) ** 2
-    rows[:, PSI0], rows[:, VZ0] = phase, velocity
-    rows[:, Z0] = height - stroke * np.cos(phase)  # Eq. 4
+    stroke = rows["acceleration"] * np.sin(rows["angle"]) / (2.0 * math.pi * rows["frequency"]) ** 2
+    rows["psi0"], rows["vz0"] = phase, velocity
+    rows["z0"] = height - stroke * np.cos(phase)  # Eq. 4
 
 
 def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:
-    """Packed parameters, shape (m n, 16), of n initial conditions, shape (n, 3), at each of m amplitudes."""
+    """Parameters, shape (m n,), of n initial conditions, shape (n, 3), at each of m amplitudes."""
     _, conveyors = grid.product({"acceleration": list(amplitudes)}, model)
-    rows = np.repeat(conveyors, len(starts), axis=0)
+    rows = np.repeat(conveyors, len(starts))
     set_starts(rows, np.tile(starts, (len(amplitudes), 1)))
     return rows
 
@@ -99,7 +86,7 @@ def with_calibration(settings: dict, samples: pd.DataFrame | None, parameters: p
 
 
 def population(amplitudes: np.ndarray, settings: dict, kind: str = VARIED) -> np.ndarray:
-    """Packed parameters of n parts at each of m amplitudes (m/s²), shape (m n, 16).
+    """Parameters of n parts at each of m amplitudes (m/s²), shape (m n,).
 
     settings : `model`; `starts` (n), `seed` and the ends of the box of initial conditions; `spread`, see `factors`; if
         parameters are uncertain, `calibrated`, see `calibrated_factors`
@@ -107,14 +94,15 @@ def population(amplitudes: np.ndarray, settings: dict, kind: str = VARIED) -> np
     """
     starts = starts_of_box(settings)
     _, conveyors = grid.product({"acceleration": list(amplitudes)}, settings["model"])
-    rows = np.repeat(conveyors, len(starts), axis=0)
+    rows = np.repeat(conveyors, len(starts))
     if kind == VARIED:
         spread = factors(settings["spread"], len(starts))
         each = spread * settings.get("calibrated", 1.0)
         # A calibration keeps a stated static friction. Otherwise it is equal to the friction.
         of_static = spread if "static_friction" in settings["model"] else each
-        rows[:, list(COLUMNS.values())] *= np.tile(each, (len(amplitudes), 1))
-        rows[:, STATIC_FRICTION] *= np.tile(of_static[:, list(COLUMNS).index("friction")], len(amplitudes))
-        rows[:, STATIC_FRICTION] = np.maximum(rows[:, STATIC_FRICTION], rows[:, FRICTION])
+        for name, column in zip(COLUMNS, each.T, strict=True):
+            rows[name] *= np.tile(column, len(amplitudes))
+        rows["static_friction"] *= np.tile(of_static[:, COLUMNS.index("friction")], len(amplitudes))
+        rows["static_friction"] = np.maximum(rows["static_friction"], rows["friction"])
     set_starts(rows, np.tile(starts, (len(amplitudes), 1)))
     return rows

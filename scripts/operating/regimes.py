@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, INCLINATION, STATIC_FRICTION
 from pipeline import fields
 
 ONE, SEVERAL, BESIDE, CHAOS, UNKNOWN = REGIMES = (
@@ -51,8 +50,8 @@ def is_frictionless(model: dict) -> bool:
 
 
 def plate_speed(rows: np.ndarray) -> np.ndarray:
-    """The largest velocity of the plate along the track (m/s) for packed parameters, shape (n, 16)."""
-    return rows[:, ACCELERATION] * np.cos(rows[:, ANGLE]) / (2.0 * math.pi * rows[:, FREQUENCY])
+    """The largest velocity of the plate along the track (m/s) for a table of parameters, shape (n,)."""
+    return rows["acceleration"] * np.cos(rows["angle"]) / (2.0 * math.pi * rows["frequency"])
 
 
 def steepness(rows: np.ndarray) -> np.ndarray:
@@ -61,10 +60,10 @@ def steepness(rows: np.ndarray) -> np.ndarray:
 
     On average, the contact force is m g cos α. Sliding friction takes at most μ times as much.
 
-    rows : packed parameters, shape (n, 16)
+    rows : table of parameters, shape (n,)
     """
-    slope = np.abs(np.tan(rows[:, INCLINATION]))
-    return (slope > rows[:, FRICTION]).astype(np.int64) + (slope > rows[:, STATIC_FRICTION])
+    slope = np.abs(np.tan(rows["inclination"]))
+    return (slope > rows["friction"]).astype(np.int64) + (slope > rows["static_friction"])
 
 
 def same(velocity: np.ndarray, other: float, share: float) -> np.ndarray:

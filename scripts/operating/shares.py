@@ -9,12 +9,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor import ensemble
-from conveyor.analysis.attractors.labels import Labels, continued
-from conveyor.simulation import LAST
-from conveyor.solver import horizontal, trajectory
-from conveyor.solver.model import ACCELERATION, ANGLE, FREQUENCY, FRICTION, GRAVITY, INCLINATION
-from conveyor.solver.parallel import for_each_chunk
+from conveyor import LAST, Columns, continued, sample_runs, sweep
 from operating import regimes
 from operating.parts import parameters_of, starts_of_box
 from pipeline import fields, grid
@@ -53,7 +48,7 @@ MOST_CYCLES = 4000  # upper limit of cycles of a brief run
 FORGOTTEN = 200  # excitation cycles, at least, for the transient of the feeding motion
 
 
-def groups(found: Labels, conveyor: np.ndarray) -> np.ndarray:
+def groups(found: Columns, conveyor: np.ndarray) -> np.ndarray:
     """The number of the motion that each label belongs to, int64, shape (n,); it ascends with the conveyor.
 
     Labels of one motion have one conveyor, one state and one period, and their longest flights are neighbours.
@@ -71,13 +66,13 @@ def groups(found: Labels, conveyor: np.ndarray) -> np.ndarray:
 
 
 def continue_normal(rows: np.ndarray, cycles: np.ndarray, settings: dict, *, threads: int = 1) -> np.ndarray:
-    """Packed parameters, shape (n, 16), that continue the motion normal to the track after some excitation cycles.
+    """Parameters, shape (n,), that continue the motion normal to the track after some excitation cycles.
 
-    rows : packed parameters of trajectories, shape (n, 16)
+    rows : parameters of trajectories, shape (n,)
     cycles : of each trajectory, shape (n,)
     """
-    durations = cycles / rows[:, FREQUENCY]
-    ends = ensemble.run(rows, duration=durations, tolerance=settings["tolerance"], needs="vertical", threads=threads)
+    durations = cycles / rows["frequency"]
+    ends = sweep(rows, duration=durations, tolerance=settings["tolerance"], needs="vertical", threads=threads)
     return continued(rows, ends["z_end"], ends["vz_end"], durations)
 
 
@@ -90,23 +85,13 @@ def last_quarters(
     durations : s, shape (n, k); the last quarter of each run begins after the end of the run before
     """
     times = np.stack([(1.0 - LAST) * durations, durations], axis=-1).reshape(len(durations), 2 * durations.shape[1])
-    means, codes = np.empty_like(durations), np.empty(len(durations), dtype=np.int64)
-    peaks = np.empty((len(durations), 2))
-
-    def work(begin, end):
-        rows = slice(begin, end)
-        samples, results = trajectory.integrate(parameters[rows], times[rows], tolerance=tolerance)
-        x = samples[:, :, horizontal.X]
-        means[rows] = (x[:, 1::2] - x[:, ::2]) / (LAST * durations[rows])
-        codes[rows] = results[:, trajectory.CODE]
-        peaks[rows] = results[:, [trajectory.IMPACT_SPEED, trajectory.PEAK_FORCE]]
-
-    for_each_chunk(work, len(parameters), threads=threads, chunk=4)
-    return means, peaks, np.array(trajectory.STATUS)[codes]
+    runs = sample_runs(parameters, times, columns=["x"], tolerance=tolerance, threads=threads, chunk=4)
+    means = (runs.x[:, 1::2] - runs.x[:, ::2]) / (LAST * durations)
+    return means, np.column_stack([runs.impact_speed, runs.peak_force]), runs.status
 
 
 def velocities(
-    parameters: np.ndarray, found: Labels, settings: dict, *, threads: int = 1
+    parameters: np.ndarray, found: Columns, settings: dict, *, threads: int = 1
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Mean feeding velocity (m/s) of settled trajectories, shape (n,); the largest speed of approach (m/s) and contact
     force (N) over the same cycles, whole periods of the motion, shape (n, 2); and the status.
@@ -116,7 +101,7 @@ def velocities(
     they must agree in chaos, too, because the part may be about to slide away. In all, they are followed for at most as
     many cycles as the searches for a map; the velocities of the slowest ones are then not known.
 
-    parameters, found : packed, shape (n, 16), and the labels of the trajectories
+    parameters, found : shape (n,), and the labels of the trajectories
     """
     n, period = len(parameters), found.period
     # A motion without a period is not more settled in later cycles.
@@ -137,7 +122,7 @@ def velocities(
             affordable = cycles[:, -1] <= limit_of_mean(cycles[:, -1], left / len(open_))
             open_, cycles = open_[affordable], cycles[affordable]
             left -= cycles[:, -1].sum()
-        durations = cycles / parameters[open_, None, FREQUENCY]
+        durations = cycles / parameters["frequency"][open_, None]
         means, peaks[open_], why = last_quarters(parameters[open_], durations, settings["tolerance"], threads)
         failed = why != "ok"
         status[open_[failed]] = why[failed]
@@ -162,16 +147,16 @@ def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> 
     part to the velocity of the plate. The mean acceleration that remains for this is g (μ cos α - |sin α|), so tracks
     that are nearly too steep need more than `cycles`.
 
-    parameters, period : packed, shape (n, 16), and the period in excitation cycles, 0 for none, shape (n,)
+    parameters, period : shape (n,), and the period in excitation cycles, 0 for none, shape (n,)
     cycles : least excitation cycles of a run
     """
-    alpha, friction = parameters[:, INCLINATION], parameters[:, FRICTION]
-    left = parameters[:, GRAVITY] * (friction * np.cos(alpha) - np.abs(np.sin(alpha)))
-    along = parameters[:, ACCELERATION] * np.cos(parameters[:, ANGLE])
+    alpha, friction = parameters["inclination"], parameters["friction"]
+    left = parameters["gravity"] * (friction * np.cos(alpha) - np.abs(np.sin(alpha)))
+    along = parameters["acceleration"] * np.cos(parameters["angle"])
     # Friction that cannot hold a sliding part does not slow it down however long the run is.
     needed = np.where(left > 0.0, along / (2.0 * math.pi * 0.75 * np.maximum(left, 1e-300)), 0.0)
     step = 4.0 * np.maximum(period, 1)
-    return step * np.ceil(np.maximum(cycles, np.minimum(needed, MOST_CYCLES)) / step) / parameters[:, FREQUENCY]
+    return step * np.ceil(np.maximum(cycles, np.minimum(needed, MOST_CYCLES)) / step) / parameters["frequency"]
 
 
 def motions_of_conveyors(
@@ -184,7 +169,7 @@ def motions_of_conveyors(
 ) -> pd.DataFrame:
     """The motions that `starts` initial conditions of each of k conveyors end in, a row for each motion.
 
-    parameters : packed, shape (k starts, 16)
+    parameters : shape (k starts,)
     Returns the columns of the table and `conveyor`, its number.
     """
     found = motions_of_starts(parameters, settings, starts=starts, threads=threads, progress=progress)
@@ -195,7 +180,7 @@ def motions_of_conveyors(
     order = np.lexsort((found.cycles, number))
     rank = np.arange(len(order)) - np.repeat(np.cumsum(count) - count, count)
     chosen = order[rank < np.repeat(most, count)]
-    of_chosen = Labels(*(column[chosen] for column in found))
+    of_chosen = found.select(chosen)
     each, each_peaks, each_status = velocities(parameters[chosen], of_chosen, settings, threads=threads)
     velocity, error, peaks = np.full(len(first), np.nan), np.full(len(first), np.nan), np.full((len(first), 2), np.nan)
     status = np.where(most > 0, "ok", regimes.UNDECIDED).astype(object)
@@ -207,13 +192,13 @@ def motions_of_conveyors(
             velocity[row], peaks[row] = each[own].mean(), each_peaks[own].max(axis=0)
             error[row] = each[own].std(ddof=1) / math.sqrt(len(own)) if len(own) > 1 else np.nan
     share = count / starts
-    acceleration = parameters[first, ACCELERATION]
-    normal_gravity = parameters[first, GRAVITY] * np.cos(parameters[first, INCLINATION])
+    acceleration = parameters["acceleration"][first]
+    normal_gravity = parameters["gravity"][first] * np.cos(parameters["inclination"][first])
     return pd.DataFrame(
         {
             "conveyor": first // starts,
             "acceleration": acceleration,
-            "vertical": acceleration * np.sin(parameters[first, ANGLE]) / normal_gravity,
+            "vertical": acceleration * np.sin(parameters["angle"][first]) / normal_gravity,
             "state": found.state[first],
             "period": found.period[first],
             "longest_flight": found.longest_flight[first],

@@ -8,8 +8,7 @@ import numpy as np
 import pandas as pd
 import yaml
 
-from conveyor.analysis import throw_theory
-from conveyor.parameters import normal_gravity
+from conveyor import normal_gravity, throw_number, throw_velocity
 from operating import shares
 from pipeline import fields
 
@@ -47,9 +46,9 @@ def make(examples: list[str], settings: dict, *, threads: int = 1, progress: str
     tables = []
     for name, model in conveyors.items():
         own = settings_of_conveyor(settings, model)
-        amplitudes = throws / throw_theory.throw_number(1.0, **own["model"])
+        amplitudes = throws / throw_number(1.0, **own["model"])
         label = progress and f"{progress}: {name}"
         table = shares.motions_at(amplitudes, own, threads=threads, progress=label)
-        textbook = throw_theory.mean_velocity(table.acceleration, **own["model"])
+        textbook = throw_velocity(table.acceleration, **own["model"])
         tables.append(table.assign(conveyor=name, textbook=textbook))
     return pd.concat(tables, ignore_index=True)

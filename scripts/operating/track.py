@@ -8,8 +8,7 @@ Where the track is too steep for friction, a part slides downhill faster and fas
 
 import numpy as np
 
-from conveyor import ensemble
-from conveyor.solver.model import PHASE_SHIFT
+from conveyor import sweep
 from operating.parts import parameters_of, starts_of_box
 from operating.regimes import NOT_ALL_SETTLED, SLIDES_AWAY, plate_speed, steepness
 from operating.shares import FORGOTTEN, SETTLED, brief_durations, continue_normal
@@ -32,8 +31,8 @@ TABLES = {
 def settled_motions(
     inclinations: np.ndarray, settings: dict, threads: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Number of the inclination, number of the state and period of each settled motion, shape (k,), its packed
-    parameters, shape (k, 16), and whether a search ended before it had settled, for each inclination.
+    """Number of the inclination, number of the state and period of each settled motion, shape (k,), its
+    parameters, shape (k,), and whether a search ended before it had settled, for each inclination.
     """
     starts, amplitude = starts_of_box(settings), np.array([settings["acceleration"]])
     models = [{**settings["model"], "inclination": value} for value in inclinations]
@@ -59,11 +58,11 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     """The columns of the table: a row for each state at each inclination and phase shift."""
     inclinations, shifts = (grid.axis_values(name, settings[name]) for name in ("inclination", "phase_shift"))
     number, state, of_motion, settled, is_open = settled_motions(inclinations, settings, threads)
-    rows = np.repeat(settled, len(shifts), axis=0)
-    rows[:, PHASE_SHIFT] = np.tile(shifts, len(settled))
+    rows = np.repeat(settled, len(shifts))
+    rows["phase_shift"] = np.tile(shifts, len(settled))
     durations = brief_durations(rows, np.repeat(of_motion, len(shifts)), settings["cycles"])
     options = {"tolerance": settings["tolerance"], "threads": threads, "progress": progress}
-    run = ensemble.run(rows, duration=durations, **options)
+    run = sweep(rows, duration=durations, **options)
     shape = (len(inclinations), len(STATES), len(shifts))
     velocity, period = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64)
     velocity[number, state] = run["mean_velocity"].reshape(len(settled), len(shifts))
@@ -75,7 +74,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     away = np.repeat(~held, len(STATES) * len(shifts)).reshape(shape)
     # Where only static friction holds a part, its velocity may not settle.
     doubtful = np.flatnonzero(steepness(rows) == 1)
-    longer = ensemble.run(rows[doubtful], duration=2.0 * durations[doubtful], **options)["mean_velocity"]
+    longer = sweep(rows[doubtful], duration=2.0 * durations[doubtful], **options)["mean_velocity"]
     unsettled = np.zeros(len(rows), dtype=bool)
     unsettled[doubtful] = np.abs(longer - run["mean_velocity"][doubtful]) > SETTLED * plate_speed(rows[doubtful])
     away[number, state] |= unsettled.reshape(len(settled), len(shifts))

@@ -11,8 +11,7 @@ import numpy as np
 import pandas as pd
 from scipy.stats.mstats import mjci
 
-from conveyor import ensemble
-from conveyor.solver.model import FREQUENCY
+from conveyor import Columns, transits
 from operating.parts import IDENTICAL, POPULATIONS, population, with_calibration
 from pipeline import fields, grid
 
@@ -60,15 +59,15 @@ def time_of_drop(frequency: np.ndarray, longest: float) -> np.ndarray:
 
 def follow(
     rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None, **track: np.ndarray
-) -> dict[str, np.ndarray]:
-    """What `ensemble.transits` returns for packed parameters, shape (n, 16).
+) -> Columns:
+    """What `transits` returns for a table of parameters, shape (n,).
 
     track : `lengths` (m) and `longest` (s), shape (k,), if they are not those of the settings
     """
     track = {"lengths": np.array([settings["length"]]), "longest": np.array([settings["longest"]])} | track
-    begin = time_of_drop(rows[:, FREQUENCY], track["longest"][0])
+    begin = time_of_drop(rows["frequency"], track["longest"][0])
     options = {"tolerance": settings["tolerance"], "threads": threads, "progress": progress}
-    return ensemble.transits(rows, begin=begin, **track, **options)
+    return transits(rows, begin=begin, **track, **options)
 
 
 def quantiles(velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

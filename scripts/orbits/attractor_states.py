@@ -3,13 +3,13 @@
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis import stroboscopic_map
+from conveyor import start_at
 from pipeline import grid
 
 
 def parameters_on_attractors(strobes: pd.DataFrame, settings: dict) -> tuple[pd.DataFrame, np.ndarray]:
-    """The last recorded state of each amplitude and branch, and parameter vectors with these states, shape (n, 16)."""
+    """The last recorded state of each amplitude and branch, and parameters with these states, shape (n,)."""
     last = strobes[strobes.cycle == strobes.cycle.max()].reset_index(drop=True)
-    parameters = np.tile(grid.packed(settings["model"]), (len(last), 1))
-    parameters[:, 0] = last.acceleration
-    return last, stroboscopic_map.pack_states(parameters, last[["delta", "v"]].to_numpy(), settings["tolerance"])
+    parameters = np.full(len(last), grid.row_of(settings["model"]))
+    parameters["acceleration"] = last.acceleration
+    return last, start_at(parameters, last[["delta", "v"]].to_numpy(), settings["tolerance"])

@@ -2,10 +2,20 @@
 
 import numpy as np
 
-from conveyor.analysis.attractors.labels import LONG_FLIGHT
-from conveyor.analysis.bifurcations import continuation, doubling_cascade
-from conveyor.analysis.bifurcations.continuation import Bifurcation, Branch
-from conveyor.analysis.bifurcations.periodic_orbits import Orbit, ReturnMap
+from conveyor import (
+    LONG_FLIGHT,
+    Bifurcation,
+    Branch,
+    Orbit,
+    ReturnMap,
+    accumulation_point,
+    doubling_cascade,
+    doubling_ratios,
+    explore_bifurcations,
+    find_doubled_orbit,
+    follow_branch,
+    on_branch,
+)
 from orbits.seeds import seeds
 from pipeline import fields, grid
 from pipeline.rule_log import JobError
@@ -95,17 +105,16 @@ def explore_branches(parameters: np.ndarray, orbits: list[Orbit], settings: dict
     """
     options = tuple(settings["limits"]), settings["max_period"]
     if "seeds" in settings:
-        return continuation.explore(parameters, orbits, *options, settings["most"])
+        return explore_bifurcations(parameters, orbits, *options, settings["most"])
     branches = []
     for period in sorted({orbit.period for orbit in orbits}):
         new = [
             orbit
             for orbit in orbits
-            if orbit.period == period
-            and not any(continuation.on_branch(parameters, branch, orbit) for branch in branches)
+            if orbit.period == period and not any(on_branch(parameters, branch, orbit) for branch in branches)
         ]
         left = settings["most"] - sum(len(branch.orbits) for branch in branches)
-        branches += continuation.explore(parameters, new, *options, left)
+        branches += explore_bifurcations(parameters, new, *options, left)
     return branches
 
 
@@ -122,7 +131,7 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
         if the branches do not reach them
     """
     begin = jumping.acceleration
-    own = [branch for branch in branches if continuation.on_branch(parameters, branch, jumping)]
+    own = [branch for branch in branches if on_branch(parameters, branch, jumping)]
     first = next(
         (b for branch in own for b in branch.bifurcations if is_doubling(b) and b.orbit.acceleration > begin), None
     )
@@ -132,13 +141,13 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
             f"the jumping orbit at {begin:g} m/s² (the last of orbits.seeds) does not double its period up to "
             f"{end:g} m/s²; raise the upper value of orbits.limits beyond its first period doubling"
         )
-    if (double := continuation.find_doubled_orbit(parameters, first)) is None:
+    if (double := find_doubled_orbit(parameters, first)) is None:
         raise JobError(
             f"no orbit of twice the period was found at the doubling at {first.orbit.acceleration:g} m/s²; choose "
             "another orbit as the last of orbits.seeds"
         )
     span = (first.orbit.acceleration - 1.0, first.orbit.acceleration + 20.0)
-    following = continuation.follow_branch(parameters, double, span)
+    following = follow_branch(parameters, double, span)
     second = min(filter(is_doubling, following.bifurcations), key=lambda b: b.orbit.acceleration, default=None)
     if second is None:
         raise JobError(
@@ -153,14 +162,14 @@ def find_cascade(
 ) -> list[Bifurcation]:
     """The doubling cascade of the config's last seed or of the first jumping orbit; an empty list if there is none."""
     if "seeds" in settings:
-        return doubling_cascade.doubling_cascade(parameters, *first_doublings(parameters, branches, orbits[-1]))
+        return doubling_cascade(parameters, *first_doublings(parameters, branches, orbits[-1]))
     jumps = [orbit for orbit in orbits if orbit.longest_flight >= LONG_FLIGHT]
     for orbit in sorted(jumps, key=lambda orbit: (orbit.period, orbit.acceleration)):
         try:
             doublings = first_doublings(parameters, branches, orbit)
         except JobError:
             continue
-        return doubling_cascade.doubling_cascade(parameters, *doublings)
+        return doubling_cascade(parameters, *doublings)
     return []
 
 
@@ -169,10 +178,10 @@ def cascade_rows(cascade: list[Bifurcation]) -> list[dict]:
     if not cascade:
         return []
     amplitudes = np.array([b.orbit.acceleration for b in cascade])
-    ratios = [np.nan, *doubling_cascade.ratios(amplitudes), np.nan]
+    ratios = [np.nan, *doubling_ratios(amplitudes), np.nan]
     rows = []
     for n, (bifurcation, ratio) in enumerate(zip(cascade, ratios, strict=True), start=1):
-        limit, error = doubling_cascade.accumulation(amplitudes[:n])
+        limit, error = accumulation_point(amplitudes[:n])
         about = {"number": n, "multiplier": bifurcation.multiplier, "ratio": ratio}
         rows.append({**describe(bifurcation.orbit), **about, "accumulation": limit, "accumulation_error": error})
     return rows
@@ -180,7 +189,7 @@ def cascade_rows(cascade: list[Bifurcation]) -> list[dict]:
 
 def make(settings: dict) -> dict[str, dict[str, np.ndarray]]:
     """The columns of the three tables, by their kinds, for the section `orbits` of the config."""
-    parameters = grid.packed(settings["model"])
+    parameters = grid.row_of(settings["model"])
     orbits = seeds(parameters, settings)
     branches = explore_branches(parameters, orbits, settings)
     cascade = find_cascade(parameters, branches, orbits, settings)

@@ -11,17 +11,34 @@ import pandas as pd
 from flint import arb
 from pyarrow import Field
 
-from conveyor.analysis.bifurcations import continuation, periodic_orbits
-from conveyor.analysis.bifurcations.continuation import Bifurcation
-from conveyor.analysis.bifurcations.periodic_orbits import Orbit, ReturnMap
-from conveyor.certificates.balls import Refused, bounds, exactly, precision
-from conveyor.certificates.brackets import bracket_doubling, bracket_fold
-from conveyor.certificates.covering import prove_horseshoe
-from conveyor.certificates.excursion import plan_sets
-from conveyor.certificates.law import Accuracy, Law, System, law_of
-from conveyor.certificates.orbit import ProvedOrbit, check_near, prove_orbit
-from conveyor.certificates.shooting import Shooting
-from conveyor.solver.progress import bar
+from conveyor import (
+    SAME_ORBIT,
+    Bifurcation,
+    Orbit,
+    ReturnMap,
+    find_doubled_orbit,
+    find_orbit,
+    follow_branch,
+    progress_bar,
+)
+from conveyor.certificates import (
+    Accuracy,
+    Law,
+    ProvedOrbit,
+    Refused,
+    Shooting,
+    System,
+    bounds,
+    bracket_doubling,
+    bracket_fold,
+    check_near,
+    exactly,
+    law_of,
+    plan_sets,
+    precision,
+    prove_horseshoe,
+    prove_orbit,
+)
 from pipeline import fields, grid
 
 
@@ -149,7 +166,7 @@ def orbits_at(parameters: np.ndarray, branch: int, line: Line, acceleration: flo
         unknown = returns.newton(guess)
         unknown = guess if unknown is None else unknown
         distances = [np.abs(other.strobes - unknown[:2]).max(axis=1).min() for other in found]
-        if min(distances, default=np.inf) > continuation.SAME:
+        if min(distances, default=np.inf) > SAME_ORBIT:
             found.append(float_orbit(branch, returns, unknown))
     return found
 
@@ -171,18 +188,16 @@ def doubled_lines(
     for row in cascade.itertuples():
         period = 2 * int(row.period)
         if longest[0] < period <= longest[1] and limits[0] < row.acceleration < limits[1]:
-            orbit = periodic_orbits.find_orbit(
-                parameters, row.acceleration, np.array([row.delta, row.v]), int(row.period)
-            )
-            new = continuation.find_doubled_orbit(parameters, Bifurcation("period_doubling", orbit, -1.0))
-            branch = continuation.follow_branch(parameters, new, limits).orbits
+            orbit = find_orbit(parameters, row.acceleration, np.array([row.delta, row.v]), int(row.period))
+            new = find_doubled_orbit(parameters, Bifurcation("period_doubling", orbit, -1.0))
+            branch = follow_branch(parameters, new, limits).orbits
             found.append(Line(period, np.array([[*orbit.state, orbit.acceleration] for orbit in branch])))
     return found
 
 
 def orbits_to_prove(settings: dict, branches: pd.DataFrame, cascade: pd.DataFrame) -> list[FloatOrbit]:
     """All orbits up to the longest period at the amplitudes of the settings, by amplitude."""
-    parameters = grid.packed(settings["model"])
+    parameters = grid.row_of(settings["model"])
     chosen = sorted({*grid.axis_values("acceleration", settings["acceleration"]).tolist(), *settings["also"]})
     lines = stored_lines(branches, settings["longest_period"])
     periods = int(branches.period.max()), settings["longest_period"]
@@ -252,7 +267,7 @@ def prove_float_orbit(settings: dict, found: FloatOrbit) -> dict:
 def prove_bifurcation(settings: dict, kind: str, number: int, row: dict) -> dict:
     """The row of one fold or period doubling, given by its kind, number and row in a table."""
     period, stored = row["period"], row["acceleration"]
-    problem, returns = shooting(settings, period), ReturnMap(grid.packed(settings["model"]), period)
+    problem, returns = shooting(settings, period), ReturnMap(grid.row_of(settings["model"]), period)
     strobes = float_orbit(0, returns, returns.scaled(stored, np.array([row["delta"], row["v"]]))).strobes
     about = {"kind": kind, "number": number, "period": period, "stored_acceleration": stored}
     try:
@@ -278,7 +293,7 @@ def prove_chaos(settings: dict, acceleration: float, saddles: list[FloatOrbit]) 
 
     Orbits are tried in the order of their multipliers, the largest one first.
     """
-    chaos, parameters, units = settings["chaos"], grid.packed(settings["model"]), law(settings)
+    chaos, parameters, units = settings["chaos"], grid.row_of(settings["model"]), law(settings)
     system = System(units, units.gamma(exactly(acceleration)), Accuracy(chaos["order"], chaos["tolerance"]))
     row = {
         "acceleration": acceleration,
@@ -329,7 +344,7 @@ def run_tasks(settings: dict, tasks: list[Task], processes: int) -> list[tuple[d
     with ProcessPoolExecutor(processes, mp_context=get_context("fork")) as pool:
         # The longest proofs come last in the list and are started first, so that all processes end together.
         futures = [pool.submit(run_task, settings, task) for task in reversed(tasks)]
-        return [future.result() for future in bar(futures, label="certificates", unit="proofs")][::-1]
+        return [future.result() for future in progress_bar(futures, label="certificates", unit="proofs")][::-1]
 
 
 def list_tasks(settings: dict, branches: pd.DataFrame, bifurcations: pd.DataFrame, cascade: pd.DataFrame) -> list[Task]:
@@ -339,7 +354,7 @@ def list_tasks(settings: dict, branches: pd.DataFrame, bifurcations: pd.DataFram
     doublings = bifurcations[(bifurcations.kind == "period_doubling") & (bifurcations.period == first.period)]
     jumping = doublings.loc[(doublings.acceleration - first.acceleration).abs().idxmin()].branch
     folds = bifurcations[(bifurcations.kind == "fold") & (bifurcations.branch == jumping)]
-    parameters = grid.packed(settings["model"])
+    parameters = grid.row_of(settings["model"])
     singles = stored_lines(branches, 1)
     tasks = [Task("certificates", (orbit,)) for orbit in orbits]
     for kind, rows in (("fold", folds), ("period_doubling", cascade.head(settings["doublings"]))):

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from conveyor.analysis.chaos import pairs
-from conveyor.solver.model import PARAMETERS
+from conveyor import finite_difference_exponent
 from pipeline import fields, grid
 
 TABLES = {
@@ -17,8 +16,8 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     options |= {name: settings[name] for name in ("tolerance", "step") if name in settings}
     axes, parameters = grid.product(settings["axes"], settings["model"])
     perturbed = parameters.copy()
-    perturbed[:, PARAMETERS.index(settings["perturb"])] += settings["epsilon"]
-    exponents = pairs.finite_difference_estimate(
+    perturbed[settings["perturb"]] += settings["epsilon"]
+    exponents = finite_difference_exponent(
         parameters, perturbed, settings["epsilon"], **options, threads=threads, progress=progress
     )
     return {**axes, "lambda": exponents}

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis.chaos import lyapunov
+from conveyor import lyapunov_spectrum_on_attractors
 from orbits.attractor_states import parameters_on_attractors
 from pipeline import fields
 
@@ -26,5 +26,5 @@ def make(
     """The columns of the table of Lyapunov spectra from the table of strobes."""
     last, parameters = parameters_on_attractors(strobes, settings)
     options = {name: settings[name] for name in ("cycles", "blocks", "tolerance")}
-    vertical = lyapunov.spectrum_on_attractors(parameters, **options, threads=threads, progress=progress)
-    return {"acceleration": last.acceleration, "branch": last.branch, **vertical._asdict()}
+    vertical = lyapunov_spectrum_on_attractors(parameters, **options, threads=threads, progress=progress)
+    return {"acceleration": last.acceleration, "branch": last.branch, **vertical}

@@ -4,10 +4,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from conveyor.analysis import stroboscopic_map
-from conveyor.analysis.attractors import sampling
-from conveyor.analysis.bifurcations import periodic_orbits
-from conveyor.analysis.bifurcations.periodic_orbits import Orbit
+from conveyor import (
+    ORBIT_TOLERANCE,
+    Orbit,
+    initial_states,
+    replace_parameters,
+    sampled_initial_conditions,
+    settled_orbit,
+)
 from pipeline import grid
 from pipeline.rule_log import JobError
 
@@ -27,8 +31,8 @@ def follow_seeds(settings: dict) -> list[Orbit]:
     found = []
     for seed in settings["seeds"]:
         row = grid.product({name: [value] for name, value in seed.items()}, settings["model"])[1]
-        state = stroboscopic_map.initial_states(row, periodic_orbits.TOLERANCE)[0]
-        orbit = periodic_orbits.settled_orbit(
+        state = initial_states(row, ORBIT_TOLERANCE)[0]
+        orbit = settled_orbit(
             row[0], seed["acceleration"], state, range(1, settings["max_period"] + 1), settings["cycles"]
         )
         if orbit is None:
@@ -43,11 +47,11 @@ def follow_seeds(settings: dict) -> list[Orbit]:
 def search_seeds(parameters: np.ndarray, settings: dict) -> Iterator[Orbit]:
     """The different stable orbits that some initial conditions lead to, at amplitudes between the limits."""
     for acceleration in np.linspace(*settings["limits"], AMPLITUDES + 2)[1:-1]:
-        row = periodic_orbits.with_amplitude(parameters, acceleration)
-        at_rest = stroboscopic_map.initial_states(row[None], periodic_orbits.TOLERANCE)
+        row = replace_parameters(parameters, acceleration=acceleration)
+        at_rest = initial_states(row[None], ORBIT_TOLERANCE)
         seen = set()
-        for state in np.vstack([at_rest, sampling.initial_conditions(row)[:INITIAL_CONDITIONS]]):
-            orbit = periodic_orbits.settled_orbit(
+        for state in np.vstack([at_rest, sampled_initial_conditions(row)[:INITIAL_CONDITIONS]]):
+            orbit = settled_orbit(
                 parameters, acceleration, state, range(1, settings["max_period"] + 1), settings["cycles"]
             )
             if orbit is not None and (key := (orbit.period, round(orbit.longest_flight, DIGITS))) not in seen:

@@ -2,12 +2,7 @@
 
 import numpy as np
 
-from conveyor.analysis import stroboscopic_map
-from conveyor.analysis.attractors import labels
-from conveyor.analysis.bifurcations import bifurcation_diagram
-from conveyor.solver.model import PSI0
-from conveyor.solver.parallel import for_each_chunk
-from conveyor.solver.trajectory import BEGIN_OF_CYCLE
+from conveyor import BEGIN_OF_CYCLE, Columns, classify, follow_attractor, for_each_chunk, replace_parameters, start_at
 from pipeline import fields, grid
 from pipeline.motions import mean_limit
 
@@ -25,10 +20,8 @@ TABLES = {
 BRANCHES = ("up", "down")
 
 
-def label_motions(
-    parameters: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None
-) -> labels.Labels:
-    """The label of each motion in `parameters`, shape (n, 16), each with a conveyor of its own.
+def label_motions(parameters: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> Columns:
+    """The label of each motion in `parameters`, shape (n,), each with a conveyor of its own.
 
     All searches together take at most as many cycles as those for a map: motions that have not settled after the mean
     share what is left. Exponents label motions that have not settled then, too.
@@ -36,18 +29,17 @@ def label_motions(
     mean, most = int(mean_limit(len(parameters), settings)), settings["settling"]
     options = {"tolerance": settings["tolerance"], "threads": threads, "progress": progress}
     if mean >= most:
-        return labels.classify(parameters, cycles=most, **options)
-    found = labels.classify(parameters, cycles=mean, exponents=False, **options)
+        return classify(parameters, cycles=most, **options)
+    found = classify(parameters, cycles=mean, exponents=False, **options)
     late = np.flatnonzero(found.cycles >= mean)
     if len(late):
         left = (mean * len(parameters) - int(found.cycles.sum())) // len(late)
         states = np.column_stack([found.delta, found.v])[late]
-        at_top = np.array(parameters[late])
-        at_top[:, PSI0] = BEGIN_OF_CYCLE
-        rows = stroboscopic_map.pack_states(at_top, states, settings["tolerance"])
-        later = labels.classify(rows, cycles=min(most - mean, left), **options)
-        for column, values in zip(found, later, strict=True):
-            column[late] = values
+        at_top = replace_parameters(parameters[late], psi0=BEGIN_OF_CYCLE)
+        rows = start_at(at_top, states, settings["tolerance"])
+        later = classify(rows, cycles=min(most - mean, left), **options)
+        for name, values in later.items():
+            found[name][late] = values
     return found
 
 
@@ -61,7 +53,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
 
     def work(begin, end):
         for k in range(begin, end):
-            found = bifurcation_diagram.follow_attractor(
+            found = follow_attractor(
                 upwards[orders[k]], transient=settings["transient"], strobes=count, tolerance=tolerance
             )
             swept[k] = [column[orders[k]] for column in found]
@@ -69,7 +61,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     for_each_chunk(work, len(BRANCHES), threads=threads, chunk=1)
     points, status = (np.stack(columns) for columns in zip(*swept, strict=True))
     rows = len(BRANCHES) * len(amplitudes)
-    last = stroboscopic_map.pack_states(np.tile(upwards, (2, 1)), points[:, :, -1].reshape(rows, 2), tolerance)
+    last = start_at(np.tile(upwards, 2), points[:, :, -1].reshape(rows, 2), tolerance)
     found = label_motions(last, settings, threads=threads, progress=progress)
     return {
         "branch": np.repeat(BRANCHES, len(amplitudes) * count),

@@ -3,10 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis import stroboscopic_map
-from conveyor.analysis.chaos.zero_one import zero_one
-from conveyor.analysis.stroboscopic_map import MAX_PERIOD
-from conveyor.solver.parallel import for_each_chunk
+from conveyor import MAX_PERIOD, for_each_chunk, strobes, zero_one
 from orbits.attractor_states import parameters_on_attractors
 from pipeline import fields
 
@@ -36,9 +33,8 @@ def zero_one_values(parameters: np.ndarray, settings: dict, *, threads: int, pro
 
     def work(begin, end):
         for i in range(begin, end):
-            (state,) = stroboscopic_map.initial_states(parameters[i : i + 1], settings["tolerance"])
-            _, strobes, _ = stroboscopic_map.follow(parameters[i], settings["tolerance"], state, settings["strobes"])
-            found[i] = zero_one(strobes[:, 1], settings["seed"], RESOLUTION)
+            speeds = strobes(parameters[i], settings["strobes"], settings["tolerance"])[:, 1]
+            found[i] = zero_one(speeds, settings["seed"], RESOLUTION)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=8, progress=progress)
     return found

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import pyarrow as pa
 
-from conveyor.solver.model import PARAMETERS, TENSION, UNITS
+from conveyor import PARAMETERS, UNITS
 
 
 def field(name: str, kind: pa.DataType, unit: str, description: str) -> pa.Field:
@@ -43,7 +43,7 @@ def columns(rows: Sequence[Mapping], schema: Sequence[pa.Field]) -> dict[str, li
 
 AXES = {name: number(name, UNITS[name], "axis of the sweep") for name in PARAMETERS}
 AXES["z0"] = number("z0", UNITS["z0"], "axis of the sweep; null for an initial position on the conveyor (Eq. 15)")
-AXES[PARAMETERS[TENSION]] = text(PARAMETERS[TENSION], "axis of the sweep")
+AXES["tension"] = text("tension", "axis of the sweep")
 
 ENDS = (
     number("z_end", "m", "height of the part at the end"),

@@ -1,21 +1,11 @@
-"""The points of a sweep: the product of axes, the first axis slowest, as packed parameter vectors."""
+"""The points of a sweep: the product of axes, the first axis slowest, as a table of parameters."""
 
 import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from conveyor.solver.model import (
-    PARAMETERS,
-    TENSION,
-    TENSION_MODES,
-    Z0,
-    Conveyor,
-    Start,
-    check_parameter,
-    pack,
-    set_columns,
-)
+from conveyor import TENSION_MODES, Conveyor, Start, check_parameter, parameter_table, set_parameters
 
 Axis = Sequence[float | str] | Mapping[str, float]
 
@@ -43,7 +33,7 @@ def axis_values(name: str, axis: Axis) -> np.ndarray:
         axis = np.linspace(axis["start"], axis["stop"], int(axis["num"]))
     if len(axis) == 0:
         raise ValueError(f"axis {name} is empty")
-    if name == PARAMETERS[TENSION]:
+    if name == "tension":
         if unknown := set(axis) - set(TENSION_MODES):
             raise ValueError(f"tension = {unknown.pop()!r} is not one of {', '.join(TENSION_MODES)}")
         return np.array(axis, dtype=np.str_)
@@ -51,7 +41,7 @@ def axis_values(name: str, axis: Axis) -> np.ndarray:
         check_parameter(name, axis[0])
         check_parameter(name, axis[-1])
         return axis
-    is_height = name == PARAMETERS[Z0]
+    is_height = name == "z0"
     return np.array([math.nan if is_height and value == "conveyor" else check_parameter(name, value) for value in axis])
 
 
@@ -70,9 +60,9 @@ def conveyor_and_start(model: Mapping[str, float | str]) -> tuple[Conveyor, Star
     return Conveyor(**{name: value for name, value in model.items() if name not in ("z0", "vz0")}), start
 
 
-def packed(model: Mapping[str, float | str]) -> np.ndarray:
-    """The parameter vector of a conveyor and an initial condition, shape (16,); `model` as in `conveyor_and_start`."""
-    return pack(*conveyor_and_start(model))
+def row_of(model: Mapping[str, float | str]) -> np.ndarray:
+    """The parameters of one conveyor and initial condition, a table of shape (); `model` as in `conveyor_and_start`."""
+    return parameter_table(*conveyor_and_start(model))
 
 
 def product(
@@ -89,15 +79,11 @@ def product(
     Returns
     -------
     columns : values of the axes, each of shape (n,)
-    parameters : float64, shape (n, 16), rows as from model.pack
+    parameters : as from `parameter_table`, shape (n,)
     """
     columns = columns_of_axes(axes, rows)
     # Static friction is set last: its lower limit depends on the friction coefficient, which may be an axis.
     alone = {name: value for name, value in model.items() if name != "static_friction"}
-    parameters = np.tile(packed(alone), (len(next(iter(columns.values()))), 1))
-    codes = {
-        name: column if column.dtype.kind == "f" else np.array([TENSION_MODES.index(mode) for mode in column])
-        for name, column in columns.items()
-    }
-    set_columns(parameters, {name: model[name] for name in model if name not in alone} | codes)
+    parameters = np.full(len(next(iter(columns.values()))), row_of(alone))
+    set_parameters(parameters, {name: model[name] for name in model if name not in alone} | columns)
     return columns, parameters

@@ -39,11 +39,28 @@ def module_file(module: str, root: Path) -> Path | None:
 
 
 @cache
+def public_names(stub: Path, root: Path) -> dict[str, Path]:
+    """The files in which a package defines the names that its stub, __init__.pyi, offers."""
+    files = ((name, module_file(module, root)) for module, name in imported_names(stub, root))
+    return {name: file for name, file in files if name and file}
+
+
+def file_of(module: str, name: str | None, root: Path) -> Path | None:
+    """The file that `from module import name` depends on, or None if it is none below `root`."""
+    file = module_file(f"{module}.{name}", root) if name else None
+    package = module_file(module, root)
+    if file is None and package and (stub := package.with_suffix(".pyi")).is_file():
+        file = public_names(stub, root).get(name)
+    return file or package
+
+
+@cache
 def direct_imports(file: Path, root: Path, own: str = "") -> tuple[frozenset[Path], frozenset[str]]:
     """The files of this project that a file imports, and the top-level names of all other packages.
 
-    A package's __init__ counts only if a name is taken from it: `from conveyor.solver import model` does not depend on
-    what conveyor/__init__.py offers.
+    A package's __init__ counts only if it defines the name that is taken from it: `from conveyor.solver import model`
+    does not depend on what conveyor/__init__.py offers, and `from conveyor import sweep` depends on the module of
+    `sweep` alone, which conveyor/__init__.pyi names.
 
     Parameters
     ----------
@@ -55,7 +72,7 @@ def direct_imports(file: Path, root: Path, own: str = "") -> tuple[frozenset[Pat
         top = module.split(".")[0]
         found = None
         if own in ("", top):
-            found = (module_file(f"{module}.{name}", root) if name else None) or module_file(module, root)
+            found = file_of(module, name, root)
         if found:
             files.add(found)
         else:

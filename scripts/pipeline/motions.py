@@ -5,21 +5,21 @@ from typing import NamedTuple
 
 import numpy as np
 
-from conveyor.analysis.attractors.attractor_table import (
+from conveyor import (
+    DEFAULT_TOLERANCE,
     INITIAL_CONDITION,
     NO_ATTRACTORS,
     AttractorTable,
+    Columns,
+    classify,
+    continued,
     distinct_conveyors,
+    find_attractors,
     find_places,
 )
-from conveyor.analysis.attractors.labels import Labels, classify, continued
-from conveyor.analysis.attractors.search import find_attractors
-from conveyor.simulation import DEFAULT_TOLERANCE
-from conveyor.solver.model import PARAMETERS, PSI0, VZ0, Z0
 from pipeline import grid
 from pipeline.sizes import CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED, WHOLE_MAP
 
-INITIAL_CONDITIONS = {PARAMETERS[k] for k in (PSI0, Z0, VZ0)}
 # Conveyors per batch: the attractors of a conveyor take some 30 kB of memory.
 CONVEYORS = 2000
 # Conveyors of a table and initial conditions of each from which the length of searches is estimated, and the cycles of
@@ -54,7 +54,7 @@ def shared_attractors(
     threads: int = 1,
     progress: str | None = None,
 ) -> AttractorTable:
-    """The attractors that many initial conditions share, for parameters of shape (n, 16).
+    """The attractors that many initial conditions share, for a table of parameters.
 
     Which attractors are worth a search depends on the number of initial conditions of each conveyor. The searches for
     the orbits of all conveyors may together take as many cycles as those for a map, and so may those for chaotic sets.
@@ -71,26 +71,27 @@ def shared_attractors(
 
 
 class Table(NamedTuple):
-    """A table whose rows are a product of conveyors and initial conditions, all in packed parameters."""
+    """A table whose rows are a product of conveyors and initial conditions, both as tables of parameters."""
 
-    conveyors: np.ndarray  # float64, shape (m, 16), all of them or some that are spread over them
-    starts: np.ndarray  # float64, shape (s, 16), all of them or some that are spread over them
+    conveyors: np.ndarray  # shape (m,), all of them or some that are spread over them
+    starts: np.ndarray  # shape (s,), all of them or some that are spread over them
     counts: tuple[int, int]  # of conveyors and of initial conditions on each
 
 
 class Limits(NamedTuple):
     """When searches on m conveyors end."""
 
-    conveyors: np.ndarray  # float64, shape (m, 16), as from attractor_table.distinct_conveyors
+    conveyors: np.ndarray  # shape (m,), as from `distinct_conveyors`
     cycles: np.ndarray  # int64, shape (m,), excitation cycles
 
 
 def sample_starts(parameters: np.ndarray, starts: np.ndarray) -> np.ndarray:
-    """Some of the initial conditions `starts`, shape (s, 16), on each conveyor in `parameters`, shape (n, 16)."""
+    """Some of the initial conditions `starts`, shape (s,), on each conveyor in `parameters`, shape (n,)."""
     conveyors, _ = distinct_conveyors(parameters)
     chosen = spread(starts, SAMPLED_STARTS)
-    rows = np.repeat(conveyors, len(chosen), axis=0)
-    rows[:, INITIAL_CONDITION] = np.tile(chosen[:, INITIAL_CONDITION], (len(conveyors), 1))
+    rows = np.repeat(conveyors, len(chosen))
+    for name in INITIAL_CONDITION:
+        rows[name] = np.tile(chosen[name], len(conveyors))
     return rows
 
 
@@ -105,9 +106,9 @@ def spread_places(count: int, most: int) -> np.ndarray:
 
 
 def spread_rows(axes: dict, model: dict, count: int, most: int) -> np.ndarray:
-    """At most so many of the `count` rows of a product of axes, shape (k, 16), evenly spread over it."""
+    """At most so many of the `count` rows of a product of axes, shape (k,), evenly spread over it."""
     if not axes:
-        return grid.packed(model)[None]
+        return grid.row_of(model)[None]
     places = spread_places(count, most)
     return np.concatenate([grid.product(axes, model, (place, place + 1))[1] for place in places])
 
@@ -125,7 +126,7 @@ def search_limits(
 ) -> np.ndarray:
     """The excitation cycles after which searches in each group must end to take `mean` cycles on average, or half.
 
-    sample, group : some initial conditions of the groups, shape (k, 16), and their groups, 0 to m - 1, shape (k,)
+    sample, group : some initial conditions of the groups, shape (k,), and their groups, 0 to m - 1, shape (k,)
     Returns int64, shape (m,), at most `settling`.
     """
     most = settings["settling"]
@@ -183,7 +184,7 @@ def follow(
     limits: Limits | None = None,
     threads: int = 1,
     progress: str | None = None,
-) -> Labels:
+) -> Columns:
     """The attractors that initial conditions lead to. Those whose search a limit ends stay undecided."""
     most = settings["settling"]
     options = {"attractors": attractors, "tolerance": search_tolerance(settings), "threads": threads}
@@ -199,16 +200,16 @@ def follow(
     return join(parts, groups)
 
 
-def join(parts: list[Labels], rows: list[np.ndarray | slice]) -> Labels:
+def join(parts: list[Columns], rows: list[np.ndarray | slice]) -> Columns:
     """The labels of parts of an array, whose rows are given, in the order of the array. A single part is all of it."""
     if len(parts) == 1:
         return parts[0]
     order = np.argsort(np.concatenate(rows))
-    return Labels(*(np.concatenate(column)[order] for column in zip(*parts, strict=True)))
+    return Columns.concatenate(parts).select(order)
 
 
 def batches_by_conveyor(parameters: np.ndarray) -> list[np.ndarray | slice]:
-    """Rows of `parameters`, shape (n, 16), in batches; all initial conditions of a conveyor are in one batch."""
+    """Rows of `parameters`, shape (n,), in batches; all initial conditions of a conveyor are in one batch."""
     conveyors, conveyor = distinct_conveyors(parameters)
     if len(conveyors) <= CONVEYORS:
         return [slice(None)]
@@ -225,10 +226,10 @@ def motions_of_starts(
     table: Table | None = None,
     threads: int = 1,
     progress: str | None = None,
-) -> Labels:
+) -> Columns:
     """The attractors that initial conditions lead to. Attractors that many of them share are found first.
 
-    parameters : float64, shape (n, 16)
+    parameters : table, shape (n,)
     settings : `settling`, `mean_settling`, and `tolerance` if it is not the default
     starts : number of initial conditions of each conveyor, in all batches and shards
     table : the whole table, if `parameters` are only a part of it
@@ -250,13 +251,13 @@ def motions_of_starts(
     return join(parts, batches)
 
 
-def motions(parameters: np.ndarray, settings: dict, **options) -> Labels:
-    """The attractors that `parameters`, shape (n, 16), lead to, with the settings of their entry of the config.
+def motions(parameters: np.ndarray, settings: dict, **options) -> Columns:
+    """The attractors that `parameters`, shape (n,), lead to, with the settings of their entry of the config.
 
     options : `threads` and `progress`, as in motions_of_starts
     """
     axes, model = settings["axes"], settings.get("model", {})
-    varied = {name: axis for name, axis in axes.items() if name in INITIAL_CONDITIONS}
+    varied = {name: axis for name, axis in axes.items() if name in INITIAL_CONDITION}
     fixed = {name: axis for name, axis in axes.items() if name not in varied}
     conveyors, starts = (math.prod(map(grid.count_values, some.values())) for some in (fixed, varied))
     sampled = (
@@ -267,6 +268,6 @@ def motions(parameters: np.ndarray, settings: dict, **options) -> Labels:
     return motions_of_starts(parameters, settings, starts=starts, table=table, **options)
 
 
-def motions_after(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, settings: dict, **options) -> Labels:
+def motions_after(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, settings: dict, **options) -> Columns:
     """The attractors that runs of `parameters` lead to; the converged solution continues from their ends (m, m/s)."""
     return motions(continued(parameters, z_end, vz_end, settings["duration"]), settings, **options)

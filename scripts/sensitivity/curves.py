@@ -3,12 +3,18 @@
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis.bifurcations import bifurcation_curves
-from conveyor.analysis.bifurcations.bifurcation_curves import Curve, Path
-from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, Point
-from conveyor.analysis.dimensionless_groups import amplitude_of
-from conveyor.solver.model import ANGLE, PARAMETERS, UNITS
-from conveyor.solver.parallel import for_each_chunk
+from conveyor import (
+    GRAZING,
+    UNITS,
+    BifurcationCurve,
+    BifurcationPoint,
+    CurveEnd,
+    ParameterPath,
+    amplitude_of,
+    follow_bifurcation_curve,
+    follow_grazing_curve,
+    for_each_chunk,
+)
 from pipeline import fields, grid
 from sensitivity.selection import COLUMNS, Selected, select_bifurcations
 
@@ -45,28 +51,28 @@ TABLES = {
 }
 # Exponents of a parameter in the groups D and K; the angle is in neither.
 POWERS = {
-    "damping": lambda p: Path(1.0, 0.0),
-    "stiffness": lambda p: Path(0.0, 1.0),
-    "frequency": lambda p: Path(-1.0, -2.0 * p),
+    "damping": lambda p: ParameterPath(1.0, 0.0),
+    "stiffness": lambda p: ParameterPath(0.0, 1.0),
+    "frequency": lambda p: ParameterPath(-1.0, -2.0 * p),
 }
 ENDS = {
-    bifurcation_curves.LIMIT: "limit of the config",
-    bifurcation_curves.STEP: "no smooth curve beyond",
-    bifurcation_curves.LENGTH: "number of points of the config",
-    bifurcation_curves.CLOSED: "closed",
-    bifurcation_curves.LOST: "no orbit beyond",
-    bifurcation_curves.HALVED: "the orbit has half the period here",
+    CurveEnd.LIMIT: "limit of the config",
+    CurveEnd.STEP: "no smooth curve beyond",
+    CurveEnd.LENGTH: "number of points of the config",
+    CurveEnd.CLOSED: "closed",
+    CurveEnd.LOST: "no orbit beyond",
+    CurveEnd.HALVED: "the orbit has half the period here",
 }
 STEEPEST = 0.49 * np.pi  # rad, largest angle of throw of a curve
 
 
-def place_columns(parameters: np.ndarray, point: Point, parameter: str, part: float) -> dict:
+def place_columns(parameters: np.ndarray, point: BifurcationPoint, parameter: str, part: float) -> dict:
     """The columns with the parameters and groups of a point; `part` is the logarithm of the factor on `parameter`."""
     here = parameters.copy()
-    here[PARAMETERS.index(parameter)] *= np.exp(part)
+    here[parameter] *= np.exp(part)
     groups = point.groups
     return {
-        "value": here[PARAMETERS.index(parameter)],
+        "value": float(here[parameter]),
         "acceleration": amplitude_of(here, groups.amplitude),
         "amplitude_group": groups.amplitude,
         "damping_group": groups.damping,
@@ -74,30 +80,30 @@ def place_columns(parameters: np.ndarray, point: Point, parameter: str, part: fl
     }
 
 
-def angle_curve(point: Point, angle: float, settings: dict) -> Curve:
+def angle_curve(point: BifurcationPoint, angle: float, settings: dict) -> BifurcationCurve:
     """The curve over the angle of throw (rad), on which Γ is constant, so that â is proportional to 1/sin φ."""
     reach = np.log(settings["factors"]["angle"])
     highest = min(reach, np.log(STEEPEST / angle))
     parts = np.linspace(-reach, highest, 2 * int(np.ceil(reach / settings["step"])) + 1)
     count = len(parts)
-    ends = bifurcation_curves.LIMIT, bifurcation_curves.LIMIT
-    return Curve([point] * count, parts, np.full(count, np.nan), np.zeros(count, np.int64), [], ends)
+    ends = CurveEnd.LIMIT, CurveEnd.LIMIT
+    return BifurcationCurve([point] * count, parts, np.full(count, np.nan), np.zeros(count, np.int64), [], ends)
 
 
-def follow_curve(parameters: np.ndarray, point: Point, parameter: str, settings: dict) -> Curve:
+def follow_curve(parameters: np.ndarray, point: BifurcationPoint, parameter: str, settings: dict) -> BifurcationCurve:
     """The curve of a bifurcation over a parameter."""
     if parameter == "angle":
-        return angle_curve(point, parameters[ANGLE], settings)
+        return angle_curve(point, parameters["angle"], settings)
     path = POWERS[parameter](point.groups.exponent)
     reach = np.log(settings["factors"][parameter])
     limits = tuple(settings["amplitude"]), (-reach, reach)
     if point.kind == GRAZING:
-        return bifurcation_curves.follow_grazing(point, path, *limits, step=0.5 * settings["step"])
-    return bifurcation_curves.follow(point, path, *limits, longest_step=settings["step"], most=settings["points"])
+        return follow_grazing_curve(point, path, *limits, step=0.5 * settings["step"])
+    return follow_bifurcation_curve(point, path, *limits, longest_step=settings["step"], most=settings["points"])
 
 
 def curve_rows(
-    parameters: np.ndarray, bifurcation: Selected, parameter: str, curve: Curve
+    parameters: np.ndarray, bifurcation: Selected, parameter: str, curve: BifurcationCurve
 ) -> tuple[list[dict], list[dict]]:
     """The rows of the points and of the meetings of a curve."""
     name = {
@@ -138,7 +144,7 @@ def make(
     progress: str | None = None,
 ) -> dict[str, dict[str, np.ndarray]]:
     """The columns of both tables, by their kinds, for the section `sensitivity` of the config."""
-    parameters = grid.packed(settings["model"])
+    parameters = grid.row_of(settings["model"])
     options = settings["curves"]
     chosen = select_bifurcations(parameters, folds_and_doublings, cascade, settings, options["doublings"])
     chosen = [one for one in chosen if one.point is not None and (one.kind != GRAZING or one.rides)]

@@ -7,20 +7,24 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis.basins import boundary_point
-from conveyor.analysis.basins.boundary_point import InitialCondition
-from conveyor.analysis.bifurcations import bifurcation_points, doubling_cascade
-from conveyor.analysis.bifurcations.periodic_orbits import with_amplitude
-from conveyor.analysis.dimensionless_groups import (
+from conveyor import (
+    GROUP_NAMES,
     GROUP_OF,
-    NAMES,
+    PARAMETERS,
+    UNITS,
+    BoundaryPoint,
+    InitialCondition,
+    accumulation_point,
     amplitude_of,
-    derivatives_of,
+    derivatives_of_groups,
+    differentiate_unknowns,
+    find_bifurcation,
+    find_boundary_point,
     groups_of,
-    start_of,
-    units,
+    length_and_speed_units,
+    replace_parameters,
+    scaled_start,
 )
-from conveyor.solver.model import ACCELERATION, PARAMETERS, UNITS, VZ0, Z0
 from pipeline import fields, grid
 from sensitivity.selection import COLUMNS, Selected, select_bifurcations
 
@@ -56,7 +60,7 @@ TABLES = {
     ),
 }
 # Groups with an influence on bifurcations, and on points of basin boundaries.
-BIFURCATION_GROUPS, BOUNDARY_GROUPS = ("damping", "stiffness", "exponent"), NAMES[:-1]
+BIFURCATION_GROUPS, BOUNDARY_GROUPS = ("damping", "stiffness", "exponent"), GROUP_NAMES[:-1]
 INITIAL_CONDITION = ("z0", "vz0")
 # The tension mode, which is not a number, and parameters of the motion along the track.
 EXCLUDED = ("tension", "phase_shift", "static_friction")
@@ -70,7 +74,7 @@ class CriticalPoint(NamedTuple):
 
     kind: str
     period: int
-    parameters: np.ndarray  # packed parameters of the point
+    parameters: np.ndarray  # of the point, a table of shape ()
     quantity: str  # acceleration or z0
     status: str = "ok"
     derivatives: np.ndarray | None = None  # of the quantity's group by all groups, shape (7,); None without a result
@@ -89,21 +93,21 @@ def differentiate_bifurcation(parameters: np.ndarray, bifurcation: Selected) -> 
     """A bifurcation with the derivatives of its amplitude."""
     point = bifurcation.point
     label = {name: getattr(bifurcation, name) for name in ("kind", "period", "doubling", "rides")}
-    moves = None if point is None else bifurcation_points.differentiate_unknowns(point)
+    moves = None if point is None else differentiate_unknowns(point)
     if moves is None:
         return CriticalPoint(
             **label,
-            parameters=with_amplitude(parameters, bifurcation.acceleration),
+            parameters=replace_parameters(parameters, acceleration=bifurcation.acceleration),
             quantity="acceleration",
             status="not found again" if point is None else "singular",
         )
-    derivatives = np.zeros(len(NAMES))
+    derivatives = np.zeros(len(GROUP_NAMES))
     derivatives[1:4] = moves[-1]
 
     @cache
     def find_amplitude(groups):
         guess = point.unknown + moves @ (np.array(groups[1:4]) - point.groups[1:4])
-        there = bifurcation_points.find_bifurcation(bifurcation.kind, bifurcation.period, guess, groups)
+        there = find_bifurcation(bifurcation.kind, bifurcation.period, guess, groups)
         return np.nan if there is None else there.groups.amplitude
 
     def solve(row):
@@ -111,7 +115,7 @@ def differentiate_bifurcation(parameters: np.ndarray, bifurcation: Selected) -> 
         groups = groups_of(row)._replace(amplitude=point.groups.amplitude)
         return amplitude_of(row, find_amplitude(groups))
 
-    here = with_amplitude(parameters, amplitude_of(parameters, point.groups.amplitude))
+    here = replace_parameters(parameters, acceleration=amplitude_of(parameters, point.groups.amplitude))
     return CriticalPoint(**label, parameters=here, quantity="acceleration", derivatives=derivatives, solve=solve)
 
 
@@ -124,16 +128,16 @@ def aitken_weights(a: float, b: float, c: float) -> np.ndarray:
 def differentiate_accumulation(parameters: np.ndarray, doublings: list[CriticalPoint]) -> CriticalPoint | None:
     """The accumulation point of period doublings; None where there is none, or without their derivatives."""
     last = doublings[-4:]
-    amplitudes = np.array([doubling.parameters[ACCELERATION] for doubling in last])
-    limit, _ = doubling_cascade.accumulation(amplitudes)
+    amplitudes = np.array([float(doubling.parameters["acceleration"]) for doubling in last])
+    limit, _ = accumulation_point(amplitudes)
     if np.isnan(limit) or any(doubling.derivatives is None for doubling in doublings):
         return None
     derivatives = aitken_weights(*amplitudes[1:]) @ np.array([doubling.derivatives for doubling in last[1:]])
 
     def solve(row):
-        return doubling_cascade.accumulation(np.array([doubling.solve(row) for doubling in last]))[0]
+        return accumulation_point(np.array([doubling.solve(row) for doubling in last]))[0]
 
-    here = with_amplitude(parameters, limit)
+    here = replace_parameters(parameters, acceleration=limit)
     return CriticalPoint("accumulation", 0, here, "acceleration", derivatives=derivatives, solve=solve)
 
 
@@ -141,13 +145,12 @@ def differentiate_boundary(kind: str, parameters: np.ndarray, quantity: str) -> 
     """A point of a basin boundary near an initial condition, with the derivatives of its amplitude or height."""
 
     def find_point(row):
-        return boundary_point.find_boundary_point(InitialCondition(*start_of(row)), groups_of(row), GROUP_OF[quantity])
+        return find_boundary_point(InitialCondition(*scaled_start(row)), groups_of(row), GROUP_OF[quantity])
 
     point = find_point(parameters)
     if isinstance(point, str):
         return CriticalPoint(kind, 0, parameters, quantity, status=point)
-    here = parameters.copy()
-    here[PARAMETERS.index(quantity)] = boundary_value(point, parameters, quantity)
+    here = replace_parameters(parameters, **{quantity: boundary_value(point, parameters, quantity)})
 
     def solve(row):
         there = find_point(row)
@@ -156,17 +159,17 @@ def differentiate_boundary(kind: str, parameters: np.ndarray, quantity: str) -> 
     return CriticalPoint(kind, point.period, here, quantity, derivatives=point.moves, solve=solve)
 
 
-def boundary_value(point: boundary_point.BoundaryPoint, row: np.ndarray, quantity: str) -> float:
+def boundary_value(point: BoundaryPoint, row: np.ndarray, quantity: str) -> float:
     """The amplitude (m/s²) or the initial height (m) of a point of a basin boundary."""
     if quantity == "acceleration":
         return amplitude_of(row, point.groups.amplitude)
-    return point.launch.height * units(row)[0]
+    return point.launch.height * length_and_speed_units(row)[0]
 
 
 def difference_steps(parameters: np.ndarray) -> dict[str, float]:
     """Step of the finite differences by each parameter: DIFFERENCE times its value, or its scale if it may be 0."""
-    length, velocity = units(parameters)
-    scales = dict(zip(PARAMETERS, np.abs(parameters), strict=True)) | {"psi0": 1.0, "z0": length, "vz0": velocity}
+    length, velocity = length_and_speed_units(parameters)
+    scales = {name: abs(float(parameters[name])) for name in PARAMETERS} | {"psi0": 1.0, "z0": length, "vz0": velocity}
     scales = {name: scale if scale > 0.0 else 1.0 for name, scale in scales.items()}
     return {name: DIFFERENCE * float(scale) for name, scale in scales.items()}
 
@@ -177,8 +180,8 @@ def point_columns(point: CriticalPoint) -> dict:
     return {
         "kind": point.kind,
         "period": point.period,
-        "acceleration": row[0],
-        "z0": row[Z0] if point.is_boundary else np.nan,
+        "acceleration": float(row["acceleration"]),
+        "z0": float(row["z0"]) if point.is_boundary else np.nan,
         "doubling": point.doubling,
         "rides": point.rides,
         "moved": point.quantity,
@@ -189,11 +192,10 @@ def physical_rows(point: CriticalPoint) -> Iterator[dict]:
     """The rows of the table `derivatives` of a point, one for each parameter."""
     exact = None
     if point.derivatives is not None:
-        exact = derivatives_of(point.quantity, point.parameters, point.derivatives)
-    moved = point.parameters[PARAMETERS.index(point.quantity)]
+        exact = derivatives_of_groups(point.quantity, point.parameters, point.derivatives)
+    moved = float(point.parameters[point.quantity])
     for name, step in difference_steps(point.parameters).items():
-        place = PARAMETERS.index(name)
-        value = point.parameters[place]
+        value = float(point.parameters[name])
         if name in (point.quantity, *EXCLUDED) or (name in INITIAL_CONDITION and not point.is_boundary):
             continue
         if name == "inclination" and value == 0.0:
@@ -213,12 +215,16 @@ def physical_rows(point: CriticalPoint) -> Iterator[dict]:
             ends = []
             for sign in (1.0, -1.0):
                 there = point.parameters.copy()
-                there[place] += sign * step
+                there[name] += sign * step
                 ends.append(point.solve(there))
             row["derivative"], row["difference"] = exact[name], (ends[0] - ends[1]) / (2.0 * step)
             row["elasticity"] = exact[name] * value / moved if value != 0.0 and moved != 0.0 else np.nan
             # Makes derivatives dimensionless: scale of the parameter over scale of the quantity.
-            scale = step / DIFFERENCE / (abs(moved) if point.quantity == "acceleration" else units(point.parameters)[0])
+            scale = (
+                step
+                / DIFFERENCE
+                / (abs(moved) if point.quantity == "acceleration" else length_and_speed_units(point.parameters)[0])
+            )
             error = scale * abs(row["derivative"] - row["difference"])
             if not error <= AGREEMENT * max(1.0, scale * abs(row["derivative"])):
                 row["status"] = "differences disagree" if np.isfinite(error) else "not found again beside it"
@@ -228,16 +234,16 @@ def physical_rows(point: CriticalPoint) -> Iterator[dict]:
 def group_rows(point: CriticalPoint) -> Iterator[dict]:
     """The rows of the table `groups` of a point, one for each group."""
     own = GROUP_OF[point.quantity]
-    groups = np.array([*groups_of(point.parameters)[:4], *start_of(point.parameters)])
+    groups = np.array([*groups_of(point.parameters)[:4], *scaled_start(point.parameters)])
     for name in BOUNDARY_GROUPS if point.is_boundary else BIFURCATION_GROUPS:
-        place = NAMES.index(name)
+        place = GROUP_NAMES.index(name)
         if place == own:
             continue
         derivative = np.nan if point.derivatives is None else point.derivatives[place]
         relative = groups[place] / groups[own] if groups[place] != 0.0 and groups[own] != 0.0 else np.nan
         yield {
             **point_columns(point),
-            "moved": NAMES[own],
+            "moved": GROUP_NAMES[own],
             "moved_value": groups[own],
             "group": name,
             "value": groups[place],
@@ -249,20 +255,20 @@ def group_rows(point: CriticalPoint) -> Iterator[dict]:
 
 def boundary_points(critical: pd.DataFrame, settings: dict) -> Iterator[CriticalPoint]:
     """The critical amplitude of a part from rest, and critical heights; none of them without a critical height."""
-    parameters = grid.packed({**critical.attrs["model"], "z0": 0.0})
+    parameters = grid.row_of({**critical.attrs["model"], "z0": 0.0})
     edges = critical[critical.is_critical].sort_values("acceleration")
     if edges.empty:
         return
     rest = parameters.copy()
-    rest[Z0], rest[VZ0] = settings["rest"]["z0"], settings["rest"]["vz0"]
+    rest["z0"], rest["vz0"] = settings["rest"]["z0"], settings["rest"]["vz0"]
     # The amplitude whose critical height is closest to rest is the initial guess.
-    rest = with_amplitude(rest, edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - rest[Z0])))])
+    rest = replace_parameters(rest, acceleration=edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - rest["z0"])))])
     yield differentiate_boundary("critical_amplitude", rest, "acceleration")
     # Evenly spaced rows without the first and the last one.
     inner = np.linspace(0, len(edges) - 1, settings["heights"] + 2)[1:-1].round().astype(int)
     for edge in edges.iloc[np.unique(inner)].itertuples():
-        here = with_amplitude(parameters, edge.acceleration)
-        here[Z0] = edge.z0
+        here = replace_parameters(parameters, acceleration=edge.acceleration)
+        here["z0"] = edge.z0
         yield differentiate_boundary("critical_height", here, "z0")
 
 
@@ -270,7 +276,7 @@ def make(
     folds_and_doublings: pd.DataFrame, cascade: pd.DataFrame, critical: pd.DataFrame, settings: dict
 ) -> dict[str, dict[str, np.ndarray]]:
     """The columns of both tables, by their kinds, for the section `sensitivity` of the config."""
-    parameters = grid.packed(settings["model"])
+    parameters = grid.row_of(settings["model"])
     chosen = select_bifurcations(parameters, folds_and_doublings, cascade, settings, settings["doublings"])
     bifurcations = [differentiate_bifurcation(parameters, bifurcation) for bifurcation in chosen]
     accumulation = differentiate_accumulation(parameters, [point for point in bifurcations if point.doubling])

@@ -5,10 +5,15 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis.bifurcations import bifurcation_points
-from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, Point
-from conveyor.analysis.bifurcations.periodic_orbits import with_amplitude
-from conveyor.analysis.dimensionless_groups import groups_of
+from conveyor import (
+    GRAZING,
+    BifurcationPoint,
+    at_phase_zero,
+    find_bifurcation,
+    groups_of,
+    replace_parameters,
+    touching_point,
+)
 from pipeline import fields
 
 # Largest relative difference of the amplitudes of one bifurcation in two tables, or in a table and solved again.
@@ -25,22 +30,22 @@ class Selected(NamedTuple):
     kind: str
     period: int
     acceleration: float  # m/s², from the table
-    point: Point | None  # None if Newton's method does not find it again
+    point: BifurcationPoint | None  # None if Newton's method does not find it again
     doubling: int  # number in the cascade; 0 for none
     rides: bool  # for a grazing: whether the part never leaves the plate at smaller amplitudes
 
 
-def solve_again(parameters: np.ndarray, row: pd.Series) -> Point | None:
+def solve_again(parameters: np.ndarray, row: pd.Series) -> BifurcationPoint | None:
     """The bifurcation of a row of a table, solved in the groups; None if it is not found, or a different one is."""
     kind, period = row["kind"], int(row.period)
-    here = with_amplitude(parameters, row.acceleration)
+    here = replace_parameters(parameters, acceleration=row.acceleration)
     groups = groups_of(here)
-    state = bifurcation_points.at_phase_zero(here, np.array([row.delta, row.v]))
+    state = at_phase_zero(here, np.array([row.delta, row.v]))
     if state is None:
         return None
     is_grazing = kind == GRAZING
-    guess = bifurcation_points.touch(groups, state, period) if is_grazing else np.append(state, groups.amplitude)
-    point = None if guess is None else bifurcation_points.find_bifurcation(kind, period, guess, groups)
+    guess = touching_point(groups, state, period) if is_grazing else np.append(state, groups.amplitude)
+    point = None if guess is None else find_bifurcation(kind, period, guess, groups)
     is_same = point is not None and abs(point.groups.amplitude / groups.amplitude - 1.0) < SAME
     return point if is_same else None
 

@@ -4,8 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from conveyor import ensemble
-from conveyor.analysis.attractors.labels import continued
+from conveyor import continued, sweep
 from pipeline import fields, grid
 from pipeline.motions import motions
 from pipeline.sizes import BLOCK
@@ -40,7 +39,7 @@ def columns(
     names = ("duration", "method", "tolerance", "step", "needs")
     options = {name: settings[name] for name in names if name in settings}
     axes, parameters = grid.product(settings["axes"], settings["model"], rows)
-    runs = ensemble.run(parameters, **options, threads=threads, progress=progress)
+    runs = sweep(parameters, **options, threads=threads, progress=progress)
     ok = runs["status"] == "ok"
     selected = slice(None) if ok.all() else ok  # a slice makes no copy
     ends = runs["z_end"][selected], runs["vz_end"][selected]
@@ -50,7 +49,7 @@ def columns(
         fill_missing(ok, values, missing)
         for values, missing in ((found.state, "undecided"), (found.period, 0), (found.longest_flight, np.nan))
     )
-    return axes | runs | {"state": state, "period": period, "longest_flight": flight}
+    return {**axes, **runs, "state": state, "period": period, "longest_flight": flight}
 
 
 def fill_missing(ok: np.ndarray, values: np.ndarray, missing: str | float) -> np.ndarray:

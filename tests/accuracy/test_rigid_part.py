@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from accuracy import rigid_part
+from conveyor import Conveyor, parameter_table
 
 
 def test_states_of_parts_that_move_along_jump_and_jump_without_end():
@@ -23,8 +24,6 @@ def test_rest_on_the_plate_is_no_flight():
 
 @pytest.mark.parametrize(("period", "found"), [(1, 1), (3, 3), (5, 0)])
 def test_the_period_is_the_first_after_which_heights_repeat(period, found):
-    row = np.zeros(16)
-    row[rigid_part.FREQUENCY] = 50.0
-    times = rigid_part.sample_times(row, 10.0, 4)
+    times = rigid_part.sample_times(parameter_table(Conveyor()), 10.0, 4)
     jumps = np.sin(100.0 * np.pi * times / period) + 0.1 * np.sin(100.0 * np.pi * times)
     assert rigid_part.find_period(jumps, range(1, 5)) == found

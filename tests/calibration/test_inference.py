@@ -14,7 +14,6 @@ from calibration.model_check import compare_alternatives
 from calibration.search_space import bounds_of
 from calibration.synthetic import csv_text, measure
 from conveyor.parameters import RANGES
-from conveyor.solver.model import ACCELERATION
 from pipeline.importance_sampling import Sample
 
 MODEL = {"frequency": 40.0, "angle": 0.3, "mass": 1e-3, "gravity": 9.81, "exponent": 1.5, "inclination": 0.0}
@@ -165,7 +164,7 @@ def test_nearly_equal_amplitudes_ask_for_few_predictions(highest, monkeypatch):
 def test_the_band_between_two_rows_contains_a_motion_that_begins_there(monkeypatch):
     def step(values, conditions, settings, *, parts, seed, **options):
         random = np.random.default_rng(seed)
-        begun = conditions.rows[:, ACCELERATION] > 41.0
+        begun = conditions.rows["acceleration"] > 41.0
         return np.where(begun, 0.1, 0.02)[:, None] * random.normal(
             1.0, 0.01, (len(values["friction"]), len(begun), parts)
         )

@@ -1,4 +1,4 @@
-"""The documentation of the library: the diagram of imports, file names, and references in docstrings."""
+"""The documentation of the library: file names, and references in docstrings."""
 
 import ast
 import importlib.util
@@ -10,47 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from pipeline.imports import direct_imports
-
 LIBRARY = Path(__file__).resolve().parents[2] / "scripts/conveyor"
 README = (LIBRARY / "README.md").read_text()
 FILES = sorted(LIBRARY.rglob("*.py"))
-
-
-def part_of(file: Path) -> str:
-    """The folder of a file, or the file itself at the top."""
-    place = file.relative_to(LIBRARY).with_suffix("")
-    return place.name if len(place.parts) == 1 else place.parent.as_posix()
-
-
-def imports_between_parts() -> dict[str, set[str]]:
-    """The other parts of the library that each part imports."""
-    found = {part_of(file): set() for file in FILES if file.stem != "__init__"}
-    for file in FILES:
-        if file.stem != "__init__":
-            used, _ = direct_imports(file, LIBRARY.parent, LIBRARY.name)
-            found[part_of(file)] |= {part_of(other) for other in used} - {part_of(file)}
-    return found
-
-
-def behind(part: str, imports: dict[str, set[str]]) -> set[str]:
-    """All parts that a part imports at any depth."""
-    return imports[part].union(*(behind(other, imports) for other in imports[part]))
-
-
-def diagram() -> str:
-    """A line for each part, the lowest first, without the imports that others imply."""
-    imports = imports_between_parts()
-    lines = []
-    for part in sorted(imports, key=lambda part: (len(behind(part, imports)), part)):
-        direct = imports[part].difference(*(behind(other, imports) for other in imports[part]))
-        lines.append(f"{part:<22} <- {', '.join(sorted(direct))}" if direct else part)
-    return "\n".join(lines)
-
-
-def test_the_picture_of_the_imports_is_true():
-    (shown,) = re.findall(r"```text\n(.*?)\n```", README, re.DOTALL)
-    assert shown == diagram()
 
 
 def test_files_in_the_readme_exist():

@@ -4,8 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from conveyor import Conveyor, Start, simulate
-from conveyor.solver.model import pack
+from conveyor import Conveyor, Start, parameter_table, simulate
 from dimensions import portraits
 
 SETTINGS = {
@@ -52,7 +51,7 @@ def test_an_unknown_estimator_is_an_error():
 def test_a_portrait_contains_the_motion_from_its_beginning(method):
     conveyor = Conveyor(acceleration=40.0)
     settings = {"method": method, "begin": 0.02, "interval": 0.5, "samples": 4, "tolerance": 1e-10, "step": 1e-6}
-    points = portraits.portrait(pack(conveyor, Start(3e-4)), settings)
+    points = portraits.portrait(parameter_table(conveyor, Start(3e-4)), settings)
     # Half an excitation cycle is 0.01 s.
     run = simulate(conveyor, Start(3e-4), duration=0.05, method=method, tolerance=1e-10, step=1e-6)
     truth = run.sample([0.02, 0.03, 0.04, 0.05])

@@ -256,7 +256,8 @@ def test_states_of_motion_agree_with_the_library(browser):
     # 55 m/s²: an orbit of two cycles; 80 m/s²: chaos, which the page must not claim.
     points = np.concatenate([near_the_paper(40, 3), np.tile(pack(Conveyor(), Start()), (2, 1))])
     points[-2:, model.ACCELERATION] = 55.0, 80.0
-    truth, periods, *_ = labels.classify(points)
+    found = labels.classify(points)
+    truth, periods = found.state, found.period
     assert {"first", "second", "chaos"} <= set(truth)
     browser.open()
     script = "return arguments[0].map((parameters) => solver.settle(parameters, 500, {tolerance: arguments[1]}))"

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from conveyor import Conveyor, Start
+from conveyor import Conveyor, parameter_table
 from conveyor.analysis.attractors.labels import classify
-from conveyor.solver.model import ACCELERATION, ANGLE, FRICTION, PARAMETERS, Z0, pack
 from identification import edges
 
 SCAN, FURTHER = np.arange(10.0, 31.0, 2.0), 0.1 * np.arange(1.0, 11.0)
@@ -15,7 +14,7 @@ def first_below(*intervals):
     """The state at each amplitude: first within the intervals."""
 
     def decide(parameters):
-        a = parameters[:, ACCELERATION]
+        a = parameters["acceleration"]
         return np.where(np.any([(a > low) & (a < high) for low, high in intervals], axis=0), "first", "second")
 
     return decide
@@ -35,13 +34,13 @@ def first_below(*intervals):
     ],
 )
 def test_the_edge_lies_above_all_tongues(intervals, expected):
-    found = edges.find_edges(np.zeros((1, len(PARAMETERS))), SCAN, FURTHER, 1e-6, first_below(*intervals))
+    found = edges.find_edges(np.full(1, parameter_table(Conveyor())), SCAN, FURTHER, 1e-6, first_below(*intervals))
     # The middle of its bracket.
     assert found == pytest.approx([expected], abs=0.5e-6, nan_ok=True)
 
 
 def test_each_row_may_have_its_own_scan():
-    rows = np.zeros((2, len(PARAMETERS)))
+    rows = np.full(2, parameter_table(Conveyor()))
     scan = np.array([[17.0, 10.0], [18.0, 11.0]])
     found = edges.find_edges(rows, scan, FURTHER, 1e-6, first_below((0.0, 17.3)))
     assert found == pytest.approx([17.3, np.nan], abs=1e-6, nan_ok=True)
@@ -52,12 +51,12 @@ def test_edges_hold_for_all_angles_frictions_and_frictionless_tension():
     z0 = np.array([0.0, 1e-4, 3e-4])
     for degrees, friction, tension in ((9.0, 0.3, "allow"), (15.0, 0.1, "frictionless")):
         angle = np.radians(degrees)
-        rows = np.tile(pack(Conveyor(angle=angle, friction=friction, tension=tension), Start()), (6, 1))
-        vertical = np.tile(pack(Conveyor(angle=0.5 * np.pi), Start()), (6, 1))
+        rows = np.full(6, parameter_table(Conveyor(angle=angle, friction=friction, tension=tension)))
+        vertical = np.full(6, parameter_table(Conveyor(angle=0.5 * np.pi)))
         a_z = np.repeat([6.2, 9.5], 3)
-        rows[:, ACCELERATION], vertical[:, ACCELERATION] = a_z / np.sin(angle), a_z
-        rows[:, Z0] = vertical[:, Z0] = np.tile(z0, 2)
+        rows["acceleration"], vertical["acceleration"] = a_z / np.sin(angle), a_z
+        rows["z0"] = vertical["z0"] = np.tile(z0, 2)
         states = [classify(one, tolerance=1e-6).state.tolist() for one in (rows, vertical)]
         assert states[0] == states[1]
         assert {"first", "second"} == set(states[0])
-        assert rows[0, FRICTION] == friction and vertical[0, ANGLE] == 0.5 * np.pi
+        assert rows["friction"][0] == friction and vertical["angle"][0] == 0.5 * np.pi

@@ -10,9 +10,8 @@ from claims import about_states
 from conveyor import ensemble
 from conveyor.analysis.attractors.labels import classify
 from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height, mean_squared_error
-from conveyor.solver.model import ACCELERATION, ANGLE, FRICTION, TENSION, Z0
 from identification import edges, numbers
-from identification.numbers import packed, searched, values_of
+from identification.numbers import parameters_at, searched, values_of
 from identification.settings import NUMBERS_OF_CLAIMS
 from motion import critical
 from pipeline import grid
@@ -60,7 +59,7 @@ def test_edges_by_the_paper_method_lie_a_little_lower():
 def states(axes: dict, model: dict) -> pd.DataFrame:
     """A sweep with the columns that the claims read."""
     columns, parameters = grid.product(axes, MODEL_WITHOUT | model)
-    velocity = ensemble.run(parameters, tolerance=1e-6)["mean_velocity"]
+    velocity = ensemble.sweep(parameters, tolerance=1e-6)["mean_velocity"]
     return pd.DataFrame(columns | {"mean_velocity": velocity, "state": classify(parameters, tolerance=1e-6).state})
 
 
@@ -165,16 +164,16 @@ def test_velocities_scale_with_friction_and_the_slope_of_the_excitation():
     angle, friction = MODEL["angle"], MODEL["friction"]
     other = np.radians(13.0)
     frictions = np.array([friction, friction * np.tan(angle) / np.tan(other)])
-    rows = packed(with_parameters(friction=frictions, angle=[angle, other]), "allow", MODEL)
-    rows[:, ACCELERATION] = 8.0 / np.sin(rows[:, ANGLE])
+    rows = parameters_at(with_parameters(friction=frictions, angle=[angle, other]), "allow", MODEL)
+    rows["acceleration"] = 8.0 / np.sin(rows["angle"])
     velocities = numbers.converged_velocities(rows) / frictions
     assert velocities[0] == pytest.approx(velocities[1], rel=1e-6)
 
 
 def test_velocities_equal_the_velocities_of_runs():
-    rows = np.repeat(packed(PRINTED, "clip", MODEL), 3, axis=0)
-    rows[:, ACCELERATION], rows[:, Z0] = 40.0, [0.0, 1e-4, 3e-4]
-    runs = ensemble.run(rows, tolerance=numbers.TOLERANCE)
+    rows = np.repeat(parameters_at(PRINTED, "clip", MODEL), 3, axis=0)
+    rows["acceleration"], rows["z0"] = 40.0, [0.0, 1e-4, 3e-4]
+    runs = ensemble.sweep(rows, tolerance=numbers.TOLERANCE)
     assert numbers.converged_velocities(rows).tolist() == runs["mean_velocity"].tolist()
 
 
@@ -195,8 +194,9 @@ def test_parameters_and_searched_parameters_are_inverse():
     assert {name: value.tolist() for name, value in values_of(x, MODEL).items()} == {
         name: pytest.approx(value) for name, value in changed.items()
     }
-    rows = packed(x, "clip", MODEL)
-    assert rows[:, [FRICTION, TENSION]].tolist() == [[pytest.approx(0.15), 2.0], [pytest.approx(0.3), 2.0]]
+    rows = parameters_at(x, "clip", MODEL)
+    assert rows["friction"].tolist() == pytest.approx([0.15, 0.3])
+    assert rows["tension"].tolist() == [2.0, 2.0]
 
 
 def test_the_critical_height_is_the_lowest_that_leaves_the_first_state():

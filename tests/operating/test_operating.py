@@ -9,9 +9,7 @@ import pytest
 import yaml
 from project import ROOT, read_config
 
-from conveyor import Start, ensemble, simulate
-from conveyor.analysis.attractors.labels import Labels, classify
-from conveyor.solver.model import PSI0, VZ0, Z0, Conveyor, conveyor_motion, pack
+from conveyor import Columns, Conveyor, Start, classify, conveyor_motion, ensemble, parameter_table, simulate
 from operating import advice, chart, parts, regimes, shares, throws, transit
 from pipeline.motions import motions
 from pipeline.templates import format_range
@@ -31,13 +29,13 @@ BOX = {
 def test_heights_are_above_the_plate_at_the_initial_phase():
     starts = np.array([[1e-4, 0.1, 0.0], [0.0, -0.2, 1.0], [3e-4, 0.0, 4.0]])
     rows = parts.parameters_of(np.array([30.0, 50.0]), starts, {"angle": 0.3})
-    assert rows.shape == (6, 16)
+    assert rows.shape == (6,)
     for row, acceleration, (height, velocity, phase) in zip(
         rows, np.repeat([30.0, 50.0], 3), np.tile(starts, (2, 1)), strict=True
     ):
         plate = conveyor_motion(Conveyor(acceleration=acceleration, angle=0.3, psi0=phase), np.zeros(1))["z"][0]
-        assert row[Z0] - plate == pytest.approx(height, abs=1e-15)
-        assert (row[VZ0], row[PSI0]) == (velocity, phase)
+        assert row["z0"] - plate == pytest.approx(height, abs=1e-15)
+        assert (row["vz0"], row["psi0"]) == (velocity, phase)
 
 
 def test_initial_conditions_fill_the_box_and_depend_on_the_seed():
@@ -51,13 +49,12 @@ def test_initial_conditions_fill_the_box_and_depend_on_the_seed():
 
 
 def test_motions_differ_by_conveyor_state_period_and_flight():
-    found = Labels(
-        state=np.array(["second", "first", "second", "chaos", "second", "second", "chaos"]),
-        period=np.array([1, 1, 2, 0, 1, 1, 0]),
-        longest_flight=np.array([0.92, 0.0, 0.92, np.nan, 1.9, 0.9201, np.nan]),
-        cycles=np.zeros(7, dtype=np.int64),
-        delta=np.zeros(7),
-        v=np.zeros(7),
+    found = Columns(
+        {
+            "state": np.array(["second", "first", "second", "chaos", "second", "second", "chaos"]),
+            "period": np.array([1, 1, 2, 0, 1, 1, 0]),
+            "longest_flight": np.array([0.92, 0.0, 0.92, np.nan, 1.9, 0.9201, np.nan]),
+        }
     )
     number = shares.groups(found, np.zeros(7, dtype=np.int64))
     assert number[0] == number[5]
@@ -98,8 +95,8 @@ def test_velocities_are_means_over_whole_cycles(table):
 
 def velocity(conveyor: Conveyor, start: Start, period: int, **settings) -> tuple[float, str]:
     """The mean velocity of one initial condition that has settled vertically after twenty cycles, and its status."""
-    labels = Labels(np.array(["second"]), np.array([period]), np.zeros(1), np.array([20]), np.zeros(1), np.zeros(1))
-    (found,), _, (status,) = shares.velocities(pack(conveyor, start)[None], labels, {**BOX, **settings})
+    labels = Columns({"period": np.array([period]), "cycles": np.array([20])})
+    (found,), _, (status,) = shares.velocities(parameter_table(conveyor, start)[None], labels, {**BOX, **settings})
     return found, status
 
 
@@ -142,7 +139,7 @@ def test_a_part_that_sticks_in_every_cycle_has_a_velocity_on_a_steep_track():
 def test_velocities_are_means_over_whole_periods():
     """A motion with a period of four cycles, over a number of cycles that is not a multiple of four."""
     conveyor = Conveyor(acceleration=61.8)
-    assert classify(pack(conveyor, Start(3e-4))[None]).period.tolist() == [4]
+    assert classify(parameter_table(conveyor, Start(3e-4))[None]).period.tolist() == [4]
     found, status = velocity(conveyor, Start(3e-4), 4, cycles=251)
     x = simulate(conveyor, Start(3e-4), duration=40.0).sample(np.array([32.0, 40.0]))["x"]
     assert status == "ok"
@@ -151,11 +148,11 @@ def test_velocities_are_means_over_whole_periods():
 
 def test_runs_with_the_same_beginning_are_followed_once():
     """The means over the beginning of a run and over the whole run equal the means of two runs."""
-    rows = np.array([pack(Conveyor(acceleration=a), Start(z0)) for a in (40.0, 80.0) for z0 in (0.0, 3e-4)])
+    rows = np.stack([parameter_table(Conveyor(acceleration=a), Start(z0)) for a in (40.0, 80.0) for z0 in (0.0, 3e-4)])
     durations = np.array([[0.4, 0.6], [0.4, 0.8], [0.2, 0.8], [0.4, 0.9]])
     means, peaks, status = shares.last_quarters(rows, durations, 1e-9, 1)
     for k, (mean, duration) in enumerate(zip(means.T, durations.T, strict=True)):
-        alone = ensemble.run(rows, duration=duration, tolerance=1e-9)
+        alone = ensemble.sweep(rows, duration=duration, tolerance=1e-9)
         assert mean.tolist() == alone["mean_velocity"].tolist()
         if k == 1:  # peaks of the longest run
             np.testing.assert_array_equal(peaks, np.column_stack([alone["impact_speed"], alone["peak_force"]]))
@@ -178,10 +175,8 @@ def test_samples_of_both_first_runs_ascend(monkeypatch):
 
 def test_velocities_take_as_many_cycles_as_a_map(monkeypatch):
     """The velocities of the slowest motions are not known then."""
-    rows = np.array([pack(Conveyor(friction=friction), Start(3e-4)) for friction in (0.15, 0.1, 1e-3)])
-    found = Labels(
-        np.full(3, "second"), np.ones(3, np.int64), np.zeros(3), np.array([20, 20, 3000]), np.zeros(3), np.zeros(3)
-    )
+    rows = np.stack([parameter_table(Conveyor(friction=friction), Start(3e-4)) for friction in (0.15, 0.1, 1e-3)])
+    found = Columns({"period": np.ones(3, np.int64), "cycles": np.array([20, 20, 3000])})
     settings, counted = {**BOX, "cycles": 20, "mean_settling": 100}, []
     last_quarters = shares.last_quarters
 
@@ -204,7 +199,7 @@ def test_velocities_take_as_many_cycles_as_a_map(monkeypatch):
 
 def test_brief_runs_are_as_long_as_friction_needs():
     """On a track steeper than friction holds, no length helps."""
-    rows = np.array([pack(Conveyor(inclination=alpha), Start()) for alpha in (0.0, -0.147, 0.14888, 0.2)])
+    rows = np.stack([parameter_table(Conveyor(inclination=alpha), Start()) for alpha in (0.0, -0.147, 0.14888, 0.2)])
     flat, steep, steepest, beyond = shares.brief_durations(rows, np.ones(4, dtype=int), 60) * 50.0
     assert flat == beyond == pytest.approx(60.0)
     assert 60.0 < steep < steepest == pytest.approx(shares.MOST_CYCLES)
@@ -227,7 +222,8 @@ def test_a_run_that_fails_says_why_there_is_no_velocity():
 def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, wanted):
     def motions_found(parameters, *_, **__):
         n = len(parameters)
-        return Labels(np.full(n, states), np.ones(n, np.int64), np.zeros(n), np.arange(n), np.zeros(n), np.zeros(n))
+        labels = {"state": np.full(n, states), "period": np.ones(n, np.int64), "longest_flight": np.zeros(n)}
+        return Columns(labels | {"cycles": np.arange(n)})
 
     monkeypatch.setattr(shares, "motions_of_starts", motions_found)
     velocities = np.array([1.0, 3.0]), np.array([[0.1, 2.0], [0.2, 1.0]]), np.array(statuses, dtype=object)

@@ -7,17 +7,14 @@ import pandas as pd
 import pytest
 from project import read_config
 
-from conveyor import ensemble, simulate
-from conveyor.solver.model import (
-    DAMPING,
-    FRICTION,
-    PARAMETERS,
-    STATIC_FRICTION,
+from conveyor import (
     Conveyor,
     Start,
+    conveyor_and_start,
     conveyor_motion,
-    pack,
-    unpack,
+    ensemble,
+    parameter_table,
+    simulate,
 )
 from operating import drift, parts, regimes, transit
 from pipeline.rule_log import JobError
@@ -38,13 +35,13 @@ def test_factors_have_the_given_relative_standard_deviations():
 def test_parts_are_the_same_at_all_amplitudes():
     """Equal factors, heights above the plate, velocities and phases; static friction keeps its ratio to friction."""
     model = SETTINGS["model"] | {"static_friction": 0.2}
-    low, high = parts.population(np.array([30.0, 60.0]), {**SETTINGS, "model": model}).reshape(2, 24, 16)
-    for column in (FRICTION, DAMPING, PARAMETERS.index("psi0"), PARAMETERS.index("vz0")):
-        assert (low[:, column] == high[:, column]).all()
-    assert low[:, STATIC_FRICTION] / low[:, FRICTION] == pytest.approx(np.full(24, 0.2 / 0.15))
+    low, high = parts.population(np.array([30.0, 60.0]), {**SETTINGS, "model": model}).reshape(2, 24)
+    for name in ("friction", "damping", "psi0", "vz0"):
+        assert (low[name] == high[name]).all()
+    assert low["static_friction"] / low["friction"] == pytest.approx(np.full(24, 0.2 / 0.15))
     heights = []
     for rows in (low, high):
-        found = [unpack(row) for row in rows]
+        found = [conveyor_and_start(row) for row in rows]
         heights.append([start.z - conveyor_motion(conveyor, np.zeros(1))["z"][0] for conveyor, start in found])
     assert heights[0] == pytest.approx(heights[1], abs=1e-15)
     assert min(heights[0]) >= 0.0
@@ -60,12 +57,14 @@ def test_parts_without_differences_are_identical():
 
 def test_arrivals_agree_with_the_position_over_time():
     """A sliding, a jumping and a chaotic part, with densely sampled positions."""
-    rows = np.array([pack(Conveyor(acceleration=a), Start(z)) for a, z in ((30.0, 0.0), (40.0, 3e-4), (80.0, 0.0))])
+    rows = np.stack(
+        [parameter_table(Conveyor(acceleration=a), Start(z)) for a, z in ((30.0, 0.0), (40.0, 3e-4), (80.0, 0.0))]
+    )
     lengths, longest = np.array([0.01, 0.05]), np.array([2.0, 3.0])
     found = ensemble.transits(rows, lengths, longest, begin=np.array(0.1))
     times = np.linspace(0.0, 3.0, 300_001)
     for row, arrival, velocity in zip(rows, found["arrival"], found["velocity"], strict=True):
-        conveyor, start = unpack(row)
+        conveyor, start = conveyor_and_start(row)
         x = simulate(conveyor, start, duration=3.0).sample(times)["x"]
         for place, (length, limit) in enumerate(zip(lengths, longest, strict=True)):
             until = np.searchsorted(times, limit)
@@ -83,14 +82,14 @@ def test_repeated_motions_are_skipped_without_a_trace():
     """Sliding, jumping and sliding back, each with and without an arrival after hundreds of cycles."""
     rows = np.array(
         [
-            pack(Conveyor(acceleration=a, inclination=inclination), Start(z))
+            parameter_table(Conveyor(acceleration=a, inclination=inclination), Start(z))
             for a, z, inclination in ((30.0, 0.0, 0.0), (40.0, 3e-4, 0.0), (30.0, 0.0, 0.12))
         ]
     )
     length, longest = 0.1004, 20.0
     found = ensemble.transits(rows, np.array([length]), np.array([longest]), begin=np.array(1.0))
     arrived = np.where(np.isnan(found["arrival"][:, 0]), longest, found["arrival"][:, 0])
-    followed = ensemble.run(rows, duration=arrived)
+    followed = ensemble.sweep(rows, duration=arrived)
     assert np.isnan(found["arrival"]).sum() == 1
     np.testing.assert_allclose(found["velocity"][:, 0], followed["x_end"] / arrived, rtol=1e-5)
     late = arrived == longest
@@ -119,7 +118,7 @@ def test_transits_do_not_depend_on_threads_and_longer_tracks():
 def test_arguments_of_transits_are_checked(changed, words):
     arguments = {"lengths": np.array([0.1, 0.2]), "longest": np.array([1.0, 2.0]), "begin": np.array(0.1)} | changed
     with pytest.raises(ValueError, match=words):
-        ensemble.transits(pack(Conveyor(), Start())[None], **arguments)
+        ensemble.transits(parameter_table(Conveyor(), Start())[None], **arguments)
 
 
 def test_quantiles_and_their_errors():
@@ -169,7 +168,7 @@ def test_quantiles_agree_with_a_fixed_step_method_and_other_random_numbers(ampli
     other = {**settings, "seed": 77, "spread": settings["spread"] | {"seed": 78}, "starts": 96}
     times, velocity = np.arange(1, 1501) / 1000.0, []
     for row in parts.population(np.array([amplitude]), other):
-        x = simulate(*unpack(row), duration=1.5, method="rk4", step=1e-5).sample(times)["x"]
+        x = simulate(*conveyor_and_start(row), duration=1.5, method="rk4", step=1e-5).sample(times)["x"]
         velocity.append(0.1 / times[np.argmax(x >= 0.1)] if (x >= 0.1).any() else x[-1] / 1.5)
     found, errors = transit.quantiles(np.array(velocity))
     for place, name in enumerate(transit.QUANTILES):
@@ -253,8 +252,8 @@ def test_calibrated_parts_keep_a_stated_static_friction(static):
     settings = {**SETTINGS, "spread": EQUAL, "model": model, "starts": 3}
     settings["calibrated"] = parts.calibrated_factors(samples, settings)
     rows = parts.population(np.array([40.0]), settings)
-    assert sorted(rows[:, FRICTION]) == pytest.approx([0.2, 0.25, 0.28])
-    assert rows[:, STATIC_FRICTION] == pytest.approx(rows[:, FRICTION] if static is None else np.full(3, static))
+    assert sorted(rows["friction"]) == pytest.approx([0.2, 0.25, 0.28])
+    assert rows["static_friction"] == pytest.approx(rows["friction"] if static is None else np.full(3, static))
 
 
 def test_calibrated_parts_have_the_parameters_of_the_samples():

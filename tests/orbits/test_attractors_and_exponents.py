@@ -112,12 +112,12 @@ def test_searches_of_many_motions_take_as_many_cycles_as_a_map(monkeypatch, sett
         return found
 
     monkeypatch.setattr(motions, "WHOLE_MAP", len(rows))
-    monkeypatch.setattr(labels, "classify", count)
+    monkeypatch.setattr(strobes, "classify", count)
     found = strobes.label_motions(rows, SETTLED)
     assert 0.9 * 1000 * len(rows) < sum(counted) <= 1000 * len(rows)
     early = wanted.cycles < 1000
     assert found.state[early].tolist() == wanted.state[early].tolist()
-    assert set(found.state[rows[:, 0] == 80.0]) == {"chaos"}
+    assert set(found.state[rows["acceleration"] == 80.0]) == {"chaos"}
 
 
 def test_limits_below_the_first_doubling_are_named():
@@ -132,7 +132,7 @@ def test_seeds_are_found():
     section = read_config("orbits")["orbits"]
     settings = {**section, "limits": [35.0, 45.0], "max_period": 1, "cycles": 300, "model": MODEL}
     del settings["seeds"]
-    found = seeds.seeds(grid.packed(settings["model"]), settings)
+    found = seeds.seeds(grid.row_of(settings["model"]), settings)
     assert {orbit.period for orbit in found} == {1}
     assert {orbit.longest_flight > 0.5 for orbit in found} == {True, False}
     tables = branches.make(settings)
@@ -155,10 +155,10 @@ def test_orbits_on_a_known_branch_start_no_new_branch(monkeypatch):
     periods = {"double": 2, "once": 1, "apart": 2}
     starts = [SimpleNamespace(name=name, period=period) for name, period in periods.items()]
     found = {"once": ["once", "double"], "apart": ["apart"], "double": ["double"]}
-    monkeypatch.setattr(branches.continuation, "on_branch", lambda parameters, branch, orbit: branch.name == orbit.name)
+    monkeypatch.setattr(branches, "on_branch", lambda parameters, branch, orbit: branch.name == orbit.name)
     monkeypatch.setattr(
-        branches.continuation,
-        "explore",
+        branches,
+        "explore_bifurcations",
         lambda parameters, seeds, *rest: [branch(one, [one]) for seed in seeds for one in found[seed.name]],
     )
     settings = {"limits": [20.0, 90.0], "max_period": 2, "most": 1000}

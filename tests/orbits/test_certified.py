@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from conveyor.analysis import stroboscopic_map
+from conveyor import Conveyor, Start, initial_states, parameter_table
 from conveyor.analysis.bifurcations import periodic_orbits
-from conveyor.solver.model import Conveyor, Start, pack
 from orbits import certified
 
 SETTINGS = {"model": {}, "bits": 128, "order": 24, "tolerance": 1e-22, "closeness": 1e-7}
@@ -13,8 +12,8 @@ SETTINGS = {"model": {}, "bits": 128, "order": 24, "tolerance": 1e-22, "closenes
 
 def test_the_row_of_a_riding_part():
     """It is never in the air; penetration, speed of approach and period agree with the orbit in floating point."""
-    row = pack(Conveyor(acceleration=30.0), Start())
-    state = stroboscopic_map.initial_states(row[None], periodic_orbits.TOLERANCE)[0]
+    row = parameter_table(Conveyor(acceleration=30.0), Start())
+    state = initial_states(row[None], periodic_orbits.ORBIT_TOLERANCE)[0]
     orbit = periodic_orbits.settled_orbit(row, 30.0, state, (1,), 1000)
     returns = periodic_orbits.ReturnMap(row, 1)
     about = certified.float_orbit(7, returns, returns.scaled(30.0, orbit.state))

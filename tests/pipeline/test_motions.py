@@ -24,7 +24,7 @@ def labels(starts):
 
 
 def equal(found, other) -> bool:
-    return all(np.array_equal(one, two, equal_nan=one.dtype.kind == "f") for one, two in zip(found, other, strict=True))
+    return all(np.array_equal(found[name], other[name], equal_nan=found[name].dtype.kind == "f") for name in found)
 
 
 def test_all_states_are_there(labels):
@@ -42,7 +42,7 @@ def test_labels_do_not_depend_on_the_order_of_initial_conditions(monkeypatch, st
     monkeypatch.setattr(motions, "CONVEYORS", 1)
     order = np.random.default_rng(1).permutation(len(starts))
     found = motions.motions(starts[order], SETTINGS)
-    assert equal(found, [column[order] for column in labels])
+    assert equal(found, labels.select(order))
 
 
 @pytest.mark.parametrize(("count", "settling", "sets"), [(9, 4000, 1), (9, 3000, 0), (7, 20_000, 0)])
@@ -76,7 +76,7 @@ def test_searches_of_many_points_take_a_mean_number_of_cycles(monkeypatch, mean,
     assert (found.cycles[~undecided] <= found.cycles[undecided][0]).all()
     # A part of the table, as a shard has it, and other threads.
     part = motions.motions(starts[150:250], settings, threads=2)
-    assert equal(part, [column[150:250] for column in found])
+    assert equal(part, found.select(slice(150, 250)))
 
 
 def test_searches_that_somewhat_more_cycles_complete_have_no_limit(monkeypatch):

@@ -5,8 +5,8 @@ import sys
 
 import pytest
 
-from conveyor.solver import progress
-from conveyor.solver.parallel import for_each_chunk
+from conveyor import progress
+from conveyor.parallel import for_each_chunk
 from pipeline.rule_log import JobError, logged
 
 
@@ -35,7 +35,7 @@ def test_lines_without_a_terminal(monkeypatch):
 def test_a_quick_job_has_one_line(monkeypatch):
     monkeypatch.setattr(sys, "stderr", io.StringIO())
     swept("mine")
-    assert list(progress.bar("abc", label="turns", unit="rounds")) == ["a", "b", "c"]
+    assert list(progress.progress_bar("abc", label="turns", unit="rounds")) == ["a", "b", "c"]
     lines = sys.stderr.getvalue().splitlines()
     assert [line.split(",")[0] for line in lines] == ["mine: 10 of 10 points", "turns: 3 of 3 rounds"]
 

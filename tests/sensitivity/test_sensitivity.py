@@ -40,7 +40,7 @@ def made(tables):
 
 @pytest.fixture(scope="module")
 def chosen(tables):
-    return selection.select_bifurcations(grid.packed(MODEL), *tables[:2], SETTINGS, 2)
+    return selection.select_bifurcations(grid.row_of(MODEL), *tables[:2], SETTINGS, 2)
 
 
 def test_every_bifurcation_is_chosen_once(chosen):
@@ -57,14 +57,14 @@ def test_every_bifurcation_is_chosen_once(chosen):
 def test_only_the_lowest_bifurcations_of_each_kind_are_chosen(tables):
     """A fold above the first one, with one bifurcation of each kind; doublings of the cascade are not counted."""
     both = pd.concat([tables[0], tables[0].iloc[[0]].assign(acceleration=90.0)])
-    found = selection.select_bifurcations(grid.packed(MODEL), both, tables[1], {**SETTINGS, "most": 1}, 2)
+    found = selection.select_bifurcations(grid.row_of(MODEL), both, tables[1], {**SETTINGS, "most": 1}, 2)
     assert [(one.kind, one.acceleration > 80.0) for one in found].count(("fold", True)) == 0
     assert len(found) == len(ROWS)
 
 
 def test_a_point_that_is_not_found_again_keeps_its_row_with_a_reason(tables):
     lost = tables[0].iloc[[1]].assign(acceleration=33.0)
-    parameters = grid.packed(MODEL)
+    parameters = grid.row_of(MODEL)
     (one,) = selection.select_bifurcations(parameters, lost, tables[1].iloc[:0], SETTINGS, 0)
     assert one.point is None
     rows = list(derivatives.physical_rows(derivatives.differentiate_bifurcation(parameters, one)))
@@ -119,7 +119,7 @@ def test_weights_are_the_derivatives_of_aitkens_process():
         for sign in (1.0, -1.0):
             changed = amplitudes.copy()
             changed[1 + place] += sign * 1e-6
-            ends.append(doubling_cascade.accumulation(changed)[0])
+            ends.append(doubling_cascade.accumulation_point(changed)[0])
         assert found[place] == pytest.approx((ends[0] - ends[1]) / 2e-6, rel=1e-5)
 
 

@@ -8,7 +8,7 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
-from conveyor import Conveyor, Start, ensemble, simulate
+from conveyor import Conveyor, Start, simulate
 from conveyor.solver.model import UNITS
 from pipeline import fields, grid, tables
 from sweeps import shards
@@ -164,12 +164,12 @@ def test_rows_do_not_depend_on_their_order(in_one):
 
 def test_a_run_that_failed_has_no_state(monkeypatch):
     """It has none, whatever its final numbers are; another run of the same motion has its state."""
-    true = ensemble.run
+    true = shards.sweep
 
     def failing(parameters, **options):
-        return true(parameters, **options) | {"status": np.array(["ok", "contact too stiff"])}
+        return {**true(parameters, **options), "status": np.array(["ok", "contact too stiff"])}
 
-    monkeypatch.setattr(ensemble, "run", failing)
+    monkeypatch.setattr(shards, "sweep", failing)
     settings = {
         "axes": {"z0": [0.0, 1e-4]},
         "model": {"acceleration": 30.0},

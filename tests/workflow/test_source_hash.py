@@ -44,8 +44,14 @@ def scripts(tmp_path, monkeypatch):
         "library/deep.py": "from .model import g\n",
         "library/model.py": "import math\ng = 9.81\n",
         "library/tables.py": "from .model import g\n",
+        "pick.py": "from lazy import g\n",
+        "lazy/__init__.py": "import loader\n",
+        "lazy/__init__.pyi": "from .model import g\nfrom .other import h\n",
+        "lazy/model.py": "g = 9.81\n",
+        "lazy/other.py": "h = 1\n",
     }
-    (tmp_path / "library").mkdir()
+    for package in ("library", "lazy"):
+        (tmp_path / package).mkdir()
     for name, text in files.items():
         (tmp_path / name).write_text(text)
     monkeypatch.setattr(source_hash, "SCRIPTS", tmp_path)
@@ -66,6 +72,10 @@ def test_imports_are_followed_to_any_depth(scripts):
 
 def test_the_package_of_an_imported_module_does_not_count(scripts):
     assert modules("read") == {"read.py", "library/tables.py", "library/model.py"}
+
+
+def test_a_public_name_depends_on_its_own_module_only(scripts):
+    assert modules("pick") == {"pick.py", "lazy/model.py"}
 
 
 def test_imports_inside_functions_count(scripts):

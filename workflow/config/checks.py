@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from functools import cache
 
 from scripts.calibration.measurements import MeasurementError, parse, read_text
-from scripts.conveyor.parameters import RANGES
+from scripts.conveyor import RANGES
 from scripts.identification.settings import NUMBERS_OF_CLAIMS
 
 from .entries import (

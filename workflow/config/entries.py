@@ -2,7 +2,7 @@
 
 import math
 
-from scripts.conveyor.parameters import TANGENTIAL
+from scripts.conveyor import TANGENTIAL
 
 ENTRIES = ("sweeps", "estimates", "critical", "regressions", "dimensions", "signals", "spectra", "impacts")
 FIGURES = ("figures", "figures_on_request")

@@ -6,7 +6,7 @@ from pydantic import AfterValidator, ConfigDict, Field, Strict, TypeAdapter
 from typing_extensions import TypedDict
 
 from scripts.calibration.measurements import CALIBRATED
-from scripts.conveyor.parameters import DESCRIPTIONS, FIXED_STEP_METHODS, UNITS
+from scripts.conveyor import DESCRIPTIONS, FIXED_STEP_METHODS, UNITS
 from scripts.identification.settings import NUMBERS_OF_CLAIMS
 
 from .types import (

@@ -9,7 +9,7 @@ import itertools
 import math
 from typing import Any
 
-from scripts.conveyor.parameters import normal_gravity
+from scripts.conveyor import normal_gravity
 
 from .entries import FIGURES, METHOD_SECTIONS, by_methods, without_tangential
 from .errors import ConfigError

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal, NotRequired
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag, WrapValidator
 from typing_extensions import TypedDict
 
-from scripts.conveyor.parameters import DESCRIPTIONS, PARAMETERS, RANGES, TENSION_MODES, UNITS
+from scripts.conveyor import DESCRIPTIONS, PARAMETERS, RANGES, TENSION_MODES, UNITS
 
 LONGEST_NAME = 64  # characters: names become file names
 LONGEST_LIST = 10_000  # values; a longer axis is written as {start, stop, num}

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.signal.windows import hann
 
 
-class Spectrum(NamedTuple):
+class AmplitudeSpectrum(NamedTuple):
     """One-sided amplitude spectrum; a cosine of amplitude A within a constant A_0 gives a line A at its frequency.
 
     Attributes
@@ -19,7 +19,7 @@ class Spectrum(NamedTuple):
     amplitude: np.ndarray
 
 
-def harmonics(samples: np.ndarray, duration: float) -> Spectrum:
+def harmonic_spectrum(samples: np.ndarray, duration: float) -> AmplitudeSpectrum:
     """Spectrum of a settled orbit from n equidistant samples over whole periods, t = 0, T/n, … (T = `duration`, s).
 
     No window and no leakage: every harmonic and subharmonic below n / (2T) falls on a bin. ValueError if the samples
@@ -29,12 +29,12 @@ def harmonics(samples: np.ndarray, duration: float) -> Spectrum:
     return one_sided(samples, duration, len(samples))
 
 
-def windowed(samples: np.ndarray, duration: float) -> Spectrum:
+def windowed_spectrum(samples: np.ndarray, duration: float) -> AmplitudeSpectrum:
     """Spectrum of any other motion from n equidistant samples over `duration` (s), with a Hann window.
 
     Amplitudes are divided by the window's mean, so that a line on a bin has its true height; one half-way between
     two bins is lower by the factor 8/(3π), 15 %. The mean value is taken out before the window is applied. ValueError
-    as for `harmonics`.
+    as for `harmonic_spectrum`.
     """
     samples = check(samples)
     window = hann(len(samples), sym=False)
@@ -52,9 +52,9 @@ def check(samples: np.ndarray) -> np.ndarray:
     return samples
 
 
-def one_sided(samples: np.ndarray, duration: float, gain: float) -> Spectrum:
+def one_sided(samples: np.ndarray, duration: float, gain: float) -> AmplitudeSpectrum:
     """Amplitudes |Σ samples e^(-iωt)| / gain, doubled where a line shares its height with a negative frequency."""
     n = len(samples)
     amplitude = np.abs(np.fft.rfft(samples)) / gain
     amplitude[1 : (n + 1) // 2] *= 2.0
-    return Spectrum(np.arange(len(amplitude)) / duration, amplitude)
+    return AmplitudeSpectrum(np.arange(len(amplitude)) / duration, amplitude)

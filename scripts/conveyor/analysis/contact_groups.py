@@ -16,11 +16,13 @@ least along lines of equal loss, and a rectangle of K and L has no corner in whi
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..packing import as_rows
 from ..solver import model
 
 
 def units(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Stiffness (N/m^p) of a contact with K = 1, damping (N s/m) with D = 1, and the exponent: each of shape (...)."""
+    parameters = as_rows(parameters)
     mass, exponent = parameters[..., model.MASS], parameters[..., model.EXPONENT]
     omega = 2.0 * np.pi * parameters[..., model.FREQUENCY]
     gravity = parameters[..., model.GRAVITY] * np.cos(parameters[..., model.INCLINATION])
@@ -35,7 +37,7 @@ def groups_of_contact(
     Parameters
     ----------
     stiffness, damping : k_c (N/m^p) and d_c (N s/m), arrays of equal shape, or numbers
-    parameters : packed parameters of the conveyor, shape (16,), or one row for each contact; its contact is not used
+    parameters : table with the conveyor, or with one row for each contact; its contact is not used
     """
     unit, unit_of_damping, exponent = units(parameters)
     group = np.asarray(stiffness) / unit

@@ -16,12 +16,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..packing import as_rows
 from ..solver import model
 from ..solver.model import PARAMETERS
 
 # The groups in the order of their derivatives. The last three, z0 ω²/g, ż0 ω/g and ψ0, are the initial condition.
-NAMES = ("amplitude", "damping", "stiffness", "exponent", "height", "velocity", "phase")
-AMPLITUDE, DAMPING, STIFFNESS, EXPONENT, HEIGHT, VELOCITY, PHASE = range(len(NAMES))
+GROUP_NAMES = ("amplitude", "damping", "stiffness", "exponent", "height", "velocity", "phase")
+AMPLITUDE, DAMPING, STIFFNESS, EXPONENT, HEIGHT, VELOCITY, PHASE = range(len(GROUP_NAMES))
 # The parameters that an equation between the groups may determine, and their groups.
 GROUP_OF = {"acceleration": AMPLITUDE, "z0": HEIGHT}
 # A conveyor whose parameters equal its dimensionless groups: g = 1, ω = 1, m = 1, φ = 90°.
@@ -44,7 +45,8 @@ def normal_gravity(parameters: np.ndarray) -> float:
 
 
 def groups_of(parameters: np.ndarray) -> Groups:
-    """The groups of packed parameters, shape (16,)."""
+    """The groups of one conveyor, a row of a table of parameters."""
+    parameters = as_rows(parameters)
     omega, gravity = 2.0 * math.pi * parameters[model.FREQUENCY], normal_gravity(parameters)
     mass, exponent = parameters[model.MASS], parameters[model.EXPONENT]
     return Groups(
@@ -66,32 +68,35 @@ def packed(groups: Groups, psi0: float = 0.0) -> np.ndarray:
     return row
 
 
-def units(parameters: np.ndarray) -> tuple[float, float]:
-    """The units of length, g/ω² (m), and velocity, g/ω (m/s), of packed parameters."""
+def length_and_speed_units(parameters: np.ndarray) -> tuple[float, float]:
+    """The units of length, g/ω² (m), and velocity, g/ω (m/s), of one conveyor."""
+    parameters = as_rows(parameters)
     omega, gravity = 2.0 * math.pi * parameters[model.FREQUENCY], normal_gravity(parameters)
     return float(gravity / omega**2), float(gravity / omega)
 
 
 def amplitude_of(parameters: np.ndarray, ratio: float) -> float:
-    """The amplitude â (m/s²) at which a_z/g is `ratio`, for packed parameters."""
+    """The amplitude â (m/s²) at which a_z/g is `ratio`, for one conveyor."""
+    parameters = as_rows(parameters)
     return float(ratio * normal_gravity(parameters) / math.sin(parameters[model.ANGLE]))
 
 
-def start_of(parameters: np.ndarray) -> tuple[float, float, float]:
-    """The groups of an initial condition: z0 ω²/g, ż0 ω/g and ψ0 (rad)."""
-    length, velocity = units(parameters)
+def scaled_start(parameters: np.ndarray) -> tuple[float, float, float]:
+    """The groups of one initial condition: z0 ω²/g, ż0 ω/g and ψ0 (rad)."""
+    parameters = as_rows(parameters)
+    length, velocity = length_and_speed_units(parameters)
     return float(parameters[model.Z0] / length), float(parameters[model.VZ0] / velocity), float(parameters[model.PSI0])
 
 
 def slopes(parameters: np.ndarray) -> dict[str, np.ndarray]:
-    """Derivatives of all groups, in the order of NAMES, by each parameter that is a number: shape (7,).
+    """Derivatives of all groups, in the order of GROUP_NAMES, by each parameter that is a number: shape (7,).
 
     The derivative by the exponent is at constant k_c in N/m^p, whose unit changes with p.
     """
     groups = groups_of(parameters)
-    height, velocity_ratio, _ = start_of(parameters)
+    height, velocity_ratio, _ = scaled_start(parameters)
     value = dict(zip(PARAMETERS, map(float, parameters), strict=True))
-    length, velocity = units(parameters)
+    length, velocity = length_and_speed_units(parameters)
     ratio, damping, stiffness, p, _ = groups
     sine, cosine = math.sin(value["angle"]), math.cos(value["angle"])
     frequency, gravity, mass = value["frequency"], normal_gravity(parameters), value["mass"]
@@ -124,14 +129,14 @@ def slopes(parameters: np.ndarray) -> dict[str, np.ndarray]:
         "z0": {HEIGHT: 1.0 / length},
         "vz0": {VELOCITY: 1.0 / velocity},
     }
-    found = {name: np.zeros(len(NAMES)) for name in by}
+    found = {name: np.zeros(len(GROUP_NAMES)) for name in by}
     for name, entries in by.items():
         for group, slope in entries.items():
             found[name][group] = slope
     return found
 
 
-def derivatives_of(moved: str, parameters: np.ndarray, by: np.ndarray) -> dict[str, float]:
+def derivatives_of_groups(moved: str, parameters: np.ndarray, by: np.ndarray) -> dict[str, float]:
     """Derivatives of a parameter that an equation between the groups determines, by each of the other parameters.
 
     Returns them by the names of the parameters, in units of `moved` per unit of the parameter.
@@ -139,8 +144,8 @@ def derivatives_of(moved: str, parameters: np.ndarray, by: np.ndarray) -> dict[s
     Parameters
     ----------
     moved : a name in GROUP_OF
-    parameters : packed, shape (16,), at which the equation holds
-    by : derivatives of the group of `moved`, Γ or z0 ω²/g, by all groups in the order of NAMES, shape (7,); its own 0
+    parameters : a row of a table of parameters, at which the equation holds
+    by : derivatives of the group of `moved`, Γ or z0 ω²/g, by all GROUP_NAMES, shape (7,); its own 0
     """
-    of, own = slopes(parameters), GROUP_OF[moved]
+    of, own = slopes(as_rows(parameters)), GROUP_OF[moved]
     return {name: float((by @ slope - slope[own]) / of[moved][own]) for name, slope in of.items() if name != moved}

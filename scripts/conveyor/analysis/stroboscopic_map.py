@@ -195,7 +195,7 @@ def advance(c, series, state, phase, duration, tangent, features):
 
 
 @compiled
-def follow(parameters, tolerance, state, cycles):
+def follow_map(parameters, tolerance, state, cycles):
     """Advance `state` by a number of cycles.
 
     A motion that returns to a state bit for bit repeats itself from then on, and is copied. Most settled motions do.

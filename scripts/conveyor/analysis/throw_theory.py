@@ -72,7 +72,7 @@ def flight_cycles(throw: ArrayLike) -> np.ndarray:
     return np.select([throw <= 1.0, throw <= LONGEST_THROW], [0.0, 0.5 * (low + high)], np.nan)
 
 
-def mean_velocity(
+def throw_velocity(
     acceleration: ArrayLike,
     *,
     angle: float,
@@ -88,9 +88,9 @@ def mean_velocity(
 
     Examples
     --------
-    >>> velocity = mean_velocity([40.0, 60.0, 160.0], angle=np.radians(12.0), frequency=50.0, gravity=9.81)
+    >>> velocity = throw_velocity([40.0, 60.0, 160.0], angle=np.radians(12.0), frequency=50.0, gravity=9.81)
     >>> velocity.round(4).tolist()
-    [0.0, 0.0886, nan]
+    [0.0, 0.0887, nan]
     """
     throw = throw_number(acceleration, angle=angle, gravity=gravity, inclination=inclination)
     cycles = flight_cycles(throw)

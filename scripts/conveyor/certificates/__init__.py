@@ -18,3 +18,7 @@ results only say where to look; no bound depends on them. Read the modules in th
     excursion      a homoclinic excursion in floating point, along which a horseshoe may lie
     covering       topological horseshoes from covering relations
 """
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arguments import LONGEST, check_array, check_choice, check_time
+from ..packing import as_rows
 from ..parameters import FIXED_STEP_METHODS as METHODS
 from ..parameters import LAST
 from ..solver import model
@@ -453,7 +454,7 @@ def follow(parameters, step, n_steps, method, indices=(), n_events=0):
         first step at which the other side of q = 0 is seen
     """
     check_choice("method", method, METHODS)
-    indices = np.asarray(indices, dtype=np.int64)
+    parameters, indices = as_rows(parameters), np.asarray(indices, dtype=np.int64)
     n = len(parameters)
     samples, results = np.full((n, len(indices), len(SAMPLES)), math.nan), np.empty((n, RESULTS))
     events = np.full((n, n_events, 2), math.nan)

@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ..packing import as_rows
 from ..solver import model
 from ..solver.jit import compiled, copy
 from .force_law import contact_acceleration, friction_acceleration, least_push, least_rub, power_of_depth
@@ -132,6 +133,7 @@ def next_mode(parameters: np.ndarray, t: float, state: np.ndarray, ended: Callab
 
 def scales(parameters: np.ndarray) -> np.ndarray:
     """The scales of x, ẋ, z, ż (m, m/s) for absolute tolerances: amplitudes of the plate's motion, shape (4,)."""
+    parameters = as_rows(parameters)
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
     a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
     a_x = parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE])

@@ -19,6 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..packing import as_rows
 from ..parameters import LAST
 from ..solver import model
 from . import cyrk_peer, heyoka_peer, scipy_peer, sundials_peer
@@ -134,7 +135,7 @@ def run(
 
     Parameters
     ----------
-    parameters : float64, shape (16,), from `model.pack`
+    parameters : a row of a table
     duration : s
     integrator : one of RIVALS
     treatment : one of TREATMENTS; heyoka knows "modes" only
@@ -147,6 +148,7 @@ def run(
         raise ValueError(f"{integrator!r} with {treatment!r} is none of {tuple(RIVALS)} with {TREATMENTS}")
     if integrator == HEYOKA and treatment != "modes":
         raise ValueError(f"heyoka handles events by modes, not by {treatment}")
+    parameters = as_rows(parameters)
     trajectory = Trajectory(parameters, integrator, max_evaluations, np.asarray(times, dtype=np.float64))
 
     def lost(status: str, evaluations: int) -> Summary:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..arguments import LARGEST_COORDINATE, check_array
+from ..packing import as_rows
 from ..solver import contact, contact_law
 from ..solver.jit import compiled
 
@@ -18,7 +19,7 @@ def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
     The solver's contact steps follow the impact. The coefficient is 0 if the contact is so damped that it creeps back
     without a separation. ArithmeticError if the impact does not end within MAX_CONTACT_STEPS.
     """
-    alone = contact.constants(parameters, CONTACT_TOLERANCE)._replace(gravity=0.0, a_z=0.0, scale_v=speed)
+    alone = contact.constants(as_rows(parameters), CONTACT_TOLERANCE)._replace(gravity=0.0, a_z=0.0, scale_v=speed)
     share = 1.0 / (alone.exponent + 1.0)
     duration = 3.0 * (speed * speed / (2.0 * share * alone.stiffness)) ** share / speed
     if alone.damping * duration > OVERDAMPED:

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arguments import LONGEST, check_array, check_time
+from ..packing import as_rows
 from ..parameters import LAST
 from ..solver import contact, friction, model
 from ..solver.flight import Flight, gap, highest_gap, next_impact
@@ -225,7 +226,7 @@ def _follow(parameters, restitution, times, n_impacts=0):
         raise ValueError("restitution must be a number or two columns of equal length, the speeds ascending")
     samples = np.empty((len(times), len(SAMPLE_COLUMNS)))
     impacts = np.empty((n_impacts, len(IMPACT_DTYPE)))
-    result = follow(parameters, speeds, coefficients, times, samples, impacts)
+    result = follow(as_rows(parameters), speeds, coefficients, times, samples, impacts)
     return result, samples, impacts
 
 
@@ -236,7 +237,7 @@ def run(parameters: np.ndarray, duration: float, restitution) -> Summary:
 
     Parameters
     ----------
-    parameters : float64, shape (16,), from `model.pack`; stiffness, damping, mass, exponent and tension have no effect
+    parameters : a row of a table; stiffness, damping, mass, exponent and tension have no effect
     duration : s
     restitution : coefficient of restitution in [0, 1], or a pair of arrays (speeds of approach in m/s, coefficients)
     """
@@ -261,7 +262,7 @@ def samples_and_impacts(
     moments, place = np.unique(times, return_inverse=True)
     samples, hits = np.empty((0, len(SAMPLE_COLUMNS))), np.empty((0, len(IMPACT_DTYPE)))
     if moments.size:
-        room = math.ceil(IMPACTS_OF_CYCLE * (1.0 + parameters[model.FREQUENCY] * moments[-1]))
+        room = math.ceil(IMPACTS_OF_CYCLE * (1.0 + as_rows(parameters)[model.FREQUENCY] * moments[-1]))
         (n_impacts, *_), samples, hits = _follow(parameters, restitution, moments, room)
         if n_impacts > room:
             _, samples, hits = _follow(parameters, restitution, moments, n_impacts)

@@ -36,7 +36,7 @@ def installed_version(integrator: str) -> str | None:
         return None
 
 
-def record() -> dict[str, dict[str, str]]:
+def record_rivals() -> dict[str, dict[str, str]]:
     """Version and options of every integrator, for the provenance."""
     return {
         name: {"version": installed_version(name) or "not installed", "options": f"{rival.method}: {rival.options}"}

@@ -128,20 +128,6 @@ def pack(conveyor: Conveyor, start: Start) -> np.ndarray:
     return np.array([*numbers, static_friction, tension, z0, start.vz], dtype=np.float64)
 
 
-def set_columns(rows: np.ndarray, values: dict[str, np.ndarray | float]) -> None:
-    """Write `values` of parameters, numbers or of shape (n,), into packed parameters, shape (n, 16).
-
-    A new friction without a new static_friction is the static friction, too. ValueError for a static_friction below
-    friction.
-    """
-    for name, column in values.items():
-        rows[:, PARAMETERS.index(name)] = column
-    if "friction" in values and "static_friction" not in values:
-        rows[:, STATIC_FRICTION] = rows[:, FRICTION]
-    for row in rows[rows[:, STATIC_FRICTION] < rows[:, FRICTION]][:1].tolist():
-        check_static_friction(row[FRICTION], row[STATIC_FRICTION])
-
-
 def unpack(parameters: np.ndarray) -> tuple[Conveyor, Start]:
     """The inverse of `pack`, with a number for static_friction in every case."""
     *numbers, tension, z0, vz0 = (float(value) for value in parameters)

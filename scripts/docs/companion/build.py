@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from conveyor.parameters import PARAMETERS, RANGES, TANGENTIAL
+from conveyor import PARAMETERS, RANGES, TANGENTIAL
 from figures import style
 from pipeline.rule_log import JobError
 

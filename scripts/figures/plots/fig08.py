@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from conveyor.solver.model import conveyor_motion
+from conveyor import conveyor_motion
 from figures import style
 from pipeline import grid
 

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from conveyor.solver.model import conveyor_motion
+from conveyor import conveyor_motion
 from figures import style
 from pipeline import grid
 

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from claims.about_states import flat_part
-from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
+from conveyor import Hyperbola, critical_height
 from figures import style
 
 MARKERS = {

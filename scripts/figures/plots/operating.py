@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from conveyor.analysis import throw_theory
+from conveyor import throw_velocity
 from figures import style
 from figures.plots.basin_stability import ends_of, throw_axis
 from operating.regimes import BESIDE, CHAOS, ONE, SEVERAL, UNKNOWN, summarize_amplitudes
@@ -51,7 +51,7 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
         look = {"color": "black", "linewidth": 0.8, "linestyle": (0, (3, 2))}
         velocities.plot(best.acceleration, best["mean"], label="mean over all initial conditions", **look)
         velocities.plot(amplitudes, slowest, color="0.5", linewidth=0.8, linestyle=":", label="slowest motion")
-    velocities.plot(amplitudes, throw_theory.mean_velocity(amplitudes, **shares.attrs["model"]), **style.TEXTBOOK)
+    velocities.plot(amplitudes, throw_velocity(amplitudes, **shares.attrs["model"]), **style.TEXTBOOK)
     velocities.axhline(0.0, color="black", linewidth=0.4, zorder=0)
     velocities.set_ylabel(style.VELOCITY)
 

@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from accuracy import speed
-from conveyor.methods.rivals import RIVALS
+from conveyor import RIVALS
 from figures import style
 from figures.plots.work_precision import missing_note
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from conveyor.analysis.amplitude_spectrum import harmonics, windowed
+from conveyor.analysis.amplitude_spectrum import harmonic_spectrum, windowed_spectrum
 
 LINES = {0.0: 0.06, 50.0: 0.3, 100.0: 0.02, 275.0: 0.005}  # Hz: m/s
 
@@ -15,7 +15,7 @@ def signal(times, lines=LINES):
 @pytest.mark.parametrize("n", [400, 401])
 def test_harmonics_are_exact_and_do_not_leak(n):
     duration = 0.04
-    spectrum = harmonics(signal(np.arange(n) * duration / n), duration)
+    spectrum = harmonic_spectrum(signal(np.arange(n) * duration / n), duration)
     expected = np.zeros_like(spectrum.frequency)
     for frequency, amplitude in LINES.items():
         expected[round(frequency * duration)] = amplitude
@@ -24,18 +24,18 @@ def test_harmonics_are_exact_and_do_not_leak(n):
 
 
 def test_highest_frequency_is_not_doubled():
-    spectrum = harmonics(0.7 * np.cos(np.pi * np.arange(10)), 1.0)
+    spectrum = harmonic_spectrum(0.7 * np.cos(np.pi * np.arange(10)), 1.0)
     assert spectrum.amplitude[-1] == pytest.approx(0.7)
 
 
 def test_all_lines_of_an_odd_number_of_samples_are_doubled():
-    found = harmonics(0.5 + 3.0 * np.cos(2.0 * np.pi * 4.0 * np.arange(9) / 9.0), 1.0)
+    found = harmonic_spectrum(0.5 + 3.0 * np.cos(2.0 * np.pi * 4.0 * np.arange(9) / 9.0), 1.0)
     np.testing.assert_allclose(found.amplitude, [0.5, 0.0, 0.0, 0.0, 3.0], atol=1e-14)
 
 
 def test_window_keeps_amplitudes_of_lines_on_bins():
     duration, n = 1.0, 4000
-    spectrum = windowed(signal(np.arange(n) * duration / n), duration)
+    spectrum = windowed_spectrum(signal(np.arange(n) * duration / n), duration)
     for frequency, amplitude in LINES.items():
         assert spectrum.amplitude[round(frequency * duration)] == pytest.approx(amplitude, rel=1e-9)
 
@@ -44,7 +44,7 @@ def test_window_keeps_amplitudes_of_lines_on_bins():
 def test_window_lowers_lines_between_bins_by_its_transform(offset):
     n = 4000
     samples = 2.0 + 0.3 * np.cos(2 * np.pi * (50.0 + offset) * np.arange(n) / n)
-    spectrum = windowed(samples, 1.0)
+    spectrum = windowed_spectrum(samples, 1.0)
     assert spectrum.amplitude[1:].max() == pytest.approx(0.3 * np.sinc(offset) / (1.0 - offset**2), rel=1e-5)
     assert spectrum.amplitude[0] == pytest.approx(2.0, abs=1e-3)
 
@@ -53,12 +53,15 @@ def test_window_leaks_less_than_none():
     n = 1000
     samples = np.cos(2 * np.pi * 50.5 * np.arange(n) / n)
     far = slice(200, None)
-    assert windowed(samples, 1.0).amplitude[far].max() < 1e-3 * harmonics(samples, 1.0).amplitude[far].max()
+    assert (
+        windowed_spectrum(samples, 1.0).amplitude[far].max()
+        < 1e-3 * harmonic_spectrum(samples, 1.0).amplitude[far].max()
+    )
 
 
 @pytest.mark.parametrize("samples", [np.zeros(1), np.zeros((4, 4)), np.full(8, np.inf)])
 def test_samples_are_checked(samples):
     with pytest.raises(ValueError, match="samples must be finite"):
-        harmonics(samples, 1.0)
+        harmonic_spectrum(samples, 1.0)
     with pytest.raises(ValueError, match="samples must be finite"):
-        windowed(samples, 1.0)
+        windowed_spectrum(samples, 1.0)

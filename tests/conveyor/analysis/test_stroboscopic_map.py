@@ -18,7 +18,7 @@ def strobes_of(conveyor, start, tolerance=1e-12):
     """δ (m) and v (m/s) after each cycle, and the features of the cycles."""
     parameters = pack(conveyor, start)
     (state,) = stroboscopic_map.initial_states(parameters[None], tolerance)
-    code, strobes, features = stroboscopic_map.follow(parameters, tolerance, state, CYCLES)
+    code, strobes, features = stroboscopic_map.follow_map(parameters, tolerance, state, CYCLES)
     assert trajectory.STATUS[code] == "ok"
     return strobes, features
 
@@ -62,7 +62,7 @@ def test_linearised_map_is_the_derivative_of_the_map(tension, exponent):
 
     def advanced(q, y):
         """(δ, Y) one cycle after a state in the air with (δ, Y) = (q, y)."""
-        _, strobes, _ = stroboscopic_map.follow(parameters, 1e-13, np.array([q, y]), 1)
+        _, strobes, _ = stroboscopic_map.follow_map(parameters, 1e-13, np.array([q, y]), 1)
         delta, v = strobes[0]
         clipped = conveyor.tension == "clip" and delta > 0.0
         assert not clipped or conveyor.stiffness * delta**exponent + conveyor.damping * v > 0.0
@@ -84,7 +84,7 @@ def test_what_repeats_itself_is_copied_bit_for_bit(acceleration, z0):
     parameters, tolerance, cycles = pack(Conveyor(acceleration=acceleration), Start(z0)), 1e-10, 500
     (state,), found = stroboscopic_map.initial_states(parameters[None], tolerance), np.zeros(stroboscopic_map.FEATURES)
     end = state.copy()
-    status, strobes, features = stroboscopic_map.follow(parameters, tolerance, end, cycles)
+    status, strobes, features = stroboscopic_map.follow_map(parameters, tolerance, end, cycles)
     assert status == trajectory.OK
     c, series = contact.constants(parameters, tolerance), contact.workspace()
     for n in range(cycles):

@@ -34,14 +34,14 @@ def test_the_level_straight_line_drive_has_the_textbook_velocity():
     amplitudes = np.linspace(48.0, 155.0, 50)
     cycles = throw_theory.flight_cycles(throw_theory.throw_number(amplitudes, **PAPER))
     textbook = 9.81 * cycles**2 / (math.tan(PAPER["angle"]) * 2.0 * 50.0)
-    assert throw_theory.mean_velocity(amplitudes, **PAPER) == pytest.approx(textbook, rel=1e-9)
+    assert throw_theory.throw_velocity(amplitudes, **PAPER) == pytest.approx(textbook, rel=1e-9)
 
 
 def test_numbers_of_the_papers_conveyor():
     throw = throw_theory.throw_number(60.0, **PAPER)
     assert throw == pytest.approx(1.27, abs=5e-3)
     assert throw_theory.flight_cycles(throw) == pytest.approx(0.438, abs=5e-4)
-    assert throw_theory.mean_velocity(60.0, **PAPER) == pytest.approx(0.089, abs=5e-4)
+    assert throw_theory.throw_velocity(60.0, **PAPER) == pytest.approx(0.089, abs=5e-4)
 
 
 @pytest.mark.parametrize(("inclination", "phase_shift"), [(0.0, 0.0), (0.05, 0.0), (0.0, 1.0), (0.08, -0.7)])
@@ -49,7 +49,7 @@ def test_the_general_form_agrees_with_the_motion_step_by_step(inclination, phase
     shape = {**PAPER, "inclination": inclination, "phase_shift": phase_shift}
     for acceleration in (55.0, 80.0, 130.0):
         expected = velocity_by_steps(acceleration, **shape)
-        assert throw_theory.mean_velocity(acceleration, **shape) == pytest.approx(expected, abs=2e-4)
+        assert throw_theory.throw_velocity(acceleration, **shape) == pytest.approx(expected, abs=2e-4)
 
 
 def test_there_is_no_throw_up_to_one_and_no_theory_for_longer_flights():
@@ -58,7 +58,7 @@ def test_there_is_no_throw_up_to_one_and_no_theory_for_longer_flights():
     assert cycles[3] == pytest.approx(math.sqrt(32.0 * 1e-8) / (2.0 * math.pi), rel=1e-4)  # Γ = 1 + N²/32 + …
     assert cycles[4] == pytest.approx(1.0)
     assert np.isnan(cycles[5])
-    assert throw_theory.mean_velocity([10.0, 160.0], **PAPER).tolist() == pytest.approx([0.0, np.nan], nan_ok=True)
+    assert throw_theory.throw_velocity([10.0, 160.0], **PAPER).tolist() == pytest.approx([0.0, np.nan], nan_ok=True)
 
 
 def test_throw_number_of_a_flight_is_smooth_where_the_series_takes_over():
@@ -71,14 +71,14 @@ def test_a_climbing_track_is_slower_by_the_fall_during_the_flight():
     """And by the longer flight with less gravity across the track, here kept by a smaller amplitude."""
     throw = throw_theory.throw_number(60.0, **PAPER)
     flight = throw_theory.flight_cycles(throw) / 50.0
-    level = throw_theory.mean_velocity(60.0, **PAPER)
-    climbing = throw_theory.mean_velocity(60.0 * math.cos(0.05), **PAPER, inclination=0.05)
+    level = throw_theory.throw_velocity(60.0, **PAPER)
+    climbing = throw_theory.throw_velocity(60.0 * math.cos(0.05), **PAPER, inclination=0.05)
     fall = 0.5 * 9.81 * math.sin(0.05) * flight**2 * 50.0
     assert climbing == pytest.approx(level * math.cos(0.05) - fall, rel=1e-9)
 
 
 def test_the_velocity_is_a_harmonic_of_the_phase_shift():
-    along, across = (throw_theory.mean_velocity(60.0, **PAPER, phase_shift=shift) for shift in (0.0, 0.5 * math.pi))
+    along, across = (throw_theory.throw_velocity(60.0, **PAPER, phase_shift=shift) for shift in (0.0, 0.5 * math.pi))
     for shift in (0.3, 2.0, 4.0):
         expected = along * math.cos(shift) + across * math.sin(shift)
-        assert throw_theory.mean_velocity(60.0, **PAPER, phase_shift=shift) == pytest.approx(expected, abs=1e-15)
+        assert throw_theory.throw_velocity(60.0, **PAPER, phase_shift=shift) == pytest.approx(expected, abs=1e-15)

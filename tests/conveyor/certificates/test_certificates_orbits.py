@@ -31,7 +31,7 @@ def arithmetic():
 def settled(acceleration: float, z0: float, period: int) -> np.ndarray:
     """Strobes (δ, Y) of the stable orbit that an initial condition leads to, in units of the law."""
     row = pack(Conveyor(acceleration=acceleration), Start(z0))
-    state = stroboscopic_map.initial_states(row[None], periodic_orbits.TOLERANCE)[0]
+    state = stroboscopic_map.initial_states(row[None], periodic_orbits.ORBIT_TOLERANCE)[0]
     orbit = periodic_orbits.settled_orbit(row, acceleration, state, (period,), 1000)
     return strobes(acceleration, orbit.state, period)
 

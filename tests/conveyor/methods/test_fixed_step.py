@@ -242,7 +242,7 @@ def test_many_are_followed_as_one_is(method):
     )
     runs = [fixed_step.run(row, duration, step, method) for row in parameters]
     for sharing in ({"chunk": 11}, {"chunk": 1}, {"chunk": 3, "threads": 2}):
-        rows = ensemble.run(parameters, duration=duration, method=method, step=step, **sharing)
+        rows = ensemble.sweep(parameters, duration=duration, method=method, step=step, **sharing)
         for name in ("mean_velocity", "max_gap", "impacts", "contact_fraction", "status"):
             assert rows[name].tolist() == [getattr(run, name) for run in runs]
         for name in ("x", "vx", "z", "vz"):
@@ -359,7 +359,7 @@ def test_a_run_lasts_for_its_duration():
     with pytest.raises(ValueError, match=r"no whole number of steps of 3e-07 s; take step = 3.00000030"):
         simulate(Conveyor(), duration=1.0, method="euler", step=3e-7)
     with pytest.raises(ValueError, match="whole number"):
-        ensemble.run(pack(Conveyor(), Start())[None], duration=1e-3, method="euler", step=5e-3)
+        ensemble.sweep(pack(Conveyor(), Start())[None], duration=1e-3, method="euler", step=5e-3)
     assert simulate(Conveyor(), duration=0.3, method="euler", step=1e-5).status == "ok"  # 0.3 / 1e-5 rounds
 
 
@@ -367,7 +367,7 @@ def test_a_run_lasts_for_its_duration():
     "call",
     [
         lambda: fixed_step.run(pack(Conveyor(), Start()), 0.01, 1e-5, "unheard"),
-        lambda: ensemble.run(pack(Conveyor(), Start())[None], duration=0.01, method="unheard"),
+        lambda: ensemble.sweep(pack(Conveyor(), Start())[None], duration=0.01, method="unheard"),
         lambda: simulate(Conveyor(), duration=0.01, method="unheard"),
         lambda: fixed_step.follow(pack(Conveyor(), Start())[None], 1e-5, 10, "unheard"),
     ],

@@ -7,6 +7,7 @@ from project import read_config
 from conveyor import simulate
 from conveyor.methods import leg, modes, peers, rivals, scipy_peer
 from conveyor.methods.leg import Failed, Leg, Task
+from conveyor.packing import as_rows
 from pipeline import grid
 
 CONFIG = read_config()
@@ -14,7 +15,7 @@ CONFIG = read_config()
 
 def scene(name):
     """The packed parameters of a scene of the config."""
-    return grid.packed(CONFIG["model"] | CONFIG["precision"]["scenes"][name])
+    return as_rows(grid.row_of(CONFIG["model"] | CONFIG["precision"]["scenes"][name]))
 
 
 def test_a_run_that_finds_the_same_event_for_ever_says_so(monkeypatch):

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from reference import reference_states
 from scipy.integrate import simpson
 
-from conveyor import Conveyor, Start, simulate, sweep
-from conveyor.solver.model import conveyor_motion, pack, set_columns, unpack
+from conveyor import Conveyor, Start, conveyor_and_start, parameter_table, simulate, sweep
+from conveyor.solver.model import conveyor_motion
 
 AT_REST = Conveyor(acceleration=0.0)
 FEEDER = Conveyor(acceleration=40.0, inclination=0.08, phase_shift=0.7, static_friction=0.2, psi0=0.3)
@@ -190,15 +190,13 @@ def test_the_energy_of_the_part_is_the_work_of_the_forces_on_it(friction, ratio,
 
 
 def test_friction_without_static_friction_moves_both():
-    values = {"friction": [0.1, 0.4], "duration": 0.1, "acceleration": 20.0}
     apart = [simulate(Conveyor(acceleration=20.0, friction=mu), duration=0.1).mean_velocity() for mu in (0.1, 0.4)]
-    assert sweep(Conveyor(), **values).mean_velocity.tolist() == apart
-    rows = np.tile(pack(Conveyor(), Start()), (2, 1))
-    set_columns(rows, {"friction": np.array([0.1, 0.4])})
-    assert [unpack(row)[0].static_friction for row in rows] == [0.1, 0.4]
+    parameters = parameter_table(Conveyor(), friction=[0.1, 0.4], acceleration=20.0)
+    assert sweep(parameters, duration=0.1).mean_velocity.tolist() == apart
+    assert [conveyor_and_start(row)[0].static_friction for row in parameters] == [0.1, 0.4]
     for wrong in ({"friction": 0.3}, {"static_friction": 0.1}):
         with pytest.raises(ValueError, match=r"static_friction = .* is below friction = "):
-            sweep(Conveyor(friction=0.15, static_friction=0.2), **wrong)
+            parameter_table(Conveyor(friction=0.15, static_friction=0.2), **wrong)
     with pytest.raises(ValueError, match=r"static_friction = 0.1 is below friction = 0.15"):
         Conveyor(static_friction=0.1)
 

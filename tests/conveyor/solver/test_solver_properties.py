@@ -222,7 +222,7 @@ def test_four_thousand_random_points():
     for draw, wanted in ((around_the_paper, 1.0), (whole_ranges, 0.5)):
         points = draw(1000, seed=1)
         parameters = np.concatenate([points, tilted(points, seed=2)])
-        columns = ensemble.run(parameters, duration=3.0 / parameters[:, FREQUENCY], tolerance=1e-8, threads=2)
+        columns = ensemble.sweep(parameters, duration=3.0 / parameters[:, FREQUENCY], tolerance=1e-8, threads=2)
         ok = columns["status"] == "ok"
         assert ok.mean() >= wanted
         assert "impact not found" not in columns["status"]
@@ -249,7 +249,7 @@ def test_no_slip_reversal_without_a_change_of_direction():
 
 def test_rows_do_not_depend_on_how_the_work_is_shared():
     parameters = around_the_paper(60, seed=2)
-    first = ensemble.run(parameters, duration=0.1, threads=1, chunk=60)
+    first = ensemble.sweep(parameters, duration=0.1, threads=1, chunk=60)
     for threads, chunk in ((2, 7), (1, 1), (2, 64)):
-        again = ensemble.run(parameters, duration=0.1, threads=threads, chunk=chunk)
+        again = ensemble.sweep(parameters, duration=0.1, threads=threads, chunk=chunk)
         assert all(first[name].tobytes() == again[name].tobytes() for name in first)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...packing import as_rows, as_table
 from ...solver.model import PARAMETERS, PSI0, VZ0, Z0
 
 BOXES = 256  # of a chaotic set, along each axis
@@ -17,6 +18,19 @@ CONVEYOR = [place for place in range(len(PARAMETERS)) if place not in INITIAL_CO
 
 
 def distinct_conveyors(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The conveyors of a table, each once, sorted, with phase and initial condition zero, and the number of each row's.
+
+    Examples
+    --------
+    >>> conveyors, numbers = distinct_conveyors(parameter_table(Conveyor(), acceleration=[40.0, 20.0, 40.0], z0=1e-4))
+    >>> conveyors["acceleration"].tolist(), numbers.tolist()
+    ([20.0, 40.0], [1, 0, 1])
+    """
+    conveyors, numbers = distinct_rows(as_rows(parameters))
+    return as_table(conveyors), numbers
+
+
+def distinct_rows(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The conveyors of rows, shape (n, 16), sorted, shape (m, 16), and the number of each row's, int64, shape (n,).
 
     The phases and initial conditions of the conveyors are zero.
@@ -75,7 +89,7 @@ class AttractorTable(NamedTuple):
 
         Each row has the first orbit of its conveyor, the one behind the last orbit, and the same of chaotic sets.
         """
-        conveyors, index = distinct_conveyors(parameters)
+        conveyors, index = distinct_rows(parameters)
         return np.hstack([find_places(table.conveyors, conveyors) for table in self])[index]
 
 

@@ -9,16 +9,19 @@ A label depends only on the conveyor and the initial condition. Trajectories on 
 attractors (see `search`). A trajectory that has reached the trapping region of a periodic orbit, or stays in a chaotic
 set, need not be followed further.
 
-`interface.classify` checks its arguments; `classify` here does not, because a run that failed may hand it any state.
+A run that failed may hand `classify` any state; such a trajectory is undecided.
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
-from ...solver.model import FREQUENCY, PSI0, VZ0, Z0
-from ...solver.parallel import for_each_chunk
+from ...arguments import MOST_CYCLES, check_count, check_threads, check_tolerance
+from ...columns import Columns
+from ...packing import rows_and_shape
+from ...parallel import for_each_chunk
+from ...parameters import DEFAULT_TOLERANCE
+from ...solver.model import FREQUENCY
 from ..chaos import lyapunov
 from . import convergence_lanes
 from .attractor_table import NO_ATTRACTORS, AttractorTable
@@ -35,53 +38,47 @@ CYCLES = 20_000
 TOGETHER = 8192
 
 
-class Labels(NamedTuple):
-    """The labels of n trajectories; every field has the shape (n,)."""
-
-    state: np.ndarray  # str, one of STATES
-    period: np.ndarray  # int64, excitation cycles; 0 for none of up to stroboscopic_map.MAX_PERIOD
-    longest_flight: np.ndarray  # excitation cycles; NaN for chaos and undecided trajectories
-    cycles: np.ndarray  # int64, excitation cycles that the trajectory was followed for
-    delta: np.ndarray  # m, the last penetration δ at trajectory.BEGIN_OF_CYCLE
-    v: np.ndarray  # m/s, its rate there
-
-
-def continued(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, duration: float) -> np.ndarray:
-    """Packed parameters, shape (n, 16), of trajectories that continue runs of `parameters`.
-
-    z_end, vz_end : where the runs ended, m and m/s, shape (n,)
-    duration : of the runs, s, a number or of shape (n,)
-    """
-    later = np.array(parameters, dtype=np.float64)
-    cycles = parameters[:, FREQUENCY] * duration
-    later[:, PSI0] = (parameters[:, PSI0] + 2.0 * math.pi * (cycles - np.floor(cycles))) % (2.0 * math.pi)
-    later[:, Z0] = z_end
-    later[:, VZ0] = vz_end
-    return later
-
-
 def classify(
     parameters: np.ndarray,
     *,
     cycles: int = CYCLES,
     attractors: AttractorTable = NO_ATTRACTORS,
     exponents: bool = True,
-    tolerance: float = 1e-8,
+    tolerance: float = DEFAULT_TOLERANCE,
     threads: int = 1,
     progress: str | None = None,
-) -> Labels:
-    """The label of each trajectory.
+) -> Columns:
+    """The label of the attractor that each initial condition leads to: its state of motion and its period.
 
     Parameters
     ----------
-    parameters : float64, shape (n, 16), rows from model.pack or, after a run, from `continued`
-    cycles : excitation cycles after which the search for a period ends
+    parameters : from `parameter_table` or, after a run, from `continued`, of any shape
+    cycles : excitation cycles after which the search for a period ends, up to 1e6
     attractors : known attractors of the conveyors, see search.find_attractors; by default none
     exponents : whether Lyapunov exponents label trajectories that have not converged; otherwise they stay undecided
     tolerance : of the contact steps
-    threads, progress : as in ensemble.run
+    threads, progress : as in `sweep`
+
+    Returns
+    -------
+    columns of the shape of `parameters`: state, one of `STATES`; period (int64, excitation cycles), 0 for none of up to
+    MAX_PERIOD; longest_flight (excitation cycles), NaN for chaos and undecided trajectories; cycles (int64) that the
+    trajectory was followed for; delta (m) and v (m/s), the last penetration at the beginning of a cycle and its rate
+
+    Raises
+    ------
+    ValueError, TypeError
+        name the argument that cannot be used
+
+    Examples
+    --------
+    >>> labels = classify(parameter_table(Conveyor(), acceleration=[40.0, 57.0, 80.0], z0=3e-4))
+    >>> list(zip(labels.state.tolist(), labels.period.tolist()))
+    [('second', 1), ('second', 2), ('chaos', 0)]
     """
-    parameters = np.ascontiguousarray(parameters, dtype=np.float64)
+    cycles = check_count("cycles", cycles, 1, MOST_CYCLES)
+    tolerance, threads = check_tolerance(tolerance), check_threads(threads)
+    parameters, shape = rows_and_shape(parameters)
     n = len(parameters)
     found, table_rows = new_trajectories(n), attractors.rows_of(parameters)
 
@@ -107,4 +104,7 @@ def classify(
         longer = still[signs < 0]
         codes[longer] = regular[longer]
     flights[(codes == CHAOS) | (codes == UNDECIDED)] = math.nan
-    return Labels(np.array(STATES, dtype=object)[codes], found.periods, flights, found.followed, *found.states.T)
+    delta, v = found.states.T
+    labels = {"state": np.array(STATES, dtype=object)[codes], "period": found.periods, "longest_flight": flights}
+    labels |= {"cycles": found.followed, "delta": delta, "v": v}
+    return Columns({name: column.reshape(shape) for name, column in labels.items()})

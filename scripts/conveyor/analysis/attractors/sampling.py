@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from ...packing import as_rows
 from ...solver import contact
 from ...solver.model import PSI0
 from ...solver.trajectory import BEGIN_OF_CYCLE
@@ -19,14 +20,14 @@ SAMPLES = 32
 SHORT_SEARCH = 400  # cycles in which most trajectories become periodic that do not end in chaos
 
 
-def initial_conditions(parameters: np.ndarray) -> np.ndarray:
-    """Initial conditions of one conveyor, shape (16,): (δ, v) in the air at the plate's top, shape (SAMPLES, 2).
+def sampled_initial_conditions(parameters: np.ndarray) -> np.ndarray:
+    """Initial conditions of one conveyor, a row of a table: (δ, v) in the air at the plate's top, shape (SAMPLES, 2).
 
     To jump over one or two cycles a part leaves the plate with about the plate's speed plus half of g T at most. This
     sum bounds the velocities, and the height that a part reaches with it bounds the heights. The points are an R2
     sequence.
     """
-    c = contact.constants(parameters, 1e-8)
+    c = contact.constants(as_rows(parameters), 1e-8)
     fastest = math.pi * (c.gravity + c.a_z) / c.omega
     highest = 0.5 * fastest * fastest / c.gravity
     golden = 1.324717957244746  # the real root of x³ = x + 1
@@ -55,8 +56,8 @@ def follow(
 
 
 def sample_conveyors(conveyors: np.ndarray, cycles: int, tolerance: float) -> list[Trajectories]:
-    """The trajectories of each of n conveyors, shape (n, 16), from its `initial_conditions`, for at most `cycles`."""
-    states = np.concatenate([initial_conditions(row) for row in conveyors])
+    """The trajectories of each of n conveyors, shape (n, 16), from its sampled initial conditions, for some cycles."""
+    states = np.concatenate([sampled_initial_conditions(row) for row in conveyors])
     found = follow(np.repeat(conveyors, SAMPLES, axis=0), states, cycles, tolerance)
     return [
         Trajectories(*(column[begin : begin + SAMPLES] for column in found)) for begin in range(0, len(states), SAMPLES)

@@ -4,9 +4,11 @@ import math
 
 import numpy as np
 
-from ...solver.parallel import for_each_chunk
+from ...packing import rows_and_shape
+from ...parallel import for_each_chunk
+from ...parameters import DEFAULT_TOLERANCE
 from . import sampling
-from .attractor_table import NO_ATTRACTORS, AttractorTable, concatenate, distinct_conveyors
+from .attractor_table import NO_ATTRACTORS, AttractorTable, concatenate, distinct_rows
 from .chaotic_sets import find_chaotic_sets
 from .trapping_regions import find_attracting_orbits
 
@@ -23,11 +25,11 @@ def find_attractors(
     cycles: int,
     orbits: bool = True,
     most: int | None = None,
-    tolerance: float = 1e-8,
+    tolerance: float = DEFAULT_TOLERANCE,
     threads: int = 1,
     progress: str | None = None,
 ) -> AttractorTable:
-    """The attractors of the conveyors in `parameters`, shape (n, 16); the initial conditions there do not matter.
+    """The attractors of the conveyors in a table of `parameters`; the initial conditions there do not matter.
 
     Parameters
     ----------
@@ -37,7 +39,7 @@ def find_attractors(
     orbits : whether trapping regions of periodic orbits are wanted; each takes some thousand cycles
     tolerance, threads, progress : as in labels.classify
     """
-    conveyors, _ = distinct_conveyors(parameters)
+    conveyors, _ = distinct_rows(rows_and_shape(parameters)[0])
     most = min(SEARCHES * cycles, math.inf if most is None else most)
     found = [NO_ATTRACTORS] * len(conveyors)
 

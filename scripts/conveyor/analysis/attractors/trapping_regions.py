@@ -17,7 +17,7 @@ from ...solver.jit import compiled
 from ...solver.model import PSI0
 from ...solver.trajectory import BEGIN_OF_CYCLE, OK
 from .. import stroboscopic_map
-from ..dimensionless_groups import units
+from ..dimensionless_groups import length_and_speed_units
 from . import convergence, sampling
 from .attractor_table import NO_ATTRACTORS, AttractingOrbits, AttractorTable, ChaoticSets, append_row
 from .convergence import IN_CHAOTIC_SET, NOT_CONVERGED, PERIODIC, STAY, Trajectories
@@ -142,7 +142,7 @@ def refine_orbit(
 
     A motion on its way to a slow orbit seems to repeat itself when it is still far away. Newton's iteration goes on.
     """
-    unit, point = np.array(units(parameters)), near
+    unit, point = np.array(length_and_speed_units(parameters)), near
     for _ in range(REFINEMENTS):
         found = linearise(parameters, tolerance, point, period)
         if found is None or np.abs((point - near) / unit).max() > FAR:
@@ -165,7 +165,7 @@ def find_trapping_region(
     region : centre, shape (2,), and factor, shape (3,); None for none
     spent : excitation cycles
     """
-    damping, unit = contact.constants(parameters, tolerance).damping, np.array(units(parameters))
+    damping, unit = contact.constants(parameters, tolerance).damping, np.array(length_and_speed_units(parameters))
     centre = np.array([state[0], state[1] + damping * max(state[0], 0.0)])
     periods, found = PERIODS, linearise(parameters, tolerance, centre, period)
     if found is None:
@@ -208,7 +208,7 @@ def find_attracting_orbits(
     chaotic : the known chaotic sets of the conveyor
     most : excitation cycles in all, after which no further orbit is searched for
     """
-    at_top, unit = parameters.copy(), np.array(units(parameters))
+    at_top, unit = parameters.copy(), np.array(length_and_speed_units(parameters))
     at_top[PSI0] = BEGIN_OF_CYCLE
     seen, found, left = np.empty((0, 2)), NO_ATTRACTORS.orbits, most
 
@@ -216,7 +216,7 @@ def find_attracting_orbits(
         nonlocal seen, found, left
         if left <= 0 or period > LONGEST or (np.abs((seen - state) / unit).max(axis=1) < SMALLEST).any():
             return
-        status, strobes, _ = stroboscopic_map.follow(at_top, tolerance, state.copy(), period)
+        status, strobes, _ = stroboscopic_map.follow_map(at_top, tolerance, state.copy(), period)
         if status == OK:
             seen = np.concatenate([seen, strobes])
             around, spent = find_trapping_region(at_top, tolerance, state, period, most=left)

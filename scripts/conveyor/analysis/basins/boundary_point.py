@@ -18,7 +18,7 @@ import numpy as np
 
 from ..bifurcations.bifurcation_points import FARTHEST, ITERATIONS, derivatives
 from ..bifurcations.newton import newton, solve
-from ..dimensionless_groups import AMPLITUDE, DAMPING, EXPONENT, HEIGHT, NAMES, PHASE, STIFFNESS, VELOCITY, Groups
+from ..dimensionless_groups import AMPLITUDE, DAMPING, EXPONENT, GROUP_NAMES, HEIGHT, PHASE, STIFFNESS, VELOCITY, Groups
 
 # Images among which a saddle is looked for, and its longest period, in cycles.
 SEARCHED, LONGEST = 60, 4
@@ -45,7 +45,9 @@ class BoundaryPoint(NamedTuple):
     saddle: np.ndarray  # (x, y) at the phase ψ0
     multipliers: tuple[float, float]  # of the saddle, the unstable one first
     images: np.ndarray  # of the initial condition, shape (N + 1, 2)
-    moves: np.ndarray  # derivatives of the unknown by all groups, dimensionless_groups.NAMES, shape (7,); its own is 0
+    moves: (
+        np.ndarray
+    )  # derivatives of the unknown by all groups, dimensionless_groups.GROUP_NAMES, shape (7,); its own is 0
 
 
 # The groups besides height and amplitude that move a boundary, in this order.
@@ -210,7 +212,7 @@ def _moved(launch, groups, unknown, period, saddle, images):
     own, other = (-2, -1) if unknown == HEIGHT else (-1, -2)
     right = -np.column_stack([others, jacobian[:, other]])
     *moved, by_other = np.linalg.solve(np.column_stack([jacobian[:, : 2 * count], jacobian[:, own]]), right)[-1]
-    moves = np.zeros(len(NAMES))
+    moves = np.zeros(len(GROUP_NAMES))
     moves[list(OTHERS)] = moved
     moves[AMPLITUDE if unknown == HEIGHT else HEIGHT] = by_other
     order = np.argsort(-np.abs(values))

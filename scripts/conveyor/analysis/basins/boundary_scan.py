@@ -10,8 +10,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...solver.model import Z0
-
 # Changes of state of one conveyor that are located. Where chaos is a long transient, each height has its own label.
 MOST = 16
 
@@ -36,9 +34,9 @@ def find_crossings(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 16), rows as from model.pack; their z0 does not matter
+    parameters : from `parameter_table`, shape (n,); their z0 does not matter
     heights : z0 of the scan, m, ascending, shape (h,); the scan may miss stripes narrower than their distance
-    decide : gives the state of motion, str, shape (m,), for parameters of shape (m, 16)
+    decide : gives the state of motion, str, shape (m,), for a table of shape (m,)
     resolution : width of the interval that encloses a change, m
     """
     heights = np.asarray(heights, dtype=np.float64)
@@ -48,8 +46,8 @@ def find_crossings(
         raise ValueError(f"resolution = {resolution!r} m is below the distance of numbers in double precision")
 
     def states_at(points: np.ndarray, z0: np.ndarray) -> np.ndarray:
-        rows = np.array(parameters[points], dtype=np.float64)
-        rows[:, Z0] = z0
+        rows = parameters[points]
+        rows["z0"] = z0
         return decide(rows)
 
     scan = states_at(np.repeat(np.arange(len(parameters)), len(heights)), np.tile(heights, len(parameters)))

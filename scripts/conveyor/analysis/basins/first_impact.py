@@ -5,10 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...packing import as_rows
 from ...solver import contact
 from ...solver.flight import Flight, next_impact
 from ...solver.jit import compiled
-from ...solver.model import PSI0, VZ0, Z0
+from ...solver.model import VZ0, Z0
 from ...solver.vertical import begin, in_contact
 
 TIME, VELOCITY, PHASE = range(3)
@@ -46,14 +47,14 @@ def find_first_impacts(parameters):
 
 
 def first_impacts(parameters: np.ndarray) -> FirstImpact:
-    """First impacts of the initial conditions in `parameters`, float64, shape (n, 16), rows as from model.pack."""
-    return FirstImpact(*find_first_impacts(np.ascontiguousarray(parameters, dtype=np.float64)).T)
+    """First impacts of the initial conditions in a table of `parameters`, shape (n,)."""
+    return FirstImpact(*find_first_impacts(as_rows(parameters)).T)
 
 
 def on_conveyor(parameters: np.ndarray, impacts: FirstImpact) -> np.ndarray:
-    """The same motions, shape (n, 16), that begin on the conveyor with phase and velocity of their first impacts."""
-    mapped = np.array(parameters, dtype=np.float64)
-    mapped[:, PSI0] = impacts.phase % (2.0 * math.pi)
-    mapped[:, Z0] = math.nan
-    mapped[:, VZ0] = impacts.velocity
+    """The table of the same motions, begun on the conveyor with the phases and velocities of their first impacts."""
+    mapped = parameters.copy()
+    mapped["psi0"] = impacts.phase % (2.0 * math.pi)
+    mapped["z0"] = math.nan
+    mapped["vz0"] = impacts.velocity
     return mapped

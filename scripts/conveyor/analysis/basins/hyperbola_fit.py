@@ -1,8 +1,8 @@
 """Fit of the critical initial height by a hyperbola, z0 = A / (B + â) + C (Eq. 13), and how well it is determined.
 
-For given B the problem is linear in A and C, and exactly solved (variable projection): `profile` gives the best error
-over B, a valley along which very different triples fit almost equally well; `fit_least_squares` goes to its bottom.
-`fit_pymoo` searches in all three parameters as the paper does, by an evolution strategy.
+For given B the problem is linear in A and C, and exactly solved (variable projection): `hyperbola_profile` gives the
+best error over B, a valley along which very different triples fit almost equally well; `fit_hyperbola` goes to its
+bottom. `fit_hyperbola_by_pymoo` searches in all three parameters as the paper does, by an evolution strategy.
 """
 
 from typing import NamedTuple
@@ -25,7 +25,7 @@ class Fit(NamedTuple):
     ----------
     parameters : the best triple
     error : its mean squared error, m²
-    evaluations : number of triples (values of B for `fit_least_squares`) whose error was computed
+    evaluations : number of triples (values of B for `fit_hyperbola`) whose error was computed
     history : best error so far, m², over the number of evaluations, float64, shape (steps, 2)
     """
 
@@ -35,7 +35,7 @@ class Fit(NamedTuple):
     history: np.ndarray
 
 
-def profile(acceleration: np.ndarray, height: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def hyperbola_profile(acceleration: np.ndarray, height: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The valley: the best triple for each value of B, and its error.
 
     Parameters
@@ -55,7 +55,7 @@ def profile(acceleration: np.ndarray, height: np.ndarray, b: np.ndarray) -> tupl
     return parameters, mean_squared_error(acceleration, height, parameters)
 
 
-def fit_least_squares(acceleration: np.ndarray, height: np.ndarray, bounds: tuple[float, float]) -> Fit:
+def fit_hyperbola(acceleration: np.ndarray, height: np.ndarray, bounds: tuple[float, float]) -> Fit:
     """Least-squares fit with B within `bounds` (m/s²), A and C free: the lowest minimum that a scan of B shows.
 
     ValueError if the data or the bounds cannot be used.
@@ -67,23 +67,23 @@ def fit_least_squares(acceleration: np.ndarray, height: np.ndarray, bounds: tupl
     """
     acceleration, height = check_data(acceleration, height, bounds)
     starts = np.linspace(*bounds, STARTS)
-    _, errors = profile(acceleration, height, starts)
+    _, errors = hyperbola_profile(acceleration, height, starts)
     best = int(np.argmin(errors))
     scale = np.ptp(height) or 1.0
 
     def residuals(b: np.ndarray) -> np.ndarray:
-        parameters, _ = profile(acceleration, height, b)
+        parameters, _ = hyperbola_profile(acceleration, height, b)
         return (critical_height(acceleration, parameters[0]) - height) / scale
 
     bracket = starts[max(best - 1, 0)], starts[min(best + 1, STARTS - 1)]
     solution = least_squares(residuals, starts[best], bounds=bracket, jac="3-point", xtol=1e-15, ftol=1e-15, gtol=1e-15)
-    parameters, error = profile(acceleration, height, solution.x)
+    parameters, error = hyperbola_profile(acceleration, height, solution.x)
     evaluations = STARTS + 3 * solution.nfev
     history = np.array([[STARTS, errors[best]], [evaluations, error[0]]])
     return Fit(Hyperbola(*map(float, parameters[0])), float(error[0]), evaluations, history)
 
 
-def fit_pymoo(
+def fit_hyperbola_by_pymoo(
     acceleration: np.ndarray, height: np.ndarray, bounds: dict[str, tuple[float, float]], seed: int, evaluations: int
 ) -> Fit:
     """Fit by CMA-ES (pymoo), which learns the direction of the narrow, curved valley; same seed, same result.
@@ -93,7 +93,7 @@ def fit_pymoo(
     Parameters
     ----------
     acceleration, height : data, m/s² and m, shape (n,), n ≥ 3
-    bounds : low and high of "A" (m²/s²), "B" (m/s²) and "C" (m); see `fit_least_squares` for B
+    bounds : low and high of "A" (m²/s²), "B" (m/s²) and "C" (m); see `fit_hyperbola` for B
     evaluations : largest number of triples to try
     """
     acceleration, height = check_data(acceleration, height, bounds["B"])

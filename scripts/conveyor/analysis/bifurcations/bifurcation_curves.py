@@ -17,13 +17,14 @@ not generic.
 """
 
 from collections.abc import Iterable
+from enum import StrEnum
 from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import root
 
 from ..dimensionless_groups import Groups
-from .bifurcation_points import GRAZING, SIGNS, Point, derivatives, find_bifurcation, system, touch
+from .bifurcation_points import GRAZING, SIGNS, BifurcationPoint, derivatives, find_bifurcation, system, touching_point
 from .newton import follow_curve, newton
 
 CONVERGED, ITERATIONS = 1e-10, 12  # last correction of Newton's iteration, and number of corrections
@@ -37,11 +38,19 @@ NEARBY = 1e-2  # a grazing within this distance of the end of a curve, in log Γ
 SMALL = 1e-3  # ratio of the test at a cusp or generalised doubling to the tests at the neighbouring points
 SIDESTEP = 1e-4  # of the difference quotient of second derivatives along r
 
-# Why a curve ends.
-LIMIT, STEP, LENGTH, CLOSED, LOST, HALVED = "limit", "step", "length", "closed", "lost", "period halving"
+
+class CurveEnd(StrEnum):
+    """Why a curve ends."""
+
+    LIMIT = "limit"
+    STEP = "step"
+    LENGTH = "length"
+    CLOSED = "closed"
+    LOST = "lost"
+    HALVED = "period halving"
 
 
-class Path(NamedTuple):
+class ParameterPath(NamedTuple):
     """How the second parameter moves the groups: D ∝ e^(damping λ), K ∝ e^(stiffness λ)."""
 
     damping: float
@@ -52,18 +61,18 @@ class CodimensionTwoPoint(NamedTuple):
     """A point of codimension two on a curve."""
 
     kind: str  # cusp, generalised doubling or grazing
-    point: Point
+    point: BifurcationPoint
     log_ratio: float  # λ
     status: str  # ok, or why this is only a point near it
 
 
-class Curve(NamedTuple):
+class BifurcationCurve(NamedTuple):
     """A curve of one bifurcation in the order of its arclength, its points of codimension two, and why it ends.
 
     `ends` are the reasons at the first and at the last point, one of the words above.
     """
 
-    points: list[Point]
+    points: list[BifurcationPoint]
     log_ratios: np.ndarray  # λ of each point, shape (n,)
     normal_forms: np.ndarray  # coefficient at each point, whose zero is a cusp or a generalised doubling, shape (n,)
     impacts: np.ndarray  # per period, at each point, shape (n,)
@@ -74,7 +83,7 @@ class Curve(NamedTuple):
 class CurveEquations:
     """The equations of a curve of one kind of bifurcation and one period; the unknowns are (x, y, log Γ, λ)."""
 
-    def __init__(self, point: Point, path: Path):
+    def __init__(self, point: BifurcationPoint, path: ParameterPath):
         self.kind, self.period, self.origin, self.path = point.kind, point.period, point.groups, path
 
     def groups(self, unknown: np.ndarray) -> Groups:
@@ -85,10 +94,10 @@ class CurveEquations:
             stiffness=float(self.origin.stiffness * np.exp(self.path.stiffness * unknown[3])),
         )
 
-    def point(self, unknown: np.ndarray) -> Point:
+    def point(self, unknown: np.ndarray) -> BifurcationPoint:
         """The bifurcation at unknowns."""
         groups = self.groups(unknown)
-        return Point(self.kind, self.period, np.append(unknown[:2], groups.amplitude), groups)
+        return BifurcationPoint(self.kind, self.period, np.append(unknown[:2], groups.amplitude), groups)
 
     def system(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
         """The three functions and their derivatives by the unknowns, shape (3, 4)."""
@@ -131,7 +140,7 @@ def eigenvectors(matrix: np.ndarray, sign: float) -> tuple[np.ndarray, np.ndarra
     return right, left / (left @ right)
 
 
-def normal_form(point: Point, along: np.ndarray) -> tuple[float, np.ndarray]:
+def normal_form(point: BifurcationPoint, along: np.ndarray) -> tuple[float, np.ndarray]:
     """The coefficient whose zero is a cusp or a generalised doubling (Kuznetsov 2004, Sect. 5.4), and r.
 
     For a fold it is l·D²Pⁿ(r, r)/2, with the sign of r chosen so that r·`along` ≥ 0. For a doubling it is the cubic
@@ -154,15 +163,15 @@ def normal_form(point: Point, along: np.ndarray) -> tuple[float, np.ndarray]:
     return float(left @ (third / 6.0 + 0.5 * found.second[:, :, :2] @ follow @ right)), right
 
 
-def follow(
-    point: Point,
-    path: Path,
+def follow_bifurcation_curve(
+    point: BifurcationPoint,
+    path: ParameterPath,
     amplitude: tuple[float, float],
     reach: tuple[float, float],
     *,
     longest_step: float,
     most: int,
-) -> Curve:
+) -> BifurcationCurve:
     """Follow the curve of a bifurcation in both directions.
 
     Parameters
@@ -179,7 +188,7 @@ def follow(
     limits = (*np.log(amplitude), *reach)
     onwards, last = _side(equations, begin, np.array([0.0, 0.0, 0.0, 1.0]), limits, longest_step, most)
     before, first = [], last
-    if last != CLOSED:
+    if last != CurveEnd.CLOSED:
         before, first = _side(equations, begin, np.array([0.0, 0.0, 0.0, -1.0]), limits, longest_step, most)
     unknowns = [*before[:0:-1], *onwards]
     points = [equations.point(unknown) for unknown in unknowns]
@@ -190,14 +199,19 @@ def follow(
         rights.append(right)
     impacts = np.array([derivatives(one.groups, one.unknown[:2], one.period).impacts for one in points])
     meetings = list(_meetings(equations, unknowns, forms, rights[1:], impacts, (first, last)))
-    return Curve(
+    return BifurcationCurve(
         points, np.array([unknown[3] for unknown in unknowns]), np.array(forms), impacts, meetings, (first, last)
     )
 
 
-def follow_grazing(
-    point: Point, path: Path, amplitude: tuple[float, float], reach: tuple[float, float], *, step: float
-) -> Curve:
+def follow_grazing_curve(
+    point: BifurcationPoint,
+    path: ParameterPath,
+    amplitude: tuple[float, float],
+    reach: tuple[float, float],
+    *,
+    step: float,
+) -> BifurcationCurve:
     """Follow the amplitude at which an orbit touches the plate (a grazing) in both directions, in equal steps of λ.
 
     The curve ends with "lost" where Newton's iteration finds no touch near the last one. The other parameters are those
@@ -205,13 +219,13 @@ def follow_grazing(
     """
     found, ends, equations = [], [], CurveEquations(point, path)
     for direction, end in ((-1.0, reach[0]), (1.0, reach[1])):
-        here, log_ratio, side, reason = point, 0.0, [], LIMIT
+        here, log_ratio, side, reason = point, 0.0, [], CurveEnd.LIMIT
         while abs(log_ratio) < abs(end):
             log_ratio = direction * min(abs(log_ratio) + step, abs(end))
             groups = equations.groups(np.append(np.zeros(2), [np.log(here.groups.amplitude), log_ratio]))
             there = find_bifurcation(GRAZING, point.period, here.unknown, groups)
             if there is None or np.abs(there.unknown - here.unknown).max() > 3.0 * step:
-                reason = LOST
+                reason = CurveEnd.LOST
                 break
             here = there
             side.append((here, log_ratio))
@@ -221,7 +235,7 @@ def follow_grazing(
         ends.append(reason)
     points, log_ratios = [one for one, _ in found], np.array([log_ratio for _, log_ratio in found])
     impacts = np.zeros(len(points), dtype=np.int64)
-    return Curve(points, log_ratios, np.full(len(points), np.nan), impacts, [], tuple(ends))
+    return BifurcationCurve(points, log_ratios, np.full(len(points), np.nan), impacts, [], tuple(ends))
 
 
 def _side(equations, begin, direction, limits, longest_step, most):
@@ -231,20 +245,20 @@ def _side(equations, begin, direction, limits, longest_step, most):
     steps = follow_curve(equations.correct, equations.tangent, begin, direction, **lengths, straight=STRAIGHT)
     for here, there, _, onwards, length in steps:
         if equations.period % 2 == 0 and equations.halving(here) @ equations.halving(there) < 0.0:
-            return unknowns, HALVED
+            return unknowns, CurveEnd.HALVED
         unknowns.append(there)
         if not (limits[0] <= there[2] <= limits[1] and limits[2] <= there[3] <= limits[3]):
-            return unknowns, LIMIT
+            return unknowns, CurveEnd.LIMIT
         if len(unknowns) > 3 and np.linalg.norm(there - begin) < length and onwards @ (begin - there) > 0.0:
-            return [*unknowns, begin], CLOSED
+            return [*unknowns, begin], CurveEnd.CLOSED
         if len(unknowns) > most:
-            return unknowns, LENGTH
-    return unknowns, LOST if equations.tangent(begin, direction) is None else STEP
+            return unknowns, CurveEnd.LENGTH
+    return unknowns, CurveEnd.LOST if equations.tangent(begin, direction) is None else CurveEnd.STEP
 
 
 def _meetings(equations, unknowns, forms, rights, impacts, ends) -> Iterable[CodimensionTwoPoint]:
     """Points of codimension two on a curve, and grazings at its ends."""
-    if ends[0] == STEP and len(unknowns) > 1:
+    if ends[0] == CurveEnd.STEP and len(unknowns) > 1:
         yield from _grazings(equations, *unknowns[1::-1], "the curve ends here")
     for n in range(len(unknowns) - 1):
         begin, end = unknowns[n], unknowns[n + 1]
@@ -253,7 +267,7 @@ def _meetings(equations, unknowns, forms, rights, impacts, ends) -> Iterable[Cod
             yield from found or [CodimensionTwoPoint(GRAZING, equations.point(end), float(end[3]), "not located")]
         if np.sign(forms[n]) * np.sign(forms[n + 1]) < 0.0:
             yield _degenerate(equations, begin, end, lambda one, along=rights[n]: normal_form(one, along)[0])
-    if ends[1] == STEP and len(unknowns) > 1:
+    if ends[1] == CurveEnd.STEP and len(unknowns) > 1:
         yield from _grazings(equations, *unknowns[-2:], "the curve ends here")
 
 
@@ -294,7 +308,7 @@ def _grazings(equations, begin, end, status):
         return np.append(found.image, 1.0 - sign * np.trace(matrix) + np.linalg.det(matrix))
 
     for near in (end, begin):
-        phase = touch(equations.groups(near), near[:2], equations.period)
+        phase = touching_point(equations.groups(near), near[:2], equations.period)
         if phase is None:
             continue
         solution = root(functions, np.append(phase[0], near[2:]), tol=CONVERGED, options={"maxfev": MOST_EVALUATIONS})
@@ -302,6 +316,6 @@ def _grazings(equations, begin, end, status):
             np.abs(end - begin).max(), NEARBY
         ):
             groups = equations.groups(np.append(np.zeros(2), solution.x[1:]))
-            point = Point(GRAZING, equations.period, np.array([solution.x[0], groups.amplitude]), groups)
+            point = BifurcationPoint(GRAZING, equations.period, np.array([solution.x[0], groups.amplitude]), groups)
             yield CodimensionTwoPoint(GRAZING, point, float(solution.x[2]), status)
             return

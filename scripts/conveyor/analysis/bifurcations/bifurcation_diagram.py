@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from ...arguments import MOST_CYCLES, check_count, check_packed, check_tolerance
+from ...arguments import MOST_CYCLES, check_count, check_tolerance
+from ...packing import check_rows
 from ...solver import trajectory
 from .. import stroboscopic_map
 
@@ -23,14 +24,14 @@ def follow_attractor(
     -------
     states, status : δ (m) and v (m/s) at the phase ψ0, shape (n, strobes, 2), and str, shape (n,); behind a failure NaN
     """
-    parameters, tolerance = check_packed(parameters), check_tolerance(tolerance)
+    (parameters, _), tolerance = check_rows(parameters), check_tolerance(tolerance)
     check_count("transient", transient, 0, MOST_CYCLES)
     check_count("strobes", strobes, 1, MOST_CYCLES)
     states = np.full((len(parameters), strobes, 2), np.nan)
     codes = np.full(len(parameters), trajectory.NOT_FINITE)
     (state,) = stroboscopic_map.initial_states(parameters[:1], tolerance)
     for i, row in enumerate(parameters):
-        codes[i], visited, _ = stroboscopic_map.follow(row, tolerance, state, transient + strobes)
+        codes[i], visited, _ = stroboscopic_map.follow_map(row, tolerance, state, transient + strobes)
         states[i] = visited[transient:]
         if codes[i] != trajectory.OK:
             break

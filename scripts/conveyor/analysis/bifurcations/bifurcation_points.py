@@ -13,11 +13,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...packing import as_rows
 from ...solver import contact
 from ...solver.model import PSI0
 from ...solver.trajectory import OK
 from .. import second_derivatives, stroboscopic_map
-from ..dimensionless_groups import Groups, groups_of, packed, units
+from ..dimensionless_groups import Groups, groups_of, length_and_speed_units, packed
 from .newton import newton, solve
 
 TOLERANCE = 1e-14
@@ -43,7 +44,7 @@ class Derivatives(NamedTuple):
     impacts: int  # of all cycles
 
 
-class Point(NamedTuple):
+class BifurcationPoint(NamedTuple):
     """A bifurcation: for a fold or doubling `unknown` is (x, y, Γ), for a grazing (ψ, Γ)."""
 
     kind: str  # fold, period_doubling or grazing
@@ -76,8 +77,8 @@ def derivatives(
 
 def at_phase_zero(parameters: np.ndarray, state: np.ndarray) -> np.ndarray | None:
     """Scaled (x, y) at the phase 0 of a motion whose δ (m) and v (m/s) at the phase ψ0 are `state`, or None."""
-    groups, (length, velocity) = groups_of(parameters), units(parameters)
-    psi0 = float(parameters[PSI0])
+    groups, (length, velocity) = groups_of(parameters), length_and_speed_units(parameters)
+    psi0 = float(as_rows(parameters)[PSI0])
     c = contact.constants(packed(groups, psi0), TOLERANCE)
     here = np.array(state) / (length, velocity)
     remaining = (-psi0 % (2.0 * math.pi)) / c.omega
@@ -134,7 +135,7 @@ def touch_system(
     return found.image, np.column_stack([by_phase, found.first[:, 2:]])
 
 
-def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups) -> Point | None:
+def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups) -> BifurcationPoint | None:
     """The bifurcation that Newton's iteration finds from a guess, or None.
 
     Parameters
@@ -151,10 +152,10 @@ def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups
 
     limits = {"largest": FARTHEST, "stagnant": STAGNANT, "often": OFTEN}
     here = newton(by_unknowns, unknown, converged=CONVERGED, iterations=ITERATIONS, **limits)
-    return None if here is None else Point(kind, period, here, groups._replace(amplitude=float(here[-1])))
+    return None if here is None else BifurcationPoint(kind, period, here, groups._replace(amplitude=float(here[-1])))
 
 
-def differentiate_unknowns(point: Point) -> np.ndarray | None:
+def differentiate_unknowns(point: BifurcationPoint) -> np.ndarray | None:
     """Derivatives of the unknowns of a bifurcation by D, K and p, shape (k, 3), by the implicit function theorem.
 
     The last row is that of Γ. None where the system is singular (a codimension-two point) or cannot be evaluated.
@@ -164,7 +165,7 @@ def differentiate_unknowns(point: Point) -> np.ndarray | None:
     return None if found is None else solve(found[1][:, :count], -found[1][:, count:])
 
 
-def touch(groups: Groups, state: np.ndarray, period: int) -> np.ndarray | None:
+def touching_point(groups: Groups, state: np.ndarray, period: int) -> np.ndarray | None:
     """The phase ψ at which an orbit comes closest to touching the plate with no speed, and Γ.
 
     It is a guess for `find_bifurcation`, shape (2,). None where the motion is lost, or never turns.

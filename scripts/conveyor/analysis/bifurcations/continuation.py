@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 from .newton import follow_curve
 from .periodic_orbits import Orbit, ReturnMap
 
-SAME = 1e-5  # orbits this close are one, in scaled unknowns
+SAME_ORBIT = 1e-5  # orbits this close are one, in scaled unknowns
 DOUBLED = 0.02  # distance from a period doubling to the orbit of twice the period, in scaled unknowns
 # Arclength of the largest, the first and the smallest step along a branch, in scaled unknowns (about m/s² in â).
 LARGEST_STEP, FIRST_STEP, SMALLEST_STEP = 0.1, 1e-3, 1e-7
@@ -59,7 +59,7 @@ def follow_branch(parameters: np.ndarray, orbit: Orbit, limits: tuple[float, flo
 
     Parameters
     ----------
-    parameters : float64, shape (16,); its amplitude is ignored
+    parameters : a row of a table; its amplitude is ignored
     orbit : an orbit within the limits
     limits : lowest and highest â, m/s²
     """
@@ -100,11 +100,11 @@ def _follow(parameters, orbit, limits, direction):
 
 
 def is_orbit(parameters: np.ndarray, orbit: Orbit) -> bool:
-    """Whether an Orbit is one of `parameters`, shape (16,); its amplitude is ignored."""
+    """Whether an Orbit is one of `parameters`, a row of a table; its amplitude is ignored."""
     returns = ReturnMap(parameters, orbit.period)
     given = returns.scaled(orbit.acceleration, orbit.state)
     found = returns.newton(given)
-    return found is not None and bool(np.linalg.norm(found - given) < SAME)
+    return found is not None and bool(np.linalg.norm(found - given) < SAME_ORBIT)
 
 
 def bifurcations_between(parameters: np.ndarray, before: Orbit, after: Orbit) -> list[Bifurcation]:
@@ -151,7 +151,7 @@ def _zero(at: Callable[[float], Orbit | None], test: Callable[[Orbit], float]) -
 def find_doubled_orbit(parameters: np.ndarray, bifurcation: Bifurcation) -> Orbit | None:
     """An orbit of twice the period at the distance DOUBLED from a period doubling, along the eigenvector of -1.
 
-    parameters : float64, shape (16,); its amplitude is ignored
+    parameters : a row of a table; its amplitude is ignored
     Returns None where Newton's iteration finds no orbit.
     """
     orbit = bifurcation.orbit
@@ -165,7 +165,7 @@ def find_doubled_orbit(parameters: np.ndarray, bifurcation: Bifurcation) -> Orbi
 
 
 def on_branch(parameters: np.ndarray, branch: Branch, orbit: Orbit) -> bool:
-    """Whether an orbit, at any of its phases, lies on a branch of `parameters`, shape (16,) (amplitude ignored)."""
+    """Whether an orbit, at any of its phases, lies on a branch of `parameters` (amplitude ignored)."""
     if branch.orbits[0].period != orbit.period:
         return False
     returns = ReturnMap(parameters, orbit.period)
@@ -177,19 +177,19 @@ def on_branch(parameters: np.ndarray, branch: Branch, orbit: Orbit) -> bool:
         guess = points[i] + part * (points[i + 1] - points[i])
         if np.linalg.norm(strobes - guess, axis=1).min() < LARGEST_STEP:
             unknown = returns.newton(guess)
-            if unknown is not None and np.linalg.norm(strobes - unknown, axis=1).min() < SAME:
+            if unknown is not None and np.linalg.norm(strobes - unknown, axis=1).min() < SAME_ORBIT:
                 return True
     return False
 
 
-def explore(
+def explore_bifurcations(
     parameters: np.ndarray, seeds: Iterable[Orbit], limits: tuple[float, float], max_period: int, most: int
 ) -> list[Branch]:
     """All branches that are connected with the seeds through period doublings, each once.
 
     Parameters
     ----------
-    parameters : float64, shape (16,); its amplitude is ignored
+    parameters : a row of a table; its amplitude is ignored
     seeds : orbits to begin with
     limits : lowest and highest â, m/s²
     max_period : longer orbits are left out

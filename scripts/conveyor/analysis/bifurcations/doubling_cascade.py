@@ -19,7 +19,7 @@ def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurca
 
     Parameters
     ----------
-    parameters : float64, shape (16,); its amplitude is ignored
+    parameters : a row of a table; its amplitude is ignored
     first, second : period doublings, the second one of the doubled orbit
     """
     cascade = [first, second]
@@ -46,13 +46,13 @@ def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurca
         cascade.append(Bifurcation("period_doubling", here, min(value.real for value in here.multipliers)))
 
 
-def ratios(amplitudes: np.ndarray) -> np.ndarray:
+def doubling_ratios(amplitudes: np.ndarray) -> np.ndarray:
     """Feigenbaum's ratios (d_n - d_(n-1))/(d_(n+1) - d_n) of successive doublings, shape (n - 2,)."""
     gaps = np.diff(amplitudes)
     return gaps[:-1] / gaps[1:]
 
 
-def accumulation(amplitudes: np.ndarray) -> tuple[float, float]:
+def accumulation_point(amplitudes: np.ndarray) -> tuple[float, float]:
     """Limit of successive doublings by Aitken's process, and its error, the change by the last one; NaN for none."""
     if len(amplitudes) < 4 or not (np.diff(np.abs(np.diff(amplitudes[-4:]))) < 0.0).all():
         return np.nan, np.nan

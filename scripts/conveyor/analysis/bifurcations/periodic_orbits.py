@@ -10,15 +10,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...arguments import LARGEST_COORDINATE, LONGEST_PERIOD, check_array, check_count, check_number, check_packed
+from ...arguments import LARGEST_COORDINATE, LONGEST_PERIOD, check_array, check_count, check_number
+from ...packing import as_rows, check_rows
 from ...parameters import RANGES
 from ...solver.model import ACCELERATION, DAMPING, FREQUENCY, MASS
 from ...solver.trajectory import OK
 from .. import stroboscopic_map
-from ..dimensionless_groups import units
+from ..dimensionless_groups import length_and_speed_units
 from .newton import newton
 
-TOLERANCE = 1e-13
+ORBIT_TOLERANCE = 1e-13
 AMPLITUDE_STEP = 1e-6  # m/s², of the central difference ∂P/∂â
 CONVERGED = 1e-10  # of Newton's last correction, in scaled unknowns
 STAGNANT = 1e-6  # corrections below this that no longer shrink are round-off
@@ -56,10 +57,10 @@ class ReturnMap:
     """
 
     def __init__(self, parameters: np.ndarray, period: int):
-        self.parameters = parameters.copy()
+        self.parameters = parameters = as_rows(parameters).copy()
         self.period = period
         self.damping = parameters[DAMPING] / parameters[MASS]
-        self.unit = np.array([*units(parameters), 1.0])
+        self.unit = np.array([*length_and_speed_units(parameters), 1.0])
 
     def scaled(self, acceleration: float, state: np.ndarray) -> np.ndarray:
         """The unknowns of a state (δ in m, v in m/s) at an amplitude."""
@@ -73,7 +74,7 @@ class ReturnMap:
     def strobes(self, unknown: np.ndarray) -> np.ndarray:
         """Unknowns after 1 … n cycles, shape (n, 3)."""
         row = with_amplitude(self.parameters, unknown[2])
-        _, states, _ = stroboscopic_map.follow(row, TOLERANCE, self.state(unknown), self.period)
+        _, states, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, self.state(unknown), self.period)
         return np.array([self.scaled(unknown[2], state) for state in states])
 
     def linearised(self, unknown: np.ndarray, airborne: float = 0.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -82,7 +83,7 @@ class ReturnMap:
         airborne : time since the last separation, s
         """
         row, state = with_amplitude(self.parameters, unknown[2]), self.state(unknown)
-        status, matrices, features = stroboscopic_map.monodromy(row, TOLERANCE, state, self.period, airborne)
+        status, matrices, features = stroboscopic_map.monodromy(row, ORBIT_TOLERANCE, state, self.period, airborne)
         if status != OK:
             return np.full(2, np.nan), np.full((self.period, 2, 2), np.nan), features
         return self.scaled(unknown[2], state)[:2], matrices, features
@@ -159,12 +160,12 @@ def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, p
 
     Parameters
     ----------
-    parameters : float64, shape (16,); its amplitude is ignored
+    parameters : a row of a table; its amplitude is ignored
     acceleration : amplitude, m/s²
     state : δ (m) and v (m/s) at the phase ψ0, shape (2,)
     period : excitation cycles
     """
-    (parameters,) = check_packed([parameters])
+    (parameters,), _ = check_rows(parameters)
     acceleration = check_number("acceleration", acceleration, *RANGES["acceleration"], "m/s²")
     check_count("period", period, 1, LONGEST_PERIOD)
     state = check_array("state", state, -LARGEST_COORDINATE, LARGEST_COORDINATE)
@@ -187,17 +188,18 @@ def settled_orbit(
 
     Parameters
     ----------
-    parameters : float64, shape (16,); its amplitude is ignored
+    parameters : a row of a table; its amplitude is ignored
     acceleration : amplitude, m/s²
     state : δ (m) and v (m/s)
     periods : the periods to try, in this order
     cycles : excitation cycles that bring the trajectory near its orbit; Newton's iteration does the rest
     """
+    parameters = as_rows(parameters)
     row, end = with_amplitude(parameters, acceleration), np.array(state, dtype=np.float64)
-    status, strobes, _ = stroboscopic_map.follow(row, TOLERANCE, end, cycles)
+    status, strobes, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, end, cycles)
     if status != OK:
         return None
-    unit = np.array(units(parameters))
+    unit = np.array(length_and_speed_units(parameters))
     for period in periods:
         if np.abs((strobes[-1] - strobes[-1 - period]) / unit).max() < 1e-2:
             orbit = orbit_near(parameters, acceleration, end, period)

@@ -5,19 +5,20 @@ They multiply the exact linearisation of the stroboscopic map, and satisfy
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
 from ... import arguments
 from ...arguments import LARGEST_COORDINATE, MOST_BLOCKS, MOST_CYCLES, MOST_VALUES
-from ...simulation import DEFAULT_TOLERANCE
+from ...columns import Columns
+from ...packing import as_rows, check_rows
+from ...parallel import for_each_chunk
+from ...parameters import DEFAULT_TOLERANCE
 from ...solver import contact, trajectory
 from ...solver.jit import compiled
 from ...solver.model import FREQUENCY, PSI0
-from ...solver.parallel import for_each_chunk
 from .. import stroboscopic_map
-from ..dimensionless_groups import units
+from ..dimensionless_groups import length_and_speed_units
 from ..stroboscopic_map import MAX_PERIOD
 from . import stretching
 
@@ -32,16 +33,6 @@ BLOCKS = 20
 # A second stretch that is smaller than the first by more than this logarithm is lost in rounding; λ1 + λ2 gives it.
 LOST = -20.0
 SIGNIFICANT = 3.0  # standard errors by which an exponent with a sign differs from zero
-
-
-class Spectrum(NamedTuple):
-    """Vertical exponents of n trajectories; every field has the shape (n,)."""
-
-    lambda_1: np.ndarray  # 1/s, the larger one
-    lambda_2: np.ndarray  # 1/s
-    stderr: np.ndarray  # 1/s, standard error of lambda_1 from means over blocks of cycles; 0 from Floquet multipliers
-    contact_fraction: np.ndarray  # share of the time with contact force
-    status: np.ndarray  # "ok", or why there is no result
 
 
 @compiled
@@ -86,7 +77,7 @@ def stretches_of(parameters, state, tolerance, phase, transient, cycles):
     return trajectory.OK, stretches, contact_times
 
 
-def spectrum(
+def lyapunov_spectrum(
     parameters: np.ndarray,
     states: np.ndarray | None = None,
     *,
@@ -97,27 +88,39 @@ def spectrum(
     tolerance: float = DEFAULT_TOLERANCE,
     threads: int = 1,
     progress: str | None = None,
-) -> Spectrum:
-    """Both vertical Lyapunov exponents from the variational equation.
-
-    ValueError names the argument that cannot be used.
+) -> Columns:
+    """Both Lyapunov exponents of the motion normal to the track, from its linearisation.
 
     Parameters
     ----------
-    parameters : float64, shape (n, 16), rows as from model.pack
+    parameters : from `parameter_table`, of any shape with n rows
     states : float64, shape (n, 2), stroboscopic states to begin with (default: the initial conditions in `parameters`);
         NaN for a motion that failed
     begin_of_cycle : whether `states` are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
-    transient : excitation cycles that are followed and not counted
-    cycles, blocks : `blocks` ≥ 2 blocks of `cycles` excitation cycles are counted
-    tolerance, threads, progress : as in ensemble.run
+    transient : excitation cycles that are discarded at the beginning, up to 1e6
+    cycles, blocks : mean over `blocks` (2 to 1e4) blocks of `cycles` (1 to 1e6) excitation cycles
+    tolerance, threads, progress : as in `sweep`
 
     Returns
     -------
-    Spectrum of the n trajectories, exponents in 1/s; NaN for a failure. The means of the blocks count as independent:
-        where correlations last longer than a block, the standard error is too small.
+    columns of the shape of `parameters`: lambda_1, the larger exponent, and lambda_2 (1/s); stderr (1/s), the standard
+    error of lambda_1 from the means of the blocks, which is too small where correlations last longer than a block;
+    contact_fraction, the share of the time with contact force; and status, "ok" or why the numbers are NaN
+
+    Raises
+    ------
+    ValueError, TypeError
+        name the argument that cannot be used
+
+    Examples
+    --------
+    >>> spectrum = lyapunov_spectrum(parameter_table(Conveyor(), acceleration=[40.0, 80.0], z0=3e-4))
+    >>> (spectrum.lambda_1 > 0.0).tolist()  # 1/s: chaos at 80 m/s²
+    [False, True]
+    >>> bool(np.allclose(spectrum.lambda_1 + spectrum.lambda_2, -0.3 / 0.7e-3 * spectrum.contact_fraction))
+    True
     """
-    parameters = arguments.check_packed(parameters)
+    parameters, shape = check_rows(parameters)
     tolerance = arguments.check_tolerance(tolerance)
     threads = arguments.check_threads(threads)
     arguments.check_count("transient", transient, 0, MOST_CYCLES)
@@ -154,15 +157,17 @@ def spectrum(
     order = np.argsort(-values, axis=1)
     values, errors = (np.take_along_axis(found / period[:, None], order, axis=1) for found in (values, errors))
     contact_fraction = contact_times.mean(axis=1) / period
-    return Spectrum(*values.T, errors[:, 0], contact_fraction, np.array(trajectory.STATUS)[codes])
+    columns = {"lambda_1": values[:, 0], "lambda_2": values[:, 1], "stderr": errors[:, 0]}
+    columns |= {"contact_fraction": contact_fraction, "status": np.array(trajectory.STATUS, dtype=object)[codes]}
+    return Columns({name: column.reshape(shape) for name, column in columns.items()})
 
 
 def spectrum_from(
     parameters: np.ndarray, states: np.ndarray, cycles: int, *, tolerance: float, threads: int = 1
-) -> Spectrum:
+) -> Columns:
     """Exponents of motions over a number of cycles, from `states`, shape (n, 2), at trajectory.BEGIN_OF_CYCLE."""
     counted = {"transient": 0, "cycles": cycles // BLOCKS, "blocks": BLOCKS}
-    return spectrum(parameters, states, begin_of_cycle=True, **counted, tolerance=tolerance, threads=threads)
+    return lyapunov_spectrum(parameters, states, begin_of_cycle=True, **counted, tolerance=tolerance, threads=threads)
 
 
 def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threads: int = 1) -> np.ndarray:
@@ -172,7 +177,7 @@ def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threa
     ----------
     parameters : float64, shape (n, 16), rows as from model.pack
     states : float64, shape (n, 2), stroboscopic states at trajectory.BEGIN_OF_CYCLE
-    tolerance, threads : as in ensemble.run
+    tolerance, threads : as in `sweep`
     """
     found = np.zeros(len(parameters), dtype=np.int64)
     for cycles in LOOKS:
@@ -218,8 +223,8 @@ def repeating_motion(
     contact_time : time with contact force in a period, s
     """
     nothing = 0, (math.nan, math.nan), math.nan
-    status, strobes, _ = stroboscopic_map.follow(parameters, tolerance, state, REPEATS_WITHIN)
-    period = find_period(strobes, np.array(units(parameters))) if status == trajectory.OK else 0
+    status, strobes, _ = stroboscopic_map.follow_map(parameters, tolerance, state, REPEATS_WITHIN)
+    period = find_period(strobes, np.array(length_and_speed_units(parameters))) if status == trajectory.OK else 0
     if not period:
         return nothing
     status, matrices, features = stroboscopic_map.monodromy(parameters, tolerance, state, period, 0.0)
@@ -230,7 +235,7 @@ def repeating_motion(
     return period, logarithms, float(features[:, stroboscopic_map.CONTACT_TIME].cumsum()[-1])
 
 
-def spectrum_on_attractors(
+def lyapunov_spectrum_on_attractors(
     parameters: np.ndarray,
     *,
     cycles: int,
@@ -238,16 +243,17 @@ def spectrum_on_attractors(
     tolerance: float = DEFAULT_TOLERANCE,
     threads: int = 1,
     progress: str | None = None,
-) -> Spectrum:
+) -> Columns:
     """Both vertical Lyapunov exponents of motions that begin on their attractors, or close to them.
 
     A motion that repeats itself within REPEATS_WITHIN cycles, but for rounding, has the exponents of its Floquet
-    multipliers, with a standard error of 0. Any other motion is followed by `spectrum`.
+    multipliers, with a standard error of 0. Any other motion is followed by `lyapunov_spectrum`.
 
     Parameters
     ----------
-    parameters, cycles, blocks, tolerance, threads, progress : as in `spectrum`
+    parameters, cycles, blocks, tolerance, threads, progress : as in `lyapunov_spectrum`
     """
+    parameters = as_rows(parameters)
     states = stroboscopic_map.initial_states(parameters, tolerance)
     logarithms, contact_times = np.empty((len(parameters), 2)), np.empty(len(parameters))
     periods = np.zeros(len(parameters), dtype=np.int64)
@@ -257,7 +263,7 @@ def spectrum_on_attractors(
             periods[i], logarithms[i], contact_times[i] = repeating_motion(parameters[i], states[i], tolerance)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4)
-    followed = spectrum(
+    followed = lyapunov_spectrum(
         parameters[periods == 0],
         transient=0,
         cycles=cycles,
@@ -268,8 +274,9 @@ def spectrum_on_attractors(
     )
     time = np.maximum(periods, 1) / parameters[:, FREQUENCY]
     lambda_1, lambda_2 = (logarithms / time[:, None]).T
-    status = np.full(len(time), trajectory.STATUS[trajectory.OK], followed.status.dtype)
-    found = Spectrum(lambda_1, lambda_2, np.zeros(len(time)), contact_times / time, status)
-    for column, values in zip(found, followed, strict=True):
-        column[periods == 0] = values
-    return found
+    spectrum = {"lambda_1": lambda_1, "lambda_2": lambda_2, "stderr": np.zeros(len(time))}
+    spectrum["contact_fraction"] = contact_times / time
+    spectrum["status"] = np.full(len(time), trajectory.STATUS[trajectory.OK], dtype=object)
+    for name, values in followed.items():
+        spectrum[name][periods == 0] = values
+    return Columns(spectrum)

@@ -5,14 +5,15 @@ import math
 import numpy as np
 
 from ...methods import fixed_step
-from ...simulation import DEFAULT_STEP, DEFAULT_TOLERANCE
+from ...packing import as_rows
+from ...parallel import for_each_chunk
+from ...parameters import DEFAULT_STEP, DEFAULT_TOLERANCE
 from ...solver import contact, trajectory
 from ...solver.horizontal import SAMPLES
-from ...solver.parallel import for_each_chunk
 from .. import stroboscopic_map
 
 
-def renormalised_estimate(
+def renormalised_exponent(
     parameters: np.ndarray,
     state: np.ndarray,
     *,
@@ -23,24 +24,25 @@ def renormalised_estimate(
 ) -> float:
     """Largest exponent (1/s) of one trajectory, from a neighbour that is set back to a distance after each cycle.
 
-    It is independent of `lyapunov.spectrum`, because it uses no variational equation.
+    It is independent of `lyapunov.lyapunov_spectrum`, because it uses no variational equation.
 
     Parameters
     ----------
-    parameters : float64, shape (16,)
+    parameters : a row of a table
     state : stroboscopic state at ψ0, δ (m) and v (m/s), shape (2,)
     distance : of the neighbour, relative to the scales of the part at rest
     transient, cycles : excitation cycles that are discarded, and counted
     tolerance : of the contact steps
     """
+    parameters = as_rows(parameters)
     c = contact.constants(parameters, tolerance)
     scale = np.array([c.scale_w**2, c.scale_v])
     here = np.array(state, dtype=np.float64)
     there = here + distance * scale / math.sqrt(2.0)
     total = 0.0
     for n in range(transient + cycles):
-        stroboscopic_map.follow(parameters, tolerance, here, 1)
-        stroboscopic_map.follow(parameters, tolerance, there, 1)
+        stroboscopic_map.follow_map(parameters, tolerance, here, 1)
+        stroboscopic_map.follow_map(parameters, tolerance, there, 1)
         separation = (there - here) / scale
         stretch = float(np.hypot(*separation)) / distance
         there = here + separation / stretch * scale
@@ -49,7 +51,7 @@ def renormalised_estimate(
     return total / (cycles * c.period)
 
 
-def finite_difference_estimate(
+def finite_difference_exponent(
     parameters: np.ndarray,
     perturbed: np.ndarray,
     epsilon: float,
@@ -70,11 +72,11 @@ def finite_difference_estimate(
 
     Parameters
     ----------
-    parameters, perturbed : float64, shape (n, 16): the trajectories and their neighbours
+    parameters, perturbed : tables, shape (n,): the trajectories and their neighbours
     epsilon : size of the perturbation, in the unit of the perturbed parameter
     output : the signal that is compared, one of horizontal.SAMPLES
     last, samples : the mean is taken over `samples` equidistant times in the last part of the run
-    duration, method, tolerance, step, threads, progress : as in ensemble.run
+    duration, method, tolerance, step, threads, progress : as in `sweep`
     """
     if not 0.0 < last < 1.0:
         raise ValueError(f"last = {last!r} must be a share of the run in (0, 1): at its beginning Eq. 23 has no value")
@@ -84,7 +86,8 @@ def finite_difference_estimate(
     if method != "event":
         indices = np.rint(times / step).astype(np.int64)
         times = indices * step
-    both = np.ascontiguousarray(np.stack([parameters, perturbed], axis=1).reshape(-1, parameters.shape[1]))
+    pairs = np.stack([as_rows(parameters), as_rows(perturbed)], axis=1)
+    both = pairs.reshape(-1, pairs.shape[2])
     signals = np.empty((len(both), len(times)))
 
     def work(begin, end):

@@ -18,7 +18,7 @@ DECAYED = 0.05
 LONGER = 4
 LEAST_WINDOWS = 8  # of one run
 DEFAULT_WINDOW = 2  # cycles, the shortest window: a motion that alternates between two bands has none in one cycle
-OK, CORRELATED, AT_REST = STATUS = ("ok", "correlations do not decay", "no fluctuations")
+OK, CORRELATED, NO_FLUCTUATIONS = RANDOM_WALK_STATUS = ("ok", "correlations do not decay", "no fluctuations")
 
 
 class RandomWalk(NamedTuple):
@@ -85,7 +85,7 @@ def random_walk(displacements: np.ndarray, period: float) -> RandomWalk:
     fluctuations = displacements - mean
     # Displacements are differences of positions, which rounding leaves with an error.
     if np.abs(fluctuations).max() <= 1e-9 * np.abs(displacements).max():
-        return found._replace(status=AT_REST)
+        return found._replace(status=NO_FLUCTUATIONS)
     window = uncorrelated_window(fluctuations)
     if window == 0:
         return found

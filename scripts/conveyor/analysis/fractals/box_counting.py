@@ -148,6 +148,14 @@ def box_dimension(points: np.ndarray) -> Dimension:
     this: their dimension comes out too small, by more than its error. Correlation sums do not need such boxes.
 
     Samples that repeat resolve nothing: sample a periodic orbit at times incommensurate with its period.
+    ValueError says why points cannot be used.
+
+    Examples
+    --------
+    >>> points = np.random.default_rng(1).random((20_000, 2))  # a filled square
+    >>> dimension = box_dimension(points)
+    >>> bool(abs(dimension.value - 2.0) < dimension.error)
+    True
     """
     points = normalise(points)
     n = len(points)

@@ -5,6 +5,7 @@ Grassberger and Procaccia, Physica D 9 (1983) 189, with the window of Theiler, P
 
 import numpy as np
 
+from ...arguments import check_count
 from ...solver.jit import compiled
 from .scaling_region import SAMPLES_PER_BOX, SCALES, Dimension, normalise, scaling_region
 
@@ -56,7 +57,7 @@ MAXIMUM_PAIRS = 6e7  # distances to compute; larger sets are seen from fewer ref
 BLOCKS = 8  # stretches of a series whose correlation sums are compared
 
 
-def correlation_dimension(points: np.ndarray, theiler: int) -> Dimension:
+def correlation_dimension(points: np.ndarray, theiler: int = 0) -> Dimension:
     """Correlation dimension of a series of `points`, shape (n, 2), scaled axis by axis to the unit square (Eq. 25).
 
     Neighbours are counted for BLOCKS consecutive parts of the series; twice the standard error that their slopes give
@@ -65,10 +66,24 @@ def correlation_dimension(points: np.ndarray, theiler: int) -> Dimension:
     Parameters
     ----------
     points : consecutive samples
-    theiler : pairs at most this number of samples apart are neighbours in time, not on the attractor, and left out
+    theiler : pairs at most this number of samples apart are neighbours in time, not on the attractor, and left out;
+        0 to n - 1
+
+    Raises
+    ------
+    ValueError
+        names the argument that cannot be used
+
+    Examples
+    --------
+    >>> angle = np.random.default_rng(1).uniform(0.0, 2.0 * np.pi, 10_000)
+    >>> dimension = correlation_dimension(np.column_stack([np.cos(angle), np.sin(angle)]))
+    >>> bool(abs(dimension.value - 1.0) < dimension.error < 0.1)
+    True
     """
     points = normalise(points)
     n = len(points)
+    theiler = check_count("theiler", theiler, 0, n - 1)
     references = np.random.default_rng(0).permutation(n)[: int(min(n, max(MAXIMUM_PAIRS / n, 1.0)))]
     blocks = [pair_counts(points, block, theiler, SCALES**2) for block in np.array_split(np.sort(references), BLOCKS)]
     closer = np.array([counts for counts, _ in blocks])

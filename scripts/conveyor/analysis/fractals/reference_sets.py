@@ -28,7 +28,7 @@ def square(rng: np.random.Generator, n: int) -> np.ndarray:
     return rng.random((n, 2))
 
 
-DIMENSIONS = {
+REFERENCE_DIMENSIONS = {
     cantor: math.log(2.0) / math.log(3.0),
     sierpinski: math.log(3.0) / math.log(2.0),
     circle: 1.0,

@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...arguments import LARGEST_COORDINATE, check_array
+
 COARSEST_SCALE = 0.25  # of the set's extent
 FINEST_SCALE = 2.0**-20  # of the set's extent; samples closer than this count as one: a settled orbit repeats itself
 SCALES_PER_OCTAVE = 4
@@ -45,9 +47,9 @@ def normalise(points: np.ndarray) -> np.ndarray:
 
     ValueError if the points have another shape, are none, or are not finite.
     """
-    points = np.asarray(points, dtype=np.float64)
-    if points.ndim != 2 or points.shape[1] != 2 or not len(points) or not np.isfinite(points).all():
-        raise ValueError(f"points must be finite and of shape (n, 2) with n > 0, got shape {points.shape}")
+    points = check_array("points", points, -LARGEST_COORDINATE, LARGEST_COORDINATE)
+    if points.ndim != 2 or points.shape[1] != 2:
+        raise ValueError(f"points must have the shape (n, 2), got {points.shape}")
     low, extent = points.min(axis=0), np.ptp(points, axis=0)
     return np.ascontiguousarray((points - low) / np.where(extent > 0.0, extent, 1.0))
 

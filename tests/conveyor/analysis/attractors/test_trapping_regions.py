@@ -113,7 +113,7 @@ def test_slow_orbits_have_neighbourhoods_in_which_motions_stay():
     assert (motions.followed > 1000).all()
     assert (motions.periods == 2).all()
     np.testing.assert_allclose(motions.flights, orbits.flights[slow], rtol=1e-3)
-    edge = sampling.initial_conditions(row)[1:2]
+    edge = sampling.sampled_initial_conditions(row)[1:2]
     assert sampling.follow(row[None], edge, 20_000, TOLERANCE).followed[0] > 10_000
     table = attractor_table.AttractorTable(orbits, attractor_table.NO_ATTRACTORS.chaotic)
     assert sampling.follow(row[None], edge, 20_000, TOLERANCE, table).followed[0] < 1500
@@ -147,7 +147,7 @@ def test_places_of_conveyors_in_any_order():
     index = generator.integers(0, 3, 40)
     rows = of_each[index]
     rows[:, PSI0] = generator.uniform(0.0, 6.0, 40)
-    sorted_rows, numbers = attractor_table.distinct_conveyors(rows)
+    sorted_rows, numbers = attractor_table.distinct_rows(rows)
     assert sorted_rows[:, 0].tolist() == [30.0, 40.0, 50.0]
     np.testing.assert_array_equal(sorted_rows[numbers], at_zero(rows))
     table = attractor_table.NO_ATTRACTORS.orbits
@@ -157,13 +157,13 @@ def test_places_of_conveyors_in_any_order():
     assert places.tolist() == [[0, 0], [1, 3], [0, 1]]
     places = attractor_table.AttractorTable(table, attractor_table.NO_ATTRACTORS.chaotic).rows_of(rows)
     assert [tuple(places[k]) for k in range(40)] == [{0: (0, 0), 1: (0, 0), 2: (0, 2)}[k] + (0, 0) for k in index]
-    assert attractor_table.distinct_conveyors(rows[:0])[0].shape == (0, 16)
+    assert attractor_table.distinct_rows(rows[:0])[0].shape == (0, 16)
 
 
 @pytest.mark.parametrize("name", [name for name in PARAMETERS if name not in ("psi0", "z0", "vz0")])
 def test_conveyors_differ_if_any_parameter_differs(name):
     rows = np.tile(conveyor_of(40.0), (4, 1))
     rows[2:, PARAMETERS.index(name)] += 1.0
-    sorted_rows, numbers = attractor_table.distinct_conveyors(rows)
+    sorted_rows, numbers = attractor_table.distinct_rows(rows)
     assert numbers.tolist() == [0, 0, 1, 1]
     np.testing.assert_array_equal(sorted_rows, at_zero(rows[::2]))

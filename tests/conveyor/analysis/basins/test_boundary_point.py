@@ -7,11 +7,20 @@ from conveyor import Conveyor, Start
 from conveyor.analysis.attractors.labels import classify
 from conveyor.analysis.basins import boundary_point
 from conveyor.analysis.basins.boundary_point import InitialCondition, find_boundary_point
-from conveyor.analysis.dimensionless_groups import AMPLITUDE, HEIGHT, NAMES, PHASE, VELOCITY, Groups, groups_of, units
+from conveyor.analysis.dimensionless_groups import (
+    AMPLITUDE,
+    GROUP_NAMES,
+    HEIGHT,
+    PHASE,
+    VELOCITY,
+    Groups,
+    groups_of,
+    length_and_speed_units,
+)
 from conveyor.solver.model import pack
 
 ROW = pack(Conveyor(acceleration=40.0), Start())
-GROUPS, (LENGTH, SPEED) = groups_of(ROW), units(ROW)
+GROUPS, (LENGTH, SPEED) = groups_of(ROW), length_and_speed_units(ROW)
 
 
 @pytest.fixture(scope="module")
@@ -42,8 +51,8 @@ def test_a_later_point_of_the_same_flight_lies_on_the_same_edge(velocity):
 
 
 def test_the_edge_solved_again_moves_as_its_derivatives_say(edge):
-    values = dict(zip(NAMES, (*GROUPS[:4], *edge.launch), strict=True))
-    for place, name in enumerate(NAMES):
+    values = dict(zip(GROUP_NAMES, (*GROUPS[:4], *edge.launch), strict=True))
+    for place, name in enumerate(GROUP_NAMES):
         if place == HEIGHT:
             continue
         step = 1e-5 * max(abs(values[name]), 1.0)

@@ -5,7 +5,6 @@ import pytest
 
 from conveyor.analysis.attractors import labels
 from conveyor.analysis.basins import boundary_scan
-from conveyor.solver.model import ACCELERATION, Z0
 from pipeline import grid
 
 HEIGHTS = np.linspace(0.0, 5e-4, 51)
@@ -17,12 +16,12 @@ def conveyors(*accelerations):
 
 def monotone(rows):
     """The first state below z0 = 4 mm m/s² / â."""
-    return np.where(rows[:, Z0] < 4e-3 / rows[:, ACCELERATION], "first", "second")
+    return np.where(rows["z0"] < 4e-3 / rows["acceleration"], "first", "second")
 
 
 def striped(rows):
     """First, second, first again, chaos; the edges are at 0.1, 0.2 and 0.333 mm."""
-    return np.array(["first", "second", "first", "chaos"])[np.searchsorted([1e-4, 2e-4, 1e-3 / 3.0], rows[:, Z0])]
+    return np.array(["first", "second", "first", "chaos"])[np.searchsorted([1e-4, 2e-4, 1e-3 / 3.0], rows["z0"])]
 
 
 def test_a_single_edge_is_bracketed_to_the_resolution():
@@ -45,14 +44,14 @@ def test_every_stripe_is_reported_and_the_lowest_end_of_the_first_state_is_criti
 
 def test_a_start_in_the_second_state_is_not_critical():
     found = boundary_scan.find_crossings(
-        conveyors(30.0), HEIGHTS, lambda rows: np.where(rows[:, Z0] < 2e-4, "second", "first"), 1e-9
+        conveyors(30.0), HEIGHTS, lambda rows: np.where(rows["z0"] < 2e-4, "second", "first"), 1e-9
     )
     assert len(found.point) == 1 and not boundary_scan.select_critical(found.point, found.below).any()
 
 
 def test_a_third_state_inside_an_interval_takes_the_place_of_the_state_above():
     def decide(rows):
-        return np.where(rows[:, Z0] < 1.04e-4, "first", np.where(rows[:, Z0] < 1.08e-4, "undecided", "second"))
+        return np.where(rows["z0"] < 1.04e-4, "first", np.where(rows["z0"] < 1.08e-4, "undecided", "second"))
 
     found = boundary_scan.find_crossings(conveyors(30.0), HEIGHTS, decide, 1e-9)
     np.testing.assert_allclose(found.height, 1.04e-4, atol=1e-9)
@@ -68,8 +67,8 @@ def test_only_some_of_many_changes_are_located(monkeypatch):
     """Chaos below 0.4 mm with a label of its own for each height; the first state ends above it."""
 
     def decide(rows):
-        noise = np.where((rows[:, Z0] * 1e5).round() % 2 == 0, "chaos", "undecided")
-        return np.where(rows[:, Z0] < 4e-4, noise, np.where(rows[:, Z0] < 4.53e-4, "first", "second"))
+        noise = np.where((rows["z0"] * 1e5).round() % 2 == 0, "chaos", "undecided")
+        return np.where(rows["z0"] < 4e-4, noise, np.where(rows["z0"] < 4.53e-4, "first", "second"))
 
     decided = []
     monkeypatch.setattr(boundary_scan, "MOST", 4)
@@ -101,5 +100,5 @@ def test_the_paper_s_critical_heights():
     np.testing.assert_allclose(found.height, [0.13e-3, 0.07e-3], atol=0.01e-3)
     for offset, state in ((-1e-9, "first"), (2e-9, "second")):
         rows = parameters.copy()
-        rows[:, Z0] = found.height + offset
+        rows["z0"] = found.height + offset
         assert (labels.classify(rows, tolerance=1e-10).state == state).all()

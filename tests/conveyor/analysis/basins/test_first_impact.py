@@ -5,16 +5,15 @@ import math
 import numpy as np
 import pytest
 
-from conveyor import Conveyor, Start, simulate
+from conveyor import Conveyor, Start, conveyor_and_start, conveyor_motion, parameter_table, simulate
 from conveyor.analysis.basins.first_impact import first_impacts, on_conveyor
-from conveyor.solver.model import PSI0, VZ0, Z0, conveyor_motion, pack, unpack
 
 G = 9.81
 AT_REST = Conveyor(acceleration=0.0)
 
 
 def starts(conveyor, *pairs):
-    return np.array([pack(conveyor, Start(z, vz)) for z, vz in pairs])
+    return np.stack([parameter_table(conveyor, Start(z, vz)) for z, vz in pairs])
 
 
 @pytest.mark.parametrize(("z0", "vz0"), [(3e-4, 0.0), (3e-4, -0.2), (0.0, 0.4), (2.0, 1.5)])
@@ -45,10 +44,10 @@ def test_the_first_impact_continues_as_the_initial_condition():
     parameters = starts(Conveyor(), (3e-4, 0.0))
     impacts = first_impacts(parameters)
     images = on_conveyor(parameters, impacts)
-    assert 0.0 <= images[0, PSI0] < 2 * math.pi
-    assert math.isnan(images[0, Z0]) and images[0, VZ0] == impacts.velocity[0]
+    assert 0.0 <= images["psi0"][0] < 2 * math.pi
+    assert math.isnan(images["z0"][0]) and images["vz0"][0] == impacts.velocity[0]
     times = np.linspace(1e-4, 0.1, 50)  # the force jumps at the impact itself
-    here = simulate(*unpack(images[0]), duration=0.1).sample(times)
-    there = simulate(*unpack(parameters[0]), duration=0.2).sample(times + impacts.time[0])
+    here = simulate(*conveyor_and_start(images[0]), duration=0.1).sample(times)
+    there = simulate(*conveyor_and_start(parameters[0]), duration=0.2).sample(times + impacts.time[0])
     for name in ("z", "vz", "contact_force"):
         assert here[name] == pytest.approx(there[name], rel=1e-7, abs=1e-10)

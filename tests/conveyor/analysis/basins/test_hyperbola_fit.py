@@ -6,10 +6,10 @@ import pytest
 from conveyor.analysis.basins.hyperbola_fit import (
     Hyperbola,
     critical_height,
-    fit_least_squares,
-    fit_pymoo,
+    fit_hyperbola,
+    fit_hyperbola_by_pymoo,
+    hyperbola_profile,
     mean_squared_error,
-    profile,
 )
 
 ACCELERATION = np.linspace(29.0, 47.0, 25)
@@ -32,7 +32,7 @@ def test_mean_squared_error_is_that_of_each_triple():
 
 @pytest.mark.parametrize("triple", TRIPLES)
 def test_least_squares_recovers_the_triple(triple):
-    fit = fit_least_squares(ACCELERATION, critical_height(ACCELERATION, triple), BOUNDS["B"])
+    fit = fit_hyperbola(ACCELERATION, critical_height(ACCELERATION, triple), BOUNDS["B"])
     assert fit.parameters == pytest.approx(triple, rel=1e-7, abs=1e-12)
     assert fit.error < 1e-24
 
@@ -40,10 +40,10 @@ def test_least_squares_recovers_the_triple(triple):
 def test_least_squares_has_no_gradient_left():
     """An independent check: no change of a parameter, alone or along the valley, lowers the error."""
     height = critical_height(ACCELERATION, PAPER) + SCATTER
-    fit = fit_least_squares(ACCELERATION, height, BOUNDS["B"])
+    fit = fit_hyperbola(ACCELERATION, height, BOUNDS["B"])
     steps = np.vstack([np.diag(np.abs(fit.parameters)), -np.diag(np.abs(fit.parameters))]) * 1e-4
     assert (mean_squared_error(ACCELERATION, height, fit.parameters + steps) > fit.error).all()
-    _, valley = profile(ACCELERATION, height, np.linspace(*BOUNDS["B"], 2001))
+    _, valley = hyperbola_profile(ACCELERATION, height, np.linspace(*BOUNDS["B"], 2001))
     assert fit.error <= valley.min()
     assert valley.min() < 1.001 * fit.error
 
@@ -51,7 +51,7 @@ def test_least_squares_has_no_gradient_left():
 def test_profile_is_the_best_for_each_b():
     height = critical_height(ACCELERATION, PAPER) + SCATTER
     b = np.array([-25.0, -19.0, 0.0, 40.0])
-    parameters, error = profile(ACCELERATION, height, b)
+    parameters, error = hyperbola_profile(ACCELERATION, height, b)
     for i in range(len(b)):
         design = np.column_stack([1.0 / (b[i] + ACCELERATION), np.ones(25)])
         (a, c), residual, *_ = np.linalg.lstsq(design, height, rcond=None)
@@ -63,7 +63,7 @@ def test_valley_is_flat():
     """Triples that differ by a fifth in A fit 25 points with 6.4 µm scatter (the paper's error) equally well."""
     scatter = 6.4e-6 / SCATTER.std() * SCATTER
     height = critical_height(ACCELERATION, PAPER) + scatter
-    parameters, error = profile(ACCELERATION, height, np.linspace(*BOUNDS["B"], 2001))
+    parameters, error = hyperbola_profile(ACCELERATION, height, np.linspace(*BOUNDS["B"], 2001))
     equal = parameters[error < 1.05 * error.min()]
     assert equal[:, 0].max() > 1.2 * equal[:, 0].min()
 
@@ -72,8 +72,8 @@ def test_valley_is_flat():
 @pytest.mark.parametrize("triple", TRIPLES)
 def test_pymoo_reaches_the_least_squares_error(triple, seed):
     height = critical_height(ACCELERATION, triple) + SCATTER
-    best = fit_least_squares(ACCELERATION, height, BOUNDS["B"])
-    fit = fit_pymoo(ACCELERATION, height, BOUNDS, seed, 5000)
+    best = fit_hyperbola(ACCELERATION, height, BOUNDS["B"])
+    fit = fit_hyperbola_by_pymoo(ACCELERATION, height, BOUNDS, seed, 5000)
     assert best.error * (1 - 1e-9) <= fit.error <= 1.01 * best.error
     for name, value in fit.parameters._asdict().items():
         assert BOUNDS[name][0] <= value <= BOUNDS[name][1]
@@ -81,7 +81,7 @@ def test_pymoo_reaches_the_least_squares_error(triple, seed):
 
 def test_history_counts_evaluations_and_only_improves():
     height = critical_height(ACCELERATION, PAPER) + SCATTER
-    fit = fit_pymoo(ACCELERATION, height, BOUNDS, 1, 500)
+    fit = fit_hyperbola_by_pymoo(ACCELERATION, height, BOUNDS, 1, 500)
     evaluations, error = fit.history.T
     assert (np.diff(evaluations) > 0).all()
     assert (np.diff(error) <= 0).all()
@@ -92,10 +92,10 @@ def test_history_counts_evaluations_and_only_improves():
 @pytest.mark.parametrize("seed", [0, 7])
 def test_same_seed_same_result(seed):
     height = critical_height(ACCELERATION, PAPER) + SCATTER
-    first, second = (fit_pymoo(ACCELERATION, height, BOUNDS, seed, 600) for _ in range(2))
+    first, second = (fit_hyperbola_by_pymoo(ACCELERATION, height, BOUNDS, seed, 600) for _ in range(2))
     assert first.parameters == second.parameters
     assert (first.history == second.history).all()
-    assert fit_pymoo(ACCELERATION, height, BOUNDS, seed + 1, 600).parameters != first.parameters
+    assert fit_hyperbola_by_pymoo(ACCELERATION, height, BOUNDS, seed + 1, 600).parameters != first.parameters
 
 
 @pytest.mark.parametrize(
@@ -110,6 +110,6 @@ def test_same_seed_same_result(seed):
 )
 def test_data_and_bounds_are_checked(acceleration, height, bounds, message):
     with pytest.raises(ValueError, match=message):
-        fit_least_squares(acceleration, height, bounds)
+        fit_hyperbola(acceleration, height, bounds)
     with pytest.raises(ValueError, match=message):
-        fit_pymoo(acceleration, height, {**BOUNDS, "B": bounds}, 1, 100)
+        fit_hyperbola_by_pymoo(acceleration, height, {**BOUNDS, "B": bounds}, 1, 100)

@@ -8,7 +8,12 @@ import pytest
 from conveyor import Conveyor, Start
 from conveyor.analysis.basins.boundary_point import find_fixed_point
 from conveyor.analysis.bifurcations import bifurcation_curves
-from conveyor.analysis.bifurcations.bifurcation_curves import Path, follow, follow_grazing, normal_form
+from conveyor.analysis.bifurcations.bifurcation_curves import (
+    ParameterPath,
+    follow_bifurcation_curve,
+    follow_grazing_curve,
+    normal_form,
+)
 from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, SIGNS, derivatives, find_bifurcation
 from conveyor.analysis.dimensionless_groups import Groups, groups_of
 from conveyor.solver.model import pack
@@ -23,20 +28,22 @@ ALONG = np.array([1.0, 0.0])
 def fold_over_damping():
     """The curve up to the cusp and back."""
     point = find_bifurcation("fold", 1, FOLD, GROUPS)
-    return follow(point, Path(1.0, 0.0), reach=(-0.5, np.log(8.0)), **LIMITS)
+    return follow_bifurcation_curve(point, ParameterPath(1.0, 0.0), reach=(-0.5, np.log(8.0)), **LIMITS)
 
 
 def test_a_curve_whose_first_step_fails_is_its_first_point():
     point = find_bifurcation("fold", 1, FOLD, GROUPS)
-    curve = follow(point, Path(1.0, 0.0), reach=(-0.5, 0.5), **LIMITS | {"longest_step": 0.0})
+    curve = follow_bifurcation_curve(
+        point, ParameterPath(1.0, 0.0), reach=(-0.5, 0.5), **LIMITS | {"longest_step": 0.0}
+    )
     assert (len(curve.points), curve.ends, curve.meetings) == (1, ("step", "step"), [])
 
 
 @pytest.mark.parametrize("kind", ["fold", "period_doubling"])
-@pytest.mark.parametrize("path", [Path(0.0, 1.0), Path(-1.0, -3.0)])
+@pytest.mark.parametrize("path", [ParameterPath(0.0, 1.0), ParameterPath(-1.0, -3.0)])
 def test_every_point_of_a_curve_is_a_bifurcation(kind, path):
     point = find_bifurcation(kind, 1, FOLD if kind == "fold" else DOUBLING, GROUPS)
-    curve = follow(point, path, reach=(-0.5, 0.5), **LIMITS)
+    curve = follow_bifurcation_curve(point, path, reach=(-0.5, 0.5), **LIMITS)
     assert curve.ends == ("limit", "limit")
     assert np.ptp(curve.log_ratios) > 1.0
     for one, part in zip(curve.points[::4], curve.log_ratios[::4], strict=True):
@@ -81,7 +88,7 @@ def test_lift_off_of_a_linear_contact_over_damping_and_stiffness():
     groups = Groups(abs(response) / stiffness, damping, stiffness, 1.0, 0)
     phase = (np.pi + np.angle(response)) % (2.0 * np.pi)
     point = find_bifurcation(GRAZING, 1, (phase, groups.amplitude), groups)
-    curve = follow_grazing(point, Path(1.0, -1.0), (0.1, 5.0), (-2.0, 2.0), step=0.1)
+    curve = follow_grazing_curve(point, ParameterPath(1.0, -1.0), (0.1, 5.0), (-2.0, 2.0), step=0.1)
     assert curve.ends == ("limit", "limit")
     for one in curve.points:
         exact = abs(one.groups.stiffness - 1.0 + 1j * one.groups.damping) / one.groups.stiffness
@@ -90,10 +97,14 @@ def test_lift_off_of_a_linear_contact_over_damping_and_stiffness():
 
 def test_a_curve_says_why_it_ends():
     point = find_bifurcation("fold", 1, FOLD, GROUPS)
-    short = follow(point, Path(1.0, 0.0), reach=(-3.0, 3.0), amplitude=(0.1, 5.0), longest_step=0.02, most=10)
-    assert short.ends == (bifurcation_curves.LENGTH, bifurcation_curves.LENGTH)
-    low = follow(point, Path(1.0, 0.0), reach=(-3.0, 3.0), amplitude=(0.4, 0.6), longest_step=0.1, most=100)
-    assert low.ends == (bifurcation_curves.LIMIT, bifurcation_curves.LIMIT)
+    short = follow_bifurcation_curve(
+        point, ParameterPath(1.0, 0.0), reach=(-3.0, 3.0), amplitude=(0.1, 5.0), longest_step=0.02, most=10
+    )
+    assert short.ends == (bifurcation_curves.CurveEnd.LENGTH, bifurcation_curves.CurveEnd.LENGTH)
+    low = follow_bifurcation_curve(
+        point, ParameterPath(1.0, 0.0), reach=(-3.0, 3.0), amplitude=(0.4, 0.6), longest_step=0.1, most=100
+    )
+    assert low.ends == (bifurcation_curves.CurveEnd.LIMIT, bifurcation_curves.CurveEnd.LIMIT)
     assert 0.3 < low.points[0].groups.amplitude <= 0.4
 
 

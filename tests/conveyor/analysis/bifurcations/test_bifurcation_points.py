@@ -12,12 +12,12 @@ from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, different
 from conveyor.analysis.dimensionless_groups import (
     Groups,
     amplitude_of,
-    derivatives_of,
+    derivatives_of_groups,
     groups_of,
+    length_and_speed_units,
     packed,
+    scaled_start,
     slopes,
-    start_of,
-    units,
 )
 from conveyor.solver import contact
 from conveyor.solver.model import PARAMETERS, pack
@@ -99,7 +99,9 @@ def test_elasticities_obey_dimensional_analysis(kind):
     row[0] = amplitude_of(PAPER, point.groups.amplitude)
     by = np.concatenate([[0.0], differentiate_unknowns(point)[-1], np.zeros(3)])
     value = dict(zip(PARAMETERS, row, strict=True))
-    found = {name: slope * value[name] / row[0] for name, slope in derivatives_of("acceleration", row, by).items()}
+    found = {
+        name: slope * value[name] / row[0] for name, slope in derivatives_of_groups("acceleration", row, by).items()
+    }
     p = value["exponent"]
     assert found["mass"] + found["stiffness"] + found["damping"] == pytest.approx(0.0, abs=1e-12)
     assert found["gravity"] + (1.0 - p) * found["stiffness"] == pytest.approx(1.0)
@@ -129,7 +131,7 @@ def test_two_conveyors_with_the_same_groups_have_the_same_scaled_fold():
     jumping = periodic_orbits.settled_orbit(PAPER, 40.0, start, (1,), 400)
     ratios = []
     for parameters in (PAPER, other):
-        state = jumping.state / units(PAPER) * units(parameters)
+        state = jumping.state / length_and_speed_units(PAPER) * length_and_speed_units(parameters)
         orbit = periodic_orbits.find_orbit(parameters, amplitude_of(parameters, groups.amplitude), state, 1)
         assert orbit.multipliers == pytest.approx(jumping.multipliers, rel=1e-7)
         limits = amplitude_of(parameters, 0.505), amplitude_of(parameters, 1.0)
@@ -150,7 +152,7 @@ def test_slopes_of_the_groups():
     row[PARAMETERS.index("z0")], row[PARAMETERS.index("vz0")] = 1e-4, 0.02
 
     def all_groups(parameters):
-        return np.array([*groups_of(parameters)[:4], *start_of(parameters)])
+        return np.array([*groups_of(parameters)[:4], *scaled_start(parameters)])
 
     for name, slope in slopes(row).items():
         place = PARAMETERS.index(name)
@@ -167,7 +169,7 @@ def test_a_state_at_another_phase_is_moved_to_phase_zero():
     assert orbit is not None
     row = PAPER.copy()
     row[0] = 40.0
-    length, _ = units(row)
+    length, _ = length_and_speed_units(row)
     here = bifurcation_points.at_phase_zero(row, orbit.state)
     assert here[0] == pytest.approx(orbit.state[0] / length)
     # A cycle that begins a quarter later.

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from conveyor import Conveyor, Start, classify, continue_orbit, periodic_orbit, simulate
+from conveyor import Conveyor, Start, classify, continue_orbit, parameter_table, periodic_orbit, simulate
 from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.bifurcations import bifurcation_diagram, continuation, doubling_cascade, periodic_orbits
 from conveyor.solver.model import pack
@@ -17,7 +17,7 @@ DECAY = CONVEYOR.damping / CONVEYOR.mass
 
 def settled(acceleration, z0, max_period=4, cycles=800):
     row = pack(Conveyor(acceleration=acceleration), Start(z0))
-    state = stroboscopic_map.initial_states(row[None], periodic_orbits.TOLERANCE)[0]
+    state = stroboscopic_map.initial_states(row[None], periodic_orbits.ORBIT_TOLERANCE)[0]
     return periodic_orbits.settled_orbit(row, acceleration, state, range(1, max_period + 1), cycles)
 
 
@@ -33,7 +33,7 @@ def branch(jumping):
 
 def test_orbit_repeats_itself(jumping):
     state = jumping.state.copy()
-    _, strobes, _ = stroboscopic_map.follow(pack(Conveyor(), Start()), periodic_orbits.TOLERANCE, state, 5)
+    _, strobes, _ = stroboscopic_map.follow_map(pack(Conveyor(), Start()), periodic_orbits.ORBIT_TOLERANCE, state, 5)
     assert strobes == pytest.approx(np.tile(jumping.state, (5, 1)), rel=1e-8)
     assert jumping.stable
     assert jumping.period == 1
@@ -88,7 +88,7 @@ def test_jumping_exists_down_to_its_fold(branch):
     for change, jumps in ((0.05, True), (-0.05, False)):
         state = near.state.copy()
         row = pack(Conveyor(acceleration=fold.orbit.acceleration + change), Start())
-        _, _, features = stroboscopic_map.follow(row, 1e-11, state, 4000)
+        _, _, features = stroboscopic_map.follow_map(row, 1e-11, state, 4000)
         assert (features[-1, stroboscopic_map.IMPACTS] > 0) == jumps
 
 
@@ -140,23 +140,23 @@ def test_doubled_orbit_has_twice_the_period(branch):
 
 def test_feigenbaum_of_a_geometric_sequence():
     amplitudes = 10.0 - 3.0 * doubling_cascade.FEIGENBAUM ** -np.arange(6.0)
-    assert doubling_cascade.ratios(amplitudes) == pytest.approx(np.full(4, doubling_cascade.FEIGENBAUM))
-    limit, error = doubling_cascade.accumulation(amplitudes)
+    assert doubling_cascade.doubling_ratios(amplitudes) == pytest.approx(np.full(4, doubling_cascade.FEIGENBAUM))
+    limit, error = doubling_cascade.accumulation_point(amplitudes)
     assert limit == pytest.approx(10.0)
     assert error < 1e-12
 
 
 def test_error_of_the_accumulation_is_the_change_due_to_the_last_doubling():
     amplitudes = np.array([0.0, 1.0, 1.25, 1.3, 1.312])
-    limit, error = doubling_cascade.accumulation(amplitudes)
-    before, _ = doubling_cascade.accumulation(amplitudes[:-1])
+    limit, error = doubling_cascade.accumulation_point(amplitudes)
+    before, _ = doubling_cascade.accumulation_point(amplitudes[:-1])
     assert limit == pytest.approx(1.25 + 0.05**2 / (0.05 - 0.012))  # Aitken's process by hand
     assert error == pytest.approx(abs(limit - before))
 
 
 def test_doublings_whose_distances_do_not_shrink_have_no_accumulation():
     for amplitudes in (np.array([0.0, 1.0, 3.0, 7.0, 15.0]), np.arange(5.0), np.ones(4), np.array([0.0, 1.0, 1.2])):
-        assert all(math.isnan(value) for value in doubling_cascade.accumulation(amplitudes))
+        assert all(math.isnan(value) for value in doubling_cascade.accumulation_point(amplitudes))
 
 
 def test_feigenbaums_ratio_of_the_logistic_map():
@@ -171,7 +171,7 @@ def test_feigenbaums_ratio_of_the_logistic_map():
             a -= x / slope
         superstable[n] = a
         superstable.append(a + (a - superstable[n - 1]) ** 2 / (superstable[n - 1] - superstable[n - 2]))
-    assert doubling_cascade.ratios(np.array(superstable[:-1]))[-1] == pytest.approx(
+    assert doubling_cascade.doubling_ratios(np.array(superstable[:-1]))[-1] == pytest.approx(
         doubling_cascade.FEIGENBAUM, rel=1e-6
     )
 
@@ -195,7 +195,7 @@ def test_a_grazing_has_its_larger_multiplier():
 def test_the_longest_flight_does_not_depend_on_the_phase_at_which_the_period_begins(acceleration, period):
     """In the first case the part flies whenever it does not touch: it has one impact per cycle."""
     conveyor, start = Conveyor(acceleration=acceleration), Start(3e-4)
-    labelled = classify(conveyor, start).longest_flight
+    labelled = classify(parameter_table(conveyor, start)).longest_flight
     run = simulate(conveyor, start, duration=5.0)
     found = []
     for time in np.linspace(4.9, 4.92, 6):

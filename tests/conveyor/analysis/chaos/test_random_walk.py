@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from conveyor.analysis.chaos.random_walk import AT_REST, CORRELATED, OK, random_walk, relative_spread
+from conveyor.analysis.chaos.random_walk import CORRELATED, NO_FLUCTUATIONS, OK, random_walk, relative_spread
 
 PERIOD = 0.02
 
@@ -59,7 +59,7 @@ def test_correlations_that_come_back_in_longer_windows_are_found():
 
 def test_a_regular_motion_has_no_fluctuations():
     found = random_walk(np.full((4, 512), 1e-3), PERIOD)
-    assert found.status == AT_REST
+    assert found.status == NO_FLUCTUATIONS
     assert found.velocity == pytest.approx(0.05)
 
 

@@ -114,7 +114,7 @@ def test_estimates_do_not_depend_on_units():
 
 @pytest.mark.parametrize("points", [np.zeros(5), np.zeros((5, 3)), np.zeros((0, 2)), np.array([[0.0, np.nan]])])
 def test_points_are_checked(points):
-    with pytest.raises(ValueError, match="points must be finite"):
+    with pytest.raises(ValueError, match="points"):
         box_counting.box_dimension(points)
 
 

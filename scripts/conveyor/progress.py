@@ -38,7 +38,7 @@ class Lines(tqdm):
         super().close()
 
 
-def bar(items=None, *, total: int | None = None, label: str | None, unit: str = "points") -> tqdm:
+def progress_bar(items=None, *, total: int | None = None, label: str | None, unit: str = "points") -> tqdm:
     """Progress over `items`, or over `total` units that `update` counts; nothing is shown without a label."""
     options = {"desc": label, "unit": f" {unit}", "disable": label is None, "file": sys.stderr}
     if sys.stderr.isatty():

@@ -5,7 +5,7 @@ from concurrent.futures import ThreadPoolExecutor, wait
 from functools import cache
 from threading import Lock
 
-from .progress import bar
+from .progress import progress_bar
 
 # Towards the end ranges get shorter: this share of a thread's part of the rest, but at least this share of a chunk.
 OF_THE_REST, OF_A_CHUNK = 0.5, 0.03
@@ -53,7 +53,7 @@ def for_each_chunk(
     waiting = iter(ranges)
     lock, failed = Lock(), 0
 
-    with bar(total=count, label=progress) as shown:
+    with progress_bar(total=count, label=progress) as shown:
 
         def take() -> None:
             nonlocal failed

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from conveyor.solver.parallel import for_each_chunk, ranges_of
+from conveyor.parallel import for_each_chunk, ranges_of
 
 COUNTS = st.integers(0, 5000)
 THREADS = st.integers(1, 8)

@@ -1,0 +1,145 @@
+"""The parameters of many parts in one table: a NumPy array with a named field for each of `parameters.PARAMETERS`.
+
+Functions that follow many trajectories take such a table. Their results have its shape. Compiled functions receive the
+same numbers as rows of float64, in an order that nothing else needs to know.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .arguments import HIGH, LOW, MAY_BE_NAN, check_numbers, check_parameters, check_type
+from .parameters import PARAMETERS, TENSION_MODES, UNITS
+from .solver.model import Conveyor, Start, check_static_friction, pack, unpack
+
+TABLE = np.dtype([(name, np.float64) for name in PARAMETERS])
+# The initial condition; ψ0 only shifts the phase at which a motion is observed.
+INITIAL_CONDITION = ("psi0", "z0", "vz0")
+AT_REST = Start()
+
+
+def parameter_table(conveyor: Conveyor, start: Start = AT_REST, **values: ArrayLike) -> np.ndarray:
+    """The parameters of a conveyor and an initial condition, with some of them replaced by arrays.
+
+    Parameters
+    ----------
+    conveyor, start : the parameters that are not among the `values`
+    values : numbers or arrays by the names of `PARAMETERS`, except tension, in their `UNITS`; arrays broadcast against
+        each other. A new friction is the static friction, too, unless the conveyor or a value gives one
+
+    Returns
+    -------
+    structured array with a float64 field for each name of `PARAMETERS`, in the shape of the `values`; tension is a
+    position in `TENSION_MODES`, and z0 is NaN for a part that starts on the plate
+
+    Raises
+    ------
+    ValueError, TypeError
+        name the argument that cannot be used
+
+    Examples
+    --------
+    >>> parameters = parameter_table(Conveyor(), acceleration=np.array([20.0, 40.0])[:, None], z0=[0.0, 3e-4])
+    >>> parameters.shape
+    (2, 2)
+    >>> parameters["acceleration"][:, 0].tolist(), parameters["frequency"][1, 1].item()  # m/s², Hz
+    ([20.0, 40.0], 50.0)
+    """
+    check_type("conveyor", conveyor, Conveyor)
+    check_type("start", start, Start)
+    arrays = check_parameters(values)
+    shape = next(iter(arrays.values())).shape if arrays else ()
+    table = np.full(shape, as_table(pack(conveyor, start)))
+    if conveyor.static_friction is not None:
+        arrays = {"static_friction": conveyor.static_friction} | arrays
+    set_parameters(table, arrays)
+    return table
+
+
+def set_parameters(table: np.ndarray, values: Mapping[str, ArrayLike]) -> None:
+    """Write `values` of parameters, numbers or arrays, into a table; tension is a word or an array of words.
+
+    A new friction without a new static_friction is the static friction, too. ValueError for a static_friction below
+    friction.
+
+    Examples
+    --------
+    >>> table = parameter_table(Conveyor(), z0=[0.0, 1e-4])
+    >>> set_parameters(table, {"friction": 0.2, "tension": "clip"})
+    >>> table["static_friction"].tolist()
+    [0.2, 0.2]
+    """
+    for name, column in values.items():
+        if name == "tension":
+            column = np.vectorize(TENSION_MODES.index, otypes=[np.float64])(column)
+        table[name] = column
+    if "friction" in values and "static_friction" not in values:
+        table["static_friction"] = table["friction"]
+    for row in table[table["static_friction"] < table["friction"]].flat[:1]:
+        check_static_friction(row["friction"].item(), row["static_friction"].item())
+
+
+def replace_parameters(parameters: np.ndarray, **values: ArrayLike) -> np.ndarray:
+    """A copy of a table, or of a row, with new `values` of some parameters, see `set_parameters`.
+
+    Examples
+    --------
+    >>> replace_parameters(parameter_table(Conveyor()), acceleration=50.0)["acceleration"].item()
+    50.0
+    """
+    table = np.array(parameters)
+    set_parameters(table, values)
+    return table
+
+
+def conveyor_and_start(parameters: np.ndarray) -> tuple[Conveyor, Start]:
+    """The conveyor and the initial condition of one row of a table, with a number for static_friction in every case.
+
+    Examples
+    --------
+    >>> conveyor, start = conveyor_and_start(parameter_table(Conveyor(), acceleration=[20.0, 40.0], z0=1e-4)[1])
+    >>> conveyor.acceleration, start.z
+    (40.0, 0.0001)
+    """
+    return unpack(as_rows(parameters))
+
+
+def as_rows(parameters: np.ndarray) -> np.ndarray:
+    """The numbers of a table of the shape s, float64, shape (*s, 16), in the order of PARAMETERS, without a copy.
+
+    Rows of float64 are returned as they are.
+    """
+    if getattr(parameters, "dtype", None) != TABLE:
+        return parameters
+    parameters = np.asarray(parameters)
+    return np.ascontiguousarray(parameters).view(np.float64).reshape(*parameters.shape, len(PARAMETERS))
+
+
+def as_table(rows: np.ndarray) -> np.ndarray:
+    """Rows of float64, shape (*s, 16), as a table of the shape s, without a copy."""
+    return np.ascontiguousarray(rows, dtype=np.float64).view(TABLE)[..., 0]
+
+
+def rows_and_shape(parameters: object) -> tuple[np.ndarray, tuple[int, ...]]:
+    """The numbers of a table, float64, shape (n, 16), and the shape of the table; ValueError for anything else."""
+    rows = check_numbers("parameters", as_rows(parameters))
+    if rows.ndim == 0 or rows.shape[-1] != len(PARAMETERS):
+        raise ValueError(f"parameters must be a table from parameter_table, got the shape {rows.shape}")
+    return np.ascontiguousarray(rows, dtype=np.float64).reshape(-1, len(PARAMETERS)), rows.shape[:-1]
+
+
+def check_rows(parameters: object) -> tuple[np.ndarray, tuple[int, ...]]:
+    """The numbers of a table, float64, shape (n, 16), and the shape of the table; ValueError unless they are in
+    range.
+
+    z0 may be NaN, for a part that starts on the plate; z0 and vz0 may be NaN for a run that continues a failed one.
+    """
+    rows, shape = rows_and_shape(parameters)
+    outside = ~((rows >= LOW) & (rows <= HIGH)) & ~(MAY_BE_NAN & np.isnan(rows))
+    if outside.any():
+        row, column = np.argwhere(outside)[0]
+        name = PARAMETERS[column]
+        interval = f"[{LOW[column]:g}, {HIGH[column]:g}] {UNITS[name]}".rstrip()
+        raise ValueError(f"parameters[{row}]: {name} = {rows[row, column]!s} is outside {interval}")
+    return rows, shape
