@@ -115,7 +115,7 @@ def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[floa
 def value_at_zero(places: np.ndarray, values: np.ndarray) -> float:
     """Value at 0 of the polynomial through `values` at `places`, shape (n,)."""
     weights = [math.prod(other / (other - place) for other in places if other != place) for place in places]
-    return float(np.dot(weights, values))
+    return math.fsum(weight * value for weight, value in zip(weights, values, strict=True))
 
 
 def extrapolate_to_zero(places: np.ndarray, values: np.ndarray) -> tuple[float, float]:

@@ -2,7 +2,17 @@
 
 import numpy as np
 
-from calibration.inference import DETERMINED, NOT_DETERMINED, OPEN, TOO_FEW, data_of, draw, search, summarize_parameters
+from calibration.inference import (
+    DETERMINED,
+    DISAGREEING,
+    NOT_DETERMINED,
+    OPEN,
+    TOO_FEW,
+    data_of,
+    draw,
+    search,
+    summarize_parameters,
+)
 from calibration.measurements import CALIBRATED, Measurement, parse
 from calibration.model_check import check_fit, compare_alternatives
 from calibration.search_space import values_at
@@ -13,13 +23,17 @@ TABLES = {
     "parameters": (
         fields.text("parameter", "parameter of the model"),
         fields.text("unit", "its unit"),
-        fields.number("best", "SI", "value at the mode of the posterior"),
+        fields.number("best", "SI", "value at the medians of the posterior"),
+        fields.number("best_error", "SI", "Monte Carlo error of it: standard error by the jackknife over the searches"),
         fields.number("low", "SI", "lower end of the 95 % interval; null if the sample is too small for intervals"),
+        fields.number("low_error", "SI", "Monte Carlo error of it"),
         fields.number("high", "SI", "upper end of the 95 % interval; null if the sample is too small for intervals"),
+        fields.number("high_error", "SI", "Monte Carlo error of it"),
         fields.number("range_low", "SI", "lower end of the searched range; of the damping, for the best stiffness"),
         fields.number("range_high", "SI", "upper end of the searched range; of the damping, for the best stiffness"),
-        fields.text("status", f"{DETERMINED}, {OPEN}, {NOT_DETERMINED}, or {TOO_FEW}"),
+        fields.text("status", f"{DETERMINED}, {OPEN}, {NOT_DETERMINED}, {DISAGREEING}, or {TOO_FEW}"),
         fields.number("effective", "1", "effective number of samples of the posterior"),
+        fields.count("searches", "independent searches"),
     ),
     "samples": (
         *(fields.number(name, UNITS[name], "value in this sample of the posterior") for name in CALIBRATED),
@@ -49,7 +63,7 @@ TABLES = {
     "alternatives": (
         fields.text("parameter", "parameter of the model that was searched in addition"),
         fields.text("unit", "its unit"),
-        fields.number("value", "SI", "value at the mode of this posterior"),
+        fields.number("value", "SI", "value at the medians of this posterior"),
         fields.number(
             "log_bayes_factor", "1", "logarithm of how much more probable the measurements are with this parameter"
         ),

@@ -13,11 +13,15 @@ from calibration.measurements import Measurement
 from calibration.predicted import Conditions, conditions_of, log_densities, velocities, widths
 from calibration.search_space import LOGARITHMIC, bounds_of, values_at
 from conveyor import UNITS
-from pipeline.credible_intervals import interval, open_ends
-from pipeline.importance_sampling import Sample, sample
+from conveyor.elementary import exp, log
+from pipeline.credible_intervals import interval, open_ends, quantiles
+from pipeline.importance_sampling import Sample, monte_carlo_error, pooled, sample
 
 DETERMINED, OPEN, NOT_DETERMINED = "determined", "open to one side", "not determined"
-TOO_FEW = "too few effective samples"
+TOO_FEW, DISAGREEING = "too few effective samples", "searches disagree"
+# Independent searches, at first and at most. Further ones follow while the Monte Carlo error of a best value, or of an
+# end of an interval, is more than this share of the interval.
+SEARCHES, MOST_SEARCHES, REPEATABLE = 4, 8, 0.25
 # A set of parameters gets no further parts if even the first ones are this far below the best logarithmic likelihood.
 HOPELESS = 30.0
 # The search first takes measurements for less accurate than they are, so that it finds its way from far away.
@@ -59,13 +63,10 @@ def log_factors(found: np.ndarray, data: Data, settings: dict, inflations: tuple
     return np.array([log_densities(*arguments, inflation) for inflation in inflations])
 
 
-def search(
-    data: Data, settings: dict, *, near: np.ndarray | None = None, threads: int = 1, progress: str | None = None
+def search_once(
+    data: Data, settings: dict, number: int, near: np.ndarray | None, threads: int, progress: str | None
 ) -> Sample:
-    """A weighted sample of the posterior.
-
-    near : points of a related posterior, in the coordinates of the search space, shape (n, d)
-    """
+    """The sample of one search; its number makes its random numbers differ from those of the others."""
     best, rounds = -math.inf, 0
 
     def worth(few: np.ndarray) -> np.ndarray:
@@ -76,14 +77,31 @@ def search(
 
     def follow(points: np.ndarray) -> np.ndarray:
         nonlocal rounds
-        options = {"parts": settings["parts"], "seed": settings["seed"] + rounds, "threads": threads, "worth": worth}
-        label = progress and f"{progress}: round {rounds} of at most {settings['rounds']}"
+        options = {"parts": settings["parts"], "seed": [settings["seed"], number, rounds]}
+        options |= {"threads": threads, "worth": worth}
+        label = progress and f"{progress}: search {number + 1}, round {rounds} of at most {settings['rounds']}"
         found = velocities(values_at(points, settings), data.conditions, settings, **options, progress=label)
         rounds += 1
         return log_factors(found, data, settings, INFLATIONS)
 
-    options = {name: settings[name] for name in ("first", "points", "rounds", "seed", "enough")}
+    options = {name: settings[name] for name in ("first", "points", "rounds")}
+    options |= {"seed": [settings["seed"], number], "enough": settings["enough"] / SEARCHES}
     return sample(follow, bounds_of(settings), **options, near=near)
+
+
+def search(
+    data: Data, settings: dict, *, near: np.ndarray | None = None, threads: int = 1, progress: str | None = None
+) -> Sample:
+    """A weighted sample of the posterior from independent searches, until they agree.
+
+    near : points of a related posterior, in the coordinates of the search space, shape (n, d)
+    """
+    samples: list[Sample] = []
+    while len(samples) < MOST_SEARCHES:
+        samples.append(search_once(data, settings, len(samples), near, threads, progress))
+        if len(samples) >= SEARCHES and agree(found := pooled(samples), settings):
+            break
+    return found
 
 
 def draw(found: Sample, count: int) -> np.ndarray:
@@ -92,56 +110,80 @@ def draw(found: Sample, count: int) -> np.ndarray:
     return np.minimum(places, len(found.weights) - 1)
 
 
-def mode(found: Sample) -> int:
-    """The place of the sample with the largest smoothed density, which the noise of likelihoods hardly affects."""
-    weights, points = found.weights, found.points
-    heavy = np.flatnonzero(weights > 1e-4 * weights.max())
-    points, weights = points[heavy], weights[heavy] / weights[heavy].sum()
-    centred = points - weights @ points
-    covariance = (weights[:, None] * centred).T @ centred + 1e-12 * np.eye(points.shape[1])
-    whitened = np.linalg.solve(np.linalg.cholesky(covariance), points.T).T
-    width = found.size ** (-1.0 / (points.shape[1] + 4.0))
-    apart = np.sum((whitened[:, None] - whitened) ** 2, axis=-1)
-    return int(heavy[(np.exp(-0.5 * apart / width**2) @ weights).argmax()])
+def centre(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """Median of each coordinate of a weighted sample, shape (d,); a repetition with another seed hardly moves it."""
+    return np.array([quantiles(column, weights, [0.5])[0] for column in points.T])
+
+
+def summarize(found: Sample, weights: np.ndarray, settings: dict) -> np.ndarray:
+    """Best value and ends of the interval of each parameter, or their logarithms (LOGARITHMIC), shape (d, 3).
+
+    weights : of the points, shape (n,), with the sum 1
+    """
+    best = values_at(centre(found.points, weights)[None], settings)
+    values, rows = values_at(found.points, settings), []
+    for name in settings["parameters"]:
+        middle, own = best[name][0], values[name]
+        if name in LOGARITHMIC:
+            middle, own = log(middle), log(own)
+        rows.append([middle, *interval(own, weights, settings["confidence"])])
+    return np.array(rows)
+
+
+def errors(found: Sample, settings: dict) -> np.ndarray:
+    """Monte Carlo errors of what `summarize` gives, shape (d, 3)."""
+    return monte_carlo_error(found, lambda weights: summarize(found, weights, settings))
+
+
+def agree(found: Sample, settings: dict) -> bool:
+    """Whether another set of searches would give nearly the same best values and intervals."""
+    summary = summarize(found, found.weights, settings)
+    return bool(np.all(errors(found, settings) <= REPEATABLE * (summary[:, 2] - summary[:, 1])[:, None]))
 
 
 def summarize_parameters(found: Sample, settings: dict) -> list[dict]:
     """The rows of the table of parameters."""
-    bounds, best = bounds_of(settings), mode(found)
-    values, rows = values_at(found.points, settings), []
-    reliable = found.size >= settings["effective"]
+    bounds, middle = bounds_of(settings), centre(found.points, found.weights)
+    summary, deviations = summarize(found, found.weights, settings), errors(found, settings)
+    rows, reliable = [], found.size >= settings["effective"]
     for column, name in enumerate(settings["parameters"]):
         is_log = name in LOGARITHMIC
-        ends = np.tile(found.points[best], (2, 1))
+        ends = np.tile(middle, (2, 1))
         ends[:, column] = bounds[:, column]
         range_low, range_high = values_at(ends, settings)[name]
-        own = np.log(values[name]) if is_log else values[name]
-        low, high = interval(own, found.weights, settings["confidence"])
+        best, low, high = summary[column]
         open_low, open_high = open_ends(found.points[:, column], found.weights, bounds[:, column])
-        searched_low, searched_high = np.log([range_low, range_high]) if is_log else (range_low, range_high)
-        is_wide = high - low > WIDE * (searched_high - searched_low)
+        searched = math.log(range_high / range_low) if is_log else range_high - range_low
+        is_wide = high - low > WIDE * searched
         status = (
             NOT_DETERMINED if is_wide or (open_low and open_high) else OPEN if open_low or open_high else DETERMINED
         )
+        if not np.all(deviations[column] <= REPEATABLE * (high - low)):
+            status = DISAGREEING
         if is_log:
-            low, high = math.exp(low), math.exp(high)
+            best, low, high = exp(summary[column])
         # An open end is the bound, beyond which smoothing may reach. The bounds of the damping belong to the best
         # stiffness only, so that its interval may be longer.
         low = min(low, range_low) if open_low else low
         high = max(high, range_high) if open_high else high
         if name != "damping":
             low, high = max(low, range_low), min(high, range_high)
+        low, high = min(low, best), max(high, best)
+        scale = np.array([best, low, high]) if is_log else np.ones(3)
+        best_error, low_error, high_error = scale * deviations[column]
+        known = {"low": low, "low_error": low_error, "high": high, "high_error": high_error}
         rows.append(
             {
                 "parameter": name,
                 "unit": UNITS[name],
-                "best": values[name][best],
-                "low": min(low, values[name][best]) if reliable else math.nan,
-                "high": max(high, values[name][best]) if reliable else math.nan,
+                "best": best,
+                "best_error": best_error,
+                **(known if reliable else dict.fromkeys(known, math.nan)),
                 "range_low": range_low,
                 "range_high": range_high,
                 "status": status if reliable else TOO_FEW,
                 "effective": found.size,
+                "searches": int(found.search.max()) + 1,
             }
         )
     return rows

@@ -18,11 +18,13 @@ import math
 import numpy as np
 from scipy.stats import rankdata
 
-from calibration.inference import Data, draw, mode, search
+from calibration.inference import Data, centre, draw, search
 from calibration.measurements import Measurement
 from calibration.predicted import deviations, log_densities, velocities, widths
 from calibration.search_space import values_at
 from conveyor import UNITS
+from conveyor.elementary import log
+from conveyor.linear_algebra import dot, product
 from pipeline.importance_sampling import LEAST, Sample
 
 UNLIKELY = 0.01  # share of replicates below which a single measurement does not fit
@@ -58,7 +60,8 @@ def one_sidedness(
         predicted
     )
     belongs = data.of[:, None] == np.arange(len(parts))
-    return ((below - 0.5) @ belongs) ** 2 @ (12.0 / belongs.sum(axis=0))
+    sums = product(below - 0.5, belongs.astype(np.float64))
+    return dot(sums**2, 12.0 / belongs.sum(axis=0))
 
 
 def compare(
@@ -75,7 +78,7 @@ def compare(
     ]
     shares = tail_shares(np.column_stack(densities))
     sided = one_sidedness(measured, scored, data, settings, random)
-    of_all = tail_shares(np.column_stack([np.log(shares).sum(axis=1), -sided]))[0]
+    of_all = tail_shares(np.column_stack([log(shares).sum(axis=1), -sided]))[0]
     return min(1.0, len(of_all) * of_all.min()), shares[0], drawn
 
 
@@ -86,15 +89,15 @@ def differs(measured: Measurement, model: dict) -> bool:
 
 def check_fit(found: Sample, data: Data, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict:
     """The columns of the table of the fit."""
-    places = np.concatenate([[mode(found)], draw(found, settings["checked"])])
-    values = {name: column[places] for name, column in values_at(found.points, settings).items()}
+    drawn = found.points[draw(found, settings["checked"])]
+    values = values_at(np.vstack([centre(found.points, found.weights), drawn]), settings)
     options = {"parts": 2 * settings["checked_parts"], "seed": settings["seed"] + settings["rounds"] + 1}
     progress = progress and f"{progress}: check"
     followed = velocities(values, data.conditions, settings, **options, threads=threads, progress=progress)
     random = np.random.default_rng(settings["seed"])
-    p_values, p_rows, drawn = zip(*(compare(parts, data, settings, random) for parts in followed), strict=True)
+    p_values, p_rows, simulated = zip(*(compare(parts, data, settings, random) for parts in followed), strict=True)
     p_value, p_row = np.mean(p_values), p_rows[0]
-    low, middle, high = np.quantile(drawn[0], [0.05, 0.5, 0.95], axis=0)
+    low, middle, high = np.quantile(simulated[0], [0.05, 0.5, 0.95], axis=0)
     rows = len(data.velocity)
     return {
         "line": [one.line for one in data.measured],
@@ -138,7 +141,7 @@ def compare_alternatives(
             {
                 "parameter": name,
                 "unit": UNITS[name],
-                "value": float(values_at(other.points, own)[name][mode(other)]),
+                "value": float(values_at(centre(other.points, other.weights)[None], own)[name][0]),
                 "log_bayes_factor": gain,
                 "preferred": gain > math.log(settings["decisive"]),
                 "effective": other.size,

@@ -14,6 +14,7 @@ from scipy.stats import qmc
 
 from calibration.measurements import INITIAL, Measurement
 from conveyor import INITIAL_CONDITION, sample_runs, set_parameters
+from conveyor.elementary import cos, exp, log, sin
 from pipeline import grid
 
 TOLERANCE = 1e-5  # per contact step: errors of velocities stay far below those of a measurement
@@ -36,7 +37,7 @@ class Conditions(NamedTuple):
     def plate(self) -> np.ndarray:
         """Largest velocity of the plate along the track (m/s), shape (k,)."""
         rows = self.rows
-        return rows["acceleration"] * np.cos(rows["angle"]) / (2.0 * math.pi * rows["frequency"])
+        return rows["acceleration"] * cos(rows["angle"]) / (2.0 * math.pi * rows["frequency"])
 
 
 def conditions_at(
@@ -112,8 +113,8 @@ def velocities(
         rows["static_friction"] = np.maximum(rows["friction"], settings["static_friction"])
         rows["psi0"] = np.where(np.isnan(rows["psi0"]), phase, rows["psi0"])
         rows["vz0"] = np.where(np.isnan(rows["vz0"]), speed, rows["vz0"])
-        stroke = rows["acceleration"] * np.sin(rows["angle"]) / (2.0 * math.pi * rows["frequency"]) ** 2
-        height -= stroke * np.cos(rows["psi0"])  # Eq. 4
+        stroke = rows["acceleration"] * sin(rows["angle"]) / (2.0 * math.pi * rows["frequency"]) ** 2
+        height -= stroke * cos(rows["psi0"])  # Eq. 4
         rows["z0"] = np.where(np.isnan(rows["z0"]), height, rows["z0"])
         return mean_velocities(rows, times, threads, progress and f"{progress}{label}").reshape(-1, count)
 
@@ -189,8 +190,8 @@ def log_densities(
     spread = widths(velocities) if spread is None else spread
     scale = np.hypot(inflation * deviations(velocities, sd[..., None], plate[..., None], settings["noise"]), spread)
     z = (measured[..., None] - velocities) / scale
-    density = np.exp(-0.5 * z**2) / (math.sqrt(2.0 * math.pi) * scale)
+    density = exp(-0.5 * z**2) / (math.sqrt(2.0 * math.pi) * scale)
     mean = np.nan_to_num(density).sum(axis=-1) / velocities.shape[-1]
     outlier = 0.5 / np.maximum(plate, np.abs(measured))  # even over twice the plate's velocity
     share = settings["outliers"]
-    return np.log((1.0 - share) * mean + share * outlier)
+    return log((1.0 - share) * mean + share * outlier)

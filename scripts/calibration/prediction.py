@@ -18,6 +18,8 @@ import pandas as pd
 from calibration.measurements import CALIBRATED, DEFAULTS
 from calibration.predicted import conditions_at, deviations, log_densities, velocities
 from calibration.search_space import LOGARITHMIC
+from conveyor.elementary import exp, log
+from conveyor.linear_algebra import product
 from pipeline import fields
 
 TABLES = {
@@ -67,10 +69,10 @@ def expected_narrowing(
     rows = np.arange(len(result))
     one = np.full(len(result), math.nan), np.full(len(result), plate)
     logs[rows, sample] = log_densities(result, others, *one, settings)
-    weights = np.exp(logs - logs.max(axis=1, keepdims=True))
+    weights = exp(logs - logs.max(axis=1, keepdims=True))
     weights /= weights.sum(axis=1, keepdims=True)
-    mean = weights @ values
-    after = np.sqrt(np.maximum(weights @ values**2 - mean**2, 0.0)).mean(axis=0)
+    mean = product(weights, values)
+    after = np.sqrt(np.maximum(product(weights, values**2) - mean**2, 0.0)).mean(axis=0)
     return 1.0 - after / values.std(axis=0)
 
 
@@ -96,7 +98,7 @@ def make(
     options = {"parts": settings["predicted_parts"], "seed": settings["seed"], "threads": threads}
     found = velocities(values, conditions, settings, **options, progress=progress)
     random = np.random.default_rng(settings["seed"])
-    columns = np.column_stack([np.log(one) if name in LOGARITHMIC else one for name, one in values.items()])
+    columns = np.column_stack([log(one) if name in LOGARITHMIC else one for name, one in values.items()])
     columns = columns + 1e-12 * random.standard_normal(columns.shape)  # equal samples have no standard deviation
     gains = np.array(
         [

@@ -7,6 +7,7 @@ other parameters are searched as they are; angles and phases without the logarit
 import numpy as np
 
 from conveyor import contact_of_groups, groups_of_contact, set_parameters
+from conveyor.elementary import exp, log
 from pipeline import grid
 
 LOGARITHMIC = ("friction", "damping", "stiffness", "exponent")
@@ -16,10 +17,7 @@ def bounds_of(settings: dict) -> np.ndarray:
     """Lower and upper bounds of the searched coordinates, shape (2, d)."""
     ranges = [settings["ranges"][name] for name in settings["parameters"]]
     return np.array(
-        [
-            np.log(ends) if name in LOGARITHMIC else ends
-            for name, ends in zip(settings["parameters"], ranges, strict=True)
-        ]
+        [log(ends) if name in LOGARITHMIC else ends for name, ends in zip(settings["parameters"], ranges, strict=True)]
     ).T
 
 
@@ -29,7 +27,7 @@ def values_at(coordinates: np.ndarray, settings: dict) -> dict[str, np.ndarray]:
     settings : searched `parameters` and their `ranges`; the `model` with the values of the other parameters
     """
     found = {
-        name: np.exp(column) if name in LOGARITHMIC else column
+        name: exp(column) if name in LOGARITHMIC else column
         for name, column in zip(settings["parameters"], coordinates.T, strict=True)
     }
     rows = np.full(len(coordinates), grid.row_of(settings["model"]))

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from claims import about_proofs
 from claims.about_chaos import with_settled_motion
 from claims.finding import NONE, Finding, by_method, format_amplitude, onset, single_quantity
+from conveyor.linear_algebra import fit_line
 
 MM = 1e3
 LINE = 0.02  # smallest visible line of a spectrum, over its largest amplitude
@@ -236,7 +237,7 @@ def one_onset(*, converged: pd.DataFrame, on_plate: pd.DataFrame) -> Finding:
 def impact_line(*, converged: pd.DataFrame) -> Finding:
     """Slope (rad s/m) of the impact phase over the impact velocity, and the largest distance from the line (rad)."""
     rows = converged.dropna(subset="impact_velocity")
-    slope, base = np.polyfit(rows.impact_velocity, rows.impact_phase, 1)
+    slope, base, _ = fit_line(rows.impact_velocity.to_numpy(), rows.impact_phase.to_numpy())
     distance = np.abs(slope * rows.impact_velocity + base - rows.impact_phase).max()
     return Finding({}, {"slope": float(slope), "distance": float(distance)})
 

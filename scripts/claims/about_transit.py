@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 
 from claims.finding import NONE, Finding
+from conveyor.linear_algebra import fit_line
 from operating.regimes import CHAOS, SEVERAL
 
 
@@ -11,7 +12,7 @@ def exponents(lengths: pd.DataFrame, regime: str) -> dict[float, float]:
     """The exponent of the relative spread over the length of the track, by the amplitude (m/s²), in a regime."""
     rows = lengths[(lengths.regime == regime) & (lengths.spread > 0.0)]
     return {
-        acceleration: float(np.polyfit(np.log(of.length), np.log(of.spread), 1)[0])
+        acceleration: fit_line(np.log(of.length.to_numpy()), np.log(of.spread.to_numpy()))[0]
         for acceleration, of in rows.groupby("acceleration")
         if len(of) > 1
     }

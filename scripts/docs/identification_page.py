@@ -8,6 +8,7 @@ import pandas as pd
 from claims.finding import format_interval
 from identification import findings
 from identification.numbers import PARAMETERS
+from pipeline.importance_sampling import covariance
 from pipeline.templates import render
 
 SURE = 0.95  # probability from which a treatment of tension is identifiable
@@ -16,7 +17,7 @@ SURE = 0.95  # probability from which a treatment of tension is identifiable
 def correlations(samples: pd.DataFrame, evidence: str) -> dict[str, float]:
     """Correlation of the logarithm of the stiffness with the logarithm of each parameter, in one set of evidence."""
     rows = samples[samples.evidence == evidence]
-    matrix = np.cov(np.log(rows[list(PARAMETERS)]).T, aweights=rows.weight)
+    matrix = covariance(np.log(rows[list(PARAMETERS)].to_numpy()), (rows.weight / rows.weight.sum()).to_numpy())
     stiffness = list(PARAMETERS).index("stiffness")
     scaled = matrix[stiffness] / np.sqrt(np.diag(matrix) * matrix[stiffness, stiffness])
     return dict(zip(PARAMETERS, scaled, strict=True))

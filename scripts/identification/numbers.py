@@ -25,6 +25,7 @@ from conveyor import (
     set_parameters,
     sweep,
 )
+from conveyor.elementary import exp, log, sin
 from identification import edges as edge_search
 from motion.critical import find_states
 from pipeline import grid
@@ -46,7 +47,7 @@ Follow = Callable[[np.ndarray], np.ndarray]
 
 def values_of(x: np.ndarray, model: dict) -> dict[str, np.ndarray]:
     """The parameters, each of shape (n,), from logarithms of the searched parameters, shape (n, 4)."""
-    friction, loss, group, angle = np.exp(x).T
+    friction, loss, group, angle = exp(x).T
     stiffness, damping = contact_of_groups(group, loss, grid.row_of(model))
     return {"friction": friction, "damping": damping, "stiffness": stiffness, "angle": angle}
 
@@ -54,7 +55,7 @@ def values_of(x: np.ndarray, model: dict) -> dict[str, np.ndarray]:
 def searched(model: dict) -> np.ndarray:
     """Logarithms of the searched parameters of a model, shape (1, 4)."""
     group, loss = groups_of_contact(model["stiffness"], model["damping"], grid.row_of(model))
-    return np.log([[model["friction"], loss, group, model["angle"]]])
+    return log([[model["friction"], loss, group, model["angle"]]])
 
 
 def parameters_at(x: np.ndarray, tension: str, model: dict) -> np.ndarray:
@@ -85,7 +86,7 @@ def interpolate_edges(table: pd.DataFrame) -> dict[str, RegularGridInterpolator]
     axes = [table[name].unique() for name in ("loss", "group", "z0")]
     return {
         tension: RegularGridInterpolator(
-            (np.log(axes[0]), np.log(axes[1])),
+            (log(axes[0]), log(axes[1])),
             rows.vertical_acceleration.to_numpy().reshape([len(axis) for axis in axes]),
             "cubic",
             bounds_error=False,  # points at the bounds, up to rounding, are extrapolated
@@ -182,7 +183,7 @@ def measure(
     measured, inside = settings["measured"], settings["inside"]
     fine = np.linspace(settings["heights"][0], settings["heights"][-1], FINE)
     splines = CubicSpline(settings["heights"], edges, axis=1)
-    found = Curve(fine, splines(fine) / np.sin(parameters["angle"])[:, None])
+    found = Curve(fine, splines(fine) / sin(parameters["angle"])[:, None])
     changes = changes_of_state(found, measured, inside)
     if follow is None:
         return changes

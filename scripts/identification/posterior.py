@@ -15,16 +15,16 @@ from functools import partial
 import numpy as np
 import pandas as pd
 from scipy.optimize import minimize
-from scipy.special import logsumexp, softmax
 from scipy.stats import chi2
 
+from conveyor.elementary import exp, log
 from identification import numbers as claims
 from identification.edges import VERTICAL
 from identification.findings import VELOCITIES, misfit
 from identification.numbers import CONVERGED, EULER, PARAMETERS, SEARCHED, searched, values_of
 from pipeline import fields
 from pipeline.credible_intervals import interval, open_ends
-from pipeline.importance_sampling import EXACT, effective_number, sample
+from pipeline.importance_sampling import EXACT, effective_number, log_sum, normalize, sample
 
 EVIDENCE = fields.text("evidence", "set of the paper's numbers: see identification.evidence of the config")
 VALUES = tuple(fields.number(name, unit, "parameter") for name, unit in PARAMETERS.items())
@@ -70,6 +70,9 @@ TABLES = {
 }
 ENOUGH = 100.0  # effective points for an interval
 FRICTIONS = 65  # values of friction in the table `frictions`
+# Decimals of a misfit. Splines come from LAPACK, whose last digits differ from processor to processor and would decide
+# which points the search draws next.
+ROUNDED = 6
 
 Quantities = Callable[[np.ndarray, str, bool], dict[str, np.ndarray]]
 
@@ -97,7 +100,7 @@ def infer(evidence: dict, shifts: dict[str, float], quantities: Quantities, sett
 
     def total(found: dict[str, np.ndarray]) -> np.ndarray:
         moved = {name: value + shifts.get(name, 0.0) for name, value in found.items() if name in numbers}
-        return sum(misfit(value, numbers[name]) ** 2 for name, value in moved.items())
+        return sum(misfit(value, numbers[name]).round(ROUNDED) ** 2 for name, value in moved.items())
 
     def of_states(y: np.ndarray, tension: str) -> np.ndarray:
         totals = total(quantities(np.column_stack([np.full(len(y), bounds[0, 0]), y]), tension, False))
@@ -113,13 +116,13 @@ def infer(evidence: dict, shifts: dict[str, float], quantities: Quantities, sett
     for tension, states in found.items():
         # All errors are scaled up: the density is raised to the power 1/scale. Some weights have underflowed to zero.
         kept = np.flatnonzero(states.weights)
-        logs = np.log(states.weights[kept]) + states.log_density[kept] * (1.0 / scale - 1.0)
-        chosen = random.choice(kept, options["followed"], p=softmax(logs))
+        logs = log(states.weights[kept]) + states.log_density[kept] * (1.0 / scale - 1.0)
+        chosen = random.choice(kept, options["followed"], p=normalize(logs)[0])
         x = np.column_stack([random.uniform(*bounds[:, 0], len(chosen)), states.points[chosen]])
         totals = total(quantities(x, tension, True))
         velocities = -0.5 * totals - states.log_density[chosen]
         # The logarithms of weights also compare both tension modes.
-        log_weights = states.log_evidence + logsumexp(logs) + velocities / scale
+        log_weights = states.log_evidence + log_sum(logs) + velocities / scale
         samples.append(pd.DataFrame(values_of(x, model)).assign(tension=tension, total=totals, weight=log_weights))
         best = minimize(
             lambda x, tension=tension: total(quantities(x[None], tension, True))[0],
@@ -131,7 +134,7 @@ def infer(evidence: dict, shifts: dict[str, float], quantities: Quantities, sett
         printed = total(quantities(searched(model), tension, True))
         fits.append({"tension": tension, **row, "total": float(best.fun), "printed_total": float(printed[0])})
     table = pd.concat(samples, ignore_index=True)
-    table["weight"] = softmax(table.weight)
+    table["weight"] = normalize(table.weight.to_numpy())[0]
     by_tension = table.groupby("tension", sort=False).weight
     return table, pd.DataFrame(fits).assign(
         numbers=len(numbers),
@@ -144,7 +147,7 @@ def infer(evidence: dict, shifts: dict[str, float], quantities: Quantities, sett
 
 def bounds_of(settings: dict) -> np.ndarray:
     """Logarithms of the least and the largest value of each searched parameter, shape (2, 4)."""
-    return np.log(np.array([settings["bounds"][name] for name in SEARCHED]).T)
+    return log(np.array([settings["bounds"][name] for name in SEARCHED]).T)
 
 
 def interval_rows(samples: pd.DataFrame, best: pd.Series, settings: dict) -> pd.DataFrame:
@@ -152,10 +155,10 @@ def interval_rows(samples: pd.DataFrame, best: pd.Series, settings: dict) -> pd.
     searched_ends = values_of(bounds_of(settings), settings["model"])
     weights, rows = samples.weight.to_numpy() / samples.weight.sum(), []
     for name in PARAMETERS:
-        logs, bounds = np.log(samples[name].to_numpy()), np.log(searched_ends[name])
+        logs, bounds = log(samples[name].to_numpy()), log(searched_ends[name])
         low, high = np.clip(interval(logs, weights, settings["search"]["confidence"]), *bounds)
         open_low, open_high = open_ends(logs, weights, bounds)
-        ends = {"low": np.exp(low), "high": np.exp(high)}
+        ends = {"low": exp(low), "high": exp(high)}
         row = {**ends, "open_low": open_low, "open_high": open_high, "covered": (high - low) / np.ptp(bounds)}
         row |= {} if effective_number(weights) >= ENOUGH else dict.fromkeys((*ends, "covered"), np.nan)
         rows.append({"parameter": name, "best": best[name], **row})
@@ -185,9 +188,9 @@ def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, 
         for kind, table in found.items():
             tables[kind].append(table.assign(evidence=name))
     grid = np.tile(printed, (FRICTIONS, 1))
-    grid[:, 0] = np.log(np.linspace(*settings["bounds"]["friction"], FRICTIONS))
+    grid[:, 0] = log(np.linspace(*settings["bounds"]["friction"], FRICTIONS))
     along = quantities(grid, model["tension"])
-    frictions = {"friction": np.exp(grid[:, 0])} | {name: along[number] for name, number in VELOCITIES.items()}
+    frictions = {"friction": exp(grid[:, 0])} | {name: along[number] for name, number in VELOCITIES.items()}
     return {kind: pd.concat(parts) for kind, parts in tables.items()} | {
         "numbers": pd.concat(rows),
         "frictions": pd.DataFrame(frictions),

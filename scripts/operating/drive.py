@@ -13,6 +13,8 @@ import numpy as np
 import pandas as pd
 
 from conveyor import progress_bar
+from conveyor.elementary import exp, log, sin
+from conveyor.linear_algebra import length
 from operating.parts import population
 from operating.transit import follow, summarize
 from pipeline import fields, pareto
@@ -63,7 +65,7 @@ def designs_of(points: np.ndarray, bounds: dict) -> np.ndarray:
     this part and on the frequency only: two points with the same normal motion have offspring with this motion, too.
     """
     designs = points.copy()
-    designs[:, 0] = np.exp(points[:, 0]) / np.maximum(np.sin(points[:, 2]), 1e-9)
+    designs[:, 0] = exp(points[:, 0]) / np.maximum(sin(points[:, 2]), 1e-9)
     designs[:, 0] = designs[:, 0].clip(*bounds["acceleration"])
     return designs
 
@@ -71,7 +73,7 @@ def designs_of(points: np.ndarray, bounds: dict) -> np.ndarray:
 def bounds_of_points(bounds: dict) -> np.ndarray:
     """Bounds of the search, shape (2, 4)."""
     ends = np.array([bounds[name] for name in SEARCHED]).T
-    ends[:, 0] = np.log(np.maximum(ends[:, 0] * np.sin(ends[:, 2]), 1e-9))
+    ends[:, 0] = log(np.maximum(ends[:, 0] * sin(ends[:, 2]), 1e-9))
     return ends
 
 
@@ -163,10 +165,10 @@ def spread(objectives: np.ndarray, count: int) -> np.ndarray:
         return np.empty(0, dtype=np.int64)
     scaled = objectives / np.maximum(np.ptp(objectives, axis=0), 1e-300)
     chosen = [int(scaled[:, 0].argmin())]
-    distance = np.linalg.norm(scaled - scaled[chosen[0]], axis=1)
+    distance = length(scaled - scaled[chosen[0]])
     while len(chosen) < min(count, len(objectives)):
         chosen.append(int(distance.argmax()))
-        distance = np.minimum(distance, np.linalg.norm(scaled - scaled[chosen[-1]], axis=1))
+        distance = np.minimum(distance, length(scaled - scaled[chosen[-1]]))
     return np.array(chosen)
 
 

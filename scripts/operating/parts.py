@@ -9,6 +9,7 @@ import math
 import numpy as np
 import pandas as pd
 
+from conveyor.elementary import cos, exp, sin
 from pipeline import grid
 from pipeline.rule_log import JobError
 
@@ -27,9 +28,9 @@ def starts_of_box(settings: dict) -> np.ndarray:
 def set_starts(rows: np.ndarray, starts: np.ndarray) -> None:
     """Write initial conditions, shape (n, 3), into a table of parameters, shape (n,)."""
     height, velocity, phase = starts.T
-    stroke = rows["acceleration"] * np.sin(rows["angle"]) / (2.0 * math.pi * rows["frequency"]) ** 2
+    stroke = rows["acceleration"] * sin(rows["angle"]) / (2.0 * math.pi * rows["frequency"]) ** 2
     rows["psi0"], rows["vz0"] = phase, velocity
-    rows["z0"] = height - stroke * np.cos(phase)  # Eq. 4
+    rows["z0"] = height - stroke * cos(phase)  # Eq. 4
 
 
 def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:
@@ -47,7 +48,7 @@ def factors(spread: dict, count: int) -> np.ndarray:
     """
     deviations = np.array([spread[name] for name in COLUMNS])
     normal = np.random.default_rng(spread["seed"]).standard_normal((count, len(COLUMNS)))
-    return np.exp(np.sqrt(np.log1p(deviations**2)) * normal)
+    return exp(np.sqrt(np.log1p(deviations**2)) * normal)
 
 
 def calibrated_factors(samples: pd.DataFrame, settings: dict) -> np.ndarray:

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 
+from conveyor.elementary import cos
 from pipeline import fields
 
 ONE, SEVERAL, BESIDE, CHAOS, UNKNOWN = REGIMES = (
@@ -51,7 +52,7 @@ def is_frictionless(model: dict) -> bool:
 
 def plate_speed(rows: np.ndarray) -> np.ndarray:
     """The largest velocity of the plate along the track (m/s) for a table of parameters, shape (n,)."""
-    return rows["acceleration"] * np.cos(rows["angle"]) / (2.0 * math.pi * rows["frequency"])
+    return rows["acceleration"] * cos(rows["angle"]) / (2.0 * math.pi * rows["frequency"])
 
 
 def steepness(rows: np.ndarray) -> np.ndarray:

@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor import LAST, Columns, continued, sample_runs, sweep
+from conveyor.elementary import cos, sin
 from operating import regimes
 from operating.parts import parameters_of, starts_of_box
 from pipeline import fields, grid
@@ -151,8 +152,8 @@ def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> 
     cycles : least excitation cycles of a run
     """
     alpha, friction = parameters["inclination"], parameters["friction"]
-    left = parameters["gravity"] * (friction * np.cos(alpha) - np.abs(np.sin(alpha)))
-    along = parameters["acceleration"] * np.cos(parameters["angle"])
+    left = parameters["gravity"] * (friction * cos(alpha) - np.abs(sin(alpha)))
+    along = parameters["acceleration"] * cos(parameters["angle"])
     # Friction that cannot hold a sliding part does not slow it down however long the run is.
     needed = np.where(left > 0.0, along / (2.0 * math.pi * 0.75 * np.maximum(left, 1e-300)), 0.0)
     step = 4.0 * np.maximum(period, 1)
@@ -193,12 +194,12 @@ def motions_of_conveyors(
             error[row] = each[own].std(ddof=1) / math.sqrt(len(own)) if len(own) > 1 else np.nan
     share = count / starts
     acceleration = parameters["acceleration"][first]
-    normal_gravity = parameters["gravity"][first] * np.cos(parameters["inclination"][first])
+    normal_gravity = parameters["gravity"][first] * cos(parameters["inclination"][first])
     return pd.DataFrame(
         {
             "conveyor": first // starts,
             "acceleration": acceleration,
-            "vertical": acceleration * np.sin(parameters["angle"][first]) / normal_gravity,
+            "vertical": acceleration * sin(parameters["angle"][first]) / normal_gravity,
             "state": found.state[first],
             "period": found.period[first],
             "longest_flight": found.longest_flight[first],

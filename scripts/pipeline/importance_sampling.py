@@ -1,9 +1,9 @@
-"""Adaptive importance sampling of the posterior of a few parameters.
+"""Adaptive importance sampling of the posterior of a few parameters, by several independent searches.
 
-The first points fill the bounds evenly. Each further round draws from a kernel density estimate of the posterior of all
-points so far (population Monte Carlo). All points count, each with the density over the mean density of all proposals
-(deterministic mixture weights: Owen and Zhou 2000; Cornuet et al. 2012). The even first round bounds the weights.
-Because estimates are evaluated at their own points, too, the evidence comes out a few percent too low.
+The first points of a search fill the bounds evenly. Each further round draws from a kernel density estimate of the
+posterior of all points so far (population Monte Carlo). All points count, each with the density over the mean density
+of all proposals (deterministic mixture weights: Owen and Zhou 2000; Cornuet et al. 2012). The even first round bounds
+the weights. Because estimates are evaluated at their own points, too, the evidence comes out a few percent too low.
 
 The likelihood is a product of factors. If each of them is estimated from a few simulated parts, two things are added:
 
@@ -13,6 +13,12 @@ The likelihood is a product of factors. If each of them is estimated from a few 
   much less than all of them. As little of this is done as needed, because it blurs what few measurements say.
 - The search begins with measurements that count as less accurate than they are. A density that is narrow from the
   beginning would be found only by chance.
+
+What one search misses, or finds by luck, another one with other random numbers shows. The samples of all searches
+together are the posterior, and the difference that each search makes gives the Monte Carlo error of any summary.
+
+No sum depends on the processor (see conveyor.linear_algebra), because its last digit would decide which points are
+drawn next. `einsum` runs without BLAS, and in one order, as long as it is not told to optimise.
 """
 
 import math
@@ -21,8 +27,10 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.spatial.distance import cdist
-from scipy.special import logsumexp
-from scipy.stats import gaussian_kde, qmc
+from scipy.stats import qmc
+
+from conveyor.elementary import exp, log
+from conveyor.linear_algebra import cholesky, product, solve
 
 # Standard deviations of the average over neighbours, in units of the standard deviation of the posterior. The narrowest
 # one that gives enough effective points counts; wider ones are only tried after more rounds. The second ones are those
@@ -35,6 +43,7 @@ CENTRES = 500  # most points of a proposal; the time grows with their number
 SAME_VOLUME = 0.1  # change of the logarithm of the squared volume of a sample that counts as none
 TINY = 1e-300  # density whose logarithm is finite
 LIGHT = 1e-6  # share of the largest weight below which a point does not count in a proposal
+RIDGE = 1e-12  # added to variances, so that equal points have a covariance of full rank
 
 
 class Sample(NamedTuple):
@@ -47,6 +56,7 @@ class Sample(NamedTuple):
     weights : shares of the posterior, shape (n,), with the sum 1
     log_evidence : logarithm of the mean density over the bounds
     size : effective number of points
+    search : number of the search in which each point was found, shape (n,)
     """
 
     points: np.ndarray
@@ -54,6 +64,15 @@ class Sample(NamedTuple):
     weights: np.ndarray
     log_evidence: float
     size: float
+    search: np.ndarray
+
+
+class Kernels(NamedTuple):
+    """A kernel density estimate: normal densities of one covariance L Lᵀ around weighted centres."""
+
+    centres: np.ndarray  # shape (k, d)
+    weights: np.ndarray  # shape (k,), with the sum 1
+    lower: np.ndarray  # L, shape (d, d)
 
 
 def effective_number(weights: np.ndarray) -> float:
@@ -61,41 +80,61 @@ def effective_number(weights: np.ndarray) -> float:
     return 1.0 / float(np.sum(weights**2))
 
 
+def log_sum(logs: np.ndarray) -> np.ndarray:
+    """Logarithm of the sum along the last axis of numbers that are given by their logarithms."""
+    largest = logs.max(axis=-1)
+    shift = np.where(np.isfinite(largest), largest, 0.0)
+    return log(np.sum(exp(logs - shift[..., None]), axis=-1)) + shift
+
+
 def normalize(logs: np.ndarray) -> tuple[np.ndarray, float]:
     """Weights with the sum 1 from their logarithms, shape (n,), and their effective number."""
-    weights = np.exp(logs - logs.max())
+    weights = exp(logs - logs.max())
     weights /= weights.sum()
     return weights, effective_number(weights)
 
 
-def smoothed(factors: np.ndarray, points: np.ndarray, weights: np.ndarray, width: float) -> np.ndarray:
-    """Logarithms of the product of factors after averaging each over neighbouring points, shape (m, n).
+def covariance(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """Covariance of weighted points, shape (d, d)."""
+    centred = points - product(weights, points)
+    return product((weights[:, None] * centred).T, centred)
 
-    factors : logarithms, shape (m, n, r), for m densities and r factors
+
+def whitened(points: np.ndarray, lower: np.ndarray) -> np.ndarray:
+    """Points, shape (n, d), in coordinates in which a covariance L Lᵀ is the unit matrix."""
+    return solve(lower, points.T).T
+
+
+def smoothed(factors: np.ndarray, points: np.ndarray, weights: np.ndarray, width: float) -> np.ndarray:
+    """Logarithm of the product of factors after averaging each over neighbouring points, shape (n,).
+
+    factors : logarithms, shape (n, r), for r factors
     points, weights : shape (n, d) and (n,); the covariance of this sample is the unit of distances
     width : of the neighbourhood in this unit; 0 for no average
     """
     if width == 0.0:
         return factors.sum(axis=-1)
-    centred = points - weights @ points
-    covariance = (weights[:, None] * centred).T @ centred
-    scale = np.linalg.cholesky(covariance + 1e-12 * np.eye(points.shape[1]))
-    z = np.linalg.solve(scale, points.T).T / width
-    near = np.exp(-0.5 * cdist(z, z, "sqeuclidean"))
+    lower = cholesky(covariance(points, weights) + RIDGE * np.eye(points.shape[1]))
+    z = whitened(points, lower) / width
+    near = exp(-0.5 * cdist(z, z, "sqeuclidean"))
     near /= near.sum(axis=1, keepdims=True)
-    return np.array([np.log(np.maximum(near @ np.exp(one), TINY)).sum(axis=1) for one in factors])
+    return log(np.maximum(np.einsum("ij,jr->ir", near, exp(factors)), TINY)).sum(axis=1)
 
 
-def flattened(values: np.ndarray, mixture: np.ndarray, least: float) -> np.ndarray:
-    """Weights of the first of several densities, shape (m, n), that keeps enough effective points, shape (n,)."""
-    for one in values:
-        weights, size = normalize(one - mixture)
+def flattened(densities: Callable[[int], np.ndarray], count: int, mixture: np.ndarray, least: float) -> np.ndarray:
+    """Weights, shape (n,), of the first of several densities that keeps enough effective points.
+
+    densities : function from 0 … count - 1 to logarithms of a density, shape (n,), each flatter than the one before
+    """
+    for place in range(count):
+        values = densities(place)
+        weights, size = normalize(values - mixture)
         if size >= least:
             return weights
     power = 1.0
     while size < least:
         power *= FLATTER
-        weights, size = normalize(power * values[-1] - mixture)
+        weights, size = normalize(power * values - mixture)
     return weights
 
 
@@ -107,13 +146,38 @@ def settle(
     Smoothing in units of a wider sample gives a sample that is too wide, but narrower than that one. The repetition
     ends when the volume hardly changes, or when there are not enough effective points for it.
     """
-    volume = math.inf
+    volume, ridge = math.inf, RIDGE * np.eye(points.shape[1])
     while True:
-        (values,) = smoothed(factors, points, weights, width)
+        values = smoothed(factors, points, weights, width)
         weights, size = normalize(values - mixture)
-        before, volume = volume, np.linalg.slogdet(np.atleast_2d(np.cov(points.T, aweights=weights, ddof=0)))[1]
+        before = volume
+        volume = 2.0 * float(np.sum(log(np.diagonal(cholesky(covariance(points, weights) + ridge)))))
         if width == 0.0 or size < enough or not volume < before - SAME_VOLUME:
-            return Sample(points, values, weights, float(logsumexp(values - mixture)), size)
+            none = np.zeros(len(points), dtype=np.int64)
+            return Sample(points, values, weights, float(log_sum(values - mixture)), size, none)
+
+
+def kernels(points: np.ndarray, weights: np.ndarray) -> Kernels:
+    """The kernel density estimate of weighted points, with Scott's width."""
+    weights = weights / weights.sum()
+    size, dimensions = effective_number(weights), points.shape[1]
+    factor = size ** (-1.0 / (dimensions + 4.0))
+    spread = covariance(points, weights) / (1.0 - 1.0 / size) if size > 1.0 else np.zeros((dimensions, dimensions))
+    return Kernels(points, weights, factor * cholesky(spread + RIDGE * np.eye(dimensions)))
+
+
+def draw_from(density: Kernels, count: int, random: np.random.Generator) -> np.ndarray:
+    """Points drawn from a kernel density estimate, shape (count, d)."""
+    chosen = random.choice(len(density.weights), count, p=density.weights)
+    steps = random.standard_normal((count, density.centres.shape[1]))
+    return density.centres[chosen] + product(steps, density.lower.T)
+
+
+def log_kernels(density: Kernels, points: np.ndarray) -> np.ndarray:
+    """Logarithm of a kernel density estimate at points of shape (n, d), shape (n,)."""
+    distances = cdist(*(whitened(one, density.lower) for one in (points, density.centres)), "sqeuclidean")
+    scale = float(np.sum(log(np.diagonal(density.lower)))) + 0.5 * len(density.lower) * math.log(2.0 * math.pi)
+    return log_sum(log(density.weights) - 0.5 * distances) - scale
 
 
 def sample(
@@ -124,11 +188,11 @@ def sample(
     points: int,
     rounds: int,
     enough: float,
-    seed: int,
+    seed: int | list[int],
     widths: tuple[float, ...] = NOISY,
     near: np.ndarray | None = None,
 ) -> Sample:
-    """A sample of the posterior with a constant prior within the bounds.
+    """A sample of the posterior with a constant prior within the bounds, by one search.
 
     Parameters
     ----------
@@ -151,38 +215,73 @@ def sample(
     """
     random = np.random.default_rng(seed)
     low, high = bounds
-    volume, dimensions = np.log(high - low).sum(), len(low)
+    volume, dimensions = float(np.sum(log(high - low))), len(low)
     x = qmc.scale(qmc.Halton(dimensions, rng=random).random(first), low, high)
     factors = log_factors(x)
     if not np.isfinite(factors.sum(axis=-1)).any():
         raise ValueError("no point within the bounds is possible")
-    even = np.log(first / points)
+    even = math.log(first / points)
     mixture = np.full(first, even)  # logarithm of the sum of all proposals over the even one
-    known = flattened(factors.sum(axis=-1), mixture, LEAST * dimensions)
-    values = smoothed(factors, x, known, widths[-1])
-    proposals: list[gaussian_kde] = []
+
+    def tempered(known: np.ndarray, width: float) -> np.ndarray:
+        """Weights of the least inflated density that keeps enough effective points, smoothed in units of `known`."""
+        return flattened(
+            lambda place: smoothed(factors[place], x, known, width), len(factors), mixture, LEAST * dimensions
+        )
+
+    known = tempered(np.full(first, 1.0 / first), 0.0)
+    proposals: list[Kernels] = []
     while True:
         for width in widths:
-            settled = settle(factors[:1], x, mixture, known, width, enough)
+            settled = settle(factors[0], x, mixture, known, width, enough)
             if settled.size >= enough or width >= widths[-1] * len(proposals) / rounds:
                 break
         if settled.size >= enough or len(proposals) == rounds:
             # A proposal counts as one in `mixture`, and stands for as many points as a round has.
             return settled._replace(log_evidence=settled.log_evidence - math.log(points))
         if near is not None and not proposals:
-            proposals.append(gaussian_kde(near.T))
+            proposals.append(kernels(near, np.ones(len(near))))
         else:
-            known = flattened(values, mixture, LEAST * dimensions)
+            known = tempered(known, widths[-1])
             centres = np.flatnonzero(known > LIGHT * known.max())
             if len(centres) > CENTRES:
                 centres = random.permutation(centres)[:CENTRES]
-            proposals.append(gaussian_kde(x[centres].T, weights=known[centres]))
-        new = proposals[-1].resample(points, seed=random).T
+            proposals.append(kernels(x[centres], known[centres]))
+        new = draw_from(proposals[-1], points, random)
         new = new[((new >= low) & (new <= high)).all(axis=1)]
-        of_new = [np.full(len(new), even), *(volume + proposal.logpdf(new.T) for proposal in proposals)]
-        mixture = np.append(np.logaddexp(mixture, volume + proposals[-1].logpdf(x.T)), logsumexp(of_new, axis=0))
+        of_new = np.array([np.full(len(new), even), *(volume + log_kernels(one, new) for one in proposals)])
+        of_old = np.column_stack([mixture, volume + log_kernels(proposals[-1], x)])
+        mixture = np.append(log_sum(of_old), log_sum(of_new.T))
         x, factors = np.vstack([x, new]), np.concatenate([factors, log_factors(new)], axis=1)
-        known = flattened(
-            smoothed(factors, x, np.append(known, np.zeros(len(new))), widths[-1]), mixture, LEAST * dimensions
-        )
-        values = smoothed(factors, x, known, widths[-1])
+        known = tempered(np.append(known, np.zeros(len(new))), widths[-1])
+
+
+def pooled(samples: list[Sample]) -> Sample:
+    """One sample from several searches of the same posterior; each counts with its evidence."""
+    evidences = np.array([one.log_evidence for one in samples])
+    shares, _ = normalize(evidences)
+    weights = np.concatenate([share * one.weights for share, one in zip(shares, samples, strict=True)])
+    counts = [len(one.points) for one in samples]
+    return Sample(
+        np.vstack([one.points for one in samples]),
+        np.concatenate([one.log_density for one in samples]),
+        weights,
+        float(log_sum(evidences)) - math.log(len(samples)),
+        effective_number(weights),
+        np.repeat(np.arange(len(samples)), counts),
+    )
+
+
+def monte_carlo_error(found: Sample, summary: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+    """Standard error of a summary by the jackknife over the searches (Efron and Stein 1981), of the summary's shape.
+
+    summary : function of the weights of all points, shape (n,)
+    """
+    searches = np.unique(found.search)
+    without = []
+    for one in searches:
+        weights = np.where(found.search == one, 0.0, found.weights)
+        without.append(summary(weights / weights.sum()))
+    count = len(searches)
+    deviations = np.array(without) - np.mean(without, axis=0)
+    return np.sqrt((count - 1) / count * np.sum(deviations**2, axis=0))

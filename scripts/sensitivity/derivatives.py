@@ -25,6 +25,7 @@ from conveyor import (
     replace_parameters,
     scaled_start,
 )
+from conveyor.linear_algebra import product
 from pipeline import fields, grid
 from sensitivity.selection import COLUMNS, Selected, select_bifurcations
 
@@ -106,7 +107,7 @@ def differentiate_bifurcation(parameters: np.ndarray, bifurcation: Selected) -> 
 
     @cache
     def find_amplitude(groups):
-        guess = point.unknown + moves @ (np.array(groups[1:4]) - point.groups[1:4])
+        guess = point.unknown + product(moves, np.array(groups[1:4]) - point.groups[1:4])
         there = find_bifurcation(bifurcation.kind, bifurcation.period, guess, groups)
         return np.nan if there is None else there.groups.amplitude
 
@@ -132,7 +133,8 @@ def differentiate_accumulation(parameters: np.ndarray, doublings: list[CriticalP
     limit, _ = accumulation_point(amplitudes)
     if np.isnan(limit) or any(doubling.derivatives is None for doubling in doublings):
         return None
-    derivatives = aitken_weights(*amplitudes[1:]) @ np.array([doubling.derivatives for doubling in last[1:]])
+    slopes_of_last = np.array([doubling.derivatives for doubling in last[1:]])
+    derivatives = product(slopes_of_last.T, aitken_weights(*amplitudes[1:]))
 
     def solve(row):
         return accumulation_point(np.array([doubling.solve(row) for doubling in last]))[0]

@@ -22,7 +22,7 @@ CONTACT = {"friction": 0.25, "damping": 0.3, "stiffness": 3e5}
 SETTINGS = {
     "parameters": ["friction", "damping", "stiffness"],
     "alternatives": {},
-    "decisive": 150.0,
+    "decisive": 20.0,
     "ranges": {"friction": [0.05, 1.0], "damping": [0.03, 2.5], "stiffness": [2.0, 2000.0]},
     "height": [0.0, 5e-4],
     "vz0": [-0.2, 0.2],
@@ -86,7 +86,7 @@ def test_an_interval_that_only_the_range_limits_ends_there():
     other = np.random.default_rng(1).permutation(share)
     columns = [high[0] - 0.3 * (high - low)[0] * share, np.full(400, math.log(0.3)), low[2] + (high - low)[2] * other]
     points = np.column_stack(columns)
-    sample = Sample(points, np.zeros(400), np.full(400, 1 / 400), 0.0, 400.0)
+    sample = Sample(points, np.zeros(400), np.full(400, 1 / 400), 0.0, 400.0, np.arange(400) % 4)
     rows = {row["parameter"]: row for row in summarize_parameters(sample, SETTINGS)}
     assert (rows["friction"]["status"], rows["stiffness"]["status"]) == (OPEN, NOT_DETERMINED)
     assert rows["friction"]["low"] > rows["friction"]["range_low"]
@@ -118,7 +118,7 @@ def test_alternatives_are_also_searched_in_a_single_round():
 
 def test_alternatives_are_also_searched_if_the_search_without_them_ends_at_a_single_point():
     points = np.repeat(bounds_of(SETTINGS).mean(axis=0)[None], 5, axis=0)
-    found = Sample(points, np.zeros(5), np.array([1.0, 0.0, 0.0, 0.0, 0.0]), 0.0, 1.0)
+    found = Sample(points, np.zeros(5), np.array([1.0, 0.0, 0.0, 0.0, 0.0]), 0.0, 1.0, np.zeros(5, int))
     settings = SETTINGS | {"rounds": 1, "alternatives": {"inclination": 0.2}}
     (row,) = compare_alternatives(found, data_of(measured(), MODEL), settings, threads=2)
     assert row["parameter"] == "inclination" and np.isfinite(row["log_bayes_factor"])

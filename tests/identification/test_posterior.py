@@ -92,7 +92,8 @@ def test_intervals_and_the_share_of_the_range_that_they_cover():
     assert found.covered["friction"] == pytest.approx(0.196, abs=0.015)
     assert not found.open_low["friction"] and not found.open_high["friction"]
     assert found.open_low["angle"] and found.open_high["angle"]
-    assert found.covered["angle"] == pytest.approx(1.0)
+    # Of an angle that nothing limits, the interval covers 95 % of the range, and more where it is smoothed.
+    assert 0.93 < found.covered["angle"] <= 1.0
     few = posterior.interval_rows(samples.head(50), fits.loc[0], SETTINGS)
     assert few.low.isna().all() and few.covered.isna().all()
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from pipeline.importance_sampling import EXACT, sample
+from pipeline.importance_sampling import EXACT, monte_carlo_error, pooled, sample
 
 BOUNDS = np.array([[-5.0, -5.0, -5.0], [5.0, 5.0, 5.0]])
 OPTIONS = {"first": 500, "points": 500, "rounds": 6, "enough": math.inf, "seed": 1, "widths": EXACT}
@@ -40,8 +40,47 @@ def test_both_of_two_distant_modes_are_found_with_their_shares():
         one, other = ((x - centre) ** 2 @ np.full(3, 50.0) for centre in (-3.0, 3.0))
         return np.logaddexp(-one + np.log(0.25), -other + np.log(0.75))
 
-    found = sample(one_factor(modes), BOUNDS, **OPTIONS | {"first": 1000, "points": 1000})
-    assert found.weights[found.points[:, 0] < 0.0].sum() == pytest.approx(0.25, abs=0.05)
+    searches = [
+        sample(one_factor(modes), BOUNDS, **OPTIONS | {"first": 1000, "points": 1000, "seed": seed})
+        for seed in range(8)
+    ]
+    found = pooled(searches)
+
+    def share(weights):
+        return weights[found.points[:, 0] < 0.0].sum()
+
+    error = monte_carlo_error(found, share)
+    assert 0.01 < error < 0.05
+    assert share(found.weights) == pytest.approx(0.25, abs=4.0 * error)
+
+
+def test_the_monte_carlo_error_is_that_of_repetitions():
+    """The means of eight searches scatter over ten repetitions as the jackknife says, within a factor of two."""
+    means, errors = [], []
+    for repetition in range(10):
+        seeds = range(8 * repetition, 8 * repetition + 8)
+        options = OPTIONS | {"first": 100, "points": 100, "rounds": 3}
+        found = pooled([sample(one_factor(valley), BOUNDS, **options | {"seed": seed}) for seed in seeds])
+
+        def mean(weights, points=found.points):
+            return weights @ points[:, 0]
+
+        means.append(mean(found.weights))
+        errors.append(monte_carlo_error(found, mean))
+    assert 0.5 < np.sqrt(np.mean(np.square(errors))) / np.std(means, ddof=1) < 2.0
+
+
+def test_searches_count_with_their_evidence():
+    """Of two searches for one peak, one has found half of the bounds impossible: it has half of the evidence."""
+
+    def half(x):
+        return np.where(x[:, 0] > 0.0, 0.0, -np.inf)
+
+    whole = sample(one_factor(lambda x: np.zeros(len(x))), BOUNDS, **OPTIONS)
+    found = pooled([whole, sample(one_factor(half), BOUNDS, **OPTIONS)])
+    assert found.weights[found.search == 0].sum() == pytest.approx(2.0 / 3.0, abs=0.02)
+    assert found.weights.sum() == pytest.approx(1.0)
+    assert math.exp(found.log_evidence) == pytest.approx(0.75, abs=0.03)
 
 
 def test_no_point_lies_beyond_the_bounds():

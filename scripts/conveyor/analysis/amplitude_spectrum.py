@@ -38,7 +38,7 @@ def windowed_spectrum(samples: np.ndarray, duration: float) -> AmplitudeSpectrum
     """
     samples = check(samples)
     window = hann(len(samples), sym=False)
-    mean = window @ samples / window.sum()
+    mean = np.sum(window * samples) / window.sum()
     spectrum = one_sided((samples - mean) * window, duration, window.sum())
     spectrum.amplitude[0] = abs(mean)
     return spectrum

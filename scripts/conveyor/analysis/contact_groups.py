@@ -16,6 +16,7 @@ least along lines of equal loss, and a rectangle of K and L has no corner in whi
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..elementary import cos, power
 from ..packing import as_rows
 from ..solver import model
 
@@ -25,8 +26,8 @@ def units(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     parameters = as_rows(parameters)
     mass, exponent = parameters[..., model.MASS], parameters[..., model.EXPONENT]
     omega = 2.0 * np.pi * parameters[..., model.FREQUENCY]
-    gravity = parameters[..., model.GRAVITY] * np.cos(parameters[..., model.INCLINATION])
-    return mass * omega ** (2.0 * exponent) / gravity ** (exponent - 1.0), mass * omega, exponent
+    gravity = parameters[..., model.GRAVITY] * cos(parameters[..., model.INCLINATION])
+    return mass * power(omega, 2.0 * exponent) / power(gravity, exponent - 1.0), mass * omega, exponent
 
 
 def groups_of_contact(
@@ -41,11 +42,11 @@ def groups_of_contact(
     """
     unit, unit_of_damping, exponent = units(parameters)
     group = np.asarray(stiffness) / unit
-    return group, np.asarray(damping) / unit_of_damping * group ** (-1.0 / (exponent + 1.0))
+    return group, np.asarray(damping) / unit_of_damping * power(group, -1.0 / (exponent + 1.0))
 
 
 def contact_of_groups(group: ArrayLike, loss: ArrayLike, parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness k_c (N/m^p) and damping d_c (N s/m) from K and L: the inverse of `groups_of_contact`."""
     unit, unit_of_damping, exponent = units(parameters)
     group = np.asarray(group)
-    return unit * group, unit_of_damping * np.asarray(loss) * group ** (1.0 / (exponent + 1.0))
+    return unit * group, unit_of_damping * np.asarray(loss) * power(group, 1.0 / (exponent + 1.0))

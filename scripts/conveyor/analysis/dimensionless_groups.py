@@ -148,4 +148,6 @@ def derivatives_of_groups(moved: str, parameters: np.ndarray, by: np.ndarray) ->
     by : derivatives of the group of `moved`, Γ or z0 ω²/g, by all GROUP_NAMES, shape (7,); its own 0
     """
     of, own = slopes(as_rows(parameters)), GROUP_OF[moved]
-    return {name: float((by @ slope - slope[own]) / of[moved][own]) for name, slope in of.items() if name != moved}
+    return {
+        name: float((np.sum(by * slope) - slope[own]) / of[moved][own]) for name, slope in of.items() if name != moved
+    }

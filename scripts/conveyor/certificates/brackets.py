@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, arb_mat
 
+from .. import linear_algebra
 from .balls import Refused, exactly
 from .newton import Approximation, Zero, approximate_inverse, correct, exact, midpoints, prove_zero
 from .orbit import ProvedOrbit, linearise, prove_orbit
@@ -95,7 +96,8 @@ def bracket_fold(shooting: Shooting, acceleration: float, strobes: np.ndarray, h
     # The tangent of the branch is the null vector of the derivative without its last row.
     flat = equations_on_arc(shooting, origin, arb_mat([[0] * (2 * shooting.count) + [1]]), arb(0))
     _, slope, _ = flat(origin, True)
-    direction = exact(np.linalg.svd(midpoints(slope)[:-1])[2][-1:])
+    along = midpoints(slope)[:-1]
+    direction = exact(linear_algebra.null_vector(along, np.ones(along.shape[1]))[None])
 
     def zero_at(place: arb) -> Zero:
         equations = equations_on_arc(shooting, origin, direction, place)

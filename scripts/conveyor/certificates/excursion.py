@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .. import linear_algebra
 from ..analysis.bifurcations.periodic_orbits import ReturnMap
 from .balls import Refused
 
@@ -46,16 +47,18 @@ def find_saddle(parameters: np.ndarray, amplitude: float, point: np.ndarray) -> 
 
     Refused if the fixed point is no saddle.
     """
-    multipliers, vectors = np.linalg.eig(differentiate(parameters, amplitude, point))
-    if np.iscomplexobj(multipliers) or not np.abs(multipliers).max() > 1.0 > np.abs(multipliers).min():
+    matrix = differentiate(parameters, amplitude, point)
+    multipliers = linear_algebra.eigenvalues(matrix)
+    if multipliers[0].imag != 0.0 or not abs(multipliers[0]) > 1.0 > abs(multipliers[1]):
         raise Refused("the fixed point is no saddle")
-    order = np.argsort(-np.abs(multipliers))
-    return Saddle(parameters, point, amplitude, multipliers[order], vectors[:, order])
+    multipliers = np.real(multipliers)
+    axes = np.column_stack([linear_algebra.eigenvector(matrix, multiplier) for multiplier in multipliers])
+    return Saddle(parameters, point, amplitude, multipliers, axes)
 
 
 def project(saddle: Saddle, points: np.ndarray) -> np.ndarray:
     """Coordinates of points along the unstable and the stable direction, shape (n, 2)."""
-    return np.linalg.solve(saddle.axes, (points - saddle.point).T).T
+    return linear_algebra.solve(saddle.axes, (points - saddle.point).T).T
 
 
 def leave(saddle: Saddle, distance: float, cycles: int) -> np.ndarray:
@@ -95,7 +98,7 @@ def find_excursion(saddle: Saddle, longest: int) -> np.ndarray:
 
 def correct_path(saddle: Saddle, path: np.ndarray) -> np.ndarray:
     """An orbit whose ends lie on the straight unstable and stable directions, by Newton's iteration on all points."""
-    count, across = len(path), np.linalg.inv(saddle.axes)
+    count, across = len(path), linear_algebra.inverse(saddle.axes)
     for _ in range(CORRECTIONS):
         slope, value = np.zeros((2 * count, 2 * count)), np.zeros(2 * count)
         slope[0, :2], value[0] = across[1], project(saddle, path[:1])[0, 1]
@@ -105,7 +108,10 @@ def correct_path(saddle: Saddle, path: np.ndarray) -> np.ndarray:
             slope[rows, 2 * k : 2 * k + 2] = differentiate(saddle.parameters, saddle.amplitude, path[k])
             slope[rows, 2 * k + 2 : 2 * k + 4] = -np.eye(2)
             value[rows] = iterate(saddle.parameters, saddle.amplitude, path[k], 1)[1] - path[k + 1]
-        path = path - np.linalg.solve(slope, value).reshape(count, 2)
+        correction = linear_algebra.solve(slope, value)
+        if correction is None:
+            raise Refused("the equations of the excursion are singular")
+        path = path - correction.reshape(count, 2)
     return path
 
 
@@ -113,11 +119,11 @@ def carry_directions(matrices: list[np.ndarray], axes: np.ndarray) -> list[np.nd
     """Axes at all points of a path: the unstable direction is carried forwards, the stable direction backwards."""
     unstable, stable = [axes[:, 0]], [axes[:, 1]]
     for matrix in matrices[:-1]:
-        ahead = matrix @ unstable[-1]
-        unstable.append(ahead / np.linalg.norm(ahead))
+        ahead = linear_algebra.product(matrix, unstable[-1])
+        unstable.append(ahead / linear_algebra.length(ahead))
     for matrix in matrices[-2::-1]:
-        back = np.linalg.solve(matrix, stable[-1])
-        stable.append(back / np.linalg.norm(back))
+        back = linear_algebra.solve(matrix, stable[-1])
+        stable.append(back / linear_algebra.length(back))
     return [np.column_stack(pair) for pair in zip(unstable, reversed(stable), strict=True)]
 
 

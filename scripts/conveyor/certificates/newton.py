@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from flint import arb, arb_mat
 
+from .. import linear_algebra
 from .balls import Refused
 
 # Corrections of an approximate zero, and enlargements of a box that is too small.
@@ -49,11 +50,8 @@ def approximate_inverse(slope: arb_mat) -> arb_mat:
 
     Refused if the matrix is singular in floating point.
     """
-    try:
-        inverse = np.linalg.inv(midpoints(slope))
-    except np.linalg.LinAlgError:
-        raise Refused("the linearisation is singular") from None
-    if not np.isfinite(inverse).all():
+    inverse = linear_algebra.inverse(midpoints(slope))
+    if inverse is None or not np.isfinite(inverse).all():
         raise Refused("the linearisation is singular")
     return exact(inverse)
 

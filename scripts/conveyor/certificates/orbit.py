@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, arb_mat
 
+from .. import linear_algebra
 from .balls import Refused, bounds
 from .motion import Arrival, Impact
 from .newton import Zero, correct, exact, midpoints, prove_zero
@@ -83,21 +84,26 @@ class ProvedOrbit(NamedTuple):
         return [(first, arb(0)), (self.determinant / first, arb(0))]
 
 
+def rotation(direction: np.ndarray) -> arb_mat:
+    """The rotation, in floating point, that turns the first axis into a direction, shape (2,)."""
+    x, y = direction / linear_algebra.length(direction)
+    return exact(np.array([[x, -y], [y, x]]))
+
+
 def linearise(shooting: Shooting, arrivals: list[Arrival]) -> tuple[arb, arb, arb]:
     """Trace and determinant of the derivative P over a period, and the duration of contact as a phase.
 
-    Q⁻¹ P Q has the trace of P for any Q. With the Q of a QR decomposition at each node the factors of P are nearly
-    triangular, and the trace is as narrow as the diagonal. The divergence of the flow is -β in contact, which gives the
-    determinant (Liouville). It is narrower than the determinant of the product, and must agree with it.
+    Q⁻¹ P Q has the trace of P for any Q. With the rotation onto the first column of the product at each node, the
+    factors of P are nearly triangular, and the trace is as narrow as the diagonal. The divergence of the flow is -β in
+    contact, which gives the determinant (Liouville). It is narrower than the determinant of the product, and must
+    agree with it.
     """
     matrices = [arb_mat([[arrival.matrix[i, j] for j in range(2)] for i in range(2)]) for arrival in arrivals]
-    whole = reduce(lambda product, matrix: midpoints(matrix) @ product, matrices, np.eye(2))
-    values, vectors = np.linalg.eig(whole)
-    x, y = vectors[:, np.argmax(np.abs(values))].real
-    base = frame = exact(np.array([[x, -y], [y, x]]))
+    whole = reduce(lambda product, matrix: linear_algebra.product(midpoints(matrix), product), matrices, np.eye(2))
+    base = frame = rotation(linear_algebra.eigenvector(whole, linear_algebra.eigenvalues(whole)[0]).real)
     product = arb_mat([[1, 0], [0, 1]])
     for matrix in matrices:
-        following = base if matrix is matrices[-1] else exact(np.linalg.qr(midpoints(matrix * frame))[0])
+        following = base if matrix is matrices[-1] else rotation(midpoints(matrix * frame)[:, 0])
         product = following.inv() * matrix * frame * product
         frame = following
     contact = sum((arrival.contact for arrival in arrivals), arb(0))

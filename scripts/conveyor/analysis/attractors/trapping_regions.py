@@ -12,6 +12,7 @@ from functools import reduce
 
 import numpy as np
 
+from ... import linear_algebra
 from ...solver import contact
 from ...solver.jit import compiled
 from ...solver.model import PSI0
@@ -88,7 +89,7 @@ def comes_inside(parameters, tolerance, centre, factor, period, radius, inner, p
 
 def spectral_radius(matrix: np.ndarray) -> float:
     """The largest absolute eigenvalue of a matrix."""
-    return np.abs(np.linalg.eigvals(matrix)).max()
+    return abs(linear_algebra.eigenvalues(matrix)[0])
 
 
 def contracting_norm(matrix: np.ndarray) -> np.ndarray | None:
@@ -99,9 +100,8 @@ def contracting_norm(matrix: np.ndarray) -> np.ndarray | None:
     radius = spectral_radius(matrix)
     if not radius <= SLOW:
         return None
-    # The same digits as from scipy.linalg, which would take each job some tenths of a second to import.
     map_of = (matrix / math.sqrt(max(radius, FASTEST))).T
-    return factor_of(np.linalg.solve(np.eye(4) - np.kron(map_of, map_of), np.eye(2).ravel()).reshape(2, 2))
+    return factor_of(linear_algebra.solve(np.eye(4) - np.kron(map_of, map_of), np.eye(2).ravel()).reshape(2, 2))
 
 
 def slow_norm(matrix: np.ndarray) -> np.ndarray | None:
@@ -112,13 +112,15 @@ def slow_norm(matrix: np.ndarray) -> np.ndarray | None:
     """
     if not spectral_radius(matrix) <= SLOWEST:
         return None
-    inverse = np.linalg.inv(np.linalg.eig(matrix).eigenvectors)
-    return factor_of((inverse.conj().T @ inverse).real)
+    values = linear_algebra.eigenvalues(matrix)
+    inverse = linear_algebra.inverse(np.column_stack([linear_algebra.eigenvector(matrix, value) for value in values]))
+    return None if inverse is None else factor_of(linear_algebra.product(inverse.conj().T, inverse).real)
 
 
 def factor_of(square: np.ndarray) -> np.ndarray:
     """The upper triangular R, shape (2, 2), of a norm |R x| ≥ |x| whose square has a multiple of this matrix."""
-    return np.linalg.cholesky(square / np.linalg.eigvalsh(square)[0], upper=True)
+    least = linear_algebra.eigenvalues(square)[1].real
+    return linear_algebra.cholesky(square / least).T
 
 
 def linearise(parameters: np.ndarray, tolerance: float, point: np.ndarray, period: int) -> tuple:
@@ -132,7 +134,7 @@ def linearise(parameters: np.ndarray, tolerance: float, point: np.ndarray, perio
     if status != OK:
         return None
     end = np.array([state[0], state[1] + damping * max(state[0], 0.0)])
-    return end, reduce(lambda product, following: following @ product, matrices)
+    return end, reduce(lambda whole, following: linear_algebra.product(following, whole), matrices)
 
 
 def refine_orbit(
@@ -147,7 +149,10 @@ def refine_orbit(
         found = linearise(parameters, tolerance, point, period)
         if found is None or np.abs((point - near) / unit).max() > FAR:
             return None
-        point = point + np.linalg.lstsq(np.eye(2) - found[1], found[0] - point)[0]
+        correction = linear_algebra.solve(np.eye(2) - found[1], found[0] - point)
+        if correction is None:
+            return None
+        point = point + correction
     found = linearise(parameters, tolerance, point, period)
     return None if found is None else (point, found[1] * unit / unit[:, None])
 

@@ -16,8 +16,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ... import linear_algebra
 from ..bifurcations.bifurcation_points import FARTHEST, ITERATIONS, derivatives
-from ..bifurcations.newton import newton, solve
+from ..bifurcations.newton import newton
 from ..dimensionless_groups import AMPLITUDE, DAMPING, EXPONENT, GROUP_NAMES, HEIGHT, PHASE, STIFFNESS, VELOCITY, Groups
 
 # Images among which a saddle is looked for, and its longest period, in cycles.
@@ -68,7 +69,7 @@ def scaled_state(launch: InitialCondition, groups: Groups) -> tuple[np.ndarray, 
     inside = 1.0 if x > 0.0 else 0.0
     damping = groups.damping * inside
     by_x_and_speed = np.array([[1.0, 0.0], [damping, 1.0]])
-    by_unknown = by_x_and_speed @ np.array([[-1.0, -cosine], [0.0, sine]])
+    by_unknown = linear_algebra.product(by_x_and_speed, np.array([[-1.0, -cosine], [0.0, sine]]))
     push = groups.stiffness * max(x, 0.0) ** groups.exponent
     # The part rises with its own velocity and falls with g, whatever the plate does.
     by_quantities = np.column_stack(
@@ -76,8 +77,8 @@ def scaled_state(launch: InitialCondition, groups: Groups) -> tuple[np.ndarray, 
             [0.0, inside * x],
             np.zeros(2),
             np.zeros(2),
-            by_x_and_speed @ [0.0, -1.0],
-            by_x_and_speed @ [groups.amplitude * sine, groups.amplitude * cosine]
+            linear_algebra.product(by_x_and_speed, np.array([0.0, -1.0])),
+            linear_algebra.product(by_x_and_speed, groups.amplitude * np.array([sine, cosine]))
             - np.array([speed, 1.0 + groups.amplitude * cosine - push]),
         ]
     )
@@ -100,7 +101,7 @@ def find_saddle(launch: InitialCondition, groups: Groups) -> tuple[int, np.ndarr
     strobes = np.vstack([state, found.states])
     nearest = []
     for period in range(1, LONGEST + 1):
-        moved = np.linalg.norm(strobes[period:] - strobes[:-period], axis=1)
+        moved = linear_algebra.length(strobes[period:] - strobes[:-period])
         # The first close returns belong to the saddle, the later ones to the attractor.
         turns = np.flatnonzero((moved[1:-1] < moved[:-2]) & (moved[1:-1] <= moved[2:])) + 1
         nearest += [(period, int(turn)) for turn in turns[:3]]
@@ -108,8 +109,8 @@ def find_saddle(launch: InitialCondition, groups: Groups) -> tuple[int, np.ndarr
         saddle = find_fixed_point(groups, strobes[turn], period, launch.psi0)
         if saddle is None:
             continue
-        size = np.sort(np.abs(np.linalg.eigvals(derivatives(groups, saddle, period, launch.psi0).first[:, :2])))
-        if size[0] < 1.0 < size[1]:
+        first, second = linear_algebra.eigenvalues(derivatives(groups, saddle, period, launch.psi0).first[:, :2])
+        if abs(second) < 1.0 < abs(first):
             return period, saddle, turn // period
     return None
 
@@ -142,7 +143,7 @@ def find_boundary_point(launch: InitialCondition, groups: Groups, unknown: int) 
         if isinstance(solution, str):
             return solution
         launch, groups, saddle, images = solution
-        if np.linalg.norm(images[-1] - saddle) < NEAR:
+        if linear_algebra.length(images[-1] - saddle) < NEAR:
             return _moved(launch, groups, unknown, period, saddle, images)
     return "the start does not come close to the saddle"
 
@@ -152,11 +153,10 @@ def _linearised(launch, groups, period, saddle, images, *, exponent=False):
     at_saddle = derivatives(groups, saddle, period, launch.psi0, exponent=exponent)
     if at_saddle is None:
         return None
-    values, vectors = np.linalg.eig(at_saddle.first[:, :2].T)
-    unstable = np.argmax(np.abs(values))
-    left = vectors[:, unstable].real
+    values = linear_algebra.eigenvalues(at_saddle.first[:, :2])
+    left = linear_algebra.eigenvector(at_saddle.first[:, :2].T, values[0].real)
     # How the saddle moves with Γ, D, K (and p).
-    along = np.linalg.solve(np.eye(2) - at_saddle.first[:, :2], at_saddle.first[:, 2:])
+    along = linear_algebra.solve(np.eye(2) - at_saddle.first[:, :2], at_saddle.first[:, 2:])
     state, by_unknown, by_quantities = scaled_state(launch, groups)
     count = len(images)
     residual = np.zeros(2 * count + 1)
@@ -173,11 +173,11 @@ def _linearised(launch, groups, period, saddle, images, *, exponent=False):
         jacobian[rows, here], jacobian[rows, there] = -found.first[:, :2], np.eye(2)
         jacobian[rows, -1] = -found.first[:, 2]
         others[rows, :groups_moved] = -found.first[:, 3:]
-    residual[-1] = left @ (images[-1] - saddle)
+    residual[-1] = linear_algebra.dot(left, images[-1] - saddle)
     jacobian[-1, 2 * count - 2 : 2 * count] = left
-    jacobian[-1, -1] = -left @ along[:, 0]
-    others[-1, :groups_moved] = -left @ along[:, 1:]
-    return residual, jacobian, others, np.real(values)
+    jacobian[-1, -1] = -linear_algebra.dot(left, along[:, 0])
+    others[-1, :groups_moved] = -linear_algebra.product(along[:, 1:].T, left)
+    return residual, jacobian, others, tuple(value.real for value in values)
 
 
 def _shoot(launch, groups, unknown, period, saddle, images):
@@ -189,7 +189,7 @@ def _shoot(launch, groups, unknown, period, saddle, images):
             return "the motion is lost"
         residual, jacobian, _, _ = found
         wanted = np.column_stack([jacobian[:, :-2], jacobian[:, column]])
-        step = solve(wanted, -residual)
+        step = linear_algebra.solve(wanted, -residual)
         if step is None or not np.abs(step).max() < FARTHEST:
             return "no start near it lies on the edge"
         images = images + step[:-1].reshape(-1, 2)
@@ -211,9 +211,9 @@ def _moved(launch, groups, unknown, period, saddle, images):
     count = len(images)
     own, other = (-2, -1) if unknown == HEIGHT else (-1, -2)
     right = -np.column_stack([others, jacobian[:, other]])
-    *moved, by_other = np.linalg.solve(np.column_stack([jacobian[:, : 2 * count], jacobian[:, own]]), right)[-1]
+    unknowns = np.column_stack([jacobian[:, : 2 * count], jacobian[:, own]])
+    *moved, by_other = linear_algebra.solve(unknowns, right)[-1]
     moves = np.zeros(len(GROUP_NAMES))
     moves[list(OTHERS)] = moved
     moves[AMPLITUDE if unknown == HEIGHT else HEIGHT] = by_other
-    order = np.argsort(-np.abs(values))
-    return BoundaryPoint(launch, groups, period, saddle, tuple(values[order]), images, moves)
+    return BoundaryPoint(launch, groups, period, saddle, tuple(values), images, moves)

@@ -49,7 +49,7 @@ def hyperbola_profile(acceleration: np.ndarray, height: np.ndarray, b: np.ndarra
     """
     x = 1.0 / (np.asarray(b, dtype=np.float64)[:, None] + acceleration)
     centred = x - x.mean(axis=1, keepdims=True)
-    a = centred @ (height - np.mean(height)) / np.sum(centred**2, axis=1)
+    a = np.sum(centred * (height - np.mean(height)), axis=1) / np.sum(centred**2, axis=1)
     c = np.mean(height) - a * x.mean(axis=1)
     parameters = np.stack([a, b, c], axis=1)
     return parameters, mean_squared_error(acceleration, height, parameters)

@@ -23,6 +23,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import root
 
+from ... import linear_algebra
 from ..dimensionless_groups import Groups
 from .bifurcation_points import GRAZING, SIGNS, BifurcationPoint, derivatives, find_bifurcation, system, touching_point
 from .newton import follow_curve, newton
@@ -111,7 +112,7 @@ class CurveEquations:
         )
         jacobian = np.column_stack([found[1][:, :2], found[1][:, 2] * groups.amplitude, by_path])
         # The third function, alone, grows with the multipliers.
-        scale = np.append(np.ones(2), max(1.0, np.linalg.norm(jacobian[2])))
+        scale = np.append(np.ones(2), max(1.0, linear_algebra.length(jacobian[2])))
         return found[0] / scale, jacobian / scale[:, None]
 
     def tangent(self, unknown: np.ndarray, previous: np.ndarray) -> np.ndarray | None:
@@ -119,8 +120,7 @@ class CurveEquations:
         found = self.system(unknown)
         if found is None or not np.isfinite(found[1]).all():
             return None
-        vector = np.linalg.svd(found[1])[2][-1]
-        return vector if vector @ previous >= 0.0 else -vector
+        return linear_algebra.null_vector(found[1], previous)
 
     def correct(self, guess: np.ndarray, direction: np.ndarray) -> np.ndarray | None:
         """The point of the curve in the plane through `guess` normal to `direction`, or None."""
@@ -134,10 +134,14 @@ class CurveEquations:
 
 def eigenvectors(matrix: np.ndarray, sign: float) -> tuple[np.ndarray, np.ndarray]:
     """Right and left eigenvectors of the multiplier ±1, r of length 1 and l·r = 1."""
-    singular = matrix - sign * np.eye(2)
-    right = np.linalg.svd(singular)[2][-1]
-    left = np.linalg.svd(singular.T)[2][-1]
-    return right, left / (left @ right)
+    right = linear_algebra.eigenvector(matrix, sign)
+    left = linear_algebra.eigenvector(matrix.T, sign)
+    return right, left / linear_algebra.dot(left, right)
+
+
+def twice(second: np.ndarray, one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Second derivatives of (x, y) along two directions of (x, y), shape (2,)."""
+    return linear_algebra.product(linear_algebra.product(second[:, :, :2], one), other)
 
 
 def normal_form(point: BifurcationPoint, along: np.ndarray) -> tuple[float, np.ndarray]:
@@ -150,17 +154,17 @@ def normal_form(point: BifurcationPoint, along: np.ndarray) -> tuple[float, np.n
     found = derivatives(point.groups, state, point.period)
     matrix = found.first[:, :2]
     right, left = eigenvectors(matrix, SIGNS[point.kind])
-    if right @ along < 0.0:
+    if linear_algebra.dot(right, along) < 0.0:
         right, left = -right, -left
-    bent = found.second[:, :, :2] @ right @ right
+    bent = twice(found.second, right, right)
     if point.kind == "fold":
-        return float(0.5 * left @ bent), right
+        return float(0.5 * linear_algebra.dot(left, bent)), right
     aside = [derivatives(point.groups, state + part * SIDESTEP * right, point.period) for part in (1.0, -1.0)]
     if any(one is None for one in aside):
         return float("nan"), right
-    third = (aside[0].second - aside[1].second)[:, :, :2] @ right @ right / (2.0 * SIDESTEP)
-    follow = np.linalg.solve(np.eye(2) - matrix, bent)
-    return float(left @ (third / 6.0 + 0.5 * found.second[:, :, :2] @ follow @ right)), right
+    third = twice(aside[0].second - aside[1].second, right, right) / (2.0 * SIDESTEP)
+    follow = linear_algebra.solve(np.eye(2) - matrix, bent)
+    return float(linear_algebra.dot(left, third / 6.0 + 0.5 * twice(found.second, follow, right))), right
 
 
 def follow_bifurcation_curve(
@@ -244,12 +248,13 @@ def _side(equations, begin, direction, limits, longest_step, most):
     lengths = {"first": min(FIRST_STEP, longest_step), "smallest": SMALLEST_STEP, "largest": longest_step}
     steps = follow_curve(equations.correct, equations.tangent, begin, direction, **lengths, straight=STRAIGHT)
     for here, there, _, onwards, length in steps:
-        if equations.period % 2 == 0 and equations.halving(here) @ equations.halving(there) < 0.0:
+        if equations.period % 2 == 0 and linear_algebra.dot(equations.halving(here), equations.halving(there)) < 0.0:
             return unknowns, CurveEnd.HALVED
         unknowns.append(there)
         if not (limits[0] <= there[2] <= limits[1] and limits[2] <= there[3] <= limits[3]):
             return unknowns, CurveEnd.LIMIT
-        if len(unknowns) > 3 and np.linalg.norm(there - begin) < length and onwards @ (begin - there) > 0.0:
+        is_near = len(unknowns) > 3 and linear_algebra.length(there - begin) < length
+        if is_near and linear_algebra.dot(onwards, begin - there) > 0.0:
             return [*unknowns, begin], CurveEnd.CLOSED
         if len(unknowns) > most:
             return unknowns, CurveEnd.LENGTH
@@ -276,9 +281,9 @@ def _degenerate(equations, begin, end, test):
     kind = "cusp" if equations.kind == "fold" else "generalised doubling"
     first, last = test(equations.point(begin)), test(equations.point(end))
     largest, status = max(abs(first), abs(last)), "ok"
-    while status == "ok" and np.linalg.norm(end - begin) > RESOLUTION:
+    while status == "ok" and linear_algebra.length(end - begin) > RESOLUTION:
         chord = end - begin
-        middle = equations.correct(0.5 * (begin + end), chord / np.linalg.norm(chord))
+        middle = equations.correct(0.5 * (begin + end), chord / linear_algebra.length(chord))
         if middle is None:
             status = "not located"
             break
@@ -305,7 +310,7 @@ def _grazings(equations, begin, end, status):
         if found is None:
             return np.full(3, np.nan)
         matrix, sign = found.first[:, :2], SIGNS[equations.kind]
-        return np.append(found.image, 1.0 - sign * np.trace(matrix) + np.linalg.det(matrix))
+        return np.append(found.image, 1.0 - sign * np.trace(matrix) + linear_algebra.determinant(matrix))
 
     for near in (end, begin):
         phase = touching_point(equations.groups(near), near[:2], equations.period)

@@ -13,13 +13,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ... import linear_algebra
 from ...packing import as_rows
 from ...solver import contact
 from ...solver.model import PSI0
 from ...solver.trajectory import OK
 from .. import second_derivatives, stroboscopic_map
 from ..dimensionless_groups import Groups, groups_of, length_and_speed_units, packed
-from .newton import newton, solve
+from .newton import newton
 
 TOLERANCE = 1e-14
 # Newton's iteration: its last correction; the size and number of corrections that no longer shrink and therefore are
@@ -70,8 +71,9 @@ def derivatives(
     # The chain rule for the derivatives of (x, y, Γ, D, K, p) by their values at the beginning.
     whole, bent = np.eye(count), np.zeros((2, 2, count))
     for of_one, of_two in zip(first, second, strict=True):
-        bent = np.einsum("ca,aij->cij", of_one[:, :2], bent) + np.einsum("cab,ai,bj->cij", of_two, whole[:2, :2], whole)
-        whole[:2] = of_one @ whole
+        along = linear_algebra.product(linear_algebra.product(whole[:2, :2].T, of_two), whole)
+        bent = sum(of_one[:, k, None, None] * bent[k] for k in range(2)) + along
+        whole[:2] = linear_algebra.product(of_one, whole)
     return Derivatives(states[-1], whole[:2].copy(), bent, states, int(impacts.sum()))
 
 
@@ -113,7 +115,7 @@ def system(
         - found.second[0, 1] * matrix[1, 0]
         - found.second[1, 0] * matrix[0, 1]
     )
-    test = 1.0 - SIGNS[kind] * np.trace(matrix) + np.linalg.det(matrix)
+    test = 1.0 - SIGNS[kind] * np.trace(matrix) + linear_algebra.determinant(matrix)
     jacobian = np.vstack([found.first - np.eye(2, found.first.shape[1]), determinant - SIGNS[kind] * trace])
     return np.append(found.image - unknown[:2], test), jacobian
 
@@ -162,7 +164,7 @@ def differentiate_unknowns(point: BifurcationPoint) -> np.ndarray | None:
     """
     found = system(point.kind, point.period, point.unknown, point.groups, exponent=True)
     count = len(point.unknown)
-    return None if found is None else solve(found[1][:, :count], -found[1][:, count:])
+    return None if found is None else linear_algebra.solve(found[1][:, :count], -found[1][:, count:])
 
 
 def touching_point(groups: Groups, state: np.ndarray, period: int) -> np.ndarray | None:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
+from ... import linear_algebra
 from .newton import follow_curve
 from .periodic_orbits import Orbit, ReturnMap
 
@@ -82,7 +83,7 @@ def _follow(parameters, orbit, limits, direction):
     lengths = {"first": FIRST_STEP, "smallest": SMALLEST_STEP, "largest": LARGEST_STEP}
     steps = follow_curve(returns.correct, returns.tangent, here, direction, **lengths, straight=STRAIGHT)
     for here, there, tangent, _, length in steps:
-        if orbit.period % 2 == 0 and returns.halving(here) @ returns.halving(there) < 0.0:
+        if orbit.period % 2 == 0 and linear_algebra.dot(returns.halving(here), returns.halving(there)) < 0.0:
             half = ReturnMap(parameters, orbit.period // 2)
             unknown = half.newton(0.5 * (here + there))
             return orbits, bifurcations, "period halving", None if unknown is None else half.describe(unknown)
@@ -90,8 +91,8 @@ def _follow(parameters, orbit, limits, direction):
         bifurcations += bifurcations_between(parameters, *orbits[-2:])
         if not limits[0] <= orbits[-1].acceleration <= limits[1]:
             return orbits, bifurcations, "limit", None
-        advance = (beginning - here) @ tangent
-        aside = np.linalg.norm(beginning - here - advance[:, None] * tangent, axis=1)
+        advance = linear_algebra.dot(beginning - here, tangent)
+        aside = linear_algebra.length(beginning - here - advance[:, None] * tangent)
         if len(orbits) > 3 and ((advance > 0.0) & (advance <= length) & (aside < 0.1 * length)).any():
             return orbits, bifurcations, "closed", None
         if len(orbits) == MAX_ORBITS:
@@ -104,14 +105,14 @@ def is_orbit(parameters: np.ndarray, orbit: Orbit) -> bool:
     returns = ReturnMap(parameters, orbit.period)
     given = returns.scaled(orbit.acceleration, orbit.state)
     found = returns.newton(given)
-    return found is not None and bool(np.linalg.norm(found - given) < SAME_ORBIT)
+    return found is not None and bool(linear_algebra.length(found - given) < SAME_ORBIT)
 
 
 def bifurcations_between(parameters: np.ndarray, before: Orbit, after: Orbit) -> list[Bifurcation]:
     """Bifurcations between two neighbouring orbits of a branch, in the order in which they are met."""
     returns = ReturnMap(parameters, before.period)
     begin, end = (returns.scaled(orbit.acceleration, orbit.state) for orbit in (before, after))
-    direction = (end - begin) / np.linalg.norm(end - begin)
+    direction = (end - begin) / linear_algebra.length(end - begin)
 
     def at(part: float) -> Orbit | None:
         unknown = returns.correct(begin + part * (end - begin), direction)
@@ -157,9 +158,9 @@ def find_doubled_orbit(parameters: np.ndarray, bifurcation: Bifurcation) -> Orbi
     orbit = bifurcation.orbit
     single, double = ReturnMap(parameters, orbit.period), ReturnMap(parameters, 2 * orbit.period)
     unknown = single.scaled(orbit.acceleration, orbit.state)
-    values, vectors = np.linalg.eig(single.residual(unknown)[1] + np.eye(2))
-    along = np.append(vectors[:, np.argmin(np.abs(values + 1.0))].real, 0.0)
-    along /= np.linalg.norm(along)
+    matrix = single.residual(unknown)[1] + np.eye(2)
+    nearest = min(linear_algebra.eigenvalues(matrix), key=lambda value: abs(value + 1.0))
+    along = np.append(linear_algebra.eigenvector(matrix, nearest.real), 0.0)
     found = double.correct(unknown + DOUBLED * along, along)
     return None if found is None else double.describe(found)
 
@@ -175,9 +176,9 @@ def on_branch(parameters: np.ndarray, branch: Branch, orbit: Orbit) -> bool:
     for i in np.flatnonzero(above[1:] != above[:-1]):
         part = (strobes[0, 2] - points[i, 2]) / (points[i + 1, 2] - points[i, 2])
         guess = points[i] + part * (points[i + 1] - points[i])
-        if np.linalg.norm(strobes - guess, axis=1).min() < LARGEST_STEP:
+        if linear_algebra.length(strobes - guess).min() < LARGEST_STEP:
             unknown = returns.newton(guess)
-            if unknown is not None and np.linalg.norm(strobes - unknown, axis=1).min() < SAME_ORBIT:
+            if unknown is not None and linear_algebra.length(strobes - unknown).min() < SAME_ORBIT:
                 return True
     return False
 

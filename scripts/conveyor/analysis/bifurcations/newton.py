@@ -5,17 +5,11 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from ...linear_algebra import dot, length, solve
+
 # A step that lengthens more may have jumped to another curve.
 LONGER = 1.2
 GROWTH = 1.3  # of the step after a success
-
-
-def solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray | None:
-    """The solution of a linear system, or None for a singular one."""
-    try:
-        return np.linalg.solve(matrix, right)
-    except np.linalg.LinAlgError:
-        return None
 
 
 def newton(
@@ -48,13 +42,13 @@ def newton(
             return None
         value, slope = found
         if direction is not None:
-            value, slope = np.append(value, direction @ (here - guess)), np.vstack([slope, direction])
+            value, slope = np.append(value, dot(direction, here - guess)), np.vstack([slope, direction])
         step = solve(slope, -value)
         if step is None:
             return None
         here = here + step
         previous, size = size, np.abs(step).max()
-        if not (size < largest and np.linalg.norm(here - guess) < farthest):
+        if not (size < largest and length(here - guess) < farthest):
             return None
         stalls += previous < stagnant and size > 0.1 * previous
         if size < converged or stalls == often:
@@ -84,15 +78,15 @@ def follow_curve(
     first, smallest, largest : arclengths of steps
     straight : cosine of the largest turn within a step
     """
-    tangent, length = tangent_at(here, direction), first
+    tangent, step = tangent_at(here, direction), first
     while tangent is not None:
-        there = correct(here + length * tangent, tangent)
+        there = correct(here + step * tangent, tangent)
         following = None if there is None else tangent_at(there, tangent)
-        if following is None or not following @ tangent > straight or np.linalg.norm(there - here) > LONGER * length:
-            length *= 0.5
-            if length < smallest:
+        if following is None or not dot(following, tangent) > straight or length(there - here) > LONGER * step:
+            step *= 0.5
+            if step < smallest:
                 return
             continue
-        yield here, there, tangent, following, length
+        yield here, there, tangent, following, step
         here, tangent = there, following
-        length = min(GROWTH * length, largest)
+        step = min(GROWTH * step, largest)

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ... import linear_algebra
 from ...arguments import LARGEST_COORDINATE, LONGEST_PERIOD, check_array, check_count, check_number
 from ...packing import as_rows, check_rows
 from ...parameters import RANGES
@@ -91,7 +92,7 @@ class ReturnMap:
     def residual(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """P(X) - X, shape (2,), and its derivative by (δ, Y), shape (2, 2), scaled."""
         image, matrices, _ = self.linearised(unknown)
-        matrix = reduce(lambda product, following: following @ product, matrices)
+        matrix = reduce(lambda whole, following: linear_algebra.product(following, whole), matrices)
         return image - unknown[:2], matrix * self.unit[:2] / self.unit[:2, None] - np.eye(2)
 
     def slope(self, unknown: np.ndarray) -> np.ndarray:
@@ -118,8 +119,8 @@ class ReturnMap:
     def tangent(self, unknown: np.ndarray, previous: np.ndarray) -> np.ndarray:
         """Unit vector along the branch through a fixed point, pointing on from `previous`."""
         vector = np.cross(*self.system(unknown)[1])
-        vector /= np.linalg.norm(vector)
-        return vector if vector @ previous >= 0.0 else -vector
+        vector /= linear_algebra.length(vector)
+        return vector if linear_algebra.dot(vector, previous) >= 0.0 else -vector
 
     def halving(self, unknown: np.ndarray) -> np.ndarray:
         """Distance to the point half a period later, shape (3,): it passes zero where the orbit's period halves."""
@@ -130,11 +131,11 @@ class ReturnMap:
         _, _, features = self.linearised(unknown)
         # The period may begin in the flight in which it ends.
         _, matrices, features = self.linearised(unknown, features[-1, stroboscopic_map.AIRBORNE])
-        matrix = reduce(lambda product, following: following @ product, matrices)
+        matrix = reduce(lambda whole, following: linear_algebra.product(following, whole), matrices)
         contact_times = features[:, stroboscopic_map.CONTACT_TIME]
         # The trace formula of the flow gives determinants that are lost in rounding.
         hidden = [stroboscopic_map.hides_determinant(one) for one in matrices]
-        determinants = np.where(hidden, np.exp(-self.damping * contact_times), np.linalg.det(matrices))
+        determinants = np.where(hidden, np.exp(-self.damping * contact_times), linear_algebra.determinant(matrices))
         trace, determinant = float(np.trace(matrix)), float(np.prod(determinants))
         root = cmath.sqrt(0.25 * trace * trace - determinant)
         first = max(0.5 * trace + root, 0.5 * trace - root, key=abs)

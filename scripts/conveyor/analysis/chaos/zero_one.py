@@ -33,7 +33,7 @@ def zero_one(series: np.ndarray, seed: int, resolution: float = 0.0) -> float:
     displacement = mean_square_displacement(centred, c, int(LARGEST_LAG * len(series)))
     displacement -= displacement.mean(axis=1, keepdims=True)
     lags = np.arange(displacement.shape[1]) - 0.5 * (displacement.shape[1] - 1)
-    growth = displacement @ lags / np.sqrt(np.sum(displacement**2, axis=1) * np.sum(lags**2))
+    growth = np.sum(displacement * lags, axis=1) / np.sqrt(np.sum(displacement**2, axis=1) * np.sum(lags**2))
     return float(np.percentile(growth, 50))
 
 

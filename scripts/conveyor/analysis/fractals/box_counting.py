@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...linear_algebra import fit_line
 from ...solver.jit import compiled, compiled_inline
 from .scaling_region import SAMPLES_PER_BOX, SCALES, SCALES_PER_OCTAVE, Dimension, normalise, scaling_region
 
@@ -180,5 +181,5 @@ def box_dimension_of_paper(points: np.ndarray, sizes: Iterable[float] = tuple(0.
     scales = np.sort(np.asarray(sizes, dtype=np.float64))[::-1]
     samples = Samples(normalise(points), np.zeros(len(points), np.int64), scales, len(scales))
     counts = box_counts(samples, np.zeros((1, 2)), 0.0)[0]
-    (slope, _), covariance = np.polyfit(np.log(scales), np.log(counts), 1, cov=True)
-    return Dimension(-slope, 2.0 * np.sqrt(covariance[0, 0]), scales[-1], scales[0], scales, counts)
+    slope, _, error = fit_line(np.log(scales), np.log(counts))
+    return Dimension(-slope, 2.0 * error, scales[-1], scales[0], scales, counts)

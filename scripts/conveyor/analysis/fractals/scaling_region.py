@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ... import linear_algebra
 from ...arguments import LARGEST_COORDINATE, check_array
 
 COARSEST_SCALE = 0.25  # of the set's extent
@@ -100,18 +101,19 @@ def scaling_region(scales: np.ndarray, values: np.ndarray, uncertain: np.ndarray
     drift = bent[best, 3] / length[best]
     stretch = [column[best : best + 1] for column in columns[:3]]
     shifts = [fit_stretches(stretch, inside[best : best + 1], change)[0][0, 1] / length[best] for change in uncertain]
-    error = np.linalg.norm([2.0 * slope_error[best], 2.0 * choice, drift, *shifts])
+    error = np.sqrt(np.sum(np.square([2.0 * slope_error[best], 2.0 * choice, drift, *shifts])))
     return slope[best], error, scales[last[best]], scales[first[best]]
 
 
 def fit_stretches(columns: list[np.ndarray], inside: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Least squares on each row's stretch: coefficients and standard errors, shape (stretches, columns)."""
     design = np.stack(columns, axis=-1) * inside[..., None]
-    normal = np.einsum("skp,skq->spq", design, design)
+    normal = linear_algebra.product(np.swapaxes(design, 1, 2), design)
     normal[:, 2, 2] += RIM_PENALTY
-    inverse = np.linalg.inv(normal)
-    coefficients = np.einsum("spq,skq,k->sp", inverse, design, values, optimize=True)
-    residuals = inside * values - np.einsum("skp,sp->sk", design, coefficients)
+    inverse = linear_algebra.inverse_of_positive(normal)
+    projected = np.sum(design * values[:, None], axis=1)
+    coefficients = linear_algebra.dot(inverse, projected[:, None, :])
+    residuals = inside * values - linear_algebra.dot(design, coefficients[:, None, :])
     freedom = np.maximum(inside.sum(axis=1) - len(columns), 1.0)
     variance = SCALES_PER_OCTAVE * np.sum(residuals**2, axis=1) / freedom
     return coefficients, np.sqrt(variance[:, None] * np.diagonal(inverse, axis1=1, axis2=2))
