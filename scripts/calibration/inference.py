@@ -84,22 +84,30 @@ def search_once(
         rounds += 1
         return log_factors(found, data, settings, INFLATIONS)
 
-    options = {name: settings[name] for name in ("first", "points", "rounds")}
-    options |= {"seed": [settings["seed"], number], "enough": settings["enough"] / SEARCHES}
-    return sample(follow, bounds_of(settings), **options, near=near)
+    options = {name: settings[name] for name in ("first", "points", "rounds", "enough")}
+    return sample(follow, bounds_of(settings), **options, seed=[settings["seed"], number], near=near)
 
 
 def search(
-    data: Data, settings: dict, *, near: np.ndarray | None = None, threads: int = 1, progress: str | None = None
+    data: Data,
+    settings: dict,
+    *,
+    near: np.ndarray | None = None,
+    searches: tuple[int, int] = (SEARCHES, MOST_SEARCHES),
+    threads: int = 1,
+    progress: str | None = None,
 ) -> Sample:
     """A weighted sample of the posterior from independent searches, until they agree.
 
     near : points of a related posterior, in the coordinates of the search space, shape (n, d)
+    searches : their number at first, which share the effective samples that are wanted, and at most
     """
-    samples: list[Sample] = []
-    while len(samples) < MOST_SEARCHES:
-        samples.append(search_once(data, settings, len(samples), near, threads, progress))
-        if len(samples) >= SEARCHES and agree(found := pooled(samples), settings):
+    first, most = searches
+    own, samples = settings | {"enough": settings["enough"] / first}, []
+    while len(samples) < most:
+        samples.append(search_once(data, own, len(samples), near, threads, progress))
+        found = pooled(samples)
+        if len(samples) >= first and agree(found, settings):
             break
     return found
 

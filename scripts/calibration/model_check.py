@@ -27,6 +27,7 @@ from conveyor.elementary import log
 from conveyor.linear_algebra import dot, product
 from pipeline.importance_sampling import LEAST, Sample
 
+SEARCHES_OF_ALTERNATIVE = (2, 2)  # an evidence needs no interval, and hardly differs between searches
 UNLIKELY = 0.01  # share of replicates below which a single measurement does not fit
 
 
@@ -135,7 +136,7 @@ def compare_alternatives(
             known = found.points[draw(found, settings["samples"])]
             near = np.column_stack([known, random.uniform(*ends, len(known))])
         label = progress and f"{progress}: {name.replace('_', ' ')}"
-        other = search(data, own, near=near, threads=threads, progress=label)
+        other = search(data, own, near=near, searches=SEARCHES_OF_ALTERNATIVE, threads=threads, progress=label)
         gain = other.log_evidence - found.log_evidence
         rows.append(
             {

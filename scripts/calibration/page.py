@@ -5,7 +5,15 @@ import math
 import numpy as np
 import pandas as pd
 
-from calibration.inference import DETERMINED, NOT_DETERMINED, OPEN, TOO_FEW, samples_of_interval
+from calibration.inference import (
+    DETERMINED,
+    DISAGREEING,
+    NOT_DETERMINED,
+    OPEN,
+    REPEATABLE,
+    TOO_FEW,
+    samples_of_interval,
+)
 from calibration.measurements import DEFAULTS, first_comments
 from calibration.model_check import UNLIKELY
 from pipeline.templates import format_significant, render
@@ -60,6 +68,9 @@ def make(
             },
             "reliable": not (parameters.status == TOO_FEW).any(),
             "effective": float(parameters.effective.iloc[0]),
+            "searches": int(parameters.searches.iloc[0]),
+            "disagreeing": bool((parameters.status == DISAGREEING).any()),
+            "repeatable": REPEATABLE,
             "resolved": samples_of_interval(parameters.attrs["confidence"]),
             "explained": bool(fit.explained.all()),
             "fits": bool(fit.p_value.iloc[0] >= parameters.attrs["significance"]),

@@ -8,7 +8,7 @@ import yaml
 from project import ROOT
 
 from calibration import overlay, page
-from calibration.inference import DETERMINED, NOT_DETERMINED, OPEN, TOO_FEW
+from calibration.inference import DETERMINED, DISAGREEING, NOT_DETERMINED, OPEN, TOO_FEW
 from pipeline.rule_log import JobError
 
 SETTINGS = {
@@ -23,6 +23,7 @@ SETTINGS = {
     "confidence": 0.95,
     "effective": 40.0,
     "first": 256,
+    "enough": 100.0,
     "points": 96,
     "rounds": 24,
     "parts": 24,
@@ -48,6 +49,10 @@ def tables(
             "parameter": ["friction", "damping", "stiffness"],
             "unit": ["1", "N s/m", "N/m^p"],
             "best": [0.24, 0.7, 4e5],
+            "best_error": [0.002, 0.03, 5e4],
+            "low_error": 0.01 if reliable else math.nan,
+            "high_error": 0.01 if reliable else math.nan,
+            "searches": 4,
             "low": [0.23, 0.6, 1e5] if reliable else math.nan,
             "high": [0.25, 10.0, 9e5] if reliable else math.nan,
             "range_low": [0.03, 0.02, 1e4],
@@ -175,3 +180,11 @@ def test_there_is_no_overlay_without_parameters_that_can_be_trusted(options):
     found = tables(**options)
     with pytest.raises(JobError, match=r"no overlay|for an overlay"):
         overlay.make(found["parameters"], found["fit"])
+
+
+def test_the_page_gives_the_monte_carlo_errors_and_says_if_the_searches_disagree():
+    text = whole_page()
+    assert "| friction | 0.24 ± 0.002 | 0.23 ± 0.01 to 0.25 ± 0.01 |" in text and "4 independent searches" in text
+    assert "disagree" not in text
+    text = first_screen(status=[DETERMINED, OPEN, DISAGREEING])
+    assert "the searches disagree about the contact stiffness" in text and "calibration: {enough: 200" in text
