@@ -23,7 +23,7 @@ import numpy as np
 from scipy.stats import f as f_distribution
 from scipy.stats import t as t_distribution
 
-from .harmonics import Fit, duration_of, powers
+from .harmonics import Fit, duration_of
 from .reading import Recording
 
 PARAMETERS = {"acceleration": "m/s²", "frequency": "Hz", "angle": "rad", "phase_shift": "rad"}
@@ -85,13 +85,15 @@ def noise_of(recording: Recording, fit: Fit) -> Noise:
     sizes = np.diff([*begins, count])
     middles = np.add.reduceat(time, begins) / sizes
     turns = np.exp(-2j * math.pi * shifts[:, None] * middles / duration)  # shape (M, blocks)
-    waves = np.conj(powers(time, fit.frequency, fit.orders))
+    first = np.exp(-2j * math.pi * fit.frequency * time)
     # What the fit takes out of the noise, too.
     scale = 2.0 / count * math.sqrt(count / (count - 2.0 * fit.orders - 2.5))
     above, below = np.empty((2, 2, fit.orders, len(shifts)), dtype=np.complex128)
-    for axis in range(2):
-        for order in range(fit.orders):
-            blocks = np.add.reduceat(fit.residual[axis] * waves[order], begins)
+    wave = np.ones_like(first)
+    for order in range(fit.orders):
+        wave *= first
+        for axis in range(2):
+            blocks = np.add.reduceat(fit.residual[axis] * wave, begins)
             above[axis, order], below[axis, order] = scale * (turns @ blocks), scale * (np.conj(turns) @ blocks)
     size = fit.amplitudes[:, :, None]
     above, below = above / size, below / size
@@ -152,9 +154,8 @@ def harmonics(fit: Fit, noise: Noise) -> dict[str, np.ndarray]:
         columns[f"{name}_phase"] = wrap(np.angle(fit.amplitudes[axis, 1:]) - orders * zero)
         of_zero = variance(noise.phase[1])[0] + noise.added[1, 0]
         error = noise.student * np.sqrt(own[1][1:] + orders**2 * of_zero)
-        # Half the angle under which the 95 % disc around the amplitude is seen; any phase, if it contains zero.
-        columns[f"{name}_phase_stderr"] = np.arcsin(np.minimum(NORMAL * error, 1.0)) / NORMAL
-        columns[f"{name}_phase_stderr"][NORMAL * error >= 1.0] = math.pi / NORMAL
+        # A harmonic below the noise may have any phase.
+        columns[f"{name}_phase_stderr"] = np.where(above, error, math.pi / NORMAL)
         columns[f"{name}_above_noise"] = above
     columns["above_noise"] = columns["along_above_noise"] | columns["normal_above_noise"]
     return columns

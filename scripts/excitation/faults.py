@@ -21,8 +21,9 @@ CHECKED_ORDERS = 8
 # Amplitudes (m/s²) of which one unit or the other is wrong: no plate has less to convey with, or survives more.
 LEAST_ACCELERATION, MOST_ACCELERATION = 0.05, 1500.0
 MOST_DISPLACEMENT = 0.1  # m
-# A further line counts from this share of the fundamental, if its power is this multiple of the noise's median power.
-SHARE, OUT_OF_NOISE = 0.05, 40.0
+# A further line counts from this share of the fundamental of its axis, if its power is this multiple of the noise's
+# median power, and if it is this far from all multiples of the fundamental, in units of 1/T.
+SHARE, OUT_OF_NOISE, FOOT = 0.05, 40.0, 2.0
 MOST_SUBHARMONIC = 4  # the fundamental may be weaker than its harmonics up to this order
 NO_FUNDAMENTAL = 0.005  # share of the whole amplitude below which an axis does not vibrate
 # A clipped signal stays at its extreme value far longer than near it.
@@ -50,17 +51,18 @@ def clipped(readings: np.ndarray, quantum: float) -> int | None:
 def further_line(time: np.ndarray, found: Fit) -> tuple[float, float] | None:
     """Frequency (Hz) and amplitude (m/s²) of the strongest line that is no multiple of the fundamental, or None."""
     frequencies, amplitudes = spectrum(time, found.residual)
-    power, resolution = (amplitudes**2).sum(axis=0), 1.0 / duration_of(time)
+    resolution = 1.0 / duration_of(time)
     multiple = np.round(frequencies / found.frequency)
     # Where an amplitude drifts, its line has a foot.
-    own = (np.abs(frequencies - multiple * found.frequency) < 3.0 * resolution) & (multiple > 0.0)
+    own = (np.abs(frequencies - multiple * found.frequency) < FOOT * resolution) & (multiple > 0.0)
     searched = ~own & (frequencies > max(found.frequency / (MOST_SUBHARMONIC + 0.5), 3.0 * resolution))
     if not searched.any():
         return None
-    place = int(np.argmax(np.where(searched, power, 0.0)))
-    fundamental = (np.abs(found.amplitudes[:, 0]) ** 2).sum()
-    counts = power[place] > SHARE**2 * fundamental and power[place] > OUT_OF_NOISE * np.median(power[searched])
-    return (float(frequencies[place]), math.sqrt(power[place])) if counts else None
+    shares = amplitudes / np.abs(found.amplitudes[:, :1])
+    axis, place = np.unravel_index(np.argmax(np.where(searched, shares, 0.0)), shares.shape)
+    amplitude = amplitudes[axis, place]
+    stands_out = amplitude**2 > OUT_OF_NOISE * np.median(amplitudes[axis, searched] ** 2)
+    return (float(frequencies[place]), float(amplitude)) if shares[axis, place] > SHARE and stands_out else None
 
 
 def first_fit(time: np.ndarray, signals: np.ndarray, orders: int = CHECKED_ORDERS) -> tuple[Fit, tuple | None]:
@@ -83,7 +85,7 @@ def first_fit(time: np.ndarray, signals: np.ndarray, orders: int = CHECKED_ORDER
 def unit_faults(acceleration: float, frequency: float, offsets: np.ndarray, unit: str) -> Iterator[str]:
     """Amplitude (m/s²), frequency (Hz) and offsets (m/s²) that no plate has."""
     given = acceleration / UNITS[unit]
-    shown = f"vibrates with {given:.3g} {unit}" + (f", which is {acceleration:.3g} m/s²" if unit == "g" else "")
+    shown = f"vibrates with {given:.4g} {unit}" + (f", which is {acceleration:.4g} m/s²" if unit == "g" else "")
     if acceleration > MOST_ACCELERATION:
         if unit == "g" and given < MOST_ACCELERATION:
             yield f"{shown}; no conveyor does: leave excitation.unit out if the file is in m/s²"

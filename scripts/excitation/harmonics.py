@@ -16,6 +16,9 @@ import numpy as np
 MOST_ORDER = 20  # harmonics of higher orders move the plate by less than 1/400 of their share of the acceleration
 HIGHEST = 0.45  # frequency up to which harmonics are fitted, in units of the sampling rate: below 1/2
 PADDING = 4  # the first estimate of the frequency is on a grid of 1/4 of the resolution 1/T
+BLOCK = 2**16  # samples whose design matrix is in memory at a time
+GAP = 6.0  # mean intervals between two samples from which values between them are not interpolated
+LEAST_CYCLES = 1.5  # of the lowest frequency that is a vibration and no drift
 SEARCHED = 0.6  # half width of the searched frequencies around it, in units of 1/T: less than to the next minimum
 
 
@@ -48,31 +51,66 @@ def orders_of(rate: float, frequency: float) -> int:
     return max(1, min(MOST_ORDER, math.floor(HIGHEST * rate / frequency)))
 
 
-def powers(time: np.ndarray, frequency: float, orders: int) -> np.ndarray:
-    """exp(i k ω t) for the orders k = 1, 2, …, shape (orders, n)."""
+def design_of(time: np.ndarray, half: float, frequency: float, orders: int) -> np.ndarray:
+    """The columns of the linear least squares as rows: offset, drift, cosines and sines, shape (2 + 2 K, n).
+
+    time, half : times from the middle of the recording, and half of its duration, s
+    """
     first = np.exp(2j * math.pi * frequency * time)
-    return np.cumprod(np.broadcast_to(first, (orders, len(time))), axis=0)
+    waves = np.cumprod(np.broadcast_to(first, (orders, len(time))), axis=0)
+    return np.vstack([np.ones_like(time), time / half, waves.real, waves.imag])
 
 
-def design_of(centred: np.ndarray, frequency: float, orders: int) -> np.ndarray:
-    """The columns of the linear least squares as rows: offset, drift, cosines and sines, shape (2 + 2 K, n)."""
-    waves = powers(centred, frequency, orders)
-    return np.vstack([np.ones_like(centred), centred / centred[-1], waves.real, waves.imag])
+def project(
+    time: np.ndarray, signals: np.ndarray, frequency: float, orders: int, slopes: bool = False
+) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients of the linear least squares, shape (2 + 2 K, 2), and the residual, shape (2, n).
 
-
-def project(design: np.ndarray, signals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Coefficients, shape (2 + 2 K, 2), and residual, shape (2, n). The rows of the design are nearly orthogonal, so
-    the normal equations lose no digits."""
-    values = np.linalg.solve(design @ design.T, design @ signals.T)
-    return values, signals - values.T @ design
-
-
-def slope_of(values: np.ndarray, design: np.ndarray, centred: np.ndarray) -> np.ndarray:
-    """Derivative of the harmonics with respect to the frequency (m/s²/Hz), shape (2, n)."""
-    orders = len(design) // 2 - 1
+    The rows of the design are nearly orthogonal, so the normal equations lose no digits. With `slopes`, the derivative
+    of the harmonics with respect to the frequency (m/s²/Hz) takes the place of the residual.
+    """
+    parts = [slice(begin, begin + BLOCK) for begin in range(0, len(time), BLOCK)]
+    size = 2 + 2 * orders
+    gram, products, rest = np.zeros((size, size)), np.zeros((size, len(signals))), np.empty_like(signals)
+    for part in parts:
+        design = design_of(time[part], time[-1], frequency, orders)
+        gram += design @ design.T
+        products += design @ signals[:, part].T
+    values = np.linalg.solve(gram, products)
     each = 2.0 * math.pi * np.arange(1, orders + 1)[:, None]
     cosines, sines = values[2 : 2 + orders], values[2 + orders :]
-    return centred * ((each * sines).T @ design[2 : 2 + orders] - (each * cosines).T @ design[2 + orders :])
+    turned = np.vstack([each * sines, -each * cosines])  # of the cosines and of the sines
+    for part in parts:
+        design = design_of(time[part], time[-1], frequency, orders)
+        if slopes:
+            rest[:, part] = time[part] * (turned.T @ design[2:])
+        else:
+            rest[:, part] = signals[:, part] - values.T @ design
+    return values, rest
+
+
+def spectrum(time: np.ndarray, signals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies (Hz), shape (m,), and amplitudes of sines at these frequencies, shape (2, m), with a Hann window.
+
+    Uneven samples are interpolated, and gaps are left out, which only spectra for the eye and first estimates may do.
+    """
+    count = len(time)
+    even = np.linspace(time[0], time[-1], count)
+    interval = np.diff(time)[np.clip(np.searchsorted(time, even) - 1, 0, count - 2)]
+    window = np.hanning(count) * (interval < GAP / sampling_rate(time))
+    length = PADDING * 2 ** math.ceil(math.log2(count))
+    values = np.array([np.interp(even, time, one - one.mean()) for one in signals])
+    frequencies = np.fft.rfftfreq(length, 1.0 / sampling_rate(time))
+    return frequencies, 2.0 / window.sum() * np.abs(np.fft.rfft(window * values, length))
+
+
+def strongest(time: np.ndarray, signals: np.ndarray) -> tuple[float, float]:
+    """Frequency (Hz) and amplitude (m/s²) of the strongest line of both axes together."""
+    frequencies, amplitudes = spectrum(time, signals)
+    lowest = LEAST_CYCLES / duration_of(time)
+    power = np.where(frequencies >= lowest, (amplitudes**2).sum(axis=0), 0.0)
+    place = int(np.argmax(power))
+    return float(frequencies[place]), math.sqrt(power[place])
 
 
 def fit(time: np.ndarray, signals: np.ndarray, guess: float, orders: int) -> Fit:
@@ -83,39 +121,17 @@ def fit(time: np.ndarray, signals: np.ndarray, guess: float, orders: int) -> Fit
     centred = time - middle
 
     def residual(shift: np.ndarray) -> np.ndarray:
-        return project(design_of(centred, guess + shift[0] * resolution, orders), signals)[1].ravel()
+        return project(centred, signals, guess + shift[0] * resolution, orders)[1].ravel()
 
     def jacobian(shift: np.ndarray) -> np.ndarray:
         """The derivative without what the linear coefficients compensate (Kaufman 1975)."""
-        design = design_of(centred, guess + shift[0] * resolution, orders)
-        slope = slope_of(project(design, signals)[0], design, centred)
-        return -resolution * project(design, slope)[1].reshape(-1, 1)
+        frequency = guess + shift[0] * resolution
+        slope = project(centred, signals, frequency, orders, slopes=True)[1]
+        return -resolution * project(centred, slope, frequency, orders)[1].reshape(-1, 1)
 
     options = {"xtol": 1e-10, "ftol": 1e-12, "gtol": None, "max_nfev": 12}
     found = least_squares(residual, [0.0], jacobian, bounds=(-SEARCHED, SEARCHED), **options)
     frequency = guess + float(found.x[0]) * resolution
-    values, rest = project(design_of(centred, frequency, orders), signals)
+    values, rest = project(centred, signals, frequency, orders)
     amplitudes = (values[2 : 2 + orders] - 1j * values[2 + orders :]).T
     return Fit(frequency, middle, amplitudes, values[0], rest)
-
-
-def spectrum(time: np.ndarray, signals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies (Hz), shape (m,), and amplitudes of sines at these frequencies, shape (2, m), with a Hann window.
-
-    Uneven samples are interpolated, which only spectra for the eye and first estimates may do.
-    """
-    count = len(time)
-    even = np.linspace(time[0], time[-1], count)
-    window = np.hanning(count)
-    length = PADDING * 2 ** math.ceil(math.log2(count))
-    values = np.array([np.interp(even, time, one - one.mean()) for one in signals])
-    frequencies = np.fft.rfftfreq(length, 1.0 / sampling_rate(time))
-    return frequencies, 2.0 / window.sum() * np.abs(np.fft.rfft(window * values, length))
-
-
-def strongest(time: np.ndarray, signals: np.ndarray) -> tuple[float, float]:
-    """Frequency (Hz) and amplitude (m/s²) of the strongest line of both axes together."""
-    frequencies, amplitudes = spectrum(time, signals)
-    power = np.where(frequencies > 0.0, (amplitudes**2).sum(axis=0), 0.0)
-    place = int(np.argmax(power))
-    return float(frequencies[place]), math.sqrt(power[place])

@@ -7,7 +7,7 @@ from scipy.ndimage import median_filter
 
 from excitation.estimates import PARAMETERS, harmonics, noise_of, parameters
 from excitation.faults import first_fit
-from excitation.harmonics import Fit, duration_of, fit, orders_of, powers, sampling_rate, spectrum
+from excitation.harmonics import Fit, duration_of, fit, orders_of, sampling_rate, spectrum
 from excitation.reading import Recording, parse
 from pipeline import fields
 
@@ -111,7 +111,7 @@ def steadiness(recording: Recording, found: Fit) -> dict[str, float]:
     time = recording.time - found.middle
     begins = np.searchsorted(time, np.linspace(time[0], time[-1], pieces, endpoint=False))
     sizes = np.diff([*begins, len(time)])
-    waves = np.conj(powers(time, found.frequency, 1)[0])
+    waves = np.exp(-2j * math.pi * found.frequency * time)
     weights = np.abs(found.amplitudes[:, 0]) ** 2
     errors = 2.0 * np.add.reduceat(found.residual * waves, begins, axis=1) / sizes / found.amplitudes[:, :1]
     amplitude = weights @ errors.real / weights.sum()

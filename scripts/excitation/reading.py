@@ -18,8 +18,8 @@ STANDARD_GRAVITY = 9.80665  # m/s², the unit g
 UNITS = {"m/s²": 1.0, "g": STANDARD_GRAVITY}
 PLATE, SENSOR = ("along", "normal"), ("x", "z")  # the two pairs of columns
 NUMBER = re.compile(r"[-+]?(\d+[.,]?\d*|[.,]\d+)([eE][-+]?\d+)?")
-MOST_SAMPLES = 200_000  # 8 s at 25 kHz; the fit of more takes minutes and gigabytes, and gains nothing
-MOST_BYTES = 100 * MOST_SAMPLES
+MOST_SAMPLES = 2_000_000  # 80 s at 25 kHz; the fit of more takes minutes and gigabytes, and gains nothing
+MOST_BYTES = 50 * MOST_SAMPLES
 LEAST_SAMPLES = 64  # eight cycles of eight samples
 MOST_FAULTS = 5
 

@@ -7,7 +7,7 @@ import numpy as np
 from excitation.reading import STANDARD_GRAVITY
 
 # A linear feeder whose electromagnet pulls with the square of the current: order 2. Its springs stiffen: order 3.
-ACCELERATION, FREQUENCY, ANGLE, PHASE_SHIFT = 44.0, 50.0, 0.3, 0.12  # m/s², Hz, rad, rad
+ACCELERATION, FREQUENCY, ANGLE, PHASE_SHIFT = 36.0, 50.0, 0.22, 0.12  # m/s², Hz, rad, rad
 HARMONICS = ((2, 0.045, 1.4, 0.06, 1.6), (3, 0.012, -0.6, 0.015, 2.4))  # order, along, its phase, normal, its phase
 MOUNT, OFFSETS = 0.1, (0.03, 1.01)  # rad, g
 DRIFT = 0.01  # relative change of the amplitude during the recording

@@ -24,6 +24,8 @@ class Drive:
     offsets: tuple = (0.4, 9.81)  # m/s², of the sensor's columns: gravity and bias
     mount: float = 0.0  # rad
     jitter: float = 0.0  # of the sampling times, in units of the interval
+    random: bool = False  # sampling times: uniformly random
+    gap: tuple = (1.0, 1.0)  # begin and end of missing samples, in units of the recording
     quantum: float = 0.0  # m/s², step of the converter
     drift: float = 0.0  # relative change of the amplitude from begin to end
     limit: float = np.inf  # m/s², at which the sensor clips
@@ -48,6 +50,8 @@ class Drive:
         random = np.random.default_rng(seed)
         count = round(self.cycles / self.frequency * self.rate)
         time = np.cumsum(1.0 + self.jitter * random.uniform(-1.0, 1.0, count)) / self.rate
+        if self.random:
+            time = np.sort(random.uniform(0.0, count / self.rate, count))
         along, normal = self.plate(time)
         cosine, sine = np.cos(self.mount), np.sin(self.mount)
         readings = np.array([along * cosine + normal * sine, -along * sine + normal * cosine])
@@ -58,14 +62,16 @@ class Drive:
         readings = readings + np.array(self.offsets)[:, None] + self.noise * noise
         if self.quantum:
             readings = self.quantum * np.round(readings / self.quantum)
-        return time, np.clip(readings, -self.limit, self.limit)
+        begin, end = self.gap
+        kept = (time < begin * time[-1]) | (time >= end * time[-1])
+        return time[kept], np.clip(readings, -self.limit, self.limit)[:, kept]
 
     def text(self, seed: int = 0) -> str:
         """The file."""
         time, readings = self.record(seed)
         names = ("x", "z") if self.mount else ("along", "normal")
         scale = STANDARD_GRAVITY if self.unit == "g" else 1.0
-        rows = [f"{t:.7g},{a:.8g},{b:.8g}" for t, (a, b) in zip(time, readings.T / scale, strict=True)]
+        rows = [f"{t:.9g},{a:.8g},{b:.8g}" for t, (a, b) in zip(time, readings.T / scale, strict=True)]
         return "\n".join([f"time,{names[0]},{names[1]}", *rows, ""])
 
     @property

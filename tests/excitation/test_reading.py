@@ -71,6 +71,14 @@ BAD_SIGNALS = {
         "at 120",
     ),
     "two frequencies": (replace(DRIVE, also={77.0: 8.0}), "Hz, no multiple of it; record one drive alone"),
+    "two drives that beat": (
+        replace(DRIVE, also={47.0: 2.0}, cycles=80.0),
+        "Hz, no multiple of it; record one drive alone",
+    ),
+    "a line of one axis": (
+        replace(DRIVE, also={77.0: 1.2}, cycles=80.0),
+        "Hz, no multiple of it; record one drive alone",
+    ),
     "4000 m/s²": (replace(DRIVE, acceleration=4000.0), "divide values in mm/s² or in thousandths of g by 1000"),
     "4000 g": (replace(DRIVE, acceleration=4000.0, unit="g"), "leave excitation.unit out if the file is in m/s²"),
     "thousandths of g": (replace(DRIVE, acceleration=4000.0 * STANDARD_GRAVITY, unit="g"), "thousandths of g by 1000"),
@@ -134,6 +142,8 @@ def test_clipped_signals_are_rejected_with_their_first_line(limit, noise, mount)
         {"noise": 0.0, "rate": 800.0, "psi0": 0.0, "phase_shift": 0.0},
         {"drift": 0.3},
         {"jitter": 0.9, "mount": 0.3},
+        {"random": True},
+        {"gap": (0.3, 0.5), "cycles": 40.0},
         {"also": {77.0: 0.5}},
         {"also": {2.0: 5.0}},
         {"harmonics": ((2, 0.6, 1.0, 0.9, 0.0), (3, 0.3, 1.0, 0.9, 2.0))},
