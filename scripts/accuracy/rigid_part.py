@@ -161,7 +161,7 @@ def make(
 
     folds = folds_and_doublings.query("kind == 'fold' and period == 1 and longest_flight > 0.5")
     rows.append(bifurcation_row(CONTACT, "fold", 1, float(folds.acceleration.min())))
-    doublings = cascade.sort_values("number").head(DOUBLINGS)
+    doublings = cascade.sort_values("number", kind="stable").head(DOUBLINGS)
     rows += [
         bifurcation_row(CONTACT, "period doubling", int(row.number), float(row.acceleration))
         for row in doublings.itertuples()

@@ -104,7 +104,7 @@ def score_numbers(scenes: dict[str, dict], name: str, table: pd.DataFrame) -> It
     for (scene, run), rows in table.groupby(["scene", "run"], sort=False):
         if scene not in scenes:
             raise ValueError(f"{name}: the benchmark has no scene {scene!r}; there are {', '.join(scenes)}")
-        rows = rows.sort_values("time")
+        rows = rows.sort_values("time", kind="stable")
         times = scenes[scene]["times"]
         if len(rows) != len(times) or not np.allclose(rows.time, times, rtol=0.0, atol=1e-9):
             raise ValueError(f"{name}: scene {scene}, run {run}: the times differ from the times of the scene")

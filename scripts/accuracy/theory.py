@@ -138,7 +138,7 @@ def rigid_rows(settings: dict) -> Iterator[dict]:
 
 def cascade_row(settings: dict, cascade: pd.DataFrame) -> dict:
     """The row of Feigenbaum's constant: the last ratio of the cascade, with its last change as the error."""
-    ratios = cascade.sort_values("number").ratio.dropna()
+    ratios = cascade.sort_values("number", kind="stable").ratio.dropna()
     before, last = ratios.iloc[-2:]
     case, source = f"{len(cascade)} period doublings", "Feigenbaum 1978"
     error = abs(last - before)

@@ -48,11 +48,11 @@ def make(
     decades = alternatives.log_bayes_factor / math.log(10.0)
     others = (
         alternatives.assign(factor=[power_of_ten(one) for one in decades])
-        .sort_values("log_bayes_factor", ascending=False)
+        .sort_values("log_bayes_factor", ascending=False, kind="stable")
         .to_dict("records")
     )
     best = next.loc[next.narrowing.idxmax()]
-    worst = fit.sort_values("p_row").head(WORST)
+    worst = fit.sort_values("p_row", kind="stable").head(WORST)
     bands = prediction.assign(width=prediction.high - prediction.low)
     shown = np.unique(np.linspace(0, len(prediction) - 1, SHOWN).round().astype(int))
     return render(
@@ -82,7 +82,7 @@ def make(
             "defaults": DEFAULTS,
             "unlikely": UNLIKELY,
             "misfits": int((~fit.fits).sum()),
-            "worst": worst[~worst.fits].sort_values("line").to_dict("records"),
+            "worst": worst[~worst.fits].sort_values("line", kind="stable").to_dict("records"),
             "step": 0.0 if len(prediction) < 2 else float(prediction.acceleration.diff().max()),
             "widest": bands.loc[bands.width.idxmax()].to_dict(),
             "prediction": prediction.iloc[shown].to_dict("records"),

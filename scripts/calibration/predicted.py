@@ -139,7 +139,7 @@ def mean_velocities(rows: np.ndarray, times: np.ndarray, threads: int, progress:
 
 def widths(velocities: np.ndarray) -> np.ndarray:
     """Standard deviation (m/s) of the density around each velocity, shape (…, parts), as the velocities; see above."""
-    order = np.argsort(velocities, axis=-1)
+    order = np.argsort(velocities, axis=-1, kind="stable")
     ascending = np.take_along_axis(velocities, order, axis=-1)
     parts, rank = velocities.shape[-1], min(NEIGHBOUR, velocities.shape[-1] - 1)
     # The neighbour of some rank is the nearest end of one of the rank + 1 windows of neighbours around a value.

@@ -112,7 +112,7 @@ def make(
             for place in range(len(between))
         ]
     ).T
-    order = np.argsort(amplitudes)
+    order = np.argsort(amplitudes, kind="stable")
     by_name = dict(zip(values, gains.T, strict=True))
     nothing = np.full(len(amplitudes), math.nan)
     return {

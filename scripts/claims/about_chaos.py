@@ -16,7 +16,7 @@ def closest_return(run: pd.DataFrame) -> tuple[float, int]:
     The distance of a period is the largest one over the last LONGEST_PERIOD samples, in units of the largest position
     and velocity. The period is the one with the least distance.
     """
-    states = run.sort_values("time")[["z", "vz"]].to_numpy()
+    states = run.sort_values("time", kind="stable")[["z", "vz"]].to_numpy()
     states = states / np.abs(states).max(axis=0)
     last = np.arange(len(states) - LONGEST_PERIOD, len(states))
     distances = [float(np.abs(states[last] - states[last - period]).max()) for period in range(1, LONGEST_PERIOD + 1)]
@@ -72,8 +72,10 @@ def with_settled_motion(table: pd.DataFrame, states: pd.DataFrame) -> pd.DataFra
 
     states : settled motions over the amplitude, of the same initial condition; those of the nearest amplitude are taken
     """
-    settled = states.sort_values("acceleration")[["acceleration", "state", "period"]]
-    rows = pd.merge_asof(table.sort_values("acceleration"), settled, on="acceleration", direction="nearest")
+    settled = states.sort_values("acceleration", kind="stable")[["acceleration", "state", "period"]]
+    rows = pd.merge_asof(
+        table.sort_values("acceleration", kind="stable"), settled, on="acceleration", direction="nearest"
+    )
     return rows.assign(chaotic=rows.state == "chaos")
 
 
@@ -140,7 +142,7 @@ def portraits(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
 
 def known_dimensions(table: pd.DataFrame) -> pd.DataFrame:
     """The rows with a dimension, in the order of the amplitude."""
-    return table.dropna(subset="dimension").sort_values("acceleration")
+    return table.dropna(subset="dimension").sort_values("acceleration", kind="stable")
 
 
 def dimension_onset(table: pd.DataFrame) -> float:
@@ -172,7 +174,7 @@ def predicted_onset(
             {"distance": abs(by_dimension - by_exponent), "largest_step": float(steps.max()) if len(steps) else NONE}
         )
     unknown = converged[converged.dimension.isna()].acceleration
-    states = states[states.z0 == states.z0.min()].sort_values("acceleration")
+    states = states[states.z0 == states.z0.min()].sort_values("acceleration", kind="stable")
     chaos = [onset(table.acceleration, table.state == "chaos") for table in (states, states_of_exponent)]
     note = (
         "An onset is the amplitude with the fewest exceptions, which are chaos below it and none above it. By the "

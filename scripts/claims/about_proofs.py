@@ -13,7 +13,7 @@ def stable_motions(table: pd.DataFrame) -> pd.Series:
     """
 
     def count(rows: pd.DataFrame) -> int:
-        rows = rows.sort_values("contact_time_low")
+        rows = rows.sort_values("contact_time_low", kind="stable")
         apart = rows.contact_time_low.to_numpy()[1:] > rows.contact_time_high.cummax().to_numpy()[:-1]
         return 1 + int(apart.sum())
 

@@ -105,9 +105,9 @@ def fig22(
     found = {"positive": len(positive), "periodic": int((positive.period > 0).sum())}
     if euler is None:
         return found
-    up = spectrum[(spectrum.branch == "up")].sort_values("acceleration")
+    up = spectrum[(spectrum.branch == "up")].sort_values("acceleration", kind="stable")
     joined = pd.merge_asof(
-        converged.sort_values("acceleration"),
+        converged.sort_values("acceleration", kind="stable"),
         up[["acceleration", "lambda_1"]].assign(chaotic=is_chaotic(up)),
         on="acceleration",
         direction="nearest",
@@ -128,10 +128,10 @@ def accumulation(*, spectrum: pd.DataFrame, cascade: pd.DataFrame) -> dict[str, 
     if found.empty:
         return {"accumulation": None}
     place, runs = found.iloc[-1], {}
-    for branch, rows in spectrum.sort_values("acceleration").groupby("branch"):
+    for branch, rows in spectrum.sort_values("acceleration", kind="stable").groupby("branch"):
         early = rows[rows.acceleration < place]
         runs[branch] = find_runs(early.acceleration, is_chaotic(early))
-    late = spectrum[spectrum.acceleration > place].sort_values("acceleration")
+    late = spectrum[spectrum.acceleration > place].sort_values("acceleration", kind="stable")
     regular = (late.lambda_1 < -SIGNIFICANT * late.stderr).groupby(late.acceleration).all()
     return {
         "accumulation": place,
@@ -157,7 +157,7 @@ def overview(*, bifurcations: pd.DataFrame, estimate: pd.DataFrame) -> dict[str,
 
 
 def rigid_part(*, rigid: pd.DataFrame) -> dict[str, float]:
-    from_rest = rigid[(rigid.kind == "velocity") & (rigid.z0 == 0.0)].sort_values("acceleration")
+    from_rest = rigid[(rigid.kind == "velocity") & (rigid.z0 == 0.0)].sort_values("acceleration", kind="stable")
     leaves = {model: onset(rows.acceleration, rows.state != "first") for model, rows in from_rest.groupby("model")}
     first = rigid[rigid.kind.isin(("fold", "period doubling")) & (rigid.number == 1)]
     places = first.pivot_table(index="model", columns="kind", values="acceleration")

@@ -92,7 +92,7 @@ def drift_table(amplitudes: np.ndarray, settings: dict, **options) -> pd.DataFra
         return pd.DataFrame(columns=columns)
     runs = {**settings, "starts": settings["runs"]}
     height = starts_of_box(runs)[:, 0]
-    is_low = np.argsort(np.argsort(height)) < len(height) // 2
+    is_low = np.argsort(np.argsort(height, kind="stable")) < len(height) // 2
     rows = population(amplitudes, runs, IDENTICAL)
     x = positions(rows, settings, **options).reshape(len(amplitudes), len(height), -1)
     period = 1.0 / settings["model"]["frequency"]

@@ -40,7 +40,7 @@ def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
 
 def make(template: str, drive_front: pd.DataFrame, drive_generations: pd.DataFrame) -> str:
     """The page from its template and the tables of the front and of the generations."""
-    recommended = drive_front[drive_front.recommended].sort_values("checked_velocity", ascending=False)
+    recommended = drive_front[drive_front.recommended].sort_values("checked_velocity", ascending=False, kind="stable")
     values = summarize_search(front=drive_front, generations=drive_generations)
     values |= {
         "rows": recommended.to_dict("records"),

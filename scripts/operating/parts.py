@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor.elementary import cos, exp, sin
+from conveyor.elementary import cos, exp, log, sin
 from pipeline import grid
 from pipeline.rule_log import JobError
 
@@ -48,7 +48,7 @@ def factors(spread: dict, count: int) -> np.ndarray:
     """
     deviations = np.array([spread[name] for name in COLUMNS])
     normal = np.random.default_rng(spread["seed"]).standard_normal((count, len(COLUMNS)))
-    return exp(np.sqrt(np.log1p(deviations**2)) * normal)
+    return exp(np.sqrt(log(1.0 + deviations**2)) * normal)
 
 
 def calibrated_factors(samples: pd.DataFrame, settings: dict) -> np.ndarray:

@@ -204,7 +204,7 @@ def join(parts: list[Columns], rows: list[np.ndarray | slice]) -> Columns:
     """The labels of parts of an array, whose rows are given, in the order of the array. A single part is all of it."""
     if len(parts) == 1:
         return parts[0]
-    order = np.argsort(np.concatenate(rows))
+    order = np.argsort(np.concatenate(rows), kind="stable")
     return Columns.concatenate(parts).select(order)
 
 

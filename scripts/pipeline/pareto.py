@@ -6,8 +6,28 @@ from typing import NamedTuple
 import numpy as np
 from pymoo.algorithms.moo.nsga2 import NSGA2
 from pymoo.core.problem import Problem
+from pymoo.core.repair import Repair
 from pymoo.indicators.hv import HV
+from pymoo.operators.survival.rank_and_crowding import RankAndCrowding
+from pymoo.operators.survival.rank_and_crowding.metrics import get_crowding_function
 from pymoo.util.nds.non_dominated_sorting import NonDominatedSorting
+
+# Decimals of points. The powers in pymoo's operators have other last digits on other processors, which chaotic motions
+# would amplify.
+DECIMALS = 9
+
+
+class Rounded(Repair):
+    """Rounds the points of each generation before they are evaluated."""
+
+    def _do(self, problem, points, **options):
+        return points.round(DECIMALS)
+
+
+def crowding(objectives: np.ndarray, **options: int) -> np.ndarray:
+    """Ranks of NSGA-II's crowding distances: NumPy sorts equal numbers in another order on other processors."""
+    distances = get_crowding_function("cd").do(objectives, **options)
+    return np.argsort(np.argsort(distances, kind="stable")).astype(np.float64)
 
 
 class Front(NamedTuple):
@@ -72,7 +92,12 @@ def search(
             out["F"], out["G"] = evaluate(x)
 
     sizes = {"n_var": bounds.shape[1], "n_obj": len(reference), "n_ieq_constr": constraints}
-    algorithm = NSGA2(pop_size=settings["population"], sampling=first)
+    algorithm = NSGA2(
+        pop_size=settings["population"],
+        sampling=first,
+        repair=Rounded(),
+        survival=RankAndCrowding(crowding_func=crowding),
+    )
     generations = ("n_gen", settings["generations"])
     algorithm.setup(Searched(**sizes, xl=bounds[0], xu=bounds[1]), termination=generations, seed=seed)
     points, objectives, volumes = np.empty((0, bounds.shape[1])), np.empty((0, len(reference))), []

@@ -258,7 +258,7 @@ def group_rows(point: CriticalPoint) -> Iterator[dict]:
 def boundary_points(critical: pd.DataFrame, settings: dict) -> Iterator[CriticalPoint]:
     """The critical amplitude of a part from rest, and critical heights; none of them without a critical height."""
     parameters = grid.row_of({**critical.attrs["model"], "z0": 0.0})
-    edges = critical[critical.is_critical].sort_values("acceleration")
+    edges = critical[critical.is_critical].sort_values("acceleration", kind="stable")
     if edges.empty:
         return
     rest = parameters.copy()

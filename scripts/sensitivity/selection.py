@@ -57,8 +57,8 @@ def select_bifurcations(
 
     settings : the section `sensitivity` of the config, with `longest_period`, and `most`, the number of each kind
     """
-    first = cascade.sort_values("number").head(doublings).assign(kind="period_doubling")
-    others = bifurcations[bifurcations.period <= settings["longest_period"]].sort_values("acceleration")
+    first = cascade.sort_values("number", kind="stable").head(doublings).assign(kind="period_doubling")
+    others = bifurcations[bifurcations.period <= settings["longest_period"]].sort_values("acceleration", kind="stable")
     repeated = [
         ((first.period == row.period) & (abs(first.acceleration / row.acceleration - 1.0) < SAME)).any()
         and row.kind == "period_doubling"

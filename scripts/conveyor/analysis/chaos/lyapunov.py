@@ -154,7 +154,7 @@ def lyapunov_spectrum(
     codes[(codes == trajectory.OK) & ~np.isfinite(values).all(axis=1)] = trajectory.NOT_FINITE
     values[codes != trajectory.OK] = np.nan
     # Where both exponents are equal, the first tangent vector may have grown a little less.
-    order = np.argsort(-values, axis=1)
+    order = np.argsort(-values, axis=1, kind="stable")
     values, errors = (np.take_along_axis(found / period[:, None], order, axis=1) for found in (values, errors))
     contact_fraction = contact_times.mean(axis=1) / period
     columns = {"lambda_1": values[:, 0], "lambda_2": values[:, 1], "stderr": errors[:, 0]}
