@@ -1,8 +1,13 @@
+import os
+from pathlib import Path
+
 from snakemake.exceptions import WorkflowError
-from snakemake.utils import min_version
+from snakemake.logging import logger
+from snakemake.utils import min_version, update_config
 
 try:
-    from workflow.config import ConfigError, replace_config
+    from workflow.config import ConfigError, load_config
+    from workflow.config.files import DEFAULT_FILES, ROOT, parse_texts
 except ModuleNotFoundError as error:
     if error.name.partition(".")[0] != "workflow":
         raise
@@ -10,13 +15,28 @@ except ModuleNotFoundError as error:
 
 min_version("9.27")
 
-# The config of the paper, with the overlays of the command line merged over it and checked.
+
+# The conveyor and the solver. The defaults of each stage, config/STAGE.yaml, are added below.
+configfile: str(ROOT / "config/config.yaml")
+
+
+# Overlays and values of the option --config. As a module, all that counts is the config that the other workflow passes.
+OVERLAYS, COMMAND_LINE = [], {}
+if Path(workflow.main_snakefile).resolve().is_relative_to(ROOT):
+    OVERLAYS = [os.path.relpath(file) for file in workflow.overwrite_configfiles]
+    COMMAND_LINE = parse_texts(dict(workflow.config_settings.config))
+    update_config(config, COMMAND_LINE)
+else:
+    config = parse_texts(config)
+
 try:
-    loaded, OVERLAYS, COMMAND_LINE = replace_config(workflow, config)
+    loaded = load_config(DEFAULT_FILES, OVERLAYS, config)
 except ConfigError as error:
     raise WorkflowError(str(error))
 config = loaded.config
 PAPER, OWN_CONVEYOR = loaded.paper, loaded.own_conveyor
+if loaded.notice and workflow.is_main_process:
+    logger.info(loaded.notice)
 
 
 report: "workflow/report/workflow.rst"

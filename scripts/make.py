@@ -74,8 +74,7 @@ def run(job: Any) -> None:
     del params["code"]  # only for Snakemake, which reruns the job if the code behind it has changed
     stage = importlib.import_module(params.pop("stage"))
     arguments = read_inputs(dict(job.input.items()), params.pop("expected")) | params
-    threads = job.resources.get("cpus_per_task", job.threads)
-    optional = {"threads": threads, "progress": " ".join([job.rule, *job.wildcards])}
+    optional = {"threads": job.threads, "progress": " ".join([job.rule, *job.wildcards])}
     parameters = inspect.signature(stage.make).parameters
     arguments |= {name: value for name, value in optional.items() if name in parameters}
     for name, path, content in contents(job.output, stage.make(**arguments)):

@@ -4,6 +4,8 @@ import re
 import shlex
 import tomllib
 
+import numpy as np
+import pandas as pd
 import pytest
 import yaml
 from project import ROOT, Project
@@ -120,3 +122,15 @@ def test_the_other_snakefile_plans_the_same(built):
     ]
     stats = [sorted(run.stdout.split("Job stats:")[1].split("\n\n")[0].splitlines()) for run in plans]
     assert stats[0] == stats[1]
+
+
+def test_a_stage_runs_without_snakemake(built, monkeypatch):
+    """The lines of the guide compute what the rule has written."""
+    built.make("results/lyapunov/spectrum.parquet")
+    (code,) = re.findall(r"```python\n(.*?)```", (ROOT / "workflow/templates/site/running.md").read_text(), re.DOTALL)
+    monkeypatch.chdir(built.folder)
+    names = {}
+    exec(code, names)
+    written = pd.read_parquet("results/lyapunov/spectrum.parquet")
+    assert list(names["columns"]) == list(written)
+    assert np.array_equal(names["columns"]["lambda_1"], written.lambda_1, equal_nan=True)

@@ -9,11 +9,11 @@ from typing import Any, NamedTuple
 from .checks import problems
 from .entries import by_methods, with_tighter
 from .errors import ConfigError, type_problems
-from .files import DEFAULT_FILES, ROOT, changed_values, merge, parse_texts, read_all
+from .files import changed_values, merge, read_all
 from .model import MODEL
-from .own_conveyor import is_own_conveyor, names_conveyor, scale_config
+from .own_conveyor import describe_scaling, is_own_conveyor, names_conveyor, scale_config
 
-__all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems", "replace_config"]
+__all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems"]
 
 
 # The reason if settings of the paper do not fit another model, but would be scaled to it with a prefix.
@@ -28,6 +28,7 @@ class Loaded(NamedTuple):
     config: dict  # canonical, with the tables of all methods and of tighter tolerances
     paper: dict  # the default config
     own_conveyor: bool
+    notice: str  # what was scaled to another conveyor and what was dropped; empty for the paper's
 
 
 def canonical(config: dict) -> dict:
@@ -63,7 +64,7 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
     default_files : the config of the paper
     overlay_files : files that are merged over it. `config` contains them already; they are read again because keys keep
         the order of the first file that has them, and because files in front of the conveyor's are scaled to it
-    config : Snakemake's merged config; as a module of another workflow, it is the only overlay
+    config : Snakemake's merged config. As a module of another workflow, it is the only overlay
     """
     paper, overlays = merge(*read_all(default_files)), read_all(overlay_files)
     whole = merge(paper, *overlays, config)
@@ -88,7 +89,8 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
     for section, key in MEASURED_FILES:
         if key not in whole[section]:
             whole["figures_on_request"].pop(section, None)
-    return Loaded(with_tighter(by_methods(canonical(whole))), paper, own_conveyor)
+    loaded = with_tighter(by_methods(canonical(whole)))
+    return Loaded(loaded, paper, own_conveyor, describe_scaling(paper, loaded) if own_conveyor else "")
 
 
 def fits(*arguments: Any) -> bool:
@@ -98,20 +100,3 @@ def fits(*arguments: Any) -> bool:
     except ConfigError:
         return False
     return True
-
-
-def replace_config(workflow: Any, config: dict) -> tuple[Loaded, list[str], dict]:
-    """Convert Snakemake's merged config; also return the paths of the overlays and the values of the option --config.
-
-    The converted config is the same object, because Snakemake hands it to the report. As a module of another workflow,
-    all that counts is the config that the other workflow passes, which stays as it is, because Snakemake reads the
-    Snakefile again for each `use rule`. ConfigError says what is wrong with the config.
-    """
-    if not Path(workflow.main_snakefile).resolve().is_relative_to(ROOT):
-        return load_config(DEFAULT_FILES, [], parse_texts(config)), [], {}
-    overlays = [os.path.relpath(file) for file in workflow.overwrite_configfiles]
-    command_line = parse_texts(dict(workflow.config_settings.config))
-    loaded = load_config(DEFAULT_FILES, overlays, merge(config, command_line))
-    config.clear()
-    config.update(loaded.config)
-    return loaded._replace(config=config), overlays, command_line

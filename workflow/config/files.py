@@ -3,7 +3,6 @@
 YAML 1.1 keeps the last of two equal keys, and reads 050 as 40 and 1:30 as 90.
 """
 
-import argparse
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -171,28 +170,3 @@ def parse_texts(value: Any) -> Any:
         return value
     node = yaml.ScalarNode(SCALARS.resolve(yaml.ScalarNode, value, (True, False)), value)
     return value if scalar_fault(node) else SCALARS.construct_object(node)
-
-
-def command_line_faults(value: str) -> list[str]:
-    """The faults of a value of the option --config, one line each."""
-    match = re.fullmatch(r"([A-Za-z_][\w-]*\w)=(.*)", value, re.DOTALL)
-    if not match:
-        remedy = "write prefix=mine, or 'model={damping: 0.2}'"
-        return [f"--config {format_value(value)} is not KEY=VALUE with a top-level KEY such as prefix; {remedy}"]
-    key, content = match.groups()
-    return parse(f"{key}: {content}", "--config")[0] if content.lstrip()[:1] in ("{", "[") else []
-
-
-def check_command_line(arguments: list[str]) -> None:
-    """End Snakemake if an overlay or a --config value of its command line is wrong.
-
-    Snakemake itself ends with a traceback, or does not name file and line.
-    """
-    parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
-    parser.add_argument("--configfile", "--configfiles", nargs="*", action="extend", default=[])
-    parser.add_argument("--config", "-C", nargs="*", action="extend", default=[])
-    options, _ = parser.parse_known_args(arguments)
-    faults = [fault for file in options.configfile for fault in read(file)[0]]
-    faults += [fault for value in options.config for fault in command_line_faults(value)]
-    if faults:
-        raise SystemExit(str(ConfigError(faults)))

@@ -154,3 +154,26 @@ def scale_config(paper: dict, overlay: dict) -> dict:
             del entry["acceleration"], entry["paper"]
     drop_figures(config, overlay)
     return config
+
+
+def describe_scaling(paper: dict, config: dict) -> str:
+    """What was scaled to another conveyor, by which factors, and what was dropped, on one line."""
+    ratios = scale_ratios(paper["model"], config["model"])
+    scaled = {"amplitudes": "m/s²", "heights": "m", "velocities": "m/s", "times": "s"}
+    factors = ", ".join(f"{name} × {ratios[unit]:.4g}" for name, unit in scaled.items())
+    figures = [
+        name
+        for section in FIGURES
+        for name, entry in paper[section].items()
+        if "paper_only" in entry and name not in config[section]
+    ]
+    dropped = [
+        *([] if config["claims"] else ["the paper's claims"]),
+        *(["figures " + ", ".join(figures)] if figures else []),
+        "marks of the paper in figures",
+        "tables of the paper's method that your config does not name",
+    ]
+    return (
+        f"{config['prefix']} is another conveyor than the paper's. Scaled, except for values that your config gives "
+        f"itself: {factors}. Dropped: {'; '.join(dropped)}."
+    )

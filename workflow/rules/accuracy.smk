@@ -15,7 +15,6 @@ rule benchmark:
         benchmark_file("accuracy/benchmark")
     threads: CORES
     resources:
-        cpus_per_task=CORES,
         slurm_extra="--exclusive",
     params:
         **stage("accuracy.benchmark", "results/benchmark"),
@@ -69,8 +68,8 @@ rule accuracy:
         benchmark_file("accuracy/{name}")
     wildcard_constraints:
         name=one_of(COMPARED_TABLES),
+    threads: THREADS
     resources:
-        cpus_per_task=JOB_THREADS,
         mem_mb=2000,
         runtime=60,
     params:
@@ -90,8 +89,8 @@ rule scene_budget:
     benchmark:
         benchmark_file("accuracy/scene_budget")
     priority: 1
+    threads: THREADS
     resources:
-        cpus_per_task=JOB_THREADS,
         mem_mb=2000,
     params:
         **stage("accuracy.scene_budget", "results/scene_budget"),
@@ -113,7 +112,6 @@ rule scaling:
         benchmark_file("accuracy/scaling")
     threads: CORES
     resources:
-        cpus_per_task=CORES,
         slurm_extra="--exclusive",
     params:
         **stage("accuracy.scaling", "results/scaling"),

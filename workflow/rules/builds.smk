@@ -51,8 +51,6 @@ rule provenance:
     benchmark:
         benchmark_file("builds/provenance")
     threads: CORES
-    resources:
-        cpus_per_task=CORES,
     params:
         **stage("builds.provenance"),
         files=sorted(BUILT_FILES),

@@ -11,8 +11,7 @@ rule calibration:
         log_file("calibration/parameters"),
     benchmark:
         benchmark_file("calibration/parameters")
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("calibration.calibrate", "calibration/parameters"),
     message:
@@ -30,8 +29,7 @@ rule calibration_prediction:
         log_file("calibration/prediction"),
     benchmark:
         benchmark_file("calibration/prediction")
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("calibration.prediction", "calibration/prediction"),
     message:

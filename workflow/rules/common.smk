@@ -20,9 +20,6 @@ if signal.getsignal(signal.SIGHUP) is signal.SIG_DFL:
 # "" or "NAME/": a config with a prefix has its own folder of results and figures.
 PREFIX = config["prefix"] and f"{config['prefix']}/"
 CORES = workflow.cores or 1
-# Threads of a job that computes in parallel. Snakemake reserves one core for it, so that two jobs run on two cores at a
-# time: each has serial parts, and together they finish sooner than one after the other.
-JOB_THREADS = min(THREADS, CORES)
 # The findings and the identification need all claims of the paper.
 HAS_ALL_CLAIMS = config["claims"] and config["claims"].keys() >= PAPER["claims"].keys()
 

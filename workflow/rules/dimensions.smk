@@ -10,8 +10,8 @@ rule dimensions:
         benchmark_file("dimensions/{name}")
     wildcard_constraints:
         name=one_of(config["dimensions"]),
+    threads: THREADS
     resources:
-        cpus_per_task=JOB_THREADS,
         mem_mb=2000,
     params:
         **stage("dimensions.portraits", "dimensions/{name}"),

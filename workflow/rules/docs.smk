@@ -317,7 +317,6 @@ rule waiting:
         benchmark_file("docs/waiting")
     threads: CORES
     resources:
-        cpus_per_task=CORES,
         slurm_extra="--exclusive",
     params:
         **stage("docs.waiting"),

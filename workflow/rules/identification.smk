@@ -11,8 +11,7 @@ rule identification_edges:
     benchmark:
         benchmark_file("identification/edges")
     priority: 3
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("identification.edges", "identification/edges"),
     message:

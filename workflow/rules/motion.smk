@@ -11,8 +11,7 @@ rule motion:
     wildcard_constraints:
         section="signals|spectra|impacts|critical",
         name=one_of({name for section in ("signals", "spectra", "impacts", "critical") for name in config[section]}),
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("motion.{section}", "{section}/{name}"),
     message:

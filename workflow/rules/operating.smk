@@ -9,8 +9,7 @@ rule operating:
         log_file("operating/shares"),
     benchmark:
         benchmark_file("operating/shares")
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("operating.shares", "operating/shares"),
     message:
@@ -29,8 +28,7 @@ rule transit:
         log_file("operating/transit"),
     benchmark:
         benchmark_file("operating/transit")
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("operating.transit", "operating/transit"),
     message:
@@ -48,8 +46,7 @@ rule drift:
         log_file("operating/drift"),
     benchmark:
         benchmark_file("operating/drift")
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("operating.drift", "operating/drift"),
     message:
@@ -69,8 +66,7 @@ rule advice:
         log_file("operating/advice"),
     benchmark:
         benchmark_file("operating/advice")
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("operating.advice", "operating/advice"),
     message:
@@ -88,8 +84,7 @@ rule throws:
         log_file("operating/throws"),
     benchmark:
         benchmark_file("operating/throws")
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("operating.throws", "operating/throws"),
     message:
@@ -105,8 +100,7 @@ rule track:
         log_file("operating/track"),
     benchmark:
         benchmark_file("operating/track")
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("operating.track", "operating/track"),
     message:
@@ -142,8 +136,7 @@ rule drive:
         log_file("operating/drive_front"),
     benchmark:
         benchmark_file("operating/drive_front")
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("operating.drive", "operating/drive_front"),
     message:

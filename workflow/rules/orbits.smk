@@ -10,8 +10,8 @@ rule estimates:
         benchmark_file("estimates/{name}")
     wildcard_constraints:
         name=one_of(config["estimates"]),
+    threads: THREADS
     resources:
-        cpus_per_task=JOB_THREADS,
         mem_mb=2000,
     params:
         **stage("orbits.estimates", "estimates/{name}"),
@@ -47,8 +47,8 @@ rule certificates:
         log_file("orbits/certificates"),
     benchmark:
         benchmark_file("orbits/certificates")
+    threads: THREADS
     resources:
-        cpus_per_task=JOB_THREADS,
         mem_mb=1500,
         runtime=60,
     params:
@@ -66,8 +66,7 @@ rule attractors:
         log_file("attractors/strobes"),
     benchmark:
         benchmark_file("attractors/strobes")
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("orbits.strobes", "attractors/strobes"),
     message:
@@ -85,8 +84,7 @@ rule lyapunov:
         log_file("lyapunov/spectrum"),
     benchmark:
         benchmark_file("lyapunov/spectrum")
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("orbits.exponents", "lyapunov/spectrum"),
     message:
@@ -104,8 +102,7 @@ rule witnesses:
         log_file("lyapunov/witnesses"),
     benchmark:
         benchmark_file("lyapunov/witnesses")
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("orbits.witnesses", "lyapunov/witnesses"),
     message:

@@ -28,8 +28,7 @@ rule curves:
         log_file("sensitivity/curves"),
     benchmark:
         benchmark_file("sensitivity/curves")
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("sensitivity.curves", "sensitivity/continued"),
     message:

@@ -16,8 +16,8 @@ rule shards:
     wildcard_constraints:
         name=one_of(config["sweeps"]),
         shard=r"\d+",
+    threads: THREADS
     resources:
-        cpus_per_task=JOB_THREADS,
         mem_mb=lambda wildcards, attempt: math.ceil(attempt * PLANS[wildcards.name].memory),
         runtime=lambda wildcards, attempt: math.ceil(attempt * (10 + MARGIN * PLANS[wildcards.name].seconds / 60)),
     params:
