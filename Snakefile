@@ -1,8 +1,8 @@
 import os
+import sys
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
-from snakemake.logging import logger
 from snakemake.utils import min_version, update_config
 
 try:
@@ -36,7 +36,7 @@ except ConfigError as error:
 config = loaded.config
 PAPER, OWN_CONVEYOR = loaded.paper, loaded.own_conveyor
 if loaded.notice and workflow.is_main_process:
-    logger.info(loaded.notice)
+    print(loaded.notice, file=sys.stderr)
 
 
 report: "workflow/report/workflow.rst"

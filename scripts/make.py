@@ -5,7 +5,7 @@ are
 
 - the named inputs of the rule: tables, texts, or paths of pictures; lists where the rule has lists,
 - the params of the rule, except for those that the function `stage` in workflow/rules/common.smk gives to this script,
-- `threads` and `progress`, if it has these arguments.
+- `settings`, `threads` and `progress`, if it has these arguments.
 
 It returns the content of the output: a table or its columns, an iterator over the columns of blocks of its rows, a
 text, bytes, or a picture. For several outputs, it returns a mapping by name, or a list if the outputs have no names.
@@ -75,6 +75,8 @@ def run(job: Any) -> None:
     stage = importlib.import_module(params.pop("stage"))
     arguments = read_inputs(dict(job.input.items()), params.pop("expected")) | params
     optional = {"threads": job.threads, "progress": " ".join([job.rule, *job.wildcards])}
+    if "settings" in params:
+        optional["settings"] = arguments.pop("settings")
     parameters = inspect.signature(stage.make).parameters
     arguments |= {name: value for name, value in optional.items() if name in parameters}
     for name, path, content in contents(job.output, stage.make(**arguments)):

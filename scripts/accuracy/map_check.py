@@ -43,6 +43,15 @@ TABLES = {
     ),
 }
 
+BOUNDARY = 0.5  # share of the points that lie next to a point with another label
+SEED = 1
+TOLERANCE = 1e-13
+CLOSE = 1e-9  # largest difference of a repeated state, in units of the plate's motion
+REPEATS = 64  # excitation cycles in a row that must repeat in a periodic motion
+SIGNIFICANT = 3.0  # standard errors by which a positive exponent must exceed zero
+# Largest accepted share of different labels, which a reader of a map does not see (scene_budget.pixels). It was set
+# before the number was known.
+ACCEPTED = 0.01
 BLOCK = 256  # cycles per call of the solver
 EXPONENT = {"transient": 0, "cycles": 100, "blocks": 20}  # cycles in each block, and blocks, for the exponent
 
@@ -91,7 +100,7 @@ def simulate_until_settled(row: np.ndarray, settings: dict) -> Settled:
     row = np.array(row)
     scale = modes.scales(row)[2:]
     times = np.arange(1, BLOCK + 1)[None] / row["frequency"]
-    options = {"columns": ["z", "vz"], "tolerance": settings["tolerance"], "reuse": False}
+    options = {"columns": ["z", "vz"], "tolerance": TOLERANCE, "reuse": False}
     period = cycles = 0
     while not period and cycles < settings["cycles"]:
         run = sample_runs(row[None], times, **options)
@@ -100,7 +109,7 @@ def simulate_until_settled(row: np.ndarray, settings: dict) -> Settled:
         strobes = np.column_stack([run.z[0], run.vz[0]])
         row["z0"], row["vz0"] = strobes[-1]
         cycles += BLOCK
-        period = repeated_period(strobes, scale, settings["close"], settings["repeats"])
+        period = repeated_period(strobes, scale, CLOSE, REPEATS)
     return Settled(period, cycles, row)
 
 
@@ -124,7 +133,7 @@ def brute_force(rows: np.ndarray, settings: dict, *, threads: int = 1, progress:
             found[k] = simulate_until_settled(rows[k], settings)
             ends[k] = found[k].end
             if found[k].period:
-                flights[k] = longest_flight(ends[k], found[k].period, settings["tolerance"])
+                flights[k] = longest_flight(ends[k], found[k].period, TOLERANCE)
 
     for_each_chunk(work, len(rows), threads=threads, chunk=1, progress=progress)
     period = np.array([one.period for one in found])
@@ -132,9 +141,9 @@ def brute_force(rows: np.ndarray, settings: dict, *, threads: int = 1, progress:
     exponent, error = np.full((2, len(rows)), np.nan)
     open_rows = np.flatnonzero(period == 0)
     if len(open_rows):
-        spectrum = lyapunov_spectrum(ends[open_rows], **EXPONENT, tolerance=settings["tolerance"], threads=threads)
+        spectrum = lyapunov_spectrum(ends[open_rows], **EXPONENT, tolerance=TOLERANCE, threads=threads)
         exponent[open_rows], error[open_rows] = spectrum.lambda_1, spectrum.stderr
-        is_chaos = spectrum.lambda_1 > settings["significant"] * spectrum.stderr
+        is_chaos = spectrum.lambda_1 > SIGNIFICANT * spectrum.stderr
         states[open_rows] = np.where(is_chaos, "chaos", "undecided")
     return {
         "state": states,
@@ -149,12 +158,12 @@ def make(
     settings: dict, maps: list[pd.DataFrame], *, threads: int = 1, progress: str | None = None
 ) -> dict[str, np.ndarray]:
     """The columns of the table of checked points; `maps` are the tables of the sweeps of the config, in order."""
-    random = np.random.default_rng(settings["seed"])
+    random = np.random.default_rng(SEED)
     chosen, parameters = [], []
     for name, table in zip(settings["maps"], maps, strict=True):
         axes = table.attrs["axes"]
         near = is_near_boundary(table.state.to_numpy().reshape([grid.count_values(axis) for axis in axes.values()]))
-        rows = draw_rows(near.ravel(), settings["points"], settings["boundary"], random)
+        rows = draw_rows(near.ravel(), settings["points"], BOUNDARY, random)
         label, near_boundary = table.state.to_numpy()[rows], near.ravel()[rows]
         chosen.append(pd.DataFrame({"map": name, "row": rows, "near_boundary": near_boundary, "label": label}))
         parameters += [grid.product(axes, table.attrs["model"], (row, row + 1))[1] for row in rows.tolist()]

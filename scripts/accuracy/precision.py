@@ -46,6 +46,43 @@ TABLES = {
     ),
 }
 
+SAMPLE_INTERVAL = (
+    7e-3  # s, between the times at which trajectories are compared: a multiple of each time step, with many phases
+)
+TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13)
+STEPS = (1e-3, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7)  # s
+# Relative tolerances of other integrators, by how they treat impacts and slip reversals (conveyor.methods.peers). With
+# `sign` and tighter tolerances, DOP853 and LSODA give up. CyRK, CVODE and heyoka run only if they are installed.
+PEERS = {
+    "sign": {
+        "RK45": (1e-4, 1e-6, 1e-8),
+        "DOP853": (1e-4, 1e-6, 1e-8, 1e-11),
+        "Radau": (1e-4, 1e-6),
+        "LSODA": (1e-4, 1e-6, 1e-8),
+        "CyRK DOP853": (1e-4, 1e-6, 1e-8, 1e-10),
+        "CVODE Adams": (1e-4, 1e-6, 1e-8, 1e-10),
+    },
+    "events": {
+        "RK45": (1e-4, 1e-6, 1e-8),
+        "DOP853": (1e-4, 1e-6, 1e-8, 1e-11, 1e-13),
+        "Radau": (1e-4, 1e-6),
+        "LSODA": (1e-4, 1e-6, 1e-8),
+        "CyRK DOP853": (1e-4, 1e-6, 1e-8, 1e-10),
+        "CVODE Adams": (1e-4, 1e-6, 1e-8, 1e-10),
+    },
+    "modes": {
+        "RK45": (1e-4, 1e-6, 1e-8),
+        "DOP853": (1e-4, 1e-6, 1e-8, 1e-9, 1e-11, 1e-13),
+        "Radau": (1e-4, 1e-5, 1e-6),
+        "LSODA": (1e-4, 1e-6, 1e-8, 1e-10),
+        "CyRK DOP853": (1e-4, 1e-6, 1e-8, 1e-9, 1e-11, 1e-13),
+        "CyRK Vern8": (1e-4, 1e-6, 1e-8, 1e-9, 1e-11, 1e-13),
+        "CVODE Adams": (1e-4, 1e-6, 1e-8, 1e-10, 1e-12),
+        "CVODE BDF": (1e-4, 1e-6, 1e-8, 1e-10, 1e-12),
+        "heyoka": (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14),
+    },
+}
+SECONDS = 0.1  # s of processor time, after which a run is not repeated
 TRUTH = 1e-14  # tolerance of the reference
 # Shortest turn: a fast run is repeated within it, so that the first repetition with a cold cache does not matter.
 TURN = 0.01  # s
@@ -77,15 +114,13 @@ class Result(NamedTuple):
     run: Run | None  # None for another integrator
 
 
-def methods(settings: dict) -> list[Method]:
+def methods() -> list[Method]:
     """All runs of a scene in the order of the table."""
     listed = [
-        Method("event", treatment, tolerance, None)
-        for treatment in (EXACT, NO_REUSE)
-        for tolerance in settings["tolerances"]
+        Method("event", treatment, tolerance, None) for treatment in (EXACT, NO_REUSE) for tolerance in TOLERANCES
     ]
-    listed += [Method(name, "fixed step", None, step) for name in fixed_step.METHODS for step in settings["steps"]]
-    for treatment, integrators in settings["peers"].items():
+    listed += [Method(name, "fixed step", None, step) for name in fixed_step.METHODS for step in STEPS]
+    for treatment, integrators in PEERS.items():
         for name, tolerances in integrators.items():
             listed += [Method(name, treatment, tolerance, None) for tolerance in tolerances]
     return listed
@@ -109,8 +144,7 @@ def run_method(method: Method, settings: dict) -> Result:
 
 def sample_times(settings: dict) -> np.ndarray:
     """The fixed times (s) at which trajectories are compared."""
-    interval = settings["sample_interval"]
-    return interval * np.arange(1, int(settings["duration"] / interval * (1.0 + 1e-9)) + 1)
+    return SAMPLE_INTERVAL * np.arange(1, int(settings["duration"] / SAMPLE_INTERVAL * (1.0 + 1e-9)) + 1)
 
 
 def contact_changes(events: np.ndarray) -> np.ndarray:
@@ -188,19 +222,19 @@ def run_in_turns(
     return results, times
 
 
-def make(settings: dict, timing: dict, *, progress: str | None = None) -> dict[str, dict]:
+def make(settings: dict, repeats: int, *, progress: str | None = None) -> dict[str, dict]:
     """The columns of the tables of work and precision and of processor times, rows by method, tolerance and step.
 
-    timing : `repeats` and `seconds` of `run_in_turns`
+    repeats : rounds of timed runs, in each of which the methods alternate
     """
     reference_method = Method("event", NO_REUSE, TRUTH, None)
     truth = run_method(reference_method, settings)
     _, *scale = modes.scales(grid.row_of(settings["model"]))
-    listed = methods(settings)
+    listed = methods()
     for method in listed:
         run_method(method, settings | SHORT)
     runs = [partial(run_method, method, settings) for method in listed]
-    results, times = run_in_turns(runs, **timing, progress=progress)
+    results, times = run_in_turns(runs, repeats=repeats, seconds=SECONDS, progress=progress)
     run, found = pd.DataFrame(listed), pd.DataFrame(results)
     state = find_state(settings, truth.end)
     velocity_error = (found.mean_velocity / truth.mean_velocity - 1.0).abs()

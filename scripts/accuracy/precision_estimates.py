@@ -1,6 +1,7 @@
 """Error over work of estimators of the largest Lyapunov exponent, of the dimension and of the fit."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
@@ -31,17 +32,23 @@ TABLES = {
     ),
 }
 
+# A periodic orbit, whose exponent is known from its Floquet multipliers.
+ORBIT = {"acceleration": 54.0, "z0": 0.3e-3}  # m/s², m
+DURATIONS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0)  # s
+POINTS = (300, 1000, 3000, 10000, 30000)
+SETS = 5  # point sets of each size; the median error is recorded
+SEED = 1
 TOLERANCE = 1e-12
 AT_END = 1e-9  # share of a run
 EPSILON = 1e-8  # distance of two trajectories, in units of the part at rest
 EVALUATIONS = 1000  # largest number of evaluations of a fit
 
 
-def exponent_rows(settings: dict, model: dict) -> list[dict]:
+def exponent_rows(model: dict, durations: Sequence[float] = DURATIONS) -> list[dict]:
     """Three estimates of the exponent of a periodic orbit, whose true value follows from its Floquet multiplier."""
-    row = grid.row_of(model | {name: settings[name] for name in ("acceleration", "z0")})
+    row = grid.row_of(model | ORBIT)
     state = initial_states(row[None], TOLERANCE)[0]
-    orbit = settled_orbit(row, settings["acceleration"], state, (1, 2, 4), 1000)
+    orbit = settled_orbit(row, ORBIT["acceleration"], state, (1, 2, 4), 1000)
     cycle = 1.0 / model["frequency"]
     truth = math.log(abs(orbit.multipliers[0])) / (orbit.period * cycle)
     here = start_at(row[None], orbit.state[None], TOLERANCE)
@@ -51,7 +58,7 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
     # Without renormalisation, only the end of the run is compared.
     pair = {"output": "z", "last": AT_END, "samples": 1, "tolerance": TOLERANCE}
     found = []
-    for duration in settings["durations"]:
+    for duration in durations:
         cycles = round(duration / cycle)
         estimates = {
             "pair of trajectories": finite_difference_exponent(here, there, EPSILON * unit, duration=duration, **pair)[
@@ -71,7 +78,7 @@ def exponent_rows(settings: dict, model: dict) -> list[dict]:
     return found
 
 
-def dimension_rows(settings: dict, seed: int) -> list[dict]:
+def dimension_rows() -> list[dict]:
     """Median errors of the estimators of the dimension over sets of known dimension."""
     estimators = {
         "boxes": box_dimension,
@@ -80,25 +87,25 @@ def dimension_rows(settings: dict, seed: int) -> list[dict]:
     }
     found = []
     for name, estimate in estimators.items():
-        for count in settings["points"]:
-            rng = np.random.default_rng(seed)
+        for count in POINTS:
+            rng = np.random.default_rng(SEED)
             errors = [
                 abs(estimate(draw(rng, count)).value - truth)
-                for _ in range(settings["repeats"])
+                for _ in range(SETS)
                 for draw, truth in REFERENCE_DIMENSIONS.items()
             ]
             found.append({"quantity": "dimension", "estimator": name, "work": count, "error": np.nanmedian(errors)})
     return found
 
 
-def fit_rows(data: pd.DataFrame, regression: dict, seed: int) -> list[dict]:
+def fit_rows(data: pd.DataFrame, regression: dict) -> list[dict]:
     """Relative gap of the mean squared error to the best fit, over the number of evaluated triples."""
     low, high = regression["acceleration"]
     rows = data[data.is_critical & data.acceleration.between(low, high)]
     values = rows.acceleration.to_numpy(), rows.z0.to_numpy()
     bounds = {name: tuple(interval) for name, interval in regression["bounds"].items()}
     found = {
-        "CMA-ES (pymoo)": fit_hyperbola_by_pymoo(*values, bounds, seed, EVALUATIONS),
+        "CMA-ES (pymoo)": fit_hyperbola_by_pymoo(*values, bounds, SEED, EVALUATIONS),
         "least squares": fit_hyperbola(*values, bounds["B"]),
     }
     best = min(one.error for one in found.values())
@@ -111,8 +118,8 @@ def fit_rows(data: pd.DataFrame, regression: dict, seed: int) -> list[dict]:
 
 def make(settings: dict, critical: pd.DataFrame | None = None) -> dict:
     """The columns of the table; a conveyor without a fit of Eq. 13 has no table of critical heights."""
-    rows = exponent_rows(settings["exponent"], settings["model"])
-    rows += dimension_rows(settings["dimension"], settings["seed"])
+    rows = exponent_rows(settings["model"])
+    rows += dimension_rows()
     if critical is not None:
-        rows += fit_rows(critical, settings["regression"], settings["seed"])
+        rows += fit_rows(critical, settings["regression"])
     return fields.columns(rows, TABLES["precision_estimates"])

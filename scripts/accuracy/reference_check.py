@@ -17,9 +17,11 @@ TABLES = {
     ),
 }
 
+DIGITS = 26  # of the multiprecision arithmetic
+
 
 def make(settings: dict) -> dict[str, np.ndarray]:
-    """The columns of the table, from the settings of a scene and the number of `digits`.
+    """The columns of the table, for the settings of a scene.
 
     Raises
     ------
@@ -28,7 +30,7 @@ def make(settings: dict) -> dict[str, np.ndarray]:
     """
     conveyor, start = grid.conveyor_and_start(settings["model"])
     times = sample_times(settings)
-    states, events = multiprecision.simulate(conveyor, start, times, settings["digits"])
+    states, events = multiprecision.simulate(conveyor, start, times, DIGITS)
     run = simulate(conveyor, start, duration=settings["duration"], tolerance=TRUTH)
     own = run.sample(times)
     scales = modes.scales(grid.row_of(settings["model"]))

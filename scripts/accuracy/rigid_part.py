@@ -32,6 +32,10 @@ SPEEDS = np.geomspace(1e-3, 1.0, 64)  # m/s, speeds of approach of the table of 
 LAST_CYCLE = 50  # samples of the last cycle, for the height of a jump
 # Largest distance from an earlier state, in heights of a jump, that counts as a return: of a sweep, and at a doubling.
 CLOSE, CLOSE_AT_DOUBLING = 1e-2, 1e-3
+START = Start(0.3e-3)  # the jumping part of Fig. 4
+DURATION = 40.0  # s, within which a motion must repeat itself
+MARGIN = 0.05  # m/s², steps of the amplitude in which a period is followed
+RESOLUTION = 1e-4  # m/s², to which bisection locates a doubling
 DOUBLINGS = 3  # first period doublings that are compared
 CYCLES = 2000  # simulated cycles, after which a motion without a period is undecided
 # Parameters that determine the restitution.
@@ -94,23 +98,23 @@ def sweep(settings: dict, cycles: int = CYCLES) -> pd.DataFrame:
     )
 
 
-def find_doubling(conveyor: Conveyor, restitution, period: int, low: float, settings: dict) -> float:
+def find_doubling(conveyor: Conveyor, restitution, period: int, low: float) -> float:
     """Amplitude (m/s²) above `low` at which the jumping motion of a rigid part no longer has the period `period`.
 
-    A scan with steps of `settings["margin"]` brackets the amplitude, and bisection locates it.
+    A scan with steps of MARGIN brackets the amplitude, and bisection locates it.
     """
 
     def repeats(acceleration: float) -> bool:
-        row = parameter_table(conveyor, Start(settings["z0"]), acceleration=acceleration)
-        times = sample_times(row, settings["duration"], period)
+        row = parameter_table(conveyor, START, acceleration=acceleration)
+        times = sample_times(row, DURATION, period)
         height = rigid_part_motion.sample(row, times, restitution)["z"]
         return find_period(height, (period,), CLOSE_AT_DOUBLING) > 0
 
-    low += settings["margin"]
+    low += MARGIN
     high = low
     while repeats(high):
-        low, high = high, high + settings["margin"]
-    while high - low > settings["resolution"]:
+        low, high = high, high + MARGIN
+    while high - low > RESOLUTION:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if repeats(middle) else (low, middle)
     return 0.5 * (low + high)
@@ -121,13 +125,13 @@ def find_orbit(conveyor: Conveyor, restitution: tuple[np.ndarray, np.ndarray]) -
     return rigid_orbit(conveyor, lambda speed: float(np.interp(speed, *restitution)))
 
 
-def bifurcation_rows(model: str, conveyor: Conveyor, restitution, settings: dict) -> list[dict]:
+def bifurcation_rows(model: str, conveyor: Conveyor, restitution) -> list[dict]:
     """The rows of the fold and the first period doublings of the jumping motion of a rigid part."""
     orbit = find_orbit(conveyor, restitution)
     rows = [bifurcation_row(model, "fold", 1, orbit.fold), bifurcation_row(model, "period doubling", 1, orbit.doubling)]
     low = orbit.doubling
     for number in range(2, DOUBLINGS + 1):
-        low = find_doubling(conveyor, restitution, 2 ** (number - 1), low, settings)
+        low = find_doubling(conveyor, restitution, 2 ** (number - 1), low)
         rows.append(bifurcation_row(model, "period doubling", number, low))
     return rows
 
@@ -138,7 +142,6 @@ def bifurcation_row(model: str, kind: str, number: int, acceleration: float) -> 
 
 
 def make(
-    settings: dict,
     amplitudes: pd.DataFrame,
     folds_and_doublings: pd.DataFrame,
     cascade: pd.DataFrame,
@@ -168,6 +171,6 @@ def make(
     ]
     models = {RIGID: speed_dependent, ONE_NUMBER: constant}
     for model, restitution in progress_bar(models.items(), label=progress, unit="models"):
-        rows += bifurcation_rows(model, conveyor, restitution, settings)
+        rows += bifurcation_rows(model, conveyor, restitution)
     # Columns of velocities only are null for bifurcations.
     return pd.DataFrame(rows, columns=[column.name for column in TABLES["rigid_part"]]).to_dict("list")

@@ -41,6 +41,25 @@ TABLES = {
     ),
 }
 
+# Values of the estimate of the exponent; each figure varies one of them. The perturbation is in rad or m.
+USUAL = {"epsilon": 1e-8, "duration": 1.0, "step": 5e-7}
+VARIED = {
+    "perturbation": ("epsilon", (1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3)),
+    "time": ("duration", (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)),
+    "step": ("step", (2e-7, 5e-7, 1e-6, 2e-6, 5e-6, 1e-5)),
+}
+# Periodic motion of period 2, and chaos.
+CASES = {
+    "orbit_phase": {"acceleration": 55.0, "z0": "conveyor", "perturb": "psi0", "output": "vx"},
+    "orbit_height": {"acceleration": 55.0, "z0": 0.3e-3, "perturb": "z0", "output": "z"},
+    "chaos_phase": {"acceleration": 80.0, "z0": "conveyor", "perturb": "psi0", "output": "vx"},
+}
+POINTS = (300, 1000, 3000, 10000, 30000, 100000)
+CORRELATED = 30000  # largest number of points of a correlation sum, whose cost grows with the square
+PORTRAITS = {"second": {"acceleration": 40.0, "z0": 0.3e-3}, "chaos": {"acceleration": 80.0, "z0": 0.0}}
+BEGIN = 20.0  # s, first sample of a settled portrait
+RUN_TIMES = (0.1, 0.2, 0.5, 1.0, 2.0, 4.0)  # s, from the beginning of the run: the paper's box counting, with Euler
+SEED = 1
 LAST, SAMPLES = 0.25, 501  # share of a run and samples in it, as in Fig. 22
 PERIODS, SETTLING = (1, 2, 4), 1000  # excitation cycles
 # Excitation cycles between the samples of a portrait: the golden ratio, which spreads the samples of a periodic motion
@@ -79,16 +98,11 @@ def saturated_estimate(parameters: np.ndarray, output: str, epsilon: float, dura
     return math.log(np.ptp(signal) / epsilon) * math.log(1.0 / (1.0 - LAST)) / (LAST * duration)
 
 
-def exponent_rows(settings: dict, model: dict, progress: str | None) -> list[dict]:
+def exponent_rows(model: dict, progress: str | None) -> list[dict]:
     """The published estimate with its perturbation, its duration and its step varied one at a time."""
-    usual = {name: settings[name] for name in ("epsilon", "duration", "step")}
-    varied = {
-        "perturbation": [usual | {"epsilon": value} for value in settings["epsilons"]],
-        "time": [usual | {"duration": value} for value in settings["durations"]],
-        "step": [usual | {"step": value} for value in settings["steps"]],
-    }
+    varied = {panel: [USUAL | {name: value} for value in values] for panel, (name, values) in VARIED.items()}
     rows = []
-    for name, case in settings["cases"].items():
+    for name, case in CASES.items():
         here = parameters_of(case, model)
         truth = true_exponent(case, here, model)
         for panel, runs in varied.items():
@@ -123,7 +137,7 @@ def estimate_dimensions(points: np.ndarray, theiler: int, most: int) -> dict[str
     return found
 
 
-def dimension_rows(settings: dict, model: dict, seed: int, progress: str | None) -> list[dict]:
+def dimension_rows(model: dict, progress: str | None) -> list[dict]:
     """Dimensions of known sets and settled portraits over the number of points, published ones over the duration."""
     rows = []
 
@@ -134,18 +148,18 @@ def dimension_rows(settings: dict, model: dict, seed: int, progress: str | None)
             for name, one in found.items()
         )
 
-    for count in progress_bar(settings["samples"], label=progress and f"{progress}: points", unit="sizes"):
-        rng = np.random.default_rng(seed)
+    for count in progress_bar(POINTS, label=progress and f"{progress}: points", unit="sizes"):
+        rng = np.random.default_rng(SEED)
         for draw, truth in REFERENCE_DIMENSIONS.items():
-            found = estimate_dimensions(draw(rng, count), 0, settings["correlated"])
+            found = estimate_dimensions(draw(rng, count), 0, CORRELATED)
             add("known set", draw.__name__, found, truth, samples=count)
-        for name, case in settings["portraits"].items():
-            times = settings["begin"] + INTERVAL / model["frequency"] * np.arange(count)
+        for name, case in PORTRAITS.items():
+            times = BEGIN + INTERVAL / model["frequency"] * np.arange(count)
             points = portrait(parameters_of(case, model)[0], times, "event")
-            found = estimate_dimensions(points, THEILER, settings["correlated"])
+            found = estimate_dimensions(points, THEILER, CORRELATED)
             add("samples", name, found, CURVE[name], samples=count)
-    for name, case in settings["portraits"].items():
-        for duration in settings["durations"]:
+    for name, case in PORTRAITS.items():
+        for duration in RUN_TIMES:
             count = round(duration * model["frequency"] / PAPER_INTERVAL) + 1
             times = np.linspace(0.0, duration, count)
             points = portrait(parameters_of(case, model)[0], times, "euler")
@@ -155,8 +169,8 @@ def dimension_rows(settings: dict, model: dict, seed: int, progress: str | None)
 
 
 def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
-    """The columns of the table of estimates, from the section of the config of that name with the model."""
+    """The columns of the table of estimates, for the model of the settings."""
     model = settings["model"]
-    rows = exponent_rows(settings["exponent"], model, progress)
-    rows += dimension_rows(settings["dimension"], model, settings["seed"], progress)
+    rows = exponent_rows(model, progress)
+    rows += dimension_rows(model, progress)
     return fields.columns(rows, TABLES["stability_estimates"])

@@ -20,7 +20,7 @@ from pipeline.rule_log import JobError
 
 TABLES = {
     "theory": (
-        fields.text("kind", "rigid, cascade or impact: the key of the accepted difference in the config"),
+        fields.text("kind", "rigid, cascade or impact, which have different accepted differences"),
         fields.text("quantity", "compared quantity"),
         fields.text("case", "parameters"),
         fields.text("unit", "unit of theory, computed and error"),
@@ -33,6 +33,11 @@ TABLES = {
     ),
 }
 
+RESTITUTION = (0.2, 0.5, 0.8)  # of a rigid ball on a vibrating plate
+STIFFNESS = (1e8, 1e9, 1e10)  # N/m, of linear contacts from which the rigid limit is extrapolated
+SPEED = (0.05, 0.35, 1.0)  # m/s, of isolated impacts
+# Largest accepted relative differences; extrapolation, the last change of the stored ratios, and rounding limit them.
+ACCEPTED = {"rigid": 1e-8, "cascade": 1e-5, "impact": 1e-9}
 # Limit of the ratios of successive distances of period doublings (Feigenbaum 1978; digits: Briggs 1991).
 FEIGENBAUM = 4.669201609102990672
 TOLERANCE = 1e-14  # of contact steps
@@ -126,23 +131,23 @@ def extrapolate_to_zero(places: np.ndarray, values: np.ndarray) -> tuple[float, 
 
 def rigid_rows(settings: dict) -> Iterator[dict]:
     """Rows of the stable range of a bouncing ball, extrapolated in the duration of an impact, which is as 1/√k."""
-    stiffness = np.array(settings["stiffness"])
-    for restitution in settings["restitution"]:
+    stiffness = np.array(STIFFNESS)
+    for restitution in RESTITUTION:
         ranges = np.array([stiff_range(settings["model"], k, restitution) for k in stiffness])
         names = ("least a_z/g of one impact per cycle", "a_z/g of the first period doubling")
         for name, theory, values in zip(names, closed_forms.rigid_range(restitution), ranges.T, strict=True):
             computed, error = extrapolate_to_zero(stiffness**-0.5, values)
             case, source = f"rigid ball, e = {restitution:g}", "Luo and Han 1996"
-            yield row(settings, "rigid", name, case, "1", theory, computed, source, error)
+            yield row("rigid", name, case, "1", theory, computed, source, error)
 
 
-def cascade_row(settings: dict, cascade: pd.DataFrame) -> dict:
+def cascade_row(cascade: pd.DataFrame) -> dict:
     """The row of Feigenbaum's constant: the last ratio of the cascade, with its last change as the error."""
     ratios = cascade.sort_values("number", kind="stable").ratio.dropna()
     before, last = ratios.iloc[-2:]
     case, source = f"{len(cascade)} period doublings", "Feigenbaum 1978"
     error = abs(last - before)
-    return row(settings, "cascade", "Feigenbaum's constant", case, "1", FEIGENBAUM, last, source, error)
+    return row("cascade", "Feigenbaum's constant", case, "1", FEIGENBAUM, last, source, error)
 
 
 def impact_rows(settings: dict) -> Iterator[dict]:
@@ -150,19 +155,19 @@ def impact_rows(settings: dict) -> Iterator[dict]:
     model = settings["model"] | {"tension": "allow"}
     damped, _ = grid.conveyor_and_start(model)
     elastic, _ = grid.conveyor_and_start(model | {"damping": 0.0})
-    for speed in settings["speed"]:
+    for speed in SPEED:
         found, depth = simulate_impact(elastic, speed), closed_forms.compression(elastic, speed)
         case = f"undamped, {speed:g} m/s"
         duration = closed_forms.undamped_duration(elastic, speed)
         force = elastic.stiffness * depth**elastic.exponent
-        yield row(settings, "impact", "duration of an impact", case, "s", duration, found.duration, "Hertz 1882")
-        yield row(settings, "impact", "peak force of an impact", case, "N", force, found.peak, "Hertz 1882")
-    for speed in settings["speed"]:
+        yield row("impact", "duration of an impact", case, "s", duration, found.duration, "Hertz 1882")
+        yield row("impact", "peak force of an impact", case, "N", force, found.peak, "Hertz 1882")
+    for speed in SPEED:
         beta = damped.damping / damped.mass * closed_forms.compression(damped, speed) / speed
         theory, found = closed_forms.reduced_restitution(damped.exponent, beta), simulate_impact(damped, speed)
         case, source = f"F = k δ^p + d δ̇, {speed:g} m/s", "reduced equation, SciPy"
-        yield row(settings, "impact", "coefficient of restitution", case, "1", theory, found.restitution, source)
-    speed = settings["speed"][0]
+        yield row("impact", "coefficient of restitution", case, "1", theory, found.restitution, source)
+    speed = SPEED[0]
     unit = elastic.mass * speed / closed_forms.compression(elastic, speed)  # damping with β = 1
 
     def loss(beta: float) -> float:
@@ -172,19 +177,18 @@ def impact_rows(settings: dict) -> Iterator[dict]:
     computed, error = extrapolate_to_zero(np.array([2.0 * LIGHT, LIGHT]), np.array([loss(2.0 * LIGHT), loss(LIGHT)]))
     theory, source = closed_forms.light_loss(elastic.exponent), "work of the damper"
     name, case = "loss of speed (1 - e)/β", "F = k δ^p + d δ̇, β → 0"
-    yield row(settings, "impact", name, case, "1", theory, computed, source, error)
-    for restitution in settings["restitution"]:
+    yield row("impact", name, case, "1", theory, computed, source, error)
+    for restitution in RESTITUTION:
         clipped = closed_forms.restitution_without_tension(restitution)
         for tension, theory in (("allow", restitution), ("clip", clipped)):
-            contact = linear_contact(model, settings["stiffness"][0], restitution, tension=tension)
+            contact = linear_contact(model, STIFFNESS[0], restitution, tension=tension)
             found = simulate_impact(contact, speed)
             case = f"F = k δ + d δ̇, ζ = {closed_forms.damping_ratio(restitution):.3g}, {tension}"
             source = "Schwager and Pöschel 2007"
-            yield row(settings, "impact", "coefficient of restitution", case, "1", theory, found.restitution, source)
+            yield row("impact", "coefficient of restitution", case, "1", theory, found.restitution, source)
 
 
 def row(
-    settings: dict,
     kind: str,
     quantity: str,
     case: str,
@@ -194,7 +198,7 @@ def row(
     source: str,
     error: float = math.nan,
 ) -> dict:
-    """A row of the table; `kind` selects the accepted difference of the settings."""
+    """A row of the table; `kind` selects the accepted difference."""
     return {
         "kind": kind,
         "quantity": quantity,
@@ -204,12 +208,12 @@ def row(
         "computed": computed,
         "error": error,
         "difference": abs(computed / theory - 1.0),
-        "accepted": settings["accepted"][kind],
+        "accepted": ACCEPTED[kind],
         "source": source,
     }
 
 
 def make(settings: dict, cascade: pd.DataFrame) -> dict[str, list]:
     """The columns of the table of theory, with the table of period doublings."""
-    rows = [*rigid_rows(settings), cascade_row(settings, cascade), *impact_rows(settings)]
+    rows = [*rigid_rows(settings), cascade_row(cascade), *impact_rows(settings)]
     return fields.columns(rows, TABLES["theory"])

@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 
+from accuracy.stability_estimates import CASES
 from claims import about_proofs
 from claims.finding import METHODS, NONE, Finding, by_method, format_amplitude, onset, single_quantity
 
@@ -113,7 +114,7 @@ def describe_perturbations(estimates: pd.DataFrame) -> str:
     """How the estimate for a periodic motion depends on the perturbation, in words."""
     rows = estimates[(estimates.panel == "perturbation") & (estimates.case == "orbit_phase")]
     by_euler, converged = (rows[rows.estimator == method].value for method in ("euler", "event"))
-    acceleration = estimates.attrs["exponent"]["cases"]["orbit_phase"]["acceleration"]
+    acceleration = CASES["orbit_phase"]["acceleration"]
     return (
         f"At {acceleration:g} m/s², where the motion is periodic, perturbations from {rows.epsilon.min():g} to "
         f"{rows.epsilon.max():g} rad give {by_euler.min():+.2f} to {by_euler.max():+.2f} 1/s by the paper's method and "

@@ -3,6 +3,7 @@
 import pandas as pd
 from scipy.stats import binomtest
 
+from accuracy.map_check import ACCEPTED, CLOSE, REPEATS, SIGNIFICANT, TOLERANCE
 from pipeline.templates import render
 
 ROUNDING = 1e-13  # smaller differences are rounding errors
@@ -24,7 +25,12 @@ def make(template: str, theory: pd.DataFrame, map_check: pd.DataFrame) -> str:
     values = {
         "theory": theory,
         "rounding": ROUNDING,
-        "settings": map_check.attrs,
+        "cycles": map_check.attrs["cycles"],
+        "tolerance": TOLERANCE,
+        "close": CLOSE,
+        "repeats": REPEATS,
+        "significant": SIGNIFICANT,
+        "accepted": ACCEPTED,
         "points": points,
         "different": different,
         "undecided": (map_check.state == "undecided").sum(),

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from accuracy import speed
+from accuracy.reference_check import DIGITS
 from accuracy.rigid_part import CONTACT, RIGID
 from accuracy.stability import PANELS, VELOCITY
 from claims.about_chaos import positive_onset, with_settled_motion
@@ -193,6 +194,7 @@ def speed_accuracy(
         "rival_name": method_name(others[0].method) if others else None,
         "missing": list(jumping[jumping.outcome == "not installed"].method.unique()),
         "difference": difference,
+        "digits": DIGITS,
         "agreeing": int(-np.log10(difference)),
     }
 

@@ -11,7 +11,6 @@ from conveyor.simulation import simulate
 from pipeline import grid
 
 CONFIG = read_config()
-ONCE = {"repeats": 1, "seconds": 1e-9}
 
 
 @pytest.fixture(scope="module")
@@ -50,15 +49,19 @@ def compared(request):
     """Work and precision of the solver and of two peers, and the settings."""
     settings = {
         "duration": 1.0,
-        "sample_interval": CONFIG["precision"]["sample_interval"],
         "model": CONFIG["model"] | CONFIG["precision"]["scenes"][request.param],
-        "tolerances": [1e-4, 1e-8, 1e-12],
-        "steps": [5e-7],
-        "peers": {"modes": {"DOP853": [1e-4, 1e-13], "heyoka": [1e-10]}},
         "max_evaluations": CONFIG["precision"]["max_evaluations"],
     }
-    table = pd.DataFrame(precision.make(settings, ONCE)["precision"])
-    table.attrs = settings
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(precision, "TOLERANCES", (1e-4, 1e-8, 1e-12))
+        patch.setattr(precision, "STEPS", (5e-7,))
+        patch.setattr(precision, "PEERS", {"modes": {"DOP853": (1e-4, 1e-13), "heyoka": (1e-10,)}})
+        patch.setattr(precision, "SECONDS", 0.02)
+        tables = precision.make(settings, 2)
+        again = precision.make(settings, 1)["precision"]
+    table = pd.DataFrame(tables["precision"])
+    pd.testing.assert_frame_equal(table, pd.DataFrame(again), check_exact=True)
+    table.attrs = settings | {"times": pd.DataFrame(tables["precision_times"])}
     return table
 
 
@@ -75,7 +78,7 @@ def test_solver_and_an_independent_integration_agree(compared):
 def test_errors_of_trajectory_and_events_belong_to_the_run_of_the_method(compared):
     settings = compared.attrs
     conveyor, start = grid.conveyor_and_start(settings["model"])
-    interval = settings["sample_interval"]
+    interval = precision.SAMPLE_INTERVAL
     times = interval * np.arange(1, int(settings["duration"] / interval) + 1)
     omega = 2.0 * np.pi * conveyor.frequency
     scales = conveyor.acceleration / omega**2 * np.array([np.cos(conveyor.angle), np.sin(conveyor.angle)])
@@ -106,10 +109,8 @@ def test_heyoka_need_not_be_installed(compared):
     assert heyoka.velocity_error < 1e-8 or not rivals.installed_version("heyoka")
 
 
-def test_times_belong_to_the_same_runs_and_change_nothing(compared):
-    tables = precision.make(compared.attrs, {"repeats": 2, "seconds": 0.02})
-    pd.testing.assert_frame_equal(pd.DataFrame(tables["precision"]), compared, check_exact=True)
-    times = pd.DataFrame(tables["precision_times"])
+def test_times_belong_to_the_same_runs(compared):
+    times = compared.attrs["times"]
     run = list(precision.Method._fields)
     pd.testing.assert_frame_equal(times[run], compared[run])
     solver = times.method == "event"
@@ -143,8 +144,7 @@ def test_runs_take_turns_until_each_has_run_long_enough(monkeypatch):
 
 
 def test_estimates_on_a_rising_track_follow_gravity_normal_to_it():
-    settings = {**CONFIG["precision_estimates"]["exponent"], "durations": [0.5]}
     model = {name: CONFIG["model"][name] for name in ("frequency", "gravity")}
     level = model | {"gravity": model["gravity"] * np.cos(0.2)}
-    rising = precision_estimates.exponent_rows(settings, model | {"inclination": 0.2})
-    assert rising == precision_estimates.exponent_rows(settings, level)
+    rising = precision_estimates.exponent_rows(model | {"inclination": 0.2}, (0.5,))
+    assert rising == precision_estimates.exponent_rows(level, (0.5,))

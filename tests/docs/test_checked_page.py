@@ -27,14 +27,7 @@ POINTS = pd.DataFrame(
         "state": ["undecided", "first", "second"],
     }
 )
-POINTS.attrs = {
-    "tolerance": 1e-13,
-    "repeats": 64,
-    "close": 1e-9,
-    "cycles": 2000,
-    "significant": 3.0,
-    "accepted": 0.01,
-}
+POINTS.attrs = {"cycles": 2000}
 
 
 def test_a_quantity_that_does_not_agree_is_shown_and_not_counted():

@@ -42,8 +42,6 @@ COARSE = {
     "transit": {"acceleration": {"num": 2}, "longest": 2.0, "parts": 8},
     "drift": {"amplitudes": 1, "runs": 4, "cycles": 256, "lengths": [0.5, 1.0]},
     "track": {"inclination": {"num": 2}, "phase_shift": {"num": 3}, "starts": 4, "cycles": 20},
-    # A step for the paper's conveyor, which does not divide most other periods.
-    "stability_estimates": {"exponent": {"steps": [1.0e-6]}},
 }
 
 # SI units. On most of these conveyors, something that the paper's conveyor has is missing.

@@ -37,7 +37,11 @@ WRONG = [
     ({"identification": {"heights": [0.0, 2.0e-4, 1.0e-4, 3.0e-4]}}, "is not ascending"),
     ({"sweep": {}}, "sweep is an unknown key; did you mean sweeps?"),
     ({"sweeps": {"mine": {**MINE, "methd": "euler"}}}, "sweeps.mine.methd is an unknown key; did you mean method?"),
-    ({"precision": {"tolerances": []}}, "precision.tolerances = [] should have at least 1 item"),
+    ({"precision": {"tolerances": [1.0e-3]}}, "precision.tolerances is no setting any more; remove it (its value is a"),
+    (
+        {"theory": {"speed": [1.0]}},
+        "theory is no setting any more; remove it (its value is a constant in scripts/accuracy",
+    ),
     ({"model": {"mass": -0.1}}, "model.mass = -0.1 should be at least 1e-12 (kg)"),
     ({"model": {"angle": 12}}, "12° are 0.2094 rad"),
     ({"model": {"z0": "conveyer"}}, "or the word conveyor"),

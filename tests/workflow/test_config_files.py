@@ -245,12 +245,12 @@ def test_a_large_file_is_rejected(project, tmp_path, name):
     assert_refused(run, "has more than 12,000 values")
 
 
-def test_a_run_of_another_conveyor_says_first_what_was_scaled_and_dropped(project):
+def test_a_run_of_another_conveyor_says_first_what_was_scaled_and_dropped(project, tmp_path):
     """Half the period, a quarter of the height: the velocities are half as large."""
-    run = project.under({"prefix": "fast", "model": {"frequency": 100.0}}).snakemake(
-        "--dry-run", "figures/fast/operating.pdf"
-    )
-    notice = next(line for line in run.stdout.splitlines() if line.startswith("fast is another conveyor"))
+    file = tmp_path / "fast.yaml"
+    file.write_text("prefix: fast\nmodel: {frequency: 100.0}\n")
+    run = project.called("--dry-run", "figures/fast/operating.pdf", "--configfile", str(file))
+    (notice,) = [line for line in run.stdout.splitlines() if line.startswith("fast is another conveyor")]
     assert "amplitudes × 1, heights × 0.25, velocities × 0.5, times × 0.5" in notice
-    assert "Dropped: the paper's claims; figures fig04, fig05" in notice
+    assert "Dropped: the paper's claims" in notice
     assert run.stdout.index(notice) < run.stdout.index("Building DAG")

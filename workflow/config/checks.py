@@ -38,6 +38,9 @@ RESERVED |= {"benchmarks", "captions", "docs", "logs", "report", "runs", "sectio
 RESERVED |= {"archive", "checks"}
 LARGEST_TABLE = 10_000_000  # rows or states of one job, which takes some hours
 MOST_STEPS = 10**9  # of one run with a fixed step, which takes some ten seconds
+LONGEST_STEP = (
+    1e-3  # s, a multiple of all time steps of the comparison of methods (STEPS in scripts/accuracy/precision.py)
+)
 STEPS_IN_A_CYCLE = 20  # smallest number of steps that resolves an excitation cycle
 
 
@@ -134,14 +137,7 @@ def runs_with_step(config: dict, defaults: dict) -> Iterator[tuple[str, float, f
                     yield key(f"{section}.{name}", entry), filled["step"], duration, frequency
     if is_own_conveyor(defaults, config):
         return  # the comparisons of methods below are the paper's
-    exponent, precision = config["stability_estimates"]["exponent"], config["precision"]
     frequency = config["model"]["frequency"]
-    for duration in (exponent["duration"], *exponent["durations"]):
-        yield "stability_estimates.exponent.step", exponent["step"], duration, frequency
-    for place, step in enumerate(exponent["steps"]):
-        yield f"stability_estimates.exponent.steps[{place}]", step, exponent["duration"], frequency
-    for place, step in enumerate(precision["steps"]):
-        yield f"precision.steps[{place}]", step, precision["duration"], frequency
     for name, case in config["benchmark"]["cases"].items():
         run = config["solver"] | case
         yield key(f"benchmark.cases.{name}", case), run["step"], run["duration"], frequency
@@ -170,11 +166,6 @@ def perturbed_runs(config: dict) -> Iterator[tuple[str, str, float, list]]:
     for name, entry in config["estimates"].items():
         values = values_of(resolve(config, "estimates", name), entry["perturb"])
         yield f"estimates.{name}", entry["perturb"], entry["epsilon"], values
-    exponent = config["stability_estimates"]["exponent"]
-    epsilon = min(exponent["epsilon"], *exponent["epsilons"])
-    for name, case in exponent["cases"].items():
-        values = [(config["model"] | case)[case["perturb"]]]
-        yield f"stability_estimates.exponent.cases.{name}", case["perturb"], epsilon, values
 
 
 def perturbations(config: dict, defaults: dict) -> Iterator[str]:
@@ -259,7 +250,6 @@ def unknown_references(config: dict, defaults: dict) -> Iterator[str]:
     for user in ("companion", "map_check"):
         used += [(f"{user}.maps[{place}]", name, single["sweeps"]) for place, name in enumerate(config[user]["maps"])]
     used += [("companion.opening", companion["opening"], companion["presets"])]
-    used += [("precision.reference.scene", config["precision"]["reference"]["scene"], config["precision"]["scenes"])]
     used += [("uncertainty.claims", name, config["claims"]) for name in config["uncertainty"]["claims"]]
     for key, name, known in used:
         if name not in known:
@@ -362,17 +352,10 @@ def excitation(config: dict, defaults: dict) -> Iterator[str]:
 
 
 def precision(config: dict, defaults: dict) -> Iterator[str]:
-    if is_own_conveyor(defaults, config):
+    duration = config["precision"]["duration"]
+    if is_own_conveyor(defaults, config) or abs(duration / LONGEST_STEP - round(duration / LONGEST_STEP)) < 1e-9:
         return
-    precision = config["precision"]
-    interval = precision["sample_interval"]
-    for place, step in enumerate(precision["steps"]):
-        whole = max(1, round(interval / step))
-        if abs(interval / step - whole) > 1e-9 * whole:
-            yield (
-                f"precision.sample_interval = {interval!r} s is not a multiple of precision.steps[{place}] = {step!r} s"
-                f"; take {whole * step!r} s"
-            )
+    yield f"precision.duration = {duration!r} s is not a multiple of the longest time step, {LONGEST_STEP} s"
 
 
 CHECKS = (

@@ -22,6 +22,25 @@ SHORT.maxstring = SHORT.maxother = 60
 format_value = SHORT.repr
 # A number that YAML 1.1 reads as text, such as 1e-4.
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
+# Settings of earlier versions that nobody needed to change, and the modules of scripts/ in which they are constants.
+CONSTANTS = {
+    **dict.fromkeys(
+        (f"precision.{key}" for key in ("sample_interval", "tolerances", "steps", "peers", "seconds")),
+        "accuracy/precision",
+    ),
+    "precision.reference": "accuracy/reference_check",
+    "precision_estimates": "accuracy/precision_estimates",
+    "stability_estimates": "accuracy/stability_estimates",
+    "rigid_part": "accuracy/rigid_part",
+    "theory": "accuracy/theory",
+    **dict.fromkeys(
+        (
+            f"map_check.{key}"
+            for key in ("boundary", "seed", "tolerance", "close", "repeats", "significant", "accepted")
+        ),
+        "accuracy/map_check",
+    ),
+}
 BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
 
 
@@ -66,6 +85,8 @@ def explain(error: dict) -> str:
         return f"{above} has the unknown name {format_value(value)}; {remedy}"
     if kind == "missing":
         return f"{key} is missing"
+    if kind == "extra_forbidden" and key in CONSTANTS:
+        return f"{key} is no setting any more; remove it (its value is a constant in scripts/{CONSTANTS[key]}.py)"
     if kind == "extra_forbidden":
         known = [name for option in options_of(schema_at(path[:-1])) for name in option.get("properties", {})]
         return f"{key} is an unknown key; {suggest_name(path[-1], known)}"

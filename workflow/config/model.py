@@ -286,28 +286,11 @@ class Benchmark(TypedDict):
     cases: Annotated[dict[Name, Case], Field(description="benchmark cases")]
 
 
-INTEGRATORS = (
-    *("RK45", "DOP853", "Radau", "LSODA"),
-    *("CyRK DOP853", "CyRK Vern8", "CVODE Adams", "CVODE BDF", "heyoka"),
-)
-PeerTolerances = many(Tolerance, "relative tolerances", least=0)
-Peers = mapping("tolerances of each integrator", dict.fromkeys(INTEGRATORS, PeerTolerances), total=False)
-
-
 class Precision(TypedDict):
     duration: Duration
-    sample_interval: number("interval of the times at which trajectories are compared", "s", gt=0, le=1e6)
-    reference: mapping(
-        "the scene that is solved a second time in arithmetic of many digits",
-        {"scene": Name, "digits": whole("digits of that arithmetic", 18, 1000)},
-    )
     scenes: Annotated[dict[Name, Model], Field(description="conveyors by their names")]
-    tolerances: Tolerances
-    steps: Steps
-    peers: mapping("peers by their treatment of impacts", {"sign": Peers, "events": Peers, "modes": Peers}, total=False)
     max_evaluations: MaxEvaluations
     repeats: Repeats
-    seconds: number("time after which a run is not repeated", "s of processor time", gt=0, le=3600)
 
 
 class PublishedScene(TypedDict):
@@ -317,18 +300,6 @@ class PublishedScene(TypedDict):
 
 class PublishedScenes(TypedDict):
     further: Annotated[dict[Name, PublishedScene], Field(description="scenes in addition to the scenes of `precision`")]
-
-
-class ExponentPairs(TypedDict):
-    acceleration: Acceleration
-    z0: Height
-    durations: Durations
-
-
-class PrecisionEstimates(TypedDict):
-    exponent: Annotated[ExponentPairs, Field(description="largest Lyapunov exponent by finite differences")]
-    dimension: mapping("fractal dimension", {"points": ManySamples, "repeats": Repeats})
-    seed: Seed
 
 
 class Ride(TypedDict):
@@ -343,6 +314,12 @@ class HardCase(TypedDict):
     label: Annotated[Line, Field(description="label in the figure")]
     model: Model
     duration: Duration
+
+
+INTEGRATORS = (
+    *("RK45", "DOP853", "Radau", "LSODA"),
+    *("CyRK DOP853", "CyRK Vern8", "CVODE Adams", "CVODE BDF", "heyoka"),
+)
 
 
 class Stability(TypedDict):
@@ -371,39 +348,6 @@ class Stability(TypedDict):
     hard: Annotated[dict[Name, HardCase], Field(description="difficult cases")]
 
 
-class Perturbed(TypedDict):
-    """A motion and its perturbation."""
-
-    acceleration: Acceleration
-    z0: Height
-    perturb: word("perturbed parameter", "psi0", "z0")
-    output: word("compared state variable", "vx", "z")
-
-
-class PaperExponent(TypedDict):
-    step: Step
-    epsilon: Epsilon
-    duration: Duration
-    cases: mapping("perturbed motions", dict.fromkeys(("orbit_phase", "orbit_height", "chaos_phase"), Perturbed))
-    epsilons: many(Epsilon, "sizes of the perturbation")
-    durations: Durations
-    steps: Steps
-
-
-class PaperDimension(TypedDict):
-    samples: ManySamples
-    correlated: whole("largest number of samples of a correlation sum", 100, 10**8)
-    portraits: mapping("conveyors of the phase portraits", {"second": Model, "chaos": Model})
-    begin: number("time of the first sample", "s", gt=0, le=1e6)
-    durations: Durations
-
-
-class StabilityEstimates(TypedDict):
-    exponent: Annotated[PaperExponent, Field(description="largest Lyapunov exponent by finite differences (Eq. 23)")]
-    dimension: Annotated[PaperDimension, Field(description="fractal dimension by box counting")]
-    seed: Seed
-
-
 BUDGETED = ("sweeps", "signals", "spectra", "estimates", "critical", "impacts", "dimensions", "attractors", "lyapunov")
 Points = whole("number of points", 1, MOST_POINTS)
 
@@ -416,34 +360,10 @@ class SceneBudget(TypedDict):
     reasons: Annotated[dict[Reference, Line], Field(description="why a table is more accurate than its figure needs")]
 
 
-class RigidPart(TypedDict):
-    z0: Height
-    duration: Duration
-    margin: number("amplitude steps in which a period is followed", "m/s²", gt=0, le=1e4)
-    resolution: Resolution
-
-
-RelativeDifference = number("accepted relative difference", gt=0, le=1)
-
-
-class Theory(TypedDict):
-    restitution: many(number("coefficient of restitution of a rigid ball", gt=0, lt=1), "coefficients of restitution")
-    stiffness: many(MODEL_TYPES["stiffness"], "stiffnesses of linear contacts", least=3, check=check_ascending)
-    speed: many(number("impact velocity", "m/s", gt=0, le=100), "velocities of isolated impacts")
-    accepted: mapping("accepted differences", dict.fromkeys(("rigid", "cascade", "impact"), RelativeDifference))
-
-
 class MapCheck(TypedDict):
     maps: many(Name, "sweeps over two parameters")
     points: whole("points of each map", 1, MOST_POINTS)
-    boundary: number("share of the points next to another label", ge=0, le=1)
-    seed: Seed
-    tolerance: Tolerance
-    close: number("distance of a repeated state, in units of the plate's motion", gt=0, le=1)
-    repeats: whole("repeated cycles after which a motion is periodic", 1, 128, "excitation cycles")
     cycles: Cycles
-    significant: number("standard errors by which an exponent is positive", ge=0, le=1e6)
-    accepted: number("accepted share of different labels", ge=0, le=1)
 
 
 class SettlingTimes(TypedDict):
@@ -790,12 +710,8 @@ class Config(TypedDict):
     benchmark: Annotated[Benchmark, Field(description="speed and error of the solver and of the paper's method")]
     precision: Annotated[Precision, Field(description="error against cost of all methods")]
     published_scenes: Annotated[PublishedScenes, Field(description="benchmark for other solvers")]
-    precision_estimates: Annotated[PrecisionEstimates, Field(description="error against cost of derived quantities")]
     stability: Annotated[Stability, Field(description="limits of stability of the methods")]
-    stability_estimates: Annotated[StabilityEstimates, Field(description="limits of the paper's estimates")]
     scene_budget: Annotated[SceneBudget, Field(description="accuracy that each figure needs")]
-    rigid_part: Annotated[RigidPart, Field(description="rigid bouncing part in place of the contact")]
-    theory: Annotated[Theory, Field(description="quantities with a published closed form")]
     map_check: Annotated[MapCheck, Field(description="check of state maps by brute force")]
     settling_times: Annotated[SettlingTimes, Field(description="time until a motion settles")]
     sensitivity: Annotated[Sensitivity, Field(description="derivatives of bifurcations and critical heights")]

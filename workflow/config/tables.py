@@ -105,16 +105,13 @@ def paper_fit(config: dict) -> dict | None:
 
 
 def precision_estimates_settings(config: dict) -> dict:
-    return {**with_model(config, "precision_estimates"), "regression": paper_fit(config)}
+    return {"model": model_of(config), "regression": paper_fit(config)}
 
 
 def precision_settings(config: dict, scene: str) -> dict:
     """One scene of the section `precision`."""
     precision = config["precision"]
-    shared = {
-        name: precision[name]
-        for name in ("duration", "sample_interval", "tolerances", "steps", "peers", "max_evaluations")
-    }
+    shared = {name: precision[name] for name in ("duration", "max_evaluations")}
     return {**shared, "model": {**config["model"], **precision["scenes"][scene]}}
 
 
@@ -129,11 +126,9 @@ def published_scenes(config: dict) -> dict[str, dict]:
 
 
 def reference_settings(config: dict) -> dict:
-    """The scene of the section `precision` whose reference is computed a second time."""
+    """The scene whose reference is computed a second time: the jumping part."""
     precision = config["precision"]
-    shared = {name: precision[name] for name in ("duration", "sample_interval")}
-    scene, digits = precision["reference"]["scene"], precision["reference"]["digits"]
-    return {**shared, "digits": digits, "model": {**config["model"], **precision["scenes"][scene]}}
+    return {"duration": precision["duration"], "model": {**config["model"], **precision["scenes"]["jumping"]}}
 
 
 def benchmark_settings(config: dict) -> dict:
@@ -242,11 +237,11 @@ TABLES = {
     "results/reference_check": reference_settings,
     "results/precision_estimates": precision_estimates_settings,
     "results/stability": itemgetter("stability"),
-    "results/stability_estimates": lambda config: with_model(config, "stability_estimates"),
+    "results/stability_estimates": lambda config: {"model": model_of(config)},
     "results/scene_budget": itemgetter("scene_budget"),
     "results/budget_times": itemgetter("scene_budget"),
-    "results/rigid_part": itemgetter("rigid_part"),
-    "results/theory": lambda config: with_model(config, "theory"),
+    "results/rigid_part": lambda config: {},
+    "results/theory": lambda config: {"model": model_of(config)},
     "results/map_check": itemgetter("map_check"),
     "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED, normal=True),
     "results/calibration_study": calibration_study_settings,

@@ -39,7 +39,7 @@ rule precision:
     priority: 2
     params:
         **stage("accuracy.precision", "precision/{name}"),
-        timing={name: config["precision"][name] for name in ("repeats", "seconds")},
+        repeats=config["precision"]["repeats"],
     message:
         "Error and work of all methods, {wildcards.name}"
     script:
