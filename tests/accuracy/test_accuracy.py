@@ -57,10 +57,10 @@ def compared(request):
         patch.setattr(precision, "STEPS", (5e-7,))
         patch.setattr(precision, "PEERS", {"modes": {"DOP853": (1e-4, 1e-13), "heyoka": (1e-10,)}})
         patch.setattr(precision, "SECONDS", 0.02)
+        first = precision.make(settings, 1)["precision"]
         tables = precision.make(settings, 2)
-        again = precision.make(settings, 1)["precision"]
     table = pd.DataFrame(tables["precision"])
-    pd.testing.assert_frame_equal(table, pd.DataFrame(again), check_exact=True)
+    pd.testing.assert_frame_equal(table, pd.DataFrame(first), check_exact=True)
     table.attrs = settings | {"times": pd.DataFrame(tables["precision_times"])}
     return table
 
